@@ -19,12 +19,19 @@ class FeaturePlaces {
         images_(images),
         right_eye_(cameras, params, images.left, images.right) {}
 
-  // As FeaturePlacer::Place or PlaceInMap.
+  // As FeaturePlacer's or PlaceInMap, which has its slope from the map.
   std::optional<StereoMeasurement> Place(const Pixel& left_pixel,
                                          const Eigen::Matrix2d& covariance_px2) const {
     return params_.source == PlaceSource::kDisparityMap
                ? PlaceInMap(cameras_, params_, images_.disparities, left_pixel, covariance_px2)
                : right_eye_.Place(left_pixel, covariance_px2);
+  }
+
+  std::optional<StereoMeasurement> PlaceOn(const DisparitySlope& slope, const Pixel& left_pixel,
+                                           const Eigen::Matrix2d& covariance_px2) const {
+    return params_.source == PlaceSource::kDisparityMap
+               ? Place(left_pixel, covariance_px2)
+               : right_eye_.PlaceOn(slope, left_pixel, covariance_px2);
   }
 
  private:

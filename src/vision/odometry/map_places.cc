@@ -61,6 +61,23 @@ std::optional<double> DisparityAt(const DisparityImage& map, const Pixel& place,
   return disparity_px;
 }
 
+DisparitySlope SlopeAt(const DisparityImage& map, const Pixel& place, double max_step_px) {
+  constexpr int kReach_px = 7;
+  DisparitySlope slope = DisparitySlope::Zero();
+  const Pixel middle(std::round(place.x()), std::round(place.y()));
+  const double anything = std::numeric_limits<double>::infinity();
+  for (const int axis : {0, 1}) {
+    const Pixel step = kReach_px * Pixel::Unit(axis);
+    const auto before = DisparityAt(map, middle - step, anything);
+    const auto here = DisparityAt(map, middle, anything);
+    const auto after = DisparityAt(map, middle + step, anything);
+    if (!before || !here || !after) continue;
+    if (std::abs(0.5 * (*before + *after) - *here) > max_step_px) continue;
+    slope[axis] = (*after - *before) / (2.0 * kReach_px);
+  }
+  return slope;
+}
+
 std::optional<StereoMeasurement> PlaceInMap(const RectifiedPair& cameras,
                                             const PlacementParams& params,
                                             const DisparityImage& map, const Pixel& left_pixel,
@@ -70,8 +87,10 @@ std::optional<StereoMeasurement> PlaceInMap(const RectifiedPair& cameras,
       *disparity_px > params.max_disparity_px) {
     return std::nullopt;
   }
-  return MeasureStereo(cameras, left_pixel, covariance_px2, *disparity_px,
-                       params.map.noise_px * params.map.noise_px);
+  auto measured = MeasureStereo(cameras, left_pixel, covariance_px2, *disparity_px,
+                                params.map.noise_px * params.map.noise_px);
+  if (measured) measured->slope = SlopeAt(map, left_pixel, params.map.max_step_px);
+  return measured;
 }
 
 }  // namespace rockyard::vision

@@ -7,6 +7,7 @@
 #include "vision/cameras/rectification.h"
 #include "vision/image.h"
 #include "vision/odometry/odometer_params.h"
+#include "vision/odometry/slanted_match.h"
 #include "vision/odometry/stereo_measurement.h"
 #include "vision/stereo/disparity.h"
 
@@ -28,8 +29,15 @@ DisparityImage MakePlacementMap(const GrayImage& left, const GrayImage& right,
 std::optional<double> DisparityAt(const DisparityImage& map, const Pixel& place,
                                   double max_step_px);
 
+// Returns by how much the disparity grows with column and row about the nearest pixel, from those
+// seven pixels to either side; 0 along a direction in which one of the three has no disparity, or
+// lies more than `max_step_px` off a straight line: an edge or no surface. A slope of a map of 0.15
+// px is known to 0.015.
+DisparitySlope SlopeAt(const DisparityImage& map, const Pixel& place, double max_step_px);
+
 // Returns the place of a feature of the left image, of any fraction of a pixel. `covariance_px2` is
-// that of the place in the left image. The disparity's standard deviation is `params.map.noise_px`:
+// that of the place in the left image. The slope is SlopeAt's, the residual 0: there is no window
+// of its own. The disparity's standard deviation is `params.map.noise_px`:
 // neighbours share most of their windows, so that interpolation lessens it by nothing. Nothing
 // where DisparityAt has none and where the disparity is outside of the range of `params`. What an
 // error of the place adds to the disparity by the slope of the map is left out, as it is by

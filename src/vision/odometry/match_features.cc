@@ -19,7 +19,7 @@ WindowSet FirstWindows(const GrayImage& image, const Features& features,
   WindowSet windows(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (warp) {
-      WarpWindow(image, features[i], predicted[i].by_offset, side, windows.At(i));
+      WarpWindow(image, features[i], predicted[i].view.by_offset, side, windows.At(i));
     } else {
       CopyWindow(image, features[i], side, windows.At(i));
     }

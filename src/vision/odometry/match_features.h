@@ -2,21 +2,22 @@
 // windows).
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "vision/cameras/camera_types.h"
 #include "vision/image.h"
 #include "vision/odometry/feature.h"
 #include "vision/odometry/matcher_params.h"
+#include "vision/odometry/view_change.h"
 
 namespace rockyard::vision {
 
 // Where a predicted motion puts a feature of the first image in the second, and what it does to its
-// surroundings: an offset o in the second image is by_offset o in the first.
+// surroundings. Windows that are compared are turned and scaled by view.by_offset alone.
 struct PredictedFeature {
   Pixel pixel = Pixel::Zero();
-  Eigen::Matrix2d by_offset = Eigen::Matrix2d::Identity();
+  ViewChange view;                                  // from the second image to the first
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();  // of the disparity there, by column and row
 };
 
 // One for each feature of the first image; none: nothing is predicted, and every feature is

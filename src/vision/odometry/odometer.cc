@@ -1,13 +1,15 @@
 #include "vision/odometry/odometer.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/check.h"
 #include "vision/odometry/consistent_set.h"
 #include "vision/odometry/feature_places.h"
+#include "vision/odometry/keep_clean.h"
 #include "vision/odometry/motion_of_set.h"
-#include "vision/odometry/pair_projection.h"
+#include "vision/odometry/plane_view.h"
 #include "vision/odometry/refine_match.h"
 
 namespace rockyard::vision {
@@ -19,8 +21,19 @@ using math::Transform;
 // rest keeps the equations regular.
 constexpr double kFeature_px = 0.01;
 
+constexpr double kAny = std::numeric_limits<double>::infinity();
+
 bool IsFew(std::int64_t count, const OdometerParams& params) {
   return count < params.selection.min_consistent;
+}
+
+// Whether windows that were turned and scaled by one of two motions look as the other has them.
+bool IsNear(const Transform& a, const Transform& b) {
+  constexpr double kWay_m = 0.1;
+  constexpr double kTurn_rad = math::DegToRad(3.0);
+  const Transform difference = a.inverse() * b;
+  return difference.translation().norm() < kWay_m &&
+         Eigen::AngleAxisd(difference.linear()).angle() < kTurn_rad;
 }
 
 bool IsSmallShare(const MotionCounts& counts, const OdometerParams& params) {
@@ -80,9 +93,18 @@ VisualOdometer::Comparison VisualOdometer::Compare(const AlignedImages& images,
                                                    std::int64_t number) const {
   core::RandomStream stream(key_, core::Purpose::kRansac, static_cast<std::uint32_t>(number));
   Comparison best = CompareOnce(images, features, predicted, stream);
-  if (predicted) return best;
+  std::optional<Transform> expected = predicted;
+  if (expected && !best.result.motion) {
+    Comparison anywhere = CompareOnce(images, features, std::nullopt, stream);
+    if (anywhere.consistent.size() > best.consistent.size()) {
+      best = std::move(anywhere);
+      expected.reset();
+    }
+  }
   for (std::int64_t round = 1; round < params_.rounds && best.rough_X_FS; ++round) {
-    Comparison next = CompareOnce(images, features, best.rough_X_FS, stream);
+    if (expected && IsNear(*expected, *best.rough_X_FS)) break;
+    expected = best.rough_X_FS;
+    Comparison next = CompareOnce(images, features, expected, stream);
     if (next.consistent.size() < best.consistent.size()) break;
     best = std::move(next);
   }
@@ -140,32 +162,15 @@ VisualOdometer::Comparison VisualOdometer::CompareOnce(const AlignedImages& imag
   return comparison;
 }
 
-// A small surface across the first view through the point: offsets in both images are M_F e and
-// M_S e of the same offset e on it, so that an offset of the second image is M_F M_S^-1 of it in
-// the first. What is predicted out of view is compared with nothing: it is put far away.
+// What is predicted out of view is compared with nothing: it is put far away.
 PredictedFeatures VisualOdometer::Predict(const Transform& X_FS) const {
   constexpr double kNowhere_px = -1e6;
-  const PairProjection project(cameras_);
-  const Transform X_SF = X_FS.inverse();
-  const Eigen::Vector3d across =
-      cameras_.left.H - cameras_.left.H.dot(cameras_.left.A) * cameras_.left.A;
-  Eigen::Matrix<double, 3, 2> surface;
-  surface.col(0) = across.normalized();
-  surface.col(1) = cameras_.left.A.cross(surface.col(0));
+  const PlaneView see_again(cameras_, X_FS.inverse());
   PredictedFeatures predicted;
   for (const StereoMeasurement& place : keyframe_->places) {
-    PredictedFeature feature{{kNowhere_px, kNowhere_px}, Eigen::Matrix2d::Identity()};
-    Eigen::Matrix3d first;
-    Eigen::Matrix3d second;
-    const auto seen = project(X_SF * place.p_A, &second);
-    if (seen && project(place.p_A, &first)) {
-      const Eigen::Matrix2d M_F = first.topRows<2>() * surface;
-      const Eigen::Matrix2d M_S = second.topRows<2>() * X_SF.linear() * surface;
-      feature.pixel = seen->head<2>();
-      feature.by_offset = M_F * M_S.inverse();
-      if (!feature.by_offset.allFinite()) feature.by_offset.setIdentity();
-    }
-    predicted.push_back(feature);
+    PredictedFeature& feature = predicted.emplace_back();
+    feature.pixel = {kNowhere_px, kNowhere_px};
+    if (const auto seen = see_again(place)) feature = *seen;
   }
   return predicted;
 }
@@ -176,23 +181,34 @@ PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Fe
   const FeaturePlaces places(cameras_, params_.placement, images);
   const bool warp = params_.matcher.warp == MatchWarp::kPredicted && !predicted.empty();
   PointsSeenTwice points;
+  std::vector<double> in_time;
+  std::vector<double> between_eyes;
   for (const FeatureMatch& match : matches) {
     const auto first = static_cast<std::size_t>(match.first);
     const Feature& found = features[static_cast<std::size_t>(match.second)];
-    const WindowTemplate window(
-        keyframe_->images.left, keyframe_->places[first].left,
-        warp ? predicted[first].by_offset : Eigen::Matrix2d(Eigen::Matrix2d::Identity()));
+    const StereoMeasurement& place = keyframe_->places[first];
+    const WindowTemplate window(keyframe_->images.left, place.left,
+                                warp ? predicted[first].view : ViewChange{});
     const auto refined = window.Find(images.left, Pixel(found.column, found.row),
                                      {.noise_px = params_.placement.noise_px});
     if (!refined) continue;
-    const double deformed =
-        warp ? (predicted[first].by_offset - Eigen::Matrix2d::Identity()).norm() : 0.0;
-    const double view_px = params_.placement.view_noise_px * deformed;
-    const auto second = places.Place(
-        refined->pixel, refined->covariance_px2 + view_px * view_px * Eigen::Matrix2d::Identity());
-    if (second) points.push_back({keyframe_->places[first], *second});
+    const auto second = places.PlaceOn(warp ? predicted[first].slope : place.slope, refined->pixel,
+                                       refined->covariance_px2);
+    if (!second) continue;
+    points.push_back({place, *second});
+    in_time.push_back(refined->residual);
+    between_eyes.push_back(second->residual);
   }
-  return points;
+  // Unless windows are seen as they should look, what is left of them says little of edges.
+  const double most_in_time = warp ? ResidualLimit(in_time, params_.placement) : kAny;
+  const double most_between_eyes = ResidualLimit(between_eyes, params_.placement);
+  PointsSeenTwice clean;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (in_time[i] <= most_in_time && between_eyes[i] <= most_between_eyes) {
+      clean.push_back(points[i]);
+    }
+  }
+  return clean;
 }
 
 bool VisualOdometer::IsOver(const MotionResult& result) const {
@@ -208,13 +224,19 @@ bool VisualOdometer::IsOver(const MotionResult& result) const {
 void VisualOdometer::MakeKeyframe(std::int64_t number, AlignedImages images,
                                   const Features& features) {
   Keyframe keyframe{number, std::move(images), {}, {}};
-  const FeaturePlaces places(cameras_, params_.placement, keyframe.images);
+  const FeaturePlaces placer(cameras_, params_.placement, keyframe.images);
+  std::vector<std::optional<StereoMeasurement>> places;
+  std::vector<double> residuals;
   for (const Feature& feature : features) {
-    const auto place = places.Place(Pixel(feature.column, feature.row),
-                                    kFeature_px * kFeature_px * Eigen::Matrix2d::Identity());
-    if (!place) continue;
-    keyframe.features.push_back(feature);
-    keyframe.places.push_back(*place);
+    places.push_back(placer.Place(Pixel(feature.column, feature.row),
+                                  kFeature_px * kFeature_px * Eigen::Matrix2d::Identity()));
+    if (places.back()) residuals.push_back(places.back()->residual);
+  }
+  const double most = ResidualLimit(residuals, params_.placement);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (!places[i] || places[i]->residual > most) continue;
+    keyframe.features.push_back(features[i]);
+    keyframe.places.push_back(*places[i]);
   }
   keyframe_ = std::move(keyframe);
 }

@@ -54,7 +54,8 @@ class VisualOdometer {
 
   // Takes the next pair, of the cameras' size. `predicted`: where the outer frame of the cameras is
   // expected, in that of the keyframe; it narrows the search (MatchSearch, MatchWarp), no more.
-  // Without it the motion of a first round of matching is what the next one expects, up to
+  // Without it, where no motion is found near it, and where the motion found is more than 10 cm or
+  // 3 deg off, that of one round of matching is what the next one expects, up to
   // OdometerParams::rounds; what had more consistent points stays.
   OdometryStep Add(AlignedImages images,
                    const std::optional<math::Transform>& predicted = std::nullopt);

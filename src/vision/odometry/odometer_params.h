@@ -23,9 +23,11 @@ struct PlacementParams {
   PlaceSource source = PlaceSource::kRightEye;
   double min_disparity_px = 1.0;
   double max_disparity_px = 96.0;
-  double noise_px = 0.05;
+  double noise_px = 0.025;
   double ambiguity = 0.9;
-  double view_noise_px = 0.25;
+  bool slanted = true;
+  double max_residual_ratio = 2.0;
+  std::int64_t min_kept = 50;
   DisparityMapParams map = {};
 
   void Visit(core::FieldVisitor& v);

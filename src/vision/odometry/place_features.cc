@@ -10,13 +10,19 @@
 
 namespace rockyard::vision {
 
-std::optional<int> FeaturePlacer::WholeDisparity(int column, int row) const {
+std::optional<double> FeaturePlacer::WholeColumn(const Pixel& left_pixel) const {
+  const auto column = static_cast<int>(std::lround(left_pixel.x()));
+  const auto row = static_cast<int>(std::lround(left_pixel.y()));
+  if (column < kRowReach || column >= left_.width() - kRowReach || row < kRowReach ||
+      row >= left_.height() - kRowReach) {
+    return std::nullopt;
+  }
   const int first = std::max(static_cast<int>(std::floor(params_.min_disparity_px)),
-                             column + kRowReach + 1 - (right_.width() - 1));
+                             column + kRowReach - (right_.width() - 1));
   const int last =
       std::min(static_cast<int>(std::ceil(params_.max_disparity_px)), column - kRowReach);
   if (last - first < 2) return std::nullopt;
-  std::vector<std::uint32_t> differences(static_cast<std::size_t>(last - first) + 1);
+  std::vector<std::uint16_t> differences(static_cast<std::size_t>(last - first) + 1);
   RowDifferences(left_, right_, column, row, first, differences);
   const auto best = std::min_element(differences.begin(), differences.end());
   const auto at = static_cast<int>(best - differences.begin());
@@ -27,28 +33,50 @@ std::optional<int> FeaturePlacer::WholeDisparity(int column, int row) const {
       return std::nullopt;
     }
   }
-  return first + at;
+  return left_pixel.x() - (first + at);
+}
+
+std::optional<SlantedPlace> FeaturePlacer::FindOn(const DisparitySlope& slope,
+                                                  const Pixel& left_pixel, double column) const {
+  const WindowTemplate window(left_, left_pixel, LeftViewOf(slope));
+  const std::optional<RefinedPlace> right = window.Find(
+      right_, Pixel(column, left_pixel.y()), {.along_row = true, .noise_px = params_.noise_px});
+  if (!right) return std::nullopt;
+  return SlantedPlace{right->pixel.x(), slope, right->covariance_px2(0, 0), right->residual};
 }
 
 std::optional<StereoMeasurement> FeaturePlacer::Place(const Pixel& left_pixel,
                                                       const Eigen::Matrix2d& covariance_px2) const {
-  const auto column = static_cast<int>(std::lround(left_pixel.x()));
-  const auto row = static_cast<int>(std::lround(left_pixel.y()));
-  if (column < kRowReach || column >= left_.width() - kRowReach - 1 || row < kRowReach ||
-      row >= left_.height() - kRowReach) {
-    return std::nullopt;
-  }
-  const std::optional<int> whole = WholeDisparity(column, row);
-  if (!whole) return std::nullopt;
-  const WindowTemplate window(left_, left_pixel, Eigen::Matrix2d::Identity());
-  const std::optional<RefinedPlace> right =
-      window.Find(right_, Pixel(left_pixel.x() - *whole, left_pixel.y()),
-                  {.along_row = true, .noise_px = params_.noise_px});
+  if (!params_.slanted) return PlaceOn(DisparitySlope::Zero(), left_pixel, covariance_px2);
+  const std::optional<double> column = WholeColumn(left_pixel);
+  if (!column) return std::nullopt;
+  const auto right = FindSlanted(left_, right_, left_pixel, *column,
+                                 {.along_row = true, .noise_px = params_.noise_px});
   if (!right) return std::nullopt;
+  return Measured(left_pixel, covariance_px2, *right);
+}
+
+std::optional<StereoMeasurement> FeaturePlacer::PlaceOn(
+    const DisparitySlope& slope, const Pixel& left_pixel,
+    const Eigen::Matrix2d& covariance_px2) const {
+  const std::optional<double> column = WholeColumn(left_pixel);
+  if (!column) return std::nullopt;
+  const std::optional<SlantedPlace> right = FindOn(slope, left_pixel, *column);
+  if (!right) return std::nullopt;
+  return Measured(left_pixel, covariance_px2, *right);
+}
+
+std::optional<StereoMeasurement> FeaturePlacer::Measured(const Pixel& left_pixel,
+                                                         const Eigen::Matrix2d& covariance_px2,
+                                                         const SlantedPlace& right) const {
   // The right eye's window is compared with the left one's about the very place, so that an error
   // of the place moves both and leaves the disparity.
-  return MeasureStereo(cameras_, left_pixel, covariance_px2, left_pixel.x() - right->pixel.x(),
-                       right->covariance_px2(0, 0));
+  auto measured = MeasureStereo(cameras_, left_pixel, covariance_px2, left_pixel.x() - right.column,
+                                right.variance_px2);
+  if (!measured) return std::nullopt;
+  measured->slope = right.slope;
+  measured->residual = right.residual;
+  return measured;
 }
 
 }  // namespace rockyard::vision

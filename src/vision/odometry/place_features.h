@@ -6,7 +6,7 @@
 #include "vision/cameras/rectification.h"
 #include "vision/image.h"
 #include "vision/odometry/odometer_params.h"
-#include "vision/odometry/refine_match.h"
+#include "vision/odometry/slanted_match.h"
 #include "vision/odometry/stereo_measurement.h"
 
 namespace rockyard::vision {
@@ -21,15 +21,26 @@ class FeaturePlacer {
 
   // The window of 15 x 15 pixels about the nearest pixel is compared with those of its row at all
   // whole disparities from min_disparity_px to max_disparity_px; the least sum of absolute
-  // differences begins the search of WindowTemplate along the row. `covariance_px2` is that of the
-  // place in the left image. Nothing where no window of the right image lies inside, where the best
-  // is at an end of the range, where the finer search fails, and where another disparity, more than
-  // one pixel off, is nearly as good (`ambiguity` of the params).
+  // differences begins the search between pixels, of disparity and slope (slanted_match.h) or, if
+  // PlacementParams::slanted is off, of the disparity alone. `covariance_px2` is that of the place
+  // in the left image. Nothing where no window of the right image lies inside, where the best is at
+  // an end of the range, where the finer search fails, and where another disparity, more than one
+  // pixel off, is nearly as good (`ambiguity` of the params).
   std::optional<StereoMeasurement> Place(const Pixel& left_pixel,
                                          const Eigen::Matrix2d& covariance_px2) const;
 
+  // The same where the slope is known: the search is of the disparity alone.
+  std::optional<StereoMeasurement> PlaceOn(const DisparitySlope& slope, const Pixel& left_pixel,
+                                           const Eigen::Matrix2d& covariance_px2) const;
+
  private:
-  std::optional<int> WholeDisparity(int column, int row) const;
+  // Where the right eye sees it, to a whole disparity.
+  std::optional<double> WholeColumn(const Pixel& left_pixel) const;
+  std::optional<SlantedPlace> FindOn(const DisparitySlope& slope, const Pixel& left_pixel,
+                                     double column) const;
+  std::optional<StereoMeasurement> Measured(const Pixel& left_pixel,
+                                            const Eigen::Matrix2d& covariance_px2,
+                                            const SlantedPlace& right) const;
 
   const RectifiedPair& cameras_;
   const PlacementParams& params_;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 
 #include "vision/cameras/camera_types.h"
 #include "vision/image.h"
+#include "vision/odometry/window_samples.h"
 
 namespace rockyard::vision {
 
@@ -21,13 +21,15 @@ struct RefineLimits {
 struct RefinedPlace {
   Pixel pixel = Pixel::Zero();                               // in the second image
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // of it; along_row: of columns only
+  double residual = 0.0;  // root mean square of what is left over the window, grey levels
 };
 
 // A window of 15 x 15 pixels about a place of the first image, as it looks in the second one.
 class WindowTemplate {
  public:
-  // The pixel at the offset o from the middle is interpolated at `middle` + by_offset o.
-  WindowTemplate(const GrayImage& image, const Pixel& middle, const Eigen::Matrix2d& by_offset);
+  // What the second image shows at the offset o from the middle the first has where `view` puts
+  // it from `middle` (window_samples.h).
+  WindowTemplate(const GrayImage& image, const Pixel& middle, const ViewChange& view = {});
 
   // Finds the shift s of the least sum of (second(start + s + o) - first(o))^2 over the window,
   // each less its mean (Lucas and Kanade 1981; inverse compositional, Baker and Matthews 2004):
@@ -41,10 +43,7 @@ class WindowTemplate {
  private:
   static constexpr int kSide = 15;
   static constexpr int kReach = kSide / 2;
-  static constexpr int kLanes = 16;  // of a row, the last one 0 and not of the window
   static constexpr int kPixels = kSide * kSide;
-
-  using Rows = std::array<float, kSide * kLanes>;
 
   // Sums over the window, d = second(start + s + o) - mean - (first(o) - mean), mean the
   // template's.
@@ -56,9 +55,7 @@ class WindowTemplate {
   };
   Sums SumsAt(const GrayImage& second, const Pixel& middle) const;
 
-  Rows values_{};  // less their mean
-  Rows across_{};  // gradients by column and by row
-  Rows down_{};
+  WindowSamples samples_;  // values less their mean
   float mean_ = 0.0F;
   float across_sum_ = 0.0F;
   float down_sum_ = 0.0F;

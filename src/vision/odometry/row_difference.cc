@@ -1,7 +1,8 @@
 // Sums of absolute differences along a row, for every instruction set.
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vision/odometry/row_difference.cc"
@@ -15,24 +16,27 @@ HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A row of a window, and a pixel more that is taken out.
-constexpr hn::FixedTag<std::uint8_t, 16> kRow;
-constexpr hn::Repartition<std::uint64_t, decltype(kRow)> kRowSums;
+constexpr hn::ScalableTag<std::uint16_t> kSums;
+constexpr hn::Rebind<std::uint8_t, decltype(kSums)> kPixels;
 
-// `left` is the upper left pixel of the window, `right` that of the one at the first disparity.
-void AlongRow(const std::uint8_t* left, const std::uint8_t* right, std::size_t left_stride,
-              std::size_t right_stride, std::span<std::uint32_t> differences) {
-  const auto inside = hn::FirstN(kRow, 15);
-  for (std::size_t d = 0; d < differences.size(); ++d) {
-    auto sum = hn::Zero(kRowSums);
-    for (std::size_t y = 0; y < 15; ++y) {
-      const auto l = hn::LoadU(kRow, left + y * left_stride);
-      const auto r = hn::LoadU(kRow, right + y * right_stride - d);
-      // One of the two differences is 0.
-      const auto difference = hn::Or(hn::SaturatedSub(l, r), hn::SaturatedSub(r, l));
-      sum = hn::Add(sum, hn::SumsOf8(hn::IfThenElseZero(inside, difference)));
+// `left` is the upper left pixel of the window; `rows` are the rows of the other eye, `rows_stride`
+// apart, from the upper left pixel of the window of the last disparity on. Writes sums from the
+// last disparity to the first; `count` is of whole vectors.
+void AlongRow(const std::uint8_t* left, std::size_t left_stride, const std::uint8_t* rows,
+              std::size_t rows_stride, std::size_t count, std::uint16_t* sums) {
+  for (std::size_t first = 0; first < count; first += hn::Lanes(kSums)) {
+    auto sum = hn::Zero(kSums);
+    for (std::size_t y = 0; y < kRowSide; ++y) {
+      const std::uint8_t* const l = left + y * left_stride;
+      const std::uint8_t* const r = rows + y * rows_stride + first;
+      for (std::size_t x = 0; x < kRowSide; ++x) {
+        const auto seen = hn::PromoteTo(kSums, hn::LoadU(kPixels, r + x));
+        const auto wanted = hn::Set(kSums, l[x]);
+        // One of the two differences is 0.
+        sum = hn::Add(sum, hn::Or(hn::SaturatedSub(seen, wanted), hn::SaturatedSub(wanted, seen)));
+      }
     }
-    differences[d] = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(kRowSums, sum)));
+    hn::StoreU(sum, kSums, sums + first);
   }
 }
 
@@ -44,16 +48,37 @@ namespace rockyard::vision {
 
 HWY_EXPORT(AlongRow);
 
+namespace {
+
+// Most lanes of 16 bits that any vector has.
+constexpr std::size_t kMostLanes = 64;
+
+}  // namespace
+
 void RowDifferences(const GrayImage& left, const GrayImage& right, int column, int row,
-                    int first_disparity, std::span<std::uint32_t> differences) {
+                    int first_disparity, std::span<std::uint16_t> differences) {
+  const auto count = differences.size();
   const int first = column - first_disparity;
+  const int last = first - static_cast<int>(count) + 1;
   EXPECT(row >= kRowReach && row + kRowReach < left.height() && left.height() == right.height());
-  EXPECT(column >= kRowReach && column + kRowReach + 1 < left.width());
-  EXPECT(first - static_cast<int>(differences.size()) + 1 >= kRowReach &&
-         first + kRowReach + 1 < right.width());
+  EXPECT(column >= kRowReach && column + kRowReach < left.width());
+  EXPECT(last >= kRowReach && first + kRowReach < right.width());
+  // Whole vectors read behind the last window: the rows are copied to where they may.
+  const std::size_t whole = (count + kMostLanes - 1) / kMostLanes * kMostLanes;
+  const std::size_t used = count + kRowSide - 1;
+  const std::size_t stride = whole + kRowSide - 1;
+  std::vector<std::uint8_t> rows(kRowSide * stride);
+  for (std::size_t y = 0; y < kRowSide; ++y) {
+    const std::uint8_t* const from =
+        &right.At(last - kRowReach, row - kRowReach + static_cast<int>(y));
+    std::copy_n(from, used, rows.data() + y * stride);
+  }
+  std::vector<std::uint16_t> sums(whole);
   HWY_DYNAMIC_DISPATCH(AlongRow)
-  (&left.At(column - kRowReach, row - kRowReach), &right.At(first - kRowReach, row - kRowReach),
-   static_cast<std::size_t>(left.width()), static_cast<std::size_t>(right.width()), differences);
+  (&left.At(column - kRowReach, row - kRowReach), static_cast<std::size_t>(left.width()),
+   rows.data(), stride, whole, sums.data());
+  std::reverse_copy(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(count),
+                    differences.begin());
 }
 
 }  // namespace rockyard::vision

@@ -19,6 +19,11 @@ struct StereoMeasurement {
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Identity();
   math::Vector3 p_A = math::Vector3::Zero();                // m, in the outer frame of the cameras
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  // of p_A
+  // By how much the disparity grows with column and row, where the surface was looked at: a plane's
+  // is linear in both. 0: it faces the cameras.
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  // What the two eyes' windows differ by, root mean square, grey levels.
+  double residual = 0.0;
 };
 
 // Returns what a pair measures of a point at `left_pixel`, whose covariance is `pixel_px2`, with

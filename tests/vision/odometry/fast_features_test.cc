@@ -350,7 +350,7 @@ PredictedFeatures PredictionsOf(const Features& features, std::uint32_t number) 
     // Some by whole pixels, so that features lie at the very edge of what is searched.
     const double fraction = predicted.size() % 3 == 0 ? 0.0 : core::SampleUniform(stream, 0.0, 1.0);
     place.pixel = {feature.column - 2.0 + fraction, feature.row + 1.0 - fraction};
-    for (double& value : place.by_offset.reshaped()) {
+    for (double& value : place.view.by_offset.reshaped()) {
       value += core::SampleUniform(stream, -0.1, 0.1);
     }
     predicted.push_back(place);

@@ -71,6 +71,27 @@ TEST(DisparityAtTest, NeighboursHaveToBeOfOneSurface) {
   }
 }
 
+// 3/32 and 2/32 px a pixel, and none along a direction in which the surface ends or bends.
+TEST(SlopeAtTest, IsThatOfTheSurface) {
+  DisparityImage map(40, 40);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) map.At(x, y) = static_cast<std::int16_t>(32 * Slanted_px(x, y));
+  }
+  const auto expect = [&](const Pixel& place, double across, double down) {
+    EXPECT_TRUE(SlopeAt(map, place, 1.0).isApprox(DisparitySlope(across, down) / 32.0, 1e-12))
+        << place.transpose() << ": " << SlopeAt(map, place, 1.0).transpose();
+  };
+  expect({20.3, 19.6}, 3, 2);
+  expect({6, 20}, 0, 2);
+  expect({20, 33}, 3, 0);
+  map.At(27, 20) = Dropped(Drop::kPeak);
+  expect({20, 20}, 0, 2);
+  map.At(10, 17) = static_cast<std::int16_t>(map.At(10, 17) + 64);  // a bend of 1 px
+  expect({10, 10}, 3, 2 + 64.0 / 14.0);
+  map.At(10, 17) = static_cast<std::int16_t>(map.At(10, 17) + 2);
+  expect({10, 10}, 3, 0);
+}
+
 // What a pair measures is the closed form's, whichever part of the parameters it has from where.
 TEST(PlaceInMapTest, HasTheCovarianceOfAStereoPoint) {
   const RectifiedPair pair = PlanePair(kSize);
@@ -87,6 +108,8 @@ TEST(PlaceInMapTest, HasTheCovarianceOfAStereoPoint) {
   expected.topLeftCorner<2, 2>() = covariance;
   expected(2, 2) = 0.3 * 0.3;
   EXPECT_TRUE(place->covariance_px2.isApprox(expected, 1e-12));
+  EXPECT_TRUE(place->slope.isZero());
+  EXPECT_EQ(place->residual, 0.0);
   // Along the view: f B / d, and depth^2 / (f B) times the disparity's deviation (Matthies and
   // Shafer 1987).
   const double depth_m = pair.left.A.dot(place->p_A - pair.left.C);

@@ -139,8 +139,8 @@ void Match(benchmark::State& state, MatchSearch search, MatchWarp warp) {
   params.warp = warp;
   PredictedFeatures predicted;
   for (const Feature& feature : first) {
-    PredictedFeature place{{feature.column - 3.3, feature.row + 2.6}, Eigen::Matrix2d::Identity()};
-    place.by_offset(0, 1) = 0.02;
+    PredictedFeature place{{feature.column - 3.3, feature.row + 2.6}, {}};
+    place.view.by_offset(0, 1) = 0.02;
     predicted.push_back(place);
   }
   FeatureMatches matches;

@@ -53,7 +53,7 @@ TEST(RowDifferencesTest, AreThoseOfThePlainSums) {
       for (const int column : {40, 54, 61}) {
         for (const int row : {7, 10, 12}) {
           const int first = column - 61;  // the right window ends at the last column but one
-          std::vector<std::uint32_t> differences(static_cast<std::size_t>(column - 7 - first) + 1);
+          std::vector<std::uint16_t> differences(static_cast<std::size_t>(column - 7 - first) + 1);
           RowDifferences(left, right, column, row, first, differences);
           for (std::size_t i = 0; i < differences.size(); ++i) {
             ASSERT_EQ(differences[i],
@@ -163,14 +163,14 @@ TEST(WindowTemplateTest, FindsFractionsOfPixelsUnderOtherLight) {
     return image;
   };
   const GrayImage first = pattern(0.0, 0.0, 0.0);
-  const WindowTemplate window(first, {30.0, 30.0}, Eigen::Matrix2d::Identity());
+  const WindowTemplate window(first, {30.0, 30.0});
   for (const double brighter : {0.0, 30.0}) {
     const auto found = window.Find(pattern(0.3, -0.4, brighter), {30.0, 30.0}, {});
     ASSERT_TRUE(found) << brighter;
     EXPECT_NEAR(found->pixel.x(), 30.3, 0.03) << brighter;
     EXPECT_NEAR(found->pixel.y(), 29.6, 0.03) << brighter;
   }
-  const WindowTemplate flat(GrayImage(60, 60, 90), {30.0, 30.0}, Eigen::Matrix2d::Identity());
+  const WindowTemplate flat(GrayImage(60, 60, 90), {30.0, 30.0});
   EXPECT_FALSE(flat.Find(first, {30.0, 30.0}, {}));
   EXPECT_FALSE(flat.Find(first, {30.0, 30.0}, {.along_row = true}));
 }

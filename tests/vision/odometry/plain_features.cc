@@ -170,7 +170,7 @@ Differences DifferencesOf(const GrayImage& first, const Features& first_features
   for (std::size_t i = 0; i < first_features.size(); ++i) {
     const bool warp = params.warp == MatchWarp::kPredicted && !predicted.empty();
     const PlainWindow window =
-        warp ? PlainWarpedWindow(first, first_features[i], predicted[i].by_offset, side)
+        warp ? PlainWarpedWindow(first, first_features[i], predicted[i].view.by_offset, side)
              : PlainWindowAt(first, first_features[i], side);
     for (std::size_t j = 0; j < second_features.size(); ++j) {
       if (params.search == MatchSearch::kPredicted && !predicted.empty() &&

@@ -166,7 +166,7 @@ double ShareInRow(const AlignedImages& images, double limit_px, int least) {
     const Feature& l = left[static_cast<std::size_t>(match.first)];
     const Feature& r = right[static_cast<std::size_t>(match.second)];
     if (std::abs(l.row - r.row) > 40 || l.column < r.column || l.column > r.column + 100) continue;
-    const WindowTemplate window(images.left, Pixel(l.column, l.row), Eigen::Matrix2d::Identity());
+    const WindowTemplate window(images.left, Pixel(l.column, l.row));
     const auto found = window.Find(images.right, Pixel(r.column, r.row), {});
     if (!found) continue;
     ++all;

@@ -1,0 +1,116 @@
+#include "vision/odometry/slanted_match.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "vision/odometry/template_sums.h"
+#include "vision/odometry/window_samples.h"
+
+namespace rockyard::vision {
+namespace {
+
+constexpr int kReach = 7;
+constexpr double kPixels = 225.0;
+// Of slopes, before the images are looked at: level ground under hazard cameras has 0.25.
+constexpr double kSlope = 0.3;
+// Steeper surfaces are seen from their edge.
+constexpr double kMostSlope = 0.5;
+
+// Sum of lane^power times the lanes, lanes counted from the middle of the window.
+double Moment(const WindowSamples::Lanes& lanes, int power) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < kTemplateLanes; ++i) {
+    const double offset = static_cast<double>(i) - kReach;
+    const double weight = power == 0 ? 1.0 : power == 1 ? offset : offset * offset;
+    sum += weight * lanes[i];
+  }
+  return sum;
+}
+
+// What one step of least squares needs, for the parameters shift, slope by column and by row.
+struct Equations {
+  Eigen::Matrix3d normal;  // sum j j' of j = g (1, o_x, o_y), less their mean
+  Eigen::Vector3d right;   // sum j r
+  double squares = 0.0;    // sum r^2
+};
+
+Equations EquationsAt(const GrayImage& left, const GrayImage& right, const Pixel& left_pixel,
+                      const SlantedPlace& place) {
+  WindowSamples window =
+      SampleWindow(left, left_pixel, LeftViewOf(place.slope), WindowGradients::kAlongRow);
+  const double mean = Moment(window.sum, 0) / kPixels;
+  for (float& value : window.values) value -= static_cast<float>(mean);
+  const auto column = static_cast<int>(place.column);
+  const auto row = static_cast<int>(left_pixel.y());
+  TemplateSums seen;
+  SumTemplate(
+      {window.values.data(), window.across.data(), window.down.data(), static_cast<float>(mean)},
+      {&right.At(column - kReach, row - kReach), static_cast<std::size_t>(right.width()),
+       static_cast<float>(place.column - column), static_cast<float>(left_pixel.y() - row)},
+      seen);
+  const Eigen::Vector3d j(Moment(window.across_sum, 0), Moment(window.across_sum, 1),
+                          Moment(window.down_sum, 0));
+  const double mean_difference = Moment(seen.d, 0) / kPixels;
+  Equations equations;
+  const double xx = Moment(window.across_across, 1);
+  const double xy = Moment(window.across_down, 1);
+  const double y = Moment(window.across_down, 0);
+  equations.normal << Moment(window.across_across, 0), xx, y,  //
+      xx, Moment(window.across_across, 2), xy,                 //
+      y, xy, Moment(window.down_down, 0);
+  equations.normal -= j * j.transpose() / kPixels;
+  equations.right << Moment(seen.across_d, 0), Moment(seen.across_d, 1), Moment(seen.down_d, 0);
+  equations.right -= mean_difference * j;
+  equations.squares =
+      std::max(0.0, Moment(seen.squares, 0) - mean_difference * mean_difference * kPixels);
+  return equations;
+}
+
+}  // namespace
+
+ViewChange LeftViewOf(const DisparitySlope& slope) {
+  ViewChange view;
+  view.by_offset << 1.0 / (1.0 - slope.x()), slope.y() / (1.0 - slope.x()), 0.0, 1.0;
+  return view;
+}
+
+std::optional<SlantedPlace> FindSlanted(const GrayImage& left, const GrayImage& right,
+                                        const Pixel& left_pixel, double column,
+                                        const RefineLimits& limits) {
+  constexpr int kSteps = 4;
+  constexpr double kShift_px = 0.02;
+  constexpr double kChange = 0.01;
+  // Below one grey level the rounding of pixels counts.
+  constexpr double kLeastVariance = 1.0;
+  SlantedPlace place{.column = column};
+  for (int step = 0; step < kSteps; ++step) {
+    if (!(place.column >= kReach && place.column < right.width() - kReach - 2)) {
+      return std::nullopt;
+    }
+    const Equations equations = EquationsAt(left, right, left_pixel, place);
+    const double variance = std::max(kLeastVariance, equations.squares / (kPixels - 5.0));
+    const double prior = variance / (kSlope * kSlope);
+    Eigen::Matrix3d normal = equations.normal;
+    normal.diagonal().tail<2>().array() += prior;
+    if (!(normal(0, 0) > 0.0)) return std::nullopt;
+    const Eigen::Matrix3d covariance = normal.inverse();
+    Eigen::Vector3d pull = equations.right;
+    pull.tail<2>() -= prior * place.slope;
+    // The left window lies where right(column + o) is left(o - e): r = -g e.
+    const Eigen::Vector3d change = covariance * pull;
+    place.column -= change.x();
+    place.slope = (place.slope + change.tail<2>()).cwiseMax(-kMostSlope).cwiseMin(kMostSlope);
+    place.residual = std::sqrt(equations.squares / kPixels);
+    place.variance_px2 = variance * covariance(0, 0) + limits.noise_px * limits.noise_px;
+    if (!(std::abs(place.column - column) <= limits.max_shift_px)) return std::nullopt;
+    if (std::abs(change.x()) < kShift_px && change.tail<2>().cwiseAbs().maxCoeff() < kChange) {
+      break;
+    }
+  }
+  if (!(place.residual <= limits.max_residual)) return std::nullopt;
+  return place;
+}
+
+}  // namespace rockyard::vision
