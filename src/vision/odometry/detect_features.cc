@@ -3,16 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "core/check.h"
-#include "vision/odometry/local_maxima.h"
 
 namespace rockyard::vision {
 namespace {
 
 int PartOf(int whole, std::int64_t part, std::int64_t parts) {
   return static_cast<int>(static_cast<std::int64_t>(whole) * part / parts);
+}
+
+// Of each pixel of a side, the number of its part times `step`.
+std::vector<std::size_t> PartsOf(int whole, std::int64_t parts, std::int64_t step) {
+  std::vector<std::size_t> numbers(static_cast<std::size_t>(whole));
+  for (std::int64_t part = 0; part < parts; ++part) {
+    std::fill(numbers.begin() + PartOf(whole, part, parts),
+              numbers.begin() + PartOf(whole, part + 1, parts),
+              static_cast<std::size_t>(part * step));
+  }
+  return numbers;
 }
 
 // Pixels that features may lie on: `border` away from the edges and from what is not free.
@@ -62,7 +71,9 @@ FeatureDetector::FeatureDetector(const FeatureDetectorParams& params, const Imag
                                  const Image<std::uint8_t>& free)
     : params_(params),
       size_(size),
-      allowed_(AllowedPixels(size, static_cast<int>(params.border_px), free)) {
+      allowed_(AllowedPixels(size, static_cast<int>(params.border_px), free)),
+      of_row_(PartsOf(size.rows, params.regions_down, params.regions_across)),
+      of_column_(PartsOf(size.columns, params.regions_across, 1)) {
   EXPECT(free.empty() || (free.width() == size.columns && free.height() == size.rows));
 }
 
@@ -78,34 +89,39 @@ GradientSums FeatureDetector::SumsAround(const GrayImage& image, const ImageArea
           Widened(area, static_cast<int>(params_.suppression_px), size_.columns, size_.rows)};
 }
 
-Features FeatureDetector::Corners(const GradientSums& sums, const ImageArea& area, double weight,
-                                  double threshold) const {
-  Features corners = LocalMaxima(sums, HarrisWeight(weight), area,
-                                 static_cast<int>(params_.suppression_px), Whole(threshold));
+Features FeatureDetector::Corners(const ResponseWriter& write, const ImageArea& all,
+                                  const ImageArea& area, double threshold) const {
+  Features corners =
+      LocalMaxima(write, all, area, static_cast<int>(params_.suppression_px), Whole(threshold));
   std::erase_if(corners,
                 [&](const Feature& corner) { return allowed_.At(corner.column, corner.row) == 0; });
   return corners;
 }
 
-// All regions of a row of them have one weight, hence one response.
-void FeatureDetector::AddByThreshold(const GrayImage& image, std::int64_t down,
-                                     Features& features) const {
-  const ImageArea first = Region(0, down);
-  const ImageArea band{0, size_.columns, first.top, first.bottom};
-  const Features corners =
-      Corners(SumsAround(image, band), band, params_.weight, params_.min_threshold);
-  std::vector<Features> regions(static_cast<std::size_t>(params_.regions_across));
-  std::vector<std::size_t> of_column(static_cast<std::size_t>(size_.columns));
-  for (std::int64_t across = 0; across < params_.regions_across; ++across) {
-    const ImageArea region = Region(across, down);
-    std::fill(of_column.begin() + region.left, of_column.begin() + region.right,
-              static_cast<std::size_t>(across));
-  }
+Features FeatureDetector::CornersOf(const GradientSums& sums, const ImageArea& area,
+                                    double weight) const {
+  const std::int32_t whole = HarrisWeight(weight);
+  const auto write = [&](int row, std::int32_t* response) {
+    sums.WriteResponse(row, whole, response);
+  };
+  return Corners(write, sums.area(), area, params_.threshold);
+}
+
+// All regions have one weight, hence one response.
+Features FeatureDetector::DetectByThreshold(const GrayImage& image) const {
+  const ImageArea all{0, size_.columns, 0, size_.rows};
+  HarrisRows rows(image, all, HarrisWeight(params_.weight));
+  const auto write = [&](int row, std::int32_t* response) { rows.WriteResponse(row, response); };
+  const Features corners = Corners(write, all, all, params_.min_threshold);
+  std::vector<Features> regions(static_cast<std::size_t>(params_.regions()));
   for (const Feature& corner : corners) {
-    regions[of_column[static_cast<std::size_t>(corner.column)]].push_back(corner);
+    regions[of_row_[static_cast<std::size_t>(corner.row)] +
+            of_column_[static_cast<std::size_t>(corner.column)]]
+        .push_back(corner);
   }
   const auto least = static_cast<std::size_t>(params_.min_of_region());
   const auto most = static_cast<std::size_t>(params_.max_of_region());
+  Features features;
   for (Features& region : regions) {
     const auto strong = static_cast<std::size_t>(std::count_if(
         region.begin(), region.end(),
@@ -113,6 +129,7 @@ void FeatureDetector::AddByThreshold(const GrayImage& image, std::int64_t down,
     KeepStrongest(std::clamp(strong, std::min(least, most), most), region);
     features.insert(features.end(), region.begin(), region.end());
   }
+  return features;
 }
 
 void FeatureDetector::AddByWeight(const GrayImage& image, const ImageArea& region,
@@ -125,11 +142,11 @@ void FeatureDetector::AddByWeight(const GrayImage& image, const ImageArea& regio
   double low = 0.0;
   double high = kLargestWeight;
   double weight = params_.weight;
-  Features corners = Corners(sums, region, weight, params_.threshold);
+  Features corners = CornersOf(sums, region, weight);
   for (int i = 0; i < kBisections && (corners.size() < least || corners.size() > most); ++i) {
     (corners.size() > most ? low : high) = weight;
     weight = 0.5 * (low + high);
-    corners = Corners(sums, region, weight, params_.threshold);
+    corners = CornersOf(sums, region, weight);
   }
   KeepStrongest(most, corners);
   features.insert(features.end(), corners.begin(), corners.end());
@@ -137,12 +154,9 @@ void FeatureDetector::AddByWeight(const GrayImage& image, const ImageArea& regio
 
 Features FeatureDetector::Detect(const GrayImage& image) const {
   EXPECT(image.width() == size_.columns && image.height() == size_.rows);
+  if (params_.adapted == Adapted::kThreshold) return DetectByThreshold(image);
   Features features;
   for (std::int64_t down = 0; down < params_.regions_down; ++down) {
-    if (params_.adapted == Adapted::kThreshold) {
-      AddByThreshold(image, down, features);
-      continue;
-    }
     for (std::int64_t across = 0; across < params_.regions_across; ++across) {
       AddByWeight(image, Region(across, down), features);
     }

@@ -1,13 +1,16 @@
 // Corners of an image, evenly over its regions (Howard 2012 section 2).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "vision/cameras/camera_types.h"
 #include "vision/image.h"
 #include "vision/odometry/detector_params.h"
 #include "vision/odometry/feature.h"
 #include "vision/odometry/harris.h"
+#include "vision/odometry/local_maxima.h"
 
 namespace rockyard::vision {
 
@@ -35,14 +38,18 @@ class FeatureDetector {
  private:
   ImageArea Region(std::int64_t across, std::int64_t down) const;
   GradientSums SumsAround(const GrayImage& image, const ImageArea& area) const;
-  Features Corners(const GradientSums& sums, const ImageArea& area, double weight,
+  Features Corners(const ResponseWriter& write, const ImageArea& all, const ImageArea& area,
                    double threshold) const;
-  void AddByThreshold(const GrayImage& image, std::int64_t down, Features& features) const;
+  Features CornersOf(const GradientSums& sums, const ImageArea& area, double weight) const;
+  Features DetectByThreshold(const GrayImage& image) const;
   void AddByWeight(const GrayImage& image, const ImageArea& region, Features& features) const;
 
   FeatureDetectorParams params_;
   ImageSize size_;
   Image<std::uint8_t> allowed_;
+  // The number of the region of a pixel is the sum of its row's and its column's.
+  std::vector<std::size_t> of_row_;
+  std::vector<std::size_t> of_column_;
 };
 
 }  // namespace rockyard::vision

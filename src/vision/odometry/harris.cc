@@ -183,6 +183,48 @@ class SlidingRows {
   AlignedBuffer<std::int16_t> columns_;
 };
 
+// The sums of one row after the other of an area, 0 within the margin of the image.
+class AreaRows {
+ public:
+  AreaRows(const GrayImage& image, const ImageArea& area)
+      : area_(area),
+        inside_{kHarrisMargin_px, image.width() - kHarrisMargin_px, kHarrisMargin_px,
+                image.height() - kHarrisMargin_px},
+        left_(std::max(area.left, inside_.left) - area.left),
+        right_(std::min(area.right, inside_.right) - area.left),
+        rows_(image, area) {
+    EXPECT(0 <= area.left && area.left <= area.right && area.right <= image.width());
+    EXPECT(0 <= area.top && area.top <= area.bottom && area.bottom <= image.height());
+  }
+
+  // Three times `stride` sums; rows come from above.
+  void Write(int row, std::size_t stride, std::int16_t* sums) {
+    if (left_ >= right_ || row < inside_.top || row >= inside_.bottom) {
+      std::fill_n(sums, 3 * stride, std::int16_t{0});
+      return;
+    }
+    const std::array<std::int16_t*, 3> each{sums, sums + stride, sums + 2 * stride};
+    rows_.AddUp(row, static_cast<std::size_t>(area_.width()), each.data());
+    for (std::int16_t* const sum : each) {
+      std::fill_n(sum, left_, std::int16_t{0});
+      std::fill(sum + right_, sum + area_.width(), std::int16_t{0});
+    }
+  }
+
+ private:
+  ImageArea area_;
+  ImageArea inside_;
+  int left_;
+  int right_;
+  SlidingRows rows_;
+};
+
+void WriteResponses(const std::int16_t* sums, std::size_t stride, std::int32_t weight, int width,
+                    std::int32_t* response) {
+  HWY_DYNAMIC_DISPATCH(Responses)
+  (sums, sums + stride, sums + 2 * stride, weight, static_cast<std::size_t>(width), response);
+}
+
 }  // namespace
 
 ImageArea Widened(const ImageArea& area, int reach, int width, int height) {
@@ -199,33 +241,39 @@ GradientSums::GradientSums(const GrayImage& image, const ImageArea& area)
     : area_(area),
       stride_(WholeVectors(area.width())),
       sums_(3 * stride_ * static_cast<std::size_t>(area.height()), Filled::kAnything) {
-  EXPECT(0 <= area.left && area.left <= area.right && area.right <= image.width());
-  EXPECT(0 <= area.top && area.top <= area.bottom && area.bottom <= image.height());
-  const ImageArea inside{kHarrisMargin_px, image.width() - kHarrisMargin_px, kHarrisMargin_px,
-                         image.height() - kHarrisMargin_px};
-  const int left = std::max(area.left, inside.left) - area.left;
-  const int right = std::min(area.right, inside.right) - area.left;
-  SlidingRows rows(image, area);
-  for (int row = area.top; row < area.bottom; ++row) {
-    const std::array<std::int16_t*, 3> sums{Row(row), Row(row) + stride_, Row(row) + 2 * stride_};
-    if (left >= right || row < inside.top || row >= inside.bottom) {
-      std::fill_n(Row(row), 3 * stride_, std::int16_t{0});
-      continue;
-    }
-    rows.AddUp(row, static_cast<std::size_t>(area.width()), sums.data());
-    for (std::int16_t* const sum : sums) {
-      std::fill_n(sum, left, std::int16_t{0});
-      std::fill(sum + right, sum + area.width(), std::int16_t{0});
-    }
-  }
+  AreaRows rows(image, area);
+  for (int row = area.top; row < area.bottom; ++row) rows.Write(row, stride_, Row(row));
 }
 
 void GradientSums::WriteResponse(int row, std::int32_t weight, std::int32_t* response) const {
   EXPECT(row >= area_.top && row < area_.bottom);
-  const std::int16_t* const sums = Row(row);
-  HWY_DYNAMIC_DISPATCH(Responses)
-  (sums, sums + stride_, sums + 2 * stride_, weight, static_cast<std::size_t>(area_.width()),
-   response);
+  WriteResponses(Row(row), stride_, weight, area_.width(), response);
+}
+
+class HarrisRows::Sums {
+ public:
+  Sums(const GrayImage& image, const ImageArea& area)
+      : rows_(image, area), stride_(WholeVectors(area.width())), sums_(3 * stride_) {}
+
+  void Write(int row, std::int32_t weight, int width, std::int32_t* response) {
+    rows_.Write(row, stride_, sums_.data());
+    WriteResponses(sums_.data(), stride_, weight, width, response);
+  }
+
+ private:
+  AreaRows rows_;
+  std::size_t stride_;
+  AlignedBuffer<std::int16_t> sums_;
+};
+
+HarrisRows::HarrisRows(const GrayImage& image, const ImageArea& area, std::int32_t weight)
+    : area_(area), weight_(weight), sums_(std::make_unique<Sums>(image, area)) {}
+
+HarrisRows::~HarrisRows() = default;
+
+void HarrisRows::WriteResponse(int row, std::int32_t* response) {
+  EXPECT(row >= area_.top && row < area_.bottom);
+  sums_->Write(row, weight_, area_.width(), response);
 }
 
 }  // namespace rockyard::vision

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "vision/image.h"
 #include "vision/stereo/aligned_buffer.h"
@@ -65,6 +66,28 @@ class GradientSums {
   ImageArea area_;
   std::size_t stride_;
   AlignedBuffer<std::int16_t> sums_;
+};
+
+// The responses of an area of an image to one weight, from its first row on, without keeping sums.
+class HarrisRows {
+ public:
+  // The image outlives it; the area lies inside.
+  HarrisRows(const GrayImage& image, const ImageArea& area, std::int32_t weight);
+  ~HarrisRows();
+  HarrisRows(const HarrisRows&) = delete;
+  HarrisRows& operator=(const HarrisRows&) = delete;
+
+  const ImageArea& area() const { return area_; }
+
+  // As GradientSums::WriteResponse, of a row that no later one was written before.
+  void WriteResponse(int row, std::int32_t* response);
+
+ private:
+  class Sums;
+
+  ImageArea area_;
+  std::int32_t weight_;
+  std::unique_ptr<Sums> sums_;
 };
 
 }  // namespace rockyard::vision

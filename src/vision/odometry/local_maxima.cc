@@ -44,42 +44,36 @@ HWY_INLINE bool Has(const std::int32_t* values, int count, std::int32_t value) {
   return false;
 }
 
-// Columns of the last of the rows `values` where the value is at least the threshold, none of the
-// `largest` of the rows about is larger, and none within `reach` columns in the rows `values`
-// before it is as large; their number. Rows have room for two whole vectors.
-std::size_t FindPeaks(const std::int32_t* const* values, int value_rows,
-                      const std::int32_t* const* largest, int largest_rows, int reach,
+// Columns of the row `here` where the value is at least the threshold, no value is as large within
+// `reach` rows and columns before it in the order of rows, and none larger behind it; their number.
+// `before` and `from` have the largest values about every column of the rows before, and of this
+// and those that come. Rows have room for two whole vectors.
+std::size_t FindPeaks(const std::int32_t* here, const std::int32_t* const* before, int rows_before,
+                      const std::int32_t* const* from, int rows_from, int reach,
                       std::int32_t threshold, std::size_t width, std::int32_t* columns) {
-  const std::int32_t* const here = values[value_rows - 1];
   const auto least = hn::Set(kResponses, threshold);
+  const auto nothing = hn::Set(kResponses, std::numeric_limits<std::int32_t>::min());
   std::size_t found = 0;
-  const std::size_t lanes = hn::Lanes(kResponses);
-  const auto append = [&](std::size_t x, hn::Vec<decltype(kResponses)> most) HWY_ATTR {
-    const auto peaks = hn::Eq(hn::Load(kResponses, here + x), most);
-    if (hn::AllFalse(kResponses, peaks)) return;
+  for (std::size_t x = 0; x < width; x += hn::Lanes(kResponses)) {
+    auto most = least;
+    for (int i = 0; i < rows_from; ++i) {
+      most = hn::Max(most, hn::Load(kResponses, from[i] + x));
+    }
+    auto most_before = nothing;
+    for (int i = 0; i < rows_before; ++i) {
+      most_before = hn::Max(most_before, hn::Load(kResponses, before[i] + x));
+    }
+    const auto value = hn::Load(kResponses, here + x);
+    const auto peaks = hn::And(hn::Eq(value, most), hn::Gt(value, most_before));
+    if (hn::AllFalse(kResponses, peaks)) continue;
     const auto at = hn::Iota(kResponses, static_cast<std::int32_t>(x));
     found += hn::CompressStore(at, peaks, kResponses, columns + found);
-  };
-  for (std::size_t x = 0; x < width; x += 2 * lanes) {
-    auto first = least;
-    auto second = least;
-    for (int i = 0; i < largest_rows; ++i) {
-      first = hn::Max(first, hn::Load(kResponses, largest[i] + x));
-      second = hn::Max(second, hn::Load(kResponses, largest[i] + x + lanes));
-    }
-    append(x, first);
-    append(x + lanes, second);
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < found; ++i) {
     const std::int32_t column = columns[i];
-    const std::int32_t value = here[column];
-    bool repeated = Has(here + column - reach, reach, value);
-    for (int row = 0; row + 1 < value_rows && !repeated; ++row) {
-      repeated = Has(values[row] + column - reach, 2 * reach + 1, value);
-    }
     columns[kept] = column;
-    kept += repeated ? 0 : 1;
+    kept += Has(here + column - reach, reach, here[column]) ? 0 : 1;
   }
   return kept;
 }
@@ -101,12 +95,12 @@ constexpr std::size_t kMostResponses = 32;
 // The rows of responses about the one that is looked at.
 class ResponseRows {
  public:
-  ResponseRows(const GradientSums& sums, std::int32_t weight, int reach)
-      : sums_(sums),
-        weight_(weight),
+  ResponseRows(const ResponseWriter& write, const ImageArea& all, int reach)
+      : write_(write),
+        all_(all),
         reach_(reach),
         height_(2 * reach + 1),
-        width_(static_cast<std::size_t>(sums.area().width())),
+        width_(static_cast<std::size_t>(all.width())),
         pad_(Whole(static_cast<std::size_t>(reach))),
         stride_(Whole(width_) + 2 * pad_),
         values_(stride_ * static_cast<std::size_t>(height_)),
@@ -115,17 +109,17 @@ class ResponseRows {
 
   // Columns of the peaks of a row, counted from the first of the sums.
   std::span<const std::int32_t> Peaks(int row, std::int32_t threshold) {
-    const int first = std::max(row - reach_, sums_.area().top);
-    const int last = std::min(row + reach_, sums_.area().bottom - 1);
+    const int first = std::max(row - reach_, all_.top);
+    const int last = std::min(row + reach_, all_.bottom - 1);
     next_ = std::max(next_, first);
     for (; next_ <= last; ++next_) Find(next_);
     before_.clear();
-    about_.clear();
-    for (int y = first; y <= row; ++y) before_.push_back(Row(values_, y));
-    for (int y = first; y <= last; ++y) about_.push_back(Row(largest_, y));
+    from_.clear();
+    for (int y = first; y < row; ++y) before_.push_back(Row(largest_, y));
+    for (int y = row; y <= last; ++y) from_.push_back(Row(largest_, y));
     const std::size_t count = HWY_DYNAMIC_DISPATCH(FindPeaks)(
-        before_.data(), static_cast<int>(before_.size()), about_.data(),
-        static_cast<int>(about_.size()), reach_, threshold, width_, columns_.data());
+        Row(values_, row), before_.data(), static_cast<int>(before_.size()), from_.data(),
+        static_cast<int>(from_.size()), reach_, threshold, width_, columns_.data());
     return {columns_.data(), count};
   }
 
@@ -140,7 +134,7 @@ class ResponseRows {
   void Find(int row) {
     constexpr std::int32_t kNothing = std::numeric_limits<std::int32_t>::min();
     std::int32_t* const values = Row(values_, row);
-    sums_.WriteResponse(row, weight_, values);
+    write_(row, values);
     std::fill(values - pad_, values, kNothing);
     std::fill(values + width_, values - pad_ + stride_, kNothing);
     HWY_DYNAMIC_DISPATCH(LargestOfColumns)(values, reach_, width_, Row(largest_, row));
@@ -156,8 +150,8 @@ class ResponseRows {
     return rows.data() + Offset(row);
   }
 
-  const GradientSums& sums_;
-  std::int32_t weight_;
+  const ResponseWriter& write_;
+  ImageArea all_;
   int reach_;
   int height_;
   int next_ = 0;
@@ -167,20 +161,19 @@ class ResponseRows {
   AlignedBuffer<std::int32_t> values_;
   AlignedBuffer<std::int32_t> largest_;  // of the columns about each
   AlignedBuffer<std::int32_t> columns_;
-  std::vector<const std::int32_t*> before_;  // rows of values, up to the one that is looked at
-  std::vector<const std::int32_t*> about_;   // rows of largest_ about it
+  std::vector<const std::int32_t*> before_;  // rows of largest_ above the one that is looked at
+  std::vector<const std::int32_t*> from_;    // and from it on
 };
 
 }  // namespace
 
-Features LocalMaxima(const GradientSums& sums, std::int32_t weight, const ImageArea& area,
+Features LocalMaxima(const ResponseWriter& write, const ImageArea& all, const ImageArea& area,
                      int reach, std::int32_t threshold) {
-  const ImageArea& all = sums.area();
   EXPECT(all.left <= area.left && area.right <= all.right);
   EXPECT(all.top <= area.top && area.bottom <= all.bottom);
   EXPECT(reach >= 1);
   Features peaks;
-  ResponseRows rows(sums, weight, reach);
+  ResponseRows rows(write, all, reach);
   for (int row = area.top; row < area.bottom; ++row) {
     for (const std::int32_t column : rows.Peaks(row, threshold)) {
       const int x = all.left + column;

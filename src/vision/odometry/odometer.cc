@@ -1,7 +1,6 @@
 #include "vision/odometry/odometer.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "core/check.h"
@@ -20,8 +19,6 @@ using math::Transform;
 // A keyframe's feature is where it is by definition: what is off is the place of its match. The
 // rest keeps the equations regular.
 constexpr double kFeature_px = 0.01;
-
-constexpr double kAny = std::numeric_limits<double>::infinity();
 
 bool IsFew(std::int64_t count, const OdometerParams& params) {
   return count < params.selection.min_consistent;
@@ -182,7 +179,6 @@ PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Fe
   const bool warp = params_.matcher.warp == MatchWarp::kPredicted && !predicted.empty();
   PointsSeenTwice points;
   std::vector<double> in_time;
-  std::vector<double> between_eyes;
   for (const FeatureMatch& match : matches) {
     const auto first = static_cast<std::size_t>(match.first);
     const Feature& found = features[static_cast<std::size_t>(match.second)];
@@ -197,18 +193,10 @@ PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Fe
     if (!second) continue;
     points.push_back({place, *second});
     in_time.push_back(refined->residual);
-    between_eyes.push_back(second->residual);
   }
-  // Unless windows are seen as they should look, what is left of them says little of edges.
-  const double most_in_time = warp ? ResidualLimit(in_time, params_.placement) : kAny;
-  const double most_between_eyes = ResidualLimit(between_eyes, params_.placement);
-  PointsSeenTwice clean;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (in_time[i] <= most_in_time && between_eyes[i] <= most_between_eyes) {
-      clean.push_back(points[i]);
-    }
-  }
-  return clean;
+  // Unless windows are seen as they should look, what is left of them in time says little of edges.
+  if (!warp) in_time.clear();
+  return KeepClean(points, in_time, params_.placement);
 }
 
 bool VisualOdometer::IsOver(const MotionResult& result) const {
@@ -225,18 +213,12 @@ void VisualOdometer::MakeKeyframe(std::int64_t number, AlignedImages images,
                                   const Features& features) {
   Keyframe keyframe{number, std::move(images), {}, {}};
   const FeaturePlaces placer(cameras_, params_.placement, keyframe.images);
-  std::vector<std::optional<StereoMeasurement>> places;
-  std::vector<double> residuals;
   for (const Feature& feature : features) {
-    places.push_back(placer.Place(Pixel(feature.column, feature.row),
-                                  kFeature_px * kFeature_px * Eigen::Matrix2d::Identity()));
-    if (places.back()) residuals.push_back(places.back()->residual);
-  }
-  const double most = ResidualLimit(residuals, params_.placement);
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (!places[i] || places[i]->residual > most) continue;
-    keyframe.features.push_back(features[i]);
-    keyframe.places.push_back(*places[i]);
+    const auto place = placer.Place(Pixel(feature.column, feature.row),
+                                    kFeature_px * kFeature_px * Eigen::Matrix2d::Identity());
+    if (!place) continue;
+    keyframe.features.push_back(feature);
+    keyframe.places.push_back(*place);
   }
   keyframe_ = std::move(keyframe);
 }

@@ -54,7 +54,7 @@ void PlacementParams::Visit(core::FieldVisitor& v) {
        .study_low = 1.2,
        .study_high = 4.0});
   v.Integer("min_kept", min_kept,
-            {.doc = "but so many are left, those of the least residuals",
+            {.doc = "but so many points are left, those of the least residuals",
              .min = 0,
              .max = 100000,
              .origin = Origin::kAssumed,

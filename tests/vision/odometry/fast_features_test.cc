@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -60,13 +61,18 @@ void ExpectSameResponse(const GrayImage& image, const ImageArea& area, double we
   for (const std::int64_t set : InstructionSets()) {
     const UseInstructionSet use(set);
     const GradientSums sums(image, area);
-    AlignedBuffer<std::int32_t> response(static_cast<std::size_t>(area.width()) + 64);
+    HarrisRows rows(image, area, whole);
+    AlignedBuffer<std::int32_t> kept(static_cast<std::size_t>(area.width()) + 64);
+    AlignedBuffer<std::int32_t> passing(kept.size());
     for (int y = area.top; y < area.bottom; ++y) {
-      sums.WriteResponse(y, whole, response.data());
+      sums.WriteResponse(y, whole, kept.data());
+      rows.WriteResponse(y, passing.data());
       for (int x = area.left; x < area.right; ++x) {
-        ASSERT_EQ(response.data()[x - area.left], expected.At(x, y))
-            << "(" << x << ", " << y << ") of " << image.width() << " x " << image.height() << ", "
-            << InstructionSet();
+        for (const auto& response : {std::cref(kept), std::cref(passing)}) {
+          ASSERT_EQ(response.get().data()[x - area.left], expected.At(x, y))
+              << "(" << x << ", " << y << ") of " << image.width() << " x " << image.height()
+              << ", " << InstructionSet();
+        }
       }
     }
   }

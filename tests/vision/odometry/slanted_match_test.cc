@@ -1,0 +1,148 @@
+// Disparities and slopes of windows on level ground, which does not face the cameras.
+#include "vision/odometry/slanted_match.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "vision/cameras/triangulation.h"
+#include "vision/odometry/detect_features.h"
+#include "vision/odometry/keep_clean.h"
+#include "vision/odometry/place_features.h"
+#include "vision/odometry/synthetic_sequence.h"
+
+namespace rockyard::vision {
+namespace {
+
+constexpr ImageSize kSize{256, 192};
+
+// Of the plane z = 0, in closed form: the ray of a pixel meets it at a share of its length.
+double TrueDisparity_px(const RectifiedPair& pair, const Pixel& pixel) {
+  const auto unit = Triangulate(pair.left, pair.right, pixel, 1.0);
+  return (pair.left.C.z() - unit->p_A.z()) / pair.left.C.z();
+}
+
+struct Errors {
+  double disparity_px = 0.0;  // root mean square
+  double slope = 0.0;         // mean, down the rows
+  double residual = 0.0;      // mean
+  int count = 0;
+};
+
+Errors ErrorsOf(bool slanted) {
+  const RectifiedPair pair = PlanePair(kSize);
+  PlacementParams params;
+  params.slanted = slanted;
+  Errors errors;
+  double squares_px2 = 0.0;
+  for (std::uint32_t number = 0; number < 3; ++number) {
+    const AlignedImages images = SeePlane(pair, math::Transform::Identity(), {.number = number}, 0);
+    const FeaturePlacer placer(pair, params, images.left, images.right);
+    for (const Feature& feature : FeatureDetector({}, kSize).Detect(images.left)) {
+      const Pixel pixel(feature.column, feature.row);
+      const auto place = placer.Place(pixel, 1e-4 * Eigen::Matrix2d::Identity());
+      const double truth_px = TrueDisparity_px(pair, pixel);
+      if (!place || std::abs(place->disparity_px - truth_px) > 0.5) continue;
+      const double slope = TrueDisparity_px(pair, pixel + Pixel(0.0, 1.0)) - truth_px;
+      squares_px2 += std::pow(place->disparity_px - truth_px, 2);
+      errors.slope += place->slope.y() - slope;
+      errors.residual += place->residual;
+      ++errors.count;
+    }
+  }
+  errors.disparity_px = std::sqrt(squares_px2 / errors.count);
+  errors.slope /= errors.count;
+  errors.residual /= errors.count;
+  return errors;
+}
+
+// The ground's disparity grows by 0.14 px a row. Windows that are taken to face the cameras are the
+// control: their slope is 0, and three times the noise is left of them.
+TEST(SlantedMatchTest, LevelGroundHasItsSlopeAndItsDisparity) {
+  const Errors slanted = ErrorsOf(true);
+  const Errors facing = ErrorsOf(false);
+  ASSERT_GT(slanted.count, 300);
+  EXPECT_LT(std::abs(slanted.slope), 0.004);
+  EXPECT_LT(slanted.disparity_px, 0.04);
+  EXPECT_LT(slanted.residual, 1.8);  // both images have noise of 1
+  EXPECT_NEAR(facing.slope, -0.14, 0.02);
+  EXPECT_GT(facing.disparity_px, 2.0 * slanted.disparity_px);
+  EXPECT_GT(facing.residual, 2.0 * slanted.residual);
+}
+
+TEST(SlantedMatchTest, FindsNothingOutsideOrWithoutTexture) {
+  const RectifiedPair pair = PlanePair(kSize);
+  const AlignedImages images = SeePlane(pair, math::Transform::Identity(), {}, 0);
+  const RefineLimits limits{.along_row = true};
+  const Pixel pixel(150.0, 110.0);
+  const double column = 150.0 - TrueDisparity_px(pair, pixel);
+  ASSERT_TRUE(FindSlanted(images.left, images.right, pixel, column, limits));
+  EXPECT_FALSE(FindSlanted(images.left, images.right, pixel, 5.0, limits));
+  EXPECT_FALSE(FindSlanted(images.left, images.right, pixel, 249.0, limits));
+  // Too far off, and another texture.
+  EXPECT_FALSE(FindSlanted(images.left, images.right, pixel, column - 20.0, limits));
+  const GrayImage flat(kSize.columns, kSize.rows, 90);
+  EXPECT_FALSE(FindSlanted(flat, flat, pixel, column, limits));
+}
+
+PointsSeenTwice PointsWith(const std::vector<double>& first, const std::vector<double>& second) {
+  PointsSeenTwice points(first.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].first.residual = first[i];
+    points[i].second.residual = second[i];
+    points[i].first.disparity_px = static_cast<double>(i);  // to know them by
+  }
+  return points;
+}
+
+std::vector<int> Kept(const PointsSeenTwice& points, const std::vector<double>& in_time,
+                      const PlacementParams& params) {
+  std::vector<int> kept;
+  for (const PointSeenTwice& point : KeepClean(points, in_time, params)) {
+    kept.push_back(static_cast<int>(point.first.disparity_px));
+  }
+  return kept;
+}
+
+using Numbers = std::vector<int>;
+
+// Lower quartiles are 1.5, 1 and 2.
+TEST(KeepCleanTest, LeavesOutWhatIsWorseThanTwiceTheLowerQuartile) {
+  PlacementParams params;
+  params.max_residual_ratio = 2.0;
+  params.min_kept = 0;
+  const PointsSeenTwice points = PointsWith({3.1, 1.0, 2.0, 1.5, 3.0}, {1.0, 1.0, 2.1, 1.0, 1.0});
+  const std::vector<double> in_time{2.0, 2.0, 2.0, 2.0, 4.1};
+  EXPECT_EQ(Kept(points, in_time, params), (Numbers{1, 3}));
+  EXPECT_EQ(Kept(points, {}, params), (Numbers{1, 3, 4}));
+  params.max_residual_ratio = 2.2;
+  EXPECT_EQ(Kept(points, in_time, params), (Numbers{0, 1, 2, 3, 4}));
+}
+
+TEST(KeepCleanTest, KeepsTheBestOfFew) {
+  PlacementParams params;
+  params.max_residual_ratio = 2.0;
+  const PointsSeenTwice points = PointsWith({9.0, 1.0, 4.0, 1.0, 1.0}, {1.0, 1.0, 1.0, 8.0, 1.0});
+  params.min_kept = 2;
+  EXPECT_EQ(Kept(points, {}, params), (Numbers{1, 4}));
+  params.min_kept = 3;
+  EXPECT_EQ(Kept(points, {}, params), (Numbers{1, 2, 4}));
+  params.min_kept = 4;
+  EXPECT_EQ(Kept(points, {}, params), (Numbers{1, 2, 3, 4}));
+  params.min_kept = 5;
+  EXPECT_EQ(Kept(points, {}, params), (Numbers{0, 1, 2, 3, 4}));
+  EXPECT_TRUE(KeepClean({}, {}, params).empty());
+}
+
+// Rounded pixels differ by a quarter of a grey level whatever they show.
+TEST(KeepCleanTest, DoesNotJudgeLessThanRounding) {
+  PlacementParams params;
+  params.max_residual_ratio = 2.0;
+  params.min_kept = 0;
+  const PointsSeenTwice points = PointsWith({0.0, 0.0, 0.9, 1.1}, {0.0, 0.0, 0.0, 0.0});
+  EXPECT_EQ(Kept(points, {}, params), (Numbers{0, 1, 2}));
+}
+
+}  // namespace
+}  // namespace rockyard::vision
