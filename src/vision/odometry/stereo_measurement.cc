@@ -13,7 +13,6 @@ std::optional<StereoMeasurement> MeasureStereo(const RectifiedPair& cameras,
   StereoMeasurement measured;
   measured.left = left_pixel;
   measured.disparity_px = disparity_px;
-  measured.covariance_px2.setZero();
   measured.covariance_px2.topLeftCorner<2, 2>() = pixel_px2;
   measured.covariance_px2(2, 2) = disparity_px2;
   measured.p_A = point->p_A;
