@@ -87,7 +87,7 @@ struct OdometerParams {
   SelectionParams selection;
   EstimationParams estimation;
   KeyframeParams keyframe;
-  double variance_factor = 2.3;
+  double variance_factor = 3.5;
   std::int64_t rounds = 2;
 
   void Visit(core::FieldVisitor& v);

@@ -27,11 +27,12 @@ std::optional<double> FeaturePlacer::WholeColumn(const Pixel& left_pixel) const 
   const auto best = std::min_element(differences.begin(), differences.end());
   const auto at = static_cast<int>(best - differences.begin());
   if (at == 0 || at == last - first) return std::nullopt;
-  for (int other = 0; other <= last - first; ++other) {
-    if (std::abs(other - at) <= 1) continue;
-    if (params_.ambiguity * differences[static_cast<std::size_t>(other)] < *best) {
-      return std::nullopt;
-    }
+  // As good as the best, within the ambiguity: of all but the best and its neighbours, none.
+  const double limit = *best / params_.ambiguity;
+  const auto is_as_good = [limit](std::uint16_t difference) { return difference < limit; };
+  if (std::any_of(differences.begin(), best - 1, is_as_good) ||
+      std::any_of(best + 2, differences.end(), is_as_good)) {
+    return std::nullopt;
   }
   return left_pixel.x() - (first + at);
 }

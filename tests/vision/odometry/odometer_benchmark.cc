@@ -24,12 +24,19 @@ const std::array<AlignedImages, 2>& Images() {
   return images;
 }
 
-// With the motion predicted (1), as on a rover, or not (0: features are matched twice). Stages are
-// told in us.
-void Step(benchmark::State& state) {
+// How a step is asked for.
+enum Kind {
+  kUnpredicted,  // features are matched twice
+  kPredicted,    // as on a rover
+  kRenewed,      // so, and every pair becomes the keyframe: there and back again
+};
+
+// Stages are told in us.
+void Step(benchmark::State& state, Kind kind) {
   using Clock = std::chrono::steady_clock;
   OdometerParams params;
   params.keyframe.min_share = 0.0;
+  if (kind == kRenewed) params.keyframe.max_way_m = 0.0;
   std::array<double, 6> stage_us{};
   Clock::time_point last;
   VisualOdometer odometer(params, PlanePair(kSize), {}, {1, 0}, [&](OdometryStage stage) {
@@ -40,14 +47,17 @@ void Step(benchmark::State& state) {
   });
   odometer.Add(Images()[0]);
   stage_us = {};
-  std::optional<math::Transform> predicted;
-  if (state.range(0) == 1) predicted = math::MakePose({0.06, 0.0, 0.0}, 0.0, 0.0, 0.0);
+  const math::Transform ahead = math::MakePose({0.06, 0.0, 0.0}, 0.0, 0.0, 0.0);
   OdometryStep step;
+  std::size_t at = 1;
   for (auto _ : state) {
-    AlignedImages images = Images()[1];
+    AlignedImages images = Images()[at];
+    std::optional<math::Transform> predicted;
+    if (kind != kUnpredicted) predicted = at == 1 ? ahead : ahead.inverse();
     last = Clock::now();
     step = odometer.Add(std::move(images), predicted);
     benchmark::DoNotOptimize(step);
+    if (kind == kRenewed) at = 1 - at;
   }
   constexpr std::array<const char*, 6> kNames{"detect", "match",    "place",
                                               "select", "estimate", "renew"};
@@ -58,7 +68,9 @@ void Step(benchmark::State& state) {
   state.counters["matches"] = static_cast<double>(step.result.counts.matches);
   state.counters["consistent"] = static_cast<double>(step.result.counts.consistent);
 }
-BENCHMARK(Step)->Arg(1)->Arg(0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Step, predicted, kPredicted)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Step, renewed, kRenewed)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Step, unpredicted, kUnpredicted)->Unit(benchmark::kMillisecond);
 
 struct KnownStep {
   std::array<AlignedImages, 2> images;
