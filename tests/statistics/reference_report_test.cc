@@ -177,7 +177,8 @@ TEST(Reference, NamesTheFileOfEveryScenario) {
   const std::filesystem::path folder = ROCKYARD_SOURCE_DIR "/results/reference";
   for (const char* file :
        {"matthies1995.json", "matthies1995_hazard_detection.json", "matthies1995_mission.json",
-        "goldberg2002.json", "goldberg2002_stereo.json", "howard2012.json"}) {
+        "goldberg2002.json", "goldberg2002_stereo.json", "howard2012.json",
+        "howard2012_odometry.json"}) {
     const PublishedReference reference = LoadReference(folder / file);
     std::set<std::string> named;
     for (const auto& scenario : reference.scenarios) {

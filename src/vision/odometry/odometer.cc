@@ -5,9 +5,9 @@
 
 #include "core/check.h"
 #include "vision/odometry/consistent_set.h"
+#include "vision/odometry/feature_places.h"
 #include "vision/odometry/keep_clean.h"
 #include "vision/odometry/motion_of_set.h"
-#include "vision/odometry/place_features.h"
 #include "vision/odometry/plane_view.h"
 #include "vision/odometry/refine_match.h"
 
@@ -56,6 +56,7 @@ OdometryStep VisualOdometer::Add(AlignedImages images, const std::optional<Trans
   step.number = next_++;
   step.features = detector_.Detect(images.left);
   Tell(OdometryStage::kDetected);
+  if (params_.placement.source == PlaceSource::kDisparityMap) MakeMap(images);
   if (keyframe_) {
     step.reference = keyframe_->number;
     Comparison found = Compare(images, step.features, predicted, step.number);
@@ -71,6 +72,16 @@ OdometryStep VisualOdometer::Add(AlignedImages images, const std::optional<Trans
   if (step.keyframe) MakeKeyframe(step.number, std::move(images), step.features);
   Tell(OdometryStage::kRenewed);
   return step;
+}
+
+void VisualOdometer::MakeMap(AlignedImages& images) const {
+  if (!images.disparities.empty()) {
+    EXPECT(images.disparities.width() == images.left.width() &&
+           images.disparities.height() == images.left.height());
+    return;
+  }
+  images.disparities = MakePlacementMap(images.left, images.right, params_.placement);
+  Tell(OdometryStage::kPlaced);
 }
 
 VisualOdometer::Comparison VisualOdometer::Compare(const AlignedImages& images,
@@ -164,7 +175,7 @@ PredictedFeatures VisualOdometer::Predict(const Transform& X_FS) const {
 PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Features& features,
                                            const FeatureMatches& matches,
                                            const PredictedFeatures& predicted) const {
-  const FeaturePlacer placer(cameras_, params_.placement, images.left, images.right);
+  const FeaturePlaces places(cameras_, params_.placement, images);
   const bool warp = params_.matcher.warp == MatchWarp::kPredicted && !predicted.empty();
   PointsSeenTwice points;
   std::vector<double> in_time;
@@ -177,7 +188,7 @@ PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Fe
     const auto refined = window.Find(images.left, Pixel(found.column, found.row),
                                      {.noise_px = params_.placement.noise_px});
     if (!refined) continue;
-    const auto second = placer.PlaceOn(warp ? predicted[first].slope : place.slope, refined->pixel,
+    const auto second = places.PlaceOn(warp ? predicted[first].slope : place.slope, refined->pixel,
                                        refined->covariance_px2);
     if (!second) continue;
     points.push_back({place, *second});
@@ -201,8 +212,7 @@ bool VisualOdometer::IsOver(const MotionResult& result) const {
 void VisualOdometer::MakeKeyframe(std::int64_t number, AlignedImages images,
                                   const Features& features) {
   Keyframe keyframe{number, std::move(images), {}, {}};
-  const FeaturePlacer placer(cameras_, params_.placement, keyframe.images.left,
-                             keyframe.images.right);
+  const FeaturePlaces placer(cameras_, params_.placement, keyframe.images);
   for (const Feature& feature : features) {
     const auto place = placer.Place(Pixel(feature.column, feature.row),
                                     kFeature_px * kFeature_px * Eigen::Matrix2d::Identity());

@@ -10,6 +10,7 @@
 #include "math/pose.h"
 #include "vision/cameras/rectification.h"
 #include "vision/image.h"
+#include "vision/odometry/aligned_images.h"
 #include "vision/odometry/detect_features.h"
 #include "vision/odometry/feature.h"
 #include "vision/odometry/match_features.h"
@@ -18,12 +19,6 @@
 #include "vision/odometry/stereo_measurement.h"
 
 namespace rockyard::vision {
-
-// Two images of one moment with aligned rows.
-struct AlignedImages {
-  GrayImage left;
-  GrayImage right;
-};
 
 // What one pair of images adds to a path.
 struct OdometryStep {
@@ -37,8 +32,8 @@ struct OdometryStep {
 
 enum class OdometryStage { kDetected, kMatched, kPlaced, kSelected, kEstimated, kRenewed };
 
-// Called as a stage of a step ends (in each round of matching), for progress and time. It has no
-// influence.
+// Called as a stage of a step ends (in each round of matching; kPlaced after a disparity map as
+// well), for progress and time. It has no influence.
 using OdometryWatcher = std::function<void(OdometryStage)>;
 
 // One path of one pair of cameras.
@@ -88,6 +83,8 @@ class VisualOdometer {
     std::optional<math::Transform> rough_X_FS;
   };
 
+  // Stereo of the images, where nobody has done it.
+  void MakeMap(AlignedImages& images) const;
   Comparison Compare(const AlignedImages& images, const Features& features,
                      const std::optional<math::Transform>& predicted, std::int64_t number) const;
   Comparison CompareOnce(const AlignedImages& images, const Features& features,

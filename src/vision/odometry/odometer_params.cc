@@ -5,6 +5,10 @@ namespace rockyard::vision {
 using core::Origin;
 
 void PlacementParams::Visit(core::FieldVisitor& v) {
+  v.Choice("source", source,
+           {.doc = "what says how far a feature is: right_eye, the feature found in the right "
+                   "image; disparity_map, dense stereo of both images at the feature",
+            .origin = Origin::kSetting});
   v.Real("min_disparity_px", min_disparity_px,
          {.doc = "smallest disparity that the right eye is searched for: farther features have no "
                  "place",
@@ -65,6 +69,12 @@ void PlacementParams::Visit(core::FieldVisitor& v) {
           .source = "repeated texture; the consistent set follows anyway",
           .study_low = 0.7,
           .study_high = 1.0});
+  v.Group("map", map, "the disparity map, where places are taken from it");
+  constexpr double kMapReach_px = 479.0;  // CorrelatorParams, less one for the peak filter
+  v.Require("max_disparity_px",
+            source != PlaceSource::kDisparityMap || max_disparity_px <= kMapReach_px,
+            "is above 479 px, which dense stereo does not reach",
+            "search fewer disparities, or take places from the right eye");
 }
 
 void SelectionParams::Visit(core::FieldVisitor& v) {

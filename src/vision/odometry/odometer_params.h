@@ -8,12 +8,19 @@
 #include "core/fields.h"
 #include "math/angles.h"
 #include "vision/odometry/detector_params.h"
+#include "vision/odometry/disparity_map_params.h"
 #include "vision/odometry/matcher_params.h"
 
 namespace rockyard::vision {
 
+enum class PlaceSource {
+  kRightEye,      // the feature itself is found in the right image
+  kDisparityMap,  // dense stereo of both images, interpolated at the feature
+};
+
 // Where the right eye sees a feature of the left one.
 struct PlacementParams {
+  PlaceSource source = PlaceSource::kRightEye;
   double min_disparity_px = 1.0;
   double max_disparity_px = 96.0;
   double noise_px = 0.025;
@@ -21,6 +28,7 @@ struct PlacementParams {
   bool slanted = true;
   double max_residual_ratio = 2.0;
   std::int64_t min_kept = 50;
+  DisparityMapParams map = {};
 
   void Visit(core::FieldVisitor& v);
 };
@@ -86,6 +94,11 @@ struct OdometerParams {
 };
 
 }  // namespace rockyard::vision
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::PlaceSource> {
+  static constexpr std::array<std::string_view, 2> kNames{"right_eye", "disparity_map"};
+};
 
 template <>
 struct rockyard::core::EnumNames<rockyard::vision::SelectionMethod> {

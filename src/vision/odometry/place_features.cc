@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <vector>
 
-#include "vision/cameras/triangulation.h"
 #include "vision/odometry/row_difference.h"
 
 namespace rockyard::vision {
@@ -71,20 +70,13 @@ std::optional<StereoMeasurement> FeaturePlacer::PlaceOn(
 std::optional<StereoMeasurement> FeaturePlacer::Measured(const Pixel& left_pixel,
                                                          const Eigen::Matrix2d& covariance_px2,
                                                          const SlantedPlace& right) const {
-  StereoMeasurement measured;
-  measured.left = left_pixel;
-  measured.disparity_px = left_pixel.x() - right.column;
-  measured.covariance_px2.setZero();
-  measured.covariance_px2.topLeftCorner<2, 2>() = covariance_px2;
   // The right eye's window is compared with the left one's about the very place, so that an error
   // of the place moves both and leaves the disparity.
-  measured.covariance_px2(2, 2) = right.variance_px2;
-  measured.slope = right.slope;
-  measured.residual = right.residual;
-  const auto point = Triangulate(cameras_.left, cameras_.right, left_pixel, measured.disparity_px);
-  if (!point) return std::nullopt;
-  measured.p_A = point->p_A;
-  measured.covariance_m2 = point->Covariance(measured.covariance_px2);
+  auto measured = MeasureStereo(cameras_, left_pixel, covariance_px2, left_pixel.x() - right.column,
+                                right.variance_px2);
+  if (!measured) return std::nullopt;
+  measured->slope = right.slope;
+  measured->residual = right.residual;
   return measured;
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "math/pose.h"
 #include "vision/cameras/camera_types.h"
+#include "vision/cameras/rectification.h"
 
 namespace rockyard::vision {
 
@@ -23,6 +25,14 @@ struct StereoMeasurement {
   // What the two eyes' windows differ by, root mean square, grey levels.
   double residual = 0.0;
 };
+
+// Returns what a pair measures of a point at `left_pixel`, whose covariance is `pixel_px2`, with
+// the disparity and its variance, independent of that: P = J S J' with S = diag(pixel_px2,
+// disparity_px2) and J of triangulation.h. Nothing where the point is at or beyond infinity.
+std::optional<StereoMeasurement> MeasureStereo(const RectifiedPair& cameras,
+                                               const Pixel& left_pixel,
+                                               const Eigen::Matrix2d& pixel_px2,
+                                               double disparity_px, double disparity_px2);
 
 // One point at two moments: p_F of the first and p_S of the second, each in the outer frame of the
 // cameras as it stood then.

@@ -133,6 +133,22 @@ TEST_F(EstimatedPath, ADriveIsFollowed) {
   EXPECT_EQ((*tum.times_s)[7], 7.0);
 }
 
+TEST_F(EstimatedPath, ADriveIsFollowedByPlacesFromADisparityMapToo) {
+  OdometryRequest request = PathOf(Driven(), out());
+  request.settings = {"placement.source=disparity_map"};
+  const OdometryResult result = EstimatePath(request);
+  EXPECT_EQ(result.Gaps(), 0);
+  EXPECT_LT(result.errors->end_error_m, 0.01 * result.errors->distance_m);
+  EXPECT_NE(result.Distance_m(), EstimatePath(PathOf(Driven(), own() / "eye")).Distance_m());
+  // More disparities than dense stereo can search.
+  request.settings.emplace_back("placement.max_disparity_px=480");
+  EXPECT_THROW(EstimatePath(request), core::UserError);
+  request.settings.front() = "placement.source=right_eye";
+  EXPECT_NO_THROW(EstimatePath(request));
+  request.settings = {"placement.map.window_side_px=8"};
+  EXPECT_THROW(EstimatePath(request), core::UserError);
+}
+
 TEST_F(EstimatedPath, TheSameImagesGiveTheSamePath) {
   EstimatePath(PathOf(Driven(), out()));
   EstimatePath(PathOf(Driven(), own() / "again"));

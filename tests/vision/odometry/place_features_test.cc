@@ -11,6 +11,7 @@
 
 #include "core/distributions.h"
 #include "vision/cameras/triangulation.h"
+#include "vision/odometry/refine_match.h"
 #include "vision/odometry/row_difference.h"
 #include "vision/odometry/synthetic_sequence.h"
 #include "vision/odometry/template_sums.h"
@@ -123,10 +124,7 @@ TEST(FeaturePlacerTest, PlacesFeaturesOnThePlaneThatTheyAreOf) {
     const Pixel pixel(feature.column, feature.row);
     const auto place = placer.Place(pixel, 0.04 * Eigen::Matrix2d::Identity());
     if (!place) continue;
-    // The plane z = 0 is where the ray meets it.
-    const auto unit = Triangulate(pair.left, pair.right, pixel, 1.0);
-    const double share = pair.left.C.z() / (pair.left.C.z() - unit->p_A.z());
-    const double truth_px = 1.0 / share;
+    const double truth_px = PlaneDisparity_px(pair, pixel);
     const double off_px = place->disparity_px - truth_px;
     if (std::abs(off_px) > 0.5) {
       ++wrong;
@@ -176,6 +174,24 @@ TEST(WindowTemplateTest, FindsFractionsOfPixelsUnderOtherLight) {
   const WindowTemplate flat(GrayImage(60, 60, 90), {30.0, 30.0});
   EXPECT_FALSE(flat.Find(first, {30.0, 30.0}, {}));
   EXPECT_FALSE(flat.Find(first, {30.0, 30.0}, {.along_row = true}));
+}
+
+// Windows along the row alone, as WindowTemplate has found them: their variance is the place's.
+TEST(FeaturePlacerTest, HasTheVarianceOfTheWindowThatItFound) {
+  const RectifiedPair pair = PlanePair(kSize);
+  const AlignedImages images = SeePlane(pair, math::Transform::Identity(), {}, 0);
+  const PlacementParams params;
+  const Pixel pixel(150, 110);
+  const auto place = FeaturePlacer(pair, params, images.left, images.right)
+                         .PlaceOn(DisparitySlope::Zero(), pixel, Eigen::Matrix2d::Identity());
+  ASSERT_TRUE(place);
+  const auto found =
+      WindowTemplate(images.left, pixel, ViewChange{})
+          .Find(images.right, Pixel(pixel.x() - std::round(place->disparity_px), pixel.y()),
+                {.along_row = true, .noise_px = params.noise_px});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(place->covariance_px2(2, 2), found->covariance_px2(0, 0),
+              1e-3 * found->covariance_px2(0, 0));
 }
 
 TEST(FeaturePlacerTest, HasNoPlaceWhereItCannotBeSure) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/distributions.h"
+#include "vision/cameras/triangulation.h"
 
 namespace rockyard::vision {
 namespace {
@@ -84,6 +85,12 @@ AlignedImages SeePlane(const RectifiedPair& pair, const math::Transform& X_WR,
   core::RandomStream right({255, world.number}, core::Purpose::kTest, 2 * moment + 1);
   return {See(pair.left, X_WR, pair, world, waves, left),
           See(pair.right, X_WR, pair, world, waves, right)};
+}
+
+// The plane is where the ray meets it: depths go as one over the disparity.
+double PlaneDisparity_px(const RectifiedPair& pair, const Pixel& left_pixel) {
+  const auto unit = Triangulate(pair.left, pair.right, left_pixel, 1.0);
+  return (pair.left.C.z() - unit->p_A.z()) / pair.left.C.z();
 }
 
 }  // namespace rockyard::vision

@@ -25,4 +25,8 @@ RectifiedPair PlanePair(const ImageSize& size);
 AlignedImages SeePlane(const RectifiedPair& pair, const math::Transform& X_WR,
                        const PlaneWorld& world, std::uint32_t moment);
 
+// The disparity, px, of the plane at a pixel of the left image of a pair that stands at the
+// identity.
+double PlaneDisparity_px(const RectifiedPair& pair, const Pixel& left_pixel);
+
 }  // namespace rockyard::vision
