@@ -86,7 +86,7 @@ TEST(SlopeAtTest, IsThatOfTheSurface) {
   expect({20, 33}, 3, 0);
   map.At(27, 20) = Dropped(Drop::kPeak);
   expect({20, 20}, 0, 2);
-  expect({19.6, 20}, 0, 2);  // the nearest pixel's
+  expect({19.6, 20}, 0, 2);                                         // the nearest pixel's
   map.At(10, 17) = static_cast<std::int16_t>(map.At(10, 17) + 64);  // a bend of 1 px
   expect({10, 10}, 3, 2 + 64.0 / 14.0);
   map.At(10, 17) = static_cast<std::int16_t>(map.At(10, 17) + 2);

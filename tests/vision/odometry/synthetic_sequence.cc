@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/distributions.h"
@@ -31,6 +32,34 @@ std::vector<Wave> WavesOf(const PlaneWorld& world) {
   return waves;
 }
 
+// Where a ray from C, of depth 1 along the camera's axis, meets the world.
+struct Hit {
+  double depth_m = 0.0;
+  double across_m = 0.0;  // of the texture
+  double along_m = 0.0;
+};
+
+std::optional<Hit> Meet(const math::Vector3& C, const math::Vector3& ray, double boards_m) {
+  constexpr double kHalfWidth_m = 0.15;
+  constexpr double kHeight_m = 0.2;
+  if (!(ray.z() < -1e-3)) return std::nullopt;
+  const double ground_m = C.z() / -ray.z();
+  if (boards_m > 0.0 && ray.x() > 0.0) {
+    for (double x = std::ceil(C.x() / boards_m) * boards_m;; x += boards_m) {
+      const double depth_m = (x - C.x()) / ray.x();
+      if (depth_m >= ground_m) break;
+      const math::Vector3 p = C + depth_m * ray;
+      const double node = std::round(p.y() / boards_m);
+      const bool stands = std::lround(node + x / boards_m) % 2 == 0;
+      if (stands && p.z() < kHeight_m && std::abs(p.y() - node * boards_m) < kHalfWidth_m) {
+        return Hit{depth_m, p.z() + 7.0 * x, p.y()};
+      }
+    }
+  }
+  const math::Vector3 p = C + ground_m * ray;
+  return Hit{ground_m, p.x(), p.y()};
+}
+
 GrayImage See(const Cahv& camera_R, const math::Transform& X_WR, const RectifiedPair& pair,
               const PlaneWorld& world, const std::vector<Wave>& waves, core::RandomStream& noise) {
   const Cahv camera = Moved(X_WR, camera_R);
@@ -43,14 +72,14 @@ GrayImage See(const Cahv& camera_R, const math::Transform& X_WR, const Rectified
     for (int x = 0; x < pair.size.columns; ++x) {
       const math::Vector3 ray = ray_by_pixel * math::Vector3(x, y, 1.0);
       double grey = 110.0;
-      if (ray.z() < -1e-3) {
-        const double depth_m = camera.C.z() / -ray.z();
-        const math::Vector3 p_W = camera.C + depth_m * ray;
+      if (const auto hit = Meet(camera.C, ray, world.boards_m)) {
         // Along the line of sight a pixel covers more of the ground.
-        const double footprint_m = depth_m / pair.focal_px * std::max(1.0, ray.norm() / -ray.z());
+        const double footprint_m =
+            hit->depth_m / pair.focal_px * std::max(1.0, ray.norm() / -ray.z());
         for (const Wave& wave : waves) {
           if (wave.length_m < 2.5 * footprint_m) continue;
-          grey += scale * std::cos(wave.across * p_W.x() + wave.along * p_W.y() + wave.phase);
+          grey += scale *
+                  std::cos(wave.across * hit->across_m + wave.along * hit->along_m + wave.phase);
         }
       }
       grey += core::SampleNormal(noise, 0.0, world.noise);

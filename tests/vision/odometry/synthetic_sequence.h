@@ -14,6 +14,9 @@ struct PlaneWorld {
   double noise = 1.0;      // of each pixel, grey levels
   int waves = 24;          // of the texture, of 2.5 to 60 cm
   std::uint32_t number = 0;
+  // Boards, 30 cm wide and 20 cm high, stand across the view at the nodes of a grid of this width,
+  // every other one; 0: none. What lies behind them moves otherwise.
+  double boards_m = 0.0;
 };
 
 // Cameras of `size` over 45 deg, 20 cm apart, 1.2 m above R's origin and 35 deg down. The outer
