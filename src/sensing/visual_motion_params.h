@@ -44,9 +44,9 @@ struct TurnErrorParams : MotionErrorParams {
 
 // Chance that no motion is found: 1 / (1 + exp(-(intercept + per_m d + per_rad a))).
 struct VisualFailureParams {
-  double intercept = -13.2;
-  double per_m = 10.9;
-  double per_rad = 1.87;
+  double intercept = -11.7;
+  double per_m = 7.51;
+  double per_rad = 4.83;
 
   double Probability(double way_m, double angle_rad) const;
 
@@ -58,14 +58,14 @@ struct VisualErrorModelParams {
   double keyframe_m = 0.5;
   double keyframe_rad = math::DegToRad(10.0);
   VisualFailureParams failure;
-  PlaceErrorParams along{{.still = 1.77e-5, .per_m = 0.0032, .per_rad = 0.000196}};
-  PlaceErrorParams across{{.still = 2.64e-5, .per_m = 0.00204, .per_rad = 0.000202}};
-  PlaceErrorParams up{{.still = 7.79e-5, .per_m = 0.00296, .per_rad = 0.000362}};
+  PlaceErrorParams along{{.still = 1.21e-5, .per_m = 0.00172, .per_rad = 8.83e-5}};
+  PlaceErrorParams across{{.still = 2.25e-5, .per_m = 0.00125, .per_rad = 0.000183}};
+  PlaceErrorParams up{{.still = 5.22e-5, .per_m = 0.00138, .per_rad = 0.000305}};
   // About x and y, each; about z.
   TurnErrorParams tilt{
-      {.still = math::DegToRad(0.0044), .per_m = math::DegToRad(0.0394), .per_rad = 0.000469}};
+      {.still = math::DegToRad(0.00291), .per_m = math::DegToRad(0.0282), .per_rad = 0.000384}};
   TurnErrorParams heading{
-      {.still = math::DegToRad(0.00146), .per_m = math::DegToRad(0.0299), .per_rad = 0.000217}};
+      {.still = math::DegToRad(0.00168), .per_m = math::DegToRad(0.0189), .per_rad = 0.000201}};
 
   void Visit(core::FieldVisitor& v);
 };
