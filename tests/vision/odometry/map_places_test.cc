@@ -86,7 +86,7 @@ TEST(SlopeAtTest, IsThatOfTheSurface) {
   expect({20, 33}, 3, 0);
   map.At(27, 20) = Dropped(Drop::kPeak);
   expect({20, 20}, 0, 2);
-  expect({19.6, 20}, 0, 2);  // the nearest pixel's
+  expect({19.6, 20}, 0, 2);                                         // the nearest pixel's
   map.At(10, 17) = static_cast<std::int16_t>(map.At(10, 17) + 64);  // a bend of 1 px
   expect({10, 10}, 3, 2 + 64.0 / 14.0);
   map.At(10, 17) = static_cast<std::int16_t>(map.At(10, 17) + 2);
@@ -118,6 +118,17 @@ TEST(PlaceInMapTest, HasTheCovarianceOfAStereoPoint) {
   EXPECT_NEAR(depth_m, pair.focal_px * pair.baseline_m / 20.0, 1e-9);
   EXPECT_NEAR(std::sqrt(pair.left.A.dot(place->covariance_m2 * pair.left.A)),
               depth_m * depth_m / (pair.focal_px * pair.baseline_m) * 0.3, 1e-9);
+}
+
+TEST(PlaceInMapTest, HasTheSlopeOfTheMap) {
+  DisparityImage map(40, 40);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) map.At(x, y) = static_cast<std::int16_t>(32 * Slanted_px(x, y));
+  }
+  const auto place =
+      PlaceInMap(PlanePair(kSize), {}, map, {20.5, 20.5}, Eigen::Matrix2d::Identity());
+  ASSERT_TRUE(place);
+  EXPECT_TRUE(place->slope.isApprox(DisparitySlope(3, 2) / 32.0, 1e-12));
 }
 
 // Right images are the left one moved by 8 px: disparities at either end of the range are found,
