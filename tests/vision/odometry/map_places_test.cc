@@ -120,6 +120,17 @@ TEST(PlaceInMapTest, HasTheCovarianceOfAStereoPoint) {
               depth_m * depth_m / (pair.focal_px * pair.baseline_m) * 0.3, 1e-9);
 }
 
+TEST(PlaceInMapTest, HasTheSlopeOfTheMap) {
+  DisparityImage map(40, 40);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) map.At(x, y) = static_cast<std::int16_t>(32 * Slanted_px(x, y));
+  }
+  const auto place =
+      PlaceInMap(PlanePair(kSize), {}, map, {20.5, 20.5}, Eigen::Matrix2d::Identity());
+  ASSERT_TRUE(place);
+  EXPECT_TRUE(place->slope.isApprox(DisparitySlope(3, 2) / 32.0, 1e-12));
+}
+
 // Right images are the left one moved by 8 px: disparities at either end of the range are found,
 // those beyond it are not.
 TEST(PlaceInMapTest, RangesAreThoseOfTheParameters) {
