@@ -18,6 +18,7 @@ import csv
 import json
 import math
 from collections import defaultdict
+from pathlib import Path
 
 import study
 
@@ -152,7 +153,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     study.add_run_arguments(parser, trials=240, out="visual_motion")
     parser.add_argument("--confirm", type=int, default=2, help="seed on which the fit is confirmed (2)")
-    parser.add_argument("--markdown", help="file whose table `visual-motion` is replaced")
+    parser.add_argument("--markdown", type=Path, help="file whose table `visual-motion` is replaced")
     args = parser.parse_args()
 
     def measured(name, seed, settings):
