@@ -148,6 +148,53 @@ TEST_F(VisualAidTest, BeginsAnewWhereTheRoverWasMoved) {
   EXPECT_EQ(listener_.motions[0].from, 2);
 }
 
+class SlippingAidTest : public VisualAidTest {
+ protected:
+  SlippingAidTest()
+      : VisualAidTest({"perception.visual_odometry.slip_check.enabled=true",
+                       "perception.visual_odometry.slip_check.limit=0.5",
+                       "perception.visual_odometry.slip_check.min_way_m=0.2"}) {}
+
+  // Images at the true x, of a rover whose wheels believe in another one.
+  std::optional<SlipReading> SlipAt(double true_x_m, double rolled_x_m, double time_s) {
+    listener_.believed.odometry.x_m = rolled_x_m;
+    aid_.Look(At(true_x_m, 0.0), time_s, time_s, listener_);
+    aid_.Tick(time_s, listener_);
+    return aid_.TakeSlip();
+  }
+};
+
+TEST_F(SlippingAidTest, HoldsWhatTheWheelsRolledAgainstWhatWasSeen) {
+  EXPECT_FALSE(SlipAt(0.0, 0.0, 0.0));
+  EXPECT_FALSE(SlipAt(0.0, 0.19, 1.0)) << "too short a way";
+  const std::optional<SlipReading> slip = SlipAt(0.1, 0.4, 2.0);
+  ASSERT_TRUE(slip);
+  EXPECT_NEAR(slip->seen.slip, 0.75, 1e-9);
+  EXPECT_TRUE(slip->seen.exceeded);
+  EXPECT_TRUE(slip->truly_exceeded);
+  EXPECT_FALSE(aid_.TakeSlip()) << "once a motion";
+}
+
+// Back by 0.3 m without slip. Held against the keyframe before the alarm, of which the wheels have
+// come to stand 0.1 m ahead and the rover 0.2 m behind, it would be slip; 0.25 m back as well.
+TEST_F(SlippingAidTest, CountsTheWayOfAnAlarmOnce) {
+  const auto drive = [this](bool anew) {
+    SlipAt(0.0, 0.0, 0.0);
+    EXPECT_TRUE(SlipAt(0.1, 0.4, 1.0)->seen.exceeded);
+    if (anew) aid_.BeginAnew(listener_);
+    EXPECT_EQ(aid_.IsDue(listener_.believed, 1.0), anew);
+    EXPECT_FALSE(anew && SlipAt(0.1, 0.4, 2.0));
+    return SlipAt(-0.55, -0.25, 3.0);
+  };
+  const std::optional<SlipReading> after = drive(true);
+  ASSERT_TRUE(after);
+  EXPECT_NEAR(after->seen.slip, 0.0, 1e-9);
+  EXPECT_FALSE(after->seen.exceeded);
+  // The keyframe and the pair after it are forgotten, the new keyframe is kept.
+  EXPECT_THAT(listener_.forgotten, ElementsAre(1, 0, 2));
+  EXPECT_EQ(listener_.motions.back().from, 2);
+}
+
 class BlindAidTest : public VisualAidTest {
  protected:
   BlindAidTest() : VisualAidTest({"sensors.visual_odometry.error_model.failure.intercept=1000"}) {}
