@@ -2,11 +2,12 @@
 """What a check of slip is worth in closed loop: drives up a slope of soft sand with and without it.
 
 Counts the sweep scenarios/sweeps/slip_closed_loop.json, which it runs or goes on with:
-  endings    how drives end, and how far what the rover believes lies from the truth then
-  alarms     from where slip was first too much to the first alarm; alarms in vain; what it costs to heed them
+  slip_endings    how drives end, and how far what the rover believes lies from the truth then
+  slip_alarms     from where slip was first too much to the first alarm; alarms in vain; drives that a check frees of
+                  being stuck, and arrivals that it costs or wins, against the same drives without one
 Writes slip_closed_loop.csv.
 
-    scripts/slip_loop_study.py [--sweep FOLDER] [--out FOLDER]
+    scripts/slip_loop_study.py [--sweep FOLDER] [--out FOLDER] [--markdown results/visual_odometry.md]
 """
 
 import argparse
@@ -96,34 +97,49 @@ def paired(rows, unchecked):
             "arrivals_won": sum(a[1] and not b[1] for a, b in pairs)}
 
 
-def name_of(row):
-    return ", ".join(row[axis] for axis in AXES)
+def grouped(rows):
+    """Rows by (navigator, check), each by its hollows."""
+    groups = defaultdict(dict)
+    for row in rows:
+        groups[row["navigator"], row["check"]][row["hollows"]] = row
+    return groups
 
 
 def endings_table(rows):
-    return study.table(
-        [", ".join(AXES), "reached, %", "believed only, %", "stuck, %", "stopped for slip, %", "no way, %",
-         "position error at the end, m: median (95 %)", "from the goal, m", "time, s"],
-        [[name_of(row),
-          study.with_interval((row["reached"], row["reached_low"], row["reached_high"]), 0, 100),
-          f"{100 * row['false_goal']:.0f}",
-          study.with_interval((row["stuck"], row["stuck_low"], row["stuck_high"]), 0, 100),
-          f"{100 * row['slip_stop']:.0f}", f"{100 * row['no_path']:.0f}",
-          f"{row['error_median_m']:.2f} ({row['error_95_m']:.2f})", f"{row['true_goal_distance_m']:.1f}",
-          f"{row['sim_time_s']:.0f}"] for row in rows])
+    """A line for each navigator and check, a column for each depth of the hollows."""
+    hollows = list(dict.fromkeys(row["hollows"] for row in rows))
+    lines = []
+    for (navigator, check), by_hollow in grouped(rows).items():
+        cells = [by_hollow[name] for name in hollows]
+        lines.append(
+            [f"{navigator}, {check}"] +
+            [", ".join(f"{100 * row[part]:.0f}" for part in ("reached", "false_goal", "stuck", "slip_stop", "no_path"))
+             for row in cells] +
+            [", ".join(f"{row['error_median_m']:.2f} ({row['error_95_m']:.2f})" for row in cells),
+             ", ".join(f"{row['true_goal_distance_m']:.1f}" for row in cells)])
+    ends = "reached, believed only, stuck, stopped for slip, no way on, %"
+    header = [f"{hollows[0]}: {ends}", *hollows[1:], "position error at the end, m: median (95 %)",
+              "mean way left to the goal, m"]
+    return study.table(["navigator, check", *header], lines)
 
 
 def alarms_table(rows):
+    """The same for cells with a check."""
+    lines = []
+    for (navigator, check), by_hollow in grouped(row for row in rows if row["slip_alarms"] > 0).items():
+        cells = list(by_hollow.values())
+        way_100_m = sum(row["trials"] * row["true_distance_m"] for row in cells) / 100
+        vain = sum(row["vain_100_m"] * row["trials"] * row["true_distance_m"] / 100 for row in cells)
+        lines.append([
+            f"{navigator}, {check}", ", ".join(f"{row['onsets_alarmed']} of {row['onsets']}" for row in cells),
+            ", ".join(f"{row['delay_median_m']:.2f} ({row['delay_90_m']:.2f})" for row in cells),
+            f"{vain:.0f} in {100 * way_100_m:.0f} m"] +
+            [", ".join(str(row[name]) for row in cells) for name in ("freed", "arrivals_lost", "arrivals_won")])
+    hollows = ", ".join(dict.fromkeys(row["hollows"] for row in rows))
     return study.table(
-        [", ".join(AXES), "drives in which slip was too much", "of these with an alarm",
-         "from there to the first alarm, m: median (90 %)", "alarms in vain in 100 m", "stopped in vain",
-         "against no check: freed, newly stuck, arrivals lost, won"],
-        [[name_of(row), str(row["onsets"]), str(row["onsets_alarmed"]),
-          f"{row['delay_median_m']:.2f} ({row['delay_90_m']:.2f})",
-          study.with_interval((row["vain_100_m"], row["vain_100_m_low"], row["vain_100_m_high"]), 2),
-          str(row["stopped_in_vain"]),
-          f"{row['freed']}, {row['newly_stuck']}, {row['arrivals_lost']}, {row['arrivals_won']}"]
-         for row in rows if row["slip_alarms"] > 0])
+        [f"navigator, check: {hollows}", "drives with an alarm, of those in which slip was too much",
+         "true way from there to the first alarm, m: median (90 %)", "alarms in vain", "freed of being stuck",
+         "arrivals lost", "arrivals won"], lines)
 
 
 def count(cells):
@@ -141,6 +157,8 @@ def main():
                         help="folder of the sweep, made or gone on with")
     parser.add_argument("--out", type=Path, default=study.ROOT / "results/studies")
     parser.add_argument("--rockyard", type=Path, default=study.ROOT / "build/release/bin/rockyard")
+    parser.add_argument("--markdown", type=Path, metavar="PAGE",
+                        help="write the tables between the marks slip_endings and slip_alarms of this page")
     parser.add_argument("--count-only", action="store_true", help="the sweep is there: count it")
     args = parser.parse_args()
     if not args.count_only:
@@ -155,9 +173,11 @@ def main():
                     [{name: round(value, 5) if isinstance(value, float) else value for name, value in row.items()}
                      for row in rows])
     made = study.program(json.loads((args.sweep / "summary.json").read_text(encoding="utf-8")))
-    note = f"\n\n{len(next(iter(cells.values())))} trials a cell; made by rockyard {made}.\n"
-    print(endings_table(rows) + note)
-    print(alarms_table(rows) + note)
+    note = f"\n\n{len(next(iter(cells.values())))} trials a cell; made by rockyard {made}."
+    for name, text in {"slip_endings": endings_table(rows), "slip_alarms": alarms_table(rows)}.items():
+        print(f"{name}\n\n{text}{note}\n")
+        if args.markdown:
+            study.write_table([args.markdown], name, text + note)
 
 
 if __name__ == "__main__":

@@ -61,12 +61,17 @@ class VisualDeterminism : public testing::Test {
   std::unique_ptr<experiments::Experiment> experiment_;
 };
 
+std::string SensorOf(const std::string& navigator) {
+  return navigator == "gestalt" ? "stereo" : "light_stripe";
+}
+
 TEST_F(VisualDeterminism, SameHashByTheErrorModel) {
   for (const char* navigator : {"pathfinder", "gestalt"}) {
     SCOPED_TRACE(navigator);
-    Use(8,
-        {std::string("navigation.navigator=") + navigator, "navigation.on_slip.reaction=replan"});
     const std::string name = navigator;
+    Use(4, {"navigation.navigator=" + name, "sensors.terrain_sensor=" + SensorOf(name),
+            "sensors.stereo.columns=64", "sensors.stereo.rows=12",
+            "navigation.on_slip.reaction=replan"});
     const std::string expected = Run(name + "one", {.threads = 1});
     EXPECT_EQ(Run(name + "two", {.threads = 2}), expected);
     EXPECT_EQ(Run(name + "four", {.threads = 4, .order = Order::kShuffled}), expected);
@@ -79,6 +84,20 @@ TEST_F(VisualDeterminism, SameHashFromShards) {
   const std::string expected = Run("whole", {.threads = 1});
   EXPECT_EQ(RunShards(2), expected);
   EXPECT_EQ(RunShards(3), expected);
+}
+
+// A metre by small images.
+TEST_F(VisualDeterminism, SameHashFromImages) {
+  Use(3, {"sensors.visual_odometry.fidelity=image", "sensors.visual_odometry.pyramid_level=0",
+          "sensors.visual_odometry.schedule.every_m=0.25", "sensors.stereo.columns=128",
+          "sensors.stereo.rows=24", "course.goal_x_m=1.2"});
+  const std::string expected = Run("one", {.threads = 1});
+  EXPECT_EQ(Run("two", {.threads = 2}), expected);
+  EXPECT_EQ(Run("four", {.threads = 4, .order = Order::kShuffled}), expected);
+  EXPECT_EQ(RunShards(2), expected);
+  // What is seen is part of the record.
+  Use(3, {"sensors.visual_odometry.schedule.every_m=0.25", "course.goal_x_m=1.2"});
+  EXPECT_NE(Run("fitted", {.threads = 1}), expected);
 }
 
 }  // namespace

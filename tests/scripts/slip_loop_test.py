@@ -46,6 +46,20 @@ class Counts(unittest.TestCase):
         self.assertEqual(slip_loop_study.paired(checked, unchecked),
                          {"freed": 1, "newly_stuck": 1, "arrivals_lost": 2, "arrivals_won": 1})
 
+    def test_tables_have_a_line_for_each_check(self):
+        arrives = drive("goal_reached", slip_alarms=0.0)
+        trials = dict(enumerate([drive("excessive_slip", 2.0, 2.3, slip_alarms=1.0), arrives]))
+        free = dict(enumerate([drive("jammed", slip_alarms=0.0), arrives]))
+        cells = {(hollows, "gestalt", check): rows for hollows in ("deep", "traps")
+                 for check, rows in ((slip_loop_study.UNCHECKED, free), ("stop 5 Hz", trials))}
+        rows = slip_loop_study.count(cells)
+        endings = slip_loop_study.endings_table(rows).splitlines()
+        self.assertEqual(len(endings), 4)
+        self.assertIn("| gestalt, stop 5 Hz | 50, 0, 0, 50, 0 | 50, 0, 0, 50, 0 |", endings[3])
+        alarms = slip_loop_study.alarms_table(rows).splitlines()
+        self.assertEqual(len(alarms), 3)
+        self.assertIn("| 1 of 1, 1 of 1 | 0.30 (0.30), 0.30 (0.30) | 0 in 4 m | 1, 1 | 0, 0 | 0, 0 |", alarms[2])
+
     def test_cells_are_read_by_their_levels(self):
         with tempfile.TemporaryDirectory() as folder:
             store = sqlite3.connect(Path(folder) / "results.sqlite")
