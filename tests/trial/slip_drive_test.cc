@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "math/angles.h"
 #include "trial/pathfinder_trials.h"
 #include "trial/slip_onset.h"
 #include "truth/end_cause.h"
@@ -119,6 +120,15 @@ TEST(SlipOnsetTest, IsWhereTheTrueSlipOverTheWindowExceedsTheLimit) {
   }
   ASSERT_TRUE(onset.path_m());
   EXPECT_NEAR(*onset.path_m(), 1.1, 0.02);
+}
+
+// 2 m ahead and 1 m to the left of a rover that faces +y.
+TEST(SlipOnsetTest, TrueMotionIsToldInTheFirstHeading) {
+  const messages::RelativeMotion motion =
+      TrueMotion({1.0, 2.0, math::DegToRad(90.0)}, {0.0, 4.0, 0.3});
+  EXPECT_NEAR(motion.motion_F[0], 2.0, 1e-12);
+  EXPECT_NEAR(motion.motion_F[1], 1.0, 1e-12);
+  EXPECT_EQ(motion.covariance.norm(), 0.0);
 }
 
 TEST(SlipOnsetTest, KnowsNothingWhereSlipIsNotChecked) {

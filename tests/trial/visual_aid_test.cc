@@ -119,6 +119,28 @@ TEST_F(VisualAidTest, TellsTheMotionWhenItIsReady) {
   EXPECT_EQ(aid_.counts().failures, 0);
 }
 
+// Turns of 6 deg against a keyframe that is given up after 10 deg.
+TEST_F(VisualAidTest, GivesUpAKeyframeThatItTurnedAwayFrom) {
+  for (int i = 0; i <= 3; ++i) {
+    aid_.Look(At(0.0, math::DegToRad(6.0 * i)), i, i, listener_);
+    aid_.Tick(i, listener_);
+  }
+  ASSERT_EQ(listener_.motions.size(), 3U);
+  EXPECT_EQ(listener_.motions[1].from, 0);
+  EXPECT_EQ(listener_.motions[2].from, 2);
+}
+
+// Half a metre up 0.2 rad, by what the rover believed of its attitude at the first images.
+TEST_F(VisualAidTest, LevelsTheMotionByTheAttitudeAtTheKeyframe) {
+  const math::Transform X_WR = math::MakePose({0.0, 0.0, 0.0}, 0.0, -0.2, 0.0);
+  listener_.believed.attitude.pitch_rad = -0.2;
+  aid_.Look(X_WR, 0.0, 0.0, listener_);
+  listener_.believed.attitude.pitch_rad = 0.0;
+  aid_.Look(X_WR * Eigen::Translation3d(0.5, 0.0, 0.0), 1.0, 1.0, listener_);
+  ASSERT_TRUE(aid_.Tick(1.0, listener_));
+  EXPECT_NEAR(listener_.motions[0].motion_F[Index(PoseCoordinate::kX)], 0.5 * std::cos(0.2), 1e-12);
+}
+
 // Steps of 0.2 m against a keyframe that is given up after 0.5 m.
 TEST_F(VisualAidTest, KeepsTheMomentOfTheKeyframeAndForgetsTheOthers) {
   for (int i = 0; i <= 4; ++i) {
@@ -190,6 +212,7 @@ TEST_F(SlippingAidTest, CountsTheWayOfAnAlarmOnce) {
   ASSERT_TRUE(after);
   EXPECT_NEAR(after->seen.slip, 0.0, 1e-9);
   EXPECT_FALSE(after->seen.exceeded);
+  EXPECT_FALSE(after->truly_exceeded);
   // The keyframe and the pair after it are forgotten, the new keyframe is kept.
   EXPECT_THAT(listener_.forgotten, ElementsAre(1, 0, 2));
   EXPECT_EQ(listener_.motions.back().from, 2);
@@ -210,6 +233,36 @@ TEST_F(BlindAidTest, TellsNothingWhereNoMotionIsFound) {
   EXPECT_EQ(aid_.counts().failures, 3);
   EXPECT_EQ(aid_.counts().keyframes, 4);  // the next pair starts from the one that failed
   EXPECT_THAT(listener_.forgotten, ElementsAre(0, 1, 2));
+}
+
+// Small images of flat ground, whose features are looked for near where the prediction puts them.
+class ImageAidTest : public VisualAidTest {
+ protected:
+  ImageAidTest()
+      : VisualAidTest({"sensors.visual_odometry.fidelity=image",
+                       "sensors.visual_odometry.pyramid_level=0",
+                       "sensors.stereo.images.pyramid_level=0",
+                       "perception.visual_odometry.matcher.search_columns_px=6",
+                       "perception.visual_odometry.matcher.search_rows_px=6"}) {}
+
+  // The motions of a rover that turns by 20 deg and believes in another turn.
+  std::size_t MotionsWhereItBelieves(double heading_rad) {
+    aid_.Look(At(0.0, 0.0), 0.0, 0.0, listener_);
+    Believe(0.0, heading_rad);
+    aid_.Look(At(0.0, math::DegToRad(20.0)), 1.0, 1.0, listener_);
+    aid_.Tick(1.0, listener_);
+    return listener_.motions.size();
+  }
+};
+
+TEST_F(ImageAidTest, FindsTheMotionThatWheelsAndGyroPredict) {
+  ASSERT_EQ(MotionsWhereItBelieves(math::DegToRad(20.0)), 1U);
+  EXPECT_NEAR(listener_.motions[0].motion_F[Index(PoseCoordinate::kHeading)], math::DegToRad(20.0),
+              math::DegToRad(0.5));
+}
+
+TEST_F(ImageAidTest, FindsNoneWhereTheyPredictAnother) {
+  EXPECT_EQ(MotionsWhereItBelieves(0.0), 0U);
 }
 
 class TimedAidTest : public VisualAidTest {
