@@ -235,6 +235,26 @@ TEST_F(BlindAidTest, TellsNothingWhereNoMotionIsFound) {
   EXPECT_THAT(listener_.forgotten, ElementsAre(0, 1, 2));
 }
 
+class ErringAidTest : public VisualAidTest {
+ protected:
+  ErringAidTest() : VisualAidTest({"sensors.visual_odometry.error_model.along.per_m=0.01"}) {}
+};
+
+// A rover that stands is seen anew by every pair of images, each with an error of its own.
+TEST_F(ErringAidTest, ErrsAnewInEveryPair) {
+  for (int i = 0; i <= 3; ++i) {
+    aid_.Look(At(i == 0 ? 0.0 : 0.4, 0.0), i, i, listener_);
+    aid_.Tick(i, listener_);
+  }
+  ASSERT_EQ(listener_.motions.size(), 3U);
+  const auto x_m = [this](std::size_t i) {
+    return listener_.motions[i].motion_F[Index(PoseCoordinate::kX)];
+  };
+  EXPECT_NE(x_m(0), x_m(1));
+  EXPECT_NE(x_m(1), x_m(2));
+  EXPECT_NEAR(x_m(0), 0.4, 6.0 * 0.004);
+}
+
 // Small images of flat ground, whose features are looked for near where the prediction puts them.
 class ImageAidTest : public VisualAidTest {
  protected:
