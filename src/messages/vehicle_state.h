@@ -45,8 +45,9 @@ struct VehicleState {
   std::optional<ContactSwitches> contact;           // true: pressed
 };
 
-enum class VehicleHazardKind { kContact, kTilt, kArticulation, kMotorCurrent };
-inline constexpr std::size_t kVehicleHazardKindCount = 4;
+// The last is no sensor's: wheels that roll farther than the cameras see the rover move.
+enum class VehicleHazardKind { kContact, kTilt, kArticulation, kMotorCurrent, kSlip };
+inline constexpr std::size_t kVehicleHazardKindCount = 5;
 
 // Where the cause lies, as far as the sensor tells.
 enum class HazardSide { kLeft, kAhead, kRight, kBehind };

@@ -5,7 +5,7 @@
 namespace rockyard::navigation {
 namespace {
 
-constexpr std::array<std::string_view, 2> kOtherKeys{"on_board_stuck", "wheel_driver"};
+constexpr std::array<std::string_view, 3> kOtherKeys{"on_board_stuck", "on_slip", "wheel_driver"};
 
 }  // namespace
 

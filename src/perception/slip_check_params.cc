@@ -7,8 +7,7 @@ void SlipCheckParams::Visit(core::FieldVisitor& v) {
   v.Boolean(
       "enabled", enabled,
       {.doc = "the way of the wheels is compared with the way that visual odometry saw; beyond "
-              "the limit the drive ends (end cause excessive_slip), or what "
-              "navigation.on_board_stuck.reaction says happens, where that is not off",
+              "the limit an alarm is raised, and navigation.on_slip says what follows",
        .origin = Origin::kSetting});
   v.Real("limit", limit,
          {.doc = "slip that is too much: 1 less the seen way over the rolled way",

@@ -10,7 +10,7 @@ namespace rockyard::report {
 inline constexpr std::string_view kBaselineKind = "rockyard_baseline";
 
 // In the order of truth::TrialOutcome.
-inline constexpr std::string_view kOutcomeLetters = "GFTHJNELAXM";
+inline constexpr std::string_view kOutcomeLetters = "GFTHJNELAXMS";
 static_assert(kOutcomeLetters.size() == truth::kTrialOutcomeNames.size());
 
 }  // namespace rockyard::report

@@ -31,7 +31,8 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
     : parts_(drive, key, watchers),
       observer_(parts_),
       tracer_(parts_, trace),
-      step_watcher_(watchers.step) {
+      step_watcher_(watchers.step),
+      slip_alarms_(drive.navigation.on_slip) {
   parts_.Begin();
   observer_.OnPlaced();
   tracer_.Rest({});
@@ -49,26 +50,29 @@ DriveResult Drive::Run() {
 }
 
 std::optional<Verdict> Drive::Tick() {
-  // Without a reaction a rover that slips too much stops where it is.
-  if (slips_ && !parts_.stuck_detector) return Verdict{truth::EndCause::kExcessiveSlip};
+  if (slip_alarms_.EndsDrive()) return Verdict{truth::EndCause::kExcessiveSlip};
   if (parts_.vision.IsDue(parts_.estimate(), parts_.ledger.time_s())) return SeeMotion();
   TrackGoal();
   if (!seen_) seen_ = parts_.timeline.TakeReady();
   const std::size_t reached = parts_.navigator.reached();
-  const navigation::NavigatorDecision decision =
-      parts_.navigator.Decide({.time_s = parts_.ledger.time_s(),
-                               .estimate = parts_.estimate().pose,
-                               .attitude = parts_.estimate().attitude,
-                               .report = seen_ ? seen_->report() : nullptr,
-                               .cloud = seen_ ? seen_->cloud() : nullptr,
-                               .look = seen_ ? &seen_->moment : nullptr,
-                               .vehicle_hazard = parts_.guard.hazard(),
-                               .touches_behind = parts_.guard.touches_behind(),
-                               .notices_stuck = notices_stuck_ || std::exchange(slips_, false)});
+  const std::optional<ToldSlip> slip = slip_alarms_.Take();
+  const navigation::NavigatorDecision decision = parts_.navigator.Decide(
+      {.time_s = parts_.ledger.time_s(),
+       .estimate = parts_.estimate().pose,
+       .attitude = parts_.estimate().attitude,
+       .report = seen_ ? seen_->report() : nullptr,
+       .cloud = seen_ ? seen_->cloud() : nullptr,
+       .look = seen_ ? &seen_->moment : nullptr,
+       .vehicle_hazard = slip && slip->hazard ? &*slip->hazard : parts_.guard.hazard(),
+       .touches_behind = parts_.guard.touches_behind(),
+       .notices_stuck = notices_stuck_ || (slip && slip->as_stuck)});
   if (parts_.navigator.reached() != reached) OnWaypoints(reached);
   if (!decision.stops_to_look()) ShowStep();
   seen_.reset();
   if (decision.status != navigation::NavigatorStatus::kDriving) {
+    // Who gives up by what it was just told does so for the slip.
+    const bool arrived = decision.status == navigation::NavigatorStatus::kArrived;
+    if (slip && !arrived) return Verdict{truth::EndCause::kExcessiveSlip};
     return parts_.referee.OnNavigatorStop(decision.status, parts_.state(), parts_.ledger.time_s());
   }
   if (decision.looks()) {
@@ -225,7 +229,8 @@ void Drive::UseAids() {
   if (!slip) return;
   observer_.OnSlip(*slip);
   if (!slip->seen.exceeded) return;
-  slips_ = true;
+  slip_alarms_.Raise();
+  parts_.vision.BeginAnew(*parts_.estimator);
   tracer_.Event("slip", fmt::format("{:.0f} % +- {:.0f} % of the way", 100.0 * slip->seen.slip,
                                     100.0 * slip->seen.sd));
 }
@@ -265,7 +270,7 @@ void Drive::ReflectAtMirrorLine(int direction) {
   parts_.guard.Restart(parts_.state());
   if (parts_.stuck_detector) parts_.stuck_detector->Restart();
   notices_stuck_ = false;
-  slips_ = false;
+  slip_alarms_.Drop();
   observer_.OnPlaced();
   parts_.referee.OnReflection(parts_.state(), reflection->line_m);
   parts_.navigator.OnPoseUpdate(before, parts_.estimate().pose);

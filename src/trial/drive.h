@@ -14,6 +14,7 @@
 #include "trial/referee.h"
 #include "trial/run_trial.h"
 #include "trial/seen_look.h"
+#include "trial/slip_alarms.h"
 #include "trial/stretch.h"
 #include "trial/timeline.h"
 #include "trial/watchers.h"
@@ -94,8 +95,8 @@ class Drive {
 
   std::unique_ptr<SeenLook> seen_;  // to be told at the next tick
   bool notices_stuck_ = false;      // at the last tick
-  bool slips_ = false;              // too much, by the last motion that was seen
-  bool rolling_ = false;            // in the last stretch
+  SlipAlarms slip_alarms_;
+  bool rolling_ = false;  // in the last stretch
   // Since operators turned it: they let a rover drive before they turn it again.
   bool has_rolled_ = true;
   std::int64_t next_sighting_ = 0;  // of the tracked goal: number of its next measurement

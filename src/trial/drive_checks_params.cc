@@ -213,6 +213,23 @@ void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
             "use end, or batteries that can be empty");
 }
 
+// An answer to alarms of slip that nobody gives.
+void RequireSlipReaction(const DriveParams& drive, core::FieldVisitor& v) {
+  using navigation::SlipResponse;
+  if (!drive.perception.visual_odometry.slip_check.enabled) return;
+  const SlipResponse reaction = drive.navigation.on_slip.reaction;
+  v.Require("navigation.on_slip.reaction",
+            reaction != SlipResponse::kAsStuck ||
+                drive.navigation.on_board_stuck.reaction != navigation::StuckResponse::kOff,
+            "is as_stuck where navigation.on_board_stuck.reaction is off",
+            "use stop, or turn on_board_stuck on");
+  v.Require("navigation.on_slip.reaction",
+            reaction != SlipResponse::kReplan ||
+                !drive.navigation.navigators.chosen().traits().follows_route,
+            "is replan where the navigator follows a route and heeds no hazard",
+            "use stop or as_stuck, or another navigator");
+}
+
 // Aids that nobody listens to.
 void RequireListener(const DriveParams& drive, core::FieldVisitor& v) {
   const localization::EstimatorKind& estimator = drive.localization.estimators.chosen();
@@ -244,6 +261,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   RequireSoundRouteMap(drive, v);
   RequireTargetBetweenLines(drive, v);
   RequireListener(drive, v);
+  RequireSlipReaction(drive, v);
   RequireFindableRock(drive, v);
 }
 

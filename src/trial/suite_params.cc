@@ -40,6 +40,7 @@ void NavigationParams::Visit(core::FieldVisitor& v) {
   navigators.Visit(v);
   v.Group("on_board_stuck", on_board_stuck,
           "what a rover does that notices that it is stuck, whichever its navigator");
+  v.Group("on_slip", on_slip, "what a rover does whose check of slip raises an alarm");
   v.Group("wheel_driver", wheel_driver, "from motions to wheel and steering set points");
 }
 

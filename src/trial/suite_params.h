@@ -7,6 +7,7 @@
 #include "localization/estimator_set_params.h"
 #include "navigation/navigator_set_params.h"
 #include "navigation/standard_navigators_params.h"
+#include "navigation/slip_reaction_params.h"
 #include "navigation/stuck_reaction_params.h"
 #include "navigation/wheel_driver_params.h"
 #include "perception/calibration_params.h"
@@ -74,6 +75,7 @@ struct LocalizationParams {
 struct NavigationParams {
   navigation::NavigatorSet navigators = navigation::StandardNavigators();
   navigation::StuckReactionParams on_board_stuck;
+  navigation::SlipReactionParams on_slip;
   navigation::WheelDriverParams wheel_driver;
 
   void Visit(core::FieldVisitor& v);

@@ -13,6 +13,8 @@ std::string Name(messages::VehicleHazardKind kind) {
       return "articulation";
     case messages::VehicleHazardKind::kMotorCurrent:
       return "motor current";
+    case messages::VehicleHazardKind::kSlip:
+      return "slip";
   }
   return "";
 }

@@ -123,6 +123,13 @@ void VisualAid::CheckSlip(const Waiting& waiting, const messages::RelativeMotion
 
 std::optional<SlipReading> VisualAid::TakeSlip() { return std::exchange(slip_, std::nullopt); }
 
+void VisualAid::BeginAnew(localization::Estimator& estimator) {
+  EXPECT(eyes_ != nullptr && !waiting_);
+  eyes_->Renew();
+  if (keyframe_) estimator.Forget(keyframe_->capture);
+  keyframe_.reset();
+}
+
 void VisualAid::OnPlaced() {
   if (!eyes_) return;
   eyes_->Renew();

@@ -58,6 +58,10 @@ class VisualAid {
   // What was seen before operators moved the rover is of no use any more.
   void OnPlaced();
 
+  // After an alarm of slip: the way that raised it counts once, and what follows is compared with
+  // images that are due at once. No images are under way.
+  void BeginAnew(localization::Estimator& estimator);
+
   // The slip of the last motion that was handed in, once; nothing where it is not checked.
   std::optional<SlipReading> TakeSlip();
 

@@ -74,7 +74,7 @@ inline constexpr std::array<EndCauseInfo, 17> kEndCauses = {{
     {"rock_not_found", TrialOutcome::kFalseGoal, "found no rock",
      "believed to have arrived, but had not found the rock at its goal",
      "course.goal_rock.enabled"},
-    {"excessive_slip", TrialOutcome::kNoPath, "slipped too much",
+    {"excessive_slip", TrialOutcome::kExcessiveSlip, "slipped too much",
      "stopped because its wheels slipped more than it should stand",
      "perception.visual_odometry.slip_check.limit"},
 }};

@@ -24,11 +24,12 @@ enum class TrialOutcome {
   kLeftArena,
   kSimulatorFault,  // NaN, solver blow-up, exception: counted apart, never a failure of the rover
   kMeasured,        // no drive: the record holds measurements of a sensor
+  kExcessiveSlip,   // stopped, as its wheels were seen to slip too much
 };
 
-inline constexpr std::array<std::string_view, 11> kTrialOutcomeNames = {
-    "goal_reached",    "false_goal", "tip_over",   "high_centred",    "jammed",  "no_path",
-    "energy_depleted", "time_limit", "left_arena", "simulator_fault", "measured"};
+inline constexpr std::array<std::string_view, 12> kTrialOutcomeNames = {
+    "goal_reached",    "false_goal", "tip_over",   "high_centred",    "jammed",   "no_path",
+    "energy_depleted", "time_limit", "left_arena", "simulator_fault", "measured", "excessive_slip"};
 
 constexpr std::string_view Name(TrialOutcome outcome) {
   return kTrialOutcomeNames[static_cast<std::size_t>(outcome)];

@@ -199,6 +199,31 @@ TEST(ErrorStateFilter, LearnsTheHeadingFromWhereAMotionLed) {
   EXPECT_NEAR(filter.estimate().pose.y_m, before, 1e-3);
 }
 
+// Seen from where it began, a way that turned aside says how long it was, and nothing of the
+// heading there: neither its value nor its variance changes.
+TEST(ErrorStateFilter, AMotionSaysNothingOfTheHeadingBeforeIt) {
+  ErrorStateFilterParams params = AlongOnly();
+  params.prior.heading_sd_rad = 0.1;
+  ErrorStateFilter filter(params, AlongX());
+  filter.Capture(1);
+  messages::MotionMeasurement turn;
+  turn.duration_s = 0.05;
+  turn.turn_rad = math::DegToRad(45.0);
+  filter.Propagate(turn);
+  DriveStraight(filter, 2.0);
+  filter.Capture(2);
+  messages::RelativeMotion motion{.from = 1, .to = 2};
+  const double aside_m = 2.05 * std::sqrt(0.5);
+  motion.motion_F[kX] = aside_m;
+  motion.motion_F[kY] = aside_m;
+  motion.motion_F[kHeading] = math::DegToRad(45.0);
+  motion.covariance *= 1e-6;
+  EXPECT_EQ(filter.Update(motion), AidUse::kUsed);
+  EXPECT_NEAR(filter.estimate().pose.x_m, 1.0 + aside_m, 1e-3);
+  EXPECT_NEAR(filter.estimate().pose.heading_rad, math::DegToRad(45.0), 1e-4);
+  EXPECT_NEAR(filter.covariance()(kHeading, kHeading), 0.01, 1e-5);
+}
+
 TEST(ErrorStateFilter, LearnsHowItsSensorsAreWrong) {
   ErrorStateFilterParams params;
   params.prior.gyro_bias_sd_rad_s = 0.002;

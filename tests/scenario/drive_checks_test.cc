@@ -190,6 +190,30 @@ TEST(DriveChecksTest, GroupsThatDoNothingMayHoldAnything) {
       ProblemsOf("narrow_course", {"course.start_y_m=1.4", "terrain.rocks.kind=none"}).empty());
 }
 
+// An answer to slip needs somebody who gives it.
+TEST(SlipReactionTest, IsRefusedWhereNobodyReacts) {
+  const auto problems = [](Overrides overrides) {
+    overrides.insert(overrides.end(), {"sensors.visual_odometry.enabled=true",
+                                       "localization.estimator=visual_odometry",
+                                       "perception.visual_odometry.slip_check.enabled=true"});
+    return ProblemsOf("nominal", overrides, "pathfinder");
+  };
+  const std::string as_stuck = "navigation.on_slip.reaction=as_stuck";
+  const std::string replan = "navigation.on_slip.reaction=replan";
+  const std::string route = "navigation.navigator=route";
+  EXPECT_TRUE(problems({}).empty());
+  EXPECT_TRUE(problems({route}).empty());
+  EXPECT_TRUE(problems({replan}).empty());
+  EXPECT_TRUE(problems({as_stuck, "navigation.on_board_stuck.reaction=give_up"}).empty());
+  for (const Overrides& overrides : {Overrides{as_stuck}, Overrides{replan, route}}) {
+    const std::vector<core::Problem> found = problems(overrides);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].path, "navigation.on_slip.reaction");
+  }
+  // Nobody asks where slip is not checked.
+  EXPECT_TRUE(ProblemsOf("nominal", {as_stuck}, "pathfinder").empty());
+}
+
 // A route has one who follows it, and the map of a lander has a lander.
 TEST(RouteMapTest, IsRefusedWhereItMisleads) {
   const std::string use = "course.route_map.use";

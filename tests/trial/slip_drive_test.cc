@@ -1,8 +1,11 @@
 // Rovers whose wheels slip, with a check of slip by what they see.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
+#include "math/angles.h"
 #include "trial/pathfinder_trials.h"
 #include "trial/slip_onset.h"
 #include "truth/end_cause.h"
@@ -30,7 +33,7 @@ DriveParams UpSlope(double slope_deg, const Overrides& more = {}) {
 TEST(SlipDrive, EndsWhereItSlipsTooMuch) {
   const DriveResult steep = RunTrial(UpSlope(17.0), {1, 0});
   EXPECT_EQ(steep.detail, truth::Info(truth::EndCause::kExcessiveSlip).sentence);
-  EXPECT_EQ(steep.outcome, truth::TrialOutcome::kNoPath);
+  EXPECT_EQ(steep.outcome, truth::TrialOutcome::kExcessiveSlip);
   EXPECT_EQ(steep.record.slip_alarms, 1.0);
   EXPECT_EQ(steep.record.false_slip_alarms, 0.0);
   EXPECT_GT(steep.record.largest_slip, 0.5);
@@ -60,12 +63,47 @@ TEST(SlipDrive, GoesByItsLimit) {
   EXPECT_TRUE(std::isnan(unchecked.record.largest_slip));
 }
 
+// Once in a drive, up a slope that is as steep everywhere.
 TEST(SlipDrive, BacksOffWhereThatIsTheReaction) {
-  const DriveResult backs =
-      RunTrial(UpSlope(17.0, {"navigation.on_board_stuck.reaction=back_off"}), {1, 0});
-  EXPECT_NE(backs.detail, truth::Info(truth::EndCause::kExcessiveSlip).sentence);
-  EXPECT_GE(backs.record.slip_alarms, 1.0);
-  EXPECT_GE(backs.record.reversals, 1.0);
+  const DriveResult backs = RunTrial(UpSlope(17.0, {"navigation.on_board_stuck.reaction=back_off",
+                                                    "navigation.on_slip.reaction=as_stuck"}),
+                                     {1, 0});
+  EXPECT_EQ(backs.outcome, truth::TrialOutcome::kExcessiveSlip);
+  EXPECT_EQ(backs.record.slip_alarms, 2.0);
+  EXPECT_EQ(backs.record.reversals, 2.0);  // back, and forward again
+  EXPECT_EQ(backs.record.false_slip_alarms, 0.0);
+}
+
+// Who gives up by an alarm does so for the slip, whatever else makes it give up.
+TEST(SlipDrive, GivesUpForTheSlip) {
+  const DriveResult stop = RunTrial(UpSlope(17.0), {1, 0});
+  const DriveResult as_stuck = RunTrial(UpSlope(17.0, {"navigation.on_board_stuck.reaction=give_up",
+                                                       "navigation.on_slip.reaction=as_stuck"}),
+                                        {1, 0});
+  EXPECT_EQ(as_stuck.outcome, truth::TrialOutcome::kExcessiveSlip);
+  EXPECT_EQ(as_stuck.record.slip_alarms, 1.0);
+  EXPECT_NEAR(as_stuck.record.true_distance_m, stop.record.true_distance_m, 0.03);
+  const DriveResult exhausted = RunTrial(
+      UpSlope(17.0, {"navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=100",
+                     "navigation.pathfinder.vehicle_reaction.progress_m=10",
+                     "navigation.pathfinder.vehicle_reaction.max_repeats=1"}),
+      {1, 0});
+  EXPECT_EQ(exhausted.outcome, truth::TrialOutcome::kExcessiveSlip);
+  EXPECT_EQ(exhausted.record.slip_alarms, 2.0);
+}
+
+TEST(SlipDrive, PlansAnewAsOftenAsItMay) {
+  const auto replans = [](int most) {
+    return RunTrial(UpSlope(17.0, {"navigation.on_slip.reaction=replan",
+                                   "navigation.on_slip.max_alarms=" + std::to_string(most)}),
+                    {1, 0});
+  };
+  EXPECT_THAT(Differences(replans(0), RunTrial(UpSlope(17.0), {1, 0})), testing::IsEmpty());
+  const DriveResult twice = replans(2);
+  EXPECT_EQ(twice.outcome, truth::TrialOutcome::kExcessiveSlip);
+  EXPECT_EQ(twice.record.slip_alarms, 3.0);
+  EXPECT_GE(twice.record.reversals, 2.0);
+  EXPECT_GE(twice.record.turns_in_place, 2.0);
 }
 
 // Half of the way is lost from x = 1 m on: the limit of a third is exceeded once a third of the
@@ -82,6 +120,15 @@ TEST(SlipOnsetTest, IsWhereTheTrueSlipOverTheWindowExceedsTheLimit) {
   }
   ASSERT_TRUE(onset.path_m());
   EXPECT_NEAR(*onset.path_m(), 1.1, 0.02);
+}
+
+// 2 m ahead and 1 m to the left of a rover that faces +y.
+TEST(SlipOnsetTest, TrueMotionIsToldInTheFirstHeading) {
+  const messages::RelativeMotion motion =
+      TrueMotion({1.0, 2.0, math::DegToRad(90.0)}, {0.0, 4.0, 0.3});
+  EXPECT_NEAR(motion.motion_F[0], 2.0, 1e-12);
+  EXPECT_NEAR(motion.motion_F[1], 1.0, 1e-12);
+  EXPECT_EQ(motion.covariance.norm(), 0.0);
 }
 
 TEST(SlipOnsetTest, KnowsNothingWhereSlipIsNotChecked) {

@@ -119,6 +119,28 @@ TEST_F(VisualAidTest, TellsTheMotionWhenItIsReady) {
   EXPECT_EQ(aid_.counts().failures, 0);
 }
 
+// Turns of 6 deg against a keyframe that is given up after 10 deg.
+TEST_F(VisualAidTest, GivesUpAKeyframeThatItTurnedAwayFrom) {
+  for (int i = 0; i <= 3; ++i) {
+    aid_.Look(At(0.0, math::DegToRad(6.0 * i)), i, i, listener_);
+    aid_.Tick(i, listener_);
+  }
+  ASSERT_EQ(listener_.motions.size(), 3U);
+  EXPECT_EQ(listener_.motions[1].from, 0);
+  EXPECT_EQ(listener_.motions[2].from, 2);
+}
+
+// Half a metre up 0.2 rad, by what the rover believed of its attitude at the first images.
+TEST_F(VisualAidTest, LevelsTheMotionByTheAttitudeAtTheKeyframe) {
+  const math::Transform X_WR = math::MakePose({0.0, 0.0, 0.0}, 0.0, -0.2, 0.0);
+  listener_.believed.attitude.pitch_rad = -0.2;
+  aid_.Look(X_WR, 0.0, 0.0, listener_);
+  listener_.believed.attitude.pitch_rad = 0.0;
+  aid_.Look(X_WR * Eigen::Translation3d(0.5, 0.0, 0.0), 1.0, 1.0, listener_);
+  ASSERT_TRUE(aid_.Tick(1.0, listener_));
+  EXPECT_NEAR(listener_.motions[0].motion_F[Index(PoseCoordinate::kX)], 0.5 * std::cos(0.2), 1e-12);
+}
+
 // Steps of 0.2 m against a keyframe that is given up after 0.5 m.
 TEST_F(VisualAidTest, KeepsTheMomentOfTheKeyframeAndForgetsTheOthers) {
   for (int i = 0; i <= 4; ++i) {
@@ -148,6 +170,54 @@ TEST_F(VisualAidTest, BeginsAnewWhereTheRoverWasMoved) {
   EXPECT_EQ(listener_.motions[0].from, 2);
 }
 
+class SlippingAidTest : public VisualAidTest {
+ protected:
+  SlippingAidTest()
+      : VisualAidTest({"perception.visual_odometry.slip_check.enabled=true",
+                       "perception.visual_odometry.slip_check.limit=0.5",
+                       "perception.visual_odometry.slip_check.min_way_m=0.2"}) {}
+
+  // Images at the true x, of a rover whose wheels believe in another one.
+  std::optional<SlipReading> SlipAt(double true_x_m, double rolled_x_m, double time_s) {
+    listener_.believed.odometry.x_m = rolled_x_m;
+    aid_.Look(At(true_x_m, 0.0), time_s, time_s, listener_);
+    aid_.Tick(time_s, listener_);
+    return aid_.TakeSlip();
+  }
+};
+
+TEST_F(SlippingAidTest, HoldsWhatTheWheelsRolledAgainstWhatWasSeen) {
+  EXPECT_FALSE(SlipAt(0.0, 0.0, 0.0));
+  EXPECT_FALSE(SlipAt(0.0, 0.19, 1.0)) << "too short a way";
+  const std::optional<SlipReading> slip = SlipAt(0.1, 0.4, 2.0);
+  ASSERT_TRUE(slip);
+  EXPECT_NEAR(slip->seen.slip, 0.75, 1e-9);
+  EXPECT_TRUE(slip->seen.exceeded);
+  EXPECT_TRUE(slip->truly_exceeded);
+  EXPECT_FALSE(aid_.TakeSlip()) << "once a motion";
+}
+
+// Back by 0.3 m without slip. Held against the keyframe before the alarm, of which the wheels have
+// come to stand 0.1 m ahead and the rover 0.2 m behind, it would be slip; 0.25 m back as well.
+TEST_F(SlippingAidTest, CountsTheWayOfAnAlarmOnce) {
+  const auto drive = [this](bool anew) {
+    SlipAt(0.0, 0.0, 0.0);
+    EXPECT_TRUE(SlipAt(0.1, 0.4, 1.0)->seen.exceeded);
+    if (anew) aid_.BeginAnew(listener_);
+    EXPECT_EQ(aid_.IsDue(listener_.believed, 1.0), anew);
+    EXPECT_FALSE(anew && SlipAt(0.1, 0.4, 2.0));
+    return SlipAt(-0.55, -0.25, 3.0);
+  };
+  const std::optional<SlipReading> after = drive(true);
+  ASSERT_TRUE(after);
+  EXPECT_NEAR(after->seen.slip, 0.0, 1e-9);
+  EXPECT_FALSE(after->seen.exceeded);
+  EXPECT_FALSE(after->truly_exceeded);
+  // The keyframe and the pair after it are forgotten, the new keyframe is kept.
+  EXPECT_THAT(listener_.forgotten, ElementsAre(1, 0, 2));
+  EXPECT_EQ(listener_.motions.back().from, 2);
+}
+
 class BlindAidTest : public VisualAidTest {
  protected:
   BlindAidTest() : VisualAidTest({"sensors.visual_odometry.error_model.failure.intercept=1000"}) {}
@@ -163,6 +233,56 @@ TEST_F(BlindAidTest, TellsNothingWhereNoMotionIsFound) {
   EXPECT_EQ(aid_.counts().failures, 3);
   EXPECT_EQ(aid_.counts().keyframes, 4);  // the next pair starts from the one that failed
   EXPECT_THAT(listener_.forgotten, ElementsAre(0, 1, 2));
+}
+
+class ErringAidTest : public VisualAidTest {
+ protected:
+  ErringAidTest() : VisualAidTest({"sensors.visual_odometry.error_model.along.per_m=0.01"}) {}
+};
+
+// A rover that stands is seen anew by every pair of images, each with an error of its own.
+TEST_F(ErringAidTest, ErrsAnewInEveryPair) {
+  for (int i = 0; i <= 3; ++i) {
+    aid_.Look(At(i == 0 ? 0.0 : 0.4, 0.0), i, i, listener_);
+    aid_.Tick(i, listener_);
+  }
+  ASSERT_EQ(listener_.motions.size(), 3U);
+  const auto x_m = [this](std::size_t i) {
+    return listener_.motions[i].motion_F[Index(PoseCoordinate::kX)];
+  };
+  EXPECT_NE(x_m(0), x_m(1));
+  EXPECT_NE(x_m(1), x_m(2));
+  EXPECT_NEAR(x_m(0), 0.4, 6.0 * 0.004);
+}
+
+// Small images of flat ground, whose features are looked for near where the prediction puts them.
+class ImageAidTest : public VisualAidTest {
+ protected:
+  ImageAidTest()
+      : VisualAidTest({"sensors.visual_odometry.fidelity=image",
+                       "sensors.visual_odometry.pyramid_level=0",
+                       "sensors.stereo.images.pyramid_level=0",
+                       "perception.visual_odometry.matcher.search_columns_px=6",
+                       "perception.visual_odometry.matcher.search_rows_px=6"}) {}
+
+  // The motions of a rover that turns by 20 deg and believes in another turn.
+  std::size_t MotionsWhereItBelieves(double heading_rad) {
+    aid_.Look(At(0.0, 0.0), 0.0, 0.0, listener_);
+    Believe(0.0, heading_rad);
+    aid_.Look(At(0.0, math::DegToRad(20.0)), 1.0, 1.0, listener_);
+    aid_.Tick(1.0, listener_);
+    return listener_.motions.size();
+  }
+};
+
+TEST_F(ImageAidTest, FindsTheMotionThatWheelsAndGyroPredict) {
+  ASSERT_EQ(MotionsWhereItBelieves(math::DegToRad(20.0)), 1U);
+  EXPECT_NEAR(listener_.motions[0].motion_F[Index(PoseCoordinate::kHeading)], math::DegToRad(20.0),
+              math::DegToRad(0.5));
+}
+
+TEST_F(ImageAidTest, FindsNoneWhereTheyPredictAnother) {
+  EXPECT_EQ(MotionsWhereItBelieves(0.0), 0U);
 }
 
 class TimedAidTest : public VisualAidTest {

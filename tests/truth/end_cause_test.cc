@@ -56,6 +56,7 @@ TEST(EndCause, SomeOutcomesLeaveItOpen) {
   EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kJammed));
   EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kGoalReached));
   EXPECT_FALSE(HasSeveralCauses(TrialOutcome::kTipOver));
+  EXPECT_FALSE(HasSeveralCauses(TrialOutcome::kExcessiveSlip));
   EXPECT_FALSE(HasSeveralCauses(TrialOutcome::kMeasured));
 }
 

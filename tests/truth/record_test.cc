@@ -16,7 +16,8 @@ TEST(RecordTest, OutcomesHaveUniqueNames) {
   EXPECT_EQ(Name(TrialOutcome::kGoalReached), "goal_reached");
   EXPECT_EQ(Name(TrialOutcome::kSimulatorFault), "simulator_fault");
   EXPECT_EQ(Name(TrialOutcome::kMeasured), "measured");
-  EXPECT_EQ(static_cast<std::size_t>(TrialOutcome::kMeasured) + 1, kTrialOutcomeNames.size());
+  EXPECT_EQ(Name(TrialOutcome::kExcessiveSlip), "excessive_slip");
+  EXPECT_EQ(static_cast<std::size_t>(TrialOutcome::kExcessiveSlip) + 1, kTrialOutcomeNames.size());
 }
 
 TEST(RecordTest, OnlyArrivalsAreDeclaredSuccesses) {

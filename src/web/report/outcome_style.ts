@@ -30,6 +30,7 @@ const STYLES: Record<string, OutcomeStyle> = {
   energy_depleted: { colour: "var(--muted)", mark: DIAMOND, dash: "2 3" },
   time_limit: { colour: "var(--muted)", mark: SQUARE, dash: "5 2" },
   left_arena: { colour: "var(--muted)", mark: CROSS, dash: "none", hollow: true },
+  excessive_slip: { colour: "var(--muted)", mark: BAR, dash: "7 3" },
 };
 const OTHER: OutcomeStyle = { colour: "var(--text)", mark: PLUS, dash: "1 3", hollow: true };
 

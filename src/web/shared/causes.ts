@@ -11,6 +11,7 @@ const BY_OUTCOME: Record<string, string> = {
   energy_depleted: "ran out of energy before the goal",
   time_limit: "ran out of time before the goal",
   left_arena: "left the area that the rover has to stay in",
+  excessive_slip: "stopped, since the wheels were seen to slip too much",
   simulator_fault: "ended with a fault of the simulator, which says nothing of the rover",
 };
 

@@ -10,6 +10,7 @@ const SENTENCES: Record<string, string> = {
   energy_depleted: "Its batteries were empty before it arrived.",
   time_limit: "It ran out of time before it arrived.",
   left_arena: "It left the area that it had to stay in.",
+  excessive_slip: "It stopped, as its wheels were seen to slip too much.",
   simulator_fault: "The simulator failed; this says nothing of the rover and is in no rate.",
   measured: "It was measured.",
 };

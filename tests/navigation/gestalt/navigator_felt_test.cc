@@ -92,13 +92,16 @@ TEST(GestaltFelt, DrivesRoundWhatItFeltAndDoesNotSee) {
 }
 
 TEST(GestaltFelt, MarksAnObstacleAtTheEndThatLed) {
-  for (const HazardSide side : {HazardSide::kLeft, HazardSide::kAhead, HazardSide::kRight}) {
+  const VehicleHazard left{VehicleHazardKind::kArticulation, HazardSide::kLeft};
+  const VehicleHazard right{VehicleHazardKind::kArticulation, HazardSide::kRight};
+  const VehicleHazard ahead{VehicleHazardKind::kArticulation, HazardSide::kAhead};
+  const VehicleHazard slip{VehicleHazardKind::kSlip, HazardSide::kAhead};
+  for (const VehicleHazard& hazard : {left, ahead, right, slip}) {
+    const HazardSide side = hazard.side;
     GestaltSetup setup;
     setup.rover = TrueRover();
-    setup.felt = [side](const FakeRover& rover) -> std::optional<VehicleHazard> {
-      if (rover.X_WR().x_m > 1.2 && rover.X_WR().x_m < 1.25) {
-        return VehicleHazard{VehicleHazardKind::kArticulation, side};
-      }
+    setup.felt = [hazard](const FakeRover& rover) -> std::optional<VehicleHazard> {
+      if (rover.X_WR().x_m > 1.2 && rover.X_WR().x_m < 1.25) return hazard;
       return std::nullopt;
     };
     GestaltDrive drive(setup);
@@ -136,6 +139,32 @@ TEST(GestaltFelt, GivesUpAfterTooManyWithoutProgress) {
     back_offs += touched ? 1 : 0;
   }
   EXPECT_EQ(back_offs, 3);
+}
+
+// Slip is seen from images that come now and then: one tick tells of it. What drove backward slips
+// behind.
+TEST(GestaltFelt, OneTickOfSlipMarksWhereItDrove) {
+  GestaltSetup setup;
+  setup.rover = TrueRover();
+  int told = 0;
+  setup.felt = [&told](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (rover.X_WR().x_m <= 1.2 || told > 0) return std::nullopt;
+    ++told;
+    return VehicleHazard{VehicleHazardKind::kSlip, HazardSide::kAhead};
+  };
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(
+      [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+  const double felt_m = drive.log().back().estimate.distance_m;
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
+  EXPECT_GT(drive.log().back().estimate.distance_m - felt_m, 0.1) << "it backed off";
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  double aside_m = 0.0;
+  for (const GestaltTick& tick : drive.log()) {
+    if (std::abs(tick.estimate.x_m - 1.72) > 0.2) continue;
+    aside_m = std::max(aside_m, std::abs(tick.estimate.y_m));
+  }
+  EXPECT_GT(aside_m, 0.3) << "it went round the place";
 }
 
 TEST(GestaltFelt, AHazardThatLastsCountsAgainOnlyAfterSomeDriving) {

@@ -176,6 +176,26 @@ TEST(VehicleReactionTest, TouchBehindEndsTheBackOffFromATiltThatLasts) {
   EXPECT_NEAR(drive.rover().X_WR().x_m, 0.95, 2.0 * 0.15 * 0.05);
 }
 
+// One tick of slip, as every image of it gives: back by back_off_m, then to the right by turn_rad.
+TEST(VehicleReactionTest, BacksOffAndTurnsAwayWhereItSlips) {
+  DriveSetup setup;
+  setup.params.vehicle_reaction.back_off_m = 0.25;
+  bool told = false;
+  setup.felt = [&told](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (told || rover.X_WR().x_m < 1.0) return std::nullopt;
+    told = true;
+    return VehicleHazard{VehicleHazardKind::kSlip, HazardSide::kAhead};
+  };
+  Drive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(Backs));
+  const double slipped_m = drive.log().back().estimate.distance_m;
+  ASSERT_TRUE(drive.StepUntil(Turns));
+  const double tick_m = setup.rover.tick_distance_m();
+  EXPECT_NEAR(drive.log().back().estimate.distance_m - slipped_m, 0.25, 2.0 * tick_m);
+  EXPECT_LT(drive.log().back().decision.motion.direction, 0);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+}
+
 // A lasting hazard does not keep the rover from ending its reaction; then it starts another one.
 int BackOffs(const std::vector<Tick>& log) {
   int count = 0;

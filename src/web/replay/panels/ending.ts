@@ -21,6 +21,7 @@ const TRY: Record<string, string> = {
   no_path: "Watch the last turns: does it turn between the same rocks? A longer patience, or another navigator among the same rocks, tells more.",
   energy_depleted: "Scans and detours cost most: the energy of each is in the record.",
   time_limit: "Most time goes where it stands: scans and computing are on the time line.",
+  excessive_slip: "Look at the ground under it: a slope, or wheels that have dug in. The slip that was seen is in the record.",
   left_arena: "Its course, or its belief, leads out of the terrain: a wider arena shows which.",
 };
 
