@@ -41,9 +41,9 @@ void FillBaselineCell(const truth::RecordSchema& schema, std::span<const truth::
 // JSON: {"kind": "rockyard_baseline", "schema_version": 1, "name", "reason", "build", "cells":
 // [...]}. A cell has name, scenario, fingerprint, seed (decimal text), trial_hash, outcomes (a
 // letter for each trial: G goal_reached, F false_goal, T tip_over, H high_centred, J jammed, N
-// no_path, E energy_depleted, L time_limit, A left_arena, X simulator_fault, S excessive_slip), margins (by metric),
-// metrics (by metric a list with a number or null for each trial; rates of outcomes follow from
-// outcomes), resolved. Some 250 bytes for each trial.
+// no_path, E energy_depleted, L time_limit, A left_arena, X simulator_fault, S excessive_slip),
+// margins (by metric), metrics (by metric a list with a number or null for each trial; rates of
+// outcomes follow from outcomes), resolved. Some 250 bytes for each trial.
 std::string BaselineJson(const Baseline& baseline);
 
 // Whether a JSON document says that it is a baseline.
