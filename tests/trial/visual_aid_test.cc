@@ -255,6 +255,8 @@ TEST_F(ErringAidTest, ErrsAnewInEveryPair) {
   EXPECT_NEAR(x_m(0), 0.4, 6.0 * 0.004);
 }
 
+constexpr double kTurn_rad = math::DegToRad(40.0);
+
 // Small images of flat ground, whose features are looked for near where the prediction puts them.
 class ImageAidTest : public VisualAidTest {
  protected:
@@ -265,24 +267,33 @@ class ImageAidTest : public VisualAidTest {
                        "perception.visual_odometry.matcher.search_columns_px=6",
                        "perception.visual_odometry.matcher.search_rows_px=6"}) {}
 
-  // The motions of a rover that turns by 20 deg and believes in another turn.
-  std::size_t MotionsWhereItBelieves(double heading_rad) {
+  // The motions of a rover that turns and believes in another turn.
+  std::size_t MotionsWhereItBelieves(double heading_rad, double true_rad) {
     aid_.Look(At(0.0, 0.0), 0.0, 0.0, listener_);
     Believe(0.0, heading_rad);
-    aid_.Look(At(0.0, math::DegToRad(20.0)), 1.0, 1.0, listener_);
+    aid_.Look(At(0.0, true_rad), 1.0, 1.0, listener_);
     aid_.Tick(1.0, listener_);
     return listener_.motions.size();
   }
 };
 
 TEST_F(ImageAidTest, FindsTheMotionThatWheelsAndGyroPredict) {
-  ASSERT_EQ(MotionsWhereItBelieves(math::DegToRad(20.0)), 1U);
-  EXPECT_NEAR(listener_.motions[0].motion_F[Index(PoseCoordinate::kHeading)], math::DegToRad(20.0),
+  ASSERT_EQ(MotionsWhereItBelieves(kTurn_rad, kTurn_rad), 1U);
+  EXPECT_NEAR(listener_.motions[0].motion_F[Index(PoseCoordinate::kHeading)], kTurn_rad,
               math::DegToRad(0.5));
 }
 
+// Windows that are compared as they are find no such turn.
 TEST_F(ImageAidTest, FindsNoneWhereTheyPredictAnother) {
-  EXPECT_EQ(MotionsWhereItBelieves(0.0), 0U);
+  EXPECT_EQ(MotionsWhereItBelieves(0.0, kTurn_rad), 0U);
+}
+
+// A smaller turn is found by looking everywhere.
+TEST_F(ImageAidTest, LooksElsewhereThanTheyPredict) {
+  const double turn_rad = math::DegToRad(20.0);
+  ASSERT_EQ(MotionsWhereItBelieves(0.0, turn_rad), 1U);
+  EXPECT_NEAR(listener_.motions[0].motion_F[Index(PoseCoordinate::kHeading)], turn_rad,
+              math::DegToRad(0.5));
 }
 
 class TimedAidTest : public VisualAidTest {

@@ -19,7 +19,7 @@ namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // At most a window's row at once.
-constexpr float kTemplateReach = kTemplateRows / 2;
+constexpr float kTemplateReach = 7.0F;
 constexpr hn::CappedTag<float, kTemplateLanes> kFloats;
 constexpr hn::Rebind<std::int32_t, decltype(kFloats)> kInts;
 constexpr hn::Rebind<std::uint8_t, decltype(kFloats)> kGreys;
@@ -194,6 +194,7 @@ WindowSamples SampleWindow(const GrayImage& image, const Pixel& middle, const Vi
   const WindowView places = ViewOf(middle, Pixel(column, row), view);
   const Pixel reach = same ? Pixel(kWideReach, kWideReach) : ReachOf(view);
   const auto stride = static_cast<std::size_t>(image.width());
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): written before it is read
   std::array<float, kWidePixels> wide;
   if (!HasAll(image, middle - reach, middle + reach, 3)) {
     SampleAnywhere(image, column, row, places, wide.data());
@@ -204,6 +205,7 @@ WindowSamples SampleWindow(const GrayImage& image, const Pixel& middle, const Vi
     HWY_DYNAMIC_DISPATCH(SampleMapped)
     (&image.At(column, row), image.width(), places, wide.data());
   }
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): every number is written
   WindowSamples samples;
   HWY_DYNAMIC_DISPATCH(FindGradients)(wide.data(), gradients, samples);
   return samples;
