@@ -13,7 +13,6 @@ Writes slip_closed_loop.csv.
 import argparse
 import json
 import math
-import sqlite3
 import sys
 from collections import defaultdict
 from pathlib import Path
@@ -34,17 +33,9 @@ ENDINGS = {"reached": ("goal_reached",), "false_goal": ("false_goal",), "stuck":
 
 def read_cells(folder):
     """Trials by (hollows, navigator, check): rows by their number."""
-    path = Path(folder).resolve() / "results.sqlite"
-    store = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
-    names = dict(store.execute("select cell, name from cells"))
     cells = defaultdict(dict)
-    wanted = ", ".join(f'"{name}"' for name in COLUMNS)
-    for cell, trial, outcome, *values in store.execute(
-            f"select campaign_cell, trial, outcome, {wanted} from trials "
-            "where outcome != 'simulator_fault' order by campaign_cell, trial"):
-        levels = dict(part.split("=", 1) for part in names[cell].split(","))
-        row = {name: math.nan if value is None else float(value) for name, value in zip(COLUMNS, values)}
-        cells[tuple(levels[name] for name in AXES)][trial] = row | {"outcome": outcome}
+    for levels, trial, row in study.stored_trials(folder, COLUMNS):
+        cells[tuple(levels[name] for name in AXES)][trial] = row
     return cells
 
 

@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import re
+import sqlite3
 import subprocess
 import sys
 import time
@@ -49,6 +50,20 @@ def add_run_arguments(parser, trials, out):
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
                         help="held at every point, for example rover.fidelity=multibody")
     parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
+
+
+def stored_trials(folder, columns):
+    """The trials of a sweep that are no faults: levels by axis, number, and a row of these columns and the outcome."""
+    path = Path(folder).resolve() / "results.sqlite"
+    store = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
+    names = dict(store.execute("select cell, name from cells"))
+    wanted = ", ".join(f'"{name}"' for name in columns)
+    for cell, trial, outcome, *values in store.execute(
+            f"select campaign_cell, trial, outcome, {wanted} from trials "
+            "where outcome != 'simulator_fault' order by campaign_cell, trial"):
+        levels = dict(part.split("=", 1) for part in names[cell].split(","))
+        row = {name: math.nan if value is None else float(value) for name, value in zip(columns, values)}
+        yield levels, trial, row | {"outcome": outcome}
 
 
 def run_scenario(args, scenario, folder, settings):

@@ -16,7 +16,6 @@ import argparse
 import csv
 import json
 import math
-import sqlite3
 import sys
 from collections import defaultdict
 from pathlib import Path
@@ -34,17 +33,9 @@ BINS = 6
 
 def read_cells(folder):
     """Trials by (terrain, localization): lists of rows in the order of trials."""
-    path = Path(folder).resolve() / "results.sqlite"
-    store = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
-    names = dict(store.execute("select cell, name from cells"))
     cells = defaultdict(list)
-    wanted = ", ".join(f'"{name}"' for name in COLUMNS)
-    for cell, trial, outcome, *values in store.execute(
-            f"select campaign_cell, trial, outcome, {wanted} from trials "
-            "where outcome != 'simulator_fault' order by campaign_cell, trial"):
-        levels = dict(part.split("=", 1) for part in names[cell].split(","))
-        row = {name: math.nan if value is None else float(value) for name, value in zip(COLUMNS, values)}
-        cells[levels["terrain"], levels["localization"]].append(row | {"outcome": outcome, "trial": trial})
+    for levels, trial, row in study.stored_trials(folder, COLUMNS):
+        cells[levels["terrain"], levels["localization"]].append(row | {"trial": trial})
     return cells
 
 
