@@ -143,18 +143,9 @@ def count(cells):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--sweep", type=Path, default=study.ROOT / "results/runs/slip_closed_loop",
-                        help="folder of the sweep, made or gone on with")
-    parser.add_argument("--out", type=Path, default=study.ROOT / "results/studies")
-    parser.add_argument("--rockyard", type=Path, default=study.ROOT / "build/release/bin/rockyard")
-    parser.add_argument("--markdown", type=Path, metavar="PAGE",
-                        help="write the tables between the marks slip_endings and slip_alarms of this page")
-    parser.add_argument("--count-only", action="store_true", help="the sweep is there: count it")
+    study.add_sweep_arguments(parser, "slip_closed_loop", "write the tables between the marks slip_endings and slip_alarms of this page")
     args = parser.parse_args()
-    if not args.count_only:
-        command = [args.rockyard, "sweep", SWEEP, "--out", args.sweep, "--threads", args.threads, "--quiet"]
-        study.run(command + (["--resume", "--force"] if args.sweep.exists() else []))
+    study.run_sweep(args, SWEEP)
     cells = read_cells(args.sweep)
     if not cells:
         sys.exit(f"{args.sweep}: holds no trial")

@@ -52,6 +52,25 @@ def add_run_arguments(parser, trials, out):
     parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
 
 
+def add_sweep_arguments(parser, name, markdown_help):
+    """Arguments of a study that counts one sweep, which it makes or goes on with (run_sweep)."""
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--sweep", type=Path, default=ROOT / "results/runs" / name,
+                        help="folder of the sweep, made or gone on with")
+    parser.add_argument("--out", type=Path, default=ROOT / "results/studies")
+    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
+    parser.add_argument("--markdown", type=Path, metavar="PAGE", help=markdown_help)
+    parser.add_argument("--count-only", action="store_true", help="the sweep is there: count it")
+
+
+def run_sweep(args, sweep):
+    """Runs the sweep into its folder, or goes on with what is there, unless it is only to be counted."""
+    if args.count_only:
+        return
+    command = [args.rockyard, "sweep", sweep, "--out", args.sweep, "--threads", args.threads, "--quiet"]
+    run(command + (["--resume", "--force"] if args.sweep.exists() else []))
+
+
 def stored_trials(folder, columns):
     """The trials of a sweep that are no faults: levels by axis, number, and a row of these columns and the outcome."""
     path = Path(folder).resolve() / "results.sqlite"

@@ -137,20 +137,11 @@ def parse_images(text):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--sweep", type=Path, default=study.ROOT / "results/runs/visual_odometry",
-                        help="folder of the sweep, made or gone on with")
-    parser.add_argument("--out", type=Path, default=study.ROOT / "results/studies")
-    parser.add_argument("--rockyard", type=Path, default=study.ROOT / "build/release/bin/rockyard")
+    study.add_sweep_arguments(parser, "visual_odometry", "write the tables between the marks of this page")
     parser.add_argument("--images", metavar="TERRAIN/LOCALIZATION=FOLDER,...",
                         help="runs of the same trials from rendered images")
-    parser.add_argument("--markdown", type=Path, metavar="PAGE",
-                        help="write the tables between the marks of this page")
-    parser.add_argument("--count-only", action="store_true", help="the sweep is there: count it")
     args = parser.parse_args()
-    if not args.count_only:
-        command = [args.rockyard, "sweep", SWEEP, "--out", args.sweep, "--threads", args.threads, "--quiet"]
-        study.run(command + (["--resume", "--force"] if args.sweep.exists() else []))
+    study.run_sweep(args, SWEEP)
     cells = read_cells(args.sweep)
     if not cells:
         sys.exit(f"{args.sweep}: holds no trial")

@@ -29,6 +29,12 @@ double Moment(const WindowSamples::Lanes& lanes, int power) {
   return sum;
 }
 
+// With two columns more to the right and a row below, which are interpolated.
+bool LiesInside(const GrayImage& image, const Pixel& middle) {
+  return middle.x() >= kReach && middle.x() < image.width() - kReach - 2 && middle.y() >= kReach &&
+         middle.y() < image.height() - kReach - 1;
+}
+
 // What one step of least squares needs, for the parameters shift, slope by column and by row.
 struct Equations {
   Eigen::Matrix3d normal;  // sum j j' of j = g (1, o_x, o_y), less their mean
@@ -86,9 +92,7 @@ std::optional<SlantedPlace> FindSlanted(const GrayImage& left, const GrayImage& 
   constexpr double kLeastVariance = 1.0;
   SlantedPlace place{.column = column};
   for (int step = 0; step < kSteps; ++step) {
-    if (!(place.column >= kReach && place.column < right.width() - kReach - 2)) {
-      return std::nullopt;
-    }
+    if (!LiesInside(right, Pixel(place.column, left_pixel.y()))) return std::nullopt;
     const Equations equations = EquationsAt(left, right, left_pixel, place);
     const double variance = std::max(kLeastVariance, equations.squares / (kPixels - 5.0));
     const double prior = variance / (kSlope * kSlope);

@@ -153,11 +153,13 @@ WindowView ViewOf(const Pixel& middle, const Pixel& pixel, const ViewChange& vie
           of(view.by_distance.x()),   of(view.by_distance.y())};
 }
 
-// A box that holds all places: by_offset o of the corners, and what they are divided by.
+// A box that holds all places: by_offset o of the corners, and what they are divided by. Rounding
+// to 32 bits moves them by less than the margin.
 Pixel ReachOf(const ViewChange& view) {
   const Pixel corner(kWideReach, kWideReach);
   const double nearest = std::max(0.5, 1.0 - view.by_distance.cwiseAbs().dot(corner));
-  return view.by_offset.cwiseAbs() * corner / nearest;
+  constexpr double kMargin_px = 0.01;
+  return view.by_offset.cwiseAbs() * corner / nearest + Pixel(kMargin_px, kMargin_px);
 }
 
 // Places that need not lie inside.

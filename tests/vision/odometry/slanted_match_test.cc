@@ -80,6 +80,10 @@ TEST(SlantedMatchTest, FindsNothingOutsideOrWithoutTexture) {
   ASSERT_TRUE(FindSlanted(images.left, images.right, pixel, column, limits));
   EXPECT_FALSE(FindSlanted(images.left, images.right, pixel, 5.0, limits));
   EXPECT_FALSE(FindSlanted(images.left, images.right, pixel, 249.0, limits));
+  // Windows of which a row is missing, above or below, where fractions need one more.
+  EXPECT_FALSE(FindSlanted(images.left, images.left, {100.0, 6.5}, 100.0, limits));
+  EXPECT_TRUE(FindSlanted(images.left, images.left, {100.0, 183.0}, 100.0, limits));
+  EXPECT_FALSE(FindSlanted(images.left, images.left, {100.0, 184.0}, 100.0, limits));
   // Too far off, and another texture.
   EXPECT_FALSE(FindSlanted(images.left, images.right, pixel, column - 20.0, limits));
   const GrayImage flat(kSize.columns, kSize.rows, 90);
