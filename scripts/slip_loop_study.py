@@ -143,7 +143,8 @@ def count(cells):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    study.add_sweep_arguments(parser, "slip_closed_loop", "write the tables between the marks slip_endings and slip_alarms of this page")
+    study.add_sweep_arguments(parser, "slip_closed_loop",
+                              "write the tables between the marks slip_endings and slip_alarms of this page")
     args = parser.parse_args()
     study.run_sweep(args, SWEEP)
     cells = read_cells(args.sweep)
