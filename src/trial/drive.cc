@@ -60,6 +60,7 @@ std::optional<Verdict> Drive::Tick() {
       {.time_s = parts_.ledger.time_s(),
        .estimate = parts_.estimate().pose,
        .attitude = parts_.estimate().attitude,
+       .odometry = parts_.estimate().odometry,
        .report = seen_ ? seen_->report() : nullptr,
        .cloud = seen_ ? seen_->cloud() : nullptr,
        .look = seen_ ? &seen_->moment : nullptr,

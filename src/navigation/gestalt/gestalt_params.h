@@ -7,6 +7,7 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
+#include "navigation/gestalt/continuous_params.h"
 #include "navigation/gestalt/map_params.h"
 #include "navigation/gestalt/vote_params.h"
 
@@ -61,6 +62,7 @@ struct GestaltParams {
   GestaltPlanParams plan;
   GestaltVoteParams votes;
   GestaltDriveParams drive;
+  GestaltContinuousParams continuous;
 
   void Visit(core::FieldVisitor& v);
 };
