@@ -1,6 +1,7 @@
 #include "trial/drive_observer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "math/angles.h"
@@ -57,6 +58,15 @@ void DriveObserver::OnSlip(const SlipReading& slip) {
   ++slip_alarms_;
   if (!slip.truly_exceeded) ++false_slip_alarms_;
   if (!first_slip_m_) first_slip_m_ = monitor_.distance_m();
+}
+
+void DriveObserver::OnSeenMotion() {
+  const messages::PoseEstimate& now = parts_.estimate().pose;
+  if (seen_at_) {
+    seen_distance_m_ = seen_distance_m_.value_or(0.0) +
+                       std::hypot(now.x_m - seen_at_->x_m, now.y_m - seen_at_->y_m);
+  }
+  seen_at_ = now;
 }
 
 void DriveObserver::ObserveErrors() {

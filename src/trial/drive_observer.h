@@ -44,6 +44,8 @@ class DriveObserver {
   void OnStuckNoticed() { ++stuck_noticed_; }
   void OnRecognized() { recognized_ = true; }
   void OnSlip(const SlipReading& slip);
+  // Visual odometry corrected the estimate.
+  void OnSeenMotion();
   // Once a control tick, after the estimate.
   void OnTick(bool turning_in_place);
 
@@ -67,6 +69,7 @@ class DriveObserver {
   void ReportCounts(truth::DriveRecord& record) const;
   void ReportHazards(truth::DriveRecord& record) const;
   void ReportGoalRock(truth::DriveRecord& record) const;
+  void ReportPlans(truth::DriveRecord& record) const;
 
   const DriveParts& parts_;
   DriveMonitor monitor_;
@@ -86,6 +89,8 @@ class DriveObserver {
   std::optional<double> largest_slip_;  // as seen
   std::optional<double> first_slip_m_;  // true path length at the first alarm
   bool recognized_ = false;             // the goal rock
+  std::optional<messages::PoseEstimate> seen_at_;  // the last place of visual odometry
+  std::optional<double> seen_distance_m_;          // way between them
 };
 
 }  // namespace rockyard::trial

@@ -119,6 +119,13 @@ struct DriveRecord {
   double goal_rock_sign = std::numeric_limits<double>::quiet_NaN();
   double goal_rock_recognized = std::numeric_limits<double>::quiet_NaN();
   double search_places_reached = std::numeric_limits<double>::quiet_NaN();
+  // The way between the places of visual odometry, as believed when each was ready.
+  double visual_distance_m = std::numeric_limits<double>::quiet_NaN();
+  double plans_on_the_move = 0.0;
+  double unsafe_plans = 0.0;  // of them, without a safe plan
+  double late_plans = 0.0;    // motions that ended before the next plan was ready
+  // Root of the mean square of where a plan was to begin less where it began, as believed.
+  double plan_start_error_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct DriveColumn {
@@ -383,6 +390,20 @@ inline constexpr std::array kDriveColumns = {
                 "places of the local search that the rover declared to be at, the told place "
                 "included",
                 &DriveRecord::search_places_reached, true},
+    DriveColumn{"visual_distance_m", "m",
+                "way between the believed places at each motion of visual odometry; empty without "
+                "one",
+                &DriveRecord::visual_distance_m, true},
+    DriveColumn{"plans_on_the_move", "1", "plans made while the rover drove (csod, csad)",
+                &DriveRecord::plans_on_the_move},
+    DriveColumn{"unsafe_plans", "1", "of these, those that found no safe motion",
+                &DriveRecord::unsafe_plans},
+    DriveColumn{"late_plans", "1", "motions that ended before the next plan was ready",
+                &DriveRecord::late_plans},
+    DriveColumn{"plan_start_error_m", "m",
+                "root of the mean square of the distance from where a plan on the move was to "
+                "begin to where the rover believed to be when it did; empty without one",
+                &DriveRecord::plan_start_error_m, true},
 };
 
 }  // namespace rockyard::truth
