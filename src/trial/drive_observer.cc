@@ -62,10 +62,8 @@ void DriveObserver::OnSlip(const SlipReading& slip) {
 
 void DriveObserver::OnSeenMotion() {
   const messages::PoseEstimate& now = parts_.estimate().pose;
-  if (seen_at_) {
-    seen_distance_m_ = seen_distance_m_.value_or(0.0) +
-                       std::hypot(now.x_m - seen_at_->x_m, now.y_m - seen_at_->y_m);
-  }
+  seen_distance_m_ =
+      seen_distance_m_.value_or(0.0) + std::hypot(now.x_m - seen_at_.x_m, now.y_m - seen_at_.y_m);
   seen_at_ = now;
 }
 

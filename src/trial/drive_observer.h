@@ -31,6 +31,7 @@ class DriveObserver {
   void OnPlaced() {
     monitor_.Restart(parts_.state());
     slip_onset_.Restart();
+    seen_at_ = parts_.estimate().pose;
   }
   void OnReflection() { ++reflections_; }
   // The navigator told a motion. Returns whether a new move begins with it.
@@ -89,8 +90,8 @@ class DriveObserver {
   std::optional<double> largest_slip_;  // as seen
   std::optional<double> first_slip_m_;  // true path length at the first alarm
   bool recognized_ = false;             // the goal rock
-  std::optional<messages::PoseEstimate> seen_at_;  // the last place of visual odometry
-  std::optional<double> seen_distance_m_;          // way between them
+  messages::PoseEstimate seen_at_;         // the last place of visual odometry, or the start
+  std::optional<double> seen_distance_m_;  // way between them
 };
 
 }  // namespace rockyard::trial
