@@ -350,6 +350,8 @@ NavigatorDescription<GestaltParams> DescribeGestalt() {
         const GestaltRoverParams& rover = params.map.rover;
         NavigatorTraits traits(LookReading::kPoints, CostOf(params.map.grid),
                                {"waypoints.goal_tolerance_m", params.waypoints.goal_tolerance_m});
+        traits.looks_on_the_move = params.continuous.cycle != DriveCycle::kStopAndLook;
+        traits.steers_on_the_move = params.continuous.cycle == DriveCycle::kCsad;
         if (!rover.modelled) return traits;
         traits.size =
             BelievedSize{"map.rover.length_m", rover.length_m, "map.rover.width_m", rover.width_m,
