@@ -10,6 +10,7 @@
 #include "math/pose.h"
 #include "navigation/gestalt/choice.h"
 #include "navigation/gestalt/gestalt.h"
+#include "navigation/gestalt/speed_law.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -19,7 +20,7 @@ using messages::MotionKind;
 using messages::PoseEstimate;
 
 // The pose of b in the frame of a, both in one frame.
-ClothoidPoint Relative(const ClothoidPoint& a, const ClothoidPoint& b) {
+ClothoidPoint Relative(const PoseEstimate& a, const PoseEstimate& b) {
   const double cosine = std::cos(a.heading_rad);
   const double sine = std::sin(a.heading_rad);
   const double dx_m = b.x_m - a.x_m;
@@ -35,8 +36,6 @@ PoseEstimate Moved(const PoseEstimate& from, const ClothoidPoint& way) {
           from.y_m + sine * way.x_m + cosine * way.y_m,
           math::WrapAngle(from.heading_rad + way.heading_rad), from.distance_m};
 }
-
-ClothoidPoint PointOf(const PoseEstimate& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
 
 }  // namespace
 
@@ -101,11 +100,10 @@ NavigatorDecision GestaltNavigator::ReplaceMotion(const NavigatorInput& input,
     vetoed_.clear();
   };
   if (spline_voter_) {
-    messages::SplineVote* safe = SafeSpline();
+    const messages::Spline* safe = TakeSafeSpline();
     if (safe == nullptr) return OnNoSafePlan(driven_m);
-    safe->chosen = true;
     replace();
-    return BeginSpline(safe->spline, input);
+    return BeginSpline(*safe, input);
   }
   messages::MotionVote* arc = ChooseArc(votes_, params_);
   const bool safe = arc != nullptr && arc->motion.direction > 0 &&
@@ -150,16 +148,16 @@ GestaltNavigator::PlanOrigin GestaltNavigator::OriginOfNextPlan(const NavigatorI
   // Along the motion under way from where it looked, s = s_look + v (t - t_look), to its end at most.
   const double look_m = seen.distance_m - anchor_.distance_m;
   const double since_s = input.time_s - input.look->time_s;
-  const double start_m = std::min(std::max(leg_, look_m), look_m + speed_m_s_ * since_s);
-  const ClothoidPoint way = Relative(PlaceAt(look_m), PlaceAt(start_m));
-  return {Moved(seen, way), MotionAt(start_m).curvature_per_m};
+  const double start_m =
+      std::clamp(look_m + speed_m_s_ * since_s, look_m, std::max(look_m, leg_));
+  return {Moved(seen, WayBetween(look_m, start_m)), MotionAt(start_m).curvature_per_m};
 }
 
 // X_OL = X_OR (X_DR)^-1 X_DL: odometry D says how the rover moved since the look L.
 PoseEstimate GestaltNavigator::PoseOfLook(const NavigatorInput& input) const {
   const PoseEstimate& look_D = input.look->odometry;
   PoseEstimate look_O =
-      Moved(input.estimate, Relative(PointOf(input.odometry), PointOf(look_D)));
+      Moved(input.estimate, Relative(input.odometry, look_D));
   look_O.distance_m = input.look->estimate.distance_m;
   return look_O;
 }
@@ -167,15 +165,16 @@ PoseEstimate GestaltNavigator::PoseOfLook(const NavigatorInput& input) const {
 MotionCommand GestaltNavigator::MotionAt(double driven_m) const {
   MotionCommand motion = motion_;
   if (!spline_) return motion;
-  motion.curvature_per_m = CurvatureAt(*spline_, driven_m);
-  motion.curvature_rate_per_m2 = CurvatureRateAt(*spline_, driven_m);
+  const CurvatureLaw& law = spline_voter_->law();
+  motion.curvature_per_m = CurvatureAt(*spline_, driven_m, law);
+  motion.curvature_rate_per_m2 = CurvatureRateAt(*spline_, driven_m, law);
   motion.speed_share = SpeedShare(params_.speed, motion.curvature_per_m);
   return motion;
 }
 
-ClothoidPoint GestaltNavigator::PlaceAt(double driven_m) const {
-  if (spline_) return OnSpline(*spline_, driven_m);
-  return OnClothoid(motion_.curvature_per_m, 0.0, driven_m);
+ClothoidPoint GestaltNavigator::WayBetween(double from_m, double to_m) const {
+  if (spline_) return AlongSpline(*spline_, from_m, to_m, spline_voter_->law());
+  return OnClothoid(motion_.curvature_per_m, 0.0, to_m - from_m);
 }
 
 void GestaltNavigator::Judge(const PlanOrigin& origin) {
@@ -186,11 +185,13 @@ void GestaltNavigator::Judge(const PlanOrigin& origin) {
   spline_votes_ = spline_voter_->Vote(grid, origin.pose, origin.curvature_per_m, goal_);
 }
 
-messages::SplineVote* GestaltNavigator::SafeSpline() {
-  if (!spline_voter_) return nullptr;
-  messages::SplineVote* best = ChooseSpline(spline_votes_, params_);
+const messages::Spline* GestaltNavigator::TakeSafeSpline() {
+  const messages::SplineVote* best = ChooseSpline(spline_votes_, params_);
   if (best == nullptr || best->merged < params_.votes.min_vote_goodness) return nullptr;
-  return best;
+  messages::SplineVote& chosen =
+      spline_votes_[static_cast<std::size_t>(best - spline_votes_.data())];
+  chosen.chosen = true;
+  return &chosen.spline;
 }
 
 }  // namespace rockyard::navigation

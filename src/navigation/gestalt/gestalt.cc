@@ -6,6 +6,7 @@
 #include "math/angles.h"
 #include "math/pose.h"
 #include "navigation/gestalt/choice.h"
+#include "navigation/gestalt/speed_law.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -152,10 +153,9 @@ NavigatorDecision GestaltNavigator::OnCloud(const NavigatorInput& input) {
   const PlanOrigin origin{input.estimate, steered_per_m_};
   Judge(origin);
   looked_behind_ = !ahead;
-  if (messages::SplineVote* safe = SafeSpline()) {
-    safe->chosen = true;
+  if (const messages::Spline* safe = TakeSafeSpline()) {
     FillView(origin, input.attitude);
-    return BeginSpline(safe->spline, input);
+    return BeginSpline(*safe, input);
   }
   // Step 3 of the cycle in gestalt.h: forward arcs look bad, so the rear cameras are asked, too.
   const bool looks_behind = ahead && params_.drive.rear_cameras &&

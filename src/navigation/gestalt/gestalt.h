@@ -97,9 +97,9 @@ class GestaltNavigator final : public Navigator {
                               double driven_m) const;
   messages::PoseEstimate PoseOfLook(const NavigatorInput& input) const;
   messages::MotionCommand MotionAt(double driven_m) const;
-  ClothoidPoint PlaceAt(double driven_m) const;
+  ClothoidPoint WayBetween(double from_m, double to_m) const;
   void Judge(const PlanOrigin& origin);
-  messages::SplineVote* SafeSpline();
+  const messages::Spline* TakeSafeSpline();
 
   NavigatorDecision Look(Mode mode);
   NavigatorDecision BeginDrive(const messages::MotionCommand& arc, const NavigatorInput& input);

@@ -9,6 +9,8 @@
 #include "math/angles.h"
 #include "navigation/gestalt/continuous_params.h"
 #include "navigation/gestalt/map_params.h"
+#include "navigation/gestalt/speed_law_params.h"
+#include "navigation/gestalt/spline_params.h"
 #include "navigation/gestalt/vote_params.h"
 
 namespace rockyard::navigation {
@@ -63,6 +65,8 @@ struct GestaltParams {
   GestaltVoteParams votes;
   GestaltDriveParams drive;
   GestaltContinuousParams continuous;
+  GestaltSplineParams splines;
+  SpeedLawParams speed;
 
   void Visit(core::FieldVisitor& v);
 };
