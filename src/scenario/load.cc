@@ -7,7 +7,7 @@
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "scenario/former_keys.h"
-#include "scenario/open_limits.h"
+#include "scenario/open_values.h"
 
 namespace rockyard::scenario {
 namespace {
@@ -50,9 +50,9 @@ Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults)
   Scenario scenario = defaults;
   core::JsonValue current = document;
   RenameFormerKeys(current);
-  const auto open = TakeOpenLimits(current);
+  const auto open = TakeOpenValues(current);
   core::ReadParams(current, scenario);
-  SetOpenLimits(open, scenario);
+  SetOpenValues(open, scenario);
   return scenario;
 }
 
@@ -70,7 +70,7 @@ std::uint64_t Fingerprint(const Scenario& scenario) {
 
 std::string SchemaJson() {
   core::JsonValue schema = core::SchemaOf<Scenario>("rockyard scenario");
-  AllowOpenLimits(schema);
+  AllowOpenValues(schema);
   AllowExtends(schema);
   return core::DumpJson(schema);
 }

@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "trial/compute_tables.h"
+#include "trial/measured_tables.h"
 #include "trial/stereo_tables.h"
 
 namespace rockyard::trial {
@@ -91,10 +92,14 @@ double SoftwareStereo(const PrintedTime& printed, double width_px) {
   return printed.middle_s() * std::pow(width_px / printed.width_px, 3);
 }
 
-double FpgaStereo(double width_px) {
-  const std::size_t first = width_px < kFpgaStereo[1].width_px ? 0 : 1;  // of the two nearest
-  const PrintedTime& from = kFpgaStereo[first];
-  const PrintedTime& to = kFpgaStereo[first + 1];
+// Straight in the logarithms of time and width between two of `times`, and on beyond the last ones.
+template <std::size_t kCount>
+double AlongTheLogarithm(const std::array<PrintedTime, kCount>& times, double width_px) {
+  static_assert(kCount >= 2);
+  std::size_t first = 0;
+  while (first + 2 < kCount && width_px >= times[first + 1].width_px) ++first;
+  const PrintedTime& from = times[first];
+  const PrintedTime& to = times[first + 1];
   const double share = std::log(width_px / from.width_px) / std::log(to.width_px / from.width_px);
   return from.middle_s() * std::pow(to.middle_s() / from.middle_s(), share);
 }
@@ -104,11 +109,30 @@ ComputeTimes WithStereo(ComputeTimes times, double stereo_s) {
   return times;
 }
 
-// By instructions a second, from MER's computer to MSL's.
-ComputeTimes OnMsl(const ComputeTimes& mer) {
-  constexpr double kRatio = kMerMips / kMslMips;
-  return {mer.start_up_s * kRatio, mer.acquisition_s, mer.stereo_s * kRatio,
-          mer.navigation_s * kRatio};
+// Times of MER's computer over those of others: by instructions a second, and by section 6 of
+// Goldberg 2002.
+constexpr double kMslShare = kMerMips / kMslMips;
+constexpr double kPowerPc750Share = 1.0 / kPowerPc750OverMer;
+constexpr double kPowerPcG4Share = kPowerPc750Share / kPowerPcG4OverPowerPc750;
+
+// Of a computer that takes a share of the time; the cameras are the same.
+ComputeTimes InAShare(const ComputeTimes& times, double share) {
+  return {times.start_up_s * share, times.acquisition_s, times.stereo_s * share,
+          times.navigation_s * share};
+}
+
+// Map and votes go by clock from the Pentium III to the Pentium M.
+ComputeTimes AthenaTimes2012(const ComputeParams& params, const GridSize& grid, double width_px) {
+  const ComputeTimes pentium_3 = Table3Times(&Table3Row::pentium_3_s, params.acquisition_s, grid);
+  return WithStereo(InAShare(pentium_3, kPentium3Clock_MHz / kPentiumMClock_MHz),
+                    AlongTheLogarithm(kFpgaStereo, width_px) * params.virtex_4_time_factor);
+}
+
+// Points take most of a cycle, so that the area of the grid does not matter.
+ComputeTimes OwnTimes(const ComputeParams& params, const GridSize& grid, double width_px) {
+  return {.acquisition_s = params.acquisition_s,
+          .stereo_s = AlongTheLogarithm(kOwnStereo, width_px),
+          .navigation_s = TimeAt(kOwnCycles_s, Growth::kPaths, grid.cell_m)};
 }
 
 ComputeTimes PublishedTimes(const ComputeParams& params, const GridSize& grid, double width_px) {
@@ -132,9 +156,17 @@ ComputeTimes PublishedTimes(const ComputeParams& params, const GridSize& grid, d
     case Computer::kMer:
       return mer();
     case Computer::kMsl:
-      return OnMsl(mer());
+      return InAShare(mer(), kMslShare);
+    case Computer::kPowerPc750:
+      return InAShare(mer(), kPowerPc750Share);
+    case Computer::kPowerPcG4:
+      return InAShare(mer(), kPowerPcG4Share);
     case Computer::kFpga:
-      return WithStereo(table_3(&Table3Row::rad6000_s), FpgaStereo(width_px));
+      return WithStereo(table_3(&Table3Row::rad6000_s), AlongTheLogarithm(kFpgaStereo, width_px));
+    case Computer::kAthena2012:
+      return AthenaTimes2012(params, grid, width_px);
+    case Computer::kSapphireRapids:
+      return OwnTimes(params, grid, width_px);
     case Computer::kSparc10:
       return WithStereo(table_3(&Table3Row::sparc_s),
                         kSparc10Pyramid_s + SoftwareStereo(kSparc10Scanlines, width_px));
@@ -158,8 +190,16 @@ double VisualComputing(const ComputeParams& params) {
       return kMerVisualOdometry_s;
     case Computer::kMsl:
       return kMerVisualOdometry_s * kMerMips / kMslMips;
+    case Computer::kPowerPc750:
+      return kMerVisualOdometry_s * kPowerPc750Share;
+    case Computer::kPowerPcG4:
+      return kMerVisualOdometry_s * kPowerPcG4Share;
     case Computer::kFpga:
       return kFpgaFeaturesAndMatches_s + params.visual_cpu_s;
+    case Computer::kAthena2012:
+      return kFpgaFeaturesAndMatches_s * params.virtex_4_time_factor + params.visual_cpu_s;
+    case Computer::kSapphireRapids:
+      return kOwnVisualOdometry_s;
     case Computer::kR3000:
     case Computer::kPentium3:
     case Computer::kSparc:
@@ -177,6 +217,7 @@ ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid,
   EXPECT(grid.cell_m > 0.0 && grid.area_m2 > 0.0 && stereo_width_px > 0.0);
   ComputeTimes times = PublishedTimes(params, grid, stereo_width_px);
   times.stereo_s *= params.stereo_time_factor;
+  times.navigation_s *= params.navigation_time_factor;
   return times;
 }
 

@@ -1,5 +1,5 @@
-// What a look takes on the computer of the scenario (Goldberg 2002 section 5, Howard 2012 section
-// 3, Matthies 1995 section 8).
+// What a look takes on the computer of the scenario (Goldberg 2002 sections 5 and 6, Howard 2012
+// section 3, Matthies 1995 section 8).
 #pragma once
 
 #include "trial/compute_params.h"
@@ -43,7 +43,16 @@ struct ComputeTimes {
 //
 // The other computers' start-up and navigation are not published. MER's RAD6000 and the one beside
 // the FPGA have those of table 3's, MSL's the same by instructions a second, and the Sparc 10 those
-// of table 3's Sparc of 300 MHz, which are a lower bound.
+// of table 3's Sparc of 300 MHz, which are a lower bound. The PowerPCs of section 6 take a tenth
+// and a hundredth of what MER's takes, in everything.
+//
+// Athena of 2012 has stereo in a Virtex 4, whose times are taken to be those of the Virtex 5 (times
+// virtex_4_time_factor), and map and votes of table 3's Pentium III by clock, 500 over 1600 MHz.
+// The Pentium M of 1.6 GHz moves the rover (Howard 2012 figure 5); navigation runs beside the
+// gates, on a processor that is called "Pentium-class" and no more, and is taken to be as fast.
+//
+// Of the core of 2026 stereo is on lines through the widths of measured_tables.h, a cycle of the
+// map goes with the cells, and start-up is not timed.
 ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid,
                               double stereo_width_px = kStereoWidth_px);
 
@@ -55,9 +64,11 @@ struct VisualTime {
 
 // With computer none nothing takes time. Published are MER's 160 s, MSL's 8.8 s by instructions a
 // second, and the FPGA's 16 ms for features and matches of images 512 px wide (Howard 2012 section
-// 3, table 3), to which visual_cpu_s is added for the rest. The others are assumed to take what
-// MER's takes times their stereo of section 5 (Goldberg 2002) over that of the RAD6000 there. Width
-// and number of features do not matter: none are published.
+// 3, table 3), to which visual_cpu_s is added for the rest. Athena of 2012 has the same with
+// virtex_4_time_factor on the 16 ms, the PowerPCs a tenth and a hundredth of MER's, the core of
+// 2026 what was measured. The others are assumed to take what MER's takes times their stereo of
+// section 5 (Goldberg 2002) over that of the RAD6000 there. Width and number of features do not
+// matter: none are published.
 VisualTime VisualTimeOf(const ComputeParams& params);
 
 }  // namespace rockyard::trial

@@ -144,6 +144,12 @@ inline constexpr std::array<Table3Row, kTable3RowCount> kTable3Rows = {{
      {0.0, 0.0, 0.0}},
 }};
 
+// Section 6, of computers that were to be measured: a PowerPC 750 of 133 MHz would be "an order of
+// magnitude faster than the MER flight processor", a PowerPC G4 of 500 MHz as a co-processor "an
+// order of magnitude" faster than that. Known to a factor of the root of ten.
+inline constexpr double kPowerPc750OverMer = 10.0;
+inline constexpr double kPowerPcG4OverPowerPc750 = 10.0;
+
 // The totals as printed, by computer and size of cells.
 inline constexpr std::array<double, 3> kPentium3Totals_s{0.421, 0.584, 1.61};
 inline constexpr std::array<double, 3> kSparcTotals_s{1.48, 2.0, 4.82};

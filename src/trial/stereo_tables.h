@@ -39,6 +39,11 @@ inline constexpr double kSparc10Scanline_s = 0.003;
 inline constexpr PrintedTime kSparc10Scanlines{64.0, 45 * kSparc10Scanline_s,
                                                60 * kSparc10Scanline_s};
 
+// Howard 2012 section 3 and Goldberg 2002 table 3: clocks of Athena's Pentium M of 2012 and of the
+// Pentium III whose map and votes are printed.
+inline constexpr double kPentiumMClock_MHz = 1600.0;
+inline constexpr double kPentium3Clock_MHz = 500.0;
+
 // Visual odometry: table 3 and section 3. MSL's 8.8 s are MER's times 22 / 400.
 inline constexpr double kMerVisualOdometry_s = 160.0;       // images 256 px wide
 inline constexpr double kFpgaFeaturesAndMatches_s = 0.016;  // 512 px wide; "+ CPU"

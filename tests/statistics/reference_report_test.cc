@@ -178,7 +178,7 @@ TEST(Reference, NamesTheFileOfEveryScenario) {
   for (const char* file :
        {"matthies1995.json", "matthies1995_hazard_detection.json", "matthies1995_mission.json",
         "goldberg2002.json", "goldberg2002_stereo.json", "howard2012.json",
-        "howard2012_odometry.json"}) {
+        "howard2012_odometry.json", "howard2012_speed.json"}) {
     const PublishedReference reference = LoadReference(folder / file);
     std::set<std::string> named;
     for (const auto& scenario : reference.scenarios) {

@@ -1,0 +1,36 @@
+// Values that a scenario may leave open: they follow others unless it states them.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "trial/compute_params.h"
+#include "trial/drive_params.h"
+#include "trial/patience_params.h"
+
+namespace rockyard::trial {
+
+struct OpenValue {
+  std::string_view path;                       // in a scenario
+  double& (*in)(DriveParams& drive);           // where it is kept
+  double (*suited)(const DriveParams& drive);  // to the rest of the drive
+};
+
+// A limit of the referee, which follows course and rover.
+template <double RefereeParams::*kLimit>
+constexpr OpenValue OpenLimit(std::string_view path) {
+  return {path, [](DriveParams& drive) -> double& { return drive.referee.*kLimit; },
+          [](const DriveParams& drive) { return PatienceFor(drive).*kLimit; }};
+}
+
+inline constexpr std::array<OpenValue, 5> kOpenValues = {
+    OpenLimit<&RefereeParams::no_path_progress_m>("referee.no_path_progress_m"),
+    OpenLimit<&RefereeParams::no_path_distance_m>("referee.no_path_distance_m"),
+    OpenLimit<&RefereeParams::no_path_time_s>("referee.no_path_time_s"),
+    OpenLimit<&RefereeParams::time_limit_s>("referee.time_limit_s"),
+    OpenValue{"clock.compute.acquisition_s",
+              [](DriveParams& drive) -> double& { return drive.clock.compute.acquisition_s; },
+              [](const DriveParams& drive) { return drive.clock.compute.SuitedAcquisition_s(); }},
+};
+
+}  // namespace rockyard::trial
