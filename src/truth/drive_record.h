@@ -119,6 +119,8 @@ struct DriveRecord {
   double goal_rock_sign = std::numeric_limits<double>::quiet_NaN();
   double goal_rock_recognized = std::numeric_limits<double>::quiet_NaN();
   double search_places_reached = std::numeric_limits<double>::quiet_NaN();
+  double steer_turned_rad = 0.0;      // of a steering motor, to and fro alike: mean over them
+  double steer_turned_max_rad = 0.0;  // of the one that turned most
 };
 
 struct DriveColumn {
@@ -383,6 +385,13 @@ inline constexpr std::array kDriveColumns = {
                 "places of the local search that the rover declared to be at, the told place "
                 "included",
                 &DriveRecord::search_places_reached, true},
+    DriveColumn{
+        "steer_turned_rad", "rad",
+        "total true turning of a steering motor, to and fro alike, at rest and on the move: "
+        "mean over the steered wheels",
+        &DriveRecord::steer_turned_rad},
+    DriveColumn{"steer_turned_max_rad", "rad", "the same of the motor that turned most",
+                &DriveRecord::steer_turned_max_rad},
 };
 
 }  // namespace rockyard::truth
