@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "math/angles.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::trial {
 namespace {
@@ -28,6 +29,7 @@ DriveObserver::DriveObserver(const DriveParts& parts)
       monitor_(UndersideOf(parts.params.rover.geometry), parts.field.terrain),
       watch_(parts.params.sensors.terrain_sensors.chosen().reported_zone(parts.params),
              parts.params.rover.geometry, WatchedHeight(parts.params), parts.field.terrain),
+      steering_(rover::MakeRoverGeometry(parts.params.rover.geometry).steered),
       slip_onset_(parts.params.perception.visual_odometry.slip_check) {}
 
 bool DriveObserver::OnMotion(const messages::MotionCommand& motion) {
@@ -46,6 +48,7 @@ void DriveObserver::OnScrape() {
 
 void DriveObserver::OnTick(bool turning_in_place) {
   monitor_.Observe(parts_.state(), turning_in_place);
+  steering_.Observe(parts_.state().steer_rad);
   ObserveErrors();
   watch_.Observe(parts_.state().X_WR);
   slip_onset_.Observe(parts_.estimate().odometry, math::ToPose2(parts_.state().X_WR),

@@ -14,6 +14,7 @@
 #include "trial/move_counter.h"
 #include "trial/referee.h"
 #include "trial/slip_onset.h"
+#include "trial/steer_counter.h"
 #include "trial/stop_counter.h"
 #include "trial/turn_counter.h"
 #include "trial/visual_aid.h"
@@ -30,6 +31,7 @@ class DriveObserver {
   // The rover stands at the start, or where operators have put it.
   void OnPlaced() {
     monitor_.Restart(parts_.state());
+    steering_.Restart(parts_.state().steer_rad);
     slip_onset_.Restart();
     seen_at_ = parts_.estimate().pose;
   }
@@ -81,6 +83,7 @@ class DriveObserver {
   TurnCounter turns_;
   MoveCounter moves_;
   StopCounter stops_;
+  SteerCounter steering_;
   std::optional<double> first_scrape_m_;  // true path length
   std::int64_t reflections_ = 0;
   std::int64_t stuck_noticed_ = 0;

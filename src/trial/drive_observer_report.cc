@@ -152,6 +152,8 @@ void DriveObserver::ReportCounts(truth::DriveRecord& record) const {
   record.turns_in_place = static_cast<double>(turns_.turns());
   record.scrapes = static_cast<double>(parts_.motion_sensors->scrapes().episodes());
   record.stops = static_cast<double>(stops_.stops());
+  record.steer_turned_rad = steering_.mean_rad();
+  record.steer_turned_max_rad = steering_.max_rad();
   record.first_scrape_distance_m = first_scrape_m_.value_or(record.true_distance_m);
   record.scrape_heading_rad = parts_.motion_sensors->scrapes().total_jump_rad();
   record.reflections = static_cast<double>(reflections_);

@@ -120,7 +120,8 @@ SplineVotes SplineVoter::Vote(const GoodnessGrid& grid, const PoseEstimate& star
                           .count = sampling_.CountWithin(goal_R.distance_m),
                           .waypoint_m = waypoint_m,
                           .peak = WaypointPeak(goal_R, +1),
-                          .index_per_rad = 1.0 / (waypoint_m * ArcSpacing(params_.arcs))};
+                          .index_per_rad =
+                              1.0 / (params_.drive.step_m * ArcSpacing(params_.arcs))};
   SplineVotes votes;
   votes.reserve(second_halves_.size());
   const auto second_knots = static_cast<std::size_t>(params_.splines.num_second_knots);
@@ -197,6 +198,13 @@ ClothoidPoint SplineVoter::AtWaypoint(const FirstHalf& first, const SecondHalf& 
                                    : AlongSpline(second.spline, knot_m, question.waypoint_m, law_));
 }
 
+// The angle by which a heading misses the goal, a disk.
+double MissedBy(const GoalDirection& goal, double tolerance_m) {
+  if (goal.distance_m <= tolerance_m) return 0.0;
+  const double beyond_rad = std::abs(goal.bearing_rad) - std::asin(tolerance_m / goal.distance_m);
+  return std::copysign(std::max(0.0, beyond_rad), goal.bearing_rad);
+}
+
 SplineVote SplineVoter::VoteOn(const FirstHalf& first, const SecondHalf& second,
                                const Question& question) const {
   const bool whole = params_.votes.whole_numbers;
@@ -210,8 +218,8 @@ SplineVote SplineVoter::VoteOn(const FirstHalf& first, const SecondHalf& second,
   vote.spline.second_knot_per_m = second.spline.second_knot_per_m;
   vote.hazard = hazard.goodness;
   vote.hazard_certainty = hazard.certainty;
-  // e, positive where the goal is on the left; index = e / (w spacing).
-  vote.waypoint_error_rad = goal.distance_m > kOnGoal_m ? goal.bearing_rad : 0.0;
+  // e, positive where the goal is on the left; index = e / (step spacing).
+  vote.waypoint_error_rad = MissedBy(goal, params_.waypoints.goal_tolerance_m);
   vote.waypoint = RoundedVote(
       WaypointVote(question.peak, vote.waypoint_error_rad * question.index_per_rad,
                    params_.waypoints.vote_index_variance),
