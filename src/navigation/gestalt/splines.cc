@@ -33,6 +33,13 @@ double Steering(const Spline& spline) {
          std::abs(spline.second_knot_per_m - spline.first_knot_per_m);
 }
 
+// The angle by which a heading misses the goal, a disk.
+double MissedBy(const GoalDirection& goal, double tolerance_m) {
+  if (goal.distance_m <= tolerance_m) return 0.0;
+  const double beyond_rad = std::abs(goal.bearing_rad) - std::asin(tolerance_m / goal.distance_m);
+  return std::copysign(std::max(0.0, beyond_rad), goal.bearing_rad);
+}
+
 }  // namespace
 
 // What is asked of all splines of one Vote.
@@ -196,13 +203,6 @@ ClothoidPoint SplineVoter::AtWaypoint(const FirstHalf& first, const SecondHalf& 
   const bool whole = question.waypoint_m == params_.splines.waypoint_m;
   return Joined(first.end_W, whole ? second.at_waypoint
                                    : AlongSpline(second.spline, knot_m, question.waypoint_m, law_));
-}
-
-// The angle by which a heading misses the goal, a disk.
-double MissedBy(const GoalDirection& goal, double tolerance_m) {
-  if (goal.distance_m <= tolerance_m) return 0.0;
-  const double beyond_rad = std::abs(goal.bearing_rad) - std::asin(tolerance_m / goal.distance_m);
-  return std::copysign(std::max(0.0, beyond_rad), goal.bearing_rad);
 }
 
 SplineVote SplineVoter::VoteOn(const FirstHalf& first, const SecondHalf& second,
