@@ -35,27 +35,43 @@ double Steering(const Spline& spline) {
 
 }  // namespace
 
+// Where a frame K lies in W.
+struct SplineVoter::Frame {
+  explicit Frame(const ClothoidPoint& place_W)
+      : place(place_W),
+        cosine(std::cos(place_W.heading_rad)),
+        sine(std::sin(place_W.heading_rad)) {}
+
+  // p_W = p_WK + Rz(heading) p_K.
+  ClothoidPoint InW(const ClothoidPoint& p_K) const {
+    return {place.x_m + cosine * p_K.x_m - sine * p_K.y_m,
+            place.y_m + sine * p_K.x_m + cosine * p_K.y_m, place.heading_rad + p_K.heading_rad};
+  }
+
+  ClothoidPoint place;
+  double cosine;
+  double sine;
+};
+
 // What is asked of all splines of one Vote.
 struct SplineVoter::Question {
   const GoodnessGrid& grid;
   ClothoidPoint start_W;
   messages::Goal goal_W;
-  std::size_t count = 0;     // points that are judged
-  double waypoint_m = 0.0;   // where the waypoint vote is asked
-  double peak = 0.0;         // of the waypoint votes
+  std::size_t count = 0;    // points that are judged
+  double waypoint_m = 0.0;  // where the waypoint vote is asked
+  double peak = 0.0;        // of the waypoint votes
   double index_per_rad = 0.0;
 };
 
-// What the splines of one first knot share, in W.
+// What the splines of one first knot share.
 struct SplineVoter::FirstHalf {
-  explicit FirstHalf(UnknownCells unknown_cells) : sums(unknown_cells) {}
-
   Spline spline;  // of any second knot
   PathSums sums;
   std::size_t count = 0;  // points in the sums
   bool turned_enough = false;
-  ClothoidPoint end_W;
-  ClothoidPoint at_waypoint_W;  // if that is not beyond it
+  Frame knot;
+  ClothoidPoint at_waypoint_W;  // if that is before the knot
   bool feasible = false;
 };
 
@@ -68,7 +84,7 @@ SplineVoter::SplineVoter(const GestaltParams& params, double full_speed_m_s)
   EXPECT(full_speed_m_s > 0.0);
   const GestaltSplineParams& splines = params.splines;
   const std::vector<double>& at_m = sampling_.distance_m;
-  const auto beyond = std::upper_bound(at_m.begin(), at_m.end(), 0.5 * splines.length_m);
+  const auto beyond = std::lower_bound(at_m.begin(), at_m.end(), Knot_m());
   first_points_ = static_cast<std::size_t>(beyond - at_m.begin());
   sum_of_weights_.push_back(0.0);
   for (const double weight : sampling_.weight) {
@@ -90,22 +106,17 @@ SplineVoter::SecondHalf SplineVoter::MakeSecondHalf(double first_knot_per_m,
   const GestaltSplineParams& splines = params_.splines;
   SecondHalf half;
   half.spline = {first_knot_per_m, first_knot_per_m, second_knot_per_m, splines.length_m};
-  const double knot_m = 0.5 * splines.length_m;
-  half.feasible =
-      law_.LargestRateInTime(first_knot_per_m, second_knot_per_m, knot_m, full_speed_m_s_) <=
-      splines.max_curvature_rate_per_m_s;
+  const double knot_m = Knot_m();
+  half.feasible = IsFeasible(first_knot_per_m, second_knot_per_m);
   ClothoidPoint point;
   double driven_m = knot_m;
   for (std::size_t k = first_points_; k < sampling_.distance_m.size(); ++k) {
-    const double next_m = sampling_.distance_m[k];
-    point = Joined(point, AlongSpline(half.spline, driven_m, next_m, law_));
-    driven_m = next_m;
+    point = AlongSpline(point, half.spline, driven_m, sampling_.distance_m[k], law_);
+    driven_m = sampling_.distance_m[k];
     half.points.push_back(point);
     half.largest_turn_rad = std::max(half.largest_turn_rad, std::abs(point.heading_rad));
   }
-  if (splines.waypoint_m > knot_m) {
-    half.at_waypoint = AlongSpline(half.spline, knot_m, splines.waypoint_m, law_);
-  }
+  if (splines.waypoint_m >= knot_m) half.at_waypoint = AtWaypoint(half, splines.waypoint_m);
   return half;
 }
 
@@ -137,91 +148,105 @@ SplineVotes SplineVoter::Vote(const GoodnessGrid& grid, const PoseEstimate& star
 
 SplineVoter::FirstHalf SplineVoter::MakeFirstHalf(const Spline& spline,
                                                   const Question& question) const {
-  const double knot_m = 0.5 * spline.length_m;
-  FirstHalf half(params_.plan.unknown_cells);
-  half.spline = spline;
-  half.feasible = law_.LargestRateInTime(spline.start_per_m, spline.first_knot_per_m, knot_m,
-                                         full_speed_m_s_) <=
-                  params_.splines.max_curvature_rate_per_m_s;
+  const double knot_m = Knot_m();
+  PathSums sums(params_.plan.unknown_cells);
   ClothoidPoint point = question.start_W;
   double driven_m = 0.0;
-  const std::size_t count = std::min(first_points_, question.count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const double next_m = sampling_.distance_m[k];
-    point = Joined(point, AlongSpline(spline, driven_m, next_m, law_));
+  std::size_t count = 0;
+  bool turned_enough = false;
+  for (; count < std::min(first_points_, question.count); ++count) {
+    const double next_m = sampling_.distance_m[count];
+    point = AlongSpline(point, spline, driven_m, next_m, law_);
     driven_m = next_m;
-    const double turned_rad = std::abs(point.heading_rad - question.start_W.heading_rad);
-    half.turned_enough = k > 0 && turned_rad > params_.plan.max_path_turn_rad;
-    if (half.turned_enough) break;
-    half.sums.Add(question.grid.At(point.x_m, point.y_m), sampling_.weight[k]);
-    ++half.count;
+    turned_enough = count > 0 && TurnedEnough(point.heading_rad - question.start_W.heading_rad);
+    if (turned_enough) break;
+    sums.Add(question.grid.At(point.x_m, point.y_m), sampling_.weight[count]);
   }
-  half.end_W = Joined(point, AlongSpline(spline, driven_m, knot_m, law_));
-  if (question.waypoint_m <= knot_m) {
-    half.at_waypoint_W =
-        Joined(question.start_W, AlongSpline(spline, 0.0, question.waypoint_m, law_));
+  ClothoidPoint at_waypoint_W;
+  if (question.waypoint_m < knot_m) {
+    at_waypoint_W = AlongSpline(question.start_W, spline, 0.0, question.waypoint_m, law_);
   }
-  return half;
+  return {.spline = spline,
+          .sums = sums,
+          .count = count,
+          .turned_enough = turned_enough,
+          .knot = Frame(AlongSpline(point, spline, driven_m, knot_m, law_)),
+          .at_waypoint_W = at_waypoint_W,
+          .feasible = IsFeasible(spline.start_per_m, spline.first_knot_per_m)};
 }
 
 HazardVote SplineVoter::JudgeWhole(const FirstHalf& first, const SecondHalf& second,
                                    const Question& question) const {
   PathSums sums = first.sums;
-  const double cosine = std::cos(first.end_W.heading_rad);
-  const double sine = std::sin(first.end_W.heading_rad);
-  const double turned_rad = first.end_W.heading_rad - question.start_W.heading_rad;
-  const double limit_rad = params_.plan.max_path_turn_rad;
-  const bool may_turn_enough = std::abs(turned_rad) + second.largest_turn_rad > limit_rad;
+  const double turned_rad = first.knot.place.heading_rad - question.start_W.heading_rad;
+  const bool may_turn_enough = TurnedEnough(std::abs(turned_rad) + second.largest_turn_rad);
+  const std::size_t end = first.turned_enough ? first.count : question.count;
   std::size_t count = first.count;
-  const std::size_t end = first.turned_enough ? count : question.count;
   for (; count < end; ++count) {
-    const ClothoidPoint& p = second.points[count - first_points_];
-    const bool turned_enough =
-        may_turn_enough && std::abs(turned_rad + p.heading_rad) > limit_rad;
-    if (turned_enough && count > 0) break;
-    // p_W = p_WK + Rz(heading) p_K, with K the frame at the first knot.
-    sums.Add(question.grid.At(first.end_W.x_m + cosine * p.x_m - sine * p.y_m,
-                              first.end_W.y_m + sine * p.x_m + cosine * p.y_m),
-             sampling_.weight[count]);
+    const ClothoidPoint& p_K = second.points[count - first_points_];
+    if (may_turn_enough && count > 0 && TurnedEnough(turned_rad + p_K.heading_rad)) break;
+    const ClothoidPoint p_W = first.knot.InW(p_K);
+    sums.Add(question.grid.At(p_W.x_m, p_W.y_m), sampling_.weight[count]);
   }
   return sums.Vote(sum_of_weights_[count], question.grid.unknown,
                    params_.votes.min_allowed_goodness);
 }
 
-ClothoidPoint SplineVoter::AtWaypoint(const FirstHalf& first, const SecondHalf& second,
-                                      const Question& question) const {
-  const double knot_m = 0.5 * second.spline.length_m;
-  if (question.waypoint_m <= knot_m) return first.at_waypoint_W;
-  const bool whole = question.waypoint_m == params_.splines.waypoint_m;
-  return Joined(first.end_W, whole ? second.at_waypoint
-                                   : AlongSpline(second.spline, knot_m, question.waypoint_m, law_));
+ClothoidPoint SplineVoter::AtWaypoint(const SecondHalf& second, double waypoint_m) const {
+  // From the last of its points on that is not beyond, or from the knot.
+  const std::size_t count = sampling_.CountWithin(waypoint_m);
+  if (count <= first_points_ || sampling_.distance_m[count - 1] > waypoint_m) {
+    return AlongSpline({}, second.spline, Knot_m(), waypoint_m, law_);
+  }
+  return AlongSpline(second.points[count - 1 - first_points_], second.spline,
+                     sampling_.distance_m[count - 1], waypoint_m, law_);
 }
 
 SplineVote SplineVoter::VoteOn(const FirstHalf& first, const SecondHalf& second,
                                const Question& question) const {
   const bool whole = params_.votes.whole_numbers;
   const HazardVote hazard = RoundedVote(JudgeWhole(first, second, question), whole);
-  const ClothoidPoint place_W = AtWaypoint(first, second, question);
-  const GoalDirection goal =
-      TowardsGoal({.x_m = place_W.x_m, .y_m = place_W.y_m, .heading_rad = place_W.heading_rad},
-                  question.goal_W);
   SplineVote vote;
   vote.spline = first.spline;
   vote.spline.second_knot_per_m = second.spline.second_knot_per_m;
+  vote.feasible = first.feasible && second.feasible;
   vote.hazard = hazard.goodness;
   vote.hazard_certainty = hazard.certainty;
-  // e, positive where the goal is on the left; index = e / (w spacing).
-  vote.waypoint_error_rad = goal.distance_m > kOnGoal_m ? goal.bearing_rad : 0.0;
-  vote.waypoint = RoundedVote(
-      WaypointVote(question.peak, vote.waypoint_error_rad * question.index_per_rad,
-                   params_.waypoints.vote_index_variance),
-      whole);
+  vote.waypoint_error_rad = WaypointError(first, second, question);
+  // index = e / (w spacing).
+  vote.waypoint =
+      RoundedVote(WaypointVote(question.peak, vote.waypoint_error_rad * question.index_per_rad,
+                               params_.waypoints.vote_index_variance),
+                  whole);
   vote.merged = RoundedVote(MergeVotes(hazard, vote.waypoint, params_.waypoints.waypoint_certainty,
                                        params_.votes.min_vote_goodness),
                             whole);
-  vote.feasible = first.feasible && second.feasible;
   return vote;
 }
+
+double SplineVoter::WaypointError(const FirstHalf& first, const SecondHalf& second,
+                                  const Question& question) const {
+  ClothoidPoint place_W = first.at_waypoint_W;
+  if (question.waypoint_m >= Knot_m()) {
+    const bool whole = question.waypoint_m == params_.splines.waypoint_m;
+    place_W = first.knot.InW(whole ? second.at_waypoint : AtWaypoint(second, question.waypoint_m));
+  }
+  const GoalDirection goal =
+      TowardsGoal({.x_m = place_W.x_m, .y_m = place_W.y_m, .heading_rad = place_W.heading_rad},
+                  question.goal_W);
+  return goal.distance_m > kOnGoal_m ? goal.bearing_rad : 0.0;
+}
+
+bool SplineVoter::IsFeasible(double from_per_m, double to_per_m) const {
+  return law_.LargestRateInTime(from_per_m, to_per_m, Knot_m(), full_speed_m_s_) <=
+         params_.splines.max_curvature_rate_per_m_s;
+}
+
+bool SplineVoter::TurnedEnough(double turned_rad) const {
+  return std::abs(turned_rad) > params_.plan.max_path_turn_rad;
+}
+
+double SplineVoter::Knot_m() const { return 0.5 * params_.splines.length_m; }
 
 const SplineVote* ChooseSpline(std::span<const SplineVote> votes, const GestaltParams& params) {
   const auto worth = [](const SplineVote& vote) {

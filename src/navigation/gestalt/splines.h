@@ -51,14 +51,15 @@ class SplineVoter {
   const PathSampling& sampling() const { return sampling_; }
 
  private:
-  // What a spline does after its first knot, in the frame that it has there.
+  // What a spline does after its first knot, in the frame K that it has there.
   struct SecondHalf {
-    Spline spline;  // of any start
-    std::vector<ClothoidPoint> points;
-    double largest_turn_rad = 0.0;  // |heading| of any of the points
-    ClothoidPoint at_waypoint;      // after waypoint_m, if that is beyond the first knot
+    Spline spline;                      // of any start
+    std::vector<ClothoidPoint> points;  // those of the sampling from first_points_ on
+    double largest_turn_rad = 0.0;      // |heading| of any of the points
+    ClothoidPoint at_waypoint;          // after waypoint_m, if that is not before the first knot
     bool feasible = false;
   };
+  struct Frame;
   struct FirstHalf;
   struct Question;
 
@@ -66,17 +67,22 @@ class SplineVoter {
   FirstHalf MakeFirstHalf(const Spline& spline, const Question& question) const;
   HazardVote JudgeWhole(const FirstHalf& first, const SecondHalf& second,
                         const Question& question) const;
-  ClothoidPoint AtWaypoint(const FirstHalf& first, const SecondHalf& second,
-                           const Question& question) const;
+  ClothoidPoint AtWaypoint(const SecondHalf& second, double waypoint_m) const;
   messages::SplineVote VoteOn(const FirstHalf& first, const SecondHalf& second,
                               const Question& question) const;
+  // Returns e, positive where the goal is on the left.
+  double WaypointError(const FirstHalf& first, const SecondHalf& second,
+                       const Question& question) const;
+  bool IsFeasible(double from_per_m, double to_per_m) const;  // from one knot to the next
+  bool TurnedEnough(double turned_rad) const;                 // to be judged no further
+  double Knot_m() const;                                      // of the first knot
 
   GestaltParams params_;
   double full_speed_m_s_;
   CurvatureLaw law_;
   PathSampling sampling_;
-  std::size_t first_points_ = 0;         // of the sampling, up to the first knot
-  std::vector<double> sum_of_weights_;   // of the first k points
+  std::size_t first_points_ = 0;        // of the sampling, before the first knot
+  std::vector<double> sum_of_weights_;  // of the first k points
   std::vector<SecondHalf> second_halves_;
 };
 
