@@ -54,6 +54,8 @@ TEST(CurvatureLaw, InTheDistanceIsLinear) {
 }
 
 // The time t(s) = int ds / p(c(s)), by Simpson's rule in steps of 0.2 mm, grows linearly with c.
+// Its error is that of the steps with a corner of p, of the order of 1 / (12 n^2) = 1e-9 and dp/dc
+// times dc/ds of that, up to 30 here.
 TEST(CurvatureLaw, InTimeIsLinearInTime) {
   const CurvatureLaw law(SplineLaw::kTime, kSlow);
   constexpr int kSteps = 7500;
@@ -73,7 +75,7 @@ TEST(CurvatureLaw, InTimeIsLinearInTime) {
     }
     for (int i = 0; i <= kSteps; i += 500) {
       const double linear = from + (to - from) * times[static_cast<std::size_t>(i)] / times.back();
-      EXPECT_NEAR(law.Between(from, to, 1.0 * i / kSteps), linear, 1e-9);
+      EXPECT_NEAR(law.Between(from, to, 1.0 * i / kSteps), linear, 1e-7);
     }
   }
 }

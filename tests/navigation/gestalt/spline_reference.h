@@ -9,8 +9,9 @@
 
 namespace rockyard::navigation {
 
-inline bool RateIsFeasible(const Spline& spline, const CurvatureLaw& law,
-                           const GestaltParams& params, double full_speed_m_s) {
+inline bool RateIsFeasible(const GestaltParams& params, double full_speed_m_s,
+                           const Spline& spline) {
+  const CurvatureLaw law(params.splines.law, params.speed);
   // The largest change in time between places that are close together, by the speed law. Just
   // beyond a knot stands for just at it.
   for (int i = 0; i < 2000; ++i) {
@@ -27,8 +28,7 @@ inline bool RateIsFeasible(const Spline& spline, const CurvatureLaw& law,
   return true;
 }
 
-inline messages::SplineVote ReferenceVote(const GestaltParams& params, double full_speed_m_s,
-                                          const GoodnessGrid& grid,
+inline messages::SplineVote ReferenceVote(const GestaltParams& params, const GoodnessGrid& grid,
                                           const messages::PoseEstimate& start,
                                           const messages::Goal& goal, const Spline& spline) {
   const CurvatureLaw law(params.splines.law, params.speed);
@@ -69,14 +69,14 @@ inline messages::SplineVote ReferenceVote(const GestaltParams& params, double fu
                           std::exp(-0.5 * index * index / params.waypoints.vote_index_variance));
   vote.merged = rounded(MergeVotes(hazard, vote.waypoint, params.waypoints.waypoint_certainty,
                                    params.votes.min_vote_goodness));
-  vote.feasible = RateIsFeasible(spline, law, params, full_speed_m_s);
   return vote;
 }
 
-// All splines, by the first knot from right to left, then by the second one.
-inline SplineVotes ReferenceVotes(const GestaltParams& params, double full_speed_m_s,
-                                  const GoodnessGrid& grid, const messages::PoseEstimate& start,
-                                  double curvature_per_m, const messages::Goal& goal) {
+// All splines, without whether they are feasible; by the first knot from right to left, then by the
+// second one.
+inline SplineVotes ReferenceVotes(const GestaltParams& params, const GoodnessGrid& grid,
+                                  const messages::PoseEstimate& start, double curvature_per_m,
+                                  const messages::Goal& goal) {
   const GestaltSplineParams& p = params.splines;
   const auto knot = [&p](std::int64_t i, std::int64_t count) {
     if (count == 1) return 0.0;
@@ -87,7 +87,7 @@ inline SplineVotes ReferenceVotes(const GestaltParams& params, double full_speed
   for (std::int64_t i = 0; i < p.num_first_knots; ++i) {
     for (std::int64_t j = 0; j < p.num_second_knots; ++j) {
       votes.push_back(ReferenceVote(
-          params, full_speed_m_s, grid, start, goal,
+          params, grid, start, goal,
           {curvature_per_m, knot(i, p.num_first_knots), knot(j, p.num_second_knots), p.length_m}));
     }
   }
