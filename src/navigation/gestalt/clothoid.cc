@@ -23,7 +23,7 @@ struct Chord {
   double across_m;
 };
 
-// How far pieces may turn, tau = max(|c| l, sqrt(|c'|) l), for either way to integrate them.
+// How far pieces may turn, tau = max(|c|, sqrt(|c'|)) l, for either way to integrate them.
 constexpr double kTurnOfSeries_rad = 0.125;
 constexpr double kTurnOfQuadrature_rad = 1.0;
 
@@ -72,10 +72,14 @@ ClothoidPoint AlongClothoid(const ClothoidPoint& from, double curvature_per_m, d
                             double length_m) {
   EXPECT(length_m >= 0.0);
   const double end_per_m = curvature_per_m + rate_per_m2 * length_m;
-  const double turn_rad = length_m * std::max({std::abs(curvature_per_m), std::abs(end_per_m),
-                                               std::sqrt(std::abs(rate_per_m2))});
-  const bool short_turn = turn_rad <= kTurnOfSeries_rad;
-  const double pieces = std::max(1.0, std::ceil(turn_rad / kTurnOfQuadrature_rad));
+  const double turn_rad = length_m * std::max(std::abs(curvature_per_m), std::abs(end_per_m));
+  const double bend_rad = length_m * length_m * std::abs(rate_per_m2);
+  const bool short_turn =
+      turn_rad <= kTurnOfSeries_rad && bend_rad <= kTurnOfSeries_rad * kTurnOfSeries_rad;
+  const double pieces = short_turn
+                            ? 1.0
+                            : std::max(1.0, std::ceil(std::max(turn_rad, std::sqrt(bend_rad)) /
+                                                      kTurnOfQuadrature_rad));
   const double piece_m = length_m / pieces;
   ClothoidPoint point = from;
   for (double k = 0.0; k < pieces; ++k) {

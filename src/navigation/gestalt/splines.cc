@@ -75,6 +75,15 @@ struct SplineVoter::FirstHalf {
   bool feasible = false;
 };
 
+// Where the points of the second halves of one first knot lie in the grid, in cells, [spline][k].
+struct SplineVoter::Cells {
+  explicit Cells(std::size_t count) : column(count), row(count) {}
+
+  std::size_t first_spline = 0;
+  std::vector<double> column;
+  std::vector<double> row;
+};
+
 SplineVoter::SplineVoter(const GestaltParams& params, double full_speed_m_s)
     : params_(params),
       full_speed_m_s_(full_speed_m_s),
@@ -86,6 +95,7 @@ SplineVoter::SplineVoter(const GestaltParams& params, double full_speed_m_s)
   const std::vector<double>& at_m = sampling_.distance_m;
   const auto beyond = std::lower_bound(at_m.begin(), at_m.end(), Knot_m());
   first_points_ = static_cast<std::size_t>(beyond - at_m.begin());
+  second_points_ = at_m.size() - first_points_;
   sum_of_weights_.push_back(0.0);
   for (const double weight : sampling_.weight) {
     sum_of_weights_.push_back(sum_of_weights_.back() + weight);
@@ -94,30 +104,31 @@ SplineVoter::SplineVoter(const GestaltParams& params, double full_speed_m_s)
   const auto second_knots = static_cast<std::size_t>(splines.num_second_knots);
   for (std::size_t i = 0; i < first_knots; ++i) {
     for (std::size_t j = 0; j < second_knots; ++j) {
-      second_halves_.push_back(
-          MakeSecondHalf(ArcCurvature(i, first_knots, splines.max_curvature_per_m),
-                         ArcCurvature(j, second_knots, splines.max_curvature_per_m)));
+      AddSecondHalf(ArcCurvature(i, first_knots, splines.max_curvature_per_m),
+                    ArcCurvature(j, second_knots, splines.max_curvature_per_m));
     }
   }
 }
 
-SplineVoter::SecondHalf SplineVoter::MakeSecondHalf(double first_knot_per_m,
-                                                    double second_knot_per_m) const {
+void SplineVoter::AddSecondHalf(double first_knot_per_m, double second_knot_per_m) {
   const GestaltSplineParams& splines = params_.splines;
   SecondHalf half;
   half.spline = {first_knot_per_m, first_knot_per_m, second_knot_per_m, splines.length_m};
-  const double knot_m = Knot_m();
   half.feasible = IsFeasible(first_knot_per_m, second_knot_per_m);
   ClothoidPoint point;
-  double driven_m = knot_m;
+  double driven_m = Knot_m();
   for (std::size_t k = first_points_; k < sampling_.distance_m.size(); ++k) {
     point = AlongSpline(point, half.spline, driven_m, sampling_.distance_m[k], law_);
     driven_m = sampling_.distance_m[k];
-    half.points.push_back(point);
+    points_K_.x_m.push_back(point.x_m);
+    points_K_.y_m.push_back(point.y_m);
+    points_K_.heading_rad.push_back(point.heading_rad);
     half.largest_turn_rad = std::max(half.largest_turn_rad, std::abs(point.heading_rad));
   }
-  if (splines.waypoint_m >= knot_m) half.at_waypoint = AtWaypoint(half, splines.waypoint_m);
-  return half;
+  second_halves_.push_back(half);
+  if (splines.waypoint_m >= Knot_m()) {
+    second_halves_.back().at_waypoint = AtWaypoint(second_halves_.size() - 1, splines.waypoint_m);
+  }
 }
 
 SplineVotes SplineVoter::Vote(const GoodnessGrid& grid, const PoseEstimate& start,
@@ -132,16 +143,15 @@ SplineVotes SplineVoter::Vote(const GoodnessGrid& grid, const PoseEstimate& star
                           .waypoint_m = waypoint_m,
                           .peak = WaypointPeak(goal_R, +1),
                           .index_per_rad = 1.0 / (waypoint_m * ArcSpacing(params_.arcs))};
-  SplineVotes votes;
-  votes.reserve(second_halves_.size());
+  SplineVotes votes(second_halves_.size());
   const auto second_knots = static_cast<std::size_t>(params_.splines.num_second_knots);
+  Cells cells(second_knots * second_points_);
   for (std::size_t i = 0; i < second_halves_.size(); i += second_knots) {
     Spline spline = second_halves_[i].spline;
     spline.start_per_m = curvature_per_m;
     const FirstHalf first = MakeFirstHalf(spline, question);
-    for (std::size_t j = i; j < i + second_knots; ++j) {
-      votes.push_back(VoteOn(first, second_halves_[j], question));
-    }
+    FindCells(first.knot, i, grid, cells);
+    for (std::size_t j = i; j < i + second_knots; ++j) VoteOn(first, j, cells, question, votes[j]);
   }
   return votes;
 }
@@ -175,44 +185,70 @@ SplineVoter::FirstHalf SplineVoter::MakeFirstHalf(const Spline& spline,
           .feasible = IsFeasible(spline.start_per_m, spline.first_knot_per_m)};
 }
 
-HazardVote SplineVoter::JudgeWhole(const FirstHalf& first, const SecondHalf& second,
+void SplineVoter::FindCells(const Frame& knot, std::size_t first_spline, const GoodnessGrid& grid,
+                            Cells& cells) const {
+  cells.first_spline = first_spline;
+  const double* x_m = points_K_.x_m.data() + first_spline * second_points_;
+  const double* y_m = points_K_.y_m.data() + first_spline * second_points_;
+  // p_W = p_WK + Rz(heading) p_K, in cells as GoodnessGrid::At counts them.
+  for (std::size_t k = 0; k < cells.column.size(); ++k) {
+    cells.column[k] =
+        (knot.place.x_m + knot.cosine * x_m[k] - knot.sine * y_m[k] - grid.x0_m) / grid.xstep_m;
+    cells.row[k] =
+        (knot.place.y_m + knot.sine * x_m[k] + knot.cosine * y_m[k] - grid.y0_m) / grid.ystep_m;
+  }
+}
+
+std::size_t SplineVoter::CountJudged(const FirstHalf& first, std::size_t spline,
+                                     const Question& question) const {
+  if (first.turned_enough) return first.count;
+  const double turned_rad = first.knot.place.heading_rad - question.start_W.heading_rad;
+  const double largest_rad = std::abs(turned_rad) + second_halves_[spline].largest_turn_rad;
+  if (!TurnedEnough(largest_rad)) return question.count;
+  const double* heading_rad = points_K_.heading_rad.data() + spline * second_points_;
+  std::size_t count = first.count;
+  for (; count < question.count; ++count) {
+    const bool turned_enough = TurnedEnough(turned_rad + heading_rad[count - first_points_]);
+    if (turned_enough && count > 0) break;
+  }
+  return count;
+}
+
+HazardVote SplineVoter::JudgeWhole(const FirstHalf& first, std::size_t spline, const Cells& cells,
                                    const Question& question) const {
   PathSums sums = first.sums;
-  const double turned_rad = first.knot.place.heading_rad - question.start_W.heading_rad;
-  const bool may_turn_enough = TurnedEnough(std::abs(turned_rad) + second.largest_turn_rad);
-  const std::size_t end = first.turned_enough ? first.count : question.count;
-  std::size_t count = first.count;
-  for (; count < end; ++count) {
-    const ClothoidPoint& p_K = second.points[count - first_points_];
-    if (may_turn_enough && count > 0 && TurnedEnough(turned_rad + p_K.heading_rad)) break;
-    const ClothoidPoint p_W = first.knot.InW(p_K);
-    sums.Add(question.grid.At(p_W.x_m, p_W.y_m), sampling_.weight[count]);
+  const std::size_t count = CountJudged(first, spline, question);
+  const std::size_t first_cell = (spline - cells.first_spline) * second_points_;
+  for (std::size_t k = first.count; k < count; ++k) {
+    const std::size_t cell = first_cell + k - first_points_;
+    sums.Add(question.grid.AtCells(cells.column[cell], cells.row[cell]), sampling_.weight[k]);
   }
   return sums.Vote(sum_of_weights_[count], question.grid.unknown,
                    params_.votes.min_allowed_goodness);
 }
 
-ClothoidPoint SplineVoter::AtWaypoint(const SecondHalf& second, double waypoint_m) const {
+ClothoidPoint SplineVoter::AtWaypoint(std::size_t spline, double waypoint_m) const {
   // From the last of its points on that is not beyond, or from the knot.
+  const Spline& knots = second_halves_[spline].spline;
   const std::size_t count = sampling_.CountWithin(waypoint_m);
   if (count <= first_points_ || sampling_.distance_m[count - 1] > waypoint_m) {
-    return AlongSpline({}, second.spline, Knot_m(), waypoint_m, law_);
+    return AlongSpline({}, knots, Knot_m(), waypoint_m, law_);
   }
-  return AlongSpline(second.points[count - 1 - first_points_], second.spline,
+  const std::size_t last = spline * second_points_ + count - 1 - first_points_;
+  return AlongSpline({points_K_.x_m[last], points_K_.y_m[last], points_K_.heading_rad[last]}, knots,
                      sampling_.distance_m[count - 1], waypoint_m, law_);
 }
 
-SplineVote SplineVoter::VoteOn(const FirstHalf& first, const SecondHalf& second,
-                               const Question& question) const {
+void SplineVoter::VoteOn(const FirstHalf& first, std::size_t spline, const Cells& cells,
+                         const Question& question, SplineVote& vote) const {
   const bool whole = params_.votes.whole_numbers;
-  const HazardVote hazard = RoundedVote(JudgeWhole(first, second, question), whole);
-  SplineVote vote;
+  const HazardVote hazard = RoundedVote(JudgeWhole(first, spline, cells, question), whole);
   vote.spline = first.spline;
-  vote.spline.second_knot_per_m = second.spline.second_knot_per_m;
-  vote.feasible = first.feasible && second.feasible;
+  vote.spline.second_knot_per_m = second_halves_[spline].spline.second_knot_per_m;
+  vote.feasible = first.feasible && second_halves_[spline].feasible;
   vote.hazard = hazard.goodness;
   vote.hazard_certainty = hazard.certainty;
-  vote.waypoint_error_rad = WaypointError(first, second, question);
+  vote.waypoint_error_rad = WaypointError(first, spline, question);
   // index = e / (w spacing).
   vote.waypoint =
       RoundedVote(WaypointVote(question.peak, vote.waypoint_error_rad * question.index_per_rad,
@@ -221,15 +257,15 @@ SplineVote SplineVoter::VoteOn(const FirstHalf& first, const SecondHalf& second,
   vote.merged = RoundedVote(MergeVotes(hazard, vote.waypoint, params_.waypoints.waypoint_certainty,
                                        params_.votes.min_vote_goodness),
                             whole);
-  return vote;
 }
 
-double SplineVoter::WaypointError(const FirstHalf& first, const SecondHalf& second,
+double SplineVoter::WaypointError(const FirstHalf& first, std::size_t spline,
                                   const Question& question) const {
   ClothoidPoint place_W = first.at_waypoint_W;
   if (question.waypoint_m >= Knot_m()) {
     const bool whole = question.waypoint_m == params_.splines.waypoint_m;
-    place_W = first.knot.InW(whole ? second.at_waypoint : AtWaypoint(second, question.waypoint_m));
+    place_W = first.knot.InW(whole ? second_halves_[spline].at_waypoint
+                                   : AtWaypoint(spline, question.waypoint_m));
   }
   const GoalDirection goal =
       TowardsGoal({.x_m = place_W.x_m, .y_m = place_W.y_m, .heading_rad = place_W.heading_rad},

@@ -53,26 +53,38 @@ class SplineVoter {
  private:
   // What a spline does after its first knot, in the frame K that it has there.
   struct SecondHalf {
-    Spline spline;                      // of any start
-    std::vector<ClothoidPoint> points;  // those of the sampling from first_points_ on
-    double largest_turn_rad = 0.0;      // |heading| of any of the points
-    ClothoidPoint at_waypoint;          // after waypoint_m, if that is not before the first knot
+    Spline spline;                  // of any start
+    double largest_turn_rad = 0.0;  // |heading| of any of its points
+    ClothoidPoint at_waypoint;      // after waypoint_m, if that is not before the first knot
     bool feasible = false;
   };
+  // Points of all second halves, [spline][k], those of the sampling from first_points_ on.
+  struct Points {
+    std::vector<double> x_m;
+    std::vector<double> y_m;
+    std::vector<double> heading_rad;
+  };
   struct Frame;
-  struct FirstHalf;
   struct Question;
+  struct FirstHalf;
+  struct Cells;
 
-  SecondHalf MakeSecondHalf(double first_knot_per_m, double second_knot_per_m) const;
+  void AddSecondHalf(double first_knot_per_m, double second_knot_per_m);
   FirstHalf MakeFirstHalf(const Spline& spline, const Question& question) const;
-  HazardVote JudgeWhole(const FirstHalf& first, const SecondHalf& second,
+  // Finds the cells of the points of the splines from `first_spline` on, as many as there are
+  // second knots.
+  void FindCells(const Frame& knot, std::size_t first_spline, const GoodnessGrid& grid,
+                 Cells& cells) const;
+  // Returns how many points of a spline are judged.
+  std::size_t CountJudged(const FirstHalf& first, std::size_t spline,
+                          const Question& question) const;
+  HazardVote JudgeWhole(const FirstHalf& first, std::size_t spline, const Cells& cells,
                         const Question& question) const;
-  ClothoidPoint AtWaypoint(const SecondHalf& second, double waypoint_m) const;
-  messages::SplineVote VoteOn(const FirstHalf& first, const SecondHalf& second,
-                              const Question& question) const;
+  ClothoidPoint AtWaypoint(std::size_t spline, double waypoint_m) const;
+  void VoteOn(const FirstHalf& first, std::size_t spline, const Cells& cells,
+              const Question& question, messages::SplineVote& vote) const;
   // Returns e, positive where the goal is on the left.
-  double WaypointError(const FirstHalf& first, const SecondHalf& second,
-                       const Question& question) const;
+  double WaypointError(const FirstHalf& first, std::size_t spline, const Question& question) const;
   bool IsFeasible(double from_per_m, double to_per_m) const;  // from one knot to the next
   bool TurnedEnough(double turned_rad) const;                 // to be judged no further
   double Knot_m() const;                                      // of the first knot
@@ -82,8 +94,10 @@ class SplineVoter {
   CurvatureLaw law_;
   PathSampling sampling_;
   std::size_t first_points_ = 0;        // of the sampling, before the first knot
+  std::size_t second_points_ = 0;       // the others
   std::vector<double> sum_of_weights_;  // of the first k points
   std::vector<SecondHalf> second_halves_;
+  Points points_K_;
 };
 
 // Returns the spline with the highest merged vote of those that are feasible and whose hazard vote
