@@ -13,9 +13,6 @@ namespace {
 using messages::PoseEstimate;
 using messages::SplineVote;
 
-// A rover this near to its goal stands on it, so that no direction leads there.
-constexpr double kOnGoal_m = 1e-6;
-
 // Steering and errors closer than this are equal, whatever rounding made of them.
 constexpr double kEqual = 1e-9;
 
@@ -26,6 +23,13 @@ double ArcSpacing(const GestaltArcParams& arcs) {
 }
 
 ClothoidPoint AsPoint(const PoseEstimate& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
+
+// The angle by which a rover that heads straight on misses a goal of that radius,
+//   e = max(0, |bearing| - asin(radius / distance)), 0 within it.
+double MissedBy(const GoalDirection& goal, double radius_m) {
+  if (goal.distance_m <= radius_m) return 0.0;
+  return std::max(0.0, std::abs(goal.bearing_rad) - std::asin(radius_m / goal.distance_m));
+}
 
 // Changes of curvature along a spline, 1/m.
 double Steering(const Spline& spline) {
@@ -134,15 +138,13 @@ void SplineVoter::AddSecondHalf(double first_knot_per_m, double second_knot_per_
 SplineVotes SplineVoter::Vote(const GoodnessGrid& grid, const PoseEstimate& start,
                               double curvature_per_m, const messages::Goal& goal) const {
   const GoalDirection goal_R = TowardsGoal(start, goal);
-  const double waypoint_m =
-      std::max(kOnGoal_m, std::min(params_.splines.waypoint_m, goal_R.distance_m));
   const Question question{.grid = grid,
                           .start_W = AsPoint(start),
                           .goal_W = goal,
                           .count = sampling_.CountWithin(goal_R.distance_m),
-                          .waypoint_m = waypoint_m,
+                          .waypoint_m = std::min(params_.splines.waypoint_m, goal_R.distance_m),
                           .peak = WaypointPeak(goal_R, +1),
-                          .index_per_rad = 1.0 / (waypoint_m * ArcSpacing(params_.arcs))};
+                          .index_per_rad = 1.0 / (params_.drive.step_m * ArcSpacing(params_.arcs))};
   SplineVotes votes(second_halves_.size());
   const auto second_knots = static_cast<std::size_t>(params_.splines.num_second_knots);
   Cells cells(second_knots * second_points_);
@@ -248,29 +250,28 @@ void SplineVoter::VoteOn(const FirstHalf& first, std::size_t spline, const Cells
   vote.feasible = first.feasible && second_halves_[spline].feasible;
   vote.hazard = hazard.goodness;
   vote.hazard_certainty = hazard.certainty;
-  vote.waypoint_error_rad = WaypointError(first, spline, question);
-  // index = e / (w spacing).
-  vote.waypoint =
-      RoundedVote(WaypointVote(question.peak, vote.waypoint_error_rad * question.index_per_rad,
-                               params_.waypoints.vote_index_variance),
-                  whole);
+  const GoalDirection goal = FromWaypoint(first, spline, question);
+  vote.waypoint_error_rad = goal.bearing_rad;
+  // index = e / (step spacing).
+  const double miss_rad = MissedBy(goal, params_.waypoints.goal_tolerance_m);
+  vote.waypoint = RoundedVote(WaypointVote(question.peak, miss_rad * question.index_per_rad,
+                                           params_.waypoints.vote_index_variance),
+                              whole);
   vote.merged = RoundedVote(MergeVotes(hazard, vote.waypoint, params_.waypoints.waypoint_certainty,
                                        params_.votes.min_vote_goodness),
                             whole);
 }
 
-double SplineVoter::WaypointError(const FirstHalf& first, std::size_t spline,
-                                  const Question& question) const {
+GoalDirection SplineVoter::FromWaypoint(const FirstHalf& first, std::size_t spline,
+                                        const Question& question) const {
   ClothoidPoint place_W = first.at_waypoint_W;
   if (question.waypoint_m >= Knot_m()) {
     const bool whole = question.waypoint_m == params_.splines.waypoint_m;
     place_W = first.knot.InW(whole ? second_halves_[spline].at_waypoint
                                    : AtWaypoint(spline, question.waypoint_m));
   }
-  const GoalDirection goal =
-      TowardsGoal({.x_m = place_W.x_m, .y_m = place_W.y_m, .heading_rad = place_W.heading_rad},
-                  question.goal_W);
-  return goal.distance_m > kOnGoal_m ? goal.bearing_rad : 0.0;
+  return TowardsGoal({.x_m = place_W.x_m, .y_m = place_W.y_m, .heading_rad = place_W.heading_rad},
+                     question.goal_W);
 }
 
 bool SplineVoter::IsFeasible(double from_per_m, double to_per_m) const {

@@ -26,12 +26,14 @@ using SplineVotes = std::vector<messages::SplineVote>;
 // Votes on the splines of all knots. Hazard votes, merged votes and their rounding are those of
 // arcs (VoteOnPath, MergeVotes), out to min(distance to the goal, plan_max_dist) at the places of
 // PathSampling, and no further than where a spline has turned max_path_turn; beyond its end it goes
-// on at the curvature of its last knot. The waypoint vote is what arcs are given by their index,
-// the curvature by which they differ from the best one in spacings of the arcs: a spline whose
-// heading after w = min(waypoint_m, distance to the goal) differs by e from the direction from
-// there to the goal would have had to be curved by e / w more,
-//   index = e / (w spacing),  vote = peak exp(-index^2 / (2 vote_index_variance)),
-// with the peak of forward arcs. On the goal e is 0.
+// on at the curvature of its last knot. The waypoint vote is the function that arcs
+// have of the angle by which they miss the goal: an arc that faces it after one step (c_tight of
+// BestCurvature) is the best one, and one that would still have to turn by e then is
+//   index = e / (step spacing),  vote = peak exp(-index^2 / (2 vote_index_variance))
+// of their spacing from it. A spline pays the same for its e, with step_m and the peak of forward
+// arcs; e is asked after min(waypoint_m, distance to the goal), and the goal is a disc of
+// goal_tolerance, since the centre lies any way for a rover that is about to reach it:
+//   e = max(0, |angle to the centre| - asin(tolerance / distance)), 0 within the disc.
 //
 // A spline is feasible if its curvature never changes faster than max_curvature_rate at the speed
 // of the speed law.
@@ -83,8 +85,9 @@ class SplineVoter {
   ClothoidPoint AtWaypoint(std::size_t spline, double waypoint_m) const;
   void VoteOn(const FirstHalf& first, std::size_t spline, const Cells& cells,
               const Question& question, messages::SplineVote& vote) const;
-  // Returns e, positive where the goal is on the left.
-  double WaypointError(const FirstHalf& first, std::size_t spline, const Question& question) const;
+  // Returns the goal from where the waypoint vote is asked.
+  GoalDirection FromWaypoint(const FirstHalf& first, std::size_t spline,
+                             const Question& question) const;
   bool IsFeasible(double from_per_m, double to_per_m) const;  // from one knot to the next
   bool TurnedEnough(double turned_rad) const;                 // to be judged no further
   double Knot_m() const;                                      // of the first knot
@@ -102,10 +105,10 @@ class SplineVoter {
 
 // Returns the spline with the highest merged vote of those that are feasible and whose hazard vote
 // is above min_drive_goodness; null if there is none. Of equal votes, which whole numbers often
-// are, the one with the least steering |k1 - c0| + |k2 - k1|, then the one whose waypoint error is
-// least, both to 1e-9, then the right one: the one with the first knot further to the right, and of
-// one first knot with the second. Mirrored votes so give the mirrored choice unless two splines are
-// each other's mirror image in all of that.
+// are, the one with the least steering |k1 - c0| + |k2 - k1|, then the one that heads best for the
+// goal's centre where the waypoint vote is asked, both to 1e-9, then the right one: the one with
+// the first knot further to the right, and of one first knot with the second. Mirrored votes so
+// give the mirrored choice unless two splines are each other's mirror image in all of that.
 //
 // The pointer is into `votes`. Cost: linear in their number.
 const messages::SplineVote* ChooseSpline(std::span<const messages::SplineVote> votes,

@@ -61,9 +61,13 @@ inline messages::SplineVote ReferenceVote(const GestaltParams& params, const Goo
   const double heading = start.heading_rad + p.heading_rad;
   vote.waypoint_error_rad = std::atan2(std::cos(heading) * to_y - std::sin(heading) * to_x,
                                        std::cos(heading) * to_x + std::sin(heading) * to_y);
+  // The goal is a disc.
+  const double width = std::min(1.0, params.waypoints.goal_tolerance_m / std::hypot(to_x, to_y));
+  double miss = std::max(0.0, std::abs(vote.waypoint_error_rad) - std::asin(width));
+  if (width >= 1.0) miss = 0.0;
   const double spacing =
       2.0 * params.arcs.max_curvature_per_m / static_cast<double>(params.arcs.num_forward_arcs - 1);
-  const double index = vote.waypoint_error_rad / (w_m * spacing);
+  const double index = miss / (params.drive.step_m * spacing);
   const bool ahead = cosine * (goal.x_m - start.x_m) + sine * (goal.y_m - start.y_m) >= 0.0;
   vote.waypoint = rounded((ahead ? 255.0 : 128.0) *
                           std::exp(-0.5 * index * index / params.waypoints.vote_index_variance));

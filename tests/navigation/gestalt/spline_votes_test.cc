@@ -61,28 +61,70 @@ TEST(GestaltSplineVotes, GoodGroundLeadsToTheGoal) {
 
 // A spline whose curvatures are all c is an arc: after w its place is (sin(c w), 1 - cos(c w)) / c
 // and its heading c w.
-TEST(GestaltSplineVotes, WaypointVoteFallsWithTheHeadingError) {
+TEST(GestaltSplineVotes, WaypointVoteFallsWithTheAngleThatMissesTheGoal) {
   GestaltParams params;
   params.votes.whole_numbers = false;
   const messages::Goal goal{6.0, 2.0};
-  for (const double waypoint_m : {0.5, 1.5, 2.0, 3.0}) {
-    params.splines.waypoint_m = waypoint_m;
-    for (const int knot : {0, 3, 10, 14}) {
-      const double c = (knot - 7) / 7.0;
-      const SplineVotes votes = VotesOn(UniformGrid(kGood), goal, params, c);
-      const SplineVote& vote = votes[IndexOf(knot, knot)];
-      const double x = std::sin(c * waypoint_m) / c;
-      const double y = (1.0 - std::cos(c * waypoint_m)) / c;
-      const double e = std::remainder(std::atan2(goal.y_m - y, goal.x_m - x) - c * waypoint_m,
-                                      2.0 * std::numbers::pi);
-      EXPECT_NEAR(vote.waypoint_error_rad, e, 1e-11);
-      // 23 arcs within +-2 / m: spacing 2/11 / m; variance 225.
-      const double index = e / (waypoint_m * 2.0 / 11.0);
-      EXPECT_NEAR(vote.waypoint, 255.0 * std::exp(-index * index / 450.0), 1e-9);
-      // Step 6: hazard vote 255 of certainty 255, waypoint certainty 192.
-      EXPECT_NEAR(vote.merged, (255.0 * 255.0 + vote.waypoint * 192.0) / 447.0, 1e-9);
+  for (const double step_m : {0.35, 0.7}) {
+    params.drive.step_m = step_m;
+    for (const double waypoint_m : {0.5, 1.5, 2.0, 3.0}) {
+      params.splines.waypoint_m = waypoint_m;
+      for (const int knot : {0, 3, 10, 14}) {
+        const double c = (knot - 7) / 7.0;
+        const SplineVotes votes = VotesOn(UniformGrid(kGood), goal, params, c);
+        const SplineVote& vote = votes[IndexOf(knot, knot)];
+        const double x = goal.x_m - std::sin(c * waypoint_m) / c;
+        const double y = goal.y_m - (1.0 - std::cos(c * waypoint_m)) / c;
+        const double bearing =
+            std::remainder(std::atan2(y, x) - c * waypoint_m, 2.0 * std::numbers::pi);
+        EXPECT_NEAR(vote.waypoint_error_rad, bearing, 1e-11);
+        // A disc of 0.25 m.
+        const double e = std::max(0.0, std::abs(bearing) - std::asin(0.25 / std::hypot(x, y)));
+        // 23 arcs within +-2 / m: spacing 2/11 / m; variance 225.
+        const double index = e / (step_m * 2.0 / 11.0);
+        EXPECT_NEAR(vote.waypoint, 255.0 * std::exp(-index * index / 450.0), 1e-9);
+        // Step 6: the lower one below 26, else hazard vote 255 of certainty 255 with waypoint
+        // certainty 192.
+        const double merged = (255.0 * 255.0 + vote.waypoint * 192.0) / 447.0;
+        EXPECT_NEAR(vote.merged, vote.waypoint < 26.0 ? vote.waypoint : merged, 1e-9);
+      }
     }
   }
+}
+
+// What a motion misses the goal by costs an arc as much as a spline: the arcs that after a step of
+// 0.35 m face 30 deg to either side of a far goal, and the splines that do so after 3 m.
+TEST(GestaltSplineVotes, WaypointVoteIsThatOfArcsForTheSameAngle) {
+  GestaltParams params;
+  params.votes.whole_numbers = false;
+  const messages::Goal goal{1e7, 0.0};
+  const MotionVotes arcs = ArcVoter(params).Vote(UniformGrid(kGood), {}, goal);
+  params.splines.max_curvature_per_m = 0.35 * 2.0 / 3.0;
+  params.splines.num_first_knots = params.splines.num_second_knots = 23;
+  for (std::size_t i = 0; i < 23; ++i) {
+    // The arc c_i = (i - 11) 2/11 has turned by 0.35 c_i, the spline of 0.35 c_i / 3 / m as much.
+    const double c = 0.35 / 3.0 * (static_cast<double>(i) - 11.0) * 2.0 / 11.0;
+    const SplineVotes votes = VotesOn(UniformGrid(kGood), goal, params, c);
+    EXPECT_NEAR(votes[23 * i + i].waypoint, arcs.forward[i].waypoint, 1e-4);
+  }
+}
+
+// The goal is reached anywhere in its disc, and every heading that meets the disc is as good.
+TEST(GestaltSplineVotes, TheGoalIsADisc) {
+  GestaltParams params;
+  params.votes.whole_numbers = false;
+  const auto straight = [&params](double x, double y) {
+    return VotesOn(UniformGrid(kGood), {x, y}, params)[IndexOf(kStraight, kStraight)];
+  };
+  EXPECT_EQ(straight(5.0, 0.2).waypoint, 255.0) << "passes 0.2 m beside the centre";
+  EXPECT_EQ(straight(5.0, -0.2).waypoint, 255.0);
+  EXPECT_LT(straight(5.0, 0.3).waypoint, 255.0);
+  EXPECT_LT(straight(5.0, -0.3).waypoint, 255.0);
+  // Ends in the disc, beside the centre and a little beyond it, or beside the disc.
+  EXPECT_EQ(straight(2.0, 0.2).waypoint, 255.0);
+  EXPECT_LT(straight(2.0, 0.6).waypoint, 200.0);
+  params.waypoints.goal_tolerance_m = 0.1;
+  EXPECT_LT(straight(5.0, 0.2).waypoint, 255.0);
 }
 
 TEST(GestaltSplineVotes, FacingAwayVotesFromTheLowerPeak) {
@@ -90,7 +132,7 @@ TEST(GestaltSplineVotes, FacingAwayVotesFromTheLowerPeak) {
   double highest = 0.0;
   for (const SplineVote& vote : votes) highest = std::max(highest, vote.waypoint);
   EXPECT_LE(highest, 128.0);
-  EXPECT_GT(highest, 120.0);
+  EXPECT_GT(highest, 90.0);
   const SplineVote* chosen = ChooseSpline(votes, {});
   EXPECT_GT(chosen->spline.second_knot_per_m, 0.0) << "it turns to the goal's side";
 }
@@ -142,7 +184,7 @@ TEST(GestaltSplineVotes, UnknownGroundIsTheLastResort) {
   for (const SplineVote& vote : unknown) {
     EXPECT_EQ(vote.hazard, 11.0);
     EXPECT_EQ(vote.hazard_certainty, 0.0);
-    EXPECT_EQ(vote.merged, 11.0);
+    EXPECT_EQ(vote.merged, std::min(11.0, vote.waypoint));
   }
   EXPECT_NE(ChooseSpline(unknown, {}), nullptr);
   // Good ground on the right only: the rover chooses it, with the goal on the left.
@@ -164,7 +206,7 @@ TEST(GestaltSplineVotes, ANearGoalEndsWhatIsJudged) {
       EXPECT_EQ(votes[IndexOf(i, j)].merged, votes[IndexOf(i, 0)].merged);
     }
   }
-  // The straight spline ends on the goal, from which no direction leads to it.
+  // The straight spline ends on the goal.
   EXPECT_EQ(votes[IndexOf(kStraight, kStraight)].waypoint, 255.0);
   EXPECT_EQ(ChooseSpline(votes, {}), &votes[IndexOf(kStraight, kStraight)]);
 }
