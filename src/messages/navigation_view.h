@@ -55,7 +55,7 @@ struct SplineVote {
   double hazard = 0.0;
   double hazard_certainty = 0.0;
   double waypoint = 0.0;
-  double waypoint_error_rad = 0.0;  // from the goal's direction where the waypoint vote is asked
+  double waypoint_error_rad = 0.0;  // from its heading to the goal where the waypoint vote is asked
   double merged = 0.0;
   bool feasible = false;  // the steering motors keep up with it
   bool chosen = false;    // the spline that is driven

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/check.h"
 #include "navigation/gestalt/gauss_nodes.h"
@@ -25,8 +26,7 @@ CurvatureLaw::CurvatureLaw(SplineLaw law, const SpeedLawParams& speed) : law_(la
   const double slow_per_m = speed.slow_curvature_per_m;
   EXPECT(slow_per_m > full_per_m && speed.min_speed_share > 0.0);
   slope_m_ = (1.0 - speed.min_speed_share) / (slow_per_m - full_per_m);
-  slow_integral_ =
-      full_per_m + 0.5 * (1.0 + speed.min_speed_share) * (slow_per_m - full_per_m);
+  slow_integral_ = full_per_m + 0.5 * (1.0 + speed.min_speed_share) * (slow_per_m - full_per_m);
   // p = 0.8^k at c_full + (1 - p) / slope.
   for (double share = 1.0; share > speed.min_speed_share; share *= kSlowingOfPiece) {
     edges_.push_back(full_per_m + (1.0 - share) / slope_m_);
@@ -97,19 +97,28 @@ double CurvatureLaw::MeanCurvature(double from_per_m, double to_per_m) const {
   const double d0 = std::abs(from_per_m) - full_per_m;
   const double d1 = std::abs(to_per_m) - full_per_m;
   const double middle = 0.5 * (d0 + d1);
-  const double over = (middle - slope_m_ * (d0 * d0 + d0 * d1 + d1 * d1) / 3.0) /
-                      (1.0 - slope_m_ * middle);
+  const double over =
+      (middle - slope_m_ * (d0 * d0 + d0 * d1 + d1 * d1) / 3.0) / (1.0 - slope_m_ * middle);
   return std::copysign(full_per_m + over, from_per_m + to_per_m);
 }
 
-ClothoidPoint CurvatureLaw::SlowingPath(double from_per_m, double to_per_m,
-                                        double length_m) const {
-  ClothoidPoint end;
+double CurvatureLaw::NextEdge(double from_per_m, double to_per_m) const {
+  if (to_per_m > from_per_m) {
+    const auto above = std::upper_bound(edges_.begin(), edges_.end(), from_per_m);
+    return above == edges_.end() ? to_per_m : std::min(*above, to_per_m);
+  }
+  const auto at_or_above = std::lower_bound(edges_.begin(), edges_.end(), from_per_m);
+  return at_or_above == edges_.begin() ? to_per_m : std::max(*std::prev(at_or_above), to_per_m);
+}
+
+ClothoidPoint CurvatureLaw::AlongSlowing(const ClothoidPoint& from, double from_per_m,
+                                         double to_per_m, double length_m) const {
+  ClothoidPoint end = from;
   const double half_m = 0.5 * length_m;
   const auto add = [&](double s_m, double weight_m) {
     const double here = Between(from_per_m, to_per_m, s_m / length_m);
     // theta(s) = s times the mean of the curvature so far.
-    const double heading_rad = s_m * MeanCurvature(from_per_m, here);
+    const double heading_rad = from.heading_rad + s_m * MeanCurvature(from_per_m, here);
     end.x_m += weight_m * std::cos(heading_rad);
     end.y_m += weight_m * std::sin(heading_rad);
   };
@@ -117,46 +126,47 @@ ClothoidPoint CurvatureLaw::SlowingPath(double from_per_m, double to_per_m,
     add(half_m * (1.0 - pair.place), half_m * pair.weight);
     add(half_m * (1.0 + pair.place), half_m * pair.weight);
   }
-  end.heading_rad = length_m * MeanCurvature(from_per_m, to_per_m);
+  end.heading_rad += length_m * MeanCurvature(from_per_m, to_per_m);
   return end;
 }
 
-ClothoidPoint CurvatureLaw::SmoothPath(double from_per_m, double to_per_m,
-                                       double length_m) const {
+ClothoidPoint CurvatureLaw::AlongPiece(const ClothoidPoint& from, double from_per_m,
+                                       double to_per_m, double length_m) const {
   const double middle = 0.5 * std::abs(from_per_m + to_per_m);
-  const bool slowing = middle > speed_.full_speed_curvature_per_m &&
-                       middle < speed_.slow_curvature_per_m;
-  if (!slowing) return OnClothoid(from_per_m, (to_per_m - from_per_m) / length_m, length_m);
+  const bool slowing =
+      middle > speed_.full_speed_curvature_per_m && middle < speed_.slow_curvature_per_m;
+  if (!slowing)
+    return AlongClothoid(from, from_per_m, (to_per_m - from_per_m) / length_m, length_m);
   const double turn_rad = length_m * std::max(std::abs(from_per_m), std::abs(to_per_m));
   const double pieces = std::max(1.0, std::ceil(turn_rad / kTurnOfPiece_rad));
-  ClothoidPoint end;
+  ClothoidPoint end = from;
   double begin = from_per_m;
   for (double k = 1.0; k <= pieces; ++k) {
     const double next = k < pieces ? Between(from_per_m, to_per_m, k / pieces) : to_per_m;
-    end = Joined(end, SlowingPath(begin, next, length_m / pieces));
+    end = AlongSlowing(end, begin, next, length_m / pieces);
     begin = next;
   }
   return end;
 }
 
-ClothoidPoint CurvatureLaw::Path(double from_per_m, double to_per_m, double length_m) const {
+ClothoidPoint CurvatureLaw::Along(const ClothoidPoint& from, double from_per_m, double to_per_m,
+                                  double length_m) const {
   EXPECT(length_m >= 0.0);
-  if (length_m == 0.0) return {};
+  if (length_m == 0.0) return from;
   const double whole = Integral(to_per_m) - Integral(from_per_m);
-  const bool all_smooth = law_ == SplineLaw::kDistance || slope_m_ == 0.0 || whole == 0.0;
-  if (all_smooth) return OnClothoid(from_per_m, (to_per_m - from_per_m) / length_m, length_m);
-  // Edges strictly between, in the order in which they are met.
-  const auto [low, high] = std::minmax(from_per_m, to_per_m);
-  const auto first = std::upper_bound(edges_.begin(), edges_.end(), low);
-  std::vector<double> ends(first, std::lower_bound(first, edges_.end(), high));
-  if (to_per_m < from_per_m) std::reverse(ends.begin(), ends.end());
-  ends.push_back(to_per_m);
-  ClothoidPoint end;
+  // Also where a curvature is not a number.
+  const bool steady = !(std::abs(whole) > 0.0);
+  const bool clothoid = law_ == SplineLaw::kDistance || slope_m_ == 0.0 || steady;
+  if (clothoid) {
+    return AlongClothoid(from, from_per_m, (to_per_m - from_per_m) / length_m, length_m);
+  }
+  ClothoidPoint end = from;
   double begin = from_per_m;
-  for (const double next : ends) {
+  while (begin != to_per_m) {
+    const double next = NextEdge(begin, to_per_m);
     // F is linear in the distance.
     const double piece_m = length_m * (Integral(next) - Integral(begin)) / whole;
-    if (piece_m > 0.0) end = Joined(end, SmoothPath(begin, next, piece_m));
+    if (piece_m > 0.0) end = AlongPiece(end, begin, next, piece_m);
     begin = next;
   }
   return end;

@@ -33,23 +33,30 @@ class CurvatureLaw {
   double LargestRateInTime(double from_per_m, double to_per_m, double length_m,
                            double full_speed_m_s) const;
 
-  // Returns where the path between two knots, or between two places between knots, ends. With kTime
-  // the part on which F is a parabola is integrated over pieces short enough for an error of x and
-  // y below 1e-12 m a metre (CurvatureLaw.PathsInTime... has the comparison).
-  ClothoidPoint Path(double from_per_m, double to_per_m, double length_m) const;
+  // Returns where the path from one curvature to the other ends that begins at `from`. Both are
+  // those of knots, or of places between two knots. With kTime the part on which F is a parabola is
+  // integrated over pieces short enough for an error of x and y below 1e-12 m a metre, as that of
+  // clothoids.
+  ClothoidPoint Along(const ClothoidPoint& from, double from_per_m, double to_per_m,
+                      double length_m) const;
 
  private:
-  double Integral(double curvature_per_m) const;         // F
-  double CurvatureOf(double integral_per_m) const;       // of F, the inverse
+  double Integral(double curvature_per_m) const;    // F
+  double CurvatureOf(double integral_per_m) const;  // of F, the inverse
   double MeanCurvature(double from_per_m, double to_per_m) const;
-  ClothoidPoint SmoothPath(double from_per_m, double to_per_m, double length_m) const;
-  ClothoidPoint SlowingPath(double from_per_m, double to_per_m, double length_m) const;
+  double NextEdge(double from_per_m, double to_per_m) const;
+  // Between two edges.
+  ClothoidPoint AlongPiece(const ClothoidPoint& from, double from_per_m, double to_per_m,
+                           double length_m) const;
+  // Where the speed falls or rises all the way, within a turn of 1 rad.
+  ClothoidPoint AlongSlowing(const ClothoidPoint& from, double from_per_m, double to_per_m,
+                             double length_m) const;
 
   SplineLaw law_;
   SpeedLawParams speed_;
   double slope_m_ = 0.0;        // -dp/d|c| where the share falls
   double slow_integral_ = 0.0;  // F at slow_curvature
-  std::vector<double> edges_;   // curvatures between which Path takes a step, ascending
+  std::vector<double> edges_;   // curvatures between which a path is all of one kind, ascending
 };
 
 }  // namespace rockyard::navigation

@@ -33,8 +33,8 @@ void SpeedLawParams::Visit(core::FieldVisitor& v) {
           .min = 0.05,
           .max = 1.0,
           .origin = Origin::kAssumed,
-          .source = "Howard 2012 names none; half speed gives the steering motors twice the time "
-                    "for the same path",
+          .source = "Howard 2012 sec. 3 slows down and does not say by how much; half speed gives "
+                    "the steering motors twice the time for the same path",
           .study_low = 0.25,
           .study_high = 1.0});
 }

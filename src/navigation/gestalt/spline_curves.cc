@@ -31,27 +31,27 @@ double CurvatureRateAt(const Spline& spline, double driven_m, const CurvatureLaw
 
 double LargestRateInTime(const Spline& spline, double full_speed_m_s, const CurvatureLaw& law) {
   const double half_m = 0.5 * spline.length_m;
-  return std::max(law.LargestRateInTime(spline.start_per_m, spline.first_knot_per_m, half_m,
-                                        full_speed_m_s),
-                  law.LargestRateInTime(spline.first_knot_per_m, spline.second_knot_per_m, half_m,
-                                        full_speed_m_s));
+  return std::max(
+      law.LargestRateInTime(spline.start_per_m, spline.first_knot_per_m, half_m, full_speed_m_s),
+      law.LargestRateInTime(spline.first_knot_per_m, spline.second_knot_per_m, half_m,
+                            full_speed_m_s));
 }
 
 ClothoidPoint OnSpline(const Spline& spline, double driven_m, const CurvatureLaw& law) {
-  return AlongSpline(spline, 0.0, driven_m, law);
+  return AlongSpline({}, spline, 0.0, driven_m, law);
 }
 
-ClothoidPoint AlongSpline(const Spline& spline, double from_m, double to_m,
-                          const CurvatureLaw& law) {
+ClothoidPoint AlongSpline(const ClothoidPoint& from, const Spline& spline, double from_m,
+                          double to_m, const CurvatureLaw& law) {
   EXPECT(0.0 <= from_m && from_m <= to_m);
-  ClothoidPoint end;
+  ClothoidPoint end = from;
   double begin_m = from_m;
   // Up to each knot, and beyond the last one, as far as the way leads.
   for (const double knot_m : {0.5 * spline.length_m, spline.length_m, to_m}) {
     const double next_m = std::min(knot_m, to_m);
     if (next_m <= begin_m) continue;
-    end = Joined(end, law.Path(CurvatureAt(spline, begin_m, law), CurvatureAt(spline, next_m, law),
-                               next_m - begin_m));
+    end = law.Along(end, CurvatureAt(spline, begin_m, law), CurvatureAt(spline, next_m, law),
+                    next_m - begin_m);
     begin_m = next_m;
   }
   return end;

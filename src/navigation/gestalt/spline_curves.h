@@ -20,12 +20,12 @@ double CurvatureRateAt(const Spline& spline, double driven_m, const CurvatureLaw
 // Returns the largest change of curvature a second, 1/(m s), at the speed of the speed law.
 double LargestRateInTime(const Spline& spline, double full_speed_m_s, const CurvatureLaw& law);
 
-// Returns the place after driven_m >= 0, in the frame in which the spline begins at the origin
-// along x. Errors and cost: those of CurvatureLaw::Path.
+// Returns the place after driven_m >= 0, of a spline that begins at the origin along x. Errors:
+// those of CurvatureLaw::Along.
 ClothoidPoint OnSpline(const Spline& spline, double driven_m, const CurvatureLaw& law);
 
-// Returns the path from one place on the spline to a later one, in the frame of the first.
-ClothoidPoint AlongSpline(const Spline& spline, double from_m, double to_m,
-                          const CurvatureLaw& law);
+// Returns the place after to_m >= from_m of a spline that has led to `from` after from_m >= 0.
+ClothoidPoint AlongSpline(const ClothoidPoint& from, const Spline& spline, double from_m,
+                          double to_m, const CurvatureLaw& law);
 
 }  // namespace rockyard::navigation

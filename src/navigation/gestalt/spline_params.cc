@@ -60,11 +60,12 @@ void GestaltSplineParams::Visit(core::FieldVisitor& v) {
             .source = "Howard 2012 sec. 2: \"linearly with distance or time\""});
   v.Real("waypoint_m", waypoint_m,
          {.doc = "distance along a spline, or that to the goal if it is less, after which its "
-                 "heading is compared with the direction of the goal",
+                 "heading is compared with the direction of the goal; what it misses that by costs "
+                 "as much as of an arc after drive.step_m",
           .min = 0.01,
           .max = 20.0,
           .origin = Origin::kAssumed,
-          .source = "the whole spline; arcs are asked after a step",
+          .source = "the whole spline",
           .study_low = 0.35,
           .study_high = 3.0});
   v.Require("waypoint_m", waypoint_m <= length_m,

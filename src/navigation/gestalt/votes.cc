@@ -188,8 +188,8 @@ MotionVote ArcVoter::VoteOn(const CandidateMotion& candidate, double waypoint,
   vote.hazard_certainty = hazard.certainty;
   vote.waypoint = RoundedVote(waypoint, whole);
   vote.merged = RoundedVote(MergeVotes(hazard, vote.waypoint, params_.waypoints.waypoint_certainty,
-                                   params_.votes.min_vote_goodness),
-                        whole);
+                                       params_.votes.min_vote_goodness),
+                            whole);
   return vote;
 }
 
