@@ -22,6 +22,8 @@
 #include "core/hash.h"
 #include "gestalt_ground.h"
 #include "navigation/gestalt/map.h"
+#include "navigation/gestalt/spline_reference.h"
+#include "navigation/gestalt/splines.h"
 #include "navigation/gestalt/votes.h"
 #include "trial/compute_tables.h"
 
@@ -107,17 +109,26 @@ class Hazards {
   GoodnessGrid grid_;
 };
 
+GestaltParams WithMap(double cell_m) {
+  GestaltParams params;
+  params.map = Params(cell_m);
+  return params;
+}
+
+// What a map makes of the ground.
+GoodnessGrid GroundGrid(double cell_m) {
+  GestaltMap map(Params(cell_m));
+  map.BeginCycle(0.0, 0.0);
+  map.Add(Ground(), math::Transform::Identity());
+  return map.Evaluate();
+}
+
 // All votes of one cycle: 23 arcs either way and two point turns.
 class PathVotes {
  public:
   static constexpr const Table3Row& kPaper = RowOf("Path votes");
 
-  explicit PathVotes(double cell_m) : voter_(WithMap(cell_m)) {
-    GestaltMap map(Params(cell_m));
-    map.BeginCycle(0.0, 0.0);
-    map.Add(Ground(), math::Transform::Identity());
-    grid_ = map.Evaluate();
-  }
+  explicit PathVotes(double cell_m) : voter_(WithMap(cell_m)), grid_(GroundGrid(cell_m)) {}
 
   void Run() { benchmark::DoNotOptimize(Vote().forward.data()); }
   std::uint64_t Hash() const {
@@ -129,11 +140,6 @@ class PathVotes {
   }
 
  private:
-  static GestaltParams WithMap(double cell_m) {
-    GestaltParams params;
-    params.map = Params(cell_m);
-    return params;
-  }
   MotionVotes Vote() const {
     const messages::PoseEstimate estimate{.x_m = 0.03, .y_m = -0.07, .heading_rad = 0.4};
     return voter_.Vote(grid_, estimate, messages::Goal{7.0, 1.0});
@@ -141,6 +147,39 @@ class PathVotes {
 
   ArcVoter voter_;
   GoodnessGrid grid_;
+};
+
+// The votes of one cycle on 225 splines, and the choice (Howard 2012, section 3).
+class SplineChoice {
+ public:
+  SplineChoice(double cell_m, const GestaltParams& params)
+      : params_(params), grid_(GroundGrid(cell_m)), voter_(params, 0.07) {}
+
+  void Run() const {
+    const SplineVotes votes = Vote();
+    benchmark::DoNotOptimize(ChooseSpline(votes, params_));
+  }
+  // The same votes by plain integrals and VoteOnPath.
+  void RunPlain() const {
+    benchmark::DoNotOptimize(
+        ReferenceVotes(params_, grid_, kStart, kCurvature_per_m, kGoal).data());
+  }
+  std::uint64_t Hash() const {
+    core::Hasher hash;
+    for (const messages::SplineVote& vote : Vote()) hash.Real(vote.hazard).Real(vote.merged);
+    return hash.value();
+  }
+
+ private:
+  static constexpr messages::PoseEstimate kStart{.x_m = 0.03, .y_m = -0.07, .heading_rad = 0.4};
+  static constexpr double kCurvature_per_m = 0.2;
+  static constexpr messages::Goal kGoal{7.0, 1.0};
+
+  SplineVotes Vote() const { return voter_.Vote(grid_, kStart, kCurvature_per_m, kGoal); }
+
+  GestaltParams params_;
+  GoodnessGrid grid_;
+  SplineVoter voter_;
 };
 
 // One navigation cycle after another, 35 cm apart, each with a cloud of 128 x 128 points ahead, as
@@ -182,12 +221,12 @@ class Cycle {
 };
 
 // Processor time of `runs` runs, the least of five tries.
-template <typename Step>
-double Seconds(Step& step, int runs) {
+template <typename Function>
+double Seconds(const Function& function, int runs) {
   double least = 1e9;
   for (int i = 0; i < 5; ++i) {
     const std::clock_t start = std::clock();
-    for (int run = 0; run < runs; ++run) step.Run();
+    for (int run = 0; run < runs; ++run) function();
     least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }
   return least;
@@ -206,7 +245,8 @@ void BM_Step(benchmark::State& state) {
   state.counters["RAD_ms"] = 1e3 * paper.rad6000_s[i];
   if (i > 0) {
     Step coarser(kTable3Cells_m[i - 1]);
-    state.counters["growth"] = Seconds(step, 100) / Seconds(coarser, 100);
+    state.counters["growth"] =
+        Seconds([&step] { step.Run(); }, 100) / Seconds([&coarser] { coarser.Run(); }, 100);
     state.counters["P3_growth"] = paper.pentium_3_s[i] / paper.pentium_3_s[i - 1];
     state.counters["Sparc_growth"] = paper.sparc_s[i] / paper.sparc_s[i - 1];
     state.counters["RAD_growth"] = paper.rad6000_s[i] / paper.rad6000_s[i - 1];
@@ -223,6 +263,20 @@ void BM_Cycle(benchmark::State& state) {
   state.SetLabel(Label(i, hashed.Hash()));
 }
 
+// `plain` is how many times as long the same votes take by plain integrals.
+void BM_Splines(benchmark::State& state, SplineLaw law) {
+  const auto i = static_cast<std::size_t>(state.range(0));
+  GestaltParams params = WithMap(kTable3Cells_m[i]);
+  params.splines.law = law;
+  params.speed.min_speed_share = 0.5;
+  const SplineChoice choice(kTable3Cells_m[i], params);
+  for (auto _ : state) choice.Run();
+  const auto plain = [&choice] { choice.RunPlain(); };
+  const auto fast = [&choice] { choice.Run(); };
+  state.counters["plain"] = Seconds(plain, 10) / Seconds(fast, 10);
+  state.SetLabel(Label(i, choice.Hash()));
+}
+
 void Sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgName("cells")->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 }
@@ -231,6 +285,8 @@ BENCHMARK_TEMPLATE(BM_Step, FitPlanes<false>)->Apply(Sizes);
 BENCHMARK_TEMPLATE(BM_Step, FitPlanes<true>)->Apply(Sizes);
 BENCHMARK_TEMPLATE(BM_Step, Hazards)->Apply(Sizes);
 BENCHMARK_TEMPLATE(BM_Step, PathVotes)->Apply(Sizes);
+BENCHMARK_CAPTURE(BM_Splines, InDistance, SplineLaw::kDistance)->Apply(Sizes);
+BENCHMARK_CAPTURE(BM_Splines, InTime, SplineLaw::kTime)->Apply(Sizes);
 BENCHMARK(BM_Cycle)->Apply(Sizes);
 
 }  // namespace

@@ -150,6 +150,8 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
   v.Group("plan", plan, "how far and how densely paths are judged");
   v.Group("votes", votes, "thresholds of the votes");
   v.Group("drive", drive, "the drive cycle, and what ends it");
+  v.Group("splines", splines, "splines, of a rover that steers while it drives");
+  v.Group("speed", speed, "how fast curves are driven by a rover that steers while it drives");
   v.Require("plan.plan_min_dist_m", plan.plan_min_dist_m < map.Reach_m(),
             "is where the map ends or beyond (half of its grid, or grid_dist_timeout_m): nothing "
             "of any path could be known",

@@ -8,6 +8,8 @@
 #include "core/fields.h"
 #include "math/angles.h"
 #include "navigation/gestalt/map_params.h"
+#include "navigation/gestalt/speed_law_params.h"
+#include "navigation/gestalt/spline_params.h"
 #include "navigation/gestalt/vote_params.h"
 
 namespace rockyard::navigation {
@@ -61,6 +63,8 @@ struct GestaltParams {
   GestaltPlanParams plan;
   GestaltVoteParams votes;
   GestaltDriveParams drive;
+  GestaltSplineParams splines;
+  SpeedLawParams speed;
 
   void Visit(core::FieldVisitor& v);
 };

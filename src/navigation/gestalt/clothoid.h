@@ -1,0 +1,27 @@
+// Clothoids: paths whose curvature is linear in the distance driven.
+#pragma once
+
+namespace rockyard::navigation {
+
+// A place on a path and the way it leads on from there; y is left of x. A path of its own begins at
+// the origin along x.
+struct ClothoidPoint {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double heading_rad = 0.0;  // with all that it has turned, not wrapped
+};
+
+// Returns the place after length_m >= 0 on the clothoid of curvature c + c' s,
+//   theta(s) = c s + c' s^2 / 2,  x = int_0^s cos theta,  y = int_0^s sin theta,
+// of which arcs (c' = 0) and straight lines (c = c' = 0) are cases like any other.
+//
+// Error of x and y: below 1e-12 m a metre of length, for any curvatures: the length is cut into
+// pieces over which the integrand hardly turns (clothoid.cc has the bounds). Cost: one sine and
+// cosine if it turns by 1/8 rad or less, otherwise 13 a radian.
+ClothoidPoint OnClothoid(double curvature_per_m, double rate_per_m2, double length_m);
+
+// Returns the same of a clothoid that begins at `from`.
+ClothoidPoint AlongClothoid(const ClothoidPoint& from, double curvature_per_m, double rate_per_m2,
+                            double length_m);
+
+}  // namespace rockyard::navigation
