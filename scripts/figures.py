@@ -29,7 +29,7 @@ def parser():
     result = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     result.add_argument("figure", nargs="?", metavar="FIGURE", help="a name of --list")
-    result.add_argument("runs", nargs="*", metavar="RUN", help="run folders: --list says which")
+    result.add_argument("runs", nargs="*", metavar="RUN", help="run folders, or what else --list says")
     result.add_argument("--list", action="store_true", help="the figures, and the runs that each needs")
     result.add_argument("--out", type=Path, default=Path("."), metavar="FOLDER",
                         help="where the files go (default: here)")
@@ -75,9 +75,10 @@ def check_numbers(options):
 
 def make(options, known):
     figure = find(known, options.figure)
-    check_count(figure, options.runs)
+    runs = options.runs or [ROOT / path for path in figure.defaults]
+    check_count(figure, runs)
     check_numbers(options)
-    sources = [figure_source.Source(run, options.rockyard) for run in options.runs]
+    sources = [figure_source.Source(run, options.rockyard) for run in runs]
     drawn = figure.draw(sources, options)
     options.out.mkdir(parents=True, exist_ok=True)
     name = options.name or figure.name

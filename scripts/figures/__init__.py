@@ -26,6 +26,7 @@ class Figure:
     runs: str       # what RUN... are
     accepts: tuple  # fewest and most of them
     draw: Callable
+    defaults: tuple = ()  # files of the repository that are RUN... where none is given
 
 
 @dataclass

@@ -9,8 +9,12 @@ LEAST_STEP_M = 0.01
 
 
 def path_of(samples, kind):
-    """(x, y) of the true or believed path, without samples that hardly moved; the last one stays."""
-    points = [(float(row[f"{kind}_x_m"]), float(row[f"{kind}_y_m"])) for row in samples]
+    """(x, y) of the true or believed path, thinned."""
+    return thinned([(float(row[f"{kind}_x_m"]), float(row[f"{kind}_y_m"])) for row in samples])
+
+
+def thinned(points):
+    """Without points that hardly moved; the last one stays."""
     kept = points[:1]
     for point in points[1:]:
         if math.dist(point, kept[-1]) >= LEAST_STEP_M:
@@ -42,7 +46,7 @@ def draw(sources, options):
              "believed": path_of(samples, "believed"), "hazards_true": places(hazards, "true"),
              "hazards_believed": places(hazards, "believed")}
     figure, axes = style.new_figure(8.0, 3.3)
-    _draw_ground(axes, terrain, drawn["rocks"])
+    draw_ground(axes, terrain, drawn["rocks"])
     _draw_paths(axes, drawn)
     for place in (terrain["start_m"], terrain["goal_m"]):
         axes.plot(*place, "x", color=style.INK, markersize=9, markeredgewidth=2.2, zorder=6)
@@ -51,7 +55,7 @@ def draw(sources, options):
     return Drawn(figure, _caption(source, options.trial, rows, drawn, terrain["goal_m"]), drawn)
 
 
-def _draw_ground(axes, terrain, rocks):
+def draw_ground(axes, terrain, rocks):
     style.octagons(axes, rocks, facecolor=style.PALE, edgecolor=style.GREY, linewidth=0.7, zorder=2)
     bounds = terrain["drivable"]
     axes.set(aspect="equal", xlim=bounds["x_m"], ylim=bounds["y_m"])

@@ -124,6 +124,16 @@ class Source:
         self._call("trace", source, "--trial", trial, "--csv", path)
         return read_csv(path)
 
+    def moments(self, trial):
+        """Every moment of a trial, run again: the arrays of `rockyard trace --npz` (src/replay/README.md)
+        by name, of a run folder or of a scenario with its seed; `meta` as a document."""
+        import numpy  # pylint: disable=import-outside-toplevel  # comes with matplotlib
+        path = self._scratch / f"trace-{trial}.npz"
+        self._call("trace", self.path, "--trial", trial, "--npz", path)
+        with numpy.load(path) as file:
+            arrays = dict(file)
+        return {**arrays, "meta": json.loads(str(arrays["meta"]))}
+
     def step(self, trial, step):
         """Folder with map.csv, votes.csv and points.csv of a decision of a map-based navigator."""
         self.require_drives()

@@ -36,6 +36,8 @@ struct MotionCommand {
 struct WheelCommand {
   PerWheel<double> rate_rad_s{};  // positive rolls forward
   PerWheel<double> steer_rad{};   // positive steers left (about +z)
+  // When others are known to follow, s: the next tick, along a clothoid.
+  double held_s = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace rockyard::messages

@@ -26,7 +26,8 @@ MotionCommand MotionFollower::Follow(const MotionCommand& command, double odomet
   MotionCommand motion = command;
   // Without a rate the curvature keeps its bits, the sign of a zero too.
   if (command.curvature_rate_per_m2 != 0.0) {
-    motion.curvature_per_m += command.curvature_rate_per_m2 * (odometer_m - began_m_);
+    const double middle_m = odometer_m + 0.5 * speed_m_s * tick_s;
+    motion.curvature_per_m += command.curvature_rate_per_m2 * (middle_m - began_m_);
   }
   return motion;
 }

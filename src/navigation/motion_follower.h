@@ -7,8 +7,9 @@ namespace rockyard::navigation {
 
 // Follows the command that it is given at each tick, by the odometer:
 //   curvature = c + c' s, with s what was driven since the command began,
-// and stops in time: braking takes v T / 2 for a ramp of T from v to rest, and what is told now is
-// driven for a tick, so that it stops where
+// at the middle of the tick, where a rover at full speed has driven v tick / 2 more: what is held
+// for a tick is off to either side alike. It stops in time: braking takes v T / 2 for a ramp of T
+// from v to rest, and what is told now is driven for a tick, so that it stops where
 //   odometer + v tick + v T / 2 > end.
 // A command begins where it differs from the last one or, with a number of its own (move), where
 // its terms (curvature, rate) do. Draws no random numbers.

@@ -119,6 +119,7 @@ WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
     // The wheel then stands the offset away from the angle that the rover believes in.
     if (calibration_.steered[i]) command.steer_rad[i] += calibration_.steering_offset_rad;
   }
+  if (motion.curvature_rate_per_m2 != 0.0) command.held_s = duration_s;
   return command;
 }
 

@@ -13,6 +13,9 @@ using messages::MotionKind;
 constexpr double kSpeed_m_s = 0.15;
 constexpr double kTick_s = 0.05;
 
+// By the middle of the tick a rover at full speed has driven so far.
+constexpr double kHalf_m = 0.5 * kSpeed_m_s * kTick_s;
+
 MotionCommand Clothoid(double curvature_per_m, double rate_per_m2) {
   return {.kind = MotionKind::kArc,
           .curvature_per_m = curvature_per_m,
@@ -22,24 +25,34 @@ MotionCommand Clothoid(double curvature_per_m, double rate_per_m2) {
 TEST(MotionFollower, CurvatureGrowsWithTheWayDriven) {
   MotionFollower follower(kSpeed_m_s, 0.1);
   const MotionCommand command = Clothoid(-0.5, 2.0);
-  EXPECT_NEAR(follower.Follow(command, 3.0, kTick_s).curvature_per_m, -0.5, 1e-12);
-  EXPECT_NEAR(follower.Follow(command, 3.2, kTick_s).curvature_per_m, -0.1, 1e-12);
-  EXPECT_NEAR(follower.Follow(command, 3.5, kTick_s).curvature_per_m, 0.5, 1e-12);
+  const double half_per_m = 2.0 * kHalf_m;
+  EXPECT_NEAR(follower.Follow(command, 3.0, kTick_s).curvature_per_m, -0.5 + half_per_m, 1e-12);
+  EXPECT_NEAR(follower.Follow(command, 3.2, kTick_s).curvature_per_m, -0.1 + half_per_m, 1e-12);
+  EXPECT_NEAR(follower.Follow(command, 3.5, kTick_s).curvature_per_m, 0.5 + half_per_m, 1e-12);
+  // Twice the tick, twice the way to its middle; half the speed, half of it.
+  EXPECT_NEAR(follower.Follow(command, 3.5, 2.0 * kTick_s).curvature_per_m, 0.5 + 2.0 * half_per_m,
+              1e-12);
+  MotionCommand slow = command;
+  slow.speed_share = 0.5;
+  EXPECT_NEAR(follower.Follow(slow, 3.5, kTick_s).curvature_per_m, 0.5 + 0.5 * half_per_m, 1e-12);
 }
 
 TEST(MotionFollower, ANewCommandBeginsWhereItIsGiven) {
   MotionFollower follower(kSpeed_m_s, 0.1);
   follower.Follow(Clothoid(0.0, 1.0), 0.0, kTick_s);
-  EXPECT_NEAR(follower.Follow(Clothoid(0.2, 1.0), 1.0, kTick_s).curvature_per_m, 0.2, 1e-12);
-  EXPECT_NEAR(follower.Follow(Clothoid(0.2, 1.0), 1.5, kTick_s).curvature_per_m, 0.7, 1e-12);
-  EXPECT_NEAR(follower.Follow(Clothoid(0.2, -1.0), 2.0, kTick_s).curvature_per_m, 0.2, 1e-12);
+  const auto follow = [&](const MotionCommand& command, double odometer_m) {
+    return follower.Follow(command, odometer_m, kTick_s).curvature_per_m;
+  };
+  EXPECT_NEAR(follow(Clothoid(0.2, 1.0), 1.0), 0.2 + kHalf_m, 1e-12);
+  EXPECT_NEAR(follow(Clothoid(0.2, 1.0), 1.5), 0.7 + kHalf_m, 1e-12);
+  EXPECT_NEAR(follow(Clothoid(0.2, -1.0), 2.0), 0.2 - kHalf_m, 1e-12);
   MotionCommand back = Clothoid(0.2, -1.0);
   back.direction = -1;
-  EXPECT_NEAR(follower.Follow(back, 2.5, kTick_s).curvature_per_m, 0.2, 1e-12);
+  EXPECT_NEAR(follow(back, 2.5), 0.2 - kHalf_m, 1e-12);
   // The same terms once more, as another move.
   back.move = 7;
-  EXPECT_NEAR(follower.Follow(back, 3.0, kTick_s).curvature_per_m, 0.2, 1e-12);
-  EXPECT_NEAR(follower.Follow(back, 3.1, kTick_s).curvature_per_m, 0.1, 1e-12);
+  EXPECT_NEAR(follow(back, 3.0), 0.2 - kHalf_m, 1e-12);
+  EXPECT_NEAR(follow(back, 3.1), 0.1 - kHalf_m, 1e-12);
 }
 
 TEST(MotionFollower, AnotherEndOrSpeedLeavesThePathAsItIs) {
@@ -49,7 +62,7 @@ TEST(MotionFollower, AnotherEndOrSpeedLeavesThePathAsItIs) {
   follower.Follow(command, 1.0, kTick_s);
   command.end_m = 6.0;
   command.speed_share = 0.5;
-  EXPECT_NEAR(follower.Follow(command, 1.4, kTick_s).curvature_per_m, 0.4, 1e-12);
+  EXPECT_NEAR(follower.Follow(command, 1.4, kTick_s).curvature_per_m, 0.4 + 0.5 * kHalf_m, 1e-12);
 }
 
 TEST(MotionFollower, LeavesEveryOtherMotionAsItIs) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "pathfinder/drive_geometry.h"
 
 namespace rockyard::navigation {
@@ -158,6 +160,20 @@ TEST(WheelDriver, EveryMotionGetsItsOwnCommand) {
     ExpectEqual(driver.Tick(motion, kTick_s), SteadyWheelCommand(motion, SixWheels()));
     EXPECT_TRUE(Stands(driver.Tick({}, kTick_s)));
   }
+}
+
+// Along a clothoid each tick brings other set points; all other motions may go on for ever.
+TEST(WheelDriver, SaysForHowLongSetPointsAreHeld) {
+  WheelDriver driver(SixWheels(), {});
+  messages::MotionCommand clothoid = Arc(0.1);
+  EXPECT_EQ(driver.Tick(clothoid, kTick_s).held_s, std::numeric_limits<double>::infinity());
+  for (const double rate_per_m2 : {0.5, -0.5}) {
+    clothoid.curvature_rate_per_m2 = rate_per_m2;
+    EXPECT_EQ(driver.Tick(clothoid, kTick_s).held_s, kTick_s);
+  }
+  clothoid.curvature_rate_per_m2 = 0.0;
+  EXPECT_EQ(driver.Tick(clothoid, kTick_s).held_s, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(driver.Tick({}, kTick_s).held_s, std::numeric_limits<double>::infinity());
 }
 
 TEST(WheelDriver, FasterSteeringMotorsStandShorter) {

@@ -20,6 +20,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 # pylint: disable=wrong-import-position
 import figures
 from figures import goldberg2002_figure3 as gestalt
+from figures import howard2012
 from figures import matthies1995_figure13 as figure13
 from figures import matthies1995_figure4 as figure4
 from figures import matthies1995_figure15 as figure15
@@ -56,6 +57,11 @@ def setUpModule():
     walks = Path(SCRATCH.name) / "walks"
     subprocess.run([ROCKYARD, "run", ROOT / "scenarios/localization/straight_sand.json", "--trials", "66", "--out",
                     walks, "--set", "dead_reckoning.walks_per_run=50", "--quiet"], check=True)
+
+
+    steer = Path(SCRATCH.name) / "steer"
+    subprocess.run([ROCKYARD, "run", ROOT / "scenarios/gestalt/narrow_course.json", "--trials", "1", "--out", steer,
+                    "--set", "name=slow_steering", "--set", "rover.drive.steer_rate_deg_s=10", *QUICK], check=True)
 
 
 def tearDownModule():
@@ -222,6 +228,80 @@ class DrawnNumbers(FiguresTest):
         self.assertEqual([each[1] for each in drawn.numbers["chosen"]],
                          [float(row["curvature_per_m"]) for row in chosen])
 
+    def test_paths_of_navigators_are_those_of_their_trials(self):
+        drawn = self.draw("howard2012-6", "gestalt", "steer")
+        self.assertEqual(len(drawn.numbers), 2)
+        for run, numbers in zip(("gestalt", "steer"), drawn.numbers.values()):
+            trial = rows(self.root / run / "trials.csv")[0]
+            for path, columns in (("true", ("final_x_m", "final_y_m")),
+                                  ("believed", ("believed_x_m", "believed_y_m"))):
+                for value, column in zip(numbers[path][-1], columns):
+                    self.assertAlmostEqual(value, float(trial[column]), places=9)
+            self.assertIn(f"{float(trial['dead_reckoned_distance_m']):.2f} m as accumulated", drawn.caption)
+        solid = [line for line in drawn.figure.axes[0].get_lines() if str(line.get_label()).endswith("as recorded")]
+        self.assertEqual(len({(line.get_color(), str(line.get_linestyle())) for line in solid}), 2)
+
+    def test_distances_to_the_goal_are_by_belief_and_by_truth(self):
+        numbers = next(iter(self.draw("howard2012-7", "gestalt").numbers.values()))
+        trial = rows(self.root / "gestalt/trials.csv")[0]
+        self.assertAlmostEqual(numbers["true_m"][-1], float(trial["true_goal_distance_m"]), places=9)
+        self.assertAlmostEqual(numbers["believed_m"][-1], float(trial["believed_goal_distance_m"]), places=9)
+        self.assertAlmostEqual(numbers["time_s"][-1], float(trial["sim_time_s"]), places=9)
+        within = numbers["within_s"]
+        self.assertLess(within, numbers["time_s"][-1])
+        for t, distance in zip(numbers["time_s"], numbers["believed_m"]):
+            if t < within:
+                self.assertGreater(distance, 0.5)
+
+    def test_a_goal_that_is_never_near_has_no_time(self):
+        drive = howard2012.NavigatorDrive("far", [0.0, 1.0], [], [], [], [], {}, "no_path", {})
+        self.assertEqual(drive.time_within_s([3.0, 0.5]), 1.0)
+        self.assertIsNone(drive.time_within_s([3.0, 0.6]))
+        self.assertEqual(howard2012.seconds(None), "never")
+
+    def test_steering_adds_up_to_what_the_record_says(self):
+        drawn = self.draw("howard2012-8", "gestalt", "steer")
+        for run, numbers in zip(("gestalt", "steer"), drawn.numbers.values()):
+            trial = rows(self.root / run / "trials.csv")[0]
+            self.assertEqual(numbers["steered"], ["left front", "left rear", "right front", "right rear"])
+            turned = numbers["turned_rad"]
+            self.assertGreater(max(turned), 1.0)
+            # Athena steers all six, and its middle ones, abreast of the centre, have nothing to steer.
+            self.assertAlmostEqual(sum(turned) / 6, float(trial["steer_turned_rad"]), places=9)
+            self.assertAlmostEqual(max(turned), float(trial["steer_turned_max_rad"]), places=9)
+            self.assertIn(f"{float(trial['steer_turned_rad']):.2f} rad", drawn.caption)
+        self.assertEqual([len(axes.get_lines()) for axes in drawn.figure.axes], [4, 4])
+
+    def test_curves_are_drawn_as_often_as_was_recorded(self):
+        times = [0.05 * i for i in range(101)]
+        ramp = howard2012.curve(times, times)
+        self.assertEqual(ramp[0], ramp[1])
+        self.assertEqual((ramp[0][0], ramp[0][-1]), (0.0, times[-1]))
+        for before, now in zip(ramp[0], ramp[0][1:-1]):
+            self.assertAlmostEqual(now - before, 0.2, delta=0.051)
+        # A step: its foot and its top stand where they are, and nothing between its ends.
+        step = howard2012.curve(times, [0.0] * 51 + [1.0] * 50)
+        self.assertEqual(step[1], [0.0, 0.0, 1.0, 1.0])
+        self.assertEqual((step[0][0], step[0][-1]), (0.0, times[-1]))
+        self.assertAlmostEqual(step[0][1], 2.5, delta=0.2)
+        self.assertLess(step[0][2] - step[0][1], 0.21)
+
+    def test_what_operators_turn_is_no_steering(self):
+        angles = [[0.0] * 6, [0.2] * 6, [0.0] * 6, [-0.1] * 6]
+        drive = howard2012.NavigatorDrive("", [0, 1, 2, 3], [], [], [False, False, True, False], angles, {}, "", {})
+        for turned in drive.turned_rad():
+            self.assertAlmostEqual(turned, 0.3)
+
+    def test_navigators_of_one_name_are_told_apart(self):
+        self.assertEqual(list(self.draw("howard2012-7", "gestalt", "gestalt").numbers), ["gestalt_narrow_course (gestalt)"])
+        self.assertEqual(list(self.draw("howard2012-7", "gestalt", "steer").numbers),
+                         ["gestalt_narrow_course", "slow_steering"])
+
+    def test_a_scenario_is_driven_with_its_own_seed(self):
+        by_file = self.draw("howard2012-7", ROOT / "scenarios/gestalt/narrow_course.json")
+        by_run = self.draw("howard2012-7", "gestalt")
+        self.assertEqual(by_file.numbers["gestalt_narrow_course"]["time_s"][1], by_run.numbers["gestalt_narrow_course"]["time_s"][1])
+
     def test_arcs(self):
         quarter = math.pi / 2 / gestalt.ARC_M  # a quarter of a circle over the drawn length
         forward, left = gestalt.arc_points(quarter, 1)[-1]
@@ -303,16 +383,19 @@ class CommandLine(FiguresTest):
         text = self.script("--list")
         for name in ("matthies1995-13", "matthies1995-15", "matthies1995-16", "matthies1995-17", "matthies1995-5",
                      "matthies1995-6", "matthies1995-7", "matthies1995-8", "matthies1995-table4",
-                     "goldberg2002-3"):
+                     "goldberg2002-3", "howard2012-6", "howard2012-7", "howard2012-8"):
             self.assertIn(name, text)
+        self.assertIn("scenarios/continuous/csad.json", text)
 
     def test_the_same_runs_give_the_same_bytes(self):
         for out in ("first", "second"):
             for name, run in (("matthies1995-17", "nominal"), ("goldberg2002-3", "gestalt"),
-                              ("matthies1995-16", "nominal"), ("matthies1995-13", "nominal")):
+                              ("matthies1995-16", "nominal"), ("matthies1995-13", "nominal"),
+                              ("howard2012-6", "gestalt"), ("howard2012-7", "gestalt"),
+                              ("howard2012-8", "gestalt")):
                 self.script(name, run, "--out", out)
         files = sorted(path.name for path in (self.root / "first").iterdir())
-        self.assertEqual(len(files), 12)  # SVG, PNG and caption of each
+        self.assertEqual(len(files), 21)  # SVG, PNG and caption of each
         for name in files:
             first, second = ((self.root / out / name).read_bytes() for out in ("first", "second"))
             self.assertEqual(first, second, name)
@@ -350,6 +433,9 @@ class CommandLine(FiguresTest):
                               (["matthies1995-15", "gestalt"], "Moore's model"),
                               (["matthies1995-13", "gestalt"], "looks with stereo"),
                               (["matthies1995-13", "scan"], "no run of drives"),
+                              (["howard2012-6", "gestalt", "nominal"], "differs from gestalt in rocks"),
+                              (["howard2012-7", "scan"], "rockyard"),
+                              (["howard2012-8", *["gestalt"] * 7], "needs 0 to 6 RUN, and 7 were given"),
                               (["matthies1995-5", "nominal"], "keeps no courses"),
                               (["matthies1995-5", "walks"], "no run of drives"),
                               (["matthies1995-6", "nominal"], "no run of the experiment dead_reckoning")):

@@ -34,6 +34,9 @@ constexpr double kStands = 1.6e-3;
 constexpr double kSlides = 0.1;
 // A drive that differs from the last one by less still says where the rover will be.
 constexpr double kSimilar = 0.25;
+// A stretch of set points that others are known to follow outlasts them by this share: one that
+// ended with them would begin another that nobody needs.
+constexpr double kOutlasts = 1e-6;
 // Rates that change by less than this share of the top speed from one stretch to the next do so
 // smoothly.
 constexpr double kSmooth = 0.15;
@@ -278,7 +281,10 @@ double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_ra
   const double way_s = params_.quasi_static.settle_distance_m / (rate * radius_m);
   const double max_rad = params_.quasi_static.settle_turn_rad;
   const double time_s = turn_rad_s * way_s > max_rad ? max_rad / turn_rad_s : way_s;
-  return IsBorneByObstacles() ? params_.quasi_static.rock_settle_share * time_s : time_s;
+  // Where the wheels are steered on from tick to tick, half a longer stretch ahead is another
+  // heading than that of the way that will be driven by these set points.
+  return std::min(IsBorneByObstacles() ? params_.quasi_static.rock_settle_share * time_s : time_s,
+                  (1.0 + kOutlasts) * held_s_);
 }
 
 // On rocks the direction of the contacts, and with it the motion, changes within centimetres:
@@ -404,6 +410,7 @@ void QuasiStaticRover::RollOn() {
 }
 
 void QuasiStaticRover::Step(const messages::WheelCommand& command) {
+  held_s_ = command.held_s;
   const bool steered = Steer(command.steer_rad);
   const MotorRates rates = motors_.Advance(command.rate_rad_s, step_s());
   const auto turns = [](double rate) { return rate != 0.0; };

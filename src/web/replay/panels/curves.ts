@@ -1,10 +1,20 @@
-// A small curve over time.
+// Small curves over time.
 import { svg } from "../../shared/dom";
 
+/** One line, or several on one scale. */
 export interface Curve {
-  values: number[];
+  lines: Line[];
   /** The scale reaches this far at least, so that noise does not look like a mountain. */
   least: number;
+  class: string;
+  /** Whether values are negative too: then 0 is in the middle. */
+  signed?: boolean;
+}
+
+export interface Line {
+  name: string;
+  values: number[];
+  /** Of its own within the curve; "" where there is one only. */
   class: string;
 }
 
@@ -15,15 +25,19 @@ export interface Box {
   bottom: number;
 }
 
-/** Of values that are not negative. */
-export const greatest = (values: number[]): number => values.reduce((most, value) => Math.max(most, value), 0);
+/** The largest amount of any value, of either sign. */
+export const greatest = ({ lines }: Curve): number =>
+  lines.reduce((most, { values }) => values.reduce((least, value) => Math.max(least, Math.abs(value)), most), 0);
 
-export function curve({ values, least, class: name }: Curve, t: number[], x: (t: number) => number, box: Box): SVGGElement {
-  const scale = Math.max(least, greatest(values));
-  const y = (value: number): number => box.bottom - (value / scale) * (box.bottom - box.top);
-  const group = svg("g", { class: `curve ${name}` });
-  group.append(svg("line", { class: "rule", x1: box.left, x2: box.right, y1: box.bottom, y2: box.bottom }));
-  group.append(svg("path", { d: outline(values, t, x, y) }));
+export function curve(drawn: Curve, t: number[], x: (t: number) => number, box: Box): SVGGElement {
+  const scale = Math.max(drawn.least, greatest(drawn));
+  const zero = drawn.signed ? (box.top + box.bottom) / 2 : box.bottom;
+  const y = (value: number): number => zero - (value / scale) * (zero - box.top);
+  const group = svg("g", { class: `curve ${drawn.class}` });
+  group.append(svg("line", { class: "rule", x1: box.left, x2: box.right, y1: zero, y2: zero }));
+  for (const { name, values, class: own } of drawn.lines) {
+    group.append(svg("path", { class: own, d: outline(values, t, x, y) }, svg("title", {}, name)));
+  }
   return group;
 }
 

@@ -1,13 +1,13 @@
-// Events over time by kind, what the rover did, and two curves; a click anywhere goes there.
+// Events over time by kind, what the rover did, and curves of the drive; a click anywhere goes there.
 import { el, svg } from "../../shared/dom";
 import { activityRuns, inWords, kindName, kindsOf, kindTitle, type Run } from "../events";
-import { fixed } from "../../shared/format";
-import { clock, degrees } from "../format";
+import { clock } from "../format";
 import type { ReplayPayload, TrialEvent } from "../payload";
 import type { Player } from "../player";
 import { niceStep } from "../scene/ground";
 import { activityBand, activityKey } from "./activities";
-import { curve, greatest, type Curve } from "./curves";
+import { curve } from "./curves";
+import { driveCurves, steeringKey, type DriveCurve } from "./drive_curves";
 import { startWalk, walk, type Mark } from "./mark_walk";
 import { markOf } from "./marks";
 
@@ -26,8 +26,7 @@ export class Timeline {
   private readonly kinds: string[];
   private readonly hidden = new Set<string>();
   private readonly runs: Run[];
-  private readonly tilt: number[];
-  private readonly error: number[];
+  private readonly curves: DriveCurve[];
   private readonly labels = el("div", { class: "timeline-labels" });
   private readonly drawing = svg("svg", { class: "timeline-drawing" });
   private readonly cursor = svg("line", { class: "cursor" });
@@ -44,9 +43,7 @@ export class Timeline {
   ) {
     this.kinds = kindsOf(events);
     this.runs = activityRuns(payload);
-    const { motion } = payload;
-    this.tilt = motion.tilt.map(degrees);
-    this.error = motion.t.map((_, i) => Math.hypot(motion.believed_x[i]! - motion.x[i]!, motion.believed_y[i]! - motion.y[i]!));
+    this.curves = driveCurves(payload);
     this.element.append(this.labels, this.drawing);
     this.drawing.addEventListener("pointerdown", (event) => this.drag(event));
     this.drawing.addEventListener("keydown", (key) => {
@@ -56,6 +53,8 @@ export class Timeline {
     });
     this.makeLabels();
     this.element.append(activityKey(this.runs));
+    const steering = steeringKey(payload);
+    if (steering) this.element.append(steering);
     new ResizeObserver(() => this.resize()).observe(this.drawing);
     player.onChange(() => this.changed());
   }
@@ -66,7 +65,7 @@ export class Timeline {
   }
 
   private get height(): number {
-    return this.kinds.length * ROW + STRIP + 2 * CURVE + AXIS;
+    return this.kinds.length * ROW + STRIP + this.curves.length * CURVE + AXIS;
   }
 
   private makeLabels(): void {
@@ -91,10 +90,9 @@ export class Timeline {
       );
     }
     this.labels.append(el("div", { class: "strip" }, "activity"));
-    const curve = (name: string, most: string): HTMLElement =>
-      el("div", { class: "curve" }, el("div", {}, name), el("div", { class: "count" }, `≤ ${most}`));
-    this.labels.append(curve("tilt", `${fixed(greatest(this.tilt), 1)}°`));
-    this.labels.append(curve("position error", `${fixed(greatest(this.error), 2)} m`));
+    for (const { title, most } of this.curves) {
+      this.labels.append(el("div", { class: "curve" }, el("div", {}, title), el("div", { class: "count" }, most())));
+    }
     this.labels.append(this.axisLabel);
   }
 
@@ -158,11 +156,7 @@ export class Timeline {
 
   private drawCurves(top: number): void {
     const { motion } = this.payload;
-    const curves: Curve[] = [
-      { values: this.tilt, least: 5, class: "tilt" },
-      { values: this.error, least: 0.05, class: "error" },
-    ];
-    curves.forEach((entry, i) => {
+    this.curves.forEach((entry, i) => {
       const box = { left: PAD, right: this.width - PAD, top: top + i * CURVE + 6, bottom: top + (i + 1) * CURVE - 4 };
       this.drawing.append(curve(entry, motion.t, (t) => this.x(t), box));
     });

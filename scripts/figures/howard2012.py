@@ -1,0 +1,108 @@
+"""What figures 6 to 8 of Howard 2012 share: one drive of several navigators on the same rocks."""
+
+import math
+from dataclasses import dataclass
+
+from . import FigureError, style
+
+# Drawn where no RUN is named: stop-and-look GESTALT, continuous steering or driving, continuous
+# steering and driving.
+DEFAULTS = ("scenarios/continuous/stop_and_look.json", "scenarios/continuous/csod.json",
+            "scenarios/continuous/csad.json")
+RUNS = ("runs, or scenarios, of drives on the same rocks, one a navigator (default: "
+        + ", ".join(DEFAULTS) + "); --trial says which trial of each")
+ACCEPTS = (0, 6)  # none: the defaults
+WITHIN_M = 0.5    # "to reach within 0.5 meters of the goal" (section 3)
+RECORD_S = 0.2    # between drawn moments: "at approximately 5 Hz"
+
+# One colour and one dash a navigator.
+LOOKS = ((style.BLUE, "-"), (style.VERMILION, (0, (5, 1.5))), (style.GREEN, (0, (1, 1))),
+         (style.PURPLE, (0, (5, 1.5, 1, 1.5))), (style.ORANGE, (0, (3, 1, 1, 1, 1, 1))),
+         (style.SKY, (0, (8, 2))))
+
+
+@dataclass
+class NavigatorDrive:
+    """One trial, moment by moment."""
+    name: str
+    time_s: list
+    true_m: list         # (x, y)
+    believed_m: list     # (x, y), as localization says
+    set_back: list       # operators moved the rover by hand before this moment
+    steer_rad: list      # six angles each: left front, middle, rear, right front, middle, rear
+    record: dict         # column: value
+    outcome: str
+    terrain: dict
+
+    def _distances(self, places, goal):
+        return [math.dist(place, goal) for place in places]
+
+    def believed_distances(self):
+        """From the believed position to the goal as told, m: what the rover itself recorded."""
+        told = (self.record["told_goal_x_m"], self.record["told_goal_y_m"])
+        return self._distances(self.believed_m, told)
+
+    def true_distances(self):
+        return self._distances(self.true_m, self.terrain["goal_m"])
+
+    def time_within_s(self, distances, reach_m=WITHIN_M):
+        """When a list of distances first fell to `reach_m`; None where it never did."""
+        return next((t for t, distance in zip(self.time_s, distances) if distance <= reach_m), None)
+
+    def turned_rad(self):
+        """Total turning of each of the six motors, to and fro alike."""
+        totals = [0.0] * 6
+        for i in range(1, len(self.steer_rad)):
+            if not self.set_back[i]:
+                for wheel, (now, before) in enumerate(zip(self.steer_rad[i], self.steer_rad[i - 1])):
+                    totals[wheel] += abs(now - before)
+        return totals
+
+
+def load(source, trial):
+    """The drive of a run folder or of a scenario file."""
+    arrays = source.moments(trial)
+    meta = arrays["meta"]
+    if len(arrays["time_s"]) < 2:
+        raise FigureError(f"{source.path}: trial {trial} ended before it began (a simulator fault?); "
+                          "take another one with --trial")
+    return NavigatorDrive(
+        name=meta["scenario"], time_s=arrays["time_s"].tolist(),
+        true_m=arrays["position_m"][:, :2].tolist(), believed_m=arrays["believed"][:, :2].tolist(),
+        set_back=arrays["set_back"].tolist(), steer_rad=arrays["steer_rad"].tolist(),
+        record=dict(zip(arrays["record_names"].tolist(), arrays["record"].tolist())),
+        outcome=meta["outcome"], terrain=source.terrain(trial))
+
+
+def load_all(sources, trial):
+    """Drives on the same rocks, from the same start to the same goal."""
+    drives = [load(source, trial) for source in sources]
+    names = [drive.name for drive in drives]
+    for source, drive in zip(sources, drives):
+        if names.count(drive.name) > 1:
+            drive.name = f"{drive.name} ({source.path.name})"
+    for source, drive in zip(sources[1:], drives[1:]):
+        for key in ("rocks", "start_m", "goal_m"):
+            if drive.terrain[key] != drives[0].terrain[key]:
+                raise FigureError(f"{source.path}: differs from {sources[0].path} in {key}; navigators are "
+                                  "compared on the same rocks: use runs of one seed and one terrain")
+    return drives
+
+
+def curve(time_s, values):
+    """(times, values) to draw: as often as was recorded, both ends, and of what stays equal the ends."""
+    kept = [0]
+    for i in range(1, len(time_s)):
+        if time_s[i] - time_s[kept[-1]] >= RECORD_S or i == len(time_s) - 1:
+            # What stood still until a moment ago stood still until then.
+            if kept[-1] != i - 1 and values[i - 1] == values[kept[-1]] != values[i]:
+                kept.append(i - 1)
+            kept.append(i)
+    ends = [i for before, i, after in zip(kept, kept[1:], kept[2:])
+            if not values[before] == values[i] == values[after]]
+    kept = [kept[0], *ends, kept[-1]]
+    return [time_s[i] for i in kept], [values[i] for i in kept]
+
+
+def seconds(value):
+    return "never" if value is None else f"{value:.1f} s"
