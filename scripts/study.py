@@ -147,6 +147,15 @@ def mean_interval(values):
     return mean, max(mean - half, 0.0 if min(values) >= 0.0 else -math.inf), mean + half
 
 
+def signed_mean_interval(values):
+    """Mean of values of either sign and its 95 % interval by the normal approximation."""
+    n = len(values)
+    mean = sum(values) / n if n else math.nan
+    variance = sum((value - mean) ** 2 for value in values) / (n - 1) if n > 1 else math.nan
+    half = Z95 * math.sqrt(variance / n) if n > 1 else math.nan
+    return mean, mean - half, mean + half
+
+
 def _beta_fraction(a, b, x):
     """Continued fraction of the incomplete beta function by Lentz (Press et al. 2007, 6.4.5)."""
     tiny = 1e-300

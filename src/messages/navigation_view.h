@@ -8,6 +8,7 @@
 
 #include "messages/commands.h"
 #include "messages/estimates.h"
+#include "messages/spline.h"
 
 namespace rockyard::messages {
 
@@ -48,6 +49,18 @@ struct MotionVote {
   bool chosen = false;  // the motion that is driven
 };
 
+// A spline among which a rover that steers while it drives chooses, and its votes, from 0 to 255.
+struct SplineVote {
+  Spline spline;
+  double hazard = 0.0;
+  double hazard_certainty = 0.0;
+  double waypoint = 0.0;
+  double waypoint_error_rad = 0.0;  // from the goal's direction where the waypoint vote is asked
+  double merged = 0.0;
+  bool feasible = false;  // the steering motors keep up with it
+  bool chosen = false;    // the spline that is driven
+};
+
 struct NavigationView {
   std::int64_t step = 0;  // counts decisions from 0
   PoseEstimate estimate;
@@ -60,6 +73,10 @@ struct NavigationView {
   std::vector<MotionVote> forward;
   std::vector<MotionVote> backward;
   std::vector<MotionVote> point_turns;
+  // By the first knot from right (most negative) to left, then by the second one; empty where the
+  // rover chooses among the motions above.
+  std::vector<SplineVote> splines;
+  PoseEstimate spline_start;  // where they begin
 };
 
 }  // namespace rockyard::messages

@@ -2,6 +2,7 @@
 // only.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "messages/commands.h"
@@ -32,6 +33,8 @@ struct NavigatorInput {
   double time_s = 0.0;  // on-board clock since the start
   messages::PoseEstimate estimate = {};
   messages::AttitudeEstimate attitude = {};
+  // The pose in the frame of odometry, as those of `look`.
+  messages::PoseEstimate odometry = {};
   // These answer a request for a look, the oldest that has no answer yet, when its data are ready;
   // null at every other tick. A behaviour controller reads the hazard report, a map-based navigator
   // the points; both were taken at the moment of the look.
@@ -60,6 +63,16 @@ struct NavigatorDecision {
 
   bool looks() const { return look.has_value(); }
   bool stops_to_look() const { return looks() && !looks_on_the_move; }
+};
+
+// What became of plans that were made on the move.
+struct PlanCounts {
+  std::int64_t plans = 0;    // looks on the move that were answered
+  std::int64_t unsafe = 0;   // of these, without a safe plan
+  std::int64_t late = 0;     // motions that ended before the next plan was ready
+  std::int64_t started = 0;  // plans that replaced the motion under way
+  // Of these: where the plan was to begin less where the rover believed to be when it did.
+  double start_error_squared_m2 = 0.0;  // sum
 };
 
 // The interface. One object drives one trial.
@@ -91,6 +104,9 @@ class Navigator {
   // Returns what the last answered look led to; null where a navigator keeps no map, and before the
   // first.
   virtual const messages::NavigationView* view() const { return nullptr; }
+
+  // Returns what became of plans on the move so far.
+  virtual PlanCounts plan_counts() const { return {}; }
 };
 
 }  // namespace rockyard::navigation

@@ -20,6 +20,7 @@ class Navigator;
 struct NavigatorSetup {
   messages::Goal goal;
   bool judges_hazards = true;  // false: perception reports no hazards, the rover drives blind
+  double full_speed_m_s = 0.07;  // of the fastest rim
   messages::Route route = {};  // to the goal, for one that follows it; empty where there is none
 };
 

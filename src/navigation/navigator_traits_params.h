@@ -59,6 +59,8 @@ struct NavigatorTraits {
   std::optional<StripeNames> stripes;
   std::optional<BelievedSize> size;
   bool follows_route = false;  // of an oracle, planned once from the start to the goal
+  bool looks_on_the_move = false;
+  bool steers_on_the_move = false;
 };
 
 }  // namespace rockyard::navigation

@@ -28,6 +28,7 @@ class StuckReaction final : public Navigator {
     navigator_->SetGoal(goal, change);
   }
   const messages::NavigationView* view() const override { return navigator_->view(); }
+  PlanCounts plan_counts() const override { return navigator_->plan_counts(); }
 
  private:
   enum class Stage { kNavigating, kBackingOff, kBackedOff };

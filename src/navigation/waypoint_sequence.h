@@ -35,6 +35,7 @@ class WaypointSequence final : public Navigator {
   // Leaves out what is left of the sequence: this is the goal that it drives to, and its last.
   void DriveTo(const messages::Goal& goal);
   const messages::NavigationView* view() const override { return navigator_->view(); }
+  PlanCounts plan_counts() const override { return navigator_->plan_counts(); }
 
   // Waypoints at which the navigator said that it had arrived, or that were passed; the last goal
   // is none of them.

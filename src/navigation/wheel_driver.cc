@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/check.h"
@@ -74,9 +75,11 @@ WheelCommand SteadyWheelCommand(const MotionCommand& motion, const DriveCalibrat
   return command;
 }
 
-WheelDriver::WheelDriver(const DriveCalibration& calibration, const WheelDriverParams& params)
+WheelDriver::WheelDriver(const DriveCalibration& calibration, const WheelDriverParams& params,
+                         bool steers_while_rolling)
     : calibration_(calibration),
       params_(params),
+      steers_while_rolling_(steers_while_rolling),
       steady_(SteadyWheelCommand(last_motion_, calibration)) {}
 
 const WheelCommand& WheelDriver::Steady(const MotionCommand& motion) {
@@ -86,6 +89,13 @@ const WheelCommand& WheelDriver::Steady(const MotionCommand& motion) {
     steady_ = SteadyWheelCommand(motion, calibration_);
   }
   return steady_;
+}
+
+double WheelDriver::AllowedChange(MotionKind kind) const {
+  // Once standing to steer, stand until the angles have arrived.
+  if (steering_) return 0.0;
+  if (steers_while_rolling_ && kind == rolled_kind_) return std::numeric_limits<double>::infinity();
+  return params_.steer_while_driving_rad;
 }
 
 WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
@@ -101,9 +111,9 @@ WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
     believed_steer_rad_[i] += Clamp(change, params_.steer_rate_rad_s * duration_s);
   }
   steered_s_ = std::min(largest_change / params_.steer_rate_rad_s, duration_s);
-  // Once standing to steer, stand until the angles have arrived.
-  const double allowed = steering_ ? 0.0 : params_.steer_while_driving_rad;
-  steering_ = motion.kind != MotionKind::kStop && largest_change > allowed;
+  const bool moves = motion.kind != MotionKind::kStop;
+  steering_ = moves && largest_change > AllowedChange(motion.kind);
+  if (moves && !steering_) rolled_kind_ = motion.kind;
   if (steering_) command.rate_rad_s.fill(0.0);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     // The wheel then stands the offset away from the angle that the rover believes in.

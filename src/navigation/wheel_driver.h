@@ -18,10 +18,12 @@ messages::WheelCommand SteadyWheelCommand(const messages::MotionCommand& motion,
 
 // Drives the wheels towards a motion: when the steering angles have far to go, the rover stands
 // until they are believed to be there (the power budget allows one major function at a time,
-// Matthies 1995 sec. 2.1.2).
+// Matthies 1995 sec. 2.1.2). With `steers_while_rolling` it stands so only between arcs and turns in
+// place, whose wheels point elsewhere.
 class WheelDriver {
  public:
-  WheelDriver(const messages::DriveCalibration& calibration, const WheelDriverParams& params);
+  WheelDriver(const messages::DriveCalibration& calibration, const WheelDriverParams& params,
+              bool steers_while_rolling = false);
 
   // Returns the set points for the next tick of duration_s.
   messages::WheelCommand Tick(const messages::MotionCommand& motion, double duration_s);
@@ -40,7 +42,12 @@ class WheelDriver {
   const messages::WheelCommand& Steady(const messages::MotionCommand& motion);
 
   messages::DriveCalibration calibration_;
+  // Returns the largest change of a steering angle, rad, for which the rover does not stand.
+  double AllowedChange(messages::MotionKind kind) const;
+
   WheelDriverParams params_;
+  bool steers_while_rolling_;
+  messages::MotionKind rolled_kind_ = messages::MotionKind::kArc;  // the last for which it rolled
   messages::MotionCommand last_motion_;  // to which steady_ belongs
   messages::WheelCommand steady_;
   messages::PerWheel<double> believed_steer_rad_{};

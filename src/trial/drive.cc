@@ -60,6 +60,7 @@ std::optional<Verdict> Drive::Tick() {
       {.time_s = parts_.ledger.time_s(),
        .estimate = parts_.estimate().pose,
        .attitude = parts_.estimate().attitude,
+       .odometry = parts_.estimate().odometry,
        .report = seen_ ? seen_->report() : nullptr,
        .cloud = seen_ ? seen_->cloud() : nullptr,
        .look = seen_ ? &seen_->moment : nullptr,
@@ -224,6 +225,7 @@ void Drive::UseAids() {
   const bool fixed =
       parts_.aids.Tick(parts_.state().X_WR, parts_.ledger.time_s(), *parts_.estimator);
   const bool seen = parts_.vision.Tick(parts_.ledger.time_s(), *parts_.estimator);
+  if (seen) observer_.OnSeenMotion();
   if (fixed || seen) parts_.navigator.OnCorrection(before, parts_.estimate().pose);
   const std::optional<SlipReading> slip = parts_.vision.TakeSlip();
   if (!slip) return;

@@ -230,6 +230,27 @@ void RequireSlipReaction(const DriveParams& drive, core::FieldVisitor& v) {
             "use stop or as_stuck, or another navigator");
 }
 
+// A navigator that looks and steers on the move in a drive that stops for both.
+void RequireOverlap(const DriveParams& drive, core::FieldVisitor& v) {
+  const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
+  const navigation::NavigatorTraits traits = navigator.traits();
+  const OverlapParams& overlap = drive.clock.overlap;
+  const std::string cycle = navigator.PathOf("continuous.cycle");
+  const std::string suggestion = "use stop_and_look, or ";
+  v.Require(cycle, !traits.looks_on_the_move || overlap.imaging || overlap.computing,
+            "looks on the move where clock.overlap lets neither imaging nor computing go on "
+            "beside the drive: the rover would stop for each look",
+            suggestion + "clock.overlap.imaging and clock.overlap.computing true");
+  v.Require(cycle,
+            !traits.looks_on_the_move ||
+                drive.sensors.terrain_sensors.chosen().takes_image_sets(),
+            "looks on the move where sensors.terrain_sensor is one that scans at rest",
+            suggestion + "sensors.terrain_sensor stereo");
+  v.Require(cycle, !traits.steers_on_the_move || overlap.steering,
+            "is csad where clock.overlap.steering is false: the rover would stand to steer",
+            "use csod, or clock.overlap.steering true");
+}
+
 // Aids that nobody listens to.
 void RequireListener(const DriveParams& drive, core::FieldVisitor& v) {
   const localization::EstimatorKind& estimator = drive.localization.estimators.chosen();
@@ -261,6 +282,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   RequireSoundRouteMap(drive, v);
   RequireTargetBetweenLines(drive, v);
   RequireListener(drive, v);
+  RequireOverlap(drive, v);
   RequireSlipReaction(drive, v);
   RequireFindableRock(drive, v);
 }

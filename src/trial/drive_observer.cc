@@ -1,9 +1,11 @@
 #include "trial/drive_observer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "math/angles.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::trial {
 namespace {
@@ -27,6 +29,7 @@ DriveObserver::DriveObserver(const DriveParts& parts)
       monitor_(UndersideOf(parts.params.rover.geometry), parts.field.terrain),
       watch_(parts.params.sensors.terrain_sensors.chosen().reported_zone(parts.params),
              parts.params.rover.geometry, WatchedHeight(parts.params), parts.field.terrain),
+      steering_(rover::MakeRoverGeometry(parts.params.rover.geometry).steered),
       slip_onset_(parts.params.perception.visual_odometry.slip_check) {}
 
 bool DriveObserver::OnMotion(const messages::MotionCommand& motion) {
@@ -45,6 +48,7 @@ void DriveObserver::OnScrape() {
 
 void DriveObserver::OnTick(bool turning_in_place) {
   monitor_.Observe(parts_.state(), turning_in_place);
+  steering_.Observe(parts_.state().steer_rad);
   ObserveErrors();
   watch_.Observe(parts_.state().X_WR);
   slip_onset_.Observe(parts_.estimate().odometry, math::ToPose2(parts_.state().X_WR),
@@ -57,6 +61,13 @@ void DriveObserver::OnSlip(const SlipReading& slip) {
   ++slip_alarms_;
   if (!slip.truly_exceeded) ++false_slip_alarms_;
   if (!first_slip_m_) first_slip_m_ = monitor_.distance_m();
+}
+
+void DriveObserver::OnSeenMotion() {
+  const messages::PoseEstimate& now = parts_.estimate().pose;
+  seen_distance_m_ =
+      seen_distance_m_.value_or(0.0) + std::hypot(now.x_m - seen_at_.x_m, now.y_m - seen_at_.y_m);
+  seen_at_ = now;
 }
 
 void DriveObserver::ObserveErrors() {

@@ -14,6 +14,7 @@
 #include "trial/move_counter.h"
 #include "trial/referee.h"
 #include "trial/slip_onset.h"
+#include "trial/steer_counter.h"
 #include "trial/stop_counter.h"
 #include "trial/turn_counter.h"
 #include "trial/visual_aid.h"
@@ -30,7 +31,9 @@ class DriveObserver {
   // The rover stands at the start, or where operators have put it.
   void OnPlaced() {
     monitor_.Restart(parts_.state());
+    steering_.Restart(parts_.state().steer_rad);
     slip_onset_.Restart();
+    seen_at_ = parts_.estimate().pose;
   }
   void OnReflection() { ++reflections_; }
   // The navigator told a motion. Returns whether a new move begins with it.
@@ -44,6 +47,8 @@ class DriveObserver {
   void OnStuckNoticed() { ++stuck_noticed_; }
   void OnRecognized() { recognized_ = true; }
   void OnSlip(const SlipReading& slip);
+  // Visual odometry corrected the estimate.
+  void OnSeenMotion();
   // Once a control tick, after the estimate.
   void OnTick(bool turning_in_place);
 
@@ -67,6 +72,7 @@ class DriveObserver {
   void ReportCounts(truth::DriveRecord& record) const;
   void ReportHazards(truth::DriveRecord& record) const;
   void ReportGoalRock(truth::DriveRecord& record) const;
+  void ReportPlans(truth::DriveRecord& record) const;
 
   const DriveParts& parts_;
   DriveMonitor monitor_;
@@ -77,6 +83,7 @@ class DriveObserver {
   TurnCounter turns_;
   MoveCounter moves_;
   StopCounter stops_;
+  SteerCounter steering_;
   std::optional<double> first_scrape_m_;  // true path length
   std::int64_t reflections_ = 0;
   std::int64_t stuck_noticed_ = 0;
@@ -86,6 +93,8 @@ class DriveObserver {
   std::optional<double> largest_slip_;  // as seen
   std::optional<double> first_slip_m_;  // true path length at the first alarm
   bool recognized_ = false;             // the goal rock
+  messages::PoseEstimate seen_at_;         // the last place of visual odometry, or the start
+  std::optional<double> seen_distance_m_;  // way between them
 };
 
 }  // namespace rockyard::trial

@@ -28,6 +28,7 @@ truth::DriveRecord DriveObserver::Report(bool declared_success, const Stall& sta
   ReportCounts(record);
   ReportHazards(record);
   ReportGoalRock(record);
+  ReportPlans(record);
   return record;
 }
 
@@ -108,6 +109,7 @@ void DriveObserver::ReportVision(truth::DriveRecord& record) const {
   if (largest_slip_) record.largest_slip = *largest_slip_;
   if (first_slip_m_) record.first_slip_alarm_m = *first_slip_m_;
   if (slip_onset_.path_m()) record.slip_onset_m = *slip_onset_.path_m();
+  if (seen_distance_m_) record.visual_distance_m = *seen_distance_m_;
 }
 
 void DriveObserver::ReportLedger(truth::DriveRecord& record, const Stall& stall) const {
@@ -150,6 +152,8 @@ void DriveObserver::ReportCounts(truth::DriveRecord& record) const {
   record.turns_in_place = static_cast<double>(turns_.turns());
   record.scrapes = static_cast<double>(parts_.motion_sensors->scrapes().episodes());
   record.stops = static_cast<double>(stops_.stops());
+  record.steer_turned_rad = steering_.mean_rad();
+  record.steer_turned_max_rad = steering_.max_rad();
   record.first_scrape_distance_m = first_scrape_m_.value_or(record.true_distance_m);
   record.scrape_heading_rad = parts_.motion_sensors->scrapes().total_jump_rad();
   record.reflections = static_cast<double>(reflections_);
@@ -175,6 +179,16 @@ void DriveObserver::ReportGoalRock(truth::DriveRecord& record) const {
   const std::size_t waypoints = parts_.told_places.size() - 1;
   record.search_places_reached =
       reached > waypoints ? static_cast<double>(reached - waypoints) : 0.0;
+}
+
+void DriveObserver::ReportPlans(truth::DriveRecord& record) const {
+  const navigation::PlanCounts counts = parts_.navigator.plan_counts();
+  record.plans_on_the_move = static_cast<double>(counts.plans);
+  record.unsafe_plans = static_cast<double>(counts.unsafe);
+  record.late_plans = static_cast<double>(counts.late);
+  if (counts.started == 0) return;
+  record.plan_start_error_m =
+      std::sqrt(counts.start_error_squared_m2 / static_cast<double>(counts.started));
 }
 
 void DriveObserver::ReportHazards(truth::DriveRecord& record) const {

@@ -1,6 +1,5 @@
 #include "trial/drive_parts.h"
 
-#include <limits>
 #include <utility>
 
 #include "navigation/stuck_reaction.h"
@@ -25,7 +24,9 @@ std::unique_ptr<navigation::Navigator> MakePathSelection(const DriveParams& driv
                                                          core::TrialKey key,
                                                          const messages::Goal& goal) {
   const navigation::NavigatorKind& chosen = drive.navigation.navigators.chosen();
-  navigation::NavigatorSetup setup{.goal = goal, .judges_hazards = drive.perception.hazard.enabled};
+  navigation::NavigatorSetup setup{.goal = goal,
+                                   .judges_hazards = drive.perception.hazard.enabled,
+                                   .full_speed_m_s = drive.rover.drive.speed_m_s};
   if (chosen.traits().follows_route) setup.route = ToldRoute(drive, terrain, key, goal);
   return chosen.Make(setup);
 }
@@ -49,14 +50,6 @@ std::optional<double> PassingOf(const DriveParams& drive) {
   const RouteMapParams& map = drive.course.route_map;
   if (map.use != RouteUse::kWaypoints) return std::nullopt;
   return map.passing_m;
-}
-
-navigation::WheelDriverParams WheelDriverOf(const DriveParams& drive) {
-  navigation::WheelDriverParams params = drive.navigation.wheel_driver;
-  if (drive.clock.overlap.steering) {
-    params.steer_while_driving_rad = std::numeric_limits<double>::infinity();
-  }
-  return params;
 }
 
 // What the rover drives to: the designated places, then those of a local search.
@@ -102,7 +95,7 @@ DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const
                 PassingOf(drive)),
       follower(drive.rover.drive.speed_m_s, rover->ramp_s()),
       wheel_driver(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
-                   WheelDriverOf(drive)),
+                   drive.navigation.wheel_driver, drive.clock.overlap.steering),
       ledger(MakePowerBudget(drive), drive.energy.battery_wh),
       timeline(drive.clock.overlap, ledger),
       referee(drive.referee, drive.course, told_places.front(), Bounds(drive.terrain.arena),

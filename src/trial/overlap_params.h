@@ -17,7 +17,8 @@ struct OverlapParams {
         "imaging", imaging,
         {.doc = "images of terrain are taken while the rover drives or computes, of the place "
                 "where it is then; else it stops for them. For navigators that ask for it "
-                "(none of rockyard's own do); a light stripe scan always stops the rover",
+                "(gestalt with continuous.cycle csod or csad); a light stripe scan always stops "
+                "the rover",
          .origin = Origin::kSetting});
     v.Boolean("computing", computing,
               {.doc = "looks are computed while the rover drives or takes images; else it stops "
@@ -25,10 +26,10 @@ struct OverlapParams {
                .origin = Origin::kSetting});
     v.Boolean(
         "steering", steering,
-        {.doc = "the wheels roll while they are steered, however far, and the steering motors "
-                "draw their power beside the drive motors; else "
-                "navigation.wheel_driver.steer_while_driving_deg says when the rover stands "
-                "to steer, and what is steered while it drives draws nothing",
+        {.doc = "the wheels roll while they are steered, however far, but for the change between "
+                "arcs and turns in place, and the steering motors draw their power beside the "
+                "drive motors; else navigation.wheel_driver.steer_while_driving_deg says when the "
+                "rover stands to steer, and what is steered while it drives draws nothing",
          .origin = Origin::kSetting});
   }
 };

@@ -119,6 +119,15 @@ struct DriveRecord {
   double goal_rock_sign = std::numeric_limits<double>::quiet_NaN();
   double goal_rock_recognized = std::numeric_limits<double>::quiet_NaN();
   double search_places_reached = std::numeric_limits<double>::quiet_NaN();
+  double steer_turned_rad = 0.0;      // of a steering motor, to and fro alike: mean over them
+  double steer_turned_max_rad = 0.0;  // of the one that turned most
+  // The way between the places of visual odometry, as believed when each was ready.
+  double visual_distance_m = std::numeric_limits<double>::quiet_NaN();
+  double plans_on_the_move = 0.0;
+  double unsafe_plans = 0.0;  // of them, without a safe plan
+  double late_plans = 0.0;    // motions that ended before the next plan was ready
+  // Root of the mean square of where a plan was to begin less where it began, as believed.
+  double plan_start_error_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct DriveColumn {
@@ -383,6 +392,27 @@ inline constexpr std::array kDriveColumns = {
                 "places of the local search that the rover declared to be at, the told place "
                 "included",
                 &DriveRecord::search_places_reached, true},
+    DriveColumn{
+        "steer_turned_rad", "rad",
+        "total true turning of a steering motor, to and fro alike, at rest and on the move: "
+        "mean over the steered wheels",
+        &DriveRecord::steer_turned_rad},
+    DriveColumn{"steer_turned_max_rad", "rad", "the same of the motor that turned most",
+                &DriveRecord::steer_turned_max_rad},
+    DriveColumn{"visual_distance_m", "m",
+                "way between the believed places at each motion of visual odometry; empty without "
+                "one",
+                &DriveRecord::visual_distance_m, true},
+    DriveColumn{"plans_on_the_move", "1", "plans made while the rover drove (csod, csad)",
+                &DriveRecord::plans_on_the_move},
+    DriveColumn{"unsafe_plans", "1", "of these, those that found no safe motion",
+                &DriveRecord::unsafe_plans},
+    DriveColumn{"late_plans", "1", "motions that ended before the next plan was ready",
+                &DriveRecord::late_plans},
+    DriveColumn{"plan_start_error_m", "m",
+                "root of the mean square of the distance from where a plan on the move was to "
+                "begin to where the rover believed to be when it did; empty without one",
+                &DriveRecord::plan_start_error_m, true},
 };
 
 }  // namespace rockyard::truth

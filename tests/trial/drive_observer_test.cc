@@ -72,5 +72,29 @@ TEST_F(DriveObserverTest, TheFirstScrapeIsWhereItWas) {
   EXPECT_NEAR(Report().first_scrape_distance_m, 0.5, 1e-9);
 }
 
+// A third of a second at 60 deg/s is enough for either way; the middle wheels have no motor.
+TEST_F(DriveObserverTest, SteeringIsThatOfTheTrueMotorsAtRestToo) {
+  const auto steer_to = [&](double left_rad, double right_rad) {
+    messages::WheelCommand command;
+    command.steer_rad = {left_rad, left_rad, left_rad, right_rad, right_rad, right_rad};
+    for (int tick = 0; tick < 20; ++tick) {
+      parts_.rover->Step(command);
+      observer_.OnTick(false);
+    }
+  };
+  EXPECT_EQ(Report().steer_turned_rad, 0.0);
+  steer_to(0.1, 0.2);
+  EXPECT_NEAR(Report().steer_turned_rad, 0.15, 1e-12);
+  EXPECT_NEAR(Report().steer_turned_max_rad, 0.2, 1e-12);
+  steer_to(0.0, -0.1);
+  EXPECT_NEAR(Report().steer_turned_rad, 0.35, 1e-12);
+  EXPECT_NEAR(Report().steer_turned_max_rad, 0.5, 1e-12);
+  // Operators put the rover down with straight wheels.
+  parts_.rover->Place({1.0, 0.0, 0.0});
+  observer_.OnPlaced();
+  observer_.OnTick(false);
+  EXPECT_NEAR(Report().steer_turned_rad, 0.35, 1e-12);
+}
+
 }  // namespace
 }  // namespace rockyard::trial

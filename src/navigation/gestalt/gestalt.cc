@@ -6,6 +6,7 @@
 #include "math/angles.h"
 #include "math/pose.h"
 #include "navigation/gestalt/choice.h"
+#include "navigation/gestalt/speed_law.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -43,10 +44,27 @@ bool Touches(const NavigatorInput& input, int direction) {
          input.vehicle_hazard->kind == messages::VehicleHazardKind::kContact;
 }
 
+// Of a motion that is replaced on the move a step ends where the next plan is made.
+GestaltParams ForArcVotes(const GestaltParams& params) {
+  GestaltParams voting = params;
+  if (params.continuous.cycle == DriveCycle::kStopAndLook) return voting;
+  voting.drive.step_m = std::max(params.drive.step_m, params.continuous.ReplanDistance_m());
+  return voting;
+}
+
 }  // namespace
 
-GestaltNavigator::GestaltNavigator(const GestaltParams& params, const messages::Goal& goal)
-    : params_(params), goal_W_(goal), goal_(goal), map_(params.map), voter_(params) {}
+GestaltNavigator::GestaltNavigator(const GestaltParams& params, const messages::Goal& goal,
+                                   double full_speed_m_s)
+    : params_(params),
+      goal_W_(goal),
+      goal_(goal),
+      map_(params.map),
+      voter_(ForArcVotes(params)) {
+  if (params_.continuous.cycle == DriveCycle::kCsad) {
+    spline_voter_.emplace(params_, full_speed_m_s);
+  }
+}
 
 NavigatorDecision GestaltNavigator::Decide(const NavigatorInput& input) {
   NavigatorInput input_O = input;
@@ -97,9 +115,11 @@ void GestaltNavigator::OnPoseUpdate(const PoseEstimate& before_W, const PoseEsti
 }
 
 void GestaltNavigator::OnCorrection(const PoseEstimate& before, const PoseEstimate& after) {
+  const double before_m = TowardsGoal(frame_.FromWorld(before), goal_).distance_m;
   frame_.Correct(before, after);
   goal_ = frame_.FromWorld(goal_W_);
-  best_goal_distance_m_ = TowardsGoal(frame_.FromWorld(after), goal_).distance_m;
+  // The best distance so far moves with the goal, so that what the rover gained stays gained.
+  best_goal_distance_m_ += TowardsGoal(frame_.FromWorld(after), goal_).distance_m - before_m;
 }
 
 void GestaltNavigator::SetGoal(const messages::Goal& goal, GoalChange change) {
@@ -130,9 +150,13 @@ NavigatorDecision GestaltNavigator::OnCloud(const NavigatorInput& input) {
   if (!ahead && mode_ == Mode::kLookingAhead) return Look(mode_);
   if (ahead) map_.BeginCycle(input.estimate.x_m, input.estimate.y_m);
   map_.Add(*input.cloud, BelievedPose(input));
-  votes_ = voter_.Vote(map_.Evaluate(), input.estimate, goal_);
-  MarkVetoes();
+  const PlanOrigin origin{input.estimate, steered_per_m_};
+  Judge(origin);
   looked_behind_ = !ahead;
+  if (const messages::Spline* safe = TakeSafeSpline()) {
+    FillView(origin, input.attitude);
+    return BeginSpline(*safe, input);
+  }
   // Step 3 of the cycle in gestalt.h: forward arcs look bad, so the rear cameras are asked, too.
   const bool looks_behind = ahead && params_.drive.rear_cameras &&
                             BestVote(votes_.forward) < params_.votes.min_fwd_threshold;
@@ -151,7 +175,7 @@ NavigatorDecision GestaltNavigator::Choose(const NavigatorInput& input) {
   const bool searches = chosen == nullptr || chosen->merged < params_.votes.min_vote_goodness;
   if (turns) chosen = &turn;
   if (chosen != nullptr) MarkChoice(votes_, *chosen, params_);
-  FillView(input);
+  FillView({input.estimate, steered_per_m_}, input.attitude);
   if (chosen == nullptr) return Finish(NavigatorStatus::kGaveUp);
   search_direction_ = turns && searches ? turn.motion.direction : 0;
   drives_after_turn_ = turns && !searches && turn.hazard > params_.drive.min_drive_goodness;
@@ -162,8 +186,11 @@ NavigatorDecision GestaltNavigator::Choose(const NavigatorInput& input) {
 NavigatorDecision GestaltNavigator::BeginDrive(const MotionCommand& arc,
                                                const NavigatorInput& input) {
   searched_rad_ = 0.0;
+  spline_.reset();
+  replans_ = params_.continuous.cycle == DriveCycle::kCsod && arc.direction > 0;
+  const double length_m = replans_ ? params_.continuous.motion_m : params_.drive.step_m;
   const double left_m = TowardsGoal(input.estimate, goal_).distance_m;
-  return Begin(Mode::kDriving, arc, std::min(params_.drive.step_m, left_m), input);
+  return Begin(Mode::kDriving, arc, std::min(length_m, left_m), input);
 }
 
 // A search turns one way only, by the amount of table 1: the other way lies what it has just seen.
@@ -193,6 +220,7 @@ NavigatorDecision GestaltNavigator::ContinueDrive(const NavigatorInput& input) {
   // What was felt before the drive began counts again only after some way.
   const bool counts = !felt_since_start_ || driven_m >= params_.drive.felt_again_m;
   if (feels && counts) return OnFelt(input);
+  if (replans_) return DriveOn(input, driven_m);
   if (driven_m < leg_ && !TimedOut(input)) return Move(motion_);
   vetoed_.clear();
   return BeginCycle(input);
@@ -229,9 +257,13 @@ NavigatorDecision GestaltNavigator::OnFelt(const NavigatorInput& input) {
     search_direction_ = -motion_.direction;
     return BeginCycle(input);
   }
+  awaits_look_ = false;
+  const double driven_m = input.estimate.distance_m - anchor_.distance_m;
+  motion_ = MotionAt(driven_m);
+  spline_.reset();
+  replans_ = false;
   if (params_.drive.veto_felt) vetoed_.push_back(motion_);
   felt_places_.Feel(input, motion_.direction, params_.map.rover, params_.drive.felt_radius_m, map_);
-  const double driven_m = input.estimate.distance_m - anchor_.distance_m;
   // Back along the same arc, no farther than it came.
   const double leg_m = std::min(driven_m, params_.drive.back_off_m);
   if (leg_m <= 0.0 || Touches(input, -motion_.direction)) return BeginCycle(input);
@@ -249,7 +281,13 @@ NavigatorDecision GestaltNavigator::Begin(Mode mode, const MotionCommand& motion
                                           const NavigatorInput& input) {
   mode_ = mode;
   motion_ = motion;
+  motion_.speed_share = SpeedShare(params_.speed, motion.curvature_per_m);
+  motion_.move = replans_ && mode == Mode::kDriving ? ++moves_ : 0;
   leg_ = leg;
+  late_ = false;
+  last_driven_m_ = 0.0;
+  last_time_s_ = input.time_s;
+  steered_per_m_ = motion.kind == MotionKind::kArc ? motion.curvature_per_m : 0.0;
   turned_rad_ = 0.0;
   last_heading_rad_ = input.estimate.heading_rad;
   anchor_ = input.estimate;
@@ -259,16 +297,19 @@ NavigatorDecision GestaltNavigator::Begin(Mode mode, const MotionCommand& motion
   return Move(motion_);
 }
 
-void GestaltNavigator::FillView(const NavigatorInput& input) {
+void GestaltNavigator::FillView(const PlanOrigin& origin,
+                                const messages::AttitudeEstimate& attitude) {
   view_.step = decisions_++;
-  view_.estimate = input.estimate;
-  view_.attitude = input.attitude;
+  view_.estimate = origin.pose;
+  view_.attitude = attitude;
   view_.goal = goal_;
   view_.looked_behind = looked_behind_;
   view_.map = map_.View();
   view_.forward = votes_.forward;
   view_.backward = votes_.backward;
   view_.point_turns = votes_.point_turns;
+  view_.splines = spline_votes_;
+  view_.spline_start = origin.pose;
 }
 
 // Counts cycles without progress; too many of them end the drive.
@@ -309,6 +350,8 @@ NavigatorDescription<GestaltParams> DescribeGestalt() {
         const GestaltRoverParams& rover = params.map.rover;
         NavigatorTraits traits(LookReading::kPoints, CostOf(params.map.grid),
                                {"waypoints.goal_tolerance_m", params.waypoints.goal_tolerance_m});
+        traits.looks_on_the_move = params.continuous.cycle != DriveCycle::kStopAndLook;
+        traits.steers_on_the_move = params.continuous.cycle == DriveCycle::kCsad;
         if (!rover.modelled) return traits;
         traits.size =
             BelievedSize{"map.rover.length_m", rover.length_m, "map.rover.width_m", rover.width_m,
@@ -318,7 +361,7 @@ NavigatorDescription<GestaltParams> DescribeGestalt() {
       },
       .make = [](const GestaltParams& params,
                  const NavigatorSetup& setup) -> std::unique_ptr<Navigator> {
-        return std::make_unique<GestaltNavigator>(params, setup.goal);
+        return std::make_unique<GestaltNavigator>(params, setup.goal, setup.full_speed_m_s);
       }};
 }
 

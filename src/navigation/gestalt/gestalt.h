@@ -16,17 +16,23 @@
 // begins a cycle. The paper names these safeguards, not what follows; all of it is assumed. Draws
 // no random numbers.
 //
+// That is the cycle at rest. With continuous.cycle csod or csad forward drives are replaced on the
+// move (continuous_drive.cc, Howard 2012, section 2); the rover comes back to the cycle at rest where
+// it feels a hazard, where no plan on the move is safe, and where none is ready in time.
+//
 // All of this goes on in the frame O of odometry_frame.h, which is the world until the estimate is
 // corrected. A correction moves the goal, and neither clears nor smears the map.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "navigation/gestalt/felt.h"
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/gestalt/map.h"
+#include "navigation/gestalt/splines.h"
 #include "navigation/gestalt/votes.h"
 #include "navigation/navigator.h"
 #include "navigation/navigator_set_params.h"
@@ -37,7 +43,9 @@ namespace rockyard::navigation {
 // The drive cycle; map_ and voter_ do the rest.
 class GestaltNavigator final : public Navigator {
  public:
-  GestaltNavigator(const GestaltParams& params, const messages::Goal& goal);
+  // `full_speed_m_s` of the fastest rim, which limits how fast splines may bend.
+  GestaltNavigator(const GestaltParams& params, const messages::Goal& goal,
+                   double full_speed_m_s = 0.07);
 
   NavigatorDecision Decide(const NavigatorInput& input) override;
 
@@ -58,8 +66,16 @@ class GestaltNavigator final : public Navigator {
   // Returns the last decision with its map and votes.
   const messages::NavigationView* view() const override;
 
+  PlanCounts plan_counts() const override { return counts_; }
+
  private:
   enum class Mode { kStarting, kLookingAhead, kLookingBehind, kDriving, kBackingOff, kTurning };
+
+  // Where a plan begins: a pose in O, and the curvature that the rover steers there.
+  struct PlanOrigin {
+    messages::PoseEstimate pose;
+    double curvature_per_m = 0.0;
+  };
 
   NavigatorDecision DecideInO(const NavigatorInput& input);
   NavigatorDecision BeginCycle(const NavigatorInput& input);
@@ -70,13 +86,28 @@ class GestaltNavigator final : public Navigator {
   NavigatorDecision ContinueTurn(const NavigatorInput& input);
   NavigatorDecision OnFelt(const NavigatorInput& input);
 
+  // On the move: continuous_drive.cc. `driven_m` of the motion under way.
+  NavigatorDecision DriveOn(const NavigatorInput& input, double driven_m);
+  NavigatorDecision EndMotion(const NavigatorInput& input);
+  NavigatorDecision Replan(const NavigatorInput& input, double driven_m);
+  NavigatorDecision ReplaceMotion(const NavigatorInput& input, const PlanOrigin& origin);
+  NavigatorDecision OnNoSafePlan(double driven_m);
+  NavigatorDecision BeginSpline(const messages::Spline& spline, const NavigatorInput& input);
+  PlanOrigin OriginOfNextPlan(const NavigatorInput& input, const messages::PoseEstimate& seen,
+                              double driven_m) const;
+  messages::PoseEstimate PoseOfLook(const NavigatorInput& input) const;
+  messages::MotionCommand MotionAt(double driven_m) const;
+  ClothoidPoint WayBetween(double from_m, double to_m) const;
+  void Judge(const PlanOrigin& origin);
+  const messages::Spline* TakeSafeSpline();
+
   NavigatorDecision Look(Mode mode);
   NavigatorDecision BeginDrive(const messages::MotionCommand& arc, const NavigatorInput& input);
   NavigatorDecision Begin(Mode mode, const messages::MotionCommand& motion, double leg,
                           const NavigatorInput& input);
   messages::MotionVote& NextTurn(const messages::PoseEstimate& estimate);
   void MarkVetoes();
-  void FillView(const NavigatorInput& input);
+  void FillView(const PlanOrigin& origin, const messages::AttitudeEstimate& attitude);
 
   bool Progresses(const messages::PoseEstimate& estimate);
   bool Feels(const NavigatorInput& input) const;
@@ -89,6 +120,7 @@ class GestaltNavigator final : public Navigator {
   messages::Goal goal_;  // in O, as all that follows
   GestaltMap map_;
   ArcVoter voter_;
+  std::optional<SplineVoter> spline_voter_;  // with csad
 
   Mode mode_ = Mode::kStarting;
   messages::MotionCommand motion_;
@@ -109,7 +141,20 @@ class GestaltNavigator final : public Navigator {
   FeltPlaces felt_places_;                       // of these
   std::vector<messages::MotionCommand> vetoed_;  // felt on since the last manoeuvre that was ended
 
+  // Of the drive under way.
+  bool replans_ = false;                    // it is replaced on the move
+  std::optional<messages::Spline> spline_;  // that it follows, instead of motion_'s arc
+  bool awaits_look_ = false;                // one was asked for on the move
+  bool late_ = false;                       // it ended before that was answered
+  double speed_m_s_ = 0.0;                  // as measured, when that was asked for
+  double last_driven_m_ = 0.0;              // at the last tick
+  double last_time_s_ = 0.0;
+  double steered_per_m_ = 0.0;  // the curvature for which the wheels stand
+  std::int64_t moves_ = 0;      // numbers motions that are replaced on the move
+  PlanCounts counts_;
+
   MotionVotes votes_;  // after the last look
+  SplineVotes spline_votes_;
   bool looked_behind_ = false;
   std::int64_t decisions_ = 0;
   messages::NavigationView view_;

@@ -150,6 +150,9 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
   v.Group("plan", plan, "how far and how densely paths are judged");
   v.Group("votes", votes, "thresholds of the votes");
   v.Group("drive", drive, "the drive cycle, and what ends it");
+  v.Group("continuous", continuous, "looking and planning on the move");
+  v.Group("splines", splines, "splines, of a rover that steers while it drives");
+  v.Group("speed", speed, "how fast curves are driven by a rover that steers while it drives");
   v.Require("plan.plan_min_dist_m", plan.plan_min_dist_m < map.Reach_m(),
             "is where the map ends or beyond (half of its grid, or grid_dist_timeout_m): nothing "
             "of any path could be known",
@@ -157,6 +160,10 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
   v.Require("drive.step_m", drive.step_m <= plan.plan_max_dist_m,
             "is beyond plan.plan_max_dist_m: the rover would drive blindly past what it judged",
             "use a smaller step_m or a larger plan.plan_max_dist_m");
+  const bool on_the_move = continuous.cycle != DriveCycle::kStopAndLook;
+  v.Require("continuous.motion_m", !on_the_move || continuous.motion_m <= plan.plan_max_dist_m,
+            "is beyond plan.plan_max_dist_m: the rover would drive blindly past what it judged",
+            "use a smaller motion_m or a larger plan.plan_max_dist_m");
   v.Require("drive.max_fruitless_cycles",
             static_cast<double>(drive.max_fruitless_cycles) * arcs.point_turn_amount_rad >=
                 drive.search_turn_rad,

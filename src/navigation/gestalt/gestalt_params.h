@@ -7,7 +7,10 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
+#include "navigation/gestalt/continuous_params.h"
 #include "navigation/gestalt/map_params.h"
+#include "navigation/gestalt/speed_law_params.h"
+#include "navigation/gestalt/spline_params.h"
 #include "navigation/gestalt/vote_params.h"
 
 namespace rockyard::navigation {
@@ -61,6 +64,9 @@ struct GestaltParams {
   GestaltPlanParams plan;
   GestaltVoteParams votes;
   GestaltDriveParams drive;
+  GestaltContinuousParams continuous;
+  GestaltSplineParams splines;
+  SpeedLawParams speed;
 
   void Visit(core::FieldVisitor& v);
 };

@@ -2,7 +2,6 @@
 // the rover (Goldberg 2002, section 4).
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -33,9 +32,10 @@ struct GoodnessGrid {
 
   const CellValue& Cell(int ix, int iy) const { return cells[CellIndex(ix, iy, nx)]; }
   const CellValue& At(double x_m, double y_m) const {
-    const double column = std::floor((x_m - x0_m) / xstep_m);
-    const double row = std::floor((y_m - y0_m) / ystep_m);
-    // Written so that a coordinate that is not a number lies outside.
+    const double column = (x_m - x0_m) / xstep_m;
+    const double row = (y_m - y0_m) / ystep_m;
+    // Written so that a coordinate that is not a number lies outside. What is not negative loses
+    // its fraction by the conversion, as by std::floor, which is a call.
     if (!(column >= 0.0 && column < nx && row >= 0.0 && row < ny)) return unknown;
     return Cell(static_cast<int>(column), static_cast<int>(row));
   }

@@ -23,11 +23,6 @@ constexpr double kMinDistance_m = 1e-6;
 // A goal this near to straight behind is on the left, whatever rounding made of it.
 constexpr double kBehind_rad = 1e-9;
 
-// Halves up, where votes are whole numbers.
-double Rounded(double vote, bool whole_numbers) {
-  return whole_numbers ? std::floor(vote + 0.5) : vote;
-}
-
 // Whether driving in the direction brings the rover nearer to the goal, at first: forward for goals
 // up to 90 deg off, backward for the others.
 bool LeadsToGoal(const GoalDirection& goal, int direction) {
@@ -43,30 +38,30 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
   EXPECT(!points.empty() && weights.size() >= points.size());
   const double cosine = std::cos(estimate.heading_rad);
   const double sine = std::sin(estimate.heading_rad);
-  const bool by_certainty = unknown_cells == UnknownCells::kByCertainty;
-  double weighted_goodness = 0.0;
-  double weighted_certainty = 0.0;
+  PathSums sums(unknown_cells);
   double sum_of_weights = 0.0;
-  std::uint8_t min_goodness = 255;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const PathPoint& p = points[k];
     // p_W = p_WR + Rz(heading) p_R by the believed pose.
-    const CellValue& cell = grid.At(estimate.x_m + cosine * p.x_m - sine * p.y_m,
-                                    estimate.y_m + sine * p.x_m + cosine * p.y_m);
-    weighted_goodness += weights[k] * (by_certainty ? cell.certainty : 1.0) * cell.goodness;
-    weighted_certainty += weights[k] * cell.certainty;
+    sums.Add(grid.At(estimate.x_m + cosine * p.x_m - sine * p.y_m,
+                     estimate.y_m + sine * p.x_m + cosine * p.y_m),
+             weights[k]);
     sum_of_weights += weights[k];
-    min_goodness = std::min(min_goodness, cell.goodness);
   }
+  return sums.Vote(sum_of_weights, grid.unknown, min_allowed_goodness);
+}
+
+HazardVote PathSums::Vote(double sum_of_weights, const CellValue& unknown,
+                          double min_allowed_goodness) const {
   // Step 4: goodness = sum w g / sum w, certainty = sum w c / sum w; one forbidden cell forbids the
   // path.
-  const bool allowed = min_goodness > min_allowed_goodness;
-  const double certainty = weighted_certainty / sum_of_weights;
+  const bool allowed = min_goodness_ > min_allowed_goodness;
+  const double certainty = weighted_certainty_ / sum_of_weights;
   if (!allowed) return {0.0, certainty};
-  if (!by_certainty) return {weighted_goodness / sum_of_weights, certainty};
+  if (!by_certainty_) return {weighted_goodness_ / sum_of_weights, certainty};
   // sum w c g / sum w c.
-  const bool blank = weighted_certainty <= 0.0;
-  return {blank ? grid.unknown.goodness : weighted_goodness / weighted_certainty, certainty};
+  const bool blank = weighted_certainty_ <= 0.0;
+  return {blank ? unknown.goodness : weighted_goodness_ / weighted_certainty_, certainty};
 }
 
 GoalDirection TowardsGoal(const PoseEstimate& estimate, const messages::Goal& goal) {
@@ -121,6 +116,14 @@ double MergeVotes(const HazardVote& hazard, double waypoint, double waypoint_cer
   return (hazard.goodness * hazard.certainty + waypoint * waypoint_certainty) / certainties;
 }
 
+double RoundedVote(double vote, bool whole_numbers) {
+  return whole_numbers ? std::floor(vote + 0.5) : vote;
+}
+
+HazardVote RoundedVote(const HazardVote& vote, bool whole_numbers) {
+  return {RoundedVote(vote.goodness, whole_numbers), RoundedVote(vote.certainty, whole_numbers)};
+}
+
 ArcVoter::ArcVoter(const GestaltParams& params)
     : params_(params),
       sampling_(
@@ -173,18 +176,18 @@ MotionVote ArcVoter::VoteOn(const CandidateMotion& candidate, double waypoint,
   // "Out to min(dist to goal, default length)" (step 4).
   const std::size_t count =
       std::min(candidate.points.size(), sampling_.CountWithin(goal_distance_m));
-  HazardVote hazard =
-      VoteOnPath(grid, estimate, std::span(candidate.points).first(count), sampling_.weight,
-                 params_.votes.min_allowed_goodness, params_.plan.unknown_cells);
   const bool whole = params_.votes.whole_numbers;
-  hazard = {Rounded(hazard.goodness, whole), Rounded(hazard.certainty, whole)};
+  const HazardVote hazard = RoundedVote(
+      VoteOnPath(grid, estimate, std::span(candidate.points).first(count), sampling_.weight,
+                 params_.votes.min_allowed_goodness, params_.plan.unknown_cells),
+      whole);
   MotionVote vote;
   vote.motion = candidate.motion;
   vote.turn_rad = candidate.turn_rad;
   vote.hazard = hazard.goodness;
   vote.hazard_certainty = hazard.certainty;
-  vote.waypoint = Rounded(waypoint, whole);
-  vote.merged = Rounded(MergeVotes(hazard, vote.waypoint, params_.waypoints.waypoint_certainty,
+  vote.waypoint = RoundedVote(waypoint, whole);
+  vote.merged = RoundedVote(MergeVotes(hazard, vote.waypoint, params_.waypoints.waypoint_certainty,
                                    params_.votes.min_vote_goodness),
                         whole);
   return vote;

@@ -3,7 +3,9 @@
 // nothing of the drive cycle, so that other navigators can use them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,6 +21,29 @@ namespace rockyard::navigation {
 struct HazardVote {
   double goodness = 0.0;
   double certainty = 0.0;
+};
+
+// The sums of step 4 over the cells under a path, one after the other.
+class PathSums {
+ public:
+  explicit PathSums(UnknownCells unknown_cells)
+      : by_certainty_(unknown_cells == UnknownCells::kByCertainty) {}
+
+  void Add(const CellValue& cell, double weight) {
+    weighted_goodness_ += weight * (by_certainty_ ? cell.certainty : 1.0) * cell.goodness;
+    weighted_certainty_ += weight * cell.certainty;
+    min_goodness_ = std::min(min_goodness_, cell.goodness);
+  }
+
+  // Returns the vote, as VoteOnPath does, on a path of all cells that were added.
+  HazardVote Vote(double sum_of_weights, const CellValue& unknown,
+                  double min_allowed_goodness) const;
+
+ private:
+  bool by_certainty_;
+  double weighted_goodness_ = 0.0;
+  double weighted_certainty_ = 0.0;
+  std::uint8_t min_goodness_ = 255;
 };
 
 // Votes by step 4, "a weighted sum, biased to consider nearby cells more strongly", over the cells
@@ -66,6 +91,10 @@ double WaypointVote(double peak, double index_from_best, double vote_index_varia
 // the mean weighted by the certainties. If both certainties are 0 it is the lower vote.
 double MergeVotes(const HazardVote& hazard, double waypoint, double waypoint_certainty,
                   double min_vote_goodness);
+
+// Returns the vote, rounded half up where votes are whole_numbers.
+double RoundedVote(double vote, bool whole_numbers);
+HazardVote RoundedVote(const HazardVote& vote, bool whole_numbers);
 
 // The votes in the rows of CandidateMotions.
 struct MotionVotes {

@@ -1,0 +1,165 @@
+#include "navigation/gestalt/curvature_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+#include "navigation/gestalt/gauss_nodes.h"
+#include "navigation/gestalt/speed_law.h"
+
+namespace rockyard::navigation {
+namespace {
+
+// Where the speed falls, a piece ends when it has fallen to this share of that at its beginning:
+// p^2 is linear in the distance there and c has a singularity at p = 0, which then lies 1.78
+// lengths of the piece beyond its end. Eight nodes converge as rho^-16 with rho = 9, to 5e-16.
+constexpr double kSlowingOfPiece = 0.8;
+
+// Largest turn of such a piece, as of those of clothoids.
+constexpr double kTurnOfPiece_rad = 1.0;
+
+}  // namespace
+
+CurvatureLaw::CurvatureLaw(SplineLaw law, const SpeedLawParams& speed) : law_(law), speed_(speed) {
+  const double full_per_m = speed.full_speed_curvature_per_m;
+  const double slow_per_m = speed.slow_curvature_per_m;
+  EXPECT(slow_per_m > full_per_m && speed.min_speed_share > 0.0);
+  slope_m_ = (1.0 - speed.min_speed_share) / (slow_per_m - full_per_m);
+  slow_integral_ =
+      full_per_m + 0.5 * (1.0 + speed.min_speed_share) * (slow_per_m - full_per_m);
+  // p = 0.8^k at c_full + (1 - p) / slope.
+  for (double share = 1.0; share > speed.min_speed_share; share *= kSlowingOfPiece) {
+    edges_.push_back(full_per_m + (1.0 - share) / slope_m_);
+  }
+  edges_.push_back(slow_per_m);
+  const std::size_t count = edges_.size();
+  for (std::size_t i = 0; i < count; ++i) edges_.push_back(-edges_[i]);
+  std::sort(edges_.begin(), edges_.end());
+}
+
+double CurvatureLaw::Integral(double curvature_per_m) const {
+  if (law_ == SplineLaw::kDistance) return curvature_per_m;
+  const double size = std::abs(curvature_per_m);
+  const double over = size - speed_.full_speed_curvature_per_m;
+  double integral = size;
+  if (size > speed_.slow_curvature_per_m) {
+    integral = slow_integral_ + speed_.min_speed_share * (size - speed_.slow_curvature_per_m);
+  } else if (over > 0.0) {
+    integral -= 0.5 * slope_m_ * over * over;
+  }
+  return std::copysign(integral, curvature_per_m);
+}
+
+double CurvatureLaw::CurvatureOf(double integral_per_m) const {
+  if (law_ == SplineLaw::kDistance) return integral_per_m;
+  const double size = std::abs(integral_per_m);
+  const double over = size - speed_.full_speed_curvature_per_m;
+  double curvature = size;
+  if (size > slow_integral_) {
+    curvature = speed_.slow_curvature_per_m + (size - slow_integral_) / speed_.min_speed_share;
+  } else if (over > 0.0) {
+    // d - slope d^2 / 2 = F - c_full, solved for d = c - c_full so that no digits are lost.
+    const double share = std::sqrt(std::max(0.0, 1.0 - 2.0 * slope_m_ * over));
+    curvature = speed_.full_speed_curvature_per_m + 2.0 * over / (1.0 + share);
+  }
+  return std::copysign(curvature, integral_per_m);
+}
+
+double CurvatureLaw::Between(double from_per_m, double to_per_m, double share) const {
+  const double from = Integral(from_per_m);
+  return CurvatureOf(from + share * (Integral(to_per_m) - from));
+}
+
+double CurvatureLaw::RateBetween(double from_per_m, double to_per_m, double share,
+                                 double length_m) const {
+  // dF/ds = F'(c) dc/ds.
+  const double rate = (Integral(to_per_m) - Integral(from_per_m)) / length_m;
+  if (law_ == SplineLaw::kDistance) return rate;
+  return rate / SpeedShare(speed_, Between(from_per_m, to_per_m, share));
+}
+
+double CurvatureLaw::LargestRateInTime(double from_per_m, double to_per_m, double length_m,
+                                       double full_speed_m_s) const {
+  // v |dF/ds|.
+  const double rate =
+      full_speed_m_s * std::abs(Integral(to_per_m) - Integral(from_per_m)) / length_m;
+  if (law_ == SplineLaw::kTime) return rate;
+  const bool straight_between = from_per_m * to_per_m <= 0.0;
+  const double gentlest =
+      straight_between ? 0.0 : std::min(std::abs(from_per_m), std::abs(to_per_m));
+  return rate * SpeedShare(speed_, gentlest);
+}
+
+double CurvatureLaw::MeanCurvature(double from_per_m, double to_per_m) const {
+  // int c p dc / int p dc between two curvatures of one side where p falls, with d = |c| - c_full:
+  //   c_full + ((d0 + d1) / 2 - slope (d0^2 + d0 d1 + d1^2) / 3) / (1 - slope (d0 + d1) / 2).
+  const double full_per_m = speed_.full_speed_curvature_per_m;
+  const double d0 = std::abs(from_per_m) - full_per_m;
+  const double d1 = std::abs(to_per_m) - full_per_m;
+  const double middle = 0.5 * (d0 + d1);
+  const double over = (middle - slope_m_ * (d0 * d0 + d0 * d1 + d1 * d1) / 3.0) /
+                      (1.0 - slope_m_ * middle);
+  return std::copysign(full_per_m + over, from_per_m + to_per_m);
+}
+
+ClothoidPoint CurvatureLaw::SlowingPath(double from_per_m, double to_per_m,
+                                        double length_m) const {
+  ClothoidPoint end;
+  const double half_m = 0.5 * length_m;
+  const auto add = [&](double s_m, double weight_m) {
+    const double here = Between(from_per_m, to_per_m, s_m / length_m);
+    // theta(s) = s times the mean of the curvature so far.
+    const double heading_rad = s_m * MeanCurvature(from_per_m, here);
+    end.x_m += weight_m * std::cos(heading_rad);
+    end.y_m += weight_m * std::sin(heading_rad);
+  };
+  for (const GaussPair& pair : kEightNodes) {
+    add(half_m * (1.0 - pair.place), half_m * pair.weight);
+    add(half_m * (1.0 + pair.place), half_m * pair.weight);
+  }
+  end.heading_rad = length_m * MeanCurvature(from_per_m, to_per_m);
+  return end;
+}
+
+ClothoidPoint CurvatureLaw::SmoothPath(double from_per_m, double to_per_m,
+                                       double length_m) const {
+  const double middle = 0.5 * std::abs(from_per_m + to_per_m);
+  const bool slowing = middle > speed_.full_speed_curvature_per_m &&
+                       middle < speed_.slow_curvature_per_m;
+  if (!slowing) return OnClothoid(from_per_m, (to_per_m - from_per_m) / length_m, length_m);
+  const double turn_rad = length_m * std::max(std::abs(from_per_m), std::abs(to_per_m));
+  const double pieces = std::max(1.0, std::ceil(turn_rad / kTurnOfPiece_rad));
+  ClothoidPoint end;
+  double begin = from_per_m;
+  for (double k = 1.0; k <= pieces; ++k) {
+    const double next = k < pieces ? Between(from_per_m, to_per_m, k / pieces) : to_per_m;
+    end = Joined(end, SlowingPath(begin, next, length_m / pieces));
+    begin = next;
+  }
+  return end;
+}
+
+ClothoidPoint CurvatureLaw::Path(double from_per_m, double to_per_m, double length_m) const {
+  EXPECT(length_m >= 0.0);
+  if (length_m == 0.0) return {};
+  const double whole = Integral(to_per_m) - Integral(from_per_m);
+  const bool all_smooth = law_ == SplineLaw::kDistance || slope_m_ == 0.0 || whole == 0.0;
+  if (all_smooth) return OnClothoid(from_per_m, (to_per_m - from_per_m) / length_m, length_m);
+  // Edges strictly between, in the order in which they are met.
+  const auto [low, high] = std::minmax(from_per_m, to_per_m);
+  const auto first = std::upper_bound(edges_.begin(), edges_.end(), low);
+  std::vector<double> ends(first, std::lower_bound(first, edges_.end(), high));
+  if (to_per_m < from_per_m) std::reverse(ends.begin(), ends.end());
+  ends.push_back(to_per_m);
+  ClothoidPoint end;
+  double begin = from_per_m;
+  for (const double next : ends) {
+    // F is linear in the distance.
+    const double piece_m = length_m * (Integral(next) - Integral(begin)) / whole;
+    if (piece_m > 0.0) end = Joined(end, SmoothPath(begin, next, piece_m));
+    begin = next;
+  }
+  return end;
+}
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,76 @@
+#include "navigation/gestalt/spline_params.h"
+
+namespace rockyard::navigation {
+
+using core::Origin;
+
+namespace {
+
+constexpr std::string_view kHowardSection3 = "Howard 2012 sec. 3";
+
+void VisitShape(GestaltSplineParams& p, core::FieldVisitor& v) {
+  v.Real("length_m", p.length_m,
+         {.doc = "length of a spline; its knots lie after half of it and after all of it",
+          .min = 0.1,
+          .max = 20.0,
+          .origin = Origin::kPublished,
+          .source = kHowardSection3});
+  v.Integer("num_first_knots", p.num_first_knots,
+            {.doc = "curvatures in the middle of a spline, spaced evenly",
+             .min = 1,
+             .max = 51,
+             .origin = Origin::kAssumed,
+             .source = "Howard 2012 sec. 3 has 225 splines, not how many knots each",
+             .study_low = 5,
+             .study_high = 45});
+  v.Integer("num_second_knots", p.num_second_knots,
+            {.doc = "curvatures at the end of a spline, spaced evenly, for each in the middle",
+             .min = 1,
+             .max = 51,
+             .origin = Origin::kAssumed,
+             .source = "Howard 2012 sec. 3 has 225 splines, not how many knots each",
+             .study_low = 5,
+             .study_high = 45});
+  v.Real("max_curvature_per_m", p.max_curvature_per_m,
+         {.doc = "curvature of the tightest knots",
+          .min = 0.01,
+          .max = 20.0,
+          .origin = Origin::kPublished,
+          .source = kHowardSection3});
+}
+
+}  // namespace
+
+void GestaltSplineParams::Visit(core::FieldVisitor& v) {
+  VisitShape(*this, v);
+  v.Real("max_curvature_rate_per_m_s", max_curvature_rate_per_m_s,
+         {.doc = "change of curvature a second at the commanded speed above which a spline is "
+                 "infeasible and never chosen",
+          .min = 0.001,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "steering motors of 20 deg/s turn the wheels of Athena, 0.42 m before and 0.36 "
+                    "m beside its centre, by 0.49 / (m s) at 1 / m, and faster in wider curves; "
+                    "less a tenth. The study range is that of motors of 2 to 40 deg/s",
+          .study_low = 0.045,
+          .study_high = 0.9});
+  v.Choice("law", law,
+           {.doc = "in what the curvature between two knots is linear",
+            .origin = Origin::kAssumed,
+            .source = "Howard 2012 sec. 2: \"linearly with distance or time\""});
+  v.Real("waypoint_m", waypoint_m,
+         {.doc = "distance along a spline, or that to the goal if it is less, after which its "
+                 "heading is compared with the direction of the goal",
+          .min = 0.01,
+          .max = 20.0,
+          .origin = Origin::kAssumed,
+          .source = "the whole spline; arcs are asked after a step",
+          .study_low = 0.35,
+          .study_high = 3.0});
+  v.Require("waypoint_m", waypoint_m <= length_m,
+            "is beyond the end of the splines (length_m): they say nothing of where the rover "
+            "would head there",
+            "use a smaller waypoint_m or a larger length_m");
+}
+
+}  // namespace rockyard::navigation

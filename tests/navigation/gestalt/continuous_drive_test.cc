@@ -1,0 +1,446 @@
+// GESTALT on the move in closed loop with a fake rover whose looks take time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <limits>
+
+#include "drive.h"
+#include "navigation/motion_follower.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::LookDirection;
+using messages::MotionKind;
+
+constexpr double kRounding = 1e-9;
+
+struct MovingSetup {
+  GestaltParams params;
+  messages::Goal goal{8.0, 0.0};
+  FakeRoverConfig rover = TrueRover();
+  HeightAt height = Flat();
+  FakeRange range;
+  int latency_ticks = 0;  // from a look on the move to its answer
+  bool loses_answers = false;
+  std::function<bool(int tick)> feels = [](int) { return false; };
+  std::function<bool(int tick)> held = [](int) { return false; };  // it does not move
+};
+
+struct MovingTick {
+  double time_s = 0.0;
+  messages::PoseEstimate estimate;
+  math::Pose2 X_WR;
+  bool answered = false;
+  NavigatorDecision decision;
+  messages::MotionCommand motion;  // that the wheels were told, after the follower
+
+  bool stands() const { return motion.kind == MotionKind::kStop; }
+};
+
+// One tick of the rover as the loop of a trial makes it.
+class MovingDrive {
+ public:
+  explicit MovingDrive(const MovingSetup& setup)
+      : setup_(setup),
+        navigator_(setup.params, setup.goal, setup.rover.speed_m_s),
+        follower_(setup.rover.speed_m_s, 0.0),
+        rover_(setup.rover, {}) {}
+
+  NavigatorStatus Run(int most_ticks = 40000) {
+    while (static_cast<int>(log_.size()) < most_ticks) {
+      Step();
+      if (log_.back().decision.status != NavigatorStatus::kDriving) break;
+    }
+    return log_.back().decision.status;
+  }
+
+  void Step() {
+    const int number = static_cast<int>(log_.size());
+    MovingTick tick;
+    tick.time_s = number * setup_.rover.tick_s;
+    tick.estimate = rover_.estimate();
+    tick.X_WR = rover_.X_WR();
+    NavigatorInput input{
+        .time_s = tick.time_s, .estimate = tick.estimate, .odometry = odometry_};
+    std::optional<Answer> answer;
+    if (!under_way_.empty() && under_way_.front().ready_tick <= number) {
+      answer = under_way_.front();
+      under_way_.pop_front();
+      input.cloud = &answer->cloud;
+      input.look = &answer->moment;
+      tick.answered = true;
+    }
+    const messages::VehicleHazard felt{};
+    if (setup_.feels(number)) input.vehicle_hazard = &felt;
+    tick.decision = navigator_.Decide(input);
+    if (tick.decision.status == NavigatorStatus::kDriving) Act(tick, number);
+    log_.push_back(tick);
+  }
+
+  // The estimate jumps, the odometry does not.
+  void Correct(const messages::PoseUpdate& update) {
+    const messages::PoseEstimate before = rover_.estimate();
+    rover_.SetEstimate(update);
+    navigator_.OnCorrection(before, rover_.estimate());
+  }
+
+  const std::vector<MovingTick>& log() const { return log_; }
+  const GestaltNavigator& navigator() const { return navigator_; }
+  GestaltNavigator& navigator() { return navigator_; }
+  const FakeRover& rover() const { return rover_; }
+
+  int StopsToLook() const {
+    return static_cast<int>(std::count_if(log_.begin(), log_.end(), [](const MovingTick& tick) {
+      return tick.decision.stops_to_look();
+    }));
+  }
+  int Answers() const {
+    return static_cast<int>(std::count_if(log_.begin(), log_.end(),
+                                          [](const MovingTick& tick) { return tick.answered; }));
+  }
+
+ private:
+  struct Answer {
+    int ready_tick = 0;
+    messages::PointCloud cloud;
+    messages::LookMoment moment;
+  };
+
+  void Act(MovingTick& tick, int number) {
+    if (tick.decision.looks()) {
+      const bool stops = tick.decision.stops_to_look();
+      if (stops) under_way_.clear();
+      if (stops || !setup_.loses_answers) See(*tick.decision.look, number, stops);
+      if (stops) return;
+    }
+    tick.motion = follower_.Follow(tick.decision.motion, tick.estimate.distance_m,
+                                   setup_.rover.tick_s);
+    const messages::PoseEstimate before = rover_.estimate();
+    if (!setup_.held(number)) rover_.Move(tick.motion);
+    CarryOdometry(before, rover_.estimate());
+  }
+
+  void See(LookDirection direction, int number, bool stops) {
+    Answer answer;
+    answer.ready_tick = number + 1 + (stops ? 0 : setup_.latency_ticks);
+    answer.cloud.direction = direction;
+    answer.cloud.points_R = setup_.range.Look(rover_.X_WR(), direction, setup_.height);
+    answer.moment = {looks_++, number * setup_.rover.tick_s, rover_.estimate(), odometry_, {}};
+    under_way_.push_back(answer);
+  }
+
+  // Adds the motion of a tick, as measured, to the pose in the frame of odometry.
+  void CarryOdometry(const messages::PoseEstimate& before, const messages::PoseEstimate& after) {
+    const double turn_rad = odometry_.heading_rad - before.heading_rad;
+    const double dx_m = after.x_m - before.x_m;
+    const double dy_m = after.y_m - before.y_m;
+    odometry_.x_m += std::cos(turn_rad) * dx_m - std::sin(turn_rad) * dy_m;
+    odometry_.y_m += std::sin(turn_rad) * dx_m + std::cos(turn_rad) * dy_m;
+    odometry_.heading_rad = math::WrapAngle(odometry_.heading_rad + after.heading_rad -
+                                            before.heading_rad);
+    odometry_.distance_m = after.distance_m;
+  }
+
+  MovingSetup setup_;
+  GestaltNavigator navigator_;
+  MotionFollower follower_;
+  FakeRover rover_;
+  messages::PoseEstimate odometry_;
+  std::deque<Answer> under_way_;
+  std::int64_t looks_ = 0;
+  std::vector<MovingTick> log_;
+};
+
+MovingSetup Setup(DriveCycle cycle) {
+  MovingSetup setup;
+  setup.params.continuous.cycle = cycle;
+  setup.params.waypoints.goal_tolerance_m = 0.5;
+  setup.params.drive.arrival_check = ArrivalCheck::kWhileDriving;
+  setup.rover.speed_m_s = 0.07;
+  return setup;
+}
+
+constexpr DriveCycle kOnTheMove[] = {DriveCycle::kCsod, DriveCycle::kCsad};
+
+// Blocks hold no place of the vehicle's centre: obstacles grow by half its width, 0.42 m, in the map;
+// a cell of 0.2 m may be half covered.
+void ExpectClearOf(const MovingDrive& drive, const Block& block) {
+  for (const MovingTick& tick : drive.log()) {
+    ASSERT_FALSE(block.Holds(tick.X_WR.x_m, tick.X_WR.y_m, 0.42 - 0.1))
+        << tick.X_WR.x_m << ", " << tick.X_WR.y_m;
+  }
+}
+
+TEST(ContinuousDrive, StandsOnceToLookOnEmptyGroundAndDrivesOn) {
+  for (const DriveCycle cycle : kOnTheMove) {
+    for (const int latency_ticks : {0, 10, 60}) {
+      MovingSetup setup = Setup(cycle);
+      setup.latency_ticks = latency_ticks;
+      MovingDrive drive(setup);
+      EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+      EXPECT_EQ(drive.StopsToLook(), 1) << "at the start";
+      const auto& log = drive.log();
+      EXPECT_TRUE(std::none_of(log.begin() + 1, log.end() - 1,
+                               [](const MovingTick& tick) { return tick.stands(); }));
+      const PlanCounts counts = drive.navigator().plan_counts();
+      EXPECT_EQ(counts.plans, drive.Answers() - 1);
+      EXPECT_EQ(counts.started, counts.plans);
+      EXPECT_EQ(counts.late, 0);
+      EXPECT_EQ(counts.unsafe, 0);
+      // One each half metre and what the rover drives until it is ready.
+      const double cycle_m = 0.5 + (latency_ticks + 1) * setup.rover.tick_distance_m();
+      EXPECT_NEAR(static_cast<double>(counts.plans), 7.5 / cycle_m, 1.0) << latency_ticks;
+    }
+  }
+}
+
+// The control: the same rover that stops to look does so at each step.
+TEST(ContinuousDrive, StopAndLookNeverLooksOnTheMove) {
+  MovingDrive drive(Setup(DriveCycle::kStopAndLook));
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  EXPECT_NEAR(drive.StopsToLook(), 7.5 / 0.35, 1.0);
+  EXPECT_EQ(drive.navigator().plan_counts().plans, 0);
+}
+
+TEST(ContinuousDrive, GoesRoundABlock) {
+  for (const DriveCycle cycle : kOnTheMove) {
+    for (const double y_m : {-0.2, 0.15, 0.4}) {
+      MovingSetup setup = Setup(cycle);
+      const Block block{4.0, 4.6, y_m - 0.5, y_m + 0.5};
+      setup.height = Blocks({block});
+      setup.latency_ticks = 8;
+      MovingDrive drive(setup);
+      EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+      ExpectClearOf(drive, block);
+      EXPECT_LT(drive.rover().estimate().distance_m, 9.5);
+    }
+  }
+}
+
+// Of a spline the curvature changes by its rate times the way of a tick at most, over replans too,
+// where it is predicted without error.
+TEST(ContinuousDrive, CurvatureOfSplinesIsContinuousOverReplans) {
+  for (const int latency_ticks : {0, 25}) {
+    MovingSetup setup = Setup(DriveCycle::kCsad);
+    setup.height = Blocks({{3.0, 3.4, -0.3, 0.7}, {5.6, 6.2, -0.9, 0.1}});
+    setup.latency_ticks = latency_ticks;
+    MovingDrive drive(setup);
+    ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    ASSERT_EQ(drive.StopsToLook(), 1);
+    const GestaltSplineParams& splines = setup.params.splines;
+    const double most = 2.0 * splines.max_curvature_per_m / (0.5 * splines.length_m) *
+                        setup.rover.tick_distance_m();
+    double largest = 0.0;
+    double bent = 0.0;
+    const auto& log = drive.log();
+    for (std::size_t i = 2; i + 1 < log.size(); ++i) {
+      largest = std::max(largest, std::abs(log[i].motion.curvature_per_m -
+                                           log[i - 1].motion.curvature_per_m));
+      bent = std::max(bent, std::abs(log[i].motion.curvature_per_m));
+    }
+    EXPECT_LE(largest, most * (1.0 + 1e-6));
+    EXPECT_GT(bent, 0.2) << "it has to steer";
+    const PlanCounts counts = drive.navigator().plan_counts();
+    EXPECT_NEAR(counts.start_error_squared_m2, 0.0, kRounding);
+  }
+}
+
+// With arcs the curvature jumps: the negative control of the test above.
+TEST(ContinuousDrive, CurvatureOfArcsJumps) {
+  MovingSetup setup = Setup(DriveCycle::kCsod);
+  setup.height = Blocks({{3.0, 3.4, -0.3, 0.7}});
+  MovingDrive drive(setup);
+  ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  double largest = 0.0;
+  for (std::size_t i = 2; i + 1 < drive.log().size(); ++i) {
+    largest = std::max(largest, std::abs(drive.log()[i].motion.curvature_per_m -
+                                         drive.log()[i - 1].motion.curvature_per_m));
+  }
+  EXPECT_GT(largest, 0.15);
+}
+
+TEST(ContinuousDrive, WaitsAtTheEndOfItsMotionForALatePlan) {
+  for (const DriveCycle cycle : kOnTheMove) {
+    for (const LatePlan late : {LatePlan::kWait, LatePlan::kStopAndLook}) {
+      MovingSetup setup = Setup(cycle);
+      setup.params.continuous.late_plan = late;
+      // Half a metre takes 143 ticks.
+      setup.latency_ticks = 400;
+      MovingDrive drive(setup);
+      EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+      const PlanCounts counts = drive.navigator().plan_counts();
+      EXPECT_NEAR(static_cast<double>(counts.late), 7.5, 1.0);
+      if (late == LatePlan::kWait) {
+        EXPECT_EQ(drive.StopsToLook(), 1);
+        EXPECT_EQ(counts.started, counts.plans);
+      } else {
+        EXPECT_EQ(drive.StopsToLook(), 1 + counts.late);
+        EXPECT_EQ(counts.plans, 0);
+      }
+      // It never drives beyond the motion that was judged.
+      double begun_m = 0.0;
+      for (const MovingTick& tick : drive.log()) {
+        if (tick.answered) begun_m = tick.estimate.distance_m;
+        ASSERT_LE(tick.estimate.distance_m - begun_m,
+                  setup.params.continuous.motion_m + setup.rover.tick_distance_m() + kRounding);
+      }
+    }
+  }
+}
+
+// An answer that never comes ends in a look at rest, not in a wait for ever.
+TEST(ContinuousDrive, ALostAnswerIsWaitedForUpToTheTimeOut) {
+  for (const DriveCycle cycle : kOnTheMove) {
+    MovingSetup setup = Setup(cycle);
+    setup.goal = {2.4, 0.0};
+    setup.loses_answers = true;
+    setup.params.drive.step_time_out_s = 40.0;
+    MovingDrive drive(setup);
+    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    EXPECT_EQ(drive.StopsToLook(), 2);
+    EXPECT_NEAR(drive.log().back().time_s, 40.0 + 0.9 / 0.07, 1.0);
+  }
+}
+
+// A wall right across: no plan is safe. It stops at once, or at the end of what was judged.
+TEST(ContinuousDrive, StopsOrFinishesWhereNoPlanIsSafe) {
+  for (const DriveCycle cycle : kOnTheMove) {
+    const auto stops_at = [&](NoSafePlan choice) {
+      MovingSetup setup = Setup(cycle);
+      // Seen late: the rover is 1.2 m from it when its looks reach it.
+      setup.range.range_m = 1.2;
+      setup.params.plan.plan_max_dist_m = 1.1;
+      setup.params.splines.length_m = 1.1;
+      setup.params.drive.search_turn_rad = math::DegToRad(90.0);
+      setup.height = Blocks({{3.0, 3.4, -6.0, 6.0}});
+      setup.params.continuous.no_safe_plan = choice;
+      MovingDrive drive(setup);
+      drive.Run();
+      EXPECT_GE(drive.navigator().plan_counts().unsafe, 1);
+      ExpectClearOf(drive, {3.0, 3.4, -6.0, 6.0});
+      const auto& log = drive.log();
+      // Where it first stops to look after it has begun.
+      const auto stop = std::find_if(log.begin() + 2, log.end(), [](const MovingTick& tick) {
+        return tick.decision.stops_to_look();
+      });
+      return stop == log.end() ? std::numeric_limits<double>::infinity()
+                               : stop->estimate.distance_m;
+    };
+    EXPECT_LT(stops_at(NoSafePlan::kStop) + 0.3, stops_at(NoSafePlan::kFinish));
+  }
+}
+
+TEST(ContinuousDrive, BacksOffFromAHazardThatItFeelsAndLooksAtRest) {
+  for (const DriveCycle cycle : kOnTheMove) {
+    MovingSetup setup = Setup(cycle);
+    setup.latency_ticks = 40;
+    // While a look is under way: it is asked for at 0.5 m, which takes 143 ticks.
+    setup.feels = [](int tick) { return tick == 160; };
+    MovingDrive drive(setup);
+    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    const auto& log = drive.log();
+    EXPECT_LT(log[161].motion.direction, 0);
+    // The answer that comes while it backs off leads to nothing.
+    const auto stop = std::find_if(log.begin() + 162, log.end(), [](const MovingTick& tick) {
+      return tick.decision.stops_to_look();
+    });
+    ASSERT_NE(stop, log.end());
+    EXPECT_TRUE(std::all_of(log.begin() + 161, stop, [](const MovingTick& tick) {
+      return tick.motion.direction < 0;
+    }));
+    EXPECT_EQ(drive.StopsToLook(), 2);
+  }
+}
+
+// What is seen on the move lies where it was seen from, however late it is told.
+TEST(ContinuousDrive, PointsLieWhereTheyWereSeenFrom) {
+  for (const DriveCycle cycle : kOnTheMove) {
+    const auto map_of = [&](int latency_ticks) {
+      MovingSetup setup = Setup(cycle);
+      setup.height = Blocks({{3.0, 3.4, 1.4, 1.8}, {3.0, 3.4, -1.8, -1.4}});
+      setup.latency_ticks = latency_ticks;
+      MovingDrive drive(setup);
+      while (drive.navigator().plan_counts().plans < 2) drive.Step();
+      return drive.navigator().view()->map;
+    };
+    const messages::MapView soon = map_of(0);
+    const messages::MapView late = map_of(120);
+    // Cells hold the mean heights of what lies in them: blocks of half a metre on the ground.
+    for (const messages::MapView* map : {&soon, &late}) {
+      int high = 0;
+      for (int iy = 0; iy < map->ny; ++iy) {
+        for (int ix = 0; ix < map->nx; ++ix) {
+          const messages::MapCellView& cell = map->Cell(ix, iy);
+          if (!cell.has_data || cell.elevation_m < 0.25) continue;
+          ++high;
+          const double x_m = map->x0_m + (ix + 0.5) * map->xstep_m;
+          const double y_m = map->y0_m + (iy + 0.5) * map->ystep_m;
+          EXPECT_TRUE(x_m > 3.0 && x_m < 3.4 && std::abs(y_m) > 1.4 && std::abs(y_m) < 1.8)
+              << x_m << ", " << y_m;
+        }
+      }
+      EXPECT_GE(high, 4);
+    }
+  }
+}
+
+// A correction while a look is under way moves the goal around the rover, and nothing else: with a
+// goal that jumps along the rover is told the same.
+TEST(ContinuousDrive, ACorrectionOnTheMoveMovesTheGoalAlone) {
+  for (const DriveCycle cycle : kOnTheMove) {
+    MovingSetup setup = Setup(cycle);
+    setup.height = Blocks({{3.0, 3.6, -0.2, 0.8}});
+    setup.latency_ticks = 60;
+    MovingDrive plain(setup);
+    MovingDrive corrected(setup);
+    const int ticks = 1000;
+    for (int i = 0; i < ticks; ++i) {
+      plain.Step();
+      corrected.Step();
+      if (i != 170) continue;
+      // By (0.3, -0.2) m and 0.1 rad about the origin: p' = t + R p.
+      const messages::PoseEstimate before = corrected.rover().estimate();
+      const double c = std::cos(0.1);
+      const double s = std::sin(0.1);
+      const auto moved = [&](double x_m, double y_m) {
+        return messages::Goal{0.3 + c * x_m - s * y_m, -0.2 + s * x_m + c * y_m};
+      };
+      const messages::Goal place = moved(before.x_m, before.y_m);
+      corrected.Correct({place.x_m, place.y_m, before.heading_rad + 0.1});
+      corrected.navigator().SetGoal(moved(setup.goal.x_m, setup.goal.y_m), GoalChange::kMoved);
+    }
+    for (int i = 0; i < ticks; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      ASSERT_NEAR(plain.log()[at].motion.curvature_per_m, corrected.log()[at].motion.curvature_per_m,
+                  1e-6)
+          << i;
+    }
+    EXPECT_GE(plain.navigator().plan_counts().plans, 3);
+  }
+}
+
+// A rover that is held up begins its plan elsewhere than was predicted, which is counted; plans that
+// begin as estimated begin where it believes to be.
+TEST(ContinuousDrive, TheErrorOfAPredictedStartIsCounted) {
+  for (const PlanStart start : {PlanStart::kPredicted, PlanStart::kEstimated}) {
+    int held_from = std::numeric_limits<int>::max() - 10;
+    MovingSetup setup = Setup(DriveCycle::kCsad);
+    setup.params.continuous.plan_start = start;
+    setup.latency_ticks = 20;
+    setup.held = [&held_from](int tick) { return tick >= held_from && tick < held_from + 10; };
+    MovingDrive drive(setup);
+    while (drive.log().empty() || !drive.log().back().decision.looks_on_the_move) drive.Step();
+    held_from = static_cast<int>(drive.log().size()) + 3;
+    while (drive.navigator().plan_counts().started < 1) drive.Step();
+    const double error_m = std::sqrt(drive.navigator().plan_counts().start_error_squared_m2);
+    const double missed_m = 10 * setup.rover.tick_distance_m();
+    EXPECT_NEAR(error_m, start == PlanStart::kPredicted ? missed_m : 0.0, kRounding);
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::navigation
