@@ -12,6 +12,7 @@ Writes rover_speed_drives.csv and rover_speed_drives.svg.
 import argparse
 import math
 from collections import defaultdict
+from dataclasses import replace
 
 import rover_speed_model as model
 import study
@@ -22,9 +23,13 @@ COLUMNS = ("sim_time_s", "true_distance_m", "move_time_s", "imaging_time_s", "co
            "image_sets", "moves", "visual_steps", "point_turns")
 ARRIVED = ("goal_reached", "false_goal")  # as the rover believes
 COURSE_M = 15.0 - 0.5                     # from the start to within the tolerance of the goal
-# What the closed form takes of each drive: rover, navigator, estimator. A look each 35 cm, and a pose each 75 cm.
-STOPPING = model.Rover(0.07, 0.35, 0.75)
-DRIVES = {"stops, wheels": (STOPPING, "stop", "wheels"), "stops, vision": (STOPPING, "stop", "vision")}
+# What the closed form takes of each drive: rover, navigator, estimator. A look each 35 cm and a pose each 75 cm, or
+# motions of a metre (scenarios/continuous). On the move poses are computed beside looks, as on two processors, so that
+# no plan waits for them.
+STOPPING = replace(model.ATHENA.middle, step_m=0.35)
+MOVING = replace(model.ATHENA.middle, step_m=1.0)
+DRIVES = {"stops by wheels": (STOPPING, "stop", "wheels"), "stops by vision": (STOPPING, "stop", "vision"),
+          "CSOD": (MOVING, "csod", "wheels"), "CSAD": (MOVING, "csad", "wheels")}
 CAMERAS = {"mer_rad6000": model.SLOW_CAMERAS}  # all others: fast
 
 

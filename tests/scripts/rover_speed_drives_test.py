@@ -37,15 +37,17 @@ class Counts(unittest.TestCase):
     def test_the_closed_form_is_that_of_the_model(self):
         rows = {("mer_rad6000", 256): {"stereo_s": "27", "navigation_s": "6.585", "visual_s": "160"}}
         look_s, pose_s = 8.974 + 27 + 6.585, 8.974 + 160
-        self.assertAlmostEqual(drives.closed_form(rows, "stops, vision", "mer_rad6000"),
-                               3600 / (1 / 0.07 + look_s / 0.35 + pose_s / 0.75))
+        self.assertAlmostEqual(drives.closed_form(rows, "stops by vision", "mer_rad6000"),
+                               3600 / (1 / 0.07 + (0.7 + look_s) / 0.35 + pose_s / 0.75))
+        self.assertAlmostEqual(drives.closed_form(rows, "CSAD", "mer_rad6000"),
+                               3600 * 1.0 / (0.5 / 0.07 + look_s))
 
     def test_tables_have_a_line_for_each_drive_and_computer(self):
         rows = model.read_times(ROOT / "results/studies/compute_times.csv")
-        cells = {("stops, wheels", "athena_2012", k): [drive(sim_time_s=1000.0, true_distance_m=16.0)]
+        cells = {("stops by wheels", "athena_2012", k): [drive(sim_time_s=1000.0, true_distance_m=16.0)]
                  for k in (0.002, 0.02)}
-        cells["stops, vision", "mer_rad6000", 0.002] = [drive("jammed")]
-        cells["stops, vision", "mer_rad6000", 0.02] = [drive("jammed")]
+        cells["stops by vision", "mer_rad6000", 0.002] = [drive("jammed")]
+        cells["stops by vision", "mer_rad6000", 0.02] = [drive("jammed")]
         lines = list(drives.lines_of(cells, rows))
         self.assertEqual(len(drives.drives_speed(lines).splitlines()), 2 + 2)
         self.assertIn("- [0 of 1]", drives.drives_speed(lines))
