@@ -55,10 +55,8 @@ CONTINUOUS = ("csod", "csad")      # equations 2 to 4
 STRIPE_STEP_M = 0.065              # a scan every wheel radius (Matthies 1995 section 6)
 
 
-def look_s(times, navigator, sensor):
+def look_s(times, sensor):
     """L: a look at the terrain."""
-    if navigator == "blind":
-        return 0.0
     return times.navigation + (times.scan if sensor == "stripe" else times.images + times.stereo)
 
 
@@ -69,16 +67,16 @@ def pose_s(times, estimator):
 
 def stopping_speed(rover, times, navigator, sensor, estimator):
     """Equation 1, m/s."""
-    step_m = STRIPE_STEP_M if sensor == "stripe" and navigator != "blind" else rover.step_m
-    at_rest_s = rover.overhead_s + rover.steering_s + look_s(times, navigator, sensor)
-    if navigator == "blind":
-        at_rest_s = rover.overhead_s
+    step_m, at_rest_s = rover.step_m, rover.overhead_s
+    if navigator != "blind":
+        step_m = STRIPE_STEP_M if sensor == "stripe" else rover.step_m
+        at_rest_s += rover.steering_s + look_s(times, sensor)
     return 1.0 / (1.0 / rover.speed_m_s + at_rest_s / step_m + pose_s(times, estimator) / rover.pose_m)
 
 
 def continuous_speed(rover, times, navigator, estimator):
     """Equations 2 to 4, m/s."""
-    latency_s = look_s(times, navigator, "stereo") + pose_s(times, estimator)
+    latency_s = look_s(times, "stereo") + pose_s(times, estimator)
     steering_s = rover.steering_s if navigator == "csod" else 0.0
     before_m = rover.fraction * rover.step_m
     way_m = min(rover.step_m, before_m + rover.speed_m_s * latency_s)

@@ -20,7 +20,8 @@ ROVER = model.Rover(0.05, 0.5, 0.8, overhead_s=3.0, steering_s=1.5)
 
 class Stopping(unittest.TestCase):
     def test_a_blind_rover_pays_for_moves_alone(self):
-        self.assertAlmostEqual(model.speed(ROVER, TIMES, "blind"), 1 / (20 + 3 / 0.5))
+        for sensor in ("stereo", "stripe"):
+            self.assertAlmostEqual(model.speed(ROVER, TIMES, "blind", sensor), 1 / (20 + 3 / 0.5))
 
     def test_looks_and_steering_count_for_each_step(self):
         self.assertAlmostEqual(model.speed(ROVER, TIMES, "stop"), 1 / (20 + (3 + 1.5 + 16) / 0.5))

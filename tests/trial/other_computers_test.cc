@@ -120,6 +120,7 @@ TEST(CoreOfTodayTest, ACycleOfTheMapGoesWithTheCells) {
     EXPECT_NEAR(map_s(kTable3Cells_m[i]), kOwnCycles_s[i], 1e-15);
   }
   EXPECT_NEAR(map_s(std::sqrt(0.5 * 0.2)), std::sqrt(kOwnCycles_s[0] * kOwnCycles_s[1]), 1e-15);
+  EXPECT_NEAR(map_s(0.05), kOwnCycles_s[2] * kOwnCycles_s[2] / kOwnCycles_s[1], 1e-15);
 }
 
 TEST(CoreOfTodayTest, StereoBetweenTheMeasuredWidthsIsStraightInTheLogarithm) {
