@@ -19,22 +19,16 @@ using messages::MotionCommand;
 using messages::MotionKind;
 using messages::PoseEstimate;
 
-// The pose of b in the frame of a, both in one frame.
-ClothoidPoint Relative(const PoseEstimate& a, const PoseEstimate& b) {
-  const double cosine = std::cos(a.heading_rad);
-  const double sine = std::sin(a.heading_rad);
-  const double dx_m = b.x_m - a.x_m;
-  const double dy_m = b.y_m - a.y_m;
-  return {cosine * dx_m + sine * dy_m, cosine * dy_m - sine * dx_m, b.heading_rad - a.heading_rad};
-}
-
-// `from`, moved by a way that is seen from it; the odometer is that of `from`.
-PoseEstimate Moved(const PoseEstimate& from, const ClothoidPoint& way) {
-  const double cosine = std::cos(from.heading_rad);
-  const double sine = std::sin(from.heading_rad);
-  return {from.x_m + cosine * way.x_m - sine * way.y_m,
-          from.y_m + sine * way.x_m + cosine * way.y_m,
-          math::WrapAngle(from.heading_rad + way.heading_rad), from.distance_m};
+// X_OL = X_OR (X_DR)^-1 X_DL, of planar poses: where L lies in O, if R and L lie in D.
+PoseEstimate SeenFrom(const PoseEstimate& X_OR, const PoseEstimate& X_DR,
+                      const PoseEstimate& X_DL) {
+  const double turn_rad = X_OR.heading_rad - X_DR.heading_rad;
+  const double cosine = std::cos(turn_rad);
+  const double sine = std::sin(turn_rad);
+  const double dx_m = X_DL.x_m - X_DR.x_m;
+  const double dy_m = X_DL.y_m - X_DR.y_m;
+  return {X_OR.x_m + cosine * dx_m - sine * dy_m, X_OR.y_m + sine * dx_m + cosine * dy_m,
+          math::WrapAngle(X_DL.heading_rad + turn_rad), X_DL.distance_m};
 }
 
 }  // namespace
@@ -76,7 +70,8 @@ NavigatorDecision GestaltNavigator::Replan(const NavigatorInput& input, double d
   ++counts_.plans;
   if (AtGoal(input.estimate)) return {NavigatorStatus::kArrived, {}, {}};
   if (!Progresses(input.estimate)) return {NavigatorStatus::kGaveUp, {}, {}};
-  const PoseEstimate seen = PoseOfLook(input);
+  // Odometry says how the rover moved since it looked.
+  const PoseEstimate seen = SeenFrom(input.estimate, input.odometry, input.look->odometry);
   map_.BeginCycle(input.estimate.x_m, input.estimate.y_m);
   map_.Add(*input.cloud,
            math::MakePose({seen.x_m, seen.y_m, input.look->attitude.z_m}, seen.heading_rad,
@@ -150,16 +145,7 @@ GestaltNavigator::PlanOrigin GestaltNavigator::OriginOfNextPlan(const NavigatorI
   const double since_s = input.time_s - input.look->time_s;
   const double start_m =
       std::clamp(look_m + speed_m_s_ * since_s, look_m, std::max(look_m, leg_));
-  return {Moved(seen, WayBetween(look_m, start_m)), MotionAt(start_m).curvature_per_m};
-}
-
-// X_OL = X_OR (X_DR)^-1 X_DL: odometry D says how the rover moved since the look L.
-PoseEstimate GestaltNavigator::PoseOfLook(const NavigatorInput& input) const {
-  const PoseEstimate& look_D = input.look->odometry;
-  PoseEstimate look_O =
-      Moved(input.estimate, Relative(input.odometry, look_D));
-  look_O.distance_m = input.look->estimate.distance_m;
-  return look_O;
+  return {PlaceOnMotion(seen, look_m, start_m), MotionAt(start_m).curvature_per_m};
 }
 
 MotionCommand GestaltNavigator::MotionAt(double driven_m) const {
@@ -172,9 +158,14 @@ MotionCommand GestaltNavigator::MotionAt(double driven_m) const {
   return motion;
 }
 
-ClothoidPoint GestaltNavigator::WayBetween(double from_m, double to_m) const {
-  if (spline_) return AlongSpline(*spline_, from_m, to_m, spline_voter_->law());
-  return OnClothoid(motion_.curvature_per_m, 0.0, to_m - from_m);
+PoseEstimate GestaltNavigator::PlaceOnMotion(const PoseEstimate& from, double from_m,
+                                             double to_m) const {
+  const ClothoidPoint start{from.x_m, from.y_m, from.heading_rad};
+  const ClothoidPoint place =
+      spline_ ? AlongSpline(start, *spline_, from_m, to_m, spline_voter_->law())
+              : AlongClothoid(start, motion_.curvature_per_m, 0.0, to_m - from_m);
+  return {place.x_m, place.y_m, math::WrapAngle(place.heading_rad),
+          from.distance_m + to_m - from_m};
 }
 
 void GestaltNavigator::Judge(const PlanOrigin& origin) {

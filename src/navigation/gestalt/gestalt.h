@@ -95,9 +95,10 @@ class GestaltNavigator final : public Navigator {
   NavigatorDecision BeginSpline(const messages::Spline& spline, const NavigatorInput& input);
   PlanOrigin OriginOfNextPlan(const NavigatorInput& input, const messages::PoseEstimate& seen,
                               double driven_m) const;
-  messages::PoseEstimate PoseOfLook(const NavigatorInput& input) const;
+  // Where the motion under way leads from `from`, which lies on it.
+  messages::PoseEstimate PlaceOnMotion(const messages::PoseEstimate& from, double from_m,
+                                       double to_m) const;
   messages::MotionCommand MotionAt(double driven_m) const;
-  ClothoidPoint WayBetween(double from_m, double to_m) const;
   void Judge(const PlanOrigin& origin);
   const messages::Spline* TakeSafeSpline();
 
