@@ -7,8 +7,9 @@ Counts the sweeps scenarios/sweeps/continuous*.json, which it runs or goes on wi
   continuous_strata    the gain by rock abundance
   continuous_plans     plans on the move: how many, unsafe, late, and how far off they began
   continuous_maps      time and steering of CSAD over those of CSOD, by replan fraction and steering rate
-Each is counted for the quasi-static rover and, where its sweep is there, for the multibody one. Writes
-continuous.csv, continuous_maps.csv and continuous_maps.svg.
+  continuous_assumptions   what each assumption does to success, time and steering, alone and with neighbours
+The first four are counted for the quasi-static rover and for the multibody one. Writes continuous.csv,
+continuous_maps.csv, continuous_maps.svg and continuous_assumptions.csv.
 
     scripts/continuous_study.py [--sweep FOLDER] [--out FOLDER] [--markdown results/continuous.md]
 """
@@ -35,6 +36,8 @@ ARRIVED = "goal_reached"
 SHOWN = {"sim_time_s": ("time, s", 0), "visual_distance_m": ("way as seen, m", 2), "true_distance_m": ("true way, m", 2),
          "speed_cm_s": ("speed, cm/s", 2), "steer_turned_rad": ("turned by a steering motor, rad", 2),
          "energy_wh": ("energy, Wh", 2)}
+PARTS = ("multibody", "maps", "assumptions")
+AS_ASSUMED = "as assumed"
 MAP_AXES = ("steer_rate", "replan_fraction")
 
 
@@ -212,6 +215,47 @@ TABLES = {"continuous_drives": drives_table, "continuous_paired": paired_table, 
           "continuous_plans": plans_table}
 
 
+def read_choices(folder):
+    """Rows by (cycle, choice), each by field."""
+    cells = defaultdict(dict)
+    for levels, trial, row in study.stored_trials(folder, COLUMNS):
+        cells[levels["cycle"], levels["choice"]][trial] = row
+    return cells
+
+
+def choice_rows(cells):
+    """Each choice against what is assumed: arrivals won and lost, and ratios where both arrive."""
+    rows = []
+    for (cycle, choice), fields in cells.items():
+        base = cells[cycle, AS_ASSUMED]
+        arrived = {name for name, row in fields.items() if row["outcome"] == ARRIVED}
+        base_arrived = {name for name, row in base.items() if row["outcome"] == ARRIVED}
+        found = {"cycle": cycle, "choice": choice, "fields": len(fields), "arrived": len(arrived),
+                 "won": len(arrived - base_arrived), "lost": len(base_arrived - arrived)}
+        pairs = {name: {"base": base[name], "choice": fields[name]} for name in arrived & base_arrived}
+        for column, name in (("sim_time_s", "time"), ("steer_turned_rad", "steering"), ("true_distance_m", "way")):
+            found[name], found[f"{name}_low"], found[f"{name}_high"] = study.signed_mean_interval(
+                ratios(pairs, column, "base", "choice"))
+        rows.append(found)
+    return rows
+
+
+def choices_table(rows):
+    lines = []
+    for choice in dict.fromkeys(row["choice"] for row in rows):
+        line = [choice]
+        for cycle in CYCLES[1:]:
+            row = next(r for r in rows if (r["cycle"], r["choice"]) == (cycle, choice))
+            line.append(f"{row['arrived']} of {row['fields']} (+{row['won']}, -{row['lost']})")
+            line += ["" if choice == AS_ASSUMED else
+                     study.with_interval((row[name], row[f"{name}_low"], row[f"{name}_high"]), 2)
+                     for name in ("time", "steering", "way")]
+        lines.append(line)
+    names = ("arrive (won, lost)", "time", "steering", "true way")
+    return (study.table(["choice", *(f"{cycle}: {name}" for cycle in CYCLES[1:] for name in names)], lines) +
+            "\n\nRatios to what is assumed, over fields in which both arrive, with 95 % intervals.")
+
+
 def csv_rows(fields, fidelity):
     return [{"fidelity": fidelity, "k_per_m2": key[0], "trial": key[1], "cycle": cycle, "outcome": row["outcome"]} |
             {name: f"{row[name]:.6g}" for name in (*COLUMNS, "speed_cm_s")}
@@ -224,34 +268,52 @@ def show(args, name, text):
         study.write_table([args.markdown], name, text)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    study.add_sweep_arguments(parser, "continuous", "write the tables between their marks on this page")
-    parser.add_argument("--skip", default="", help="of multibody, maps: what is neither run nor counted")
-    args = parser.parse_args()
-    skipped = set(args.skip.split(",")) - {""}
-    if unknown := skipped - {"multibody", "maps"}:
-        parser.error(f"{', '.join(sorted(unknown))}: there are multibody and maps")
-    base, rows = args.sweep, []
+def sweep_folder(args, name):
+    """Runs a sweep beside that of the first table, or goes on with it."""
+    folder = argparse.Namespace(**vars(args) | {"sweep": args.sweep.with_name(name)})
+    study.run_sweep(folder, SWEEPS / f"{name}.json")
+    return folder.sweep
+
+
+def count_drives(args, skipped):
+    rows = []
     for fidelity, name in (("quasi_static", "continuous"), ("multibody", "continuous_multibody")):
         if fidelity in skipped:
             continue
-        args.sweep = base.with_name(name) if fidelity != "quasi_static" else base
-        study.run_sweep(args, SWEEPS / f"{name}.json")
-        fields = read_fields(args.sweep)
+        fields = read_fields(sweep_folder(args, name))
         rows += csv_rows(fields, fidelity)
         for table, make in TABLES.items():
             show(args, table if fidelity == "quasi_static" else f"{table}_multibody", make(fields))
-    args.out.mkdir(parents=True, exist_ok=True)
     study.write_csv(args.out / "continuous.csv", rows)
-    if "maps" in skipped:
-        return 0
-    args.sweep = base.with_name("continuous_maps")
-    study.run_sweep(args, SWEEPS / "continuous_maps.json")
-    found = map_rows(read_map(args.sweep))
-    study.write_csv(args.out / "continuous_maps.csv", found)
-    study.write_svg(args.out / "continuous_maps.svg", map_panels(found), "replan fraction")
-    show(args, "continuous_maps", map_table(found))
+
+
+def count_maps(args):
+    rows = map_rows(read_map(sweep_folder(args, "continuous_maps")))
+    study.write_csv(args.out / "continuous_maps.csv", rows)
+    study.write_svg(args.out / "continuous_maps.svg", map_panels(rows), "replan fraction")
+    show(args, "continuous_maps", map_table(rows))
+
+
+def count_assumptions(args):
+    rows = choice_rows(read_choices(sweep_folder(args, "continuous_assumptions")))
+    study.write_csv(args.out / "continuous_assumptions.csv", rows)
+    show(args, "continuous_assumptions", choices_table(rows))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    study.add_sweep_arguments(parser, "continuous", "write the tables between their marks on this page")
+    parser.add_argument("--skip", default="", help=f"of {', '.join(PARTS)}: what is neither run nor counted")
+    args = parser.parse_args()
+    skipped = set(args.skip.split(",")) - {""}
+    if unknown := skipped - set(PARTS):
+        parser.error(f"{', '.join(sorted(unknown))}: there are {', '.join(PARTS)}")
+    args.out.mkdir(parents=True, exist_ok=True)
+    count_drives(args, skipped)
+    if "maps" not in skipped:
+        count_maps(args)
+    if "assumptions" not in skipped:
+        count_assumptions(args)
     return 0
 
 
