@@ -19,9 +19,9 @@ class Navigator;
 // What a navigator gets at the start of a drive, beside its parameters.
 struct NavigatorSetup {
   messages::Goal goal;
-  bool judges_hazards = true;  // false: perception reports no hazards, the rover drives blind
+  bool judges_hazards = true;    // false: perception reports no hazards, the rover drives blind
   double full_speed_m_s = 0.07;  // of the fastest rim
-  messages::Route route = {};  // to the goal, for one that follows it; empty where there is none
+  messages::Route route = {};    // to the goal, for one that follows it; empty where there is none
 };
 
 // All that is needed to add a navigator. `Params` has `void Visit(core::FieldVisitor&)`.

@@ -48,6 +48,13 @@ struct BelievedSize {
   std::string_view suggestion;  // where it is another rover's
 };
 
+// How fast the curvature of its motions may change.
+struct CurvatureRates {
+  std::string_view path;       // of the limit
+  double limit_per_m_s = 0.0;  // of |dc/dt|
+  double least_per_m2 = 0.0;   // |dc/ds| from one of its curvatures to the next
+};
+
 struct NavigatorTraits {
   // What no navigator can leave open.
   NavigatorTraits(LookReading reading, const DecisionCost& decision, const GoalTolerance& tolerance)
@@ -61,6 +68,7 @@ struct NavigatorTraits {
   bool follows_route = false;  // of an oracle, planned once from the start to the goal
   bool looks_on_the_move = false;
   bool steers_on_the_move = false;
+  std::optional<CurvatureRates> curvature_rates;  // where it chooses among them
 };
 
 }  // namespace rockyard::navigation

@@ -18,8 +18,8 @@ messages::WheelCommand SteadyWheelCommand(const messages::MotionCommand& motion,
 
 // Drives the wheels towards a motion: when the steering angles have far to go, the rover stands
 // until they are believed to be there (the power budget allows one major function at a time,
-// Matthies 1995 sec. 2.1.2). With `steers_while_rolling` it stands so only between arcs and turns in
-// place, whose wheels point elsewhere.
+// Matthies 1995 sec. 2.1.2). With `steers_while_rolling` it stands so only between arcs and turns
+// in place, whose wheels point elsewhere.
 class WheelDriver {
  public:
   WheelDriver(const messages::DriveCalibration& calibration, const WheelDriverParams& params,
@@ -48,7 +48,7 @@ class WheelDriver {
   WheelDriverParams params_;
   bool steers_while_rolling_;
   messages::MotionKind rolled_kind_ = messages::MotionKind::kArc;  // the last for which it rolled
-  messages::MotionCommand last_motion_;  // to which steady_ belongs
+  messages::MotionCommand last_motion_;                            // to which steady_ belongs
   messages::WheelCommand steady_;
   messages::PerWheel<double> believed_steer_rad_{};
   bool steering_ = false;

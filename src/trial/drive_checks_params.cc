@@ -242,13 +242,25 @@ void RequireOverlap(const DriveParams& drive, core::FieldVisitor& v) {
             "beside the drive: the rover would stop for each look",
             suggestion + "clock.overlap.imaging and clock.overlap.computing true");
   v.Require(cycle,
-            !traits.looks_on_the_move ||
-                drive.sensors.terrain_sensors.chosen().takes_image_sets(),
+            !traits.looks_on_the_move || drive.sensors.terrain_sensors.chosen().takes_image_sets(),
             "looks on the move where sensors.terrain_sensor is one that scans at rest",
             suggestion + "sensors.terrain_sensor stereo");
   v.Require(cycle, !traits.steers_on_the_move || overlap.steering,
             "is csad where clock.overlap.steering is false: the rover would stand to steer",
             "use csod, or clock.overlap.steering true");
+}
+
+// Steering so slow that a rover in a curve finds no motion to go on with.
+void RequireFeasibleCurves(const DriveParams& drive, core::FieldVisitor& v) {
+  const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
+  const auto rates = navigator.traits().curvature_rates;
+  if (!rates) return;
+  const double least_per_m_s = rates->least_per_m2 * drive.rover.drive.speed_m_s;
+  v.Require(navigator.PathOf(rates->path), rates->limit_per_m_s >= least_per_m_s,
+            fmt::format("leaves no spline from one curvature to the next, which at {:g} m/s takes "
+                        "{:.2g} / (m s)",
+                        drive.rover.drive.speed_m_s, least_per_m_s),
+            "use a larger limit, more knots, longer splines or a slower rover");
 }
 
 // Aids that nobody listens to.
@@ -283,6 +295,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   RequireTargetBetweenLines(drive, v);
   RequireListener(drive, v);
   RequireOverlap(drive, v);
+  RequireFeasibleCurves(drive, v);
   RequireSlipReaction(drive, v);
   RequireFindableRock(drive, v);
 }

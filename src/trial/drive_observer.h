@@ -90,9 +90,9 @@ class DriveObserver {
   SlipOnset slip_onset_;
   std::int64_t slip_alarms_ = 0;
   std::int64_t false_slip_alarms_ = 0;
-  std::optional<double> largest_slip_;  // as seen
-  std::optional<double> first_slip_m_;  // true path length at the first alarm
-  bool recognized_ = false;             // the goal rock
+  std::optional<double> largest_slip_;     // as seen
+  std::optional<double> first_slip_m_;     // true path length at the first alarm
+  bool recognized_ = false;                // the goal rock
   messages::PoseEstimate seen_at_;         // the last place of visual odometry, or the start
   std::optional<double> seen_distance_m_;  // way between them
 };

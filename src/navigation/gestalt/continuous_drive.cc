@@ -1,7 +1,7 @@
-// GESTALT on the move (Howard 2012, section 2): once a fraction of the motion under way is driven the
-// rover looks; where the plan that follows is ready, it replaces that motion. Arcs (CSOD), for whose
-// change the rover stands to steer, or clothoid splines (CSAD), which begin with the curvature that it
-// steers.
+// GESTALT on the move (Howard 2012, section 2): once a fraction of the motion under way is driven
+// the rover looks; where the plan that follows is ready, it replaces that motion. Arcs (CSOD), for
+// whose change the rover stands to steer, or clothoid splines (CSAD), which begin with the
+// curvature that it steers.
 #include <algorithm>
 #include <cmath>
 
@@ -101,8 +101,8 @@ NavigatorDecision GestaltNavigator::ReplaceMotion(const NavigatorInput& input,
     return BeginSpline(*safe, input);
   }
   messages::MotionVote* arc = ChooseArc(votes_, params_);
-  const bool safe = arc != nullptr && arc->motion.direction > 0 &&
-                    arc->merged >= params_.votes.min_vote_goodness;
+  const bool safe =
+      arc != nullptr && arc->motion.direction > 0 && arc->merged >= params_.votes.min_vote_goodness;
   if (!safe) return OnNoSafePlan(driven_m);
   messages::MotionVote& turn = NextTurn(origin.pose);
   const bool turns = TurnsInPlace(turn, arc, params_);
@@ -140,11 +140,11 @@ GestaltNavigator::PlanOrigin GestaltNavigator::OriginOfNextPlan(const NavigatorI
   if (params_.continuous.plan_start == PlanStart::kEstimated) {
     return {input.estimate, MotionAt(driven_m).curvature_per_m};
   }
-  // Along the motion under way from where it looked, s = s_look + v (t - t_look), to its end at most.
+  // Along the motion under way from where it looked, s = s_look + v (t - t_look), to its end at
+  // most.
   const double look_m = seen.distance_m - anchor_.distance_m;
   const double since_s = input.time_s - input.look->time_s;
-  const double start_m =
-      std::clamp(look_m + speed_m_s_ * since_s, look_m, std::max(look_m, leg_));
+  const double start_m = std::clamp(look_m + speed_m_s_ * since_s, look_m, std::max(look_m, leg_));
   return {PlaceOnMotion(seen, look_m, start_m), MotionAt(start_m).curvature_per_m};
 }
 

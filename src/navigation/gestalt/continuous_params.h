@@ -11,9 +11,9 @@ namespace rockyard::navigation {
 // How looking, planning and driving follow each other.
 enum class DriveCycle {
   kStopAndLook,  // Goldberg 2002: at rest, one after the other
-  kCsod,         // continuous steering or driving: it looks and plans while it drives arcs, and stands
-                 // to steer
-  kCsad,         // continuous steering and driving: it drives clothoid splines and stands for nothing
+  kCsod,  // continuous steering or driving: it looks and plans while it drives arcs, and stands
+          // to steer
+  kCsad,  // continuous steering and driving: it drives clothoid splines and stands for nothing
 };
 
 // Where a plan that is made on the move begins.

@@ -56,11 +56,7 @@ GestaltParams ForArcVotes(const GestaltParams& params) {
 
 GestaltNavigator::GestaltNavigator(const GestaltParams& params, const messages::Goal& goal,
                                    double full_speed_m_s)
-    : params_(params),
-      goal_W_(goal),
-      goal_(goal),
-      map_(params.map),
-      voter_(ForArcVotes(params)) {
+    : params_(params), goal_W_(goal), goal_(goal), map_(params.map), voter_(ForArcVotes(params)) {
   if (params_.continuous.cycle == DriveCycle::kCsad) {
     spline_voter_.emplace(params_, full_speed_m_s);
   }
@@ -352,6 +348,11 @@ NavigatorDescription<GestaltParams> DescribeGestalt() {
                                {"waypoints.goal_tolerance_m", params.waypoints.goal_tolerance_m});
         traits.looks_on_the_move = params.continuous.cycle != DriveCycle::kStopAndLook;
         traits.steers_on_the_move = params.continuous.cycle == DriveCycle::kCsad;
+        if (traits.steers_on_the_move) {
+          traits.curvature_rates = {.path = "splines.max_curvature_rate_per_m_s",
+                                    .limit_per_m_s = params.splines.max_curvature_rate_per_m_s,
+                                    .least_per_m2 = params.splines.LeastRate_per_m2()};
+        }
         if (!rover.modelled) return traits;
         traits.size =
             BelievedSize{"map.rover.length_m", rover.length_m, "map.rover.width_m", rover.width_m,

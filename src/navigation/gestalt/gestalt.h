@@ -17,8 +17,8 @@
 // no random numbers.
 //
 // That is the cycle at rest. With continuous.cycle csod or csad forward drives are replaced on the
-// move (continuous_drive.cc, Howard 2012, section 2); the rover comes back to the cycle at rest where
-// it feels a hazard, where no plan on the move is safe, and where none is ready in time.
+// move (continuous_drive.cc, Howard 2012, section 2); the rover comes back to the cycle at rest
+// where it feels a hazard, where no plan on the move is safe, and where none is ready in time.
 //
 // All of this goes on in the frame O of odometry_frame.h, which is the world until the estimate is
 // corrected. A correction moves the goal, and neither clears nor smears the map.

@@ -164,6 +164,10 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
   v.Require("continuous.motion_m", !on_the_move || continuous.motion_m <= plan.plan_max_dist_m,
             "is beyond plan.plan_max_dist_m: the rover would drive blindly past what it judged",
             "use a smaller motion_m or a larger plan.plan_max_dist_m");
+  v.Require("continuous.motion_m",
+            continuous.cycle != DriveCycle::kCsad || continuous.motion_m <= splines.length_m,
+            "is beyond the end of the splines (splines.length_m)",
+            "use a smaller motion_m or a larger splines.length_m");
   v.Require("drive.max_fruitless_cycles",
             static_cast<double>(drive.max_fruitless_cycles) * arcs.point_turn_amount_rad >=
                 drive.search_turn_rad,

@@ -41,6 +41,12 @@ void VisitShape(GestaltSplineParams& p, core::FieldVisitor& v) {
 
 }  // namespace
 
+double GestaltSplineParams::LeastRate_per_m2() const {
+  if (num_first_knots < 2) return 0.0;
+  const double spacing_per_m = 2.0 * max_curvature_per_m / static_cast<double>(num_first_knots - 1);
+  return spacing_per_m / (0.5 * length_m);
+}
+
 void GestaltSplineParams::Visit(core::FieldVisitor& v) {
   VisitShape(*this, v);
   v.Real("max_curvature_rate_per_m_s", max_curvature_rate_per_m_s,

@@ -28,6 +28,9 @@ struct GestaltSplineParams {
   SplineLaw law = SplineLaw::kDistance;
   double waypoint_m = 3.0;
 
+  // |dc/ds| of a spline from one of the first knots' curvatures to the next.
+  double LeastRate_per_m2() const;
+
   void Visit(core::FieldVisitor& v);
 };
 

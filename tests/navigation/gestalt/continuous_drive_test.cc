@@ -64,8 +64,7 @@ class MovingDrive {
     tick.time_s = number * setup_.rover.tick_s;
     tick.estimate = rover_.estimate();
     tick.X_WR = rover_.X_WR();
-    NavigatorInput input{
-        .time_s = tick.time_s, .estimate = tick.estimate, .odometry = odometry_};
+    NavigatorInput input{.time_s = tick.time_s, .estimate = tick.estimate, .odometry = odometry_};
     std::optional<Answer> answer;
     if (!under_way_.empty() && under_way_.front().ready_tick <= number) {
       answer = under_way_.front();
@@ -117,8 +116,8 @@ class MovingDrive {
       if (stops || !setup_.loses_answers) See(*tick.decision.look, number, stops);
       if (stops) return;
     }
-    tick.motion = follower_.Follow(tick.decision.motion, tick.estimate.distance_m,
-                                   setup_.rover.tick_s);
+    tick.motion =
+        follower_.Follow(tick.decision.motion, tick.estimate.distance_m, setup_.rover.tick_s);
     const messages::PoseEstimate before = rover_.estimate();
     if (!setup_.held(number)) rover_.Move(tick.motion);
     CarryOdometry(before, rover_.estimate());
@@ -140,8 +139,8 @@ class MovingDrive {
     const double dy_m = after.y_m - before.y_m;
     odometry_.x_m += std::cos(turn_rad) * dx_m - std::sin(turn_rad) * dy_m;
     odometry_.y_m += std::sin(turn_rad) * dx_m + std::cos(turn_rad) * dy_m;
-    odometry_.heading_rad = math::WrapAngle(odometry_.heading_rad + after.heading_rad -
-                                            before.heading_rad);
+    odometry_.heading_rad =
+        math::WrapAngle(odometry_.heading_rad + after.heading_rad - before.heading_rad);
     odometry_.distance_m = after.distance_m;
   }
 
@@ -166,8 +165,8 @@ MovingSetup SetupOf(DriveCycle cycle) {
 
 constexpr DriveCycle kOnTheMove[] = {DriveCycle::kCsod, DriveCycle::kCsad};
 
-// Blocks hold no place of the vehicle's centre: obstacles grow by half its width, 0.42 m, in the map;
-// a cell of 0.2 m may be half covered.
+// Blocks hold no place of the vehicle's centre: obstacles grow by half its width, 0.42 m, in the
+// map; a cell of 0.2 m may be half covered.
 void ExpectClearOf(const MovingDrive& drive, const Block& block) {
   for (const MovingTick& tick : drive.log()) {
     ASSERT_FALSE(block.Holds(tick.X_WR.x_m, tick.X_WR.y_m, 0.42 - 0.1))
@@ -241,8 +240,8 @@ TEST(ContinuousDrive, CurvatureOfSplinesIsContinuousOverReplans) {
     double bent = 0.0;
     const auto& log = drive.log();
     for (std::size_t i = 2; i + 1 < log.size(); ++i) {
-      largest = std::max(largest, std::abs(log[i].motion.curvature_per_m -
-                                           log[i - 1].motion.curvature_per_m));
+      largest = std::max(
+          largest, std::abs(log[i].motion.curvature_per_m - log[i - 1].motion.curvature_per_m));
       bent = std::max(bent, std::abs(log[i].motion.curvature_per_m));
     }
     EXPECT_LE(largest, most * (1.0 + 1e-6));
@@ -354,9 +353,8 @@ TEST(ContinuousDrive, BacksOffFromAHazardThatItFeelsAndLooksAtRest) {
       return tick.decision.stops_to_look();
     });
     ASSERT_NE(stop, log.end());
-    EXPECT_TRUE(std::all_of(log.begin() + 161, stop, [](const MovingTick& tick) {
-      return tick.motion.direction < 0;
-    }));
+    EXPECT_TRUE(std::all_of(log.begin() + 161, stop,
+                            [](const MovingTick& tick) { return tick.motion.direction < 0; }));
   }
 }
 
@@ -419,16 +417,16 @@ TEST(ContinuousDrive, ACorrectionOnTheMoveMovesTheGoalAlone) {
     }
     for (int i = 0; i < ticks; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      ASSERT_NEAR(plain.log()[at].motion.curvature_per_m, corrected.log()[at].motion.curvature_per_m,
-                  1e-6)
+      ASSERT_NEAR(plain.log()[at].motion.curvature_per_m,
+                  corrected.log()[at].motion.curvature_per_m, 1e-6)
           << i;
     }
     EXPECT_GE(plain.navigator().plan_counts().plans, 3);
   }
 }
 
-// A rover that is held up begins its plan elsewhere than was predicted, which is counted; plans that
-// begin as estimated begin where it believes to be.
+// A rover that is held up begins its plan elsewhere than was predicted, which is counted; plans
+// that begin as estimated begin where it believes to be.
 TEST(ContinuousDrive, TheErrorOfAPredictedStartIsCounted) {
   for (const PlanStart start : {PlanStart::kPredicted, PlanStart::kEstimated}) {
     int held_from = std::numeric_limits<int>::max() - 10;
