@@ -166,7 +166,9 @@ class SplineChoice {
   }
   std::uint64_t Hash() const {
     core::Hasher hash;
-    for (const messages::SplineVote& vote : Vote()) hash.Real(vote.hazard).Real(vote.merged);
+    for (const messages::SplineVote& vote : Vote()) {
+      hash.Real(vote.hazard).Real(vote.waypoint).Real(vote.merged);
+    }
     return hash.value();
   }
 
