@@ -68,8 +68,11 @@ class Recorder {
   }
 
   void OnStep(const trial::WatchedStep& watched) {
+    const messages::PoseEstimate& believed = watched.look.estimate;
     replay::ReplayStep step{.time_s = now_s(),
+                            .look_time_s = watched.look.time_s,
                             .pose = math::ToPose2(watched.X_WR),
+                            .look_believed = {believed.x_m, believed.y_m, believed.heading_rad},
                             .view = watched.view,
                             .points_W = {}};
     const std::vector<math::Vector3>& points_R = watched.cloud.points_R;

@@ -132,7 +132,9 @@ struct ReplayScan {
 
 struct ReplayStep {
   double time_s = 0.0;
-  math::Pose2 pose;  // true
+  double look_time_s = 0.0;   // when its points were taken
+  math::Pose2 pose;           // true, then
+  math::Pose2 look_believed;  // as the rover believed, then
   messages::NavigationView view;
   std::vector<math::Vector3> points_W;
 };

@@ -1,6 +1,8 @@
 // What a rover sees and chooses in a replay, and what happens to it, as JSON.
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +16,7 @@ using core::JsonObject;
 
 using messages::MapCellView;
 using messages::MotionVote;
+using messages::SplineVote;
 
 constexpr double kVoteDigits = 10.0;
 constexpr double kCoarseDigits = 1e3;  // of map cells and range points
@@ -81,16 +84,64 @@ std::string RangePointText(const math::Vector3& p) {
                              Rounded(p.z(), kCoarseDigits)});
 }
 
+// One list a member, as there may be hundreds; "chosen" is the place in them, or -1.
+std::string SplineColumnsText(std::span<const SplineVote> votes) {
+  const auto column = [&](const auto& text) { return JsonList(votes, text); };
+  const auto curvature = [&](double messages::Spline::*member) {
+    return column([member](const SplineVote& vote) { return Length(vote.spline.*member); });
+  };
+  const auto share = [&](double SplineVote::*member) {
+    return column([member](const SplineVote& vote) { return Rounded(vote.*member, 1.0); });
+  };
+  const auto chosen =
+      std::find_if(votes.begin(), votes.end(), [](const SplineVote& vote) { return vote.chosen; });
+  return JsonObject()
+      .Add("start", curvature(&messages::Spline::start_per_m))
+      .Add("first", curvature(&messages::Spline::first_knot_per_m))
+      .Add("second", curvature(&messages::Spline::second_knot_per_m))
+      .Add("length", curvature(&messages::Spline::length_m))
+      .Add("hazard", share(&SplineVote::hazard))
+      .Add("certainty", share(&SplineVote::hazard_certainty))
+      .Add("waypoint", share(&SplineVote::waypoint))
+      .Add("merged", share(&SplineVote::merged))
+      .Add("feasible", column([](const SplineVote& vote) {
+             return std::string(vote.feasible ? "true" : "false");
+           }))
+      .AddInteger("chosen", chosen == votes.end() ? -1 : chosen - votes.begin())
+      .Text();
+}
+
+// Without details the chosen one alone.
+std::string SplinesText(const std::vector<SplineVote>& votes, bool detailed) {
+  if (votes.empty()) return "null";
+  if (detailed) return SplineColumnsText(votes);
+  std::vector<SplineVote> kept;
+  for (const SplineVote& vote : votes) {
+    if (vote.chosen) kept.push_back(vote);
+  }
+  return SplineColumnsText(kept);
+}
+
+std::string BelievedText(const messages::PoseEstimate& believed) {
+  return PoseText({believed.x_m, believed.y_m, believed.heading_rad});
+}
+
 std::string StepText(const ReplayStep& step, bool detailed) {
-  const messages::PoseEstimate& believed = step.view.estimate;
+  const std::string look = JsonObject()
+                               .Add("t", Length(step.look_time_s))
+                               .Add("believed", PoseText(step.look_believed))
+                               .Text();
   return JsonObject()
       .Add("t", Length(step.time_s))
       .AddInteger("step", step.view.step)
-      .Add("believed", PoseText({believed.x_m, believed.y_m, believed.heading_rad}))
+      .Add("look", look)
+      .Add("believed", BelievedText(step.view.estimate))
       .Add("pose", PoseText(step.pose))
       .AddFlag("behind", step.view.looked_behind)
       .Add("map", MapText(step.view.map, detailed))
       .Add("votes", VotesText(step.view))
+      .Add("splines", SplinesText(step.view.splines, detailed))
+      .Add("spline_start", BelievedText(step.view.spline_start))
       .Add("points", detailed ? JsonList(step.points_W, RangePointText) : "[]")
       .Text();
 }

@@ -102,8 +102,8 @@ void Drive::ShowStep() {
   const messages::NavigationView* view = parts_.navigator.view();
   if (!seen_ || seen_->cloud() == nullptr || view == nullptr) return;
   if (step_watcher_) {
-    step_watcher_(
-        {parts_.params, parts_.field.terrain, seen_->X_WR, parts_.key, *view, *seen_->cloud()});
+    step_watcher_({parts_.params, parts_.field.terrain, seen_->X_WR, parts_.key, *view,
+                   *seen_->cloud(), seen_->moment});
   }
   tracer_.Votes(*view);
 }

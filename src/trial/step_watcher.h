@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "math/pose.h"
+#include "messages/look.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
 #include "terrain/terrain.h"
@@ -16,10 +17,11 @@ namespace rockyard::trial {
 struct WatchedStep {
   const DriveParams& drive;
   const terrain::Terrain& terrain;
-  const math::Transform& X_WR;  // true
+  const math::Transform& X_WR;  // true, where it looked
   core::TrialKey key;
   const messages::NavigationView& view;
   const messages::PointCloud& cloud;
+  const messages::LookMoment& look;  // when, and where it believed to be then
 };
 
 using StepWatcher = std::function<void(const WatchedStep&)>;

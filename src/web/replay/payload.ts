@@ -193,14 +193,17 @@ export interface Scan {
 
 /**
  * One decision of a map-based navigator. Of more than 240 steps only every second, or third, ... has
- * elevations and points; the others have nulls and none.
+ * elevations, points and all of its splines; the others have nulls, none, and the chosen one.
  */
 export interface Step {
   t: number;
   step: number;
-  /** The believed pose: the map lies in the believed world. */
-  believed: { x: number; y: number; heading: number };
-  pose: { x: number; y: number; heading: number };
+  /** When the points were taken, at most t, and where the rover believed to be then. */
+  look: { t: number; believed: Place };
+  /** Where the rover believes to be as it decides: the arcs begin there, and the map lies in the believed world. */
+  believed: Place;
+  /** Where it truly was when the points were taken. */
+  pose: Place;
   behind: boolean;
   map: {
     x0: number;
@@ -216,8 +219,37 @@ export interface Step {
     elevation: (number | null)[];
   };
   votes: Vote[];
+  /** Null where the rover chooses among arcs. */
+  splines: Splines | null;
+  /** Where they begin, as believed. */
+  spline_start: Place;
   /** At most 120 of the points that the look gave, in W through the true pose. */
   points: [number, number, number][];
+}
+
+export interface Place {
+  x: number;
+  y: number;
+  heading: number;
+}
+
+/** Splines of two clothoids, one entry each: the curvature is linear between its start, the middle and the end. */
+export interface Splines {
+  /** 1/m, positive to the left. */
+  start: number[];
+  first: number[];
+  second: number[];
+  /** m. */
+  length: number[];
+  /** From 0 to 255. */
+  hazard: number[];
+  certainty: number[];
+  waypoint: number[];
+  merged: number[];
+  /** Whether the steering motors keep up with it. */
+  feasible: boolean[];
+  /** Which one is driven, -1 where none is. */
+  chosen: number;
 }
 
 /** Looks of stereo cameras that took images, in the order of time. */

@@ -1,8 +1,9 @@
 // What lies on the ground of the plan in two dimensions.
 import { rampCss, type Palette } from "./palette";
-import type { Course, Rock, RockMove, Scan, Step, TrialEvent } from "./payload";
-import { arcPoint, frameOf, turnPoint } from "./scene/arcs";
+import type { Course, Rock, RockMove, Scan, Splines, Step, TrialEvent } from "./payload";
+import { arcPoint, frameOf, PIECES, turnPoint, type ArcPoint, type Frame } from "./scene/arcs";
 import { extentOf } from "./scene/ground";
+import { drawingOrder, splinePath } from "./scene/splines";
 import type { Layers } from "./view";
 
 /** Draws in metres; `pixel` is the length of one on the screen, m. */
@@ -90,8 +91,9 @@ export function drawMarks({ context, palette, pixel }: Brush, events: TrialEvent
   }
 }
 
-/** The map and the arcs of a decision. */
-export function drawStep({ context, palette, pixel }: Brush, step: Step, layers: Layers): void {
+/** The map, and the arcs or splines, of a decision. */
+export function drawStep(brush: Brush, step: Step, layers: Layers): void {
+  const { context } = brush;
   const frame = frameOf(step, layers.mapAtTruth);
   const { map } = step;
   for (let i = 0; layers.map !== "off" && i < map.nx * map.ny; ++i) {
@@ -106,14 +108,28 @@ export function drawStep({ context, palette, pixel }: Brush, step: Step, layers:
     }
     context.fill();
   }
-  for (const vote of layers.votes ? step.votes : []) {
-    context.strokeStyle = vote.chosen ? palette.chosen : rampCss(vote.merged / 255);
-    context.lineWidth = (vote.chosen ? 4 : 1.5) * pixel;
-    context.beginPath();
-    for (let k = 0; k <= 20; ++k) {
-      const point = vote.kind === "turn" ? turnPoint(vote, k / 20) : arcPoint(vote, k / 20);
-      context.lineTo(...frame.ahead(point.x, point.y));
-    }
-    context.stroke();
+  if (!layers.votes) return;
+  for (const vote of step.votes) {
+    const at = (share: number): ArcPoint => (vote.kind === "turn" ? turnPoint(vote, share) : arcPoint(vote, share));
+    drawPath(brush, at, frame.ahead, vote.chosen, rampCss(vote.merged / 255));
   }
+  if (step.splines) drawSplines(brush, step.splines, frame);
+}
+
+function drawSplines(brush: Brush, splines: Splines, frame: Frame): void {
+  for (const i of drawingOrder(splines)) {
+    const colour = splines.feasible[i] ? rampCss(splines.merged[i]! / 255) : brush.palette.grid;
+    drawPath(brush, splinePath(splines, i), frame.along, i === splines.chosen, colour);
+  }
+}
+
+function drawPath({ context, palette, pixel }: Brush, at: (share: number) => ArcPoint, frame: Frame["ahead"], chosen: boolean, colour: string): void {
+  context.strokeStyle = chosen ? palette.chosen : colour;
+  context.lineWidth = (chosen ? 4 : 1.5) * pixel;
+  context.beginPath();
+  for (let k = 0; k <= PIECES; ++k) {
+    const { x, y } = at(k / PIECES);
+    context.lineTo(...frame(x, y));
+  }
+  context.stroke();
 }

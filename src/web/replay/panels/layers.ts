@@ -55,7 +55,7 @@ export function layersPanel(payload: ReplayPayload, layers: Layers, solid: boole
     add("scan", "Last scan");
     panel.append(el("p", { class: "key" }, swatch("clear"), "clear stripe ", swatch("hazard"), "stripe with a hazard"));
   }
-  if (payload.steps.length > 0) addMap(panel, layers, add, changed);
+  if (payload.steps.length > 0) addMap(panel, payload, layers, add, changed);
   if (payload.events.some(({ kind }) => isMarked(kind))) {
     add("marks", "Where it happened");
     const key = el("p", { class: "key" });
@@ -104,7 +104,7 @@ function aboutPicture({ world, course }: ReplayPayload): HTMLElement {
   );
 }
 
-function addMap(panel: HTMLElement, layers: Layers, add: Add, changed: () => void): void {
+function addMap(panel: HTMLElement, { steps }: ReplayPayload, layers: Layers, add: Add, changed: () => void): void {
   const list = select(MAPS, layers.map);
   const low = el("span", {});
   const high = el("span", {});
@@ -120,8 +120,9 @@ function addMap(panel: HTMLElement, layers: Layers, add: Add, changed: () => voi
   });
   say();
   panel.append(labelled("Map", list), key);
-  add("mapAtTruth", "Map and arcs at the true pose");
-  add("votes", "Arcs: wide and yellow is a high vote");
+  const paths = steps.some(({ splines }) => splines !== null) ? "Splines" : "Arcs";
+  add("mapAtTruth", `Map and ${paths.toLowerCase()} at the true pose`);
+  add("votes", `${paths}: wide and yellow is a high vote`);
   add("scan", "Some of the points seen");
 }
 

@@ -1,9 +1,10 @@
-// The votes of the decision that is shown, arc by arc.
+// The votes of the decision that is shown, arc by arc or spline by spline.
 import { el, svg } from "../../shared/dom";
 import { fixed } from "../../shared/format";
 import { clock } from "../format";
 import { rampCss } from "../palette";
 import type { Step, Vote } from "../payload";
+import { SPLINE_CAPTION, splineGrid } from "./spline_grid";
 
 const WIDTH = 340;
 const HEIGHT = 84;
@@ -17,36 +18,38 @@ const ROWS = [
   { kind: "turn", title: "Turns in place" },
 ] as const;
 
+const ARC_CAPTION =
+  "Left arcs stand left, as the rover sees them. Bars: merged vote from 0 to 255; circle: safety (hazard vote), cross: waypoint vote; the chosen one is outlined.";
+
 export class VotesPanel {
   readonly element = el("section", { class: "panel votes", "aria-label": "Votes" });
   private readonly body = el("div", {});
   private readonly caption = el("p", { class: "caption" });
+  private readonly meaning = el("p", { class: "caption" }, ARC_CAPTION);
   private shown: Step | null | undefined;
 
   constructor() {
     this.element.append(el("h2", {}, "Votes"), this.caption, this.body);
-    this.element.append(
-      el(
-        "p",
-        { class: "caption" },
-        "Left arcs stand left, as the rover sees them. Bars: merged vote from 0 to 255; circle: safety (hazard vote), cross: waypoint vote; the chosen one is outlined.",
-      ),
-    );
+    this.element.append(this.meaning);
   }
 
   show(step: Step | null): void {
     if (step === this.shown) return;
     this.shown = step;
     this.body.replaceChildren();
-    this.caption.textContent = step
-      ? `Decision ${step.step} at ${clock(step.t)}, after a look ${step.behind ? "behind" : "ahead"}.`
-      : "No decision yet.";
+    this.caption.textContent = step ? captionOf(step) : "No decision yet.";
+    this.meaning.textContent = step?.splines ? SPLINE_CAPTION : ARC_CAPTION;
+    if (step?.splines) this.body.append(splineGrid(step.splines));
     for (const { kind, title } of ROWS) {
       const votes = (step?.votes ?? []).filter((vote) => vote.kind === kind);
       if (votes.length > 0) this.body.append(chart(title, votes));
     }
   }
 }
+
+/** With the latency of what it was decided by. */
+const captionOf = ({ step, t, look, behind }: Step): string =>
+  `Decision ${step} at ${clock(t)}, ${fixed(t - look.t, 2)} s after the look ${behind ? "behind" : "ahead"} that it goes by.`;
 
 function chart(title: string, votes: Vote[]): SVGSVGElement {
   const sorted = [...votes].sort((a, b) => b.curvature - a.curvature);

@@ -1,40 +1,43 @@
-// Where the arcs and the map of a decision lie.
-import type { Step, Vote } from "../payload";
+// Where the arcs, the splines and the map of a decision lie.
+import type { Place, Step, Vote } from "../payload";
 
 const ARC_M = 1.4;
 const BACK_ARC_M = 0.8;
 const TURN_RADIUS_M = 0.5;
+/** A path is drawn in so many. */
+export const PIECES = 24;
 
 export interface Frame {
   /** From the believed world to the one that is drawn. */
   place(x: number, y: number): [number, number];
-  /** From the rover's frame at the decision. */
+  /** From the rover's frame at the decision, where arcs begin. */
   ahead(x: number, y: number): [number, number];
+  /** From the frame in which splines begin. */
+  along(x: number, y: number): [number, number];
 }
 
-type Pose = Step["pose"];
-
-function from(pose: Pose, x: number, y: number): [number, number] {
+function from(pose: Place, x: number, y: number): [number, number] {
   const [c, s] = [Math.cos(pose.heading), Math.sin(pose.heading)];
   return [pose.x + c * x - s * y, pose.y + s * x + c * y];
 }
 
-/** The map lies in the believed world; `atTruth` moves it by the rover's error of that moment. */
+/** The map lies in the believed world; `atTruth` moves it by the rover's error of the moment at which it looked. */
 export function frameOf(step: Step, atTruth: boolean): Frame {
-  const { believed, pose } = step;
-  const drawn = atTruth ? pose : believed;
+  const { believed, pose, look, spline_start: start } = step;
+  const place = (x: number, y: number): [number, number] => {
+    if (!atTruth) return [x, y];
+    const { x: x0, y: y0, heading } = look.believed;
+    const [c, s] = [Math.cos(heading), Math.sin(heading)];
+    return from(pose, c * (x - x0) + s * (y - y0), c * (y - y0) - s * (x - x0));
+  };
   return {
-    place(x, y) {
-      if (!atTruth) return [x, y];
-      const [c, s] = [Math.cos(believed.heading), Math.sin(believed.heading)];
-      const [dx, dy] = [x - believed.x, y - believed.y];
-      return from(pose, c * dx + s * dy, c * dy - s * dx);
-    },
-    ahead: (x, y) => from(drawn, x, y),
+    place,
+    ahead: (x, y) => place(...from(believed, x, y)),
+    along: (x, y) => place(...from(start, x, y)),
   };
 }
 
-interface ArcPoint {
+export interface ArcPoint {
   x: number;
   y: number;
   heading: number;

@@ -1,5 +1,5 @@
-// One decision of a map-based navigator: its map on the ground, the arcs that it weighed, and some
-// of the points that it saw.
+// One decision of a map-based navigator: its map on the ground, the arcs or splines that it weighed,
+// and some of the points that it saw.
 import {
   BufferGeometry,
   Color,
@@ -12,17 +12,19 @@ import {
   PointsMaterial,
 } from "three";
 import { ramp, type Palette } from "../palette";
-import type { Step, Vote } from "../payload";
+import type { Splines, Step, Vote } from "../payload";
 import type { Layers } from "../view";
-import { arcPoint, elevationRange, frameOf, turnPoint, type Frame } from "./arcs";
+import { arcPoint, elevationRange, frameOf, PIECES, turnPoint, type ArcPoint, type Frame } from "./arcs";
 import type { GroundHeights } from "./ground";
+import { drawingOrder, splinePath } from "./splines";
 
 type Rgb = [number, number, number];
 
 const MAP_LIFT_M = 0.012;
 const ARC_LIFT_M = 0.03;
-const ARC_PIECES = 24;
 const FULL_VOTE = 255;
+// Of the width of an arc: there are ten times as many splines.
+const SPLINE_WIDTH = 0.35;
 // Edge of arcs that were not chosen, linear light.
 const PALE: Rgb = [0.8, 0.8, 0.8];
 const LEAST_ALPHA = 0.2;
@@ -61,7 +63,7 @@ export class StepPicture {
     }
     const frame = frameOf(step, layers.mapAtTruth);
     if (layers.map !== "off") this.addMap(step, layers.map, frame);
-    if (layers.votes) this.addVotes(step, frame);
+    if (layers.votes) this.addPaths(step, frame);
     if (layers.scan) this.addPoints(step);
   }
 
@@ -87,18 +89,36 @@ export class StepPicture {
   }
 
   // All arcs are one mesh, in the order of drawing: pale edges keep dark arcs apart from dark cells.
-  private addVotes(step: Step, frame: Frame): void {
-    const votes = [...step.votes].sort((a, b) => Number(a.chosen) - Number(b.chosen) || a.merged - b.merged);
-    const strips = new Strips(frame, this.heights);
-    for (const vote of votes) {
-      const width = (vote.chosen ? 0.03 : 0.006) + 0.022 * (vote.merged / FULL_VOTE);
-      const lift = ARC_LIFT_M + (vote.chosen ? 0.006 : 0);
-      strips.add(vote, width + (vote.chosen ? 0.03 : 0.008), lift, vote.chosen ? this.chosen : PALE);
-      strips.add(vote, width, lift + 0.003, linear(ramp(vote.merged / FULL_VOTE)));
-    }
+  private addPaths(step: Step, frame: Frame): void {
+    const strips = new Strips(this.heights);
+    this.addArcs(step.votes, frame, strips);
+    if (step.splines) this.addSplines(step.splines, frame, strips);
     const mesh = new Mesh(coloured(strips.positions, strips.colours, 3), this.solid);
     mesh.renderOrder = 2;
     this.group.add(mesh);
+  }
+
+  private addArcs(votes: Vote[], frame: Frame, strips: Strips): void {
+    for (const vote of [...votes].sort((a, b) => Number(a.chosen) - Number(b.chosen) || a.merged - b.merged)) {
+      const at = (share: number): ArcPoint => (vote.kind === "turn" ? turnPoint(vote, share) : arcPoint(vote, share));
+      const width = (vote.chosen ? 0.03 : 0.006) + 0.022 * (vote.merged / FULL_VOTE);
+      const lift = ARC_LIFT_M + (vote.chosen ? 0.006 : 0);
+      strips.add({ at, frame: frame.ahead, arrow: vote.chosen }, width + (vote.chosen ? 0.03 : 0.008), lift, vote.chosen ? this.chosen : PALE);
+      strips.add({ at, frame: frame.ahead, arrow: vote.chosen }, width, lift + 0.003, linear(ramp(vote.merged / FULL_VOTE)));
+    }
+  }
+
+  // One that the motors could not follow has no vote: its edge alone is drawn.
+  private addSplines(splines: Splines, frame: Frame, strips: Strips): void {
+    for (const i of drawingOrder(splines)) {
+      const chosen = i === splines.chosen;
+      const path: Strip = { at: splinePath(splines, i), frame: frame.along, arrow: chosen };
+      const share = splines.merged[i]! / FULL_VOTE;
+      const width = chosen ? 0.03 + 0.022 * share : SPLINE_WIDTH * (0.006 + 0.022 * share);
+      const lift = ARC_LIFT_M + (chosen ? 0.006 : 0);
+      strips.add(path, width + (chosen ? 0.03 : SPLINE_WIDTH * 0.008), lift, chosen ? this.chosen : PALE);
+      if (splines.feasible[i]) strips.add(path, width, lift + 0.003, linear(ramp(share)));
+    }
   }
 
   private addPoints(step: Step): void {
@@ -108,30 +128,35 @@ export class StepPicture {
   }
 }
 
-/** Strips along arcs; those of chosen ones end in arrows. */
+interface Strip {
+  at: (share: number) => ArcPoint;
+  /** From the frame of its points to the world that is drawn. */
+  frame: Frame["ahead"];
+  /** Whether it ends in one. */
+  arrow: boolean;
+}
+
+/** Strips along arcs and splines. */
 class Strips {
   readonly positions: number[] = [];
   readonly colours: number[] = [];
 
-  constructor(
-    private readonly frame: Frame,
-    private readonly heights: GroundHeights,
-  ) {}
+  constructor(private readonly heights: GroundHeights) {}
 
-  add(vote: Vote, width: number, lift: number, colour: Rgb): void {
+  add({ at, frame, arrow }: Strip, width: number, lift: number, colour: Rgb): void {
     const put = (share: number, side: number): void => {
-      const { x, y, heading } = vote.kind === "turn" ? turnPoint(vote, share) : arcPoint(vote, share);
-      const [wx, wy] = this.frame.ahead(x - side * Math.sin(heading), y + side * Math.cos(heading));
+      const { x, y, heading } = at(share);
+      const [wx, wy] = frame(x - side * Math.sin(heading), y + side * Math.cos(heading));
       this.positions.push(wx, wy, this.heights.at(wx, wy) + lift);
       this.colours.push(...colour);
     };
-    for (let i = 0; i < ARC_PIECES; ++i) {
-      const [a, b] = [i / ARC_PIECES, (i + 1) / ARC_PIECES];
+    for (let i = 0; i < PIECES; ++i) {
+      const [a, b] = [i / PIECES, (i + 1) / PIECES];
       for (const [share, side] of [[a, -1], [b, -1], [b, 1], [a, -1], [b, 1], [a, 1]] as const) {
         put(share, (side * width) / 2);
       }
     }
-    if (!vote.chosen) return;
+    if (!arrow) return;
     put(1, -1.4 * width);
     put(1 + 1.2 * width, 0);
     put(1, 1.4 * width);
