@@ -1,7 +1,7 @@
 // Whole drives of GESTALT that stops to look, looks on the move (CSOD) and drives splines (CSAD).
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -133,7 +133,7 @@ TEST(ContinuousTrialProperty, AnySoundSettingsEndInAnOutcome) {
     return names[static_cast<std::size_t>(share * static_cast<double>(names.size()))];
   };
   int arrived = 0;
-  std::uint64_t trial = 0;
+  std::uint32_t trial = 0;
   for (const std::vector<double>& u : core::LatinHypercube(40, 10, 5)) {
     const Overrides settings = {
         kContinuous + "motion_m=" + between(0.06, 2.9, u[0]),
