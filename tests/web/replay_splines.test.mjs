@@ -90,7 +90,7 @@ test("says how late a plan is", async () => {
       rockyardReplay.pose();
     }, step.t);
     const caption = await page.locator(".votes .caption").first().textContent();
-    assert.match(caption, new RegExp(`^Decision ${step.step} at .*, ${(step.t - step.look.t).toFixed(2)} s after the look ahead`));
+    assert.match(caption, new RegExp(`^Decision ${step.step} at .*, ${(step.t - step.look.t).toFixed(2)} s after the look ${step.behind ? "behind" : "ahead"}`));
   }
   await page.context().close();
 });
