@@ -125,11 +125,11 @@ def drives_wish(lines):
 
 
 def draw(path, lines):
-    """m/h by abundance, a diagram for each computer."""
+    """m/h by abundance of the drives with vision, a diagram for each computer."""
     panels = []
     for profile in dict.fromkeys(line["computer"] for line in lines):
         series = []
-        for drive in dict.fromkeys(line["drive"] for line in lines):
+        for drive in [name for name in DRIVES if name != "stops by wheels"]:
             points = sorted((line["k_per_m2"], line["m_per_h"], line["low"], line["high"]) for line in lines
                             if line["computer"] == profile and line["drive"] == drive)
             closed = next(line["closed_m_per_h"] for line in lines
