@@ -4,6 +4,7 @@
 Counts the sweep scenarios/sweeps/rover_speed.json, which it runs or goes on with:
   drives_speed   metres an hour made good by rock abundance, and the closed form
   drives_parts   what a metre takes: detours, rolling and steering, looks and poses, beside the closed form
+  drives_wish    the Smart Lander's wish (Goldberg 2002 section 6): a day of three hours, and the position
 Writes rover_speed_drives.csv and rover_speed_drives.svg.
 
     scripts/rover_speed_drives.py [--sweep FOLDER] [--out FOLDER] [--markdown results/speed.md]
@@ -16,11 +17,12 @@ from dataclasses import replace
 
 import rover_speed_model as model
 import study
+from rover_speed_study import WISH_M, WISH_S, WISH_SHARE
 from visual_odometry_study import quantile
 
 SWEEP = study.ROOT / "scenarios/sweeps/rover_speed.json"
 COLUMNS = ("sim_time_s", "true_distance_m", "move_time_s", "imaging_time_s", "compute_time_s", "move_overhead_time_s",
-           "image_sets", "moves", "visual_steps", "point_turns")
+           "image_sets", "visual_steps", "point_turns", "position_error_m")
 ARRIVED = ("goal_reached", "false_goal")  # as the rover believes
 COURSE_M = 15.0 - 0.5                     # from the start to within the tolerance of the goal
 # What the closed form takes of each drive: rover, navigator, estimator. A look each 35 cm and a pose each 75 cm, or
@@ -30,6 +32,10 @@ STOPPING = replace(model.ATHENA.middle, step_m=0.35)
 MOVING = replace(model.ATHENA.middle, step_m=1.0)
 DRIVES = {"stops by wheels": (STOPPING, "stop", "wheels"), "stops by vision": (STOPPING, "stop", "vision"),
           "CSOD": (MOVING, "csod", "wheels"), "CSAD": (MOVING, "csad", "wheels")}
+ROVER_M_S = STOPPING.speed_m_s
+SHOWN = ("mer_rad6000", "athena_2012")         # of the parts
+WISHED = ("athena_2012",)                      # which does not hold up the rover
+DAY_H = WISH_S / model.M_PER_H
 CAMERAS = {"mer_rad6000": model.SLOW_CAMERAS}  # all others: fast
 
 
@@ -67,6 +73,8 @@ def summary(rows):
     found["looks_m"] = total["image_sets"] / way_m
     found["poses_m"] = total["visual_steps"] / way_m
     found["turns_m"] = total["point_turns"] / way_m
+    shares = [row["position_error_m"] / row["true_distance_m"] for row in arrived] or [math.nan]
+    found["error_share"], found["error_share_95"] = quantile(shares, 0.5), quantile(shares, 0.95)
     return found
 
 
@@ -94,22 +102,34 @@ def shown(line):
 
 
 def drives_parts(lines):
-    """Parts do not depend on the computer of a rover that stops: of one computer each."""
     header = ["drive", "computer", "rocks, k", "way over course", "wheels, s/m", "at rest, s/m", "looks a metre",
               "poses a metre", "turns in place a metre", "closed form over simulated speed"]
     return study.table(header, [
         [line["drive"], computer_of(line["computer"]).name, f"{line['k_per_m2']:g}", f"{line['detour']:.2f}",
          f"{line['wheels_s_m']:.1f}", f"{line['rest_s_m']:.1f}", f"{line['looks_m']:.2f}", f"{line['poses_m']:.2f}",
          f"{line['turns_m']:.2f}", f"{line['closed_m_per_h'] / line['m_per_h']:.2f}"]
-        for line in lines if line["arrived"]])
+        for line in lines if line["arrived"] and line["computer"] in SHOWN])
+
+
+def drives_wish(lines):
+    """Legs of the course, strung together to a day; wheels as much faster as the rover is too slow."""
+    header = ["drive", "computer", "rocks, k", "legs that arrive, %", "in three hours, m", "wheels for 675 m, cm/s",
+              "error over way, %: median (95 %)", "3 %?"]
+    lines = [line for line in lines if line["computer"] in WISHED and line["arrived"]]
+    return study.table(header, [
+        [line["drive"], computer_of(line["computer"]).name, f"{line['k_per_m2']:g}",
+         f"{100 * line['arrived'] / line['trials']:.0f}", f"{DAY_H * line['m_per_h']:.0f}",
+         f"{100 * ROVER_M_S * WISH_M / (DAY_H * line['m_per_h']):.1f}",
+         f"{100 * line['error_share']:.2g} ({100 * line['error_share_95']:.2g})",
+         "yes" if line["error_share_95"] <= WISH_SHARE else "no"] for line in lines])
 
 
 def draw(path, lines):
-    """m/h by abundance, a diagram for each computer."""
+    """m/h by abundance of the drives with vision, a diagram for each computer."""
     panels = []
     for profile in dict.fromkeys(line["computer"] for line in lines):
         series = []
-        for drive in dict.fromkeys(line["drive"] for line in lines):
+        for drive in [name for name in DRIVES if name != "stops by wheels"]:
             points = sorted((line["k_per_m2"], line["m_per_h"], line["low"], line["high"]) for line in lines
                             if line["computer"] == profile and line["drive"] == drive)
             closed = next(line["closed_m_per_h"] for line in lines
@@ -119,7 +139,7 @@ def draw(path, lines):
     study.write_svg(path, panels, "k, rocks (0: closed form)")
 
 
-TABLES = {"drives_speed": drives_speed, "drives_parts": drives_parts}
+TABLES = {"drives_speed": drives_speed, "drives_parts": drives_parts, "drives_wish": drives_wish}
 
 
 def main():

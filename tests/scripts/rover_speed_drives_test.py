@@ -1,5 +1,6 @@
 """Counts of the drives of scripts/rover_speed_drives.py, on numbers made by hand."""
 
+import csv
 import math
 import sys
 import unittest
@@ -17,10 +18,11 @@ def drive(outcome="goal_reached", **values):
 
 class Counts(unittest.TestCase):
     def test_speed_is_made_good_over_the_course(self):
-        found = drives.summary([drive(sim_time_s=1000.0, true_distance_m=16.0, move_time_s=300.0, image_sets=40.0),
+        found = drives.summary([drive(sim_time_s=1000.0, true_distance_m=16.0, move_time_s=300.0, image_sets=40.0,
+                                      position_error_m=0.16),
                                 drive("false_goal", sim_time_s=2000.0, true_distance_m=24.0, move_time_s=500.0,
-                                      image_sets=60.0, visual_steps=8.0),
-                                drive("jammed", sim_time_s=9.0, true_distance_m=1.0)])
+                                      image_sets=60.0, visual_steps=8.0, position_error_m=0.72),
+                                drive("jammed", sim_time_s=9.0, true_distance_m=1.0, position_error_m=9.0)])
         self.assertEqual((found["trials"], found["arrived"]), (3, 2))
         self.assertAlmostEqual(found["m_per_h"], 0.5 * (14.5 * 3.6 + 14.5 * 1.8))
         self.assertAlmostEqual(found["detour"], 20.0 / 14.5)
@@ -28,6 +30,8 @@ class Counts(unittest.TestCase):
         self.assertAlmostEqual(found["rest_s_m"], 2200.0 / 40.0)
         self.assertAlmostEqual(found["looks_m"], 2.5)
         self.assertAlmostEqual(found["poses_m"], 0.2)
+        self.assertAlmostEqual(found["error_share"], 0.02)
+        self.assertAlmostEqual(found["error_share_95"], 0.029)
 
     def test_nobody_arrives(self):
         found = drives.summary([drive("no_path", sim_time_s=9.0)])
@@ -52,6 +56,18 @@ class Counts(unittest.TestCase):
         self.assertEqual(len(drives.drives_speed(lines).splitlines()), 2 + 2)
         self.assertIn("- [0 of 1]", drives.drives_speed(lines))
         self.assertEqual(len(drives.drives_parts(lines).splitlines()), 2 + 2)
+        # 52.2 m/h are 156.6 m in three hours, at 7 cm/s: 675 m want 4.31 times as much.
+        self.assertIn("| 100 | 157 | 30.2 | 0 (0) | yes |", drives.drives_wish(lines))
+
+    def test_the_page_has_the_tables_of_its_file(self):
+        with open(ROOT / "results/studies/rover_speed_drives.csv", encoding="utf-8", newline="") as file:
+            lines = [{name: value if name in ("drive", "computer") else float(value) for name, value in row.items()}
+                     for row in csv.DictReader(file)]
+        for line in lines:
+            line["arrived"], line["trials"] = int(line["arrived"]), int(line["trials"])
+        page = (ROOT / "results/speed.md").read_text(encoding="utf-8")
+        for name, make in drives.TABLES.items():
+            self.assertIn(f"<!-- begin {name} -->\n{make(lines)}\n<!-- end {name} -->", page)
 
 
 if __name__ == "__main__":
