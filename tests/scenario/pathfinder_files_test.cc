@@ -27,8 +27,8 @@ std::map<std::string, Scenario> LoadAll() {
     const std::string folder = entry.path().parent_path().filename().string();
     if (folder == "navigation" || folder == "rovers" || folder == "sensors") continue;  // parts
     if (folder == "sweeps") continue;  // of scenarios
-    const std::map<std::string, std::string> prefixes = {{"gestalt", "gestalt_"},
-                                                         {"courses", "course_"}};
+    const std::map<std::string, std::string> prefixes = {
+        {"continuous", "continuous_"}, {"courses", "course_"}, {"gestalt", "gestalt_"}};
     const auto found = prefixes.find(folder);
     const std::string prefix = found == prefixes.end() ? "" : found->second;
     scenarios.emplace(prefix + entry.path().stem().string(), LoadScenario(entry.path()));
@@ -61,7 +61,7 @@ double ObstaclesPerM2(const Scenario& scenario) {
 }
 
 // Those of the hazard studies begin with "hazard_", those of the stereo studies with "stereo_", and
-// those of the map-based navigator with "gestalt_", which their folders say already.
+// those of the map-based navigator with "gestalt_" or "continuous_", which their folders say already.
 TEST(PathfinderFilesTest, NamesAreFileNames) {
   const std::map<std::string, Scenario> scenarios = LoadAll();
   ASSERT_GE(scenarios.size(), 9u);
