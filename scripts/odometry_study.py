@@ -14,7 +14,8 @@ expects (wheels.txt). Writes one line a sequence into odometry_sequences.csv, fr
 
     scripts/odometry_study.py [--cases NAME,...] [--out FOLDER] [--markdown PAGE]
 
-The cases were named before the first run: main ones have 20 sequences of 100 m, those of one factor 10 of 20 m.
+The cases were named before the first run: main ones have 20 sequences of 100 m, those of one factor 10 of 20 m. Only
+the width of VL-2's arena was set later, as the first way led out of the first one.
 """
 
 import argparse
