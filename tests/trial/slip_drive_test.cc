@@ -106,6 +106,50 @@ TEST(SlipDrive, PlansAnewAsOftenAsItMay) {
   EXPECT_GE(twice.record.turns_in_place, 2.0);
 }
 
+// Every alarm but the last, which ends the drive, begins a path of images anew: its first pair is
+// taken and compared with nothing.
+TEST(SlipDrive, ComparesNothingWithImagesFromBeforeAnAlarm) {
+  const DriveResult drive = RunTrial(
+      UpSlope(17.0, {"navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=2",
+                     "clock.compute.computer=mer_rad6000", "clock.compute.acquisition_s=10"}),
+      {1, 0});
+  ASSERT_EQ(drive.record.slip_alarms, 3.0);
+  EXPECT_NEAR(drive.record.imaging_time_s, 10.0 * (drive.record.visual_steps + 1.0 + 2.0), 1e-6);
+}
+
+// At a distance from the right mirror line, along it. All that is seen of 5 cm and more is an
+// alarm, three are borne, and after two, forwards and backing off, the rover turns to the line.
+DriveParams BesideMirrorLine(double distance_m) {
+  const std::string y_m = std::to_string(distance_m - 1.5);
+  return UpSlope(
+      0.0, {"terrain.arena.kind=virtual_reflected", "terrain.arena.width_m=4",
+            "terrain.arena.mirror_margin_m=0.5", "course.start_y_m=" + y_m,
+            "course.goal_y_m=" + y_m, "clock.overlap.imaging=true", "clock.overlap.computing=true",
+            "perception.visual_odometry.slip_check.limit=-1",
+            "perception.visual_odometry.slip_check.min_way_m=0.05",
+            "navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=3"});
+}
+
+// The fourth alarm ends the drive, unless operators turn the rover at the line in the very tick: by
+// where it starts some drives have a fifth and the others do not.
+TEST(SlipDrive, OperatorsWhoTurnTheRoverDropItsAlarm) {
+  int dropped = 0;
+  int ended = 0;
+  for (int i = 0; i <= 16; ++i) {
+    const DriveResult drive = RunTrial(BesideMirrorLine(0.05 + 0.0025 * i), {1, 0});
+    EXPECT_EQ(drive.outcome, truth::TrialOutcome::kExcessiveSlip);
+    if (drive.record.slip_alarms > 4.0) {
+      EXPECT_GE(drive.record.reflections, 1.0);
+      ++dropped;
+    } else {
+      EXPECT_EQ(drive.record.slip_alarms, 4.0);
+      ++ended;
+    }
+  }
+  EXPECT_GE(dropped, 1);
+  EXPECT_GE(ended, 1);
+}
+
 // Half of the way is lost from x = 1 m on: the limit of a third is exceeded once a third of the
 // last 0.3 m is, after the wheels have rolled 0.2 m more, of which 0.1 m is true.
 TEST(SlipOnsetTest, IsWhereTheTrueSlipOverTheWindowExceedsTheLimit) {

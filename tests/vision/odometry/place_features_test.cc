@@ -5,8 +5,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/distributions.h"
@@ -192,6 +194,36 @@ TEST(FeaturePlacerTest, HasTheVarianceOfTheWindowThatItFound) {
   ASSERT_TRUE(found);
   EXPECT_NEAR(place->covariance_px2(2, 2), found->covariance_px2(0, 0),
               1e-3 * found->covariance_px2(0, 0));
+}
+
+// A window of noise that the right eye sees twice, off by 10 grey levels at 40 px and by more at
+// another disparity, nearer or farther.
+TEST(FeaturePlacerTest, HasNoPlaceWhereAnotherDisparityIsAlmostAsGood) {
+  constexpr ImageSize kWide{120, 40};
+  const Pixel pixel(80, 20);
+  GrayImage left = Noise(kWide.columns, kWide.rows, 4);
+  for (std::uint8_t& value : left.values()) {
+    value = static_cast<std::uint8_t>(value / 2 + 60);
+  }
+  const auto placed = [&](int other_px, int other_off) {
+    GrayImage right = Noise(kWide.columns, kWide.rows, 5);
+    for (const auto& [disparity_px, off] : {std::pair{40, 10}, std::pair{other_px, other_off}}) {
+      for (int y = 11; y <= 29; ++y) {
+        for (int x = 71; x <= 89; ++x) {
+          const int grey = left.At(x, y) + ((x + y) % 2 == 0 ? off : -off);
+          right.At(x - disparity_px, y) = static_cast<std::uint8_t>(grey);
+        }
+      }
+    }
+    return FeaturePlacer(PlanePair(kWide), {}, left, right)
+        .Place(pixel, Eigen::Matrix2d::Identity());
+  };
+  for (const int other_px : {15, 65}) {
+    EXPECT_FALSE(placed(other_px, 11)) << other_px;
+    const auto place = placed(other_px, 12);  // more than a ninth worse
+    ASSERT_TRUE(place) << other_px;
+    EXPECT_NEAR(place->disparity_px, 40.0, 0.1);
+  }
 }
 
 TEST(FeaturePlacerTest, HasNoPlaceWhereItCannotBeSure) {

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "vision/cameras/triangulation.h"
@@ -88,6 +91,63 @@ TEST(SlantedMatchTest, FindsNothingOutsideOrWithoutTexture) {
   EXPECT_FALSE(FindSlanted(images.left, images.right, pixel, column - 20.0, limits));
   const GrayImage flat(kSize.columns, kSize.rows, 90);
   EXPECT_FALSE(FindSlanted(flat, flat, pixel, column, limits));
+}
+
+// A pattern about the middle of an image of 60 x 60 pixels, by offset.
+template <typename Pattern>
+GrayImage PatternImage(const Pattern& grey) {
+  GrayImage image(60, 60);
+  for (int row = 0; row < 60; ++row) {
+    for (int column = 0; column < 60; ++column) {
+      image.At(column, row) = static_cast<std::uint8_t>(
+          std::lround(std::clamp(grey(column - 30.0, row - 30), 0.0, 255.0)));
+    }
+  }
+  return image;
+}
+
+const Pixel kMiddle(30.0, 30.0);
+
+// Ripples on a bright slope whose gradient does not cancel over the window, 0.4 px off. Without the
+// mean of the gradients in the equations each step goes a sixth of its way.
+TEST(SlantedMatchTest, FindsRipplesOnABrightSlope) {
+  for (const double off_px : {-0.4, 0.0, 0.4}) {
+    const auto image = [](double shift_px) {
+      return PatternImage([shift_px](double x, int /*row*/) {
+        return 128.0 + 10.0 * (x - shift_px) + 12.0 * std::sin(0.5 * (x - shift_px) + 0.7);
+      });
+    };
+    const auto place = FindSlanted(image(0.0), image(off_px), kMiddle, 30.0, {.along_row = true});
+    ASSERT_TRUE(place) << off_px;
+    EXPECT_NEAR(place->column, 30.0 + off_px, 0.03);
+    EXPECT_NEAR(place->slope.norm(), 0.0, 0.02) << off_px;
+  }
+}
+
+// Waves of 12 px in the rows 5 above and below the middle, which lie a pixel to either side in the
+// right image: a slope of 0.2. The other rows of the right image are brighter and darker by
+// `stripes`, which says nothing of where waves lie and much of what the images are worth.
+double SlopeAmong(double stripes) {
+  const auto image = [](double slope, double brighter) {
+    return PatternImage([=](double x, int row) {
+      const double wave = 6.0 * std::cos(std::numbers::pi / 6.0 * (x + slope * row));
+      if (std::abs(row) == 5) return 100.0 + wave;
+      return 100.0 + (row % 2 == 0 ? brighter : -brighter);
+    });
+  };
+  const auto place =
+      FindSlanted(image(0.0, 0.0), image(0.2, stripes), kMiddle, 30.0, {.along_row = true});
+  if (!place) return std::nan("");
+  EXPECT_NEAR(place->column, 30.0, 0.05);
+  EXPECT_NEAR(place->slope.x(), 0.0, 0.02);
+  return place->slope.y();
+}
+
+// The slope s of the least N (s - 0.2)^2 / variance + s^2 / 0.3^2, N = sum (g o_y)^2 = 2 x 25 x 15
+// x 3.14^2 / 2 and the variance 195 x 18^2 / 220: N = 3700 against 3190.
+TEST(SlantedMatchTest, SlopesAreExpectedToBeSmallWhereImagesSayLittle) {
+  EXPECT_NEAR(SlopeAmong(0.0), 0.2, 0.01);
+  EXPECT_NEAR(SlopeAmong(18.0), 0.2 * 3700.0 / (3700.0 + 3190.0), 0.02);
 }
 
 PointsSeenTwice PointsWith(const std::vector<double>& first, const std::vector<double>& second) {
