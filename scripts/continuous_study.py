@@ -258,7 +258,7 @@ def choices_table(rows):
 
 def csv_rows(fields, fidelity):
     return [{"fidelity": fidelity, "k_per_m2": key[0], "trial": key[1], "cycle": cycle, "outcome": row["outcome"]} |
-            {name: f"{row[name]:.6g}" for name in (*COLUMNS, "speed_cm_s")}
+            {name: f"{row[name]:.5g}" for name in SHOWN if name != "speed_cm_s"}
             for key, rows in sorted(fields.items()) for cycle, row in rows.items()]
 
 

@@ -61,7 +61,8 @@ double ObstaclesPerM2(const Scenario& scenario) {
 }
 
 // Those of the hazard studies begin with "hazard_", those of the stereo studies with "stereo_", and
-// those of the map-based navigator with "gestalt_" or "continuous_", which their folders say already.
+// those of the map-based navigator with "gestalt_" or "continuous_", which their folders say
+// already.
 TEST(PathfinderFilesTest, NamesAreFileNames) {
   const std::map<std::string, Scenario> scenarios = LoadAll();
   ASSERT_GE(scenarios.size(), 9u);
