@@ -20,7 +20,7 @@ class Navigator;
 struct NavigatorSetup {
   messages::Goal goal;
   bool judges_hazards = true;    // false: perception reports no hazards, the rover drives blind
-  double full_speed_m_s = 0.07;  // of the fastest rim
+  double full_speed_m_s = 0.07;  // of the fastest rim; Athena's (Howard 2012 sec. 3)
   messages::Route route = {};    // to the goal, for one that follows it; empty where there is none
 };
 

@@ -60,6 +60,16 @@ class Counts(unittest.TestCase):
         self.assertIn("over the 4 fields", text)
         self.assertIn("csad alone arrives in 2 fields, csod alone in 1", text)
 
+    def test_fields_with_ways_like_the_published_ones(self):
+        near = {cycle: drive(visual_distance_m=14.9, time_s=time_s)
+                for cycle, time_s in zip(study.CYCLES, (400.0, 300.0, 240.0))}
+        far = {cycle: row | {"visual_distance_m": 15.2} for cycle, row in near.items()}
+        half = near | {"csad": far["csad"]}
+        self.assertEqual(list(study.alike({0: near, 1: far, 2: half})), [0])
+        self.assertIn("In the 2 fields", study.alike_text({0: near, 3: near}))
+        self.assertIn("csad gains 20.0 (20.0..20.0) %; medians csod 300 s", study.alike_text({0: near, 3: near}))
+        self.assertIn("No field", study.alike_text({1: far}))
+
     def test_tables_have_a_line_for_each_cycle_and_abundance(self):
         fields = {(k, i): field(csod=300.0 + i) for k in (0.004, 0.01) for i in range(3)}
         self.assertEqual(len(study.drives_table(fields).split("\n\n")[0].splitlines()), 2 + 3)

@@ -106,6 +106,8 @@ void GestaltNavigator::OnPoseUpdate(const PoseEstimate& before_W, const PoseEsti
   vetoed_.clear();
   // Progress is counted from where the rover now believes to be.
   best_goal_distance_m_ = TowardsGoal(after, goal_).distance_m;
+  // What was seen from where it stood is told no more: it is asked for again.
+  awaits_look_ = false;
   // What was seen ahead is forgotten with the map.
   if (mode_ == Mode::kLookingBehind) mode_ = Mode::kLookingAhead;
 }

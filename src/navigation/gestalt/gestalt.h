@@ -43,7 +43,8 @@ namespace rockyard::navigation {
 // The drive cycle; map_ and voter_ do the rest.
 class GestaltNavigator final : public Navigator {
  public:
-  // `full_speed_m_s` of the fastest rim, which limits how fast splines may bend.
+  // `full_speed_m_s` of the fastest rim, which limits how fast splines may bend; by itself that of
+  // Athena (Howard 2012, section 3).
   GestaltNavigator(const GestaltParams& params, const messages::Goal& goal,
                    double full_speed_m_s = 0.07);
 

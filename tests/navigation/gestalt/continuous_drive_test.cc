@@ -87,6 +87,15 @@ class MovingDrive {
     navigator_.OnCorrection(before, rover_.estimate());
   }
 
+  // As operators do; looks under way are dropped, as a trial drops them.
+  void MoveByHand(const messages::PoseUpdate& update) {
+    const messages::PoseEstimate before = rover_.estimate();
+    rover_.SetEstimate(update);
+    odometry_ = rover_.estimate();
+    under_way_.clear();
+    navigator_.OnPoseUpdate(before, rover_.estimate());
+  }
+
   const std::vector<MovingTick>& log() const { return log_; }
   const GestaltNavigator& navigator() const { return navigator_; }
   GestaltNavigator& navigator() { return navigator_; }
@@ -305,6 +314,24 @@ TEST(ContinuousDrive, ALostAnswerIsWaitedForUpToTheTimeOut) {
     EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
     EXPECT_EQ(drive.StopsToLook(), 2);
     EXPECT_NEAR(drive.log().back().time_s, 40.0 + 0.9 / 0.07, 1.0);
+  }
+}
+
+// Operators who move the rover while it awaits a look make it ask again, at once: what it saw from
+// elsewhere is told no more.
+TEST(ContinuousDrive, OperatorsWhoMoveItMakeItLookAgain) {
+  for (const DriveCycle cycle : kOnTheMove) {
+    MovingSetup setup = SetupOf(cycle);
+    setup.latency_ticks = 40;
+    MovingDrive drive(setup);
+    while (drive.log().empty() || !drive.log().back().decision.looks_on_the_move) drive.Step();
+    drive.Step();
+    ASSERT_FALSE(drive.log().back().decision.looks()) << "it waits for the answer";
+    drive.MoveByHand({drive.rover().estimate().x_m, 0.2, 0.0});
+    drive.Step();
+    EXPECT_TRUE(drive.log().back().decision.looks_on_the_move);
+    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    EXPECT_EQ(drive.navigator().plan_counts().late, 0);
   }
 }
 
