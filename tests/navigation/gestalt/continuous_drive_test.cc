@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <set>
 
 #include "drive.h"
 #include "navigation/motion_follower.h"
@@ -197,6 +198,11 @@ TEST(ContinuousDrive, StandsOnceToLookOnEmptyGroundAndDrivesOn) {
       const PlanCounts counts = drive.navigator().plan_counts();
       EXPECT_EQ(counts.plans, drive.Answers() - 1);
       EXPECT_EQ(counts.started, counts.plans);
+      // Each plan is a move of its own, whatever its curvatures.
+      std::set<std::int64_t> moves;
+      for (std::size_t i = 1; i + 1 < log.size(); ++i) moves.insert(log[i].motion.move);
+      EXPECT_EQ(static_cast<std::int64_t>(moves.size()), counts.plans + 1);
+      EXPECT_EQ(moves.count(0), 0u);
       EXPECT_EQ(counts.late, 0);
       EXPECT_EQ(counts.unsafe, 0);
       // One each half metre and what the rover drives until it is ready.
@@ -449,6 +455,39 @@ TEST(ContinuousDrive, ACorrectionOnTheMoveMovesTheGoalAlone) {
           << i;
     }
     EXPECT_GE(plain.navigator().plan_counts().plans, 3);
+  }
+}
+
+// On a curved way, turned far about: where it looked is known by odometry, so that a plan begins
+// where it was predicted to.
+TEST(ContinuousDrive, ACorrectionMovesNoLook) {
+  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  setup.goal = {4.0, 4.0};
+  setup.latency_ticks = 100;
+  MovingDrive drive(setup);
+  while (drive.log().empty() || !drive.log().back().decision.looks_on_the_move) drive.Step();
+  const messages::PoseEstimate before = drive.rover().estimate();
+  drive.Correct({before.x_m, before.y_m, before.heading_rad + 1.5});
+  while (drive.navigator().plan_counts().started < 1) drive.Step();
+  EXPECT_NEAR(drive.navigator().plan_counts().start_error_squared_m2, 0.0, kRounding);
+}
+
+// Progress counts on over corrections: over those that change nothing at each tick, and over one by
+// which the goal comes to lie a metre farther off.
+TEST(ContinuousDrive, CorrectionsTakeNoProgressAway) {
+  for (const bool jumps : {false, true}) {
+    MovingSetup setup = SetupOf(DriveCycle::kStopAndLook);
+    setup.params.drive.max_fruitless_cycles = 4;
+    MovingDrive drive(setup);
+    do {
+      drive.Step();
+      const messages::PoseEstimate here = drive.rover().estimate();
+      const bool jumps_now = jumps && drive.log().size() == 200;
+      if (!jumps || jumps_now) {
+        drive.Correct({here.x_m - (jumps_now ? 1.0 : 0.0), here.y_m, here.heading_rad});
+      }
+    } while (drive.log().back().decision.status == NavigatorStatus::kDriving);
+    EXPECT_EQ(drive.log().back().decision.status, NavigatorStatus::kArrived) << jumps;
   }
 }
 
