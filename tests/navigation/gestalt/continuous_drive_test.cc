@@ -458,9 +458,9 @@ TEST(ContinuousDrive, ACorrectionOnTheMoveMovesTheGoalAlone) {
   }
 }
 
-// On a curved way, turned far about: where it looked is known by odometry, so that a plan begins
-// where it was predicted to.
-TEST(ContinuousDrive, ACorrectionMovesNoLook) {
+// On a curved way, corrected and moved by hand, so that odometry and the map's frame differ by a
+// turn: where it looked is known by odometry, and a plan begins where it was predicted to.
+TEST(ContinuousDrive, TurnedFramesMoveNoLook) {
   MovingSetup setup = SetupOf(DriveCycle::kCsad);
   setup.goal = {4.0, 4.0};
   setup.latency_ticks = 100;
@@ -468,6 +468,7 @@ TEST(ContinuousDrive, ACorrectionMovesNoLook) {
   while (drive.log().empty() || !drive.log().back().decision.looks_on_the_move) drive.Step();
   const messages::PoseEstimate before = drive.rover().estimate();
   drive.Correct({before.x_m, before.y_m, before.heading_rad + 1.5});
+  drive.MoveByHand({before.x_m, before.y_m, before.heading_rad});
   while (drive.navigator().plan_counts().started < 1) drive.Step();
   EXPECT_NEAR(drive.navigator().plan_counts().start_error_squared_m2, 0.0, kRounding);
 }
