@@ -1,8 +1,9 @@
 #!/bin/sh
-# Holds this build against the committed baseline of the regression campaign.
+# Holds this build against the committed baselines of the regression campaigns.
 #   scripts/ci/regression.sh BUILD/bin/rockyard [FOLDER]
-# Exit code of rockyard check: 0 no change, 1 changed, 4 inconclusive, 2 another
-# scenario. FOLDER (default: a temporary one) gets the run, regression.xml (JUnit) and regression.csv.
+# Exit code of rockyard check: 0 no change, 1 changed, 4 inconclusive, 2 another scenario; of both
+# campaigns the first that is not 0. FOLDER (default: a temporary one) gets of each campaign the run,
+# and as NAME.xml (JUnit) and NAME.csv what the check found.
 set -eu
 program=$1
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -13,6 +14,12 @@ else
   folder=$(mktemp -d)
   trap 'rm -rf "$folder"' EXIT
 fi
-"$program" sweep "$root/scenarios/sweeps/regression.json" --out "$folder/run" --force --quiet
-"$program" check "$folder/run" --against "$root/results/baselines/regression.json" \
-  --junit "$folder/regression.xml" --csv "$folder/regression.csv"
+code=0
+for name in regression regression_continuous; do
+  "$program" sweep "$root/scenarios/sweeps/$name.json" --out "$folder/$name" --force --quiet
+  found=0
+  "$program" check "$folder/$name" --against "$root/results/baselines/$name.json" \
+    --junit "$folder/$name.xml" --csv "$folder/$name.csv" || found=$?
+  if [ "$code" -eq 0 ]; then code=$found; fi
+done
+exit "$code"

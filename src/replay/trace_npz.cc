@@ -17,6 +17,7 @@ using core::JsonObject;
 
 using messages::MapCellView;
 using messages::MotionVote;
+using messages::SplineVote;
 
 constexpr int kFormatVersion = 1;
 constexpr std::int64_t kUnknownCell = -1;
@@ -136,6 +137,43 @@ class Votes {
   std::vector<std::uint8_t> chosen_;
 };
 
+// Every spline of every step, of navigators that steer while they drive.
+class Splines {
+ public:
+  void Add(std::size_t step, const messages::NavigationView& view) {
+    const messages::PoseEstimate& start = view.spline_start;
+    start_.Add(math::Pose2{start.x_m, start.y_m, start.heading_rad});
+    for (const SplineVote& vote : view.splines) Add(step, vote);
+  }
+
+  void Write(NpzFile& file) const {
+    start_.Write("spline_start", file);
+    file.AddIntegers("spline_step", step_, {step_.size()});
+    knots_.Write("spline", file);
+    votes_.Write("spline_vote", file);
+    file.AddFlags("spline_feasible", feasible_, {feasible_.size()});
+    file.AddFlags("spline_chosen", chosen_, {chosen_.size()});
+  }
+
+ private:
+  void Add(std::size_t step, const SplineVote& vote) {
+    const messages::Spline& spline = vote.spline;
+    step_.push_back(static_cast<std::int64_t>(step));
+    knots_.Add(std::array{spline.start_per_m, spline.first_knot_per_m, spline.second_knot_per_m,
+                          spline.length_m});
+    votes_.Add(std::array{vote.hazard, vote.hazard_certainty, vote.waypoint, vote.merged});
+    feasible_.push_back(vote.feasible ? 1 : 0);
+    chosen_.push_back(vote.chosen ? 1 : 0);
+  }
+
+  NpzTable start_{3};
+  std::vector<std::int64_t> step_;
+  NpzTable knots_{4};
+  NpzTable votes_{4};
+  std::vector<std::uint8_t> feasible_;
+  std::vector<std::uint8_t> chosen_;
+};
+
 void AddMaps(std::span<const ReplayStep> steps, NpzFile& file) {
   NpzTable grid(4);
   std::vector<double> elevation;
@@ -168,6 +206,7 @@ void AddSteps(std::span<const ReplayStep> steps, NpzFile& file) {
   std::vector<std::int64_t> number;
   std::vector<std::uint8_t> behind;
   Votes votes;
+  Splines splines;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const messages::NavigationView& view = steps[i].view;
     pose.Add(steps[i].pose);
@@ -175,6 +214,7 @@ void AddSteps(std::span<const ReplayStep> steps, NpzFile& file) {
     number.push_back(view.step);
     behind.push_back(view.looked_behind ? 1 : 0);
     votes.Add(i, view);
+    splines.Add(i, view);
   }
   AddColumn(
       "step_time_s", steps, [](const ReplayStep& step) { return step.time_s; }, file);
@@ -183,6 +223,7 @@ void AddSteps(std::span<const ReplayStep> steps, NpzFile& file) {
   believed.Write("step_believed", file);
   file.AddFlags("step_behind", behind, {behind.size()});
   votes.Write(file);
+  splines.Write(file);
   AddMaps(steps, file);
 }
 

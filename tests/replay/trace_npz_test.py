@@ -97,6 +97,28 @@ class MapTrace(unittest.TestCase):
         numpy.testing.assert_array_equal(chosen, numpy.arange(steps))
         self.assertEqual(set(arrays["vote_kind"].tolist()), {"forward", "backward", "turn"})
         self.assertEqual(arrays["scan_points"].shape, (0, 6))
+        self.assertEqual(arrays["spline"].shape, (0, 4))
+
+    def test_splines(self):
+        with tempfile.TemporaryDirectory() as folder:
+            arrays, _ = trace(Path(folder), "continuous/csad.json", "--set",
+                              "referee.time_limit_s=120")
+        steps = len(arrays["step_time_s"])
+        numpy.testing.assert_array_equal(numpy.bincount(arrays["spline_step"], minlength=steps),
+                                         numpy.full(steps, 225))
+        self.assertEqual(arrays["spline_start"].shape, (steps, 3))
+        # All splines of a step begin at one curvature; knots lie within 1 rad/m (Howard 2012).
+        splines = arrays["spline"].reshape(steps, 225, 4)
+        self.assertTrue((numpy.ptp(splines[:, :, 0], axis=1) == 0).all())
+        self.assertEqual(numpy.abs(splines[:, :, 1:3]).max(), 1.0)
+        self.assertTrue((splines[:, :, 3] == 3.0).all())
+        votes = arrays["spline_vote"]
+        self.assertEqual(votes.shape, (steps * 225, 4))
+        self.assertTrue((votes >= 0).all() and (votes <= 255).all())
+        chosen = arrays["spline_chosen"]
+        self.assertGreater(int(chosen.sum()), steps // 2)
+        self.assertEqual(numpy.bincount(arrays["spline_step"][chosen]).max(), 1)
+        self.assertTrue(arrays["spline_feasible"][chosen].all())
 
 
 if __name__ == "__main__":
