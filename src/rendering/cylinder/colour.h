@@ -2,15 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+
+#include "rendering/cylinder/cylinder_params.h"
 
 namespace rockyard::rendering {
 
 // Red, green, blue: reflectances, irradiances or radiances, all in proportion to light (no gamma).
 using Colour = Eigen::Array3d;
-
-// A colour as a parameter: three numbers of a list.
-using ColourValues = std::array<double, 3>;
 
 inline Colour ToColour(const ColourValues& values) { return {values[0], values[1], values[2]}; }
 

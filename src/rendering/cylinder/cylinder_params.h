@@ -11,7 +11,6 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
-#include "rendering/cylinder/colour.h"
 
 namespace rockyard::rendering {
 
@@ -38,6 +37,9 @@ struct rockyard::core::EnumNames<rockyard::rendering::CameraPointing> {
 };
 
 namespace rockyard::rendering {
+
+// Red, green, blue.
+using ColourValues = std::array<double, 3>;
 
 struct CylinderTargetParams {
   double diameter_m = 0.192;
