@@ -46,7 +46,9 @@ std::optional<EyeGeometry> GeometryOf(const ColourPair& pair) {
   if (!middle) return std::nullopt;
   EyeGeometry eyes;
   eyes.centre_L = CentreOf(pair.left_camera);
-  eyes.baseline_m = (CentreOf(pair.right_camera) - eyes.centre_L).norm();
+  const math::Vector3 right_centre_L = CentreOf(pair.right_camera);
+  eyes.baseline_m = (right_centre_L - eyes.centre_L).norm();
+  eyes.middle_L = 0.5 * (eyes.centre_L + right_centre_L);
   eyes.forward_L = middle->direction;
   if (const auto* linear = std::get_if<Cahv>(&pair.left_camera.lens)) {
     eyes.forward_L = linear->A.normalized();
@@ -56,6 +58,9 @@ std::optional<EyeGeometry> GeometryOf(const ColourPair& pair) {
   if (!again) return std::nullopt;
   // At a depth of one metre along the axis.
   eyes.focal_px = by_point.row(0).norm() * middle->direction.dot(eyes.forward_L);
+  const Eigen::Matrix<double, 3, 2> by_pixel = DirectionByPixel(by_point);
+  eyes.right_L = by_pixel.col(0).normalized();
+  eyes.up_L = -by_pixel.col(1).normalized();
   eyes.aligned = AlignedPair(pair.left_camera, pair.right_camera);
   if (eyes.aligned) eyes.focal_px = eyes.aligned->focal_px;
   return eyes;

@@ -13,9 +13,14 @@ namespace rockyard::vision {
 struct EyeGeometry {
   double focal_px = 0.0;    // of the left camera in the middle of its image, along the rows
   double baseline_m = 0.0;  // between the centres
-  math::Vector3 centre_L = math::Vector3::Zero();   // of the left camera, m
-  math::Vector3 forward_L = math::Vector3::Zero();  // its optical axis, of length 1
-  std::optional<RectifiedPair> aligned;             // where rows are epipolar lines as they are
+  math::Vector3 centre_L = math::Vector3::Zero();  // of the left camera, m
+  math::Vector3 middle_L = math::Vector3::Zero();  // between both centres, m
+  // Of length 1: its optical axis, and the directions of its rows to the right and of its columns
+  // upwards, in the middle of its image.
+  math::Vector3 forward_L = math::Vector3::Zero();
+  math::Vector3 right_L = math::Vector3::Zero();
+  math::Vector3 up_L = math::Vector3::Zero();
+  std::optional<RectifiedPair> aligned;  // where rows are epipolar lines as they are
 };
 
 // Nothing where the left camera images nothing in its middle.

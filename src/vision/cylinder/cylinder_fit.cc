@@ -1,0 +1,178 @@
+#include "vision/cylinder/cylinder_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "math/angles.h"
+#include "vision/cylinder/fit_problem.h"
+
+namespace rockyard::vision {
+namespace {
+
+constexpr int kOrientations = 48;
+// Local minima over the orientations that are refined.
+constexpr std::size_t kMostStarts = 5;
+constexpr double kOtherOrientation_rad = math::DegToRad(25.0);
+constexpr int kMostSteps = 12;
+constexpr double kConverged = 1e-3;  // of the cost, per residual's variance
+// A radius that is the cylinder's, and one that is free, over it.
+constexpr double kFixedRadius_sd = 1e-4;
+constexpr double kFreeRadius_sd = 1.0;
+
+using Normal5 = Eigen::Matrix<double, 5, 5>;
+
+struct FitState {
+  FitUnknowns unknowns = FitUnknowns::Zero();
+  double squares = std::numeric_limits<double>::infinity();
+  Normal5 information = Normal5::Identity();
+};
+
+double SquaresAt(const FitProblem& problem, const FitUnknowns& unknowns, double radius_sd) {
+  const auto residuals = problem.Residuals(unknowns, radius_sd);
+  return residuals ? residuals->squaredNorm() : std::numeric_limits<double>::infinity();
+}
+
+// Derivatives of the residuals, central; nothing where a step leaves what can be imaged.
+std::optional<Eigen::MatrixXd> Derivatives(const FitProblem& problem, const FitUnknowns& unknowns,
+                                           double radius_sd) {
+  const FitUnknowns steps = problem.Steps();
+  Eigen::MatrixXd derivatives;
+  for (int i = 0; i < steps.size(); ++i) {
+    FitUnknowns step = FitUnknowns::Zero();
+    step[i] = steps[i];
+    const auto ahead = problem.Residuals(unknowns + step, radius_sd);
+    const auto behind = problem.Residuals(unknowns - step, radius_sd);
+    if (!ahead || !behind) return std::nullopt;
+    if (i == 0) derivatives.resize(ahead->size(), steps.size());
+    derivatives.col(i) = (*ahead - *behind) / (2.0 * steps[i]);
+  }
+  return derivatives;
+}
+
+// Gauss-Newton with Levenberg's damping from a start.
+FitState Refined(const FitProblem& problem, const FitUnknowns& start, double radius_sd) {
+  FitState state;
+  state.unknowns = start;
+  double damping = 1e-3;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const auto residuals = problem.Residuals(state.unknowns, radius_sd);
+    const auto derivatives = Derivatives(problem, state.unknowns, radius_sd);
+    if (!residuals || !derivatives) return state;
+    state.squares = residuals->squaredNorm();
+    state.information = derivatives->transpose() * *derivatives;
+    const FitUnknowns gradient = derivatives->transpose() * *residuals;
+    Normal5 damped = state.information;
+    damped.diagonal() *= 1.0 + damping;
+    const FitUnknowns next = state.unknowns - damped.ldlt().solve(gradient);
+    const double squares = next.allFinite() ? SquaresAt(problem, next, radius_sd)
+                                            : std::numeric_limits<double>::infinity();
+    if (squares >= state.squares) {
+      damping *= 10.0;
+      if (damping > 1e3) break;
+      continue;
+    }
+    const bool converged = state.squares - squares < kConverged * std::max(1.0, 1e-2 * squares);
+    state.unknowns = next;
+    state.squares = squares;
+    damping = std::max(0.1 * damping, 1e-6);
+    if (converged) break;
+  }
+  return state;
+}
+
+FitUnknowns AtOrientation(double orientation_rad) {
+  FitUnknowns unknowns = FitUnknowns::Zero();
+  unknowns[2] = orientation_rad;
+  return unknowns;
+}
+
+struct Hypothesis {
+  FitState state;
+  double colour_misfit = 0.0;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+// The starts: orientations whose cost is no larger than that of both neighbours, best first.
+std::vector<double> StartsOf(const FitProblem& problem, const LogRatios& light) {
+  std::array<double, kOrientations> costs{};
+  const auto orientation = [](std::size_t i) {
+    return 2.0 * std::numbers::pi * static_cast<double>(i) / kOrientations;
+  };
+  for (std::size_t i = 0; i < kOrientations; ++i) {
+    const FitUnknowns unknowns = AtOrientation(orientation(i));
+    costs.at(i) = SquaresAt(problem, unknowns, kFixedRadius_sd);
+    if (std::isfinite(costs.at(i))) costs.at(i) += problem.ColourMisfitAt(unknowns, light);
+  }
+  std::vector<std::size_t> minima;
+  for (std::size_t i = 0; i < kOrientations; ++i) {
+    const double before = costs.at((i + kOrientations - 1) % kOrientations);
+    const double after = costs.at((i + 1) % kOrientations);
+    if (std::isfinite(costs.at(i)) && costs.at(i) <= before && costs.at(i) <= after) {
+      minima.push_back(i);
+    }
+  }
+  std::sort(minima.begin(), minima.end(),
+            [&](std::size_t a, std::size_t b) { return costs.at(a) < costs.at(b); });
+  if (minima.size() > kMostStarts) minima.resize(kMostStarts);
+  std::vector<double> starts;
+  for (const std::size_t i : minima) starts.push_back(orientation(i));
+  return starts;
+}
+
+std::vector<Hypothesis> HypothesesOf(const FitProblem& problem, const LogRatios& light) {
+  std::vector<Hypothesis> hypotheses;
+  for (const double start_rad : StartsOf(problem, light)) {
+    Hypothesis hypothesis;
+    hypothesis.state = Refined(problem, AtOrientation(start_rad), kFixedRadius_sd);
+    if (!std::isfinite(hypothesis.state.squares)) continue;
+    hypothesis.colour_misfit = problem.ColourMisfitAt(hypothesis.state.unknowns, light);
+    hypothesis.cost = hypothesis.state.squares + hypothesis.colour_misfit;
+    hypotheses.push_back(hypothesis);
+  }
+  std::sort(hypotheses.begin(), hypotheses.end(),
+            [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; });
+  return hypotheses;
+}
+
+double MarginOf(const std::vector<Hypothesis>& hypotheses) {
+  const Hypothesis& best = hypotheses.front();
+  for (const Hypothesis& other : hypotheses) {
+    const double turn_rad = math::WrapAngle(other.state.unknowns[2] - best.state.unknowns[2]);
+    if (std::abs(turn_rad) > kOtherOrientation_rad) return other.cost - best.cost;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry& eyes,
+                                       const ColourCylinder& cylinder, const RegionPair& candidate,
+                                       const LogRatios& light, const RobustFinderParams& params) {
+  const FitProblem problem(pair, eyes, cylinder, candidate, params);
+  const std::vector<Hypothesis> hypotheses = HypothesesOf(problem, light);
+  if (hypotheses.empty()) return std::nullopt;
+  const Hypothesis& best = hypotheses.front();
+  CylinderFit fit;
+  fit.place = problem.PlaceOf(best.state.unknowns);
+  fit.place.orientation_rad = math::WrapAngle(fit.place.orientation_rad);
+  fit.cost = best.cost;
+  fit.misfit = best.state.squares / problem.samples();
+  fit.colour_misfit = best.colour_misfit;
+  fit.margin = MarginOf(hypotheses);
+  fit.height_m = problem.height_m();
+  const double factor = std::max(fit.misfit, 1.0);
+  fit.covariance = factor * best.state.information.inverse().topLeftCorner<4, 4>();
+  const FitState free = Refined(problem, best.state.unknowns, kFreeRadius_sd);
+  const CylinderPlace free_place = problem.PlaceOf(free.unknowns);
+  fit.free_depth_m = (free_place.p_LT_L - eyes.centre_L).dot(eyes.forward_L);
+  fit.radius_ratio = 1.0 + free.unknowns[4];
+  fit.radius_ratio_sd = std::sqrt(factor * free.information.inverse()(4, 4));
+  return fit;
+}
+
+}  // namespace rockyard::vision
