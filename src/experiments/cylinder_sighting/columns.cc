@@ -52,6 +52,7 @@ truth::RecordSchema MakeSightingColumns() {
       {"measurements", "1", "pairs of images", kTrials},
   };
   AddFinder("published", "the published finder", kMainCount, columns);
+  AddFinder("robust", "rockyard's own finder", kCount, columns);
   return columns;
 }
 

@@ -19,6 +19,7 @@
 #include "rendering/cylinder/cylinder_renderer.h"
 #include "truth/measurement_record.h"
 #include "vision/cylinder/published_finder.h"
+#include "vision/cylinder/robust_finder.h"
 
 namespace rockyard::experiments {
 namespace {
@@ -80,7 +81,7 @@ CylinderSightingExperiment::CylinderSightingExperiment(const CylinderSightingPar
     : params_(params), table_(params.Factors()), schema_(SchemaOfSightings(table_)) {}
 
 StudiedView CylinderSightingExperiment::Draw(std::size_t cell, core::TrialKey key) const {
-  StudiedView studied{params_.picture, {}, params_.published};
+  StudiedView studied{params_.picture, {}, params_.published, params_.robust};
   core::RandomStream stream(key, core::Purpose::kExperiment);
   studied.view.present = params_.present;
   studied.view.orientation_rad = SampleUniform(stream, -std::numbers::pi, std::numbers::pi);
@@ -94,6 +95,7 @@ StudiedView CylinderSightingExperiment::Draw(std::size_t cell, core::TrialKey ke
   studied.view.distance_m *= 1.0 + spread;
   if (studied.picture.target.third_colour == rendering::ThirdColour::kGreen) {
     studied.published.classes.red = vision::GreenRatios();
+    studied.robust.surfaces.third = vision::kGreenSurface;
   }
   studied.published.sky_share =
       SkyShare(studied.picture, rendering::CylinderCameras(studied.picture, studied.view)[0]);
@@ -118,10 +120,10 @@ SightingSums CylinderSightingExperiment::Measure(std::size_t cell, core::TrialKe
       const vision::ColourImage right = readout.Read(counts[1], scene, 2 * j + 1);
       const vision::ColourPair pair{left, right, {cameras[0], size}, {cameras[1], size}};
       sums.measurements += 1.0;
-      JudgeSighting(truth,
-                    vision::FindCylinderAsPublished(pair, ShapeOf(studied.picture),
-                                                    studied.published),
+      const vision::ColourCylinder shape = ShapeOf(studied.picture);
+      JudgeSighting(truth, vision::FindCylinderAsPublished(pair, shape, studied.published),
                     sums.published);
+      JudgeSighting(truth, vision::FindCylinder(pair, shape, studied.robust), sums.robust);
     }
   }
   return sums;

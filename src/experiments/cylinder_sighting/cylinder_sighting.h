@@ -20,6 +20,7 @@ struct StudiedView {
   rendering::CylinderPictureParams picture;
   rendering::CylinderView view;
   vision::PublishedFinderParams published;
+  vision::RobustFinderParams robust;
 };
 
 class CylinderSightingExperiment final : public Experiment {

@@ -89,6 +89,7 @@ void CylinderSightingParams::Visit(core::FieldVisitor& v) {
   VisitDraws(*this, v);
   v.Group("picture", picture, "what the cameras see");
   v.Group("published", published, "the finder of Matthies 1995 app. A");
+  v.Group("robust", robust, "rockyard's own finder");
   v.Require("distances_m", !distances_m.empty(), "is empty", "list at least one, e.g. 5");
   v.Require("distances_m", Cells() <= kMaxCells, "and the other lists name more than 2000 cells",
             "shorten the lists");

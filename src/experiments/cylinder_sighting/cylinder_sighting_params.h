@@ -8,6 +8,7 @@
 #include "experiments/cell_factor_params.h"
 #include "rendering/cylinder/cylinder_params.h"
 #include "vision/cylinder/published_finder_params.h"
+#include "vision/cylinder/robust_finder_params.h"
 
 namespace rockyard::experiments {
 
@@ -25,6 +26,7 @@ struct CylinderSightingParams {
   bool present = true;
   rendering::CylinderPictureParams picture;
   vision::PublishedFinderParams published;
+  vision::RobustFinderParams robust;
 
   std::vector<CellFactor> Factors() const;
   double Cells() const { return CellsOf(Factors()); }

@@ -44,6 +44,7 @@ struct FinderSums {
 struct SightingSums {
   double measurements = 0.0;
   FinderSums published;
+  FinderSums robust;
 };
 
 // Calls f(name, value) for every column of a finder, in the order of the records.
@@ -73,6 +74,7 @@ template <typename F>
 void ForEachSum(const SightingSums& s, F&& f) {
   f("measurements", s.measurements);
   ForEachFinderSum("published", s.published, f);
+  ForEachFinderSum("robust", s.robust, f);
 }
 
 }  // namespace rockyard::experiments
