@@ -71,7 +71,7 @@ bool Touch(const ColourRun& above, const ColourRun& below, RegionColours colours
 }
 
 // Joins the runs that touch from row to row.
-void JoinRows(const std::vector<ColourRun>& runs, RegionColours colours, RunSets& sets) {
+void JoinRunRows(const std::vector<ColourRun>& runs, RegionColours colours, RunSets& sets) {
   std::size_t above = 0;  // the first run that may still touch one of this row
   for (std::size_t i = 0; i < runs.size(); ++i) {
     while (runs[above].row < runs[i].row - 1 ||
@@ -108,7 +108,7 @@ std::vector<ColourRegion> FindRegions(const ClassImage& classes, const ImagePart
          part.bottom < classes.height());
   const std::vector<ColourRun> runs = RunsOf(classes, part, colours);
   RunSets sets(runs.size());
-  JoinRows(runs, colours, sets);
+  JoinRunRows(runs, colours, sets);
   std::vector<ColourRegion> regions;
   std::vector<std::size_t> region_of(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {

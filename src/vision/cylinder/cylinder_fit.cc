@@ -24,12 +24,12 @@ constexpr double kConverged = 1e-3;  // of the cost, per residual's variance
 constexpr double kFixedRadius_sd = 1e-4;
 constexpr double kFreeRadius_sd = 1.0;
 
-using Normal5 = Eigen::Matrix<double, 5, 5>;
+using FitInformation = Eigen::Matrix<double, 5, 5>;
 
 struct FitState {
   FitUnknowns unknowns = FitUnknowns::Zero();
   double squares = std::numeric_limits<double>::infinity();
-  Normal5 information = Normal5::Identity();
+  FitInformation information = FitInformation::Identity();
 };
 
 double SquaresAt(const FitProblem& problem, const FitUnknowns& unknowns, double radius_sd) {
@@ -55,7 +55,7 @@ std::optional<Eigen::MatrixXd> Derivatives(const FitProblem& problem, const FitU
 }
 
 // Gauss-Newton with Levenberg's damping from a start.
-FitState Refined(const FitProblem& problem, const FitUnknowns& start, double radius_sd) {
+FitState RefinedFrom(const FitProblem& problem, const FitUnknowns& start, double radius_sd) {
   FitState state;
   state.unknowns = start;
   double damping = 1e-3;
@@ -66,7 +66,7 @@ FitState Refined(const FitProblem& problem, const FitUnknowns& start, double rad
     state.squares = residuals->squaredNorm();
     state.information = derivatives->transpose() * *derivatives;
     const FitUnknowns gradient = derivatives->transpose() * *residuals;
-    Normal5 damped = state.information;
+    FitInformation damped = state.information;
     damped.diagonal() *= 1.0 + damping;
     const FitUnknowns next = state.unknowns - damped.ldlt().solve(gradient);
     const double squares = next.allFinite() ? SquaresAt(problem, next, radius_sd)
@@ -128,7 +128,7 @@ std::vector<Hypothesis> HypothesesOf(const FitProblem& problem, const LogRatios&
   std::vector<Hypothesis> hypotheses;
   for (const double start_rad : StartsOf(problem, light)) {
     Hypothesis hypothesis;
-    hypothesis.state = Refined(problem, AtOrientation(start_rad), kFixedRadius_sd);
+    hypothesis.state = RefinedFrom(problem, AtOrientation(start_rad), kFixedRadius_sd);
     if (!std::isfinite(hypothesis.state.squares)) continue;
     hypothesis.colour_misfit = problem.ColourMisfitAt(hypothesis.state.unknowns, light);
     hypothesis.cost = hypothesis.state.squares + hypothesis.colour_misfit;
@@ -167,7 +167,7 @@ std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry
   fit.height_m = problem.height_m();
   const double factor = std::max(fit.misfit, 1.0);
   fit.covariance = factor * best.state.information.inverse().topLeftCorner<4, 4>();
-  const FitState free = Refined(problem, best.state.unknowns, kFreeRadius_sd);
+  const FitState free = RefinedFrom(problem, best.state.unknowns, kFreeRadius_sd);
   const CylinderPlace free_place = problem.PlaceOf(free.unknowns);
   fit.free_depth_m = (free_place.p_LT_L - eyes.centre_L).dot(eyes.forward_L);
   fit.radius_ratio = 1.0 + free.unknowns[4];

@@ -25,7 +25,7 @@ Eigen::Vector3d ColourAt(const ColourImage& image, int x, int y) {
 }
 
 // The mean over a rectangle, ends inclusive.
-Eigen::Vector3d MeanOf(const ColourImage& image, int left, int right, int top, int bottom) {
+Eigen::Vector3d MeanColour(const ColourImage& image, int left, int right, int top, int bottom) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) sum += ColourAt(image, x, y);
@@ -76,12 +76,12 @@ double RowsOfWall(const ColourImage& image, int left, int right, int end, int mi
                   const Eigen::Vector3d& wall) {
   const int step = end < middle ? 1 : -1;
   const int background_last = end + step * (kBackgroundRows - 1);
-  const Eigen::Vector3d beyond =
-      MeanOf(image, left, right, std::min(end, background_last), std::max(end, background_last));
+  const Eigen::Vector3d beyond = MeanColour(image, left, right, std::min(end, background_last),
+                                            std::max(end, background_last));
   const Eigen::Vector3d change = wall - beyond;
   double rows = 0.0;
   for (int y = end; y != middle; y += step) {
-    const Eigen::Vector3d colour = MeanOf(image, left, right, y, y);
+    const Eigen::Vector3d colour = MeanColour(image, left, right, y, y);
     const double share = change.dot(colour - beyond) / std::max(change.squaredNorm(), 1.0);
     rows += std::clamp(share, 0.0, 1.0);
   }
@@ -94,7 +94,8 @@ void FindRims(const ColourImage& image, const ColourRegion& box, EyeProfile& pro
   const int right = box.right - aside_px;
   const int middle = (box.top + box.bottom) / 2;
   const int quarter = box.Height() / 4;
-  const Eigen::Vector3d wall = MeanOf(image, left, right, box.top + quarter, box.bottom - quarter);
+  const Eigen::Vector3d wall =
+      MeanColour(image, left, right, box.top + quarter, box.bottom - quarter);
   const int above = std::max(box.top - kMixed_px - kBackgroundRows, 0);
   const int below = std::min(box.bottom + kMixed_px + kBackgroundRows, image.height() - 1);
   profile.upper_rim_px = middle - 0.5 - RowsOfWall(image, left, right, above, middle, wall);
@@ -113,7 +114,7 @@ EyeProfile ProfileOf(const ColourImage& image, const ColourRegion& box,
   const int last_column = std::min(box.right + around_px, image.width() - 1);
   const int first_row = box.top + static_cast<int>(kUpperShare * box.Height());
   const int last_row = box.bottom - (first_row - box.top);
-  profile.level = MeanOf(image, box.left, box.right, first_row, last_row).mean();
+  profile.level = MeanColour(image, box.left, box.right, first_row, last_row).mean();
   const int rows = last_row - first_row + 1;
   const int bands = std::min(rows, kMostBands);
   for (int i = 0; i < bands; ++i) {
@@ -122,7 +123,7 @@ EyeProfile ProfileOf(const ColourImage& image, const ColourRegion& box,
     ProfileBand band;
     band.row = 0.5 * (top + bottom);
     for (int x = profile.first_column; x <= last_column; ++x) {
-      band.colours.push_back(MeanOf(image, x, x, top, bottom));
+      band.colours.push_back(MeanColour(image, x, x, top, bottom));
     }
     const double surface_grey = params.surface_noise * profile.level;
     const double inside_variance =

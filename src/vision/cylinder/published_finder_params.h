@@ -7,7 +7,7 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
-#include "vision/cylinder/colour_classes.h"
+#include "vision/cylinder/colour_class_params.h"
 
 namespace rockyard::vision {
 

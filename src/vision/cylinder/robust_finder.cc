@@ -28,8 +28,8 @@ struct JudgedCandidate {
 // What a radius may differ by from the cylinder's: a share, or so many standard deviations.
 constexpr double kRadiusSigmas = 4.0;
 
-void Judge(const CylinderFit& fit, const ColourCylinder& cylinder, const RobustFinderParams& params,
-           JudgedCandidate& candidate) {
+void JudgeFit(const CylinderFit& fit, const ColourCylinder& cylinder,
+              const RobustFinderParams& params, JudgedCandidate& candidate) {
   const auto refuse = [&](CylinderMiss miss, std::string reason) {
     candidate.miss = miss;
     candidate.reason = std::move(reason);
@@ -156,7 +156,7 @@ std::vector<JudgedCandidate> JudgeAll(const ColourPair& pair, const EyeGeometry&
     candidate.regions = one;
     candidate.fit = FitCylinder(pair, eyes, cylinder, one, light, params);
     if (candidate.fit) {
-      Judge(*candidate.fit, cylinder, params, candidate);
+      JudgeFit(*candidate.fit, cylinder, params, candidate);
     } else {
       candidate.miss = CylinderMiss::kNotACylinder;
       candidate.reason = "it cannot be imaged where both eyes show it";

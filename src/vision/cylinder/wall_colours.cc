@@ -13,17 +13,17 @@ namespace {
 
 // Quadrants seen at once, and the terms of each.
 constexpr int kMostParts = 3;
-constexpr int kTerms = 3;
-constexpr int kUnknowns = kMostParts * kTerms;
+constexpr int kWallTerms = 3;
+constexpr int kWallUnknowns = kMostParts * kWallTerms;
 constexpr int kPrimaries = 3;
 // A quadrant's level lies about that of the whole within so many times it.
 constexpr double kLevelSpread = 3.0;
 // Beyond so many standard deviations an edge's blur is over.
 constexpr double kBlurEnd = 4.0;
 
-using Terms = Eigen::Vector3d;
-using Unknowns = Eigen::Matrix<double, kUnknowns, kPrimaries>;
-using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+using WallTerms = Eigen::Vector3d;
+using WallUnknowns = Eigen::Matrix<double, kWallUnknowns, kPrimaries>;
+using WallNormal = Eigen::Matrix<double, kWallUnknowns, kWallUnknowns>;
 
 // The share of a pixel right of an edge that lies `right_px` left of its middle.
 double ShareBeyond(double right_px, double blur_px) {
@@ -33,7 +33,7 @@ double ShareBeyond(double right_px, double blur_px) {
   return 0.5 * std::erfc(-x / std::numbers::sqrt2);
 }
 
-Terms TermsAt(double t) {
+WallTerms TermsAt(double t) {
   const double inside = std::clamp(t, -1.0, 1.0);
   return {1.0, inside, std::sqrt(1.0 - inside * inside) - 0.25 * std::numbers::pi};
 }
@@ -43,7 +43,7 @@ struct Mixture {
   std::array<double, kMostParts> parts{};
   double left = 1.0;  // of the background
   double right = 0.0;
-  Terms terms = Terms::UnitX();
+  WallTerms terms = WallTerms::UnitX();
 };
 
 // The columns of a view's lines at a band.
@@ -113,15 +113,16 @@ class WallProblem {
         for (int part = 0; part < parts_; ++part) {
           const double share = mixture.parts.at(static_cast<std::size_t>(part));
           if (share == 0.0) continue;
-          left -= share * unknowns_.middleRows<kTerms>(kTerms * part).transpose() * mixture.terms;
+          left -= share * unknowns_.middleRows<kWallTerms>(kWallTerms * part).transpose() *
+                  mixture.terms;
         }
         left *= std::sqrt(band.weights[i]);
         residuals.insert(residuals.end(), left.data(), left.data() + kPrimaries);
       }
     }
-    for (int i = 0; i < kUnknowns; ++i) {
+    for (int i = 0; i < kWallUnknowns; ++i) {
       for (int primary = 0; primary < kPrimaries; ++primary) {
-        residuals.push_back(roots_[i % kTerms] * unknowns_(i, primary));
+        residuals.push_back(roots_[i % kWallTerms] * unknowns_(i, primary));
       }
     }
   }
@@ -129,12 +130,12 @@ class WallProblem {
   void AppendColours(std::vector<QuadrantColour>& colours) const {
     const BandView& band = bands_[bands_.size() / 2];
     for (int part = 0; part < parts_; ++part) {
-      const Terms terms = TermsAt(band.MiddleOfPart(part));
+      const WallTerms terms = TermsAt(band.MiddleOfPart(part));
       QuadrantColour colour;
       colour.quadrant = view_.quadrants[static_cast<std::size_t>(part)];
-      colour.colour = unknowns_.middleRows<kTerms>(kTerms * part).transpose() * terms;
-      colour.variance =
-          terms.dot(covariance_.block<kTerms, kTerms>(kTerms * part, kTerms * part) * terms);
+      colour.colour = unknowns_.middleRows<kWallTerms>(kWallTerms * part).transpose() * terms;
+      colour.variance = terms.dot(
+          covariance_.block<kWallTerms, kWallTerms>(kWallTerms * part, kWallTerms * part) * terms);
       colours.push_back(colour);
     }
   }
@@ -149,32 +150,34 @@ class WallProblem {
   }
 
   void Solve() {
-    Normal normal = Normal::Zero();
-    Unknowns moments = Unknowns::Zero();
-    for (int i = 0; i < kUnknowns; ++i) normal(i, i) = roots_[i % kTerms] * roots_[i % kTerms];
+    WallNormal normal = WallNormal::Zero();
+    WallUnknowns moments = WallUnknowns::Zero();
+    for (int i = 0; i < kWallUnknowns; ++i)
+      normal(i, i) = roots_[i % kWallTerms] * roots_[i % kWallTerms];
     for (std::size_t b = 0; b < bands_.size(); ++b) {
       for (std::size_t i = 0; i < profile_.bands[b].colours.size(); ++i) {
         AddSample(profile_.bands[b], i, bands_[b].At(ColumnOf(i)), normal, moments);
       }
     }
-    const Eigen::LLT<Normal> factors(normal);
+    const Eigen::LLT<WallNormal> factors(normal);
     unknowns_ = factors.solve(moments);
-    covariance_ = factors.solve(Normal::Identity());
+    covariance_ = factors.solve(WallNormal::Identity());
   }
 
-  void AddSample(const ProfileBand& band, std::size_t i, const Mixture& mixture, Normal& normal,
-                 Unknowns& moments) const {
+  void AddSample(const ProfileBand& band, std::size_t i, const Mixture& mixture, WallNormal& normal,
+                 WallUnknowns& moments) const {
     const Eigen::Vector3d colour = WithoutBackground(band, i, mixture);
     const Eigen::Matrix3d outer = band.weights[i] * mixture.terms * mixture.terms.transpose();
     for (int a = 0; a < parts_; ++a) {
       const double share_a = mixture.parts.at(static_cast<std::size_t>(a));
       if (share_a == 0.0) continue;
-      moments.middleRows<kTerms>(kTerms * a) +=
+      moments.middleRows<kWallTerms>(kWallTerms * a) +=
           band.weights[i] * share_a * mixture.terms * colour.transpose();
       for (int b = 0; b < parts_; ++b) {
         const double share_b = mixture.parts.at(static_cast<std::size_t>(b));
         if (share_b == 0.0) continue;
-        normal.block<kTerms, kTerms>(kTerms * a, kTerms * b) += share_a * share_b * outer;
+        normal.block<kWallTerms, kWallTerms>(kWallTerms * a, kWallTerms * b) +=
+            share_a * share_b * outer;
       }
     }
   }
@@ -184,8 +187,8 @@ class WallProblem {
   int parts_;
   std::vector<BandView> bands_;
   Eigen::Vector3d roots_ = Eigen::Vector3d::Zero();  // of the priors' weights, by term
-  Unknowns unknowns_ = Unknowns::Zero();
-  Normal covariance_ = Normal::Zero();
+  WallUnknowns unknowns_ = WallUnknowns::Zero();
+  WallNormal covariance_ = WallNormal::Zero();
 };
 
 }  // namespace
@@ -193,7 +196,7 @@ class WallProblem {
 int ResidualsOf(const EyeProfile& profile) {
   std::size_t samples = 0;
   for (const ProfileBand& band : profile.bands) samples += band.colours.size();
-  return kPrimaries * (static_cast<int>(samples) + kUnknowns);
+  return kPrimaries * (static_cast<int>(samples) + kWallUnknowns);
 }
 
 void FitWallColours(const EyeProfile& profile, const WallView& view,
