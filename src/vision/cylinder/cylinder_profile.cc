@@ -10,7 +10,7 @@ namespace {
 
 // Bands lie within the middle half of the wall, whose ends may be curved.
 constexpr double kUpperShare = 0.25;
-constexpr int kMostBands = 4;
+constexpr int kMostBands = 3;
 // Columns about the box: mixed ones, and those that tell the background.
 constexpr int kMixed_px = 2;
 constexpr int kLeastBackground_px = 4;

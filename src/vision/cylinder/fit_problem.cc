@@ -84,42 +84,38 @@ CylinderPlace FitProblem::PlaceOf(const FitUnknowns& unknowns) const {
 }
 
 FitUnknowns FitProblem::Steps() const {
-  const double across_m = 0.05 * depth_m_ / eyes_.focal_px;
-  const double along_m = 0.1 * depth_m_ * depth_m_ / (eyes_.focal_px * eyes_.baseline_m);
+  const double across_m = 0.02 * depth_m_ / eyes_.focal_px;
+  const double along_m = 0.04 * depth_m_ * depth_m_ / (eyes_.focal_px * eyes_.baseline_m);
   const double share = across_m / cylinder_.diameter_m;
   FitUnknowns steps;
-  steps << across_m, along_m, share, 0.01, share;
+  steps << across_m, along_m, share, 2e-3, share;
   return steps;
 }
 
-bool FitProblem::Look(const CylinderPlace& place, std::vector<double>& residuals,
-                      std::vector<QuadrantColour>& colours) const {
-  for (std::size_t eye = 0; eye < 2; ++eye) {
-    const auto view = WallSeen(*cameras_.at(eye), eyes_, place, 0.5 * cylinder_.height_m);
-    if (!view) return false;
-    FitWallColours(profiles_.at(eye), *view, params_.fit, residuals, colours);
-  }
-  return true;
-}
-
-std::optional<Eigen::VectorXd> FitProblem::Residuals(const FitUnknowns& unknowns,
-                                                     double radius_sd) const {
+std::optional<FitProblem::Evaluation> FitProblem::Evaluate(const FitUnknowns& unknowns,
+                                                           double radius_sd) const {
+  if (!(unknowns[4] > -1.0)) return std::nullopt;
+  const CylinderPlace place = PlaceOf(unknowns);
+  Evaluation evaluation;
   std::vector<double> residuals;
   residuals.reserve(static_cast<std::size_t>(samples_ + 2 * kPriors + 2));
-  std::vector<QuadrantColour> colours;
-  if (!(unknowns[4] > -1.0) || !Look(PlaceOf(unknowns), residuals, colours)) return std::nullopt;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const auto view = WallSeen(*cameras_.at(eye), eyes_, place, 0.5 * cylinder_.height_m);
+    if (!view) return std::nullopt;
+    FitWallColours(profiles_.at(eye), *view, params_.fit, residuals, evaluation.colours);
+  }
   residuals.push_back(unknowns[3] / params_.fit.roll_sd_rad);
   residuals.push_back(unknowns[4] / radius_sd);
-  return Eigen::Map<const Eigen::VectorXd>(residuals.data(),
-                                           static_cast<Eigen::Index>(residuals.size()));
+  evaluation.residuals = Eigen::Map<const Eigen::VectorXd>(
+      residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+  return evaluation;
 }
 
-double FitProblem::ColourMisfitAt(const FitUnknowns& unknowns, const LogRatios& light) const {
-  std::vector<double> residuals;
-  std::vector<QuadrantColour> colours;
-  Look(PlaceOf(unknowns), residuals, colours);
+double FitProblem::ColourMisfitOf(const Evaluation& evaluation, const LogRatios& light) const {
   std::vector<SeenColour> seen;
-  for (const QuadrantColour& quadrant : Together(colours)) seen.push_back(SeenColourOf(quadrant));
+  for (const QuadrantColour& quadrant : Together(evaluation.colours)) {
+    seen.push_back(SeenColourOf(quadrant));
+  }
   return ColourMisfit(seen, light, params_.surfaces, params_.colours);
 }
 

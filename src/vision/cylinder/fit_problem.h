@@ -25,14 +25,21 @@ class FitProblem {
 
   CylinderPlace PlaceOf(const FitUnknowns& unknowns) const;
 
-  // Residuals over their standard deviations, of equal number for all places; the last two are the
-  // roll's and, about 1, the radius's prior of sd `radius_sd`. Nothing where it cannot be imaged.
-  std::optional<Eigen::VectorXd> Residuals(const FitUnknowns& unknowns, double radius_sd) const;
+  // What the eyes show of a place.
+  struct Evaluation {
+    // Residuals over their standard deviations, of equal number for all places; the last two are
+    // the roll's and, about 0, the radius's prior of sd `radius_sd`.
+    Eigen::VectorXd residuals;
+    std::vector<QuadrantColour> colours;  // of both eyes
+  };
 
-  // How unlike the quadrants' colours are those of the surfaces.
-  double ColourMisfitAt(const FitUnknowns& unknowns, const LogRatios& light) const;
+  // Nothing where the place cannot be imaged.
+  std::optional<Evaluation> Evaluate(const FitUnknowns& unknowns, double radius_sd) const;
 
-  // Steps of numerical derivatives: a fraction of a pixel each.
+  // How unlike the quadrants' colours are those of the surfaces (colour_model.h).
+  double ColourMisfitOf(const Evaluation& evaluation, const LogRatios& light) const;
+
+  // Steps of numerical derivatives: some hundredths of a pixel each.
   FitUnknowns Steps() const;
 
   // Samples of pixels among the residuals.
@@ -44,10 +51,6 @@ class FitProblem {
   double height_m() const { return height_m_; }
 
  private:
-  // Appends what both eyes leave; false where the place cannot be imaged.
-  bool Look(const CylinderPlace& place, std::vector<double>& residuals,
-            std::vector<QuadrantColour>& colours) const;
-
   // Moves the start to the middle of the rims.
   void TakeRows();
 

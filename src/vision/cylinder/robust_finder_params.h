@@ -54,13 +54,13 @@ struct CandidateParams {
 // The least squares over both eyes, and what they accept.
 struct CylinderFitParams {
   double noise_grey = 2.5;
-  double surface_noise = 0.02;
+  double surface_noise = 0.03;
   double shading_sd = 0.5;
   double edge_blur_px = 0.5;
   double roll_sd_rad = math::DegToRad(5.0);
-  double model_error_px = 0.1;
+  double model_error_px = 0.2;
   double row_error_px = 0.3;
-  double largest_misfit = 5.0;
+  double largest_misfit = 8.0;
   double largest_colour_misfit = 25.0;
   double least_margin = 12.0;
   double radius_tolerance = 0.12;

@@ -105,10 +105,11 @@ class WallProblem {
   }
 
   void AppendResiduals(std::vector<double>& residuals) const {
+    auto next = mixtures_.begin();
     for (std::size_t b = 0; b < bands_.size(); ++b) {
       const ProfileBand& band = profile_.bands[b];
       for (std::size_t i = 0; i < band.colours.size(); ++i) {
-        const Mixture mixture = bands_[b].At(ColumnOf(i));
+        const Mixture& mixture = *next++;
         Eigen::Vector3d left = WithoutBackground(band, i, mixture);
         for (int part = 0; part < parts_; ++part) {
           const double share = mixture.parts.at(static_cast<std::size_t>(part));
@@ -156,7 +157,8 @@ class WallProblem {
       normal(i, i) = roots_[i % kWallTerms] * roots_[i % kWallTerms];
     for (std::size_t b = 0; b < bands_.size(); ++b) {
       for (std::size_t i = 0; i < profile_.bands[b].colours.size(); ++i) {
-        AddSample(profile_.bands[b], i, bands_[b].At(ColumnOf(i)), normal, moments);
+        mixtures_.push_back(bands_[b].At(ColumnOf(i)));
+        AddSample(profile_.bands[b], i, mixtures_.back(), normal, moments);
       }
     }
     const Eigen::LLT<WallNormal> factors(normal);
@@ -186,6 +188,7 @@ class WallProblem {
   const WallView& view_;
   int parts_;
   std::vector<BandView> bands_;
+  std::vector<Mixture> mixtures_;                    // of all samples, band by band
   Eigen::Vector3d roots_ = Eigen::Vector3d::Zero();  // of the priors' weights, by term
   WallUnknowns unknowns_ = WallUnknowns::Zero();
   WallNormal covariance_ = WallNormal::Zero();
