@@ -18,8 +18,9 @@ void VisitColour(core::FieldVisitor& v, std::string_view name, ColourValues& col
 }
 
 constexpr std::string_view kCardboard =
-    "fluorescent cardboard (Matthies 1995 sec. 5), of which no spectrum is told; red, green, blue; "
-    "the study shifts each by 0.1 and makes it paler by 20 %";
+    "fluorescent cardboard (Matthies 1995 sec. 5), of which no spectrum is told; each channel may "
+    "be "
+    "off by some 0.1";
 
 }  // namespace
 
@@ -156,15 +157,16 @@ void ColourCameraParams::Visit(core::FieldVisitor& v) {
           .source = "bright cardboard is to stay below the largest count",
           .study_low = 0.2,
           .study_high = 0.5});
-  v.Angle("balance_elevation_deg", balance_elevation_rad,
-          {.doc = "elevation of the sun at which a level white card was grey in the image; channels "
-                  "keep that balance in any light",
-           .min = 5.0,
-           .max = 90.0,
-           .origin = Origin::kAssumed,
-           .source = "a calibration target in the light of the experiment",
-           .study_low = 20.0,
-           .study_high = 70.0});
+  v.Angle(
+      "balance_elevation_deg", balance_elevation_rad,
+      {.doc = "elevation of the sun at which a level white card was grey in the image; channels "
+              "keep that balance in any light",
+       .min = 5.0,
+       .max = 90.0,
+       .origin = Origin::kAssumed,
+       .source = "a calibration target in the light of the experiment",
+       .study_low = 20.0,
+       .study_high = 70.0});
   v.Real("gamma", gamma,
          {.doc = "power of the light that counts are in proportion to",
           .min = 0.3,
@@ -176,11 +178,9 @@ void ColourCameraParams::Visit(core::FieldVisitor& v) {
 }
 
 void CylinderLightParams::Visit(core::FieldVisitor& v) {
-  v.Angle("elevation_deg", elevation_rad,
-          {.doc = "of the sun above the horizon",
-           .min = 1.0,
-           .max = 90.0,
-           .origin = Origin::kSetting});
+  v.Angle(
+      "elevation_deg", elevation_rad,
+      {.doc = "of the sun above the horizon", .min = 1.0, .max = 90.0, .origin = Origin::kSetting});
   v.Angle("azimuth_deg", azimuth_rad,
           {.doc = "towards the sun, from the cameras' line of sight to the left: 180 is behind the "
                   "cameras",
