@@ -146,6 +146,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddRenderCommand(app, exit_code);
   AddStereoCommand(app);
   AddVoCommand(app, exit_code);
+  AddCylinderCommand(app, exit_code);
   AddCalibrateCommand(app);
   AddTraceCommand(app, exit_code);
   AddReplayCommand(app, exit_code);

@@ -63,6 +63,12 @@ constexpr CommandExample kExamples[] = {
      "of KITTI's layout, with the cameras of its calib.txt"},
     {"vo", "rockyard vo MH_01_easy --cameras cameras.json --every 2 --out path",
      "every second pair of a sequence of EuRoC"},
+    {"cylinder", "rockyard cylinder left.png right.png --cameras cameras.json --out seen",
+     "where the cylinder is, with a picture of its regions"},
+    {"cylinder",
+     "rockyard cylinder left.png right.png --cameras cameras.json --param "
+     "robust.surfaces.third=[0.15,0.8,0.25]",
+     "one with a green quadrant in place of the orange one"},
     {"calibrate", "rockyard calibrate board*.png --target board.json --out camera",
      "one camera from images of a chessboard"},
     {"calibrate",

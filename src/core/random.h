@@ -60,6 +60,11 @@ enum class Purpose : std::uint32_t {
   kRadioBeacon = 49,
   kLanderMap = 50,     // of the lander's stereo pair, for planning a route
   kVisualMotion = 51,  // the error of a visual odometry step, where no images are matched
+  // Of the coloured cylinder before the lander's cameras: what stands around it, the ground's
+  // texture (substream octave, by node), noise of pixels (substream image and channel).
+  kCylinderScene = 55,
+  kCylinderGround = 56,
+  kCylinderNoise = 57,
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.

@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include "core/fields.h"
+#include "experiments/cylinder_sighting/checks_params.h"
+#include "experiments/cylinder_sighting/cylinder_sighting_params.h"
 #include "experiments/dead_reckoning/checks_params.h"
 #include "experiments/dead_reckoning/dead_reckoning_walk_params.h"
 #include "experiments/designation/checks_params.h"
@@ -35,15 +37,16 @@ enum class ExperimentKind {
   kThreeRockRun,     // a drive among three rocks that goes as a published one is told
   kDesignation,      // where operators put goals in the lander's images
   kVisualMotion,     // how well visual odometry measures one motion
+  kCylinderSighting,  // where the coloured cylinder on the rover is seen from the lander
 };
 
 }  // namespace rockyard::experiments
 
 template <>
 struct rockyard::core::EnumNames<rockyard::experiments::ExperimentKind> {
-  static constexpr std::array<std::string_view, 7> kNames{
+  static constexpr std::array<std::string_view, 8> kNames{
       "drive",          "hazard_detection", "stereo_sensing", "dead_reckoning",
-      "three_rock_run", "designation",      "visual_motion"};
+      "three_rock_run", "designation",      "visual_motion",  "cylinder_sighting"};
 };
 
 namespace rockyard::experiments {
@@ -56,6 +59,7 @@ struct ExperimentParams {
   ThreeRockRunParams three_rock_run;
   DesignationStudyParams designation;
   VisualMotionStudyParams visual_motion;
+  CylinderSightingParams cylinder_sighting;
 
   // Lists the field "experiment", and the group of each experiment that has parameters of its own,
   // in the group that is being visited.
@@ -69,6 +73,7 @@ struct ExperimentParams {
     v.Group("three_rock_run", three_rock_run, "the experiment of that name");
     v.Group("designation", designation, "the experiment of that name");
     v.Group("visual_motion", visual_motion, "the experiment of that name");
+    v.Group("cylinder_sighting", cylinder_sighting, "the experiment of that name");
   }
 
   // What the experiment in use asks of the drive.
@@ -101,6 +106,10 @@ struct ExperimentParams {
       case ExperimentKind::kVisualMotion:
         trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
         RequireVisualMotion(visual_motion, drive, v);
+        return;
+      case ExperimentKind::kCylinderSighting:
+        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
+        RequireSightable(cylinder_sighting, v);
         return;
     }
   }

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "experiments/cylinder_sighting/columns.h"
+#include "experiments/cylinder_sighting/cylinder_sighting.h"
 #include "experiments/dead_reckoning/columns.h"
 #include "experiments/dead_reckoning/dead_reckoning.h"
 #include "experiments/designation/columns.h"
@@ -42,6 +44,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
       return std::make_unique<DesignationExperiment>(experiment.designation, drive.course);
     case ExperimentKind::kVisualMotion:
       return std::make_unique<VisualMotionExperiment>(experiment.visual_motion, drive);
+    case ExperimentKind::kCylinderSighting:
+      return std::make_unique<CylinderSightingExperiment>(experiment.cylinder_sighting);
   }
   throw std::logic_error("unknown experiment");
 }
@@ -51,7 +55,8 @@ truth::RecordSchema WithRoles(truth::RecordSchema stored) {
   std::ptrdiff_t most = 0;
   for (const truth::RecordSchema* columns :
        {&DriveSchema(), &HazardColumns(), &StereoColumns(), &DeadReckoningColumns(),
-        &ThreeRockColumns(), &DesignationColumns(), &VisualMotionColumns()}) {
+        &ThreeRockColumns(), &DesignationColumns(), &VisualMotionColumns(),
+        &CylinderSightingColumns()}) {
     const auto known = std::count_if(
         stored.begin(), stored.end(),
         [&](const truth::ValueInfo& column) { return truth::FindColumn(*columns, column.name); });

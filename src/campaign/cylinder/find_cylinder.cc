@@ -1,0 +1,118 @@
+#include "campaign/cylinder/find_cylinder.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string_view>
+
+#include "campaign/cylinder/cylinder_json.h"
+#include "campaign/cylinder/cylinder_picture.h"
+#include "core/archive.h"
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/json_text.h"
+#include "image_files/png_file.h"
+#include "image_files/read_image.h"
+#include "vision/cameras/camera_file.h"
+#include "vision/cylinder/published_finder.h"
+#include "vision/cylinder/robust_finder.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+CylinderParams CylinderParamsOf(const CylinderRequest& request) {
+  core::JsonValue document = core::JsonValue::Object();
+  for (const std::string& setting : request.settings) core::ApplyOverride(document, setting);
+  CylinderParams params;
+  core::ReadParams(document, params);
+  return params;
+}
+
+std::string PixelsText(int columns, int rows) { return fmt::format("{} x {}", columns, rows); }
+
+void CheckColourPair(const CylinderRequest& request, const vision::ColourImage& left,
+                     const vision::ColourImage& right) {
+  if (left.width() != right.width() || left.height() != right.height()) {
+    throw core::UserError(
+        request.right.string(),
+        fmt::format("has {} pixels, the left image {}", PixelsText(right.width(), right.height()),
+                    PixelsText(left.width(), left.height())),
+        "give two images that were taken together, of one size");
+  }
+  if (left == right) {
+    throw core::UserError(request.right.string(),
+                          "shows the same as the left image, pixel by pixel",
+                          "give the image of the other eye");
+  }
+}
+
+void CheckCamera(const CylinderRequest& request, std::string_view eye,
+                 const vision::CameraModel& camera, const vision::ColourImage& image) {
+  if (camera.size.columns == image.width() && camera.size.rows == image.height()) return;
+  throw core::UserError(request.cameras.string(),
+                        fmt::format("{} is a camera of {} pixels, the image has {}", eye,
+                                    PixelsText(camera.size.columns, camera.size.rows),
+                                    PixelsText(image.width(), image.height())),
+                        "give the cameras of these very images, not of larger or smaller ones");
+}
+
+std::uint8_t ToByte(std::uint16_t sample, int full_scale) {
+  const int clipped = sample < full_scale ? sample : full_scale;
+  return static_cast<std::uint8_t>((510 * clipped + full_scale) / (2 * full_scale));
+}
+
+}  // namespace
+
+void CylinderParams::Visit(core::FieldVisitor& v) {
+  v.Group("cylinder", cylinder, "the cylinder");
+  v.Group("robust", robust, "of the finder that is used without --published");
+  v.Group("published", published, "of the published finder, which --published uses");
+}
+
+vision::ColourImage ReadColour(const fs::path& path, std::string& what) {
+  const image_files::RawImage raw = image_files::ReadImage(path);
+  if (!raw.is_colour()) {
+    throw core::UserError(path.string(), "is grey, and the cylinder is known by its colours",
+                          "give colour images: red, green and blue");
+  }
+  what = image_files::DescribeImage(raw);
+  if (raw.full_scale != 255) what += fmt::format("; scaled by 255 / {}", raw.full_scale);
+  vision::ColourImage image(raw.width(), raw.height());
+  for (int y = 0; y < raw.height(); ++y) {
+    for (int x = 0; x < raw.width(); ++x) {
+      const auto primary = [&](std::size_t plane) {
+        return ToByte(raw.planes[plane].At(x, y), raw.full_scale);
+      };
+      image.At(x, y) = {primary(0), primary(1), primary(2)};
+    }
+  }
+  return image;
+}
+
+CylinderResult FindCylinderInFiles(const CylinderRequest& request) {
+  CylinderResult result;
+  result.params = CylinderParamsOf(request);
+  const vision::ColourImage left = ReadColour(request.left, result.read[0]);
+  const vision::ColourImage right = ReadColour(request.right, result.read[1]);
+  CheckColourPair(request, left, right);
+  const vision::CameraPair cameras = vision::LoadCameraPair(request.cameras);
+  CheckCamera(request, "left", cameras.left, left);
+  CheckCamera(request, "right", cameras.right, right);
+  const vision::ColourPair pair{left, right, cameras.left, cameras.right};
+  result.finding =
+      request.finder == CylinderFinder::kPublished
+          ? vision::FindCylinderAsPublished(pair, result.params.cylinder, result.params.published)
+          : vision::FindCylinder(pair, result.params.cylinder, result.params.robust);
+  if (request.out.empty()) return result;
+  OutputFolder folder(request.out);
+  folder.Write("regions", "regions.png",
+               image_files::EncodePng(CylinderPicture(left, right, result.finding)));
+  result.files = folder.files();
+  folder.Write("summary", "cylinder.json", core::DumpJson(CylinderJson(request, result)));
+  result.files = folder.files();
+  return result;
+}
+
+}  // namespace rockyard::campaign

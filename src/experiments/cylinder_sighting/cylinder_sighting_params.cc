@@ -1,0 +1,101 @@
+#include "experiments/cylinder_sighting/cylinder_sighting_params.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace rockyard::experiments {
+namespace {
+
+using core::Origin;
+
+void VisitCells(CylinderSightingParams& p, core::FieldVisitor& v) {
+  v.Reals("distances_m", p.distances_m,
+          {.doc = "from the cameras' centre of rotation along the ground to the cylinder's axis",
+           .min = 0.5,
+           .max = 25.0,
+           .origin = Origin::kPublished,
+           .source = "Matthies 1995 sec. 5: 0.914, 1.829, 4.572 and 10.058 m, and 15 m"});
+  v.Reals("orientations_deg", p.orientations_deg,
+          {.doc = "theta of app. A.1; an empty list: each view has one of its own, of all alike",
+           .min = -360.0,
+           .max = 360.0,
+           .origin = Origin::kSetting});
+  v.Reals("sun_elevations_deg", p.sun_elevations_deg,
+          {.doc = "values of picture.light.elevation_deg",
+           .min = 1.0,
+           .max = 90.0,
+           .origin = Origin::kSetting});
+  v.Reals("clutter_levels", p.clutter_levels,
+          {.doc = "factors of picture.clutter.rocks and hardware",
+           .min = 0.0,
+           .max = 10.0,
+           .origin = Origin::kSetting});
+  v.Reals("third_colours", p.third_colours,
+          {.doc = "the quadrant opposite to blue: 0 orange, 1 green",
+           .min = 0.0,
+           .max = 1.0,
+           .origin = Origin::kSetting});
+}
+
+void VisitDraws(CylinderSightingParams& p, core::FieldVisitor& v) {
+  v.Boolean("any_sun_azimuth", p.any_sun_azimuth,
+            {.doc = "each view has a sun's azimuth of its own, of all alike, in place of "
+                    "picture.light.azimuth_deg",
+             .origin = Origin::kSetting});
+  v.Angle("largest_bearing_deg", p.largest_bearing_rad,
+          {.doc = "the cylinder stands to the left or right of the line of sight by up to this, "
+                  "uniformly",
+           .min = 0.0,
+           .max = 60.0,
+           .origin = Origin::kSetting});
+  v.Real("distance_spread", p.distance_spread,
+         {.doc = "distances are drawn uniformly within this share of that of the cell",
+          .min = 0.0,
+          .max = 0.5,
+          .origin = Origin::kSetting});
+  v.Boolean("present", p.present,
+            {.doc = "the cylinder is there; without it every finding is wrong",
+             .origin = Origin::kSetting});
+}
+
+}  // namespace
+
+std::vector<CellFactor> CylinderSightingParams::Factors() const {
+  std::vector<CellFactor> factors{{"distance_m", distances_m}};
+  const auto add = [&](std::string_view column, const std::vector<double>& values) {
+    if (!values.empty()) factors.push_back({column, values});
+  };
+  add("orientation_deg", orientations_deg);
+  add("sun_elevation_deg", sun_elevations_deg);
+  add("clutter_level", clutter_levels);
+  add("third_colour", third_colours);
+  return factors;
+}
+
+void CylinderSightingParams::Visit(core::FieldVisitor& v) {
+  v.Integer("views_per_run", views_per_run,
+            {.doc = "views of one run, all of one cell, each with surroundings of its own; run i "
+                    "belongs to cell i modulo their number",
+             .min = 1,
+             .max = 100000,
+             .origin = Origin::kSetting});
+  v.Integer("measurements_per_view", measurements_per_view,
+            {.doc = "pairs of images of one view, which differ in their noise",
+             .min = 1,
+             .max = 10000,
+             .origin = Origin::kPublished,
+             .source = "Matthies 1995 sec. 5: ten measurements at each position and orientation"});
+  VisitCells(*this, v);
+  VisitDraws(*this, v);
+  v.Group("picture", picture, "what the cameras see");
+  v.Group("published", published, "the finder of Matthies 1995 app. A");
+  v.Group("robust", robust, "rockyard's own finder");
+  v.Require("distances_m", !distances_m.empty(), "is empty", "list at least one, e.g. 5");
+  v.Require("distances_m", Cells() <= kMaxCells, "and the other lists name more than 2000 cells",
+            "shorten the lists");
+  v.Require("distances_m", picture.clutter.farthest_m < picture.backdrop.horizon_distance_m,
+            "cannot be seen: clutter lies behind the hills (picture.backdrop.horizon_distance_m)",
+            "move the hills away");
+}
+
+}  // namespace rockyard::experiments

@@ -1,0 +1,137 @@
+#include "rendering/cylinder/backdrop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/distributions.h"
+#include "math/angles.h"
+
+namespace rockyard::rendering {
+namespace {
+
+using math::Vector3;
+
+constexpr int kHueOctave = 7;          // 0.5 m
+constexpr int kHorizonNodes = 1024;    // along the hills' edge, half on either side
+constexpr double kHorizonNode_m = 4.0;  // between them
+
+// What a line of the image looks along: direction = A + (row - c_v) / f V' + (column - c_h) / f H'.
+struct LineOfSight {
+  double ahead = 1.0;  // per unit along the axis
+  double up = 0.0;
+  double aside_per_column = 0.0;  // to the left
+  double aside_first = 0.0;       // of column 0
+};
+
+LineOfSight LineAt(const vision::Cahv& camera, double row) {
+  const double middle_row = camera.V.dot(camera.A);
+  const Vector3 down_f = camera.V - middle_row * camera.A;
+  const double middle_column = camera.H.dot(camera.A);
+  const Vector3 right_f = camera.H - middle_column * camera.A;
+  const Vector3 direction = camera.A + (row - middle_row) / down_f.squaredNorm() * down_f;
+  const double per_column = right_f.y() / right_f.squaredNorm();
+  return {direction.x(), direction.z(), per_column, -middle_column * per_column};
+}
+
+// How far along the axis a line of the image meets the ground; nothing at or above the level.
+std::optional<double> ToGround(const vision::Cahv& camera, const LineOfSight& line) {
+  if (line.up >= 0.0) return std::nullopt;
+  return -camera.C.z() / line.up;
+}
+
+}  // namespace
+
+Backdrop::Backdrop(const BackdropParams& params, const ColourLight& light, core::TrialKey key)
+    : params_(params), sky_(light.sky()), texture_(key) {
+  const Colour ground = ToColour(params.ground);
+  ground_ = ground * light.On(Vector3::UnitZ());
+  const double slope_rad = math::DegToRad(60.0);
+  hills_ = ground * light.On({-std::sin(slope_rad), 0.0, std::cos(slope_rad)});
+  core::RandomStream stream(key, core::Purpose::kCylinderScene, 2);
+  for (int i = 0; i < kHorizonNodes; ++i) {
+    relief_.push_back(static_cast<float>(core::SampleNormal(stream, 0.0, 1.0)));
+  }
+}
+
+double Backdrop::HorizonHeight(double y_m) const {
+  constexpr double kLast = kHorizonNodes - 1.001;
+  const double place = std::clamp(y_m / kHorizonNode_m + 0.5 * kHorizonNodes, 0.0, kLast);
+  const auto node = static_cast<std::size_t>(place);
+  const double way = place - static_cast<double>(node);
+  const double relief = (1.0 - way) * relief_[node] + way * relief_[node + 1];
+  return params_.horizon_distance_m * std::tan(params_.horizon_elevation_rad) +
+         params_.horizon_relief_m * relief;
+}
+
+void Backdrop::Mottle(const TextureLine& line, const Colour& colour, int row,
+                      ColourPlanes& planes) {
+  const auto columns = static_cast<std::size_t>(planes[0].width());
+  brightness_.assign(columns, 1.0F);
+  hue_.assign(columns, 0.0F);
+  if (params_.contrast > 0.0) texture_.AddTo(line, params_.contrast, brightness_);
+  if (params_.hue_contrast > 0.0) {
+    texture_.AddOctave(line, kHueOctave, params_.hue_contrast, hue_);
+  }
+  const std::array<float, 3> toward_red{1.0F, 0.0F, -1.0F};
+  for (std::size_t channel = 0; channel < planes.size(); ++channel) {
+    const auto mean = static_cast<float>(colour[static_cast<Eigen::Index>(channel)]);
+    const std::span<float> values = planes[channel].Row(row);
+    for (std::size_t i = 0; i < columns; ++i) {
+      const float light = brightness_[i] * (1.0F + toward_red[channel] * hue_[i]);
+      values[i] = mean * std::max(0.1F, light);
+    }
+  }
+}
+
+void Backdrop::FillRow(const vision::Cahv& camera, int row, ColourPlanes& planes) {
+  const LineOfSight here = LineAt(camera, row);
+  const LineOfSight above = LineAt(camera, row - 0.5);
+  const LineOfSight below = LineAt(camera, row + 0.5);
+  const double to_hills = (params_.horizon_distance_m - camera.C.x()) / here.ahead;
+  const auto to_ground = ToGround(camera, here);
+  const bool on_ground = to_ground && *to_ground < to_hills;
+  const double along = on_ground ? *to_ground : to_hills;
+  TextureLine line;
+  line.first_v_m = camera.C.y() + along * here.aside_first;
+  line.step_v_m = along * here.aside_per_column;
+  if (on_ground) {
+    line.u_m = camera.C.x() + along * here.ahead;
+    const auto far = ToGround(camera, above);
+    const double far_m = far ? std::fmin(*far * above.ahead, params_.horizon_distance_m)
+                             : params_.horizon_distance_m;
+    line.footprint_u_m = far_m - *ToGround(camera, below) * below.ahead;
+  } else {
+    line.u_m = camera.C.z() + along * here.up;
+    line.footprint_u_m = std::abs(line.step_v_m);
+  }
+  Mottle(line, on_ground ? ground_ : hills_, row, planes);
+  if (!on_ground) MixSky(camera, row, planes);
+}
+
+void Backdrop::MixSky(const vision::Cahv& camera, int row, ColourPlanes& planes) {
+  const auto height_at = [&](double at_row) {
+    const LineOfSight line = LineAt(camera, at_row);
+    const double along = (params_.horizon_distance_m - camera.C.x()) / line.ahead;
+    return camera.C.z() + along * line.up;
+  };
+  const double top_m = height_at(row - 0.5);
+  const double bottom_m = height_at(row + 0.5);
+  const LineOfSight here = LineAt(camera, row);
+  const double along = (params_.horizon_distance_m - camera.C.x()) / here.ahead;
+  for (int column = 0; column < planes[0].width(); ++column) {
+    const double y_m =
+        camera.C.y() + along * (here.aside_first + here.aside_per_column * column);
+    const double hidden =
+        std::clamp((HorizonHeight(y_m) - bottom_m) / (top_m - bottom_m), 0.0, 1.0);
+    if (hidden == 1.0) continue;
+    const Colour hills = PixelOf(planes, column, row);
+    SetPixel(planes, column, row, hidden * hills + (1.0 - hidden) * sky_);
+  }
+}
+
+void Backdrop::Fill(const vision::Cahv& camera, ColourPlanes& planes) {
+  for (int row = 0; row < planes[0].height(); ++row) FillRow(camera, row, planes);
+}
+
+}  // namespace rockyard::rendering

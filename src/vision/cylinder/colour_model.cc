@@ -1,0 +1,192 @@
+#include "vision/cylinder/colour_model.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace rockyard::vision {
+namespace {
+
+constexpr double kHalfLevel = 0.5;  // grey levels
+constexpr int kLevels = 256;
+
+// ln of every grey level.
+std::array<float, kLevels> LogTable() {
+  std::array<float, kLevels> table{};
+  for (std::size_t level = 0; level < table.size(); ++level) {
+    table[level] = static_cast<float>(std::log(std::max(static_cast<double>(level), kHalfLevel)));
+  }
+  return table;
+}
+
+// Ratios lie between ln(0.5 / 255) and its negative, 6.24: a grid of cells of kStep.
+constexpr double kLargestRatio = 6.3;
+constexpr double kStep = 0.1;
+constexpr int kSteps = 126;
+
+int CellOf(float ratio) {
+  return static_cast<int>((ratio + static_cast<float>(kLargestRatio)) / static_cast<float>(kStep));
+}
+
+double MiddleOfCell(int cell) { return (cell + 0.5) * kStep - kLargestRatio; }
+
+// The cell of half of all counts.
+double MedianOf(const std::array<std::int64_t, kSteps>& counts) {
+  std::int64_t all = 0;
+  for (const std::int64_t count : counts) all += count;
+  std::int64_t below = 0;
+  int cell = 0;
+  while (2 * (below + counts[static_cast<std::size_t>(cell)]) < all) {
+    below += counts[static_cast<std::size_t>(cell)];
+    ++cell;
+  }
+  const double within =
+      (0.5 * static_cast<double>(all) - static_cast<double>(below)) /
+      static_cast<double>(std::max<std::int64_t>(counts[static_cast<std::size_t>(cell)], 1));
+  return MiddleOfCell(cell) + (within - 0.5) * kStep;
+}
+
+int BrightestOf(const Rgb& pixel) { return std::max({pixel.red, pixel.green, pixel.blue}); }
+
+// Ratios of pixels, counted.
+struct RatioCounts {
+  std::array<std::int64_t, kSteps> red{};
+  std::array<std::int64_t, kSteps> blue{};
+  std::int64_t pixels = 0;
+
+  void Count(const ColourImage& image, double darkest, const std::array<float, kLevels>& logs) {
+    constexpr int kEvery = 3;  // rows and columns: a ninth of the pixels tells the median
+    for (int y = 0; y < image.height(); y += kEvery) {
+      for (int x = 0; x < image.width(); x += kEvery) {
+        const Rgb& pixel = image.At(x, y);
+        if (BrightestOf(pixel) < darkest) continue;
+        const float green = logs[pixel.green];
+        ++red[static_cast<std::size_t>(CellOf(logs[pixel.red] - green))];
+        ++blue[static_cast<std::size_t>(CellOf(logs[pixel.blue] - green))];
+        ++pixels;
+      }
+    }
+  }
+};
+
+// The label of each cell of ratios.
+class LabelTable {
+ public:
+  LabelTable(const LogRatios& light, const SurfaceColourParams& surfaces,
+             const ColourModelParams& params)
+      : labels_(kSteps, kSteps) {
+    for (int y = 0; y < kSteps; ++y) {
+      for (int x = 0; x < kSteps; ++x) {
+        labels_.At(x, y) = LabelAt({MiddleOfCell(x), MiddleOfCell(y)}, light, surfaces, params);
+      }
+    }
+  }
+
+  std::uint8_t operator()(float red, float blue) const {
+    return labels_.At(CellOf(red), CellOf(blue));
+  }
+
+ private:
+  // Normal densities in two dimensions: least |c - mean|^2 / sd^2 + 4 ln(sd).
+  static std::uint8_t LabelAt(const LogRatios& ratios, const LogRatios& light,
+                              const SurfaceColourParams& surfaces,
+                              const ColourModelParams& params) {
+    const auto cost = [&](const LogRatios& surface, double sd) {
+      return (ratios - light - params.saturation * surface).squaredNorm() / (sd * sd) +
+             4.0 * std::log(sd);
+    };
+    constexpr double kFarthest = 9.0;  // three standard deviations
+    std::uint8_t label = kBackground;
+    double least = std::min(cost(GroundOf(surfaces), params.ground_sd),
+                            kFarthest + 4.0 * std::log(params.pixel_sd));
+    for (int i = 0; i < kCylinderColours; ++i) {
+      const auto colour = static_cast<CylinderColour>(i);
+      const double of_class = cost(SurfaceOf(colour, surfaces), params.pixel_sd);
+      if (of_class >= least) continue;
+      least = of_class;
+      label = LabelOf(colour);
+    }
+    return label;
+  }
+
+  ClassImage labels_;
+};
+
+Eigen::Vector3d PrimariesOf(const SurfaceColour& colour) {
+  // As grey levels, far above half a one.
+  return 255.0 * Eigen::Vector3d(colour[0], colour[1], colour[2]);
+}
+
+}  // namespace
+
+LogRatios LogRatiosOf(const Eigen::Vector3d& primaries) {
+  const Eigen::Array3d logs = primaries.array().max(kHalfLevel).log();
+  return {logs[0] - logs[1], logs[2] - logs[1]};
+}
+
+LogRatios SurfaceOf(CylinderColour colour, const SurfaceColourParams& surfaces) {
+  if (colour == CylinderColour::kBlue) return LogRatiosOf(PrimariesOf(surfaces.blue));
+  if (colour == CylinderColour::kMagenta) return LogRatiosOf(PrimariesOf(surfaces.magenta));
+  return LogRatiosOf(PrimariesOf(surfaces.third));
+}
+
+LogRatios GroundOf(const SurfaceColourParams& surfaces) {
+  return LogRatiosOf(PrimariesOf(surfaces.ground));
+}
+
+LogRatios LightOf(const ColourImage& left, const ColourImage& right,
+                  const SurfaceColourParams& surfaces, const ColourModelParams& params) {
+  const std::array<float, kLevels> logs = LogTable();
+  RatioCounts counts;
+  counts.Count(left, params.darkest, logs);
+  counts.Count(right, params.darkest, logs);
+  if (counts.pixels == 0) return LogRatios::Zero();
+  const LogRatios median(MedianOf(counts.red), MedianOf(counts.blue));
+  const LogRatios light = median - params.saturation * GroundOf(surfaces);
+  const double limit = 2.0 * params.light_sd;
+  return light.cwiseMax(-limit).cwiseMin(limit);
+}
+
+ClassImage LabelSurfaces(const ColourImage& image, const LogRatios& light,
+                         const SurfaceColourParams& surfaces, const ColourModelParams& params) {
+  const std::array<float, kLevels> logs = LogTable();
+  const LabelTable table(light, surfaces, params);
+  ClassImage labels(image.width(), image.height(), kBackground);
+  for (int y = 0; y < image.height(); ++y) {
+    const std::span<const Rgb> pixels = image.Row(y);
+    std::transform(pixels.begin(), pixels.end(), labels.Row(y).begin(), [&](const Rgb& pixel) {
+      if (BrightestOf(pixel) < params.darkest) return kBackground;
+      const float green = logs[pixel.green];
+      return table(logs[pixel.red] - green, logs[pixel.blue] - green);
+    });
+  }
+  return labels;
+}
+
+double ColourMisfit(const std::vector<SeenColour>& seen, const LogRatios& light,
+                    const SurfaceColourParams& surfaces, const ColourModelParams& params) {
+  // Unknowns: the light's two ratios and the saturation, about their priors.
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  const double light_weight = 1.0 / (params.light_sd * params.light_sd);
+  normal.diagonal() << light_weight, light_weight,
+      1.0 / (params.saturation_sd * params.saturation_sd);
+  double squares = 0.0;
+  for (const SeenColour& colour : seen) {
+    const LogRatios surface = SurfaceOf(colour.colour, surfaces);
+    const double weight = 1.0 / (params.surface_sd * params.surface_sd + colour.variance);
+    const LogRatios residual = colour.ratios - light - params.saturation * surface;
+    for (int i = 0; i < 2; ++i) {
+      Eigen::Vector3d row(i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, surface[i]);
+      normal += weight * row * row.transpose();
+      moment += weight * residual[i] * row;
+    }
+    squares += weight * residual.squaredNorm();
+  }
+  return squares - moment.dot(normal.llt().solve(moment));
+}
+
+}  // namespace rockyard::vision

@@ -1,0 +1,52 @@
+// How surfaces look in light that is not known, before a camera that is not known.
+//
+// A colour is c = (ln(red / green), ln(blue / green)), which brightness does not move. A surface of
+// c_s looks like
+//
+//   c = light + saturation c_s + noise
+//
+// light: of an illuminant that scales each primary (von Kries 1902); saturation: crosstalk between
+// the channels draws all colours towards grey. Both are unknown but for their priors, and the same
+// for all surfaces of an image. Most of an image is ground: its median tells the light.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "vision/cylinder/colour_classes.h"
+#include "vision/cylinder/robust_finder_params.h"
+
+namespace rockyard::vision {
+
+using LogRatios = Eigen::Vector2d;
+
+// Of positive primaries; those below half a grey level count as half a one.
+LogRatios LogRatiosOf(const Eigen::Vector3d& primaries);
+
+// The surface colour of a class, or of the ground.
+LogRatios SurfaceOf(CylinderColour colour, const SurfaceColourParams& surfaces);
+LogRatios GroundOf(const SurfaceColourParams& surfaces);
+
+// The light that the median of both images' ratios tells if it is ground, within twice light_sd of
+// white. White where no pixel is bright enough.
+LogRatios LightOf(const ColourImage& left, const ColourImage& right,
+                  const SurfaceColourParams& surfaces, const ColourModelParams& params);
+
+// The likeliest surface of each pixel: a class, or background where the ground is likelier or no
+// class is within three standard deviations.
+ClassImage LabelSurfaces(const ColourImage& image, const LogRatios& light,
+                         const SurfaceColourParams& surfaces, const ColourModelParams& params);
+
+// A quadrant as the fit sees it.
+struct SeenColour {
+  CylinderColour colour = CylinderColour::kBlue;  // which it would be
+  LogRatios ratios = LogRatios::Zero();
+  double variance = 0.0;  // of each of them, by the fit
+};
+
+// The squared residuals, light and saturation at their best: how unlike these colours are those of
+// the surfaces that they would be.
+double ColourMisfit(const std::vector<SeenColour>& seen, const LogRatios& light,
+                    const SurfaceColourParams& surfaces, const ColourModelParams& params);
+
+}  // namespace rockyard::vision

@@ -1,0 +1,41 @@
+// Position and orientation of the cylinder by least squares over the pixels of both eyes.
+//
+// Unknown are the place across and along the view, theta, the roll, and the radius where it is
+// free; the colours of the quadrants are solved for inside (wall_colours.h: variable projection,
+// Golub and Pereyra 1973). All orientations are tried in steps of 7.5 deg, the best local minima
+// refined by Gauss-Newton with numerical derivatives and Levenberg's damping.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "vision/cylinder/colour_model.h"
+#include "vision/cylinder/cylinder_candidates.h"
+#include "vision/cylinder/cylinder_view.h"
+
+namespace rockyard::vision {
+
+struct CylinderFit {
+  CylinderPlace place;
+  double cost = 0.0;           // all squared residuals and the misfit of the colours
+  double misfit = 0.0;         // mean squared residual of the pixels
+  double colour_misfit = 0.0;  // colour_model.h
+  // By how much the cost of the best other orientation, more than 25 deg away, is larger.
+  double margin = 0.0;
+  // Of the place across (m), its depth (m), theta and roll (rad), from the derivatives and the
+  // residuals.
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  // With the radius free: the depth along the left camera's axis, the radius over the true one and
+  // its standard deviation.
+  double free_depth_m = 0.0;
+  double radius_ratio = 1.0;
+  double radius_ratio_sd = 0.0;
+  double height_m = 0.0;  // by the rims
+};
+
+// Nothing where no orientation can be imaged.
+std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry& eyes,
+                                       const ColourCylinder& cylinder, const RegionPair& candidate,
+                                       const LogRatios& light, const RobustFinderParams& params);
+
+}  // namespace rockyard::vision

@@ -1,0 +1,36 @@
+// What the fit takes from an eye: the wall of a candidate in bands of rows, each averaged to one
+// line of colours, with the background on either side, and the rows of its rims.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "vision/cylinder/cylinder_sighting.h"
+#include "vision/cylinder/robust_finder_params.h"
+
+namespace rockyard::vision {
+
+struct ProfileBand {
+  double row = 0.0;  // its middle
+  // Red, green and blue in grey levels, from `first_column` of the profile on.
+  std::vector<Eigen::Vector3d> colours;
+  std::vector<double> weights;  // 1 / variance of each, of any primary
+  Eigen::Vector3d left_background = Eigen::Vector3d::Zero();
+  Eigen::Vector3d right_background = Eigen::Vector3d::Zero();
+};
+
+struct EyeProfile {
+  int first_column = 0;
+  std::vector<ProfileBand> bands;
+  double level = 0.0;  // mean of all primaries inside of the box, grey levels
+  // Where the rims cross the middle of the box, to a part of a pixel: first row and last row of the
+  // wall, pixel edges at halves.
+  double upper_rim_px = 0.0;
+  double lower_rim_px = 0.0;
+};
+
+// Requires a box at least one pixel inside of the image.
+EyeProfile ProfileOf(const ColourImage& image, const ColourRegion& box,
+                     const CylinderFitParams& params);
+
+}  // namespace rockyard::vision

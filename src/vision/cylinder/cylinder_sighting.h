@@ -1,0 +1,94 @@
+// What a pair of colour images tells about the coloured cylinder, or why it tells nothing.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/fields.h"
+#include "math/pose.h"
+#include "vision/cameras/camera_model.h"
+#include "vision/colour_image.h"
+#include "vision/cylinder/colour_cylinder.h"
+
+namespace rockyard::vision {
+
+// Both images of a pair, of the size of their cameras, which are told in one outer frame L. The
+// images have to live as long as the pair.
+struct ColourPair {
+  const ColourImage& left;
+  const ColourImage& right;
+  CameraModel left_camera;
+  CameraModel right_camera;
+};
+
+enum class RegionRole { kWhole, kLeft, kMiddle, kRight };
+
+// Pixels that hang together, with their bounding box. All ends are inclusive.
+struct ColourRegion {
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+  int pixels = 0;
+  Pixel centroid = Pixel::Zero();        // the mean of its pixels
+  std::optional<CylinderColour> colour;  // none: a mixture of the classes
+  RegionRole role = RegionRole::kWhole;
+
+  int Width() const { return right - left + 1; }
+  int Height() const { return bottom - top + 1; }
+};
+
+struct CylinderSighting {
+  // theta: azimuth of the middle between the cameras in the cylinder's frame, in [-pi, pi].
+  double orientation_rad = 0.0;
+  // The centre of the cylinder in the cameras' outer frame L, m.
+  math::Vector3 p_LT_L = math::Vector3::Zero();
+  // Depths of the centre before the left camera along its optical axis: by the disparity (equation
+  // 17) and by the width (equations 15 and 16).
+  double distance_by_stereo_m = 0.0;
+  double distance_by_size_m = 0.0;
+  // Of p_LT_L (m) and the orientation (rad), in this order.
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  // Left and right image: the whole first, then what is seen of left, middle and right.
+  std::array<std::vector<ColourRegion>, 2> regions;
+};
+
+enum class CylinderMiss {
+  kNone,           // it was found
+  kNothing,        // no region is large enough
+  kClipped,        // a region ends at the border of the image or of the area of interest
+  kTooFewRegions,  // too few quadrants are seen to tell which
+  kUnlikeOrder,    // no cylinder has these colours side by side
+  kUnlikeEyes,     // left and right image show different things
+  kSwappedEyes,    // the disparity is not positive
+  kTwoCylinders,   // more than one place looks like a cylinder
+  kNotACylinder,   // size, outline or colours are not those of the cylinder
+  kAmbiguous,      // two orientations explain the images as well
+};
+
+struct CylinderFinding {
+  std::optional<CylinderSighting> sighting;
+  CylinderMiss miss = CylinderMiss::kNone;
+  std::string reason;  // in words, with the numbers; empty where it was found
+};
+
+// A finding without a sighting.
+CylinderFinding NotFound(CylinderMiss miss, std::string reason);
+
+}  // namespace rockyard::vision
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::CylinderMiss> {
+  static constexpr std::array<std::string_view, 10> kNames{
+      "none",        "nothing",      "clipped",       "too_few_regions", "unlike_order",
+      "unlike_eyes", "swapped_eyes", "two_cylinders", "not_a_cylinder",  "ambiguous"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::RegionRole> {
+  static constexpr std::array<std::string_view, 4> kNames{"whole", "left", "middle", "right"};
+};

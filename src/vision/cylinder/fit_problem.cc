@@ -1,0 +1,122 @@
+#include "vision/cylinder/fit_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace rockyard::vision {
+namespace {
+
+// Terms of shading and levels among the residuals of an eye.
+constexpr int kPriors = 27;
+
+// Quadrants that both eyes see count once, with the mean of both weighted by their variances.
+std::vector<QuadrantColour> Together(const std::vector<QuadrantColour>& colours) {
+  std::vector<QuadrantColour> together;
+  for (const QuadrantColour& colour : colours) {
+    const auto same = std::find_if(together.begin(), together.end(), [&](const auto& other) {
+      return other.quadrant == colour.quadrant;
+    });
+    if (same == together.end()) {
+      together.push_back(colour);
+      continue;
+    }
+    const double all = same->variance + colour.variance;
+    same->colour = (colour.variance * same->colour + same->variance * colour.colour) / all;
+    same->variance *= colour.variance / all;
+  }
+  return together;
+}
+
+SeenColour SeenColourOf(const QuadrantColour& quadrant) {
+  const Eigen::Array3d levels = quadrant.colour.array().max(1.0);
+  SeenColour seen;
+  seen.colour = kQuadrantColours.at(static_cast<std::size_t>(quadrant.quadrant));
+  seen.ratios = LogRatiosOf(levels);
+  // Of a logarithm of a ratio, the mean of both: (1/red^2 + 2/green^2 + 1/blue^2) / 2.
+  const Eigen::Array3d inverse2 = levels.square().inverse();
+  seen.variance = 0.5 * quadrant.variance * (inverse2[0] + 2.0 * inverse2[1] + inverse2[2]);
+  return seen;
+}
+
+}  // namespace
+
+FitProblem::FitProblem(const ColourPair& pair, const EyeGeometry& eyes,
+                       const ColourCylinder& cylinder, const RegionPair& candidate,
+                       const RobustFinderParams& params)
+    : cameras_{&pair.left_camera, &pair.right_camera},
+      eyes_(eyes),
+      cylinder_(cylinder),
+      params_(params),
+      profiles_{ProfileOf(pair.left, candidate.left, params.fit),
+                ProfileOf(pair.right, candidate.right, params.fit)},
+      start_L_(candidate.point.p_L),
+      depth_m_(candidate.point.depth_m) {
+  for (const EyeProfile& profile : profiles_) samples_ += ResidualsOf(profile) - kPriors;
+  TakeRows();
+}
+
+void FitProblem::TakeRows() {
+  double rise_m = 0.0;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const EyeProfile& profile = profiles_.at(eye);
+    const auto start = Project(*cameras_.at(eye), start_L_);
+    const auto above = Project(*cameras_.at(eye), start_L_ + 0.5 * cylinder_.height_m * eyes_.up_L);
+    if (!start || !above || !(above->y() < start->y())) continue;
+    const double m_a_px = 0.5 * cylinder_.height_m / (start->y() - above->y());
+    const double middle_px = 0.5 * (profile.upper_rim_px + profile.lower_rim_px);
+    rise_m += 0.5 * m_a_px * (start->y() - middle_px);
+    height_m_ += 0.5 * m_a_px * (profile.lower_rim_px - profile.upper_rim_px);
+  }
+  start_L_ += rise_m * eyes_.up_L;
+}
+
+CylinderPlace FitProblem::PlaceOf(const FitUnknowns& unknowns) const {
+  CylinderPlace place;
+  place.p_LT_L = start_L_ + unknowns[0] * eyes_.right_L;
+  // Along the line of sight, so that the rows stay.
+  const math::Vector3 sight_m = start_L_ - eyes_.centre_L;
+  place.p_LT_L += unknowns[1] / depth_m_ * sight_m;
+  place.orientation_rad = unknowns[2];
+  place.roll_rad = unknowns[3];
+  place.radius_m = 0.5 * cylinder_.diameter_m * (1.0 + unknowns[4]);
+  return place;
+}
+
+FitUnknowns FitProblem::Steps() const {
+  const double across_m = 0.02 * depth_m_ / eyes_.focal_px;
+  const double along_m = 0.04 * depth_m_ * depth_m_ / (eyes_.focal_px * eyes_.baseline_m);
+  const double share = across_m / cylinder_.diameter_m;
+  FitUnknowns steps;
+  steps << across_m, along_m, share, 2e-3, share;
+  return steps;
+}
+
+std::optional<FitProblem::Evaluation> FitProblem::Evaluate(const FitUnknowns& unknowns,
+                                                           double radius_sd) const {
+  if (!(unknowns[4] > -1.0)) return std::nullopt;
+  const CylinderPlace place = PlaceOf(unknowns);
+  Evaluation evaluation;
+  std::vector<double> residuals;
+  residuals.reserve(static_cast<std::size_t>(samples_ + 2 * kPriors + 2));
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const auto view = WallSeen(*cameras_.at(eye), eyes_, place, 0.5 * cylinder_.height_m);
+    if (!view) return std::nullopt;
+    FitWallColours(profiles_.at(eye), *view, params_.fit, residuals, evaluation.colours);
+  }
+  residuals.push_back(unknowns[3] / params_.fit.roll_sd_rad);
+  residuals.push_back(unknowns[4] / radius_sd);
+  evaluation.residuals = Eigen::Map<const Eigen::VectorXd>(
+      residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+  return evaluation;
+}
+
+double FitProblem::ColourMisfitOf(const Evaluation& evaluation, const LogRatios& light) const {
+  std::vector<SeenColour> seen;
+  for (const QuadrantColour& quadrant : Together(evaluation.colours)) {
+    seen.push_back(SeenColourOf(quadrant));
+  }
+  return ColourMisfit(seen, light, params_.surfaces, params_.colours);
+}
+
+}  // namespace rockyard::vision

@@ -1,0 +1,68 @@
+// The residuals of a place of the cylinder against the profiles of both eyes.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "vision/cylinder/colour_model.h"
+#include "vision/cylinder/cylinder_candidates.h"
+#include "vision/cylinder/cylinder_view.h"
+#include "vision/cylinder/wall_colours.h"
+
+namespace rockyard::vision {
+
+// Across the view to the right, along it (m, from the start), theta, roll (rad), and the radius
+// over the cylinder's less 1.
+using FitUnknowns = Eigen::Matrix<double, 5, 1>;
+
+class FitProblem {
+ public:
+  // Starts where lines of sight to the middles of the candidate's boxes meet.
+  FitProblem(const ColourPair& pair, const EyeGeometry& eyes, const ColourCylinder& cylinder,
+             const RegionPair& candidate, const RobustFinderParams& params);
+
+  CylinderPlace PlaceOf(const FitUnknowns& unknowns) const;
+
+  // What the eyes show of a place.
+  struct Evaluation {
+    // Residuals over their standard deviations, of equal number for all places; the last two are
+    // the roll's and, about 0, the radius's prior of sd `radius_sd`.
+    Eigen::VectorXd residuals;
+    std::vector<QuadrantColour> colours;  // of both eyes
+  };
+
+  // Nothing where the place cannot be imaged.
+  std::optional<Evaluation> Evaluate(const FitUnknowns& unknowns, double radius_sd) const;
+
+  // How unlike the quadrants' colours are those of the surfaces (colour_model.h).
+  double ColourMisfitOf(const Evaluation& evaluation, const LogRatios& light) const;
+
+  // Steps of numerical derivatives: some hundredths of a pixel each.
+  FitUnknowns Steps() const;
+
+  // Samples of pixels among the residuals.
+  int samples() const { return samples_; }
+
+  const std::array<EyeProfile, 2>& profiles() const { return profiles_; }
+
+  // The start moved up or down to the rows of the rims, and the wall's height there.
+  double height_m() const { return height_m_; }
+
+ private:
+  // Moves the start to the middle of the rims.
+  void TakeRows();
+
+  std::array<const CameraModel*, 2> cameras_;
+  const EyeGeometry& eyes_;
+  const ColourCylinder& cylinder_;
+  const RobustFinderParams& params_;
+  std::array<EyeProfile, 2> profiles_;
+  math::Vector3 start_L_;
+  double depth_m_;
+  double height_m_ = 0.0;
+  int samples_ = 0;
+};
+
+}  // namespace rockyard::vision

@@ -1,0 +1,78 @@
+#include "vision/cylinder/published_finder_params.h"
+
+namespace rockyard::vision {
+
+void PublishedFinderParams::Visit(core::FieldVisitor& v) {
+  using core::Origin;
+  v.Group("classes", classes, "the classes of colours");
+  v.Integer("longest_gap_px", longest_gap_px,
+            {.doc = "background pixels between two colours in a row that are filled from both",
+             .min = 0,
+             .max = 100,
+             .origin = Origin::kPublished,
+             .source = "Matthies 1995 A.3: one to four"});
+  v.Real("sky_share", sky_share,
+         {.doc = "share of the image, from its top, outside of the area of interest",
+          .min = 0.0,
+          .max = 0.95,
+          .origin = Origin::kAssumed,
+          .source = "Matthies 1995 A.3 leaves the sky out and does not say how; where the horizon "
+                    "is depends on the cameras",
+          .study_low = 0.0,
+          .study_high = 0.6});
+  v.Choice("measure", measure,
+           {.doc = "what is seen of a quadrant: pixels, or the columns of its bounding box",
+            .origin = Origin::kAssumed,
+            .source = "Matthies 1995 A.3 ends with both"});
+  v.Integer("least_whole_px", least_whole_px,
+            {.doc = "pixels of the largest region below which there is no cylinder",
+             .min = 1,
+             .max = 1000000,
+             .origin = Origin::kAssumed,
+             .source = "a quarter of the cylinder at 15 m",
+             .study_low = 5,
+             .study_high = 100});
+  v.Integer("least_quadrant_px", least_quadrant_px,
+            {.doc = "pixels of a region beside the middle one below which it is not seen",
+             .min = 1,
+             .max = 1000000,
+             .origin = Origin::kAssumed,
+             .source = "more than stray pixels at the rim",
+             .study_low = 1,
+             .study_high = 20});
+  v.Real("box_difference_px", box_difference_px,
+         {.doc = "difference of the sides of both eyes' bounding boxes, and of their upper and "
+                 "lower rows, that is allowed at any size",
+          .min = 0.0,
+          .max = 1000.0,
+          .origin = Origin::kAssumed,
+          .source = "a pixel of either rim",
+          .study_low = 1.0,
+          .study_high = 5.0});
+  v.Real("box_difference_share", box_difference_share,
+         {.doc = "the same as a share of the larger side, in addition",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "Matthies 1995 A.3: the boxes are similar to each other",
+          .study_low = 0.1,
+          .study_high = 0.5});
+  v.Angle("largest_turn_between_eyes_deg", largest_turn_between_eyes_rad,
+          {.doc = "difference of both eyes' orientations up to which they are consistent",
+           .min = 0.0,
+           .max = 180.0,
+           .origin = Origin::kAssumed,
+           .source = "four times the coarsest step at 10 m, less than a quadrant and a half",
+           .study_low = 20.0,
+           .study_high = 90.0});
+  v.Real("pixel_error_px", pixel_error_px,
+         {.doc = "standard deviation of boundary, width and disparity, for the covariance",
+          .min = 0.01,
+          .max = 10.0,
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 5: usually less than one or two pixels",
+          .study_low = 0.5,
+          .study_high = 2.0});
+}
+
+}  // namespace rockyard::vision

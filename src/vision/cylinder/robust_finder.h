@@ -1,0 +1,26 @@
+// rockyard's own way to find the coloured cylinder in a pair of images: the two improvements that
+// Matthies 1995, section 5, proposes, a more robust segmentation and colours as a setting.
+#pragma once
+
+#include "vision/cylinder/cylinder_sighting.h"
+#include "vision/cylinder/robust_finder_params.h"
+
+namespace rockyard::vision {
+
+//   1. Pixels are labelled by which surface is likelier in the light that the ground tells
+//      (colour_model.h), and regions of them paired between the eyes by size, rows and depth
+//      (cylinder_candidates.h).
+//   2. Of each pair of regions, position and theta are fitted to the pixels of both eyes at once
+//      (cylinder_fit.h), from all orientations; the colours of the quadrants come from the image
+//      and are then held against those of the surfaces.
+//   3. It is the cylinder if model, colours, radius and height fit, no other orientation does, and
+//      no other region does. Everything else is a miss with its reason.
+//
+// The cylinder is taken as upright in the left image but for a small lean to the side, and as seen
+// level within some 10 deg. distance_by_stereo_m and distance_by_size_m are those of a fit whose
+// radius is free; the position uses both. Requires images of the size of their cameras. Throws
+// nothing; a pure function. Cost: the figures are in src/vision/README.md.
+CylinderFinding FindCylinder(const ColourPair& pair, const ColourCylinder& cylinder,
+                             const RobustFinderParams& params);
+
+}  // namespace rockyard::vision

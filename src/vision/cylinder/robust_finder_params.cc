@@ -1,0 +1,153 @@
+#include "vision/cylinder/robust_finder_params.h"
+
+#include <string_view>
+
+namespace rockyard::vision {
+namespace {
+
+using core::Origin;
+
+struct AssumedRange {
+  double min = 0.0;
+  double max = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+// A value that is assumed, with its bounds and the range of studies.
+void VisitAssumed(core::FieldVisitor& v, std::string_view name, double& value, std::string_view doc,
+                  std::string_view source, const AssumedRange& range) {
+  v.Real(name, value,
+         {.doc = doc,
+          .min = range.min,
+          .max = range.max,
+          .origin = Origin::kAssumed,
+          .source = source,
+          .study_low = range.low,
+          .study_high = range.high});
+}
+
+void VisitSurface(core::FieldVisitor& v, std::string_view name, SurfaceColour& colour,
+                  std::string_view doc) {
+  v.FixedReals(name, colour,
+               {.doc = doc,
+                .min = 0.01,
+                .max = 2.0,
+                .origin = Origin::kAssumed,
+                .source = "Matthies 1995 sec. 5 names the colours of fluorescent cardboard and "
+                          "tells no numbers"});
+}
+
+}  // namespace
+
+void SurfaceColourParams::Visit(core::FieldVisitor& v) {
+  VisitSurface(v, "blue", blue, "red, green and blue of quadrant A in white light");
+  VisitSurface(v, "magenta", magenta, "of quadrants B and D");
+  VisitSurface(v, "third", third, "of quadrant C: orange, or green in its place");
+  VisitSurface(v, "ground", ground, "of the ground, which most of the image shows");
+}
+
+void ColourModelParams::Visit(core::FieldVisitor& v) {
+  VisitAssumed(v, "light_sd", light_sd,
+               "standard deviation of the logarithm of the light's red/green and blue/green",
+               "after the ground of the image has told the light", {0.01, 2.0, 0.1, 0.5});
+  VisitAssumed(v, "saturation", saturation,
+               "how far colours are from grey in images, 1: as the surfaces are",
+               "crosstalk of a tenth between the channels of one chip", {0.1, 2.0, 0.5, 1.0});
+  VisitAssumed(v, "saturation_sd", saturation_sd, "standard deviation of the saturation",
+               "cameras with crosstalk of 0 to 0.2", {0.01, 1.0, 0.1, 0.3});
+  VisitAssumed(v, "surface_sd", surface_sd,
+               "standard deviation of the logarithms of a surface's ratios",
+               "cardboard of one name differs so", {0.01, 1.0, 0.05, 0.3});
+  VisitAssumed(v, "pixel_sd", pixel_sd,
+               "the same of single pixels of the cylinder, when regions are sought",
+               "mixed pixels and noise", {0.05, 2.0, 0.2, 0.5});
+  VisitAssumed(v, "ground_sd", ground_sd, "the same of single pixels of the ground",
+               "rocks and soil of Mars differ so", {0.05, 2.0, 0.1, 0.4});
+  VisitAssumed(v, "darkest", darkest,
+               "grey levels of the brightest primary below which a pixel has no colour",
+               "five times the noise of a pixel", {1.0, 255.0, 5.0, 30.0});
+}
+
+void CandidateParams::Visit(core::FieldVisitor& v) {
+  v.Integer("longest_gap_px", longest_gap_px,
+            {.doc = "background pixels between two colours in a row that are filled",
+             .min = 0,
+             .max = 20,
+             .origin = Origin::kAssumed,
+             .source = "mixed pixels of a sharp boundary",
+             .study_low = 0,
+             .study_high = 4});
+  v.Integer("least_whole_px", least_whole_px,
+            {.doc = "pixels of the smallest region that is looked at",
+             .min = 4,
+             .max = 1000000,
+             .origin = Origin::kAssumed,
+             .source = "a quarter of the cylinder at 17 m",
+             .study_low = 8,
+             .study_high = 60});
+  VisitAssumed(v, "least_fill", least_fill, "share of its bounding box that a region fills",
+               "a cylinder seen level fills its box", {0.1, 1.0, 0.4, 0.8});
+  VisitAssumed(v, "size_tolerance", size_tolerance,
+               "how far the width of a region may be from the cylinder's at its depth by stereo",
+               "before the fit: the depth of a region is known to a fifth at 15 m",
+               {0.01, 1.0, 0.2, 0.5});
+  VisitAssumed(v, "height_tolerance", height_tolerance, "the same of its height",
+               "10 deg of elevation add a third", {0.01, 1.0, 0.2, 0.6});
+  VisitAssumed(v, "box_error_px", box_error_px,
+               "error of a bounding box, added to the tolerances of sizes and to differences "
+               "between the eyes",
+               "a pixel of either rim", {0.0, 20.0, 1.0, 4.0});
+}
+
+void CylinderFitParams::Visit(core::FieldVisitor& v) {
+  VisitAssumed(v, "noise_grey", noise_grey, "noise of a pixel, grey levels",
+               "read noise, quantization and shot noise of 8-bit cameras", {0.1, 30.0, 1.0, 5.0});
+  VisitAssumed(
+      v, "surface_noise", surface_noise,
+      "share of its level by which the wall differs from its model, not averaged over rows",
+      "texture of cardboard and what the shading leaves", {0.0, 0.5, 0.01, 0.05});
+  VisitAssumed(v, "shading_sd", shading_sd,
+               "share of a quadrant's level by which it gets brighter towards one side and towards "
+               "the middle",
+               "diffuse light and a sun from any side", {0.01, 5.0, 0.3, 1.0});
+  VisitAssumed(v, "edge_blur_px", edge_blur_px,
+               "standard deviation of the blur of an edge, the pixel's own 0.29 included",
+               "lenses of that time; a wrong one widens residuals and moves no edge",
+               {0.29, 3.0, 0.3, 1.0});
+  v.Angle("roll_sd_deg", roll_sd_rad,
+          {.doc = "standard deviation of the cylinder's lean to a side of the image",
+           .min = 0.1,
+           .max = 45.0,
+           .origin = Origin::kAssumed,
+           .source = "a rover on level ground among rocks",
+           .study_low = 1.0,
+           .study_high = 15.0});
+  VisitAssumed(v, "model_error_px", model_error_px,
+               "systematic error of a fitted boundary, added to the covariance",
+               "calibration of cameras, straightness of a panel's edge", {0.0, 2.0, 0.05, 0.3});
+  VisitAssumed(v, "row_error_px", row_error_px, "error of the row of the centre",
+               "upper and lower rim against textured ground", {0.01, 5.0, 0.2, 1.0});
+  VisitAssumed(v, "largest_misfit", largest_misfit,
+               "mean squared residual over its variance up to which it is a cylinder",
+               "1 if the model of the noise were right", {1.0, 1000.0, 2.0, 10.0});
+  VisitAssumed(v, "largest_colour_misfit", largest_colour_misfit,
+               "squared residuals of the quadrants' colours up to which they are its own",
+               "0.1 % of chi-squared of at most 6 + 3 numbers", {1.0, 1000.0, 15.0, 40.0});
+  VisitAssumed(v, "least_margin", least_margin,
+               "squared residuals by which any other orientation has to be worse",
+               "a likelihood ratio of 400", {0.0, 1000.0, 6.0, 25.0});
+  VisitAssumed(v, "radius_tolerance", radius_tolerance,
+               "how far the size at the depth by stereo may be from the cylinder's, or four of its "
+               "standard deviations",
+               "calibration of the cameras", {0.01, 1.0, 0.05, 0.2});
+}
+
+void RobustFinderParams::Visit(core::FieldVisitor& v) {
+  v.Group("surfaces", surfaces, "colours of the cylinder and of the ground");
+  v.Group("colours", colours, "how light and camera change them");
+  v.Group("candidates", candidates, "which regions are looked at");
+  v.Group("fit", fit, "the least squares over both eyes");
+}
+
+}  // namespace rockyard::vision

@@ -1,0 +1,213 @@
+#include "vision/cylinder/wall_colours.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+
+namespace rockyard::vision {
+namespace {
+
+// Quadrants seen at once, and the terms of each.
+constexpr int kMostParts = 3;
+constexpr int kWallTerms = 3;
+constexpr int kWallUnknowns = kMostParts * kWallTerms;
+constexpr int kPrimaries = 3;
+// A quadrant's level lies about that of the whole within so many times it.
+constexpr double kLevelSpread = 3.0;
+// Beyond so many standard deviations an edge's blur is over.
+constexpr double kBlurEnd = 4.0;
+
+using WallTerms = Eigen::Vector3d;
+using WallUnknowns = Eigen::Matrix<double, kWallUnknowns, kPrimaries>;
+using WallNormal = Eigen::Matrix<double, kWallUnknowns, kWallUnknowns>;
+
+// The share of a pixel right of an edge that lies `right_px` left of its middle.
+double ShareBeyond(double right_px, double blur_px) {
+  const double x = right_px / blur_px;
+  if (x <= -kBlurEnd) return 0.0;
+  if (x >= kBlurEnd) return 1.0;
+  return 0.5 * std::erfc(-x / std::numbers::sqrt2);
+}
+
+WallTerms TermsAt(double t) {
+  const double inside = std::clamp(t, -1.0, 1.0);
+  return {1.0, inside, std::sqrt(1.0 - inside * inside) - 0.25 * std::numbers::pi};
+}
+
+// What a column of a band holds.
+struct Mixture {
+  std::array<double, kMostParts> parts{};
+  double left = 1.0;  // of the background
+  double right = 0.0;
+  WallTerms terms = WallTerms::UnitX();
+};
+
+// The columns of a view's lines at a band.
+class BandView {
+ public:
+  BandView(const WallView& view, double row, double blur_px)
+      : parts_(static_cast<int>(view.quadrants.size())), blur_px_(blur_px) {
+    for (std::size_t i = 0; i < view.lines.size(); ++i) {
+      columns_.at(i) = view.lines[i].ColumnAt(row);
+    }
+  }
+
+  Mixture At(double column) const {
+    Mixture mixture;
+    double beyond = ShareBeyond(column - columns_[0], blur_px_);
+    mixture.left = 1.0 - beyond;
+    for (int i = 0; i < parts_; ++i) {
+      const auto part = static_cast<std::size_t>(i);
+      const double next = ShareBeyond(column - columns_.at(part + 1), blur_px_);
+      mixture.parts.at(part) = std::max(beyond - next, 0.0);
+      beyond = next;
+    }
+    mixture.right = beyond;
+    mixture.terms = TermsAt(AcrossOf(column));
+    return mixture;
+  }
+
+  // The middle of a part, as t.
+  double MiddleOfPart(int part) const {
+    const auto i = static_cast<std::size_t>(part);
+    return AcrossOf(0.5 * (columns_.at(i) + columns_.at(i + 1)));
+  }
+
+ private:
+  double AcrossOf(double column) const {
+    const double last = columns_.at(static_cast<std::size_t>(parts_));
+    const double half = std::max(0.5 * (last - columns_[0]), 1e-6);
+    return (column - 0.5 * (columns_[0] + last)) / half;
+  }
+
+  std::array<double, kMostParts + 1> columns_{};
+  int parts_;
+  double blur_px_;
+};
+
+// A profile against a view.
+class WallProblem {
+ public:
+  WallProblem(const EyeProfile& profile, const WallView& view, const CylinderFitParams& params)
+      : profile_(profile), view_(view), parts_(static_cast<int>(view.quadrants.size())) {
+    EXPECT(parts_ >= 1 && parts_ <= kMostParts);
+    const double level = std::max(profile.level, 1.0);
+    roots_ << 1.0 / (kLevelSpread * level), 1.0 / (params.shading_sd * level),
+        1.0 / (params.shading_sd * level);
+    for (const ProfileBand& band : profile.bands) {
+      bands_.emplace_back(view, band.row, params.edge_blur_px);
+    }
+    Solve();
+  }
+
+  void AppendResiduals(std::vector<double>& residuals) const {
+    auto next = mixtures_.begin();
+    for (std::size_t b = 0; b < bands_.size(); ++b) {
+      const ProfileBand& band = profile_.bands[b];
+      for (std::size_t i = 0; i < band.colours.size(); ++i) {
+        const Mixture& mixture = *next++;
+        Eigen::Vector3d left = WithoutBackground(band, i, mixture);
+        for (int part = 0; part < parts_; ++part) {
+          const double share = mixture.parts.at(static_cast<std::size_t>(part));
+          if (share == 0.0) continue;
+          left -= share * unknowns_.middleRows<kWallTerms>(kWallTerms * part).transpose() *
+                  mixture.terms;
+        }
+        left *= std::sqrt(band.weights[i]);
+        residuals.insert(residuals.end(), left.data(), left.data() + kPrimaries);
+      }
+    }
+    for (int i = 0; i < kWallUnknowns; ++i) {
+      for (int primary = 0; primary < kPrimaries; ++primary) {
+        residuals.push_back(roots_[i % kWallTerms] * unknowns_(i, primary));
+      }
+    }
+  }
+
+  void AppendColours(std::vector<QuadrantColour>& colours) const {
+    const BandView& band = bands_[bands_.size() / 2];
+    for (int part = 0; part < parts_; ++part) {
+      const WallTerms terms = TermsAt(band.MiddleOfPart(part));
+      QuadrantColour colour;
+      colour.quadrant = view_.quadrants[static_cast<std::size_t>(part)];
+      colour.colour = unknowns_.middleRows<kWallTerms>(kWallTerms * part).transpose() * terms;
+      colour.variance = terms.dot(
+          covariance_.block<kWallTerms, kWallTerms>(kWallTerms * part, kWallTerms * part) * terms);
+      colours.push_back(colour);
+    }
+  }
+
+ private:
+  double ColumnOf(std::size_t i) const { return profile_.first_column + static_cast<double>(i); }
+
+  static Eigen::Vector3d WithoutBackground(const ProfileBand& band, std::size_t i,
+                                           const Mixture& mixture) {
+    return band.colours[i] - mixture.left * band.left_background -
+           mixture.right * band.right_background;
+  }
+
+  void Solve() {
+    WallNormal normal = WallNormal::Zero();
+    WallUnknowns moments = WallUnknowns::Zero();
+    for (int i = 0; i < kWallUnknowns; ++i)
+      normal(i, i) = roots_[i % kWallTerms] * roots_[i % kWallTerms];
+    for (std::size_t b = 0; b < bands_.size(); ++b) {
+      for (std::size_t i = 0; i < profile_.bands[b].colours.size(); ++i) {
+        mixtures_.push_back(bands_[b].At(ColumnOf(i)));
+        AddSample(profile_.bands[b], i, mixtures_.back(), normal, moments);
+      }
+    }
+    const Eigen::LLT<WallNormal> factors(normal);
+    unknowns_ = factors.solve(moments);
+    covariance_ = factors.solve(WallNormal::Identity());
+  }
+
+  void AddSample(const ProfileBand& band, std::size_t i, const Mixture& mixture, WallNormal& normal,
+                 WallUnknowns& moments) const {
+    const Eigen::Vector3d colour = WithoutBackground(band, i, mixture);
+    const Eigen::Matrix3d outer = band.weights[i] * mixture.terms * mixture.terms.transpose();
+    for (int a = 0; a < parts_; ++a) {
+      const double share_a = mixture.parts.at(static_cast<std::size_t>(a));
+      if (share_a == 0.0) continue;
+      moments.middleRows<kWallTerms>(kWallTerms * a) +=
+          band.weights[i] * share_a * mixture.terms * colour.transpose();
+      for (int b = 0; b < parts_; ++b) {
+        const double share_b = mixture.parts.at(static_cast<std::size_t>(b));
+        if (share_b == 0.0) continue;
+        normal.block<kWallTerms, kWallTerms>(kWallTerms * a, kWallTerms * b) +=
+            share_a * share_b * outer;
+      }
+    }
+  }
+
+  const EyeProfile& profile_;
+  const WallView& view_;
+  int parts_;
+  std::vector<BandView> bands_;
+  std::vector<Mixture> mixtures_;                    // of all samples, band by band
+  Eigen::Vector3d roots_ = Eigen::Vector3d::Zero();  // of the priors' weights, by term
+  WallUnknowns unknowns_ = WallUnknowns::Zero();
+  WallNormal covariance_ = WallNormal::Zero();
+};
+
+}  // namespace
+
+int ResidualsOf(const EyeProfile& profile) {
+  std::size_t samples = 0;
+  for (const ProfileBand& band : profile.bands) samples += band.colours.size();
+  return kPrimaries * (static_cast<int>(samples) + kWallUnknowns);
+}
+
+void FitWallColours(const EyeProfile& profile, const WallView& view,
+                    const CylinderFitParams& params, std::vector<double>& residuals,
+                    std::vector<QuadrantColour>& colours) {
+  const WallProblem problem(profile, view, params);
+  problem.AppendResiduals(residuals);
+  problem.AppendColours(colours);
+}
+
+}  // namespace rockyard::vision

@@ -1,0 +1,38 @@
+// A view of the wall against an eye's profile: the colours of the quadrants by linear least
+// squares, and what they leave.
+//
+// A pixel holds each part that its column covers, blurred by edge_blur_px. The wall of a quadrant
+// has the colour
+//
+//   g_0 + g_1 t + g_2 (sqrt(1 - t^2) - pi / 4)
+//
+// with t from -1 to 1 across the cylinder: what a Lambertian wall shows in diffuse light and in a
+// sun from anywhere on its side. g_1 and g_2 are drawn to 0 by shading_sd. Given where the lines
+// are, the g are linear, the same normal equations for all primaries.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "vision/cylinder/cylinder_profile.h"
+#include "vision/cylinder/cylinder_view.h"
+
+namespace rockyard::vision {
+
+// A quadrant's colour in its middle, grey levels, with the variance of each primary.
+struct QuadrantColour {
+  int quadrant = 0;
+  Eigen::Vector3d colour = Eigen::Vector3d::Zero();
+  double variance = 0.0;
+};
+
+// The number of residuals of a profile, whatever the view: samples, and shading terms.
+int ResidualsOf(const EyeProfile& profile);
+
+// Appends residuals over their standard deviations to `residuals`, ResidualsOf of them, and what
+// the quadrants look like to `colours`.
+void FitWallColours(const EyeProfile& profile, const WallView& view,
+                    const CylinderFitParams& params, std::vector<double>& residuals,
+                    std::vector<QuadrantColour>& colours);
+
+}  // namespace rockyard::vision

@@ -1,0 +1,186 @@
+// The robust finder on painted pairs: light, noise and crosstalk; its covariance; every way to find
+// nothing.
+#include "vision/cylinder/robust_finder.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "math/angles.h"
+#include "vision/cylinder/painted_cylinder.h"
+
+namespace rockyard::vision {
+namespace {
+
+using math::DegToRad;
+using math::RadToDeg;
+using testing::HasSubstr;
+
+CylinderFinding Find(const PaintedPair& pair, const RobustFinderParams& params = {}) {
+  return FindCylinder(pair.Pair(), {}, params);
+}
+
+void ExpectMiss(const CylinderFinding& finding, CylinderMiss miss, const std::string& words) {
+  EXPECT_FALSE(finding.sighting);
+  EXPECT_EQ(finding.miss, miss) << finding.reason;
+  EXPECT_THAT(finding.reason, HasSubstr(words));
+}
+
+PaintedScene OutdoorsAt(double distance_m, double orientation_rad, std::uint64_t seed) {
+  PaintedScene scene = SceneAt(distance_m, orientation_rad);
+  scene.light = {1.0, 0.9, 0.75};
+  scene.diffuse = 0.5;
+  scene.sun_azimuth_rad = DegToRad(40.0);
+  scene.crosstalk = 0.05;
+  scene.noise_grey = 2.0;
+  scene.ground_texture = 0.1;
+  scene.seed = seed;
+  return scene;
+}
+
+TEST(RobustFinderTest, CleanImagesTellTheirPoseToParts) {
+  for (const double d_m : {0.838, 1.753, 4.496, 9.982}) {
+    for (int deg = -170; deg < 180; deg += 70) {
+      const CylinderFinding finding = Find(Paint(SceneAt(d_m, DegToRad(deg))));
+      ASSERT_TRUE(finding.sighting) << finding.reason << ", " << d_m << " m, " << deg << " deg";
+      const CylinderSighting& seen = *finding.sighting;
+      const double error_deg = RadToDeg(math::WrapAngle(seen.orientation_rad - DegToRad(deg)));
+      EXPECT_LT(std::abs(error_deg), 0.05 + 0.12 * d_m) << d_m << " " << deg;
+      EXPECT_NEAR(seen.p_LT_L.x(), d_m, 1e-3 * d_m + 1e-3 * d_m * d_m);
+      EXPECT_NEAR(seen.p_LT_L.y(), -0.06, 2e-3 + 2e-4 * d_m);
+      EXPECT_NEAR(seen.p_LT_L.z(), 0.0, 2e-3 + 5e-4 * d_m);
+      EXPECT_NEAR(seen.distance_by_size_m, d_m, 0.02 * d_m);
+      EXPECT_NEAR(seen.distance_by_stereo_m, d_m, 0.03 * d_m);
+    }
+  }
+}
+
+// Errors over their standard deviations, of scenes with all there is.
+TEST(RobustFinderTest, ErrorsAreWithinTheirCovariance) {
+  double squares = 0.0;
+  int found = 0;
+  int runs = 0;
+  for (const double d_m : {1.2, 4.0, 9.0}) {
+    for (int i = 0; i < 8; ++i) {
+      const double theta_rad = DegToRad(-160.0 + 43.0 * i);
+      const CylinderFinding finding =
+          Find(Paint(OutdoorsAt(d_m, theta_rad, static_cast<std::uint64_t>(i + 1))));
+      ++runs;
+      if (!finding.sighting) continue;
+      ++found;
+      Eigen::Vector4d error;
+      error.head<3>() = finding.sighting->p_LT_L - math::Vector3(d_m, -0.06, 0.0);
+      error[3] = math::WrapAngle(finding.sighting->orientation_rad - theta_rad);
+      EXPECT_LT(std::abs(RadToDeg(error[3])), 10.0) << d_m << " " << i;
+      squares += error.dot(finding.sighting->covariance.llt().solve(error));
+    }
+  }
+  EXPECT_GE(found, runs - 1);
+  // 4 each if the covariance is right; four times too small or large would be beyond.
+  EXPECT_LT(squares / found, 8.0);
+  EXPECT_GT(squares / found, 0.25);
+}
+
+TEST(RobustFinderTest, LeaningCylindersAreFound) {
+  for (const double lean_deg : {-6.0, 6.0}) {
+    PaintedScene scene = SceneAt(2.0, DegToRad(20.0));
+    scene.cylinders.front().lean_rad = DegToRad(lean_deg);
+    const CylinderFinding finding = Find(Paint(scene));
+    ASSERT_TRUE(finding.sighting) << finding.reason;
+    EXPECT_NEAR(RadToDeg(finding.sighting->orientation_rad), 20.0, 1.0);
+  }
+}
+
+TEST(RobustFinderTest, GreenInPlaceOfOrangeIsASetting) {
+  PaintedScene scene = SceneAt(6.0, DegToRad(-135.0));
+  scene.quadrants[2] = {0.15, 0.80, 0.25};
+  ExpectMiss(Find(Paint(scene)), CylinderMiss::kNotACylinder, "");
+  RobustFinderParams green;
+  green.surfaces.third = kGreenSurface;
+  const CylinderFinding finding = Find(Paint(scene), green);
+  ASSERT_TRUE(finding.sighting) << finding.reason;
+  EXPECT_NEAR(RadToDeg(finding.sighting->orientation_rad), -135.0, 2.0);
+}
+
+TEST(RobustFinderTest, RegionsAreThoseOfTheQuadrants) {
+  const CylinderFinding finding = Find(Paint(SceneAt(2.0, DegToRad(-30.0))));
+  ASSERT_TRUE(finding.sighting);
+  const auto& regions = finding.sighting->regions[0];
+  ASSERT_EQ(regions.size(), 4U);
+  EXPECT_EQ(regions[1].colour, CylinderColour::kRed);
+  EXPECT_EQ(regions[2].colour, CylinderColour::kMagenta);
+  EXPECT_EQ(regions[3].colour, CylinderColour::kBlue);
+  EXPECT_LE(regions[1].right, regions[2].left);
+  EXPECT_GT(regions[2].Width(), regions[1].Width());
+}
+
+TEST(RobustFinderTest, NothingInViewIsNothing) {
+  PaintedScene scene = OutdoorsAt(2.0, 0.0, 3);
+  scene.cylinders.clear();
+  const CylinderFinding finding = Find(Paint(scene));
+  EXPECT_FALSE(finding.sighting);
+  EXPECT_EQ(finding.miss, CylinderMiss::kNothing) << finding.reason;
+}
+
+TEST(RobustFinderTest, AClippedCylinderIsClipped) {
+  PaintedScene scene = SceneAt(2.0, 0.3);
+  scene.cylinders.front().p_LT_L.y() = 0.45;
+  ExpectMiss(Find(Paint(scene)), CylinderMiss::kClipped, "left image");
+  scene.cylinders.front().p_LT_L.y() = -0.57;
+  ExpectMiss(Find(Paint(scene)), CylinderMiss::kClipped, "border");
+}
+
+TEST(RobustFinderTest, SwappedEyesAreSaidSo) {
+  const PaintedPair pair = Paint(SceneAt(2.0, 0.5));
+  ExpectMiss(FindCylinder(pair.Swapped(), {}, {}), CylinderMiss::kSwappedEyes, "swapped");
+}
+
+TEST(RobustFinderTest, TwoCylindersAreTold) {
+  PaintedScene scene = SceneAt(3.0, 0.5);
+  scene.cylinders.push_back(scene.cylinders.front());
+  scene.cylinders[0].p_LT_L.y() = 0.3;
+  scene.cylinders[1].p_LT_L.y() = -0.3;
+  scene.cylinders[1].orientation_rad = 2.0;
+  ExpectMiss(Find(Paint(scene)), CylinderMiss::kTwoCylinders, "two places");
+}
+
+TEST(RobustFinderTest, OneInEachEyeIsUnlike) {
+  PaintedPair pair = Paint(SceneAt(2.0, 0.5));
+  pair.right = Paint(SceneAt(5.0, 0.5)).right;
+  const CylinderFinding finding = Find(pair);
+  EXPECT_FALSE(finding.sighting);
+  EXPECT_EQ(finding.miss, CylinderMiss::kUnlikeEyes) << finding.reason;
+}
+
+// The same picture of a thing of another size.
+TEST(RobustFinderTest, ALargerCylinderFartherAwayIsNone) {
+  PaintedScene scene = SceneAt(3.0, 0.5);
+  scene.cylinders.front().size = {0.25, 0.13};
+  ExpectMiss(Find(Paint(scene)), CylinderMiss::kNotACylinder, "wide");
+  scene.cylinders.front().size = {0.192, 0.17};
+  ExpectMiss(Find(Paint(scene)), CylinderMiss::kNotACylinder, "high");
+}
+
+TEST(RobustFinderTest, OtherColoursSideBySideAreNone) {
+  PaintedScene scene = SceneAt(3.0, DegToRad(45.0));
+  // Blue between orange and orange.
+  scene.quadrants[1] = scene.quadrants[2];
+  scene.quadrants[3] = scene.quadrants[2];
+  ExpectMiss(Find(Paint(scene)), CylinderMiss::kNotACylinder, "colours");
+}
+
+// Nobody knows where pink alone looks.
+TEST(RobustFinderTest, PinkAloneIsNone) {
+  PaintedScene scene = SceneAt(3.0, 0.0);
+  for (PaintColour& quadrant : scene.quadrants) quadrant = {0.95, 0.25, 0.60};
+  const CylinderFinding finding = Find(Paint(scene));
+  EXPECT_FALSE(finding.sighting);
+  EXPECT_TRUE(finding.miss == CylinderMiss::kNotACylinder ||
+              finding.miss == CylinderMiss::kAmbiguous)
+      << finding.reason;
+}
+
+}  // namespace
+}  // namespace rockyard::vision
