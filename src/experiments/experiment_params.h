@@ -14,6 +14,8 @@
 #include "experiments/designation/designation_study_params.h"
 #include "experiments/hazard_detection/checks_params.h"
 #include "experiments/hazard_detection/hazard_detection_params.h"
+#include "experiments/mission/checks_params.h"
+#include "experiments/mission/mission_params.h"
 #include "experiments/stereo_sensing/checks_params.h"
 #include "experiments/stereo_sensing/stereo_sensing_params.h"
 #include "experiments/three_rock_run/checks_params.h"
@@ -35,15 +37,16 @@ enum class ExperimentKind {
   kThreeRockRun,     // a drive among three rocks that goes as a published one is told
   kDesignation,      // where operators put goals in the lander's images
   kVisualMotion,     // how well visual odometry measures one motion
+  kMission,          // sols of drives, one after the other
 };
 
 }  // namespace rockyard::experiments
 
 template <>
 struct rockyard::core::EnumNames<rockyard::experiments::ExperimentKind> {
-  static constexpr std::array<std::string_view, 7> kNames{
+  static constexpr std::array<std::string_view, 8> kNames{
       "drive",          "hazard_detection", "stereo_sensing", "dead_reckoning",
-      "three_rock_run", "designation",      "visual_motion"};
+      "three_rock_run", "designation",      "visual_motion",  "mission"};
 };
 
 namespace rockyard::experiments {
@@ -56,6 +59,7 @@ struct ExperimentParams {
   ThreeRockRunParams three_rock_run;
   DesignationStudyParams designation;
   VisualMotionStudyParams visual_motion;
+  MissionParams mission;
 
   // Lists the field "experiment", and the group of each experiment that has parameters of its own,
   // in the group that is being visited.
@@ -69,6 +73,7 @@ struct ExperimentParams {
     v.Group("three_rock_run", three_rock_run, "the experiment of that name");
     v.Group("designation", designation, "the experiment of that name");
     v.Group("visual_motion", visual_motion, "the experiment of that name");
+    v.Group("mission", mission, "the experiment of that name");
   }
 
   // What the experiment in use asks of the drive.
@@ -101,6 +106,11 @@ struct ExperimentParams {
       case ExperimentKind::kVisualMotion:
         trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
         RequireVisualMotion(visual_motion, drive, v);
+        return;
+      case ExperimentKind::kMission:
+        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
+        trial::RequireSoundDrive(drive, v);
+        RequireMission(mission, drive, v);
         return;
     }
   }

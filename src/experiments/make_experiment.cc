@@ -13,6 +13,8 @@
 #include "experiments/experiment.h"
 #include "experiments/hazard_detection/columns.h"
 #include "experiments/hazard_detection/hazard_detection.h"
+#include "experiments/mission/columns.h"
+#include "experiments/mission/mission_experiment.h"
 #include "experiments/stereo_sensing/columns.h"
 #include "experiments/stereo_sensing/stereo_sensing.h"
 #include "experiments/three_rock_run/columns.h"
@@ -42,6 +44,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
       return std::make_unique<DesignationExperiment>(experiment.designation, drive.course);
     case ExperimentKind::kVisualMotion:
       return std::make_unique<VisualMotionExperiment>(experiment.visual_motion, drive);
+    case ExperimentKind::kMission:
+      return std::make_unique<MissionExperiment>(experiment.mission, drive);
   }
   throw std::logic_error("unknown experiment");
 }
@@ -51,7 +55,7 @@ truth::RecordSchema WithRoles(truth::RecordSchema stored) {
   std::ptrdiff_t most = 0;
   for (const truth::RecordSchema* columns :
        {&DriveSchema(), &HazardColumns(), &StereoColumns(), &DeadReckoningColumns(),
-        &ThreeRockColumns(), &DesignationColumns(), &VisualMotionColumns()}) {
+        &ThreeRockColumns(), &DesignationColumns(), &VisualMotionColumns(), &MissionColumns()}) {
     const auto known = std::count_if(
         stored.begin(), stored.end(),
         [&](const truth::ValueInfo& column) { return truth::FindColumn(*columns, column.name); });
