@@ -60,9 +60,8 @@ void RequireClock(const MissionParams& mission, const trial::DriveParams& drive,
   v.Require("referee.stuck_rover", on_board,
             "is run_on, where a rover that is stuck rests until the next command", "use end");
   const MissionDayParams& day = mission.day;
-  constexpr double kSecondsPerHour = 3600.0;
   v.Require("mission.day.rover_images",
-            day.window_h * kSecondsPerHour + day.TransmitTime_s() < math::kSolOfMars_s,
+            day.Window_s() + day.TransmitTime_s() < math::kSolOfMars_s,
             "asks for more than the rover can transmit in what is left of a sol",
             "use fewer or smaller images, more compression or a faster radio");
 }

@@ -22,7 +22,6 @@
 namespace rockyard::experiments {
 namespace {
 
-constexpr double kSecondsPerHour = 3600.0;
 constexpr double kSecondsPerSolarHour = math::kSolOfMars_s / 24.0;
 constexpr double kNoon_h = 12.0;
 // A drive that the sun alone has to carry keeps so far from the moments at which it just does.
@@ -30,11 +29,9 @@ constexpr double kSunMargin_s = 1.0;
 // More than any gate's patience that makes sense.
 constexpr int kInsistence = 100;
 
-double WindowLength_s(const MissionDayParams& day) { return day.window_h * kSecondsPerHour; }
-
 // True solar time at which the window opens.
 double WindowOpening_h(const MissionDayParams& day) {
-  return kNoon_h - 0.5 * WindowLength_s(day) / kSecondsPerSolarHour;
+  return kNoon_h - 0.5 * day.Window_s() / kSecondsPerSolarHour;
 }
 
 // The most that an activity of a drive draws, W.
@@ -122,7 +119,7 @@ trial::SolarSupply Mission::SunFrom(std::int64_t sol, double start_s) const {
 }
 
 std::optional<Mission::Window> Mission::WindowOf(std::int64_t sol) const {
-  const double half_s = 0.5 * WindowLength_s(params_.day);
+  const double half_s = 0.5 * params_.day.Window_s();
   if (battery_wh_ > 0.0) return Window{0.0, 2.0 * half_s, SunFrom(sol, 0.0)};
   const double carried_s = SunFrom(sol, 0.0).Carries_s(LargestLoad_W(drive_)) - kSunMargin_s;
   if (carried_s <= 0.0) return std::nullopt;
@@ -172,7 +169,7 @@ Sol Mission::RunSol(std::int64_t number, const Window& window, messages::Goal& t
     books.AddLoad(params_.power.sleep_W, 0.0, window.begin_s, books.energy().sleep_wh);
     books.AddDrive(DriveOn(number, window, sol, told));
     const double rests_from_s = window.begin_s + sol.drive_time_s;
-    const double sends_from_s = std::max(rests_from_s, WindowLength_s(params_.day));
+    const double sends_from_s = std::max(rests_from_s, params_.day.Window_s());
     books.AddLoad(params_.power.idle_W, rests_from_s, sends_from_s, books.energy().idle_wh);
     asleep_from_s = sends_from_s + params_.day.TransmitTime_s();
     books.AddLoad(params_.power.idle_W + params_.power.modem_W, sends_from_s, asleep_from_s,

@@ -49,6 +49,7 @@ struct MissionDayParams {
   double compression = 1.0;
   double radio_bit_s = 2000.0;
 
+  double Window_s() const { return 3600.0 * window_h; }
   // What the rover sends to the lander for a command, images compressed.
   double RoverBits() const;
   // How long that takes after a drive, s.
