@@ -41,18 +41,18 @@ double SolarSupply::Carries_s(double load_W) const {
   return CarryingAngle(load_W) * kSecondsPerRadian;
 }
 
-double SolarSupply::UsedSinceNoon_J(double load_W, double hour_angle_rad) const {
+double SolarSupply::ShortSinceNoon_J(double load_W, double hour_angle_rad) const {
   // Every whole sol holds the same, twice that of noon to midnight.
   const double sols = std::round(hour_angle_rad / (2.0 * std::numbers::pi));
   const double within = hour_angle_rad - 2.0 * std::numbers::pi * sols;
   const double carrying = CarryingAngle(load_W);
   const double sunset = CarryingAngle(0.0);
-  // Integral of min(load, S) dH from 0 to h >= 0: the load up to where S falls below it, then S.
+  // From 0 to h >= 0: nothing as long as the sun carries the load, then the load less S.
   const auto from_noon = [&](double h) {
-    const double load_end = std::min(h, carrying);
-    const double sun_end = std::max(load_end, std::min(h, sunset));
-    const double sun = a_ * (sun_end - load_end) + b_ * (std::sin(sun_end) - std::sin(load_end));
-    return load_W * load_end + noon_W_ / (a_ + b_) * sun;
+    if (h <= carrying) return 0.0;
+    const double sun_end = std::max(carrying, std::min(h, sunset));
+    const double sun = a_ * (sun_end - carrying) + b_ * (std::sin(sun_end) - std::sin(carrying));
+    return load_W * (h - carrying) - noon_W_ / (a_ + b_) * sun;
   };
   const double whole = sols == 0.0 ? 0.0 : 2.0 * sols * from_noon(std::numbers::pi);
   return kSecondsPerRadian * (whole + std::copysign(from_noon(std::abs(within)), within));
@@ -63,12 +63,14 @@ double SolarSupply::Energy_J(double begin_s, double end_s) const {
 }
 
 double SolarSupply::Used_J(double load_W, double begin_s, double end_s) const {
-  EXPECT(load_W >= 0.0 && end_s >= begin_s);
-  return UsedSinceNoon_J(load_W, HourAngle(end_s)) - UsedSinceNoon_J(load_W, HourAngle(begin_s));
+  return load_W * (end_s - begin_s) - Shortfall_J(load_W, begin_s, end_s);
 }
 
 double SolarSupply::Shortfall_J(double load_W, double begin_s, double end_s) const {
-  return std::max(0.0, load_W * (end_s - begin_s) - Used_J(load_W, begin_s, end_s));
+  EXPECT(load_W >= 0.0 && end_s >= begin_s);
+  const double short_J =
+      ShortSinceNoon_J(load_W, HourAngle(end_s)) - ShortSinceNoon_J(load_W, HourAngle(begin_s));
+  return std::max(0.0, short_J);
 }
 
 }  // namespace rockyard::trial

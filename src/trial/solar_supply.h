@@ -35,8 +35,8 @@ class SolarSupply {
   double HourAngle(double time_s) const;
   // |H| up to which S >= power, rad.
   double CarryingAngle(double power_W) const;
-  // Integral of min(load, S) from noon to H, J; odd in H.
-  double UsedSinceNoon_J(double load_W, double hour_angle_rad) const;
+  // Integral of max(0, load - S) from noon to H, J; odd in H, and 0 where the sun carries the load.
+  double ShortSinceNoon_J(double load_W, double hour_angle_rad) const;
 
   double noon_W_;
   double a_;
