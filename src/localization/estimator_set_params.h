@@ -24,7 +24,8 @@ struct EstimatorSetup {
   DeadReckoningParams dead_reckoning;
   AttitudeParams attitude;
   math::Pose2 start;  // where operators put the rover down, in the world frame; as remembered
-  // Of the day before, where the rover was not put down but goes on (localization/estimator_memory.h).
+  // Of the day before, where the rover was not put down but goes on
+  // (localization/estimator_memory.h).
   const EstimatorMemory* memory = nullptr;
 };
 

@@ -27,8 +27,8 @@ namespace rockyard::trial {
 // (timeline.h).
 class Drive {
  public:
-  Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
-        const Watchers& watchers, const DriveStart* start = nullptr);
+  Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace, const Watchers& watchers,
+        const DriveStart* start = nullptr);
 
   DriveResult Run();
 

@@ -19,9 +19,9 @@ localization::EstimatorSetup EstimatorSetupOf(const DriveParams& drive,
   return setup;
 }
 
-std::unique_ptr<localization::Estimator> MakeEstimator(const DriveParams& drive,
-                                                       const rover::Rover& rover,
-                                                       const localization::EstimatorMemory* memory) {
+std::unique_ptr<localization::Estimator> MakeEstimator(
+    const DriveParams& drive, const rover::Rover& rover,
+    const localization::EstimatorMemory* memory) {
   auto estimator = drive.localization.estimators.chosen().Make(EstimatorSetupOf(drive, memory));
   if (auto* oracle = dynamic_cast<OracleEstimator*>(estimator.get())) oracle->See(rover);
   return estimator;

@@ -119,9 +119,9 @@ TEST(MissionTest, ANightChangesNeitherPlaceNorBelief) {
   EXPECT_GT(evening.PositionError_m(), 0.0);
 
   // Goals that come later change nothing of the first drive.
-  const MissionCourse shorter = RunMission(
-      Load("tour", {"mission.lander_update=none", "mission.sols=1", "mission.goals.x_m=[4.5, 7]",
-                    "mission.goals.y_m=[0, 2]"}));
+  const MissionCourse shorter =
+      RunMission(Load("tour", {"mission.lander_update=none", "mission.sols=1",
+                               "mission.goals.x_m=[4.5, 7]", "mission.goals.y_m=[0, 2]"}));
   EXPECT_EQ(shorter.sols[0].truth.x_m, evening.truth.x_m);
   EXPECT_EQ(shorter.sols[0].believed.heading_rad, evening.believed.heading_rad);
 
@@ -267,9 +267,9 @@ TEST(MissionTest, DaysAreAsLongAsPublished) {
 // are 0.105 deg2/s (section 5), over nights as over a drive.
 TEST(MissionStatisticsTest, WithoutAnAidErrorsGrowAsDeadReckoningSays) {
   const scenario::Scenario scenario =
-      Load("level", Perfect({"mission.goals.x_m=[4.5, 7.5, 10.5, 13.5]",
-                             "mission.goals.y_m=[0, 0, 0, 0]", "mission.sols=4",
-                             "sensors.gyro.heading_variance_deg2_per_m=0.7"}));
+      Load("level",
+           Perfect({"mission.goals.x_m=[4.5, 7.5, 10.5, 13.5]", "mission.goals.y_m=[0, 0, 0, 0]",
+                    "mission.sols=4", "sensors.gyro.heading_variance_deg2_per_m=0.7"}));
   constexpr int kMissions = 60;
   double square_deg2[2] = {0.0, 0.0};
   double moved_s[2] = {0.0, 0.0};
@@ -296,10 +296,8 @@ TEST(MissionStatisticsTest, WithoutAnAidErrorsGrowAsDeadReckoningSays) {
 
 TEST(MissionStatisticsTest, TheLanderKeepsAnErrorFromGrowing) {
   const Overrides wild{"mission.goals.x_m=[4.5, 7.5, 10.5, 7.5, 4.5, 1.5]",
-                       "mission.goals.y_m=[0, 0, 0, 3, 3, 3]",
-                       "mission.sols=6",
-                       "mission.goals.attempts=1",
-                       "sensors.gyro.heading_variance_deg2_per_m=0.7"};
+                       "mission.goals.y_m=[0, 0, 0, 3, 3, 3]", "mission.sols=6",
+                       "mission.goals.attempts=1", "sensors.gyro.heading_variance_deg2_per_m=0.7"};
   double with_m = 0.0;
   double without_m = 0.0;
   for (std::uint32_t i = 0; i < 20; ++i) {
@@ -319,8 +317,8 @@ TEST(MissionStatisticsTest, TheLanderKeepsAnErrorFromGrowing) {
 }
 
 TEST(MissionTest, ALanderThatSeesNothingTellsNothing) {
-  const MissionCourse course = RunMission(
-      Load("tour", {"mission.sols=2", "sensors.aids.lander_fix.range_m=0.5"}));
+  const MissionCourse course =
+      RunMission(Load("tour", {"mission.sols=2", "sensors.aids.lander_fix.range_m=0.5"}));
   for (const Sol& sol : course.sols) {
     EXPECT_EQ(sol.sight, LanderSight::kUnseen);
     EXPECT_EQ(sol.unaided_error_m, sol.PositionError_m());
@@ -329,12 +327,11 @@ TEST(MissionTest, ALanderThatSeesNothingTellsNothing) {
 
 // An estimator that weighs nothing is told the lander's place; one without noise is the truth.
 TEST(MissionTest, DeadReckoningIsToldWhatTheLanderSees) {
-  const MissionCourse course =
-      RunMission(Load("tour", {"mission.sols=2", "localization.estimator=dead_reckoning",
-                               "course.designation.enabled=false",
-                               "sensors.aids.lander_fix.heading_sd_deg=0",
-                               "sensors.aids.lander_fix.range_sd_fraction=0",
-                               "sensors.aids.lander_fix.bearing_sd_rad=0"}));
+  const MissionCourse course = RunMission(Load(
+      "tour",
+      {"mission.sols=2", "localization.estimator=dead_reckoning",
+       "course.designation.enabled=false", "sensors.aids.lander_fix.heading_sd_deg=0",
+       "sensors.aids.lander_fix.range_sd_fraction=0", "sensors.aids.lander_fix.bearing_sd_rad=0"}));
   for (const Sol& sol : course.sols) {
     EXPECT_GT(sol.unaided_error_m, 1e-3);
     EXPECT_LT(sol.PositionError_m(), 1e-9);
@@ -345,15 +342,14 @@ TEST(MissionTest, DeadReckoningIsToldWhatTheLanderSees) {
 
 // A goal behind a wall of rocks: two tries, then the next.
 TEST(MissionTest, OperatorsGoOnAfterTheirAttempts) {
-  const MissionCourse course = RunMission(Load(
-      "level",
-      Perfect({"mission.goals.attempts=2", "mission.goals.x_m=[6, 1.5]", "mission.goals.y_m=[0, 2]",
-               "terrain.rocks.kind=listed",
-               "terrain.rocks.listed.x_m=[3.5,3.5,3.5,3.5,3.5,3.5,3.5]",
-               "terrain.rocks.listed.y_m=[-1.2,-0.8,-0.4,0,0.4,0.8,1.2]",
-               "terrain.rocks.listed.diameter_m=[0.5,0.5,0.5,0.5,0.5,0.5,0.5]",
-               "terrain.rocks.listed.height_m=[0.4,0.4,0.4,0.4,0.4,0.4,0.4]",
-               "referee.no_path_distance_m=1", "referee.no_path_turn_deg=90"})));
+  const MissionCourse course = RunMission(
+      Load("level", Perfect({"mission.goals.attempts=2", "mission.goals.x_m=[6, 1.5]",
+                             "mission.goals.y_m=[0, 2]", "terrain.rocks.kind=listed",
+                             "terrain.rocks.listed.x_m=[3.5,3.5,3.5,3.5,3.5,3.5,3.5]",
+                             "terrain.rocks.listed.y_m=[-1.2,-0.8,-0.4,0,0.4,0.8,1.2]",
+                             "terrain.rocks.listed.diameter_m=[0.5,0.5,0.5,0.5,0.5,0.5,0.5]",
+                             "terrain.rocks.listed.height_m=[0.4,0.4,0.4,0.4,0.4,0.4,0.4]",
+                             "referee.no_path_distance_m=1", "referee.no_path_turn_deg=90"})));
   ASSERT_GE(course.sols.size(), 3U);
   EXPECT_EQ(course.sols[0].goal, 0);
   EXPECT_EQ(course.sols[0].end, SolEnd::kNoPath);
@@ -363,15 +359,13 @@ TEST(MissionTest, OperatorsGoOnAfterTheirAttempts) {
 }
 
 TEST(MissionTest, ARoverBeyondTheRadioIsLost) {
-  const MissionCourse course =
-      RunMission(Load("level", Perfect({"mission.radio_range_m=4"})));
+  const MissionCourse course = RunMission(Load("level", Perfect({"mission.radio_range_m=4"})));
   EXPECT_EQ(course.end, MissionEnd::kLost);
   EXPECT_EQ(course.sols.size(), 1U);
 }
 
 TEST(MissionExperimentTest, RecordsAreAPureFunctionAndEveryBaseIsAColumn) {
-  const scenario::Scenario scenario =
-      Load("tour", {"mission.sols=3", "mission.sol_columns=true"});
+  const scenario::Scenario scenario = Load("tour", {"mission.sols=3", "mission.sol_columns=true"});
   const auto experiment = MakeExperiment(scenario);
   const truth::Record first = experiment->Run(2, 7);
   const truth::Record again = experiment->Run(2, 7);
@@ -395,8 +389,7 @@ TEST(MissionExperimentTest, RecordsAreAPureFunctionAndEveryBaseIsAColumn) {
 
 // The columns of sols add up to those of the mission.
 TEST(MissionExperimentTest, SolsAddUpToTheirMission) {
-  const scenario::Scenario scenario =
-      Load("tour", {"mission.sols=4", "mission.sol_columns=true"});
+  const scenario::Scenario scenario = Load("tour", {"mission.sols=4", "mission.sol_columns=true"});
   const auto experiment = MakeExperiment(scenario);
   const truth::Record record = experiment->Run(2, 7);
   const auto value = [&](const std::string& name) {
@@ -426,8 +419,9 @@ TEST(MissionChecksTest, RefuseWhatAMissionCannotBe) {
         "navigation.navigator=route"}) {
     EXPECT_THROW(Load("tour", {"mission.sols=1", change}), core::UserError) << change;
   }
-  EXPECT_THROW(Load("tour", {"mission.lander_update=noon", "localization.estimator=dead_reckoning"}),
-               core::UserError);
+  EXPECT_THROW(
+      Load("tour", {"mission.lander_update=noon", "localization.estimator=dead_reckoning"}),
+      core::UserError);
   EXPECT_NO_THROW(Load("tour", {"mission.lander_update=noon"}));
   EXPECT_NO_THROW(Load("tour", {"mission.day.rover_images=40"}));
 }

@@ -42,7 +42,8 @@ TEST(EstimatorMemoryTest, EstimatorsWithoutAnAccountRememberTheirPose) {
   EXPECT_FALSE(memory.covariance.has_value());
   VisualOdometryEstimator vision(FilterSetup());
   DriveInACurve(vision, 100);
-  EXPECT_EQ(vision.Remember().pose.x_m, memory.pose.x_m);
+  EXPECT_EQ(vision.Remember().pose.x_m, vision.estimate().pose.x_m);
+  EXPECT_EQ(vision.Remember().pose.heading_rad, vision.estimate().pose.heading_rad);
 }
 
 TEST(EstimatorMemoryTest, TheFilterGoesOnWhereItWas) {
@@ -63,10 +64,10 @@ TEST(EstimatorMemoryTest, TheFilterGoesOnWhereItWas) {
   EXPECT_EQ(morning.estimate().pose.heading_rad, evening.estimate().pose.heading_rad);
   EXPECT_EQ(morning.gyro_scale(), evening.gyro_scale());
   EXPECT_EQ(morning.wheel_scale(), evening.wheel_scale());
-  for (const int row : {error::kX, error::kY, error::kHeading, error::kGyroScale,
-                        error::kWheelScale}) {
-    for (const int column : {error::kX, error::kY, error::kHeading, error::kGyroScale,
-                             error::kWheelScale}) {
+  for (const int row :
+       {error::kX, error::kY, error::kHeading, error::kGyroScale, error::kWheelScale}) {
+    for (const int column :
+         {error::kX, error::kY, error::kHeading, error::kGyroScale, error::kWheelScale}) {
       EXPECT_EQ(morning.covariance()(row, column), evening.covariance()(row, column));
     }
   }

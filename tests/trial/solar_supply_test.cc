@@ -40,7 +40,8 @@ TEST(SolarSupplyTest, PeaksAtNoonAndIsDarkAtNight) {
   EXPECT_NEAR(Ares().Power_W(1.0 * kHour_s), Ares().Power_W(3.0 * kHour_s), 1e-12);
   EXPECT_LT(Ares().Power_W(1.0 * kHour_s), 16.0);
   EXPECT_EQ(Ares().Power_W(14.0 * kHour_s), 0.0);
-  EXPECT_NEAR(Equator(10.0).Power_W(9.0 * kHour_s), 10.0 * std::cos(0.25 * std::numbers::pi), 1e-12);
+  EXPECT_NEAR(Equator(10.0).Power_W(9.0 * kHour_s), 10.0 * std::cos(0.25 * std::numbers::pi),
+              1e-12);
   EXPECT_NEAR(Ares().Power_W(2.0 * kHour_s + 3.0 * kSol_s), 16.0, 1e-9);
 }
 

@@ -26,8 +26,8 @@ void RequireField(const MissionParams& mission, const trial::DriveParams& drive,
   const double start_x_m = drive.course.start_x_m;
   const double start_y_m = drive.course.start_y_m;
   v.Require("mission.goals.x_m",
-            goals.empty() || std::hypot(goals.front().x_m - start_x_m,
-                                        goals.front().y_m - start_y_m) > 0.1,
+            goals.empty() ||
+                std::hypot(goals.front().x_m - start_x_m, goals.front().y_m - start_y_m) > 0.1,
             "puts the first goal within 0.1 m of the start", "use a goal that has to be driven to");
 }
 
@@ -43,8 +43,9 @@ void RequireOneGoal(const trial::DriveParams& drive, core::FieldVisitor& v) {
             "is true, where rocks of a mission stand from its first sol on", "use false");
   v.Require("course.target_speed_m_s", course.target_speed_m_s == 0.0,
             "is above 0, where a mission's goals are rocks", "use 0");
-  v.Require("course.route_map.use", course.route_map.use == trial::RouteUse::kNavigator &&
-                                        !drive.navigation.navigators.chosen().traits().follows_route,
+  v.Require("course.route_map.use",
+            course.route_map.use == trial::RouteUse::kNavigator &&
+                !drive.navigation.navigators.chosen().traits().follows_route,
             "is waypoints, or navigation.navigator follows a route: both begin where the rover "
             "truly stands",
             "use navigator, and pathfinder or gestalt");
@@ -60,8 +61,7 @@ void RequireClock(const MissionParams& mission, const trial::DriveParams& drive,
   v.Require("referee.stuck_rover", on_board,
             "is run_on, where a rover that is stuck rests until the next command", "use end");
   const MissionDayParams& day = mission.day;
-  v.Require("mission.day.rover_images",
-            day.Window_s() + day.TransmitTime_s() < math::kSolOfMars_s,
+  v.Require("mission.day.rover_images", day.Window_s() + day.TransmitTime_s() < math::kSolOfMars_s,
             "asks for more than the rover can transmit in what is left of a sol",
             "use fewer or smaller images, more compression or a faster radio");
 }

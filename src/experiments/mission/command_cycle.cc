@@ -32,8 +32,8 @@ std::int64_t SolsPerCommand(const MissionDayParams& day) {
   const double needed = NeededBits(day);
   const double sols_of_bits = std::ceil(needed / SolBits(day));
   // The last session carries what is left of them.
-  const double last_s = (needed - std::max(0.0, sols_of_bits - 1.0) * SolBits(day)) /
-                        day.downlink_bit_s;
+  const double last_s =
+      (needed - std::max(0.0, sols_of_bits - 1.0) * SolBits(day)) / day.downlink_bit_s;
   const double answer_s = last_s + 2.0 * day.latency_min * kSecondsPerMinute +
                           day.planning_h * kSecondsPerHour + day.Window_s();
   const double sols = std::max(0.0, sols_of_bits - 1.0) + std::ceil(answer_s / math::kSolOfMars_s);

@@ -45,7 +45,8 @@ double LargestLoad_W(const trial::DriveParams& drive) {
 }
 
 // Rocks keep clear of the start and of every goal, whichever sol it is.
-terrain::Course CourseOf(const trial::DriveParams& drive, const std::vector<messages::Goal>& goals) {
+terrain::Course CourseOf(const trial::DriveParams& drive,
+                         const std::vector<messages::Goal>& goals) {
   terrain::Course course{.start_x_m = drive.course.start_x_m,
                          .start_y_m = drive.course.start_y_m,
                          .goal_x_m = goals.back().x_m,
@@ -187,17 +188,15 @@ Sol Mission::RunSol(std::int64_t number, const Window& window, messages::Goal& t
 trial::DriveEnd Mission::DriveOn(std::int64_t number, const Window& window, Sol& sol,
                                  messages::Goal& told) {
   const trial::DriveParams drive = DriveOf(window);
-  const trial::DriveResult result =
-      trial::RunTrial(drive, SolKey(key_, number),
-                      {.memory = memory_, .field = field_, .sun = window.sun});
+  const trial::DriveResult result = trial::RunTrial(
+      drive, SolKey(key_, number), {.memory = memory_, .field = field_, .sun = window.sun});
   sol.end = SolEndOf(result.outcome);
   sol.distance_m = result.record.true_distance_m;
   sol.drive_time_s = result.record.sim_time_s;
   told = {result.record.told_goal_x_m, result.record.told_goal_y_m};
   truth_ = math::ToPose2(result.end.X_WR);
   memory_ = result.end.memory;
-  sol.unaided_error_m =
-      std::hypot(memory_.pose.x_m - truth_.x_m, memory_.pose.y_m - truth_.y_m);
+  sol.unaided_error_m = std::hypot(memory_.pose.x_m - truth_.x_m, memory_.pose.y_m - truth_.y_m);
   const bool noon = params_.lander_update == LanderUpdate::kNoon;
   if (noon && sol.drive_time_s >= 0.5 * window.length_s) {
     sol.sight = LanderSight::kOnTheWay;

@@ -92,8 +92,8 @@ class Mission {
   localization::EstimatorMemory memory_;
   double battery_wh_;
   std::size_t goal_ = 0;
-  std::int64_t attempts_ = 0;   // at that goal
-  std::int64_t stuck_sols_ = 0; // in a row
+  std::int64_t attempts_ = 0;    // at that goal
+  std::int64_t stuck_sols_ = 0;  // in a row
 };
 
 }  // namespace rockyard::experiments

@@ -46,12 +46,13 @@ double MissionDayParams::RoverBits() const {
 }
 
 void MissionDayParams::Visit(core::FieldVisitor& v) {
-  v.Real("window_h", window_h,
-         {.doc = "hours (of 3600 s) in which the rover may drive, centred on local noon",
-          .min = 0.01,
-          .max = 12.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 2.1.2: approximately four hours a day, centred around noon"});
+  v.Real(
+      "window_h", window_h,
+      {.doc = "hours (of 3600 s) in which the rover may drive, centred on local noon",
+       .min = 0.01,
+       .max = 12.0,
+       .origin = Origin::kPublished,
+       .source = "Matthies 1995 sec. 2.1.2: approximately four hours a day, centred around noon"});
   v.Real("latency_min", latency_min,
          {.doc = "one-way light time to the Earth",
           .min = 0.0,
@@ -192,11 +193,12 @@ void MissionParams::Visit(core::FieldVisitor& v) {
              .max = kMostSols,
              .origin = Origin::kPublished,
              .source = "Matthies 1995 sec. 2.1.1: one week, with a goal of four"});
-  v.Choice("lander_update", lander_update,
-           {.doc = "when operators find the rover in the lander's images of a day, with the errors "
-                   "of sensors.aids.lander_fix",
-            .origin = Origin::kPublished,
-            .source = "Matthies 1995 sec. 2.1.2, 5: once daily, by images from the end of the day"});
+  v.Choice(
+      "lander_update", lander_update,
+      {.doc = "when operators find the rover in the lander's images of a day, with the errors "
+              "of sensors.aids.lander_fix",
+       .origin = Origin::kPublished,
+       .source = "Matthies 1995 sec. 2.1.2, 5: once daily, by images from the end of the day"});
   v.Real("lander_x_m", lander_x_m,
          {.doc = "where the lander's cameras stand, in the world frame",
           .min = -1000.0,

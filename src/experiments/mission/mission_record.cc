@@ -25,8 +25,7 @@ Checkpoint CheckpointAfter(std::int64_t sols, const MissionCourse& course) {
 
 namespace mission_columns {
 
-truth::ValueInfo Count(const std::string& name, const std::string& meaning,
-                       const std::string& of) {
+truth::ValueInfo Count(const std::string& name, const std::string& meaning, const std::string& of) {
   return {name, "1", meaning, truth::ColumnRole::kCount, of};
 }
 

@@ -36,8 +36,8 @@ struct MissionRecord {
   double distance_m = 0.0;
   double longest_sol_m = 0.0;
   std::array<std::int64_t, kSolEnds> sol_ends{};
-  std::int64_t sights = 0;    // days on which the lander took its image
-  std::int64_t unseen = 0;    // of these, without the rover
+  std::int64_t sights = 0;  // days on which the lander took its image
+  std::int64_t unseen = 0;  // of these, without the rover
   SolEnergy energy;
   double battery_left_wh = 0.0;
 
@@ -82,8 +82,8 @@ void ForEachCheckpointColumn(const MissionRecord& r, Visitor visit) {
   for (std::size_t i = 0; i < kCheckpoints.size(); ++i) {
     const Checkpoint& point = r.checkpoints[i];
     const std::string after = "after_" + std::to_string(kCheckpoints[i]);
-    const std::string when = " after " + std::to_string(kCheckpoints[i]) +
-                             " sols, or at the end of a shorter mission";
+    const std::string when =
+        " after " + std::to_string(kCheckpoints[i]) + " sols, or at the end of a shorter mission";
     visit(Count(after, "missions that lasted so many sols", "missions"), flag(point.lasted));
     visit(Sum(after + "_position_m", "m", "position error" + when), point.position_error_m);
     visit(truth::ValueInfo{after + "_position_error_m", "m", "the same",
@@ -141,8 +141,9 @@ void ForEachMissionColumn(const MissionRecord& r, Visitor visit) {
                          truth::ColumnRole::kBase},
         number(r.sights));
   visit(Count("unseen", "of these, without it: too far, or hidden", "sights"), number(r.unseen));
-  visit(Sum("spare_images", "1", "images of the lander that a sol's volume holds beside what a "
-                                 "command needs"),
+  visit(Sum("spare_images", "1",
+            "images of the lander that a sol's volume holds beside what a "
+            "command needs"),
         number(r.spare_images));
   ForEachEnergyColumn(r.energy, visit);
   visit(Sum("battery_left_wh", "Wh", "what the batteries hold at the end"), r.battery_left_wh);

@@ -41,12 +41,12 @@ enum class LanderSight {
 
 struct Sol {
   SolEnd end = SolEnd::kNoCommand;
-  std::int64_t goal = 0;     // number of the goal that it was about, from 0
-  double distance_m = 0.0;   // true path
-  double drive_time_s = 0.0; // from the start of the drive to its end
-  math::Pose2 truth;         // in the evening
-  math::Pose2 believed;      // then, after the lander's update
-  double unaided_error_m = 0.0;  // of the believed position before that update
+  std::int64_t goal = 0;                // number of the goal that it was about, from 0
+  double distance_m = 0.0;              // true path
+  double drive_time_s = 0.0;            // from the start of the drive to its end
+  math::Pose2 truth;                    // in the evening
+  math::Pose2 believed;                 // then, after the lander's update
+  double unaided_error_m = 0.0;         // of the believed position before that update
   std::optional<double> position_sd_m;  // as believed then; empty without an account of errors
   std::optional<bool> inside_95;        // whether its 95 % region of x, y, heading holds the truth
   LanderSight sight = LanderSight::kNotTaken;
