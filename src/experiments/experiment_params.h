@@ -16,6 +16,8 @@
 #include "experiments/designation/designation_study_params.h"
 #include "experiments/hazard_detection/checks_params.h"
 #include "experiments/hazard_detection/hazard_detection_params.h"
+#include "experiments/mission/checks_params.h"
+#include "experiments/mission/mission_params.h"
 #include "experiments/stereo_sensing/checks_params.h"
 #include "experiments/stereo_sensing/stereo_sensing_params.h"
 #include "experiments/three_rock_run/checks_params.h"
@@ -38,15 +40,17 @@ enum class ExperimentKind {
   kDesignation,      // where operators put goals in the lander's images
   kVisualMotion,     // how well visual odometry measures one motion
   kCylinderSighting,  // where the coloured cylinder on the rover is seen from the lander
+  kMission,          // sols of drives, one after the other
 };
 
 }  // namespace rockyard::experiments
 
 template <>
 struct rockyard::core::EnumNames<rockyard::experiments::ExperimentKind> {
-  static constexpr std::array<std::string_view, 8> kNames{
+  static constexpr std::array<std::string_view, 9> kNames{
       "drive",          "hazard_detection", "stereo_sensing", "dead_reckoning",
-      "three_rock_run", "designation",      "visual_motion",  "cylinder_sighting"};
+      "three_rock_run", "designation",      "visual_motion",  "cylinder_sighting",
+      "mission"};
 };
 
 namespace rockyard::experiments {
@@ -60,6 +64,7 @@ struct ExperimentParams {
   DesignationStudyParams designation;
   VisualMotionStudyParams visual_motion;
   CylinderSightingParams cylinder_sighting;
+  MissionParams mission;
 
   // Lists the field "experiment", and the group of each experiment that has parameters of its own,
   // in the group that is being visited.
@@ -74,6 +79,7 @@ struct ExperimentParams {
     v.Group("designation", designation, "the experiment of that name");
     v.Group("visual_motion", visual_motion, "the experiment of that name");
     v.Group("cylinder_sighting", cylinder_sighting, "the experiment of that name");
+    v.Group("mission", mission, "the experiment of that name");
   }
 
   // What the experiment in use asks of the drive.
@@ -110,6 +116,11 @@ struct ExperimentParams {
       case ExperimentKind::kCylinderSighting:
         trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
         RequireSightable(cylinder_sighting, v);
+        return;
+      case ExperimentKind::kMission:
+        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
+        trial::RequireSoundDrive(drive, v);
+        RequireMission(mission, drive, v);
         return;
     }
   }

@@ -15,6 +15,8 @@
 #include "experiments/experiment.h"
 #include "experiments/hazard_detection/columns.h"
 #include "experiments/hazard_detection/hazard_detection.h"
+#include "experiments/mission/columns.h"
+#include "experiments/mission/mission_experiment.h"
 #include "experiments/stereo_sensing/columns.h"
 #include "experiments/stereo_sensing/stereo_sensing.h"
 #include "experiments/three_rock_run/columns.h"
@@ -46,6 +48,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
       return std::make_unique<VisualMotionExperiment>(experiment.visual_motion, drive);
     case ExperimentKind::kCylinderSighting:
       return std::make_unique<CylinderSightingExperiment>(experiment.cylinder_sighting);
+    case ExperimentKind::kMission:
+      return std::make_unique<MissionExperiment>(experiment.mission, drive);
   }
   throw std::logic_error("unknown experiment");
 }
@@ -56,7 +60,7 @@ truth::RecordSchema WithRoles(truth::RecordSchema stored) {
   for (const truth::RecordSchema* columns :
        {&DriveSchema(), &HazardColumns(), &StereoColumns(), &DeadReckoningColumns(),
         &ThreeRockColumns(), &DesignationColumns(), &VisualMotionColumns(),
-        &CylinderSightingColumns()}) {
+        &CylinderSightingColumns(), &MissionColumns()}) {
     const auto known = std::count_if(
         stored.begin(), stored.end(),
         [&](const truth::ValueInfo& column) { return truth::FindColumn(*columns, column.name); });

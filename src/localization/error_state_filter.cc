@@ -1,6 +1,7 @@
 #include "localization/error_state_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -36,6 +37,18 @@ PoseVector Wrapped(PoseVector difference) {
 
 void Add(const PoseVector& change, PoseVector& pose) { pose = Wrapped(pose + change); }
 
+// `remembered` of the errors that a night leaves as they were, `prior` of those that begin anew,
+// which have nothing in common with any other.
+ErrorMatrix AfterNight(const ErrorMatrix& remembered, const ErrorMatrix& prior) {
+  constexpr std::array kKept{error::kX, error::kY, error::kHeading, error::kGyroScale,
+                             error::kWheelScale};
+  ErrorMatrix covariance = prior;
+  for (const int row : kKept) {
+    for (const int column : kKept) covariance(row, column) = remembered(row, column);
+  }
+  return covariance;
+}
+
 }  // namespace
 
 ErrorStateFilter::ErrorStateFilter(const ErrorStateFilterParams& params,
@@ -52,7 +65,15 @@ ErrorStateFilter::ErrorStateFilter(const ErrorStateFilterParams& params,
   estimate_.pose.heading_rad = math::WrapAngle(setup.start.heading_rad);
   estimate_.odometry = estimate_.pose;
   felt_odometry_ = estimate_.odometry;
+  if (setup.memory) Recall(*setup.memory);
   TellCovariance();
+}
+
+void ErrorStateFilter::Recall(const EstimatorMemory& memory) {
+  gyro_scale_ = memory.gyro_scale;
+  wheel_scale_ = memory.wheel_scale;
+  if (!memory.covariance) return;
+  errors_ = ClonedCovariance(AfterNight(*memory.covariance, PriorCovariance(params_)));
 }
 
 TickNoise ErrorStateFilter::NoiseOf(const messages::MotionMeasurement& motion,
@@ -130,6 +151,19 @@ void ErrorStateFilter::Place(const messages::PoseUpdate& update) {
   attitude_.Restart();
   felt_odometry_ = estimate_.odometry;
   TellCovariance();
+}
+
+EstimatorMemory ErrorStateFilter::Remember() const {
+  ErrorMatrix covariance = errors_.now();
+  if (!stretch_.empty()) {
+    // What the stretch so far adds, of which nothing else is told until its end.
+    const ErrorMatrix& transition = stretch_.transition();
+    covariance = transition * covariance * transition.transpose() + stretch_.noise();
+  }
+  return {.pose = {estimate_.pose.x_m, estimate_.pose.y_m, estimate_.pose.heading_rad},
+          .covariance = covariance,
+          .gyro_scale = gyro_scale_,
+          .wheel_scale = wheel_scale_};
 }
 
 void ErrorStateFilter::Capture(messages::CaptureNumber capture) {

@@ -47,6 +47,7 @@ class ErrorStateFilter final : public Estimator {
   AidUse Update(const messages::RelativeMotion& motion) override;
 
   const messages::LocalizationEstimate& estimate() const override { return estimate_; }
+  EstimatorMemory Remember() const override;
 
   // What is believed of the sensors.
   double gyro_bias_rad_s() const { return gyro_bias_rad_s_; }
@@ -64,6 +65,9 @@ class ErrorStateFilter final : public Estimator {
     bool of_place = false;  // x or y are among the values
   };
 
+  // Begins with what is known of place, heading and scales. A gyro that is switched on has a new
+  // bias; roll, pitch and height are of the new day.
+  void Recall(const EstimatorMemory& memory);
   messages::PoseVector PoseNow() const;
   TickNoise NoiseOf(const messages::MotionMeasurement& motion, double forward_m) const;
   // Carries the covariance on over the stretch so far.

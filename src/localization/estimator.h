@@ -1,6 +1,7 @@
 // Where the rover believes to be, whatever it is worked out from.
 #pragma once
 
+#include "localization/estimator_memory.h"
 #include "messages/aids.h"
 #include "messages/estimates.h"
 #include "messages/measurements.h"
@@ -45,6 +46,12 @@ class Estimator {
   virtual AidUse Update(const messages::RelativeMotion& /*motion*/) { return AidUse::kNoInterest; }
 
   virtual const messages::LocalizationEstimate& estimate() const = 0;
+
+  // What is kept while the computer is off (EstimatorSetup::memory).
+  virtual EstimatorMemory Remember() const {
+    const messages::PoseEstimate& pose = estimate().pose;
+    return {.pose = {pose.x_m, pose.y_m, pose.heading_rad}, .covariance = std::nullopt};
+  }
 };
 
 }  // namespace rockyard::localization

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -27,8 +28,8 @@ Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
 }  // namespace
 
 Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
-             const Watchers& watchers)
-    : parts_(drive, key, watchers),
+             const Watchers& watchers, const DriveStart* start)
+    : parts_(drive, key, watchers, start),
       observer_(parts_),
       tracer_(parts_, trace),
       step_watcher_(watchers.step),
@@ -310,12 +311,26 @@ DriveResult Drive::Finish(const Verdict& verdict) {
   const truth::EndCauseInfo& end = truth::Info(verdict.cause);
   tracer_.Event("end", std::string(end.sentence));
   return {end.outcome, std::string(end.sentence),
-          observer_.Report(truth::DeclaredSuccess(end.outcome), stall_)};
+          observer_.Report(truth::DeclaredSuccess(end.outcome), stall_), End()};
+}
+
+DriveEnd Drive::End() const {
+  DriveEnd end{.X_WR = parts_.state().X_WR,
+               .memory = parts_.estimator->Remember(),
+               .battery_wh = parts_.ledger.battery_drawn_wh()};
+  for (std::size_t i = 0; i < kActivityCount; ++i) {
+    end.energy_wh[i] = parts_.ledger.energy_wh(static_cast<Activity>(i));
+  }
+  return end;
 }
 
 DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
                      const Watchers& watchers) {
   return Drive(drive, key, trace, watchers).Run();
+}
+
+DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, const DriveStart& start) {
+  return Drive(drive, key, nullptr, {}, &start).Run();
 }
 
 }  // namespace rockyard::trial

@@ -27,8 +27,8 @@ namespace rockyard::trial {
 // (timeline.h).
 class Drive {
  public:
-  Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
-        const Watchers& watchers);
+  Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace, const Watchers& watchers,
+        const DriveStart* start = nullptr);
 
   DriveResult Run();
 
@@ -83,6 +83,7 @@ class Drive {
   Observation Observed(Activity activity, int direction, double duration_s) const;
   std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);
   DriveResult Finish(const Verdict& verdict);
+  DriveEnd End() const;
   // What a stuck rover would still take, and with referee.stuck_rover run_on takes.
   void Strand();
   // Spends time at rest.

@@ -77,11 +77,14 @@ std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::
 
 }  // namespace
 
-DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const Watchers& watchers)
+DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const Watchers& watchers,
+                       const DriveStart* from)
     : params(drive),
       key(trial_key),
-      field(terrain::BuildField(drive.terrain, LayoutKey(drive, trial_key),
-                                TerrainCourse(drive.course))),
+      start(from),
+      field(from != nullptr ? from->field
+                            : terrain::BuildField(drive.terrain, LayoutKey(drive, trial_key),
+                                                  TerrainCourse(drive.course))),
       told_places(ToldPlaces(drive, field.terrain, trial_key)),
       rover(MakeTrialRover(drive, field.terrain)),
       tick(WholeSteps(1.0 / drive.clock.control_rate_hz, rover->step_s())),
@@ -96,7 +99,8 @@ DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const
       follower(drive.rover.drive.speed_m_s, rover->ramp_s()),
       wheel_driver(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
                    drive.navigation.wheel_driver, drive.clock.overlap.steering),
-      ledger(MakePowerBudget(drive), drive.energy.battery_wh),
+      ledger(MakePowerBudget(drive), drive.energy.battery_wh,
+             from != nullptr ? from->sun : std::nullopt),
       timeline(drive.clock.overlap, ledger),
       referee(drive.referee, drive.course, told_places.front(), Bounds(drive.terrain.arena),
               drive.rover.geometry.wheel_radius_m) {
@@ -122,7 +126,7 @@ void DriveParts::Begin() {
   motion_sensors.emplace(params.sensors.gyro, params.sensors.encoders,
                          params.rover.geometry.wheel_radius_m, key, state());
   start_z_m = state().X_WR.translation().z();
-  estimator = MakeEstimator(params, *rover);
+  estimator = MakeEstimator(params, *rover, start != nullptr ? &start->memory : nullptr);
 }
 
 }  // namespace rockyard::trial

@@ -19,6 +19,7 @@
 #include "trial/aid_suite.h"
 #include "trial/capture_counter.h"
 #include "trial/drive_params.h"
+#include "trial/drive_start.h"
 #include "trial/goal_rock.h"
 #include "trial/ledger.h"
 #include "trial/mirror_arena.h"
@@ -33,9 +34,10 @@
 namespace rockyard::trial {
 
 // The loop (drive.h) moves them; who watches it (drive_observer.h, drive_tracer.h) reads them.
-// `drive` outlives it.
+// `drive` outlives it, and so does `from`, which may be null.
 struct DriveParts {
-  DriveParts(const DriveParams& drive, core::TrialKey trial_key, const Watchers& watchers);
+  DriveParts(const DriveParams& drive, core::TrialKey trial_key, const Watchers& watchers,
+             const DriveStart* from = nullptr);
   DriveParts(const DriveParts&) = delete;
   DriveParts& operator=(const DriveParts&) = delete;
 
@@ -47,6 +49,7 @@ struct DriveParts {
 
   const DriveParams& params;
   core::TrialKey key;
+  const DriveStart* start;  // of a drive that goes on from an earlier one
 
   terrain::Field field;
   std::vector<messages::Goal> told_places;  // waypoints, then the goal, as the rover is told

@@ -8,6 +8,9 @@ namespace rockyard::trial {
 
 void Ledger::Spend(Activity activity, double duration_s) {
   EXPECT(duration_s >= 0.0);
+  if (sun_) {
+    shortfall_J_ += sun_->Shortfall_J(budget_.Power(activity), time_s_, time_s_ + duration_s);
+  }
   time_s_ += duration_s;
   by_activity_s_[static_cast<std::size_t>(activity)] += duration_s;
   energy_J_ += budget_.Power(activity) * duration_s;
@@ -15,6 +18,8 @@ void Ledger::Spend(Activity activity, double duration_s) {
 
 void Ledger::SpendBeside(Activity activity, double duration_s) {
   EXPECT(duration_s >= 0.0);
+  // What the sun gives to one activity it cannot give to another one beside it.
+  EXPECT(!sun_ || budget_.PowerBeside(activity) * duration_s == 0.0);
   beside_by_activity_s_[static_cast<std::size_t>(activity)] += duration_s;
   energy_J_ += budget_.PowerBeside(activity) * duration_s;
 }

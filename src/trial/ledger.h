@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "trial/power_budget.h"
+#include "trial/solar_supply.h"
 
 namespace rockyard::trial {
 
@@ -15,8 +17,11 @@ struct Stall {
 
 class Ledger {
  public:
-  // Batteries of 0 Wh are never empty.
-  Ledger(const PowerBudget& budget, double battery_wh) : budget_(budget), battery_wh_(battery_wh) {}
+  // Batteries of 0 Wh are never empty, unless there is a sun, which supplies what it can before
+  // them: then they are empty as soon as it does not suffice.
+  Ledger(const PowerBudget& budget, double battery_wh,
+         const std::optional<SolarSupply>& sun = std::nullopt)
+      : budget_(budget), battery_wh_(battery_wh), sun_(sun) {}
 
   void Spend(Activity activity, double duration_s);
   // What goes on beside that: its own power, no time of the clock.
@@ -38,7 +43,12 @@ class Ledger {
             budget_.PowerBeside(activity) * beside_s(activity)) /
            kJoulesPerWattHour;
   }
-  bool empty() const { return has_end() && energy_wh() >= battery_wh_; }
+  // Of energy_wh(), what came from the batteries.
+  double battery_drawn_wh() const { return (sun_ ? shortfall_J_ : energy_J_) / kJoulesPerWattHour; }
+  bool empty() const {
+    if (sun_) return battery_drawn_wh() > battery_wh_;
+    return has_end() && energy_wh() >= battery_wh_;
+  }
 
  private:
   static constexpr double kJoulesPerWattHour = 3600.0;
@@ -50,8 +60,10 @@ class Ledger {
 
   PowerBudget budget_;
   double battery_wh_;
+  std::optional<SolarSupply> sun_;
   double time_s_ = 0.0;
   double energy_J_ = 0.0;
+  double shortfall_J_ = 0.0;  // beyond the sun
   std::array<double, kActivityCount> by_activity_s_{};
   std::array<double, kActivityCount> beside_by_activity_s_{};
 };

@@ -5,13 +5,24 @@
 
 namespace rockyard::trial {
 
-std::unique_ptr<localization::Estimator> MakeEstimator(const DriveParams& drive,
-                                                       const rover::Rover& rover) {
-  auto estimator = drive.localization.estimators.chosen().Make(
-      {.calibration = OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
-       .dead_reckoning = drive.perception.dead_reckoning,
-       .attitude = drive.perception.attitude,
-       .start = drive.course.Start()});
+localization::EstimatorSetup EstimatorSetupOf(const DriveParams& drive,
+                                              const localization::EstimatorMemory* memory) {
+  localization::EstimatorSetup setup{
+      .calibration = OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
+      .dead_reckoning = drive.perception.dead_reckoning,
+      .attitude = drive.perception.attitude,
+      .start = drive.course.Start()};
+  if (memory != nullptr) {
+    setup.start = memory->pose;
+    setup.memory = memory;
+  }
+  return setup;
+}
+
+std::unique_ptr<localization::Estimator> MakeEstimator(
+    const DriveParams& drive, const rover::Rover& rover,
+    const localization::EstimatorMemory* memory) {
+  auto estimator = drive.localization.estimators.chosen().Make(EstimatorSetupOf(drive, memory));
   if (auto* oracle = dynamic_cast<OracleEstimator*>(estimator.get())) oracle->See(rover);
   return estimator;
 }

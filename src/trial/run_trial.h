@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "trial/drive_params.h"
+#include "trial/drive_start.h"
 #include "trial/watchers.h"
 #include "truth/drive_record.h"
 #include "truth/record.h"
@@ -16,6 +17,7 @@ struct DriveResult {
   truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;
   std::string detail;
   truth::DriveRecord record;
+  DriveEnd end;
 };
 
 // Drives the trial that `key` names: a pure function of (drive, key). With `trace` the course of
@@ -24,5 +26,10 @@ struct DriveResult {
 // physics; the experiment turns that into a simulator fault.
 DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, truth::Trace* trace = nullptr,
                      const Watchers& watchers = {});
+
+// The same of a drive that goes on from an earlier one: a pure function of (drive, key, start).
+// drive.course.start is where the rover truly stands, drive.energy.battery_wh what its batteries
+// still hold; the field is that of `start`, whatever drive.terrain says.
+DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, const DriveStart& start);
 
 }  // namespace rockyard::trial

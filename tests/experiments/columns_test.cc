@@ -80,6 +80,8 @@ TEST(WithRolesTest, KnowsTheColumnsOfEveryExperiment) {
       core::SetPath(document, "terrain.arena.kind", core::JsonValue("open"));
       core::SetPath(document, "terrain.rocks.kind", core::JsonValue("none"));
     }
+    // And a mission, which roams about.
+    if (name == "mission") core::SetPath(document, "terrain.arena.kind", core::JsonValue("open"));
     ExpectRolesBack(scenario::ReadScenario(document));
   }
 }

@@ -1,0 +1,99 @@
+// One mission: sol after sol a command, a drive, an evening and a night.
+//
+// The rover stays in one rock field. On each morning it stands where it stood in the evening, and
+// believes what it believed then (trial/drive_start.h); operators designate the next goal in the
+// lander's images with the errors of Matthies 1995, section 4. In the evening the lander finds the
+// rover in its images, where the mission has that aid and the lander sees the rover.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/random.h"
+#include "experiments/mission/mission_params.h"
+#include "experiments/mission/sol.h"
+#include "localization/estimator_memory.h"
+#include "sensing/lander_fix.h"
+#include "terrain/field.h"
+#include "trial/drive_params.h"
+#include "trial/run_trial.h"
+#include "trial/solar_supply.h"
+
+namespace rockyard::experiments {
+
+enum class MissionEnd {
+  kSolsDone,
+  kGoalsDone,  // operators believe to have been at every goal, or have given it up
+  kNoPower,    // batteries empty, and no sun that carries a drive
+  kTipped,
+  kStuck,      // for stuck_sols in a row
+  kLost,       // beyond the radio's range
+  kLeftField,  // beyond the rocks that the simulation laid out
+};
+inline constexpr std::array<std::string_view, 7> kMissionEndNames{
+    "sols_done", "goals_done", "no_power", "tipped", "stuck", "lost", "left_field"};
+
+struct MissionCourse {
+  MissionEnd end = MissionEnd::kSolsDone;
+  std::vector<Sol> sols;
+  std::int64_t goals_given_up = 0;
+  std::int64_t goals_reached = 0;   // truly, where operators went on to the next
+  std::int64_t goals_believed = 0;  // where operators believed it
+  std::int64_t wrong_beliefs = 0;   // of these, not truly
+};
+
+class Mission {
+ public:
+  // A pure function of these. `params` and `drive` outlive it.
+  Mission(const MissionParams& params, const trial::DriveParams& drive, core::TrialKey key);
+
+  MissionCourse Run();
+
+ private:
+  // The hours of one sol's drive.
+  struct Window {
+    double begin_s = 0.0;  // after the opening of window_h
+    double length_s = 0.0;
+    trial::SolarSupply sun;  // time 0 at begin_s
+  };
+
+  trial::SolarSupply SunFrom(std::int64_t sol, double start_s) const;
+  // None where the rover has no power for a drive.
+  std::optional<Window> WindowOf(std::int64_t sol) const;
+  trial::DriveParams DriveOf(const Window& window) const;
+  // Drives, if a command has come, and books the sol's energy.
+  // `told`: the goal as it was designated, where there was a command.
+  Sol RunSol(std::int64_t number, const Window& window, messages::Goal& told);
+  trial::DriveEnd DriveOn(std::int64_t number, const Window& window, Sol& sol,
+                          messages::Goal& told);
+  // The lander's image of the day, of a rover that stands at X_WR.
+  LanderSight UpdateByLander(std::int64_t number, const math::Transform& X_WR);
+  // What a fix makes of the rover's memory: an estimator that weighs fixes weighs it, another one
+  // is told the place.
+  void Believe(const messages::PoseFix& fix);
+  void TellBelief(Sol& sol) const;
+  // Whether operators hold the goal for reached, and whether they go on to the next one.
+  void JudgeGoal(const messages::Goal& told, Sol& sol, MissionCourse& course);
+  std::optional<MissionEnd> EndAfter(const Sol& sol);
+
+  const MissionParams& params_;
+  const trial::DriveParams& drive_;
+  core::TrialKey key_;
+  std::vector<messages::Goal> goals_;
+  terrain::Field field_;
+  double pan_error_rad_;
+  sensing::LanderFix lander_;
+
+  math::Pose2 truth_;
+  localization::EstimatorMemory memory_;
+  double battery_wh_;
+  std::size_t goal_ = 0;
+  std::int64_t attempts_ = 0;    // at that goal
+  std::int64_t stuck_sols_ = 0;  // in a row
+};
+
+}  // namespace rockyard::experiments

@@ -1,0 +1,59 @@
+#include "experiments/mission/mission_record.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "experiments/mission/command_cycle.h"
+#include "math/angles.h"
+
+namespace rockyard::experiments {
+namespace {
+
+Checkpoint CheckpointAfter(std::int64_t sols, const MissionCourse& course) {
+  const auto lasted = static_cast<std::int64_t>(course.sols.size());
+  if (lasted == 0) return {};
+  const Sol& sol = course.sols[static_cast<std::size_t>(std::min(sols, lasted) - 1)];
+  return {.lasted = lasted >= sols,
+          .position_error_m = sol.PositionError_m(),
+          .heading_error_deg = math::RadToDeg(sol.HeadingError_rad()),
+          .position_sd_m = sol.position_sd_m.value_or(0.0),
+          .judged = sol.inside_95.has_value(),
+          .inside_95 = sol.inside_95.value_or(false)};
+}
+
+}  // namespace
+
+namespace mission_columns {
+
+truth::ValueInfo Count(const std::string& name, const std::string& meaning, const std::string& of) {
+  return {name, "1", meaning, truth::ColumnRole::kCount, of};
+}
+
+truth::ValueInfo Sum(const std::string& name, const std::string& unit, const std::string& meaning,
+                     const std::string& of) {
+  return {name, unit, meaning, truth::ColumnRole::kSum, of};
+}
+
+}  // namespace mission_columns
+
+MissionRecord::MissionRecord(const MissionParams& params, MissionCourse of)
+    : goals(static_cast<std::int64_t>(params.goals.Places().size())),
+      spare_images(SpareImages(params.day)),
+      course(std::move(of)),
+      battery_left_wh(params.power.battery_wh) {
+  for (std::size_t i = 0; i < kCheckpoints.size(); ++i) {
+    checkpoints[i] = CheckpointAfter(kCheckpoints[i], course);
+  }
+  for (const Sol& sol : course.sols) {
+    distance_m += sol.distance_m;
+    longest_sol_m = std::max(longest_sol_m, sol.distance_m);
+    ++sol_ends[static_cast<std::size_t>(sol.end)];
+    const bool unseen_there = sol.sight == LanderSight::kUnseen;
+    if (unseen_there || sol.sight == LanderSight::kFound) ++sights;
+    if (unseen_there) ++unseen;
+    energy += sol.energy;
+    battery_left_wh = sol.battery_left_wh;
+  }
+}
+
+}  // namespace rockyard::experiments
