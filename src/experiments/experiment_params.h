@@ -32,15 +32,15 @@ namespace rockyard::experiments {
 
 // What one run of the experiment is.
 enum class ExperimentKind {
-  kDrive,            // the closed-loop drive to a goal
-  kHazardDetection,  // what the light stripe sensor sees and misses
-  kStereoSensing,    // what stereo cameras measure and miss
-  kDeadReckoning,    // how far dead reckoning along a straight line goes wrong
-  kThreeRockRun,     // a drive among three rocks that goes as a published one is told
-  kDesignation,      // where operators put goals in the lander's images
-  kVisualMotion,     // how well visual odometry measures one motion
+  kDrive,             // the closed-loop drive to a goal
+  kHazardDetection,   // what the light stripe sensor sees and misses
+  kStereoSensing,     // what stereo cameras measure and miss
+  kDeadReckoning,     // how far dead reckoning along a straight line goes wrong
+  kThreeRockRun,      // a drive among three rocks that goes as a published one is told
+  kDesignation,       // where operators put goals in the lander's images
+  kVisualMotion,      // how well visual odometry measures one motion
   kCylinderSighting,  // where the coloured cylinder on the rover is seen from the lander
-  kMission,          // sols of drives, one after the other
+  kMission,           // sols of drives, one after the other
 };
 
 }  // namespace rockyard::experiments
@@ -48,9 +48,8 @@ enum class ExperimentKind {
 template <>
 struct rockyard::core::EnumNames<rockyard::experiments::ExperimentKind> {
   static constexpr std::array<std::string_view, 9> kNames{
-      "drive",          "hazard_detection", "stereo_sensing", "dead_reckoning",
-      "three_rock_run", "designation",      "visual_motion",  "cylinder_sighting",
-      "mission"};
+      "drive",       "hazard_detection", "stereo_sensing",    "dead_reckoning", "three_rock_run",
+      "designation", "visual_motion",    "cylinder_sighting", "mission"};
 };
 
 namespace rockyard::experiments {
