@@ -129,7 +129,7 @@ def bias_table(rows):
                 turns = [c.mean("orientation", "_deg") for c in those]
                 stereo = [c.mean("stereo") for c in those]
                 lines.append([called, f"{distance:g}", "-180 to -90" if excepted else "all others" if
-                              distance > 10 else "all", share(everything["found"], everything.measurements),
+                              distance > 10 else "all", f"{everything['found']:.0f} of {everything.measurements:.0f}",
                               f"{sum(abs(t) <= 5 for t in turns)} of {len(turns)}",
                               f"{median(turns):+.1f} ({min(turns):+.1f} to {max(turns):+.1f})" if turns else "-",
                               f"{sum(abs(s) <= 0.05 for s in stereo)} of {len(stereo)}",
