@@ -8,7 +8,7 @@ against the one-pixel limits of appendix A.2, statements of the text with a verd
 found, how well, and how many poses are wrong. --markdown writes them between <!-- begin cylinder_NAME --> and
 <!-- end cylinder_NAME --> of a page; --studies writes the cells as CSV. Delete the runs after a change of the code.
 
-    scripts/cylinder_study.py [--seed 1] [--tables bias,limits,verdicts,green,views,without] [--markdown results/lander.md]
+    scripts/cylinder_study.py [--seed 1] [--tables bias,limits,verdicts,green,views,without] [--markdown PAGE]
 """
 
 import argparse
@@ -194,7 +194,8 @@ def verdict_lines(rows):
            f"{100 * turns:.0f} % of orientations", measured_verdict(turns > 0.5, turns))
     yield ("sec. 5, fig. 10", "mean errors of distance within 5 %", f"{100 * stereo:.0f} % of orientations",
            measured_verdict(stereo > 0.95, stereo))
-    yield ("sec. 5", "distances usually short", f"{100 * short:.0f} % of orientations", measured_verdict(short > 0.5, short))
+    yield ("sec. 5", "distances usually short", f"{100 * short:.0f} % of orientations",
+           measured_verdict(short > 0.5, short))
     yield ("sec. 5, figs. 11, 12", "standard deviations usually below one or two pixels: orientation",
            f"below two at {100 * spread:.0f} %", measured_verdict(spread > 0.5, spread))
     yield ("sec. 5, figs. 11, 12", "the same: distance", f"below two at {100 * spread_d:.0f} %",
@@ -293,12 +294,14 @@ def run(args, name):
     """The rows of a scenario, run or taken as they are, and a note on them."""
     path = SCENARIOS / f"{name}.json"
     folder = args.out / f"{name}-{args.seed}"
+    made = ""
     if not args.count_only:
         document = json.loads(path.read_text(encoding="utf-8"))
         args.trials = document.get("trials", 180) if args.views is None or "views" not in name else args.views
-        study.run_scenario(args, path, folder, args.set)
+        made = f"; made by rockyard {study.program(study.run_scenario(args, path, folder, args.set))}"
     rows = rows_of(folder)
-    return rows, f"{sum(row['measurements'] for row in rows):.0f} pairs of images, {len(rows)} views, seed {args.seed}."
+    pairs = sum(row["measurements"] for row in rows)
+    return rows, f"{pairs:.0f} pairs of images, {len(rows)} views, seed {args.seed}{made}."
 
 
 def main():
