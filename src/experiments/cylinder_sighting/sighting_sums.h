@@ -21,8 +21,7 @@ struct ErrorSums {
   }
 };
 
-inline constexpr std::size_t kCylinderMisses =
-    core::EnumNames<vision::CylinderMiss>::kNames.size();
+inline constexpr std::size_t kCylinderMisses = core::EnumNames<vision::CylinderMiss>::kNames.size();
 
 struct FinderSums {
   double found = 0.0;
@@ -50,8 +49,7 @@ struct SightingSums {
 // Calls f(name, value) for every column of a finder, in the order of the records.
 template <typename F>
 void ForEachFinderSum(const std::string& finder, const FinderSums& s, F&& f) {
-  const auto error = [&](const std::string& name, const std::string& unit,
-                         const ErrorSums& sums) {
+  const auto error = [&](const std::string& name, const std::string& unit, const ErrorSums& sums) {
     f(finder + "_" + name + "_bias" + unit, sums.sum);
     f(finder + "_" + name + "_error" + unit, sums.squares);
   };

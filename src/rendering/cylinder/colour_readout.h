@@ -18,7 +18,8 @@ namespace rockyard::rendering {
 //      brightest channel of the level ground in the present light has exposure_level of the largest
 //      count;
 //   3. blur of all by [a, 1 - 2a, a] along lines and columns, a = s^2/2; then, along the line, of
-//      what the channels differ from their brightness Y = 0.299 R + 0.587 G + 0.114 B by a Gaussian;
+//      what the channels differ from their brightness Y = 0.299 R + 0.587 G + 0.114 B by a
+//      Gaussian;
 //   4. noise of each channel: of deviation sqrt(read^2 + n N / W) at n of N counts, full well W;
 //   5. counts: N (n / N)^gamma rounded and cut to 0 to N = 255.
 class ColourReadout {
