@@ -30,13 +30,13 @@ namespace rockyard::experiments {
 
 // What one run of the experiment is.
 enum class ExperimentKind {
-  kDrive,            // the closed-loop drive to a goal
-  kHazardDetection,  // what the light stripe sensor sees and misses
-  kStereoSensing,    // what stereo cameras measure and miss
-  kDeadReckoning,    // how far dead reckoning along a straight line goes wrong
-  kThreeRockRun,     // a drive among three rocks that goes as a published one is told
-  kDesignation,      // where operators put goals in the lander's images
-  kVisualMotion,     // how well visual odometry measures one motion
+  kDrive,             // the closed-loop drive to a goal
+  kHazardDetection,   // what the light stripe sensor sees and misses
+  kStereoSensing,     // what stereo cameras measure and miss
+  kDeadReckoning,     // how far dead reckoning along a straight line goes wrong
+  kThreeRockRun,      // a drive among three rocks that goes as a published one is told
+  kDesignation,       // where operators put goals in the lander's images
+  kVisualMotion,      // how well visual odometry measures one motion
   kCylinderSighting,  // where the coloured cylinder on the rover is seen from the lander
 };
 
