@@ -229,6 +229,14 @@ def verdicts_table(rows):
     return study.table(["place", "printed", "here", "verdict"], lines)
 
 
+def errors(sums, name, suffix, scale):
+    """Mean and deviation of poses that are right, of which there have to be two."""
+    if sums["right"] < 2:
+        return "-"
+    return (f"{scale * sums.mean(name, suffix, 'right'):+.2f} ± "
+            f"{scale * sums.spread(name, suffix, 'right'):.2f}")
+
+
 def views_table(rows):
     """By finder, in all and by one factor at a time: found, errors, wrong poses."""
     lines = []
@@ -241,10 +249,7 @@ def views_table(rows):
         for name, part in cuts:
             sums = Sums(part, finder)
             lines.append([called, name, share(sums["found"], sums.measurements),
-                          f"{sums.mean('right_orientation', '_deg', 'right'):+.2f} ± "
-                          f"{sums.spread('right_orientation', '_deg', 'right'):.2f}",
-                          f"{100 * sums.mean('right_range', '', 'right'):+.2f} ± "
-                          f"{100 * sums.spread('right_range', '', 'right'):.2f}",
+                          errors(sums, "right_orientation", "_deg", 1.0), errors(sums, "right_range", "", 100.0),
                           f"{sums['nees'] / sums['right']:.1f}" if sums["right"] else "-",
                           share(sums["wrong"], sums.measurements)])
     return study.table(["finder", "views", "found", "orientation error, deg", "range error, %",
