@@ -70,9 +70,9 @@ vision::ColourCylinder ShapeOf(const CylinderPictureParams& picture) {
 }
 
 CylinderTruth TruthOf(const StudiedView& studied, const vision::Cahv& left) {
-  const math::Vector3 p_LT_L =
-      rendering::CylinderPose(studied.picture, studied.view).translation();
-  return {studied.view.present, studied.view.orientation_rad, p_LT_L, (p_LT_L - left.C).dot(left.A)};
+  const math::Vector3 p_LT_L = rendering::CylinderPose(studied.picture, studied.view).translation();
+  return {studied.view.present, studied.view.orientation_rad, p_LT_L,
+          (p_LT_L - left.C).dot(left.A)};
 }
 
 }  // namespace

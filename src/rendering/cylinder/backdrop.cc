@@ -12,8 +12,8 @@ namespace {
 
 using math::Vector3;
 
-constexpr int kHueOctave = 7;          // 0.5 m
-constexpr int kHorizonNodes = 1024;    // along the hills' edge, half on either side
+constexpr int kHueOctave = 7;           // 0.5 m
+constexpr int kHorizonNodes = 1024;     // along the hills' edge, half on either side
 constexpr double kHorizonNode_m = 4.0;  // between them
 
 // What a line of the image looks along: direction = A + (row - c_v) / f V' + (column - c_h) / f H'.
@@ -120,8 +120,7 @@ void Backdrop::MixSky(const vision::Cahv& camera, int row, ColourPlanes& planes)
   const LineOfSight here = LineAt(camera, row);
   const double along = (params_.horizon_distance_m - camera.C.x()) / here.ahead;
   for (int column = 0; column < planes[0].width(); ++column) {
-    const double y_m =
-        camera.C.y() + along * (here.aside_first + here.aside_per_column * column);
+    const double y_m = camera.C.y() + along * (here.aside_first + here.aside_per_column * column);
     const double hidden =
         std::clamp((HorizonHeight(y_m) - bottom_m) / (top_m - bottom_m), 0.0, 1.0);
     if (hidden == 1.0) continue;

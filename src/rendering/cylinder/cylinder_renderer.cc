@@ -186,8 +186,8 @@ std::array<ColourPlanes, 2> RenderCylinder(const CylinderPictureParams& params,
   Backdrop backdrop(params.backdrop, light, key);
   std::array<ColourPlanes, 2> images;
   for (std::size_t eye = 0; eye < images.size(); ++eye) {
-    images[eye] = MakePlanes(static_cast<int>(params.cameras.columns),
-                             static_cast<int>(params.cameras.rows));
+    images[eye] =
+        MakePlanes(static_cast<int>(params.cameras.columns), static_cast<int>(params.cameras.rows));
     backdrop.Fill(cameras[eye], images[eye]);
     EyeRenderer(bodies, light, cameras[eye], static_cast<int>(params.edge_samples), images[eye])
         .Draw();

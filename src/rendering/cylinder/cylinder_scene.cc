@@ -42,8 +42,8 @@ void AddStand(const CylinderTargetParams& target, const math::Transform& X_LT,
     Vector3 middle_L = X_LT.translation();
     middle_L.z() = 0.5 * (low_m + high_m);
     if (high_m <= low_m) return;
-    bodies.emplace_back(Plain(BodyShape::kBox, middle_L, {half_x_m, half_y_m, 0.5 * (high_m - low_m)},
-                              heading_rad, colour));
+    bodies.emplace_back(Plain(BodyShape::kBox, middle_L,
+                              {half_x_m, half_y_m, 0.5 * (high_m - low_m)}, heading_rad, colour));
   };
   const Colour metal(0.35, 0.34, 0.32);
   constexpr double kPlate_m = 0.02;
@@ -96,8 +96,8 @@ double DrawHalf(double smallest_m, double largest_m, core::RandomStream& stream)
   return std::exp(SampleUniform(stream, std::log(smallest_m), std::log(largest_m)));
 }
 
-void AddRocks(const CylinderPictureParams& params, const math::Transform& X_LT,
-              core::TrialKey key, std::vector<BodyCaster>& bodies) {
+void AddRocks(const CylinderPictureParams& params, const math::Transform& X_LT, core::TrialKey key,
+              std::vector<BodyCaster>& bodies) {
   const ClutterParams& clutter = params.clutter;
   core::RandomStream stream(key, core::Purpose::kCylinderScene, 0);
   const std::int64_t count = core::SamplePoisson(stream, clutter.rocks);
