@@ -8,7 +8,7 @@ against the one-pixel limits of appendix A.2, statements of the text with a verd
 found, how well, and how many poses are wrong. --markdown writes them between <!-- begin cylinder_NAME --> and
 <!-- end cylinder_NAME --> of a page; --studies writes the cells as CSV. Delete the runs after a change of the code.
 
-    scripts/cylinder_study.py [--seed 1] [--tables bias,limits,verdicts,green,views,without] [--markdown results/lander.md]
+    scripts/cylinder_study.py [--seed 1] [--tables bias,limits,verdicts,green,views,without] [--markdown PAGE]
 """
 
 import argparse
@@ -129,7 +129,7 @@ def bias_table(rows):
                 turns = [c.mean("orientation", "_deg") for c in those]
                 stereo = [c.mean("stereo") for c in those]
                 lines.append([called, f"{distance:g}", "-180 to -90" if excepted else "all others" if
-                              distance > 10 else "all", share(everything["found"], everything.measurements),
+                              distance > 10 else "all", f"{everything['found']:.0f} of {everything.measurements:.0f}",
                               f"{sum(abs(t) <= 5 for t in turns)} of {len(turns)}",
                               f"{median(turns):+.1f} ({min(turns):+.1f} to {max(turns):+.1f})" if turns else "-",
                               f"{sum(abs(s) <= 0.05 for s in stereo)} of {len(stereo)}",
@@ -194,7 +194,8 @@ def verdict_lines(rows):
            f"{100 * turns:.0f} % of orientations", measured_verdict(turns > 0.5, turns))
     yield ("sec. 5, fig. 10", "mean errors of distance within 5 %", f"{100 * stereo:.0f} % of orientations",
            measured_verdict(stereo > 0.95, stereo))
-    yield ("sec. 5", "distances usually short", f"{100 * short:.0f} % of orientations", measured_verdict(short > 0.5, short))
+    yield ("sec. 5", "distances usually short", f"{100 * short:.0f} % of orientations",
+           measured_verdict(short > 0.5, short))
     yield ("sec. 5, figs. 11, 12", "standard deviations usually below one or two pixels: orientation",
            f"below two at {100 * spread:.0f} %", measured_verdict(spread > 0.5, spread))
     yield ("sec. 5, figs. 11, 12", "the same: distance", f"below two at {100 * spread_d:.0f} %",
@@ -228,6 +229,14 @@ def verdicts_table(rows):
     return study.table(["place", "printed", "here", "verdict"], lines)
 
 
+def errors(sums, name, suffix, scale):
+    """Mean and deviation of poses that are right, of which there have to be two."""
+    if sums["right"] < 2:
+        return "-"
+    return (f"{scale * sums.mean(name, suffix, 'right'):+.2f} ± "
+            f"{scale * sums.spread(name, suffix, 'right'):.2f}")
+
+
 def views_table(rows):
     """By finder, in all and by one factor at a time: found, errors, wrong poses."""
     lines = []
@@ -240,10 +249,7 @@ def views_table(rows):
         for name, part in cuts:
             sums = Sums(part, finder)
             lines.append([called, name, share(sums["found"], sums.measurements),
-                          f"{sums.mean('right_orientation', '_deg', 'right'):+.2f} ± "
-                          f"{sums.spread('right_orientation', '_deg', 'right'):.2f}",
-                          f"{100 * sums.mean('right_range', '', 'right'):+.2f} ± "
-                          f"{100 * sums.spread('right_range', '', 'right'):.2f}",
+                          errors(sums, "right_orientation", "_deg", 1.0), errors(sums, "right_range", "", 100.0),
                           f"{sums['nees'] / sums['right']:.1f}" if sums["right"] else "-",
                           share(sums["wrong"], sums.measurements)])
     return study.table(["finder", "views", "found", "orientation error, deg", "range error, %",
@@ -293,12 +299,14 @@ def run(args, name):
     """The rows of a scenario, run or taken as they are, and a note on them."""
     path = SCENARIOS / f"{name}.json"
     folder = args.out / f"{name}-{args.seed}"
+    made = ""
     if not args.count_only:
         document = json.loads(path.read_text(encoding="utf-8"))
         args.trials = document.get("trials", 180) if args.views is None or "views" not in name else args.views
-        study.run_scenario(args, path, folder, args.set)
+        made = f"; made by rockyard {study.program(study.run_scenario(args, path, folder, args.set))}"
     rows = rows_of(folder)
-    return rows, f"{sum(row['measurements'] for row in rows):.0f} pairs of images, {len(rows)} views, seed {args.seed}."
+    pairs = sum(row["measurements"] for row in rows)
+    return rows, f"{pairs:.0f} pairs of images, {len(rows)} views, seed {args.seed}{made}."
 
 
 def main():

@@ -16,7 +16,7 @@ using Ids = std::set<std::string>;
 Ids IdsOfReferences() {
   Ids ids;
   for (const char* file : {"matthies1995", "matthies1995_hazard_detection", "matthies1995_mission",
-                           "matthies1995_dead_reckoning"}) {
+                           "matthies1995_dead_reckoning", "matthies1995_cylinder"}) {
     const auto path = std::string(ROCKYARD_SOURCE_DIR "/results/reference/") + file + ".json";
     for (const auto& value : LoadReference(path).values) {
       EXPECT_TRUE(ids.insert(value.id).second) << value.id << " stands in two references";

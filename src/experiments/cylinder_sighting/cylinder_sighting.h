@@ -28,8 +28,9 @@ class CylinderSightingExperiment final : public Experiment {
   explicit CylinderSightingExperiment(const CylinderSightingParams& params);
 
   const truth::RecordSchema& schema() const override { return schema_; }
-  // Cost: some 20 ms a view and some 15 ms a measurement. Randomness: kExperiment for what a view
-  // draws, and the streams of rendering/cylinder, under a key of each view.
+  // Cost: 50 to 110 ms a view, 15 ms a measurement and what the finders take. Randomness:
+  // kExperiment for what a view draws, and the streams of rendering/cylinder, under a key of each
+  // view.
   truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
 
   // The view of that key in a cell: orientation, sun, bearing and distance as the parameters draw

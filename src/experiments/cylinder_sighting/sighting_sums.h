@@ -11,7 +11,7 @@
 namespace rockyard::experiments {
 
 // Sum and sum of squares of an error.
-struct ErrorSums {
+struct SightingErrorSums {
   double sum = 0.0;
   double squares = 0.0;
 
@@ -30,13 +30,13 @@ struct FinderSums {
   // Of what was not found, by reason; the first is of none.
   std::array<double, kCylinderMisses> misses{};
   // Of what was found, wrong or not.
-  ErrorSums orientation_deg;
-  ErrorSums stereo;
-  ErrorSums size;
+  SightingErrorSums orientation_deg;
+  SightingErrorSums stereo;
+  SightingErrorSums size;
   // Of what was right.
-  ErrorSums right_orientation_deg;
-  ErrorSums right_range;
-  ErrorSums right_bearing_mrad;
+  SightingErrorSums right_orientation_deg;
+  SightingErrorSums right_range;
+  SightingErrorSums right_bearing_mrad;
   double nees = 0.0;
 };
 
@@ -49,7 +49,8 @@ struct SightingSums {
 // Calls f(name, value) for every column of a finder, in the order of the records.
 template <typename F>
 void ForEachFinderSum(const std::string& finder, const FinderSums& s, F&& f) {
-  const auto error = [&](const std::string& name, const std::string& unit, const ErrorSums& sums) {
+  const auto error = [&](const std::string& name, const std::string& unit,
+                         const SightingErrorSums& sums) {
     f(finder + "_" + name + "_bias" + unit, sums.sum);
     f(finder + "_" + name + "_error" + unit, sums.squares);
   };

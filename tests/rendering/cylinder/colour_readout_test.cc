@@ -26,6 +26,30 @@ ColourCameraParams Quiet() {
   return camera;
 }
 
+// Without dust all light comes from the sun and, by the ground, from below.
+TEST(ColourLight, SunSkyAndGroundAreThoseOfClosedForms) {
+  CylinderLightParams clear;
+  clear.elevation_rad = math::DegToRad(30.0);
+  clear.azimuth_rad = math::DegToRad(90.0);
+  clear.optical_depth = 0.0;
+  clear.sun = {1.0, 0.5, 0.25};
+  const ColourLight light(clear, kGround);
+  const math::Vector3 up = math::Vector3::UnitZ();
+  EXPECT_NEAR((light.toward_sun_L() - math::Vector3(0.0, std::sqrt(0.75), 0.5)).norm(), 0.0, 1e-12);
+  // Level: sin 30 deg of the beam. Below: what the ground sends back of it. Away from the sun, on
+  // a wall: half of that.
+  const double beam = light.On(math::Vector3::UnitY())[0] - 0.5 * light.On(-up)[0];
+  EXPECT_NEAR(light.On(up)[0], beam * 0.5 / std::sqrt(0.75), 1e-12);
+  EXPECT_NEAR(light.On(up)[1] / light.On(up)[0], 0.5, 1e-12);
+  EXPECT_NEAR(light.On(-up)[0], kGround[0] * light.On(up)[0], 1e-12);
+  EXPECT_NEAR(light.On(-math::Vector3::UnitY())[2], 0.5 * kGround[2] * light.On(up)[2], 1e-12);
+  CylinderLightParams dusty = clear;
+  dusty.optical_depth = 2.0;
+  const ColourLight haze(dusty, Colour::Zero());
+  EXPECT_NEAR((haze.On(up) - haze.sky()).maxCoeff() / light.On(up)[0], std::exp(-4.0), 1e-9);
+  EXPECT_NEAR(haze.On(-math::Vector3::UnitY())[0], 0.5 * haze.sky()[0], 1e-12);
+}
+
 TEST(ColourReadout, WhiteIsGreyAtTheElevationOfTheBalanceAlone) {
   ColourCameraParams camera = Quiet();
   CylinderLightParams light;
