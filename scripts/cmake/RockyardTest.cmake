@@ -20,12 +20,45 @@
 # Precompiled headers (GoogleTest, Eigen: 170 MB) save less here than reading them takes.
 set(ROCKYARD_TEST_OPTIMIZATION $<$<CONFIG:Release>:-O1>)
 
+# Files of tests are compiled in batches of this many (join_tests.py), for the headers that they share.
+# 0: every file by itself, which is what one wants who works on one of them.
+set(ROCKYARD_TEST_BATCH 8 CACHE STRING "Files of tests compiled together; 0: none")
+
 set(ROCKYARD_TEST_KINDS UNIT PROPERTY PHYSICS DIFFERENTIAL STATISTICAL DETERMINISM FUZZ CLI)
 
 # Sets VARIABLE to "tests/<folder>" of the folder that is being read.
 function(rockyard_folder_label VARIABLE)
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
   set(${VARIABLE} tests/${folder} PARENT_SCOPE)
+endfunction()
+
+# Sets VARIABLE to what is compiled of the files of tests: batches, and files that stand alone because
+# they define macros or have SKIP_UNITY_BUILD_INCLUSION.
+function(rockyard_batches NAME FILES VARIABLE)
+  set(alone)
+  set(together)
+  foreach(file ${FILES})
+    get_source_file_property(skips ${file} SKIP_UNITY_BUILD_INCLUSION)
+    file(STRINGS ${file} macros REGEX "^#define" LIMIT_COUNT 1)
+    if(skips OR macros OR NOT ROCKYARD_TEST_BATCH GREATER 1)
+      list(APPEND alone ${file})
+    else()
+      cmake_path(ABSOLUTE_PATH file NORMALIZE)
+      list(APPEND together ${file})
+    endif()
+  endforeach()
+  set(join ${PROJECT_SOURCE_DIR}/scripts/cmake/join_tests.py)
+  set(number 0)
+  while(together)
+    list(SUBLIST together 0 ${ROCKYARD_TEST_BATCH} batch)
+    list(REMOVE_ITEM together ${batch})
+    set(joined ${CMAKE_CURRENT_BINARY_DIR}/${NAME}_batch_${number}.cc)
+    add_custom_command(OUTPUT ${joined} DEPENDS ${batch} ${join} VERBATIM
+      COMMAND Python3::Interpreter ${join} ${joined} ${batch})
+    list(APPEND alone ${joined})
+    math(EXPR number "${number} + 1")
+  endwhile()
+  set(${VARIABLE} ${alone} PARENT_SCOPE)
 endfunction()
 
 function(rockyard_test NAME)
@@ -57,7 +90,8 @@ function(rockyard_test NAME)
   file(CONFIGURE OUTPUT ${labels_file} CONTENT "${labels}" @ONLY)
 
   list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
-  add_executable(${NAME} ${sources} ${ARG_HELPERS})
+  rockyard_batches(${NAME} "${sources}" compiled)
+  add_executable(${NAME} ${compiled} ${ARG_HELPERS})
   target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS} ${ROCKYARD_TEST_OPTIMIZATION})
   target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${NAME} PRIVATE ROCKYARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -85,7 +85,7 @@ TEST(SolarSupplyTest, IntervalsAddUp) {
   EXPECT_NEAR(sum_J, sun.Used_J(7.0, 0.0, 90000.0), 1e-6);
 }
 
-// 16 W at noon carry the 13.67 W of driving with gyro and accelerometers for 4.4 hours, which is
+// 16 W at noon carry the 13.67 W of driving with gyro and accelerometers for 4.5 hours, which is
 // the paper's day of "approximately four hours per day, centered around noon".
 TEST(SolarSupplyTest, CarriesADriveForThePublishedHours) {
   const double both_sides_h = 2.0 * Ares().Carries_s(3.77 + 0.80 + 0.82 + 8.28) / 3600.0;

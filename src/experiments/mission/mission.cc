@@ -121,12 +121,11 @@ trial::SolarSupply Mission::SunFrom(std::int64_t sol, double start_s) const {
 
 std::optional<Mission::Window> Mission::WindowOf(std::int64_t sol) const {
   const double half_s = 0.5 * params_.day.Window_s();
-  if (battery_wh_ > 0.0) return Window{0.0, 2.0 * half_s, SunFrom(sol, 0.0)};
+  if (battery_wh_ > 0.0) return Window{0.0, 2.0 * half_s};
   const double carried_s = SunFrom(sol, 0.0).Carries_s(LargestLoad_W(drive_)) - kSunMargin_s;
   if (carried_s <= 0.0) return std::nullopt;
   const double half_carried_s = std::min(half_s, carried_s);
-  const double begin_s = half_s - half_carried_s;
-  return Window{begin_s, 2.0 * half_carried_s, SunFrom(sol, begin_s)};
+  return Window{half_s - half_carried_s, 2.0 * half_carried_s};
 }
 
 trial::DriveParams Mission::DriveOf(const Window& window) const {
@@ -188,8 +187,9 @@ Sol Mission::RunSol(std::int64_t number, const Window& window, messages::Goal& t
 trial::DriveEnd Mission::DriveOn(std::int64_t number, const Window& window, Sol& sol,
                                  messages::Goal& told) {
   const trial::DriveParams drive = DriveOf(window);
-  const trial::DriveResult result = trial::RunTrial(
-      drive, SolKey(key_, number), {.memory = memory_, .field = field_, .sun = window.sun});
+  const trial::DriveResult result =
+      trial::RunTrial(drive, SolKey(key_, number),
+                      {.memory = memory_, .field = field_, .sun = SunFrom(number, window.begin_s)});
   sol.end = SolEndOf(result.outcome);
   sol.distance_m = result.record.true_distance_m;
   sol.drive_time_s = result.record.sim_time_s;

@@ -58,7 +58,6 @@ class Mission {
   struct Window {
     double begin_s = 0.0;  // after the opening of window_h
     double length_s = 0.0;
-    trial::SolarSupply sun;  // time 0 at begin_s
   };
 
   trial::SolarSupply SunFrom(std::int64_t sol, double start_s) const;

@@ -78,7 +78,8 @@ void ForEachEnergyColumn(const SolEnergy& e, Visitor visit) {
 template <typename Visitor>
 void ForEachCheckpointColumn(const MissionRecord& r, Visitor visit) {
   const auto flag = [](bool value) { return value ? 1.0 : 0.0; };
-  using namespace mission_columns;
+  using mission_columns::Count;
+  using mission_columns::Sum;
   for (std::size_t i = 0; i < kCheckpoints.size(); ++i) {
     const Checkpoint& point = r.checkpoints[i];
     const std::string after = "after_" + std::to_string(kCheckpoints[i]);
@@ -109,7 +110,8 @@ void ForEachCheckpointColumn(const MissionRecord& r, Visitor visit) {
 // truth::ValueInfo. One list for the schema and for the values of a record.
 template <typename Visitor>
 void ForEachMissionColumn(const MissionRecord& r, Visitor visit) {
-  using namespace mission_columns;
+  using mission_columns::Count;
+  using mission_columns::Sum;
   const MissionCourse& c = r.course;
   const auto number = [](std::int64_t value) { return static_cast<double>(value); };
   visit(truth::ValueInfo{"missions", "1", "missions", truth::ColumnRole::kTrials}, 1.0);
