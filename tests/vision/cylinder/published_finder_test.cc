@@ -26,7 +26,8 @@ void ExpectMiss(const CylinderFinding& finding, CylinderMiss miss, const std::st
   EXPECT_THAT(finding.reason, HasSubstr(words));
 }
 
-// Within what one pixel moves (equations 21 and 23), but for the perspective's part at 0.838 m.
+// Within what one pixel moves (equations 21 and 23), but for what perspective does to near ones:
+// the middle between both rims is not the image of the axis, which is 1.2 % short at 0.838 m.
 TEST(PublishedFinderTest, FindsAllOrientationsWithinOnePixel) {
   const ViewOfCylinder view = {512.0, DegToRad(29.33), 0.096, 0.12};
   for (const double d_m : {0.838, 1.753, 4.496, 9.982}) {
@@ -39,7 +40,7 @@ TEST(PublishedFinderTest, FindsAllOrientationsWithinOnePixel) {
       EXPECT_LT(std::abs(error_rad), CoarsestTurnAt(view, d_m) + DegToRad(1.0))
           << d_m << " " << deg;
       const double step_m = d_m * RelativeStepByStereo(view, d_m);
-      EXPECT_NEAR(seen.distance_by_stereo_m, d_m, step_m + 0.01 * d_m);
+      EXPECT_NEAR(seen.distance_by_stereo_m, d_m, step_m + 0.015 * d_m);
       EXPECT_NEAR(seen.distance_by_size_m, d_m,
                   1.5 * d_m * RelativeStepBySize(view, d_m) + 0.01 * d_m);
       EXPECT_NEAR(seen.p_LT_L.x(), seen.distance_by_stereo_m, 1e-9);
