@@ -40,7 +40,7 @@ void BlurLight(float a, ColourPlane& plane) {
 
 // Weights of a Gaussian of that deviation, from the middle on, that add up to 1 with their mirror
 // image.
-std::vector<float> GaussianWeights(double deviation) {
+std::vector<float> ColourBlurWeights(double deviation) {
   std::vector<float> weights{1.0F};
   if (deviation == 0.0) return weights;
   float sum = 1.0F;
@@ -106,7 +106,7 @@ ColourPlanes ColourReadout::Counts(const ColourPlanes& light) const {
 }
 
 void ColourReadout::BlurColours(ColourPlanes& planes) const {
-  const std::vector<float> weights = GaussianWeights(camera_.colour_blur_px);
+  const std::vector<float> weights = ColourBlurWeights(camera_.colour_blur_px);
   const std::size_t reach = weights.size() - 1;
   if (reach == 0) return;
   const auto columns = static_cast<std::size_t>(planes[0].width());

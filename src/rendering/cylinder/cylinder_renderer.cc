@@ -29,9 +29,9 @@ struct PixelBox {
 };
 
 // Rays of a pinhole with square, upright pixels.
-class PixelRay {
+class PinholeRays {
  public:
-  explicit PixelRay(const vision::Cahv& camera) : camera_(camera) {
+  explicit PinholeRays(const vision::Cahv& camera) : camera_(camera) {
     const Vector3 across = camera.H - camera.H.dot(camera.A) * camera.A;
     const Vector3 down = camera.V - camera.V.dot(camera.A) * camera.A;
     per_column_ = across / across.squaredNorm();
@@ -167,7 +167,7 @@ class EyeRenderer {
 
   const std::vector<BodyCaster>& bodies_;
   const ColourLight& light_;
-  PixelRay rays_;
+  PinholeRays rays_;
   int edge_samples_;
   ColourPlanes& planes_;
   ColourPlanes background_;
