@@ -71,6 +71,7 @@ TEST(PathfinderFilesTest, NamesAreFileNames) {
     std::string prefix;
     if (scenario.experiment.kind == ExperimentKind::kHazardDetection) prefix = "hazard_";
     if (scenario.experiment.kind == ExperimentKind::kStereoSensing) prefix = "stereo_";
+    if (scenario.experiment.kind == ExperimentKind::kCylinderSighting) prefix = "cylinder_";
     EXPECT_EQ(scenario.name, prefix + stem);
     EXPECT_FALSE(scenario.description.empty()) << stem;
   }

@@ -21,8 +21,10 @@ void AddFinder(const std::string& finder, const std::string& called, truth::Colu
   columns.push_back({right, "1", "of these, not wrong", kCount, found});
   for (std::size_t i = 1; i < kCylinderMisses; ++i) {
     const std::string reason(core::EnumNames<vision::CylinderMiss>::kNames[i]);
-    columns.push_back({finder + "_" + reason, "1", "without a pose, for the reason " + reason,
-                       kCount, "measurements"});
+    std::string name = finder + "_";
+    name += reason;
+    columns.push_back(
+        {name, "1", "without a pose, for the reason " + reason, kCount, "measurements"});
   }
   const auto error = [&](const std::string& name, const std::string& suffix,
                          const std::string& unit, const std::string& meaning,
