@@ -1,6 +1,6 @@
 #!/bin/sh
 # Whether trials come out the same bit for bit at another optimization level and on other numbers of
-# threads: builds with -O1 the small program that hashes trials (tests/determinism), drives the
+# threads: builds with -O2 the small program that hashes trials (tests/determinism), drives the
 # nominal Pathfinder scenario in both fidelities on 1 and on 2 threads with it and with that of
 # another build, and compares the hashes (one compiler, this CPU).
 #
@@ -9,7 +9,7 @@
 #                      (default: build/test/tests/determinism/hash_trials, of preset test: -O3)
 #   --trials N         trials of each run (default: 20)
 #   --jobs N           compile N files at a time (default: the number of processors)
-# The -O1 build stays in build/same_bits; nothing else is touched.
+# The -O2 build stays in build/same_bits; nothing else is touched.
 # Exit code: 0 if the hashes of each fidelity agree, 1 if not, else that of what failed.
 set -eu
 cd "$(dirname "$0")/.."
@@ -38,7 +38,7 @@ folder=build/same_bits
 mkdir -p "$folder"
 # -w: gcc's warnings depend on the level, and they are the test build's matter.
 cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG -w" \
+  -DCMAKE_CXX_FLAGS_RELEASE="-O2 -DNDEBUG -w" \
   -DROCKYARD_BUILD_TESTS=ON -DROCKYARD_BUILD_BENCHMARKS=OFF > "$folder.log" 2>&1 ||
   { cat "$folder.log" >&2; exit 1; }
 cmake --build "$folder" --target hash_trials -j "$jobs"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Everything that must hold before a change is accepted: installs what is missing, builds with
 # contracts on and every warning an error, then runs all tests: those of the code, the comparison of
-# trials of -O1 and -O3 builds bit for bit (scripts/same_bits.sh), the README's commands, the pages in
+# trials of -O2 and -O3 builds bit for bit (scripts/same_bits.sh), the README's commands, the pages in
 # a browser, the layer check, clang-format and clang-tidy. The last lines are ctest's summary.
 #
 # Usage: scripts/test.sh [OPTION]... [FOLDER]...

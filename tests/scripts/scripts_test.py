@@ -156,7 +156,7 @@ class SameBits(ScriptTest):
         self.assertEqual(runs, expected)
         flags = [line for line in self.called("cmake") if line.startswith("-S")]
         self.assertEqual(len(flags), 1)
-        self.assertIn('-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG -w', flags[0])
+        self.assertIn('-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG -w', flags[0])
 
     def test_another_level_or_number_of_threads_that_differs_fails(self):
         for hash_of in ('[ "$4" = rover.fidelity=quasi_static ] && echo 1 || echo 2',
