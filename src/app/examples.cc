@@ -65,10 +65,8 @@ constexpr CommandExample kExamples[] = {
      "every second pair of a sequence of EuRoC"},
     {"cylinder", "rockyard cylinder left.png right.png --cameras cameras.json --out seen",
      "where the cylinder is, with a picture of its regions"},
-    {"cylinder",
-     "rockyard cylinder left.png right.png --cameras cameras.json --param "
-     "robust.surfaces.third=[0.15,0.8,0.25]",
-     "one with a green quadrant in place of the orange one"},
+    {"cylinder", "rockyard cylinder left.png right.png --cameras cameras.json --published",
+     "as Matthies 1995 did it"},
     {"calibrate", "rockyard calibrate board*.png --target board.json --out camera",
      "one camera from images of a chessboard"},
     {"calibrate",
