@@ -167,7 +167,8 @@ class Runs(Project):
     def test_options_of_the_compiler_without_programs_input_and_output(self):
         self.check("app")
         self.assertEqual(self.calls.read_text(encoding="utf-8").split(" -- ")[1],
-                         f"-I{self.build / 'include' / 'plant'} -std=c++20 -Wall\n")
+                         f"-I{self.build / 'include' / 'plant'} -std=c++20 -Wall "
+                         f"{check_tidy.ONE_INSTRUCTION_SET}\n")
 
     def test_what_is_not_below_src_is_not_checked(self):
         self.write("build/generated.cc", "int BAD;\n")
