@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <ranges>
 
 #include "campaign/looks/picture_lines.h"
 
@@ -56,8 +57,8 @@ Picture CylinderPicture(const vision::ColourImage& left, const vision::ColourIma
     const int first_column = eye == 0 ? 0 : left.width();
     const auto& regions = finding.sighting->regions.at(eye);
     // Quadrants first, so that the whole stays visible about them.
-    for (auto region = regions.rbegin(); region != regions.rend(); ++region) {
-      DrawBox(*region, first_column, picture);
+    for (const auto& region : regions | std::views::reverse) {
+      DrawBox(region, first_column, picture);
     }
   }
   return picture;

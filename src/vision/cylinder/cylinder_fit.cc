@@ -136,6 +136,7 @@ std::vector<double> StartsOf(const FitProblem& problem, const LogRatios& light) 
             [&](std::size_t a, std::size_t b) { return costs.at(a) < costs.at(b); });
   if (minima.size() > kMostStarts) minima.resize(kMostStarts);
   std::vector<double> starts;
+  starts.reserve(minima.size());
   for (const std::size_t i : minima) starts.push_back(orientation(i));
   return starts;
 }

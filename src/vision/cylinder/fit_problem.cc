@@ -98,7 +98,7 @@ std::optional<FitProblem::Evaluation> FitProblem::Evaluate(const FitUnknowns& un
   const CylinderPlace place = PlaceOf(unknowns);
   Evaluation evaluation;
   std::vector<double> residuals;
-  residuals.reserve(static_cast<std::size_t>(samples_ + 2 * kPriors + 2));
+  residuals.reserve(static_cast<std::size_t>(samples_) + static_cast<std::size_t>(2 * kPriors + 2));
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const auto view = WallSeen(*cameras_.at(eye), eyes_, place, 0.5 * cylinder_.height_m);
     if (!view) return std::nullopt;

@@ -20,8 +20,9 @@ struct WideOffsets {
 inline constexpr WideOffsets kWideOffsets = [] {
   WideOffsets offsets;
   for (std::size_t i = 0; i < kWideSide * kWideSide; ++i) {
+    const std::size_t row = i / kWideSide;
     offsets.across[i] = static_cast<float>(i % kWideSide) - static_cast<float>(kWideReach);
-    offsets.down[i] = static_cast<float>(i / kWideSide) - static_cast<float>(kWideReach);
+    offsets.down[i] = static_cast<float>(row) - static_cast<float>(kWideReach);
   }
   return offsets;
 }();
