@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ranges>
 
 #include "campaign/looks/picture_lines.h"
 
@@ -57,8 +56,8 @@ Picture CylinderPicture(const vision::ColourImage& left, const vision::ColourIma
     const int first_column = eye == 0 ? 0 : left.width();
     const auto& regions = finding.sighting->regions.at(eye);
     // Quadrants first, so that the whole stays visible about them.
-    for (const auto& region : regions | std::views::reverse) {
-      DrawBox(region, first_column, picture);
+    for (std::size_t i = regions.size(); i > 0; --i) {
+      DrawBox(regions[i - 1], first_column, picture);
     }
   }
   return picture;
