@@ -21,7 +21,10 @@
 include(GNUInstallDirs)
 
 set(ROCKYARD_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-    -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wimplicit-fallthrough -Werror)
+    -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wimplicit-fallthrough)
+if(ROCKYARD_WARNINGS_AS_ERRORS)
+  list(APPEND ROCKYARD_WARNINGS -Werror)
+endif()
 # Bit-for-bit reproducibility across optimization levels: no fused multiply-add, no fast math.
 set(ROCKYARD_FLOATING_POINT -ffp-contract=off -fno-fast-math)
 

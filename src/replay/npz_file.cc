@@ -134,7 +134,7 @@ std::string ReadAll(zip_source_t& source) {
 }  // namespace
 
 void NpzFile::Add(std::string_view name, std::string_view type, const Shape& shape,
-                  [[maybe_unused]] std::size_t values, std::span<const std::byte> data) {
+                  std::size_t values, std::span<const std::byte> data) {
   EXPECT(std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()) ==
          values);
   EXPECT(std::none_of(entries_.begin(), entries_.end(),

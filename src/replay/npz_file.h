@@ -36,7 +36,7 @@ class NpzFile {
   };
 
   void Add(std::string_view name, std::string_view type, const Shape& shape,
-           [[maybe_unused]] std::size_t values, std::span<const std::byte> data);
+           std::size_t values, std::span<const std::byte> data);
 
   std::vector<Entry> entries_;
 };

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "vision/cameras/camera_model.h"
 #include "vision/image.h"
 
 namespace rockyard::vision {
@@ -17,5 +18,11 @@ struct Rgb {
 };
 
 using ColourImage = Image<Rgb>;
+
+// Whether an image has the rows and columns of a camera, and so can be of it.
+inline bool HasSizeOf(const ColourImage& image, const CameraModel& camera) {
+  return !image.empty() && image.width() == camera.size.columns &&
+         image.height() == camera.size.rows;
+}
 
 }  // namespace rockyard::vision

@@ -196,11 +196,6 @@ CylinderFinding PutTogether(const ColourPair& pair, const EyeGeometry& eyes,
   return finding;
 }
 
-bool HasSizeOf(const ColourImage& image, const CameraModel& camera) {
-  return !image.empty() && image.width() == camera.size.columns &&
-         image.height() == camera.size.rows;
-}
-
 }  // namespace
 
 CylinderFinding FindCylinderAsPublished(const ColourPair& pair, const ColourCylinder& cylinder,

@@ -166,17 +166,11 @@ std::vector<JudgedCandidate> JudgeAll(const ColourPair& pair, const EyeGeometry&
   return judged;
 }
 
-bool HasSizeOfCamera(const ColourImage& image, const CameraModel& camera) {
-  return !image.empty() && image.width() == camera.size.columns &&
-         image.height() == camera.size.rows;
-}
-
 }  // namespace
 
 CylinderFinding FindCylinder(const ColourPair& pair, const ColourCylinder& cylinder,
                              const RobustFinderParams& params) {
-  EXPECT(HasSizeOfCamera(pair.left, pair.left_camera) &&
-         HasSizeOfCamera(pair.right, pair.right_camera));
+  EXPECT(HasSizeOf(pair.left, pair.left_camera) && HasSizeOf(pair.right, pair.right_camera));
   const std::optional<EyeGeometry> eyes = GeometryOf(pair);
   if (!eyes)
     return NotFound(CylinderMiss::kNothing, "the left camera images nothing in its middle");
