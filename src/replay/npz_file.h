@@ -35,8 +35,8 @@ class NpzFile {
     std::string npy;
   };
 
-  void Add(std::string_view name, std::string_view type, const Shape& shape,
-           std::size_t values, std::span<const std::byte> data);
+  void Add(std::string_view name, std::string_view type, const Shape& shape, std::size_t values,
+           std::span<const std::byte> data);
 
   std::vector<Entry> entries_;
 };

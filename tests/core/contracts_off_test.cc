@@ -1,5 +1,5 @@
-// Contracts switched off, whatever the build says: conditions are compiled, so that nothing that only
-// they use is called unused, and never evaluated.
+// Contracts switched off, whatever the build says: conditions are compiled, so that nothing that
+// only they use is called unused, and never evaluated.
 #undef ROCKYARD_CONTRACTS
 #include <gtest/gtest.h>
 

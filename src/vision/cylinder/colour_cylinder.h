@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "core/fields.h"
+#include "math/pose.h"
 
 namespace rockyard::vision {
 
@@ -35,6 +36,11 @@ inline constexpr std::array<CylinderColour, 4> kQuadrantColours = {
 struct ColourCylinder {
   double diameter_m = 0.192;
   double height_m = 0.10;
+  // Where its axis points, in the cameras' outer frame L, of any length: upwards.
+  std::array<double, 3> axis_L = {0.0, 0.0, 1.0};
+
+  // The axis with length 1.
+  math::Vector3 Axis_L() const { return math::Vector3(axis_L.data()).normalized(); }
 
   void Visit(core::FieldVisitor& v);
 };

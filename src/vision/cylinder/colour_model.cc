@@ -100,8 +100,9 @@ class LabelTable {
     };
     constexpr double kFarthest = 9.0;  // three standard deviations
     std::uint8_t label = kBackground;
-    double least = std::min(cost(GroundOf(surfaces), params.ground_sd),
-                            kFarthest + 4.0 * std::log(params.pixel_sd));
+    double least = std::min({cost(GroundOf(surfaces), params.ground_sd),
+                             cost(LogRatios::Zero(), params.neutral_sd),
+                             kFarthest + 4.0 * std::log(params.pixel_sd)});
     for (int i = 0; i < kCylinderColours; ++i) {
       const auto colour = static_cast<CylinderColour>(i);
       const double of_class = cost(SurfaceOf(colour, surfaces), params.pixel_sd);

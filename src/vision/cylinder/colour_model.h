@@ -32,8 +32,8 @@ LogRatios GroundOf(const SurfaceColourParams& surfaces);
 LogRatios LightOf(const ColourImage& left, const ColourImage& right,
                   const SurfaceColourParams& surfaces, const ColourModelParams& params);
 
-// The likeliest surface of each pixel: a class, or background where the ground is likelier or no
-// class is within three standard deviations.
+// The likeliest surface of each pixel: a class, or background where the ground or something grey is
+// likelier or no class is within three standard deviations.
 ClassImage LabelSurfaces(const ColourImage& image, const LogRatios& light,
                          const SurfaceColourParams& surfaces, const ColourModelParams& params);
 

@@ -74,7 +74,9 @@ bool IsAtBorder(const ColourRegion& region, const ClassImage& labels) {
          region.bottom >= labels.height() - kBorder_px;
 }
 
-// Whether at least two classes have a tenth of the region each.
+// Whether at least two classes have a tenth of the region each. A view of the cylinder shows two or
+// three quadrants, of which the second widest has at least (1 - sin 45 deg) / 2 = 15 % of the
+// width.
 bool HasTwoColours(const ColourRegion& region, const ClassImage& labels) {
   std::array<int, kCylinderColours + 1> counts{};
   for (int y = region.top; y <= region.bottom; ++y) {
@@ -100,7 +102,9 @@ EyeRegions RegionsIn(const ClassImage& labels, const ColourCylinder& cylinder,
       continue;
     }
     const ColourRegion trimmed = Trimmed(labels, region);
-    if (HasShape(trimmed, cylinder, params)) found.whole.push_back(trimmed);
+    if (HasShape(trimmed, cylinder, params) && HasTwoColours(trimmed, labels)) {
+      found.whole.push_back(trimmed);
+    }
     if (found.whole.size() == kMostRegions) break;
   }
   return found;
@@ -200,7 +204,7 @@ CandidateSearch FindCandidates(const ColourPair& pair, const EyeGeometry& eyes,
                                 in_left.clipped ? "left" : "right");
   } else if (in_left.whole.empty() && in_right.whole.empty()) {
     search.reason = fmt::format(
-        "no region of the colours has the cylinder's shape and {} pixels; the largest has {}",
+        "no region has two of the colours, the cylinder's shape and {} pixels; the largest has {}",
         params.least_whole_px, std::max(in_left.largest_px, in_right.largest_px));
   } else {
     search.miss = tally.Miss(search.reason);

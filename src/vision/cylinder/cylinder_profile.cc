@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 
 namespace rockyard::vision {
 namespace {
 
-// Bands lie within the middle half of the wall, whose ends may be curved.
-constexpr double kUpperShare = 0.25;
+// Bands lie within the middle half of the wall, and within the middle four fifths of the rows that
+// show it from side to side.
+constexpr double kMiddleShare = 0.5;
+constexpr double kFullShare = 0.8;
 constexpr int kMostBands = 3;
 // Columns about the box: mixed ones, and those that tell the background.
 constexpr int kMixed_px = 2;
@@ -102,9 +105,24 @@ void FindRims(const ColourImage& image, const ColourRegion& box, EyeProfile& pro
   profile.lower_rim_px = middle + 0.5 + RowsOfWall(image, left, right, below, middle, wall);
 }
 
+// First and last row of the bands, of the box's; one row at least. Where the middle of a rim lies
+// `sag_px` below its ends, the wall is seen from side to side between the upper rim's middle and
+// the lower rim's ends (or, of a negative sag, the upper rim's ends and the lower rim's middle).
+std::pair<int, int> RowsOfBands(const ColourRegion& box, const EyeProfile& profile, double sag_px) {
+  const double top = profile.upper_rim_px - std::min(sag_px, 0.0);
+  const double bottom = profile.lower_rim_px - std::max(sag_px, 0.0);
+  const double middle = 0.5 * (top + bottom);
+  const double rows = std::min(kMiddleShare * (profile.lower_rim_px - profile.upper_rim_px),
+                               kFullShare * (bottom - top));
+  const int first =
+      std::clamp(static_cast<int>(std::ceil(middle - 0.5 * rows)), box.top, box.bottom);
+  const int last = static_cast<int>(std::floor(middle + 0.5 * rows));
+  return {first, std::clamp(last, first, box.bottom)};
+}
+
 }  // namespace
 
-EyeProfile ProfileOf(const ColourImage& image, const ColourRegion& box,
+EyeProfile ProfileOf(const ColourImage& image, const ColourRegion& box, double sag_px,
                      const CylinderFitParams& params) {
   EXPECT(box.left >= 1 && box.right < image.width() - 1 && box.top >= 0 &&
          box.bottom < image.height());
@@ -112,8 +130,8 @@ EyeProfile ProfileOf(const ColourImage& image, const ColourRegion& box,
   const int around_px = 1 + kMixed_px + std::max(kLeastBackground_px, box.Width() / 16);
   profile.first_column = std::max(box.left - around_px, 0);
   const int last_column = std::min(box.right + around_px, image.width() - 1);
-  const int first_row = box.top + static_cast<int>(kUpperShare * box.Height());
-  const int last_row = box.bottom - (first_row - box.top);
+  FindRims(image, box, profile);
+  const auto [first_row, last_row] = RowsOfBands(box, profile, sag_px);
   profile.level = MeanColour(image, box.left, box.right, first_row, last_row).mean();
   const int rows = last_row - first_row + 1;
   const int bands = std::min(rows, kMostBands);
@@ -132,7 +150,6 @@ EyeProfile ProfileOf(const ColourImage& image, const ColourRegion& box,
                   inside_variance, band);
     profile.bands.push_back(std::move(band));
   }
-  FindRims(image, box, profile);
   return profile;
 }
 

@@ -29,8 +29,10 @@ struct EyeProfile {
   double lower_rim_px = 0.0;
 };
 
-// Requires a box at least one pixel inside of the image.
-EyeProfile ProfileOf(const ColourImage& image, const ColourRegion& box,
+// `sag_px`: how many rows the middle of a rim lies below its ends; bands are of rows that show the
+// wall from side to side, or one row where there are none. Requires a box at least one pixel inside
+// of the image.
+EyeProfile ProfileOf(const ColourImage& image, const ColourRegion& box, double sag_px,
                      const CylinderFitParams& params);
 
 }  // namespace rockyard::vision

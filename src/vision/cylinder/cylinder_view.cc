@@ -29,7 +29,7 @@ math::Vector3 AcrossAxis(const math::Vector3& v, const math::Vector3& axis) {
 
 std::optional<WallView> WallSeen(const CameraModel& camera, const EyeGeometry& eyes,
                                  const CylinderPlace& place, double height_m) {
-  const math::Vector3& up = eyes.up_L;
+  const math::Vector3& up = place.axis_L;
   // Azimuths are told from the direction to the middle between the eyes, which is theta in T.
   const math::Vector3 to_middle = AcrossAxis(eyes.middle_L - place.p_LT_L, up).normalized();
   const math::Vector3 to_side = up.cross(to_middle);

@@ -11,11 +11,12 @@
 
 namespace rockyard::vision {
 
-// A cylinder upright in the left image but for a small roll.
+// A cylinder that stands along a given axis but for a small roll.
 struct CylinderPlace {
-  math::Vector3 p_LT_L = math::Vector3::Zero();  // m
-  double orientation_rad = 0.0;                  // azimuth of the middle between the eyes in T
-  double roll_rad = 0.0;                         // of its axis to the right of the image
+  math::Vector3 p_LT_L = math::Vector3::Zero();   // m
+  math::Vector3 axis_L = math::Vector3::UnitZ();  // of length 1
+  double orientation_rad = 0.0;                   // azimuth of the middle between the eyes in T
+  double roll_rad = 0.0;                          // of its axis to the right of the image
   double radius_m = 0.0;
 };
 

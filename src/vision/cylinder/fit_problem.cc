@@ -9,6 +9,16 @@ namespace {
 
 // Terms of shading and levels among the residuals of an eye.
 constexpr int kPriors = 27;
+// How far the rims that a profile shows lie before the axis, over the radius: the mean of
+// sqrt(1 - u^2) for |u| up to 1 - 2 kRimShare = 0.6.
+constexpr double kRimsAhead = 0.936;
+
+// How many rows the middle of the wall lies below its sides: of the radius, what the view from
+// above (or, negative, from below) shows.
+double SagOf(const EyeGeometry& eyes, const ColourCylinder& cylinder, const SeenPoint& point) {
+  const double down = -(point.p_L - eyes.centre_L).normalized().dot(cylinder.Axis_L());
+  return 0.5 * cylinder.diameter_m * down * eyes.focal_px / point.depth_m;
+}
 
 // Quadrants that both eyes see count once, with the mean of both weighted by their variances.
 std::vector<QuadrantColour> Together(const std::vector<QuadrantColour>& colours) {
@@ -48,8 +58,10 @@ FitProblem::FitProblem(const ColourPair& pair, const EyeGeometry& eyes,
       eyes_(eyes),
       cylinder_(cylinder),
       params_(params),
-      profiles_{ProfileOf(pair.left, candidate.left, params.fit),
-                ProfileOf(pair.right, candidate.right, params.fit)},
+      profiles_{
+          ProfileOf(pair.left, candidate.left, SagOf(eyes, cylinder, candidate.point), params.fit),
+          ProfileOf(pair.right, candidate.right, SagOf(eyes, cylinder, candidate.point),
+                    params.fit)},
       start_L_(candidate.point.p_L),
       depth_m_(candidate.point.depth_m) {
   for (const EyeProfile& profile : profiles_) samples_ += ResidualsOf(profile) - kPriors;
@@ -57,18 +69,23 @@ FitProblem::FitProblem(const ColourPair& pair, const EyeGeometry& eyes,
 }
 
 void FitProblem::TakeRows() {
+  const math::Vector3 axis_L = cylinder_.Axis_L();
+  const math::Vector3 half_axis_m = 0.5 * cylinder_.height_m * axis_L;
   double rise_m = 0.0;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const EyeProfile& profile = profiles_.at(eye);
-    const auto start = Project(*cameras_.at(eye), start_L_);
-    const auto above = Project(*cameras_.at(eye), start_L_ + 0.5 * cylinder_.height_m * eyes_.up_L);
-    if (!start || !above || !(above->y() < start->y())) continue;
-    const double m_a_px = 0.5 * cylinder_.height_m / (start->y() - above->y());
+    const math::Vector3 to_eye = CentreOf(*cameras_.at(eye)) - start_L_;
+    const math::Vector3 ahead = (to_eye - to_eye.dot(axis_L) * axis_L).normalized();
+    const math::Vector3 front_L = start_L_ + kRimsAhead * 0.5 * cylinder_.diameter_m * ahead;
+    const auto upper = Project(*cameras_.at(eye), front_L + half_axis_m);
+    const auto lower = Project(*cameras_.at(eye), front_L - half_axis_m);
+    if (!upper || !lower || !(upper->y() < lower->y())) continue;
+    const double m_a_px = cylinder_.height_m / (lower->y() - upper->y());
     const double middle_px = 0.5 * (profile.upper_rim_px + profile.lower_rim_px);
-    rise_m += 0.5 * m_a_px * (start->y() - middle_px);
+    rise_m += 0.5 * m_a_px * (0.5 * (upper->y() + lower->y()) - middle_px);
     height_m_ += 0.5 * m_a_px * (profile.lower_rim_px - profile.upper_rim_px);
   }
-  start_L_ += rise_m * eyes_.up_L;
+  start_L_ += rise_m * axis_L;
 }
 
 CylinderPlace FitProblem::PlaceOf(const FitUnknowns& unknowns) const {
@@ -77,6 +94,7 @@ CylinderPlace FitProblem::PlaceOf(const FitUnknowns& unknowns) const {
   // Along the line of sight, so that the rows stay.
   const math::Vector3 sight_m = start_L_ - eyes_.centre_L;
   place.p_LT_L += unknowns[1] / depth_m_ * sight_m;
+  place.axis_L = cylinder_.Axis_L();
   place.orientation_rad = unknowns[2];
   place.roll_rad = unknowns[3];
   place.radius_m = 0.5 * cylinder_.diameter_m * (1.0 + unknowns[4]);

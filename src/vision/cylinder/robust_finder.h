@@ -16,10 +16,11 @@ namespace rockyard::vision {
 //   3. It is the cylinder if model, colours, radius and height fit, no other orientation does, and
 //      no other region does. Everything else is a miss with its reason.
 //
-// The cylinder is taken as upright in the left image but for a small lean to the side, and as seen
-// level within some 10 deg. distance_by_stereo_m and distance_by_size_m are those of a fit whose
-// radius is free; the position uses both. Requires images of the size of their cameras. Throws
-// nothing; a pure function. Cost: the figures are in src/vision/README.md.
+// The cylinder is taken as standing along ColourCylinder::axis_L but for a small lean to a side of
+// the image; it may be seen from above or below as long as some rows show the wall from side to
+// side (45 deg for that of the paper). distance_by_stereo_m and distance_by_size_m are those of a
+// fit whose radius is free; the position uses both. Requires images of the size of their cameras.
+// Throws nothing; a pure function. Cost: the figures are in src/vision/README.md.
 CylinderFinding FindCylinder(const ColourPair& pair, const ColourCylinder& cylinder,
                              const RobustFinderParams& params);
 

@@ -64,6 +64,9 @@ void ColourModelParams::Visit(core::FieldVisitor& v) {
                "mixed pixels and noise", {0.05, 2.0, 0.2, 0.5});
   VisitAssumed(v, "ground_sd", ground_sd, "the same of single pixels of the ground",
                "rocks and soil of Mars differ so", {0.05, 2.0, 0.1, 0.4});
+  VisitAssumed(v, "neutral_sd", neutral_sd,
+               "the same of single pixels of what is about grey: a rover's metal and solar cells",
+               "solar cells are bluish by up to a half", {0.05, 2.0, 0.15, 0.4});
   VisitAssumed(v, "darkest", darkest,
                "grey levels of the brightest primary below which a pixel has no colour",
                "five times the noise of a pixel", {1.0, 255.0, 5.0, 30.0});

@@ -34,6 +34,7 @@ struct ColourModelParams {
   double surface_sd = 0.15;
   double pixel_sd = 0.3;
   double ground_sd = 0.2;
+  double neutral_sd = 0.25;
   double darkest = 12.0;
 
   void Visit(core::FieldVisitor& v);
