@@ -30,13 +30,13 @@ constexpr int kRadius = 4;  // of the unknowns
 constexpr double kFixedRadius_sd = 1e-4;
 constexpr double kFreeRadius_sd = 1.0;
 
-using FitInformation = Eigen::Matrix<double, 5, 5>;
+using FitInformation = Eigen::Matrix<double, 6, 6>;
 
 struct FitState {
   FitUnknowns unknowns = FitUnknowns::Zero();
   double squares = std::numeric_limits<double>::infinity();
   FitInformation information = FitInformation::Identity();
-  FitProblem::Evaluation evaluation;  // at the unknowns  // at the unknowns
+  FitProblem::Evaluation evaluation;  // at the unknowns
 };
 
 // Forward derivatives of the residuals; of a fixed radius that of its prior alone. Nothing where a

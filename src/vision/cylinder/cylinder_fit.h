@@ -1,9 +1,9 @@
 // Position and orientation of the cylinder by least squares over the pixels of both eyes.
 //
-// Unknown are the place across and along the view, theta, the roll, and the radius where it is
-// free; the colours of the quadrants are solved for inside (wall_colours.h: variable projection,
-// Golub and Pereyra 1973). All orientations are tried in steps of 7.5 deg, the best local minima
-// refined by Gauss-Newton with numerical derivatives and Levenberg's damping.
+// Unknown are the place across and along the view, theta, the roll, the blur of edges, and the
+// radius where it is free; the colours of the quadrants are solved for inside (wall_colours.h:
+// variable projection, Golub and Pereyra 1973). All orientations are tried in steps of 7.5 deg, the
+// best local minima refined by Gauss-Newton with numerical derivatives and Levenberg's damping.
 #pragma once
 
 #include <Eigen/Core>

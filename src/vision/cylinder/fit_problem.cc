@@ -106,7 +106,7 @@ FitUnknowns FitProblem::Steps() const {
   const double along_m = 0.04 * depth_m_ * depth_m_ / (eyes_.focal_px * eyes_.baseline_m);
   const double share = across_m / cylinder_.diameter_m;
   FitUnknowns steps;
-  steps << across_m, along_m, share, 2e-3, share;
+  steps << across_m, along_m, share, 2e-3, share, 1e-2;
   return steps;
 }
 
@@ -114,14 +114,16 @@ std::optional<FitProblem::Evaluation> FitProblem::Evaluate(const FitUnknowns& un
                                                            double radius_sd) const {
   if (!(unknowns[4] > -1.0)) return std::nullopt;
   const CylinderPlace place = PlaceOf(unknowns);
+  const double blur_px = params_.fit.edge_blur_px * std::exp(unknowns[5]);
   Evaluation evaluation;
   std::vector<double> residuals;
-  residuals.reserve(static_cast<std::size_t>(samples_) + static_cast<std::size_t>(2 * kPriors + 2));
+  residuals.reserve(static_cast<std::size_t>(samples_) + static_cast<std::size_t>(2 * kPriors + 3));
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const auto view = WallSeen(*cameras_.at(eye), eyes_, place, 0.5 * cylinder_.height_m);
     if (!view) return std::nullopt;
-    FitWallColours(profiles_.at(eye), *view, params_.fit, residuals, evaluation.colours);
+    FitWallColours(profiles_.at(eye), *view, blur_px, params_.fit, residuals, evaluation.colours);
   }
+  residuals.push_back(unknowns[5] / params_.fit.edge_blur_spread);
   residuals.push_back(unknowns[3] / params_.fit.roll_sd_rad);
   residuals.push_back(unknowns[4] / radius_sd);
   evaluation.residuals = Eigen::Map<const Eigen::VectorXd>(

@@ -13,9 +13,9 @@
 
 namespace rockyard::vision {
 
-// Across the view to the right, along it (m, from the start), theta, roll (rad), and the radius
-// over the cylinder's less 1.
-using FitUnknowns = Eigen::Matrix<double, 5, 1>;
+// Across the view to the right, along it (m, from the start), theta, roll (rad), the radius over
+// the cylinder's less 1, and the logarithm of the blur over edge_blur_px.
+using FitUnknowns = Eigen::Matrix<double, 6, 1>;
 
 class FitProblem {
  public:
@@ -27,8 +27,8 @@ class FitProblem {
 
   // What the eyes show of a place.
   struct Evaluation {
-    // Residuals over their standard deviations, of equal number for all places; the last two are
-    // the roll's and, about 0, the radius's prior of sd `radius_sd`.
+    // Residuals over their standard deviations, of equal number for all places; the last three are
+    // the priors of the blur, of the roll and, about 0, of the radius with sd `radius_sd`.
     Eigen::VectorXd residuals;
     std::vector<QuadrantColour> colours;  // of both eyes
   };

@@ -114,10 +114,18 @@ void CylinderFitParams::Visit(core::FieldVisitor& v) {
                "share of a quadrant's level by which it gets brighter towards one side and towards "
                "the middle",
                "diffuse light and a sun from any side", {0.01, 5.0, 0.3, 1.0});
-  VisitAssumed(v, "edge_blur_px", edge_blur_px,
-               "standard deviation of the blur of an edge, the pixel's own 0.29 included",
-               "lenses of that time; a wrong one widens residuals and moves no edge",
-               {0.29, 3.0, 0.3, 1.0});
+  VisitAssumed(
+      v, "edge_blur_px", edge_blur_px,
+      "where the fit of the blur of edges starts, as a standard deviation, the pixel's own "
+      "0.29 included",
+      "between a lens of half a pixel and the colours of a camera of one chip, a pixel",
+      {0.29, 3.0, 0.3, 1.2});
+  VisitAssumed(
+      v, "edge_blur_spread", edge_blur_spread,
+      "standard deviation of the logarithm of the fitted blur over that start",
+      "half a pixel to a pixel; strips narrower than their blur look as a wider, paler one "
+      "where the blur is taken as too small",
+      {0.01, 2.0, 0.1, 0.8});
   v.Angle("roll_sd_deg", roll_sd_rad,
           {.doc = "standard deviation of the cylinder's lean to a side of the image",
            .min = 0.1,

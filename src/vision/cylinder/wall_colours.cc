@@ -92,14 +92,15 @@ class BandView {
 // A profile against a view.
 class WallProblem {
  public:
-  WallProblem(const EyeProfile& profile, const WallView& view, const CylinderFitParams& params)
+  WallProblem(const EyeProfile& profile, const WallView& view, double blur_px,
+              const CylinderFitParams& params)
       : profile_(profile), view_(view), parts_(static_cast<int>(view.quadrants.size())) {
     EXPECT(parts_ >= 1 && parts_ <= kMostParts);
     const double level = std::max(profile.level, 1.0);
     roots_ << 1.0 / (kLevelSpread * level), 1.0 / (params.shading_sd * level),
         1.0 / (params.shading_sd * level);
     for (const ProfileBand& band : profile.bands) {
-      bands_.emplace_back(view, band.row, params.edge_blur_px);
+      bands_.emplace_back(view, band.row, blur_px);
     }
     Solve();
   }
@@ -202,10 +203,10 @@ int ResidualsOf(const EyeProfile& profile) {
   return kPrimaries * (static_cast<int>(samples) + kWallUnknowns);
 }
 
-void FitWallColours(const EyeProfile& profile, const WallView& view,
+void FitWallColours(const EyeProfile& profile, const WallView& view, double blur_px,
                     const CylinderFitParams& params, std::vector<double>& residuals,
                     std::vector<QuadrantColour>& colours) {
-  const WallProblem problem(profile, view, params);
+  const WallProblem problem(profile, view, blur_px, params);
   problem.AppendResiduals(residuals);
   problem.AppendColours(colours);
 }

@@ -1,8 +1,8 @@
 // A view of the wall against an eye's profile: the colours of the quadrants by linear least
 // squares, and what they leave.
 //
-// A pixel holds each part that its column covers, blurred by edge_blur_px. The wall of a quadrant
-// has the colour
+// A pixel holds each part that its column covers, blurred by a normal distribution. The wall of a
+// quadrant has the colour
 //
 //   g_0 + g_1 t + g_2 (sqrt(1 - t^2) - pi / 4)
 //
@@ -30,8 +30,8 @@ struct QuadrantColour {
 int ResidualsOf(const EyeProfile& profile);
 
 // Appends residuals over their standard deviations to `residuals`, ResidualsOf of them, and what
-// the quadrants look like to `colours`.
-void FitWallColours(const EyeProfile& profile, const WallView& view,
+// the quadrants look like to `colours`. `blur_px`: the standard deviation of the blur of edges.
+void FitWallColours(const EyeProfile& profile, const WallView& view, double blur_px,
                     const CylinderFitParams& params, std::vector<double>& residuals,
                     std::vector<QuadrantColour>& colours);
 
