@@ -55,8 +55,18 @@ Background BackgroundOf(const std::vector<Eigen::Vector3d>& colours, int first, 
   return background;
 }
 
+// The root of (variance I + (brightness_sd c)(brightness_sd c)^T)^-1 for a colour c.
+Eigen::Matrix3d Whitening(double variance, double brightness_sd, const Eigen::Vector3d& colour) {
+  const Eigen::Vector3d along = colour.normalized();
+  const double bright = brightness_sd * brightness_sd * colour.squaredNorm();
+  const double kept = std::sqrt(variance / (variance + bright));
+  return (Eigen::Matrix3d::Identity() - (1.0 - kept) * along * along.transpose()) /
+         std::sqrt(variance);
+}
+
 // `box_first` and `box_last` are columns of the band that lie in the box.
-void AddBackground(int box_first, int box_last, double inside_variance, ProfileBand& band) {
+void AddBackground(int box_first, int box_last, double inside_variance, double brightness_sd,
+                   ProfileBand& band) {
   const int last = static_cast<int>(band.colours.size()) - 1;
   const int left_end = std::max(box_first - 1 - kMixed_px, 0);
   const int right_start = std::min(box_last + 1 + kMixed_px, last);
@@ -64,12 +74,14 @@ void AddBackground(int box_first, int box_last, double inside_variance, ProfileB
   const Background right = BackgroundOf(band.colours, right_start, last);
   band.left_background = left.mean;
   band.right_background = right.mean;
-  band.weights.resize(band.colours.size());
+  band.whitening.resize(band.colours.size());
   for (int i = 0; i <= last; ++i) {
     double variance = inside_variance;
     if (i <= box_first) variance += (i < box_first - 1 ? 1.0 : 0.5) * left.variance;
     if (i >= box_last) variance += (i > box_last + 1 ? 1.0 : 0.5) * right.variance;
-    band.weights[static_cast<std::size_t>(i)] = 1.0 / variance;
+    const bool is_wall = i >= box_first && i <= box_last;
+    band.whitening[static_cast<std::size_t>(i)] = Whitening(
+        variance, is_wall ? brightness_sd : 0.0, band.colours[static_cast<std::size_t>(i)]);
   }
 }
 
@@ -147,7 +159,7 @@ EyeProfile ProfileOf(const ColourImage& image, const ColourRegion& box, double s
     const double inside_variance =
         params.noise_grey * params.noise_grey / (bottom - top + 1) + surface_grey * surface_grey;
     AddBackground(box.left - profile.first_column, box.right - profile.first_column,
-                  inside_variance, band);
+                  inside_variance, params.brightness_sd, band);
     profile.bands.push_back(std::move(band));
   }
   return profile;

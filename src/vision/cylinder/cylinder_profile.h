@@ -14,7 +14,9 @@ struct ProfileBand {
   double row = 0.0;  // its middle
   // Red, green and blue in grey levels, from `first_column` of the profile on.
   std::vector<Eigen::Vector3d> colours;
-  std::vector<double> weights;  // 1 / variance of each, of any primary
+  // The symmetric root of the inverse covariance of each: noise of all primaries alike, background
+  // and, on the wall, brightness (brightness_sd), which moves a colour along itself.
+  std::vector<Eigen::Matrix3d> whitening;
   Eigen::Vector3d left_background = Eigen::Vector3d::Zero();
   Eigen::Vector3d right_background = Eigen::Vector3d::Zero();
 };

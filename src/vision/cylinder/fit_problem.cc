@@ -1,5 +1,6 @@
 #include "vision/cylinder/fit_problem.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -20,7 +21,7 @@ double SagOf(const EyeGeometry& eyes, const ColourCylinder& cylinder, const Seen
   return 0.5 * cylinder.diameter_m * down * eyes.focal_px / point.depth_m;
 }
 
-// Quadrants that both eyes see count once, with the mean of both weighted by their variances.
+// Quadrants that both eyes see count once, with the mean of both weighted by their covariances.
 std::vector<QuadrantColour> Together(const std::vector<QuadrantColour>& colours) {
   std::vector<QuadrantColour> together;
   for (const QuadrantColour& colour : colours) {
@@ -31,9 +32,10 @@ std::vector<QuadrantColour> Together(const std::vector<QuadrantColour>& colours)
       together.push_back(colour);
       continue;
     }
-    const double all = same->variance + colour.variance;
-    same->colour = (colour.variance * same->colour + same->variance * colour.colour) / all;
-    same->variance *= colour.variance / all;
+    const Eigen::Matrix3d first = same->covariance.inverse();
+    const Eigen::Matrix3d second = colour.covariance.inverse();
+    same->covariance = (first + second).inverse();
+    same->colour = same->covariance * (first * same->colour + second * colour.colour);
   }
   return together;
 }
@@ -43,9 +45,10 @@ SeenColour SeenColourOf(const QuadrantColour& quadrant) {
   SeenColour seen;
   seen.colour = kQuadrantColours.at(static_cast<std::size_t>(quadrant.quadrant));
   seen.ratios = LogRatiosOf(levels);
-  // Of a logarithm of a ratio, the mean of both: (1/red^2 + 2/green^2 + 1/blue^2) / 2.
-  const Eigen::Array3d inverse2 = levels.square().inverse();
-  seen.variance = 0.5 * quadrant.variance * (inverse2[0] + 2.0 * inverse2[1] + inverse2[2]);
+  // Of a logarithm of a ratio, the mean of both.
+  Eigen::Matrix<double, 2, 3> by_level;
+  by_level << 1.0 / levels[0], -1.0 / levels[1], 0.0, 0.0, -1.0 / levels[1], 1.0 / levels[2];
+  seen.variance = 0.5 * (by_level * quadrant.covariance * by_level.transpose()).trace();
   return seen;
 }
 

@@ -115,6 +115,12 @@ void CylinderFitParams::Visit(core::FieldVisitor& v) {
                "the middle",
                "diffuse light and a sun from any side", {0.01, 5.0, 0.3, 1.0});
   VisitAssumed(
+      v, "brightness_sd", brightness_sd,
+      "share of its level by which a column of the wall is brighter or darker beside that",
+      "where the sun's light ends on the wall it gets darker by a half, and is no edge of a "
+      "quadrant: colours tell those",
+      {0.0, 5.0, 0.1, 0.6});
+  VisitAssumed(
       v, "edge_blur_px", edge_blur_px,
       "where the fit of the blur of edges starts, as a standard deviation, the pixel's own "
       "0.29 included",

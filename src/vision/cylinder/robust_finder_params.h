@@ -57,10 +57,11 @@ struct CylinderFitParams {
   double noise_grey = 2.5;
   double surface_noise = 0.03;
   double shading_sd = 0.5;
+  double brightness_sd = 0.3;
   double edge_blur_px = 0.7;
   double edge_blur_spread = 0.4;
   double roll_sd_rad = math::DegToRad(5.0);
-  double model_error_px = 0.2;
+  double model_error_px = 0.3;
   double row_error_px = 0.3;
   double largest_misfit = 8.0;
   double largest_colour_misfit = 25.0;

@@ -22,8 +22,11 @@ constexpr double kLevelSpread = 3.0;
 constexpr double kBlurEnd = 4.0;
 
 using WallTerms = Eigen::Vector3d;
-using WallUnknowns = Eigen::Matrix<double, kWallUnknowns, kPrimaries>;
-using WallNormal = Eigen::Matrix<double, kWallUnknowns, kWallUnknowns>;
+// A row for each term of each part; as a vector, primary by primary of each.
+using WallUnknowns = Eigen::Matrix<double, kWallUnknowns, kPrimaries, Eigen::RowMajor>;
+constexpr int kAllUnknowns = kWallUnknowns * kPrimaries;
+using WallVector = Eigen::Matrix<double, kAllUnknowns, 1>;
+using WallNormal = Eigen::Matrix<double, kAllUnknowns, kAllUnknowns>;
 
 // The share of a pixel right of an edge that lies `right_px` left of its middle.
 double ShareBeyond(double right_px, double blur_px) {
@@ -118,7 +121,7 @@ class WallProblem {
           left -= share * unknowns_.middleRows<kWallTerms>(kWallTerms * part).transpose() *
                   mixture.terms;
         }
-        left *= std::sqrt(band.weights[i]);
+        left = band.whitening[i] * left;
         residuals.insert(residuals.end(), left.data(), left.data() + kPrimaries);
       }
     }
@@ -136,8 +139,7 @@ class WallProblem {
       QuadrantColour colour;
       colour.quadrant = view_.quadrants[static_cast<std::size_t>(part)];
       colour.colour = unknowns_.middleRows<kWallTerms>(kWallTerms * part).transpose() * terms;
-      colour.variance = terms.dot(
-          covariance_.block<kWallTerms, kWallTerms>(kWallTerms * part, kWallTerms * part) * terms);
+      colour.covariance = CovarianceOf(part, terms);
       colours.push_back(colour);
     }
   }
@@ -151,11 +153,27 @@ class WallProblem {
            mixture.right * band.right_background;
   }
 
+  // Of a part's colour, the sum of its terms.
+  Eigen::Matrix3d CovarianceOf(int part, const WallTerms& terms) const {
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (int a = 0; a < kWallTerms; ++a) {
+      for (int b = 0; b < kWallTerms; ++b) {
+        covariance +=
+            terms[a] * terms[b] *
+            covariance_.block<kPrimaries, kPrimaries>(kPrimaries * (kWallTerms * part + a),
+                                                      kPrimaries * (kWallTerms * part + b));
+      }
+    }
+    return covariance;
+  }
+
   void Solve() {
     WallNormal normal = WallNormal::Zero();
-    WallUnknowns moments = WallUnknowns::Zero();
-    for (int i = 0; i < kWallUnknowns; ++i)
-      normal(i, i) = roots_[i % kWallTerms] * roots_[i % kWallTerms];
+    WallVector moments = WallVector::Zero();
+    for (int i = 0; i < kAllUnknowns; ++i) {
+      const double root = roots_[(i / kPrimaries) % kWallTerms];
+      normal(i, i) = root * root;
+    }
     for (std::size_t b = 0; b < bands_.size(); ++b) {
       for (std::size_t i = 0; i < profile_.bands[b].colours.size(); ++i) {
         mixtures_.push_back(bands_[b].At(ColumnOf(i)));
@@ -163,24 +181,26 @@ class WallProblem {
       }
     }
     const Eigen::LLT<WallNormal> factors(normal);
-    unknowns_ = factors.solve(moments);
+    Eigen::Map<WallVector>(unknowns_.data()) = factors.solve(moments);
     covariance_ = factors.solve(WallNormal::Identity());
   }
 
   void AddSample(const ProfileBand& band, std::size_t i, const Mixture& mixture, WallNormal& normal,
-                 WallUnknowns& moments) const {
-    const Eigen::Vector3d colour = WithoutBackground(band, i, mixture);
-    const Eigen::Matrix3d outer = band.weights[i] * mixture.terms * mixture.terms.transpose();
-    for (int a = 0; a < parts_; ++a) {
-      const double share_a = mixture.parts.at(static_cast<std::size_t>(a));
-      if (share_a == 0.0) continue;
-      moments.middleRows<kWallTerms>(kWallTerms * a) +=
-          band.weights[i] * share_a * mixture.terms * colour.transpose();
-      for (int b = 0; b < parts_; ++b) {
-        const double share_b = mixture.parts.at(static_cast<std::size_t>(b));
-        if (share_b == 0.0) continue;
-        normal.block<kWallTerms, kWallTerms>(kWallTerms * a, kWallTerms * b) +=
-            share_a * share_b * outer;
+                 WallVector& moments) const {
+    const Eigen::Matrix3d weight = band.whitening[i] * band.whitening[i];
+    const Eigen::Vector3d colour = weight * WithoutBackground(band, i, mixture);
+    Eigen::Matrix<double, kWallUnknowns, 1> shares;
+    for (int part = 0; part < kMostParts; ++part) {
+      shares.segment<kWallTerms>(kWallTerms * part) =
+          mixture.parts.at(static_cast<std::size_t>(part)) * mixture.terms;
+    }
+    for (int a = 0; a < kWallUnknowns; ++a) {
+      if (shares[a] == 0.0) continue;
+      moments.segment<kPrimaries>(kPrimaries * a) += shares[a] * colour;
+      for (int b = 0; b < kWallUnknowns; ++b) {
+        if (shares[b] == 0.0) continue;
+        normal.block<kPrimaries, kPrimaries>(kPrimaries * a, kPrimaries * b) +=
+            shares[a] * shares[b] * weight;
       }
     }
   }

@@ -19,11 +19,11 @@
 
 namespace rockyard::vision {
 
-// A quadrant's colour in its middle, grey levels, with the variance of each primary.
+// A quadrant's colour in its middle, grey levels.
 struct QuadrantColour {
   int quadrant = 0;
   Eigen::Vector3d colour = Eigen::Vector3d::Zero();
-  double variance = 0.0;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
 };
 
 // The number of residuals of a profile, whatever the view: samples, and shading terms.
