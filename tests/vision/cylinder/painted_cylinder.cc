@@ -20,13 +20,14 @@ constexpr double kFieldOfView_rad = math::DegToRad(29.33);
 constexpr double kBaseline_m = 0.12;
 constexpr int kPatch_px = 3;
 
-CameraModel LevelCamera(double left_m, double focal_px) {
-  // Rows run to -y, columns to -z.
+CameraModel CameraAt(double left_m, double focal_px, double pitch_rad) {
+  // Rows run to -y, columns to -z where the camera is level.
   Cahv lens;
   lens.C = Vector3(0.0, left_m, 0.0);
-  lens.A = Vector3::UnitX();
+  lens.A = Vector3(std::cos(pitch_rad), 0.0, -std::sin(pitch_rad));
+  const Vector3 up(std::sin(pitch_rad), 0.0, std::cos(pitch_rad));
   lens.H = -focal_px * Vector3::UnitY() + 0.5 * (kColumns - 1) * lens.A;
-  lens.V = -focal_px * Vector3::UnitZ() + 0.5 * (kRows - 1) * lens.A;
+  lens.V = -focal_px * up + 0.5 * (kRows - 1) * lens.A;
   return {lens, {kColumns, kRows}};
 }
 
@@ -188,14 +189,39 @@ class EyePainter {
 
 }  // namespace
 
-PaintedCameras LevelCameras() {
+PaintedCameras LevelCameras() { return CamerasLookingDown(0.0); }
+
+PaintedCameras CamerasLookingDown(double pitch_rad) {
   const double focal_px = 0.5 * kColumns / std::tan(0.5 * kFieldOfView_rad);
-  return {LevelCamera(0.0, focal_px), LevelCamera(-kBaseline_m, focal_px), focal_px};
+  return {CameraAt(0.0, focal_px, pitch_rad), CameraAt(-kBaseline_m, focal_px, pitch_rad),
+          focal_px};
+}
+
+ColourImage Blurred(const ColourImage& image) {
+  // 1 4 6 4 1 over 16, along rows and columns: a variance of one.
+  constexpr std::array<double, 5> kWeights = {1.0 / 16, 4.0 / 16, 6.0 / 16, 4.0 / 16, 1.0 / 16};
+  ColourImage blurred(image.width(), image.height());
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      PaintColour sum = PaintColour::Zero();
+      for (int j = -2; j <= 2; ++j) {
+        for (int i = -2; i <= 2; ++i) {
+          const Rgb& pixel = image.At(std::clamp(x + i, 0, image.width() - 1),
+                                      std::clamp(y + j, 0, image.height() - 1));
+          sum += kWeights.at(static_cast<std::size_t>(i + 2)) *
+                 kWeights.at(static_cast<std::size_t>(j + 2)) *
+                 PaintColour(pixel.red, pixel.green, pixel.blue);
+        }
+      }
+      blurred.At(x, y) = {Level(sum[0]), Level(sum[1]), Level(sum[2])};
+    }
+  }
+  return blurred;
 }
 
 PaintedPair Paint(const PaintedScene& scene) {
   PaintedPair pair;
-  pair.cameras = LevelCameras();
+  pair.cameras = CamerasLookingDown(scene.pitch_rad);
   pair.left = EyePainter(scene, pair.cameras.left, 0).Image();
   pair.right = EyePainter(scene, pair.cameras.right, 1).Image();
   return pair;
@@ -205,6 +231,14 @@ PaintedScene SceneAt(double distance_m, double orientation_rad) {
   PaintedScene scene;
   scene.cylinders.front().p_LT_L = Vector3(distance_m, -0.5 * kBaseline_m, 0.0);
   scene.cylinders.front().orientation_rad = orientation_rad;
+  return scene;
+}
+
+PaintedScene SceneFromAbove(double distance_m, double orientation_rad, double pitch_rad) {
+  PaintedScene scene = SceneAt(distance_m, orientation_rad);
+  scene.cylinders.front().p_LT_L.x() = distance_m * std::cos(pitch_rad);
+  scene.cylinders.front().p_LT_L.z() = -distance_m * std::sin(pitch_rad);
+  scene.pitch_rad = pitch_rad;
   return scene;
 }
 

@@ -21,6 +21,9 @@ struct PaintedCameras {
 };
 PaintedCameras LevelCameras();
 
+// The same, turned down about their centres.
+PaintedCameras CamerasLookingDown(double pitch_rad);
+
 struct PaintedCylinder {
   math::Vector3 p_LT_L = {3.0, -0.06, -0.1};  // m
   double orientation_rad = 0.0;               // azimuth in T of the middle between LevelCameras
@@ -42,6 +45,7 @@ struct PaintedScene {
   double sun_azimuth_rad = 0.0;  // from the viewer's direction, counter-clockwise seen from above
   double crosstalk = 0.0;        // of a primary to each of the two others
   double exposure = 200.0;       // grey levels of 1
+  double pitch_rad = 0.0;        // by which the cameras look down
   double noise_grey = 0.0;
   int rays = 4;  // a side of a pixel, where a cylinder is
   std::uint64_t seed = 1;
@@ -58,7 +62,14 @@ struct PaintedPair {
 
 PaintedPair Paint(const PaintedScene& scene);
 
+// The picture with each primary blurred by a standard deviation of one pixel, as binomials do it.
+ColourImage Blurred(const ColourImage& image);
+
 // A scene with one cylinder whose middle is `distance_m` before the middle of the cameras.
 PaintedScene SceneAt(double distance_m, double orientation_rad);
+
+// The same with the cameras above the cylinder and turned towards it: `distance_m` is along their
+// axis.
+PaintedScene SceneFromAbove(double distance_m, double orientation_rad, double pitch_rad);
 
 }  // namespace rockyard::vision
