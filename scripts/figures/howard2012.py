@@ -49,6 +49,13 @@ class NavigatorDrive:
         """When a list of distances first fell to `reach_m`; None where it never did."""
         return next((t for t, distance in zip(self.time_s, distances) if distance <= reach_m), None)
 
+    def way_as_seen(self):
+        """What the rover takes its way to be, in words: by visual odometry, as in the paper, else by its wheels."""
+        seen = self.record["visual_distance_m"]
+        if math.isnan(seen):
+            return f"{self.record['dead_reckoned_distance_m']:.2f} m by its wheels"
+        return f"{seen:.2f} m by visual odometry"
+
     def turned_rad(self):
         """Total turning of each of the six motors, to and fro alike."""
         totals = [0.0] * 6

@@ -29,7 +29,8 @@ def draw(sources, options):
     # Of the navigator that steers most wheels.
     fullest = max((axes for (axes,) in panels), key=lambda axes: len(axes.get_lines()))
     if fullest.get_lines():
-        fullest.legend(loc="upper right", ncols=3, fontsize=7)
+        panels[0][0].legend(*fullest.get_legend_handles_labels(), loc="lower right", bbox_to_anchor=(1.0, 1.0),
+                            borderaxespad=0.2, ncols=4, fontsize=7)  # above: curves fill the panels
     return Drawn(figure, _caption(numbers, options.trial), numbers)
 
 

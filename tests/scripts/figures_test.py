@@ -21,6 +21,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import figures
 from figures import goldberg2002_figure3 as gestalt
 from figures import howard2012
+from figures import howard2012_figure6 as figure6
 from figures import matthies1995_figure13 as figure13
 from figures import matthies1995_figure4 as figure4
 from figures import matthies1995_figure15 as figure15
@@ -237,9 +238,28 @@ class DrawnNumbers(FiguresTest):
                                   ("believed", ("believed_x_m", "believed_y_m"))):
                 for value, column in zip(numbers[path][-1], columns):
                     self.assertAlmostEqual(value, float(trial[column]), places=9)
-            self.assertIn(f"{float(trial['dead_reckoned_distance_m']):.2f} m as accumulated", drawn.caption)
+            self.assertIn(f"{float(trial['dead_reckoned_distance_m']):.2f} m by its wheels", drawn.caption)
         solid = [line for line in drawn.figure.axes[0].get_lines() if str(line.get_label()).endswith("as recorded")]
         self.assertEqual(len({(line.get_color(), str(line.get_linestyle())) for line in solid}), 2)
+
+    def test_the_way_is_as_visual_odometry_sees_it_where_there_is_one(self):
+        record = {"visual_distance_m": 15.25, "dead_reckoned_distance_m": 18.5}
+        drive = howard2012.NavigatorDrive("", [], [], [], [], [], record, "", {})
+        self.assertEqual(drive.way_as_seen(), "15.25 m by visual odometry")
+        record["visual_distance_m"] = math.nan
+        self.assertEqual(drive.way_as_seen(), "18.50 m by its wheels")
+
+    def test_rocks_out_of_view_are_left_out(self):
+        limits = {"xlim": (0.0, 10.0), "ylim": (-2.0, 2.0)}
+        for x, y, seen in ((5.0, 0.0, True), (-0.4, 0.0, True), (10.4, 0.0, True), (5.0, -2.4, True), (5.0, 2.4, True),
+                           (-0.6, 0.0, False), (10.6, 0.0, False), (5.0, -2.6, False), (5.0, 2.6, False)):
+            self.assertEqual(figure6.is_in_view(limits, (x, y, 0.5)), seen, (x, y))
+        axes = self.draw("howard2012-6", "nominal").figure.axes[0]
+        rocks = figure16.rocks_of(Source(self.root / "nominal", ROCKYARD).terrain(0))
+        view = {"xlim": axes.get_xlim(), "ylim": axes.get_ylim()}
+        wanted = sum(figure6.is_in_view(view, rock) for rock in rocks)
+        self.assertTrue(0 < wanted < len(rocks), (wanted, len(rocks)))
+        self.assertEqual(sum(len(each.get_paths()) for each in axes.collections), wanted)
 
     def test_distances_to_the_goal_are_by_belief_and_by_truth(self):
         numbers = next(iter(self.draw("howard2012-7", "gestalt").numbers.values()))
