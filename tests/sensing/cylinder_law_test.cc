@@ -236,6 +236,19 @@ TEST(CylinderFixTest, IsMissedAndWrongAsOftenAsTold) {
   EXPECT_NEAR(wrong / static_cast<double>(found), 0.2, 4.0 * std::sqrt(0.16 / found));
 }
 
+// Chances are drawn apart from errors: what is found errs as what is missed would have.
+TEST(CylinderFixTest, IsMissedWhateverItsErrors) {
+  LanderFixParams params = Certain();
+  params.cylinder.found.intercept = 0.0;
+  std::vector<double> ranges;
+  for (int i = 0; i < kFixes; ++i) {
+    const auto fix = FixOf(params, 40.0, i);
+    if (!fix) continue;
+    ranges.push_back((std::hypot(fix->pose_W[0] - 2.0, fix->pose_W[1] - 1.0) / 10.0 - 1.0) / 0.05);
+  }
+  EXPECT_GT(core::KolmogorovP(ranges, StandardNormal), kAlpha);
+}
+
 TEST(CylinderFixTest, DoesNotKnowThatItIsWrong) {
   LanderFixParams params = Certain();
   params.cylinder.wrong.intercept = 1000.0;
