@@ -87,6 +87,12 @@ void LanderFixParams::Visit(core::FieldVisitor& v) {
              .origin = Origin::kAssumed,
              .source = "Matthies 1995 sec. 2.1.1: this imaging system designates goals and updates "
                        "the rover's position"});
+  v.Choice(
+      "law", law,
+      {.doc = "constant: the deviations above; cylinder: chance, deviations and wrong fixes as "
+              "the coloured cylinder was found in rendered views, in place of them",
+       .origin = Origin::kSetting});
+  v.Group("cylinder", cylinder, "the law of the coloured cylinder");
 }
 
 void SunSensorParams::Visit(core::FieldVisitor& v) {

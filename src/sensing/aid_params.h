@@ -1,8 +1,12 @@
 // Parameters of the aids of localization.
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "core/fields.h"
 #include "math/angles.h"
+#include "sensing/cylinder_law_params.h"
 
 namespace rockyard::sensing {
 
@@ -16,6 +20,11 @@ struct AidScheduleParams {
   void Visit(core::FieldVisitor& v);
 };
 
+enum class LanderFixLaw {
+  kConstant,  // one deviation each, whatever the lander sees of the rover
+  kCylinder,  // as the coloured cylinder is seen (sensing/cylinder_law.h)
+};
+
 // The lander finds the rover in its stereo images (Matthies 1995, section 5).
 struct LanderFixParams {
   AidScheduleParams schedule{.every_m = 10.0};
@@ -27,6 +36,8 @@ struct LanderFixParams {
   double mast_height_m = 1.5;
   double rover_height_m = 0.3;
   bool shares_pan_error = true;
+  LanderFixLaw law = LanderFixLaw::kConstant;
+  CylinderLawParams cylinder;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -70,3 +81,8 @@ struct AidParams {
 };
 
 }  // namespace rockyard::sensing
+
+template <>
+struct rockyard::core::EnumNames<rockyard::sensing::LanderFixLaw> {
+  static constexpr std::array<std::string_view, 2> kNames{"constant", "cylinder"};
+};

@@ -1,6 +1,7 @@
 #include "trial/aid_suite.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "localization/beacon_fix.h"
 #include "trial/lander_place.h"
@@ -56,7 +57,7 @@ void AidSuite::MeasureAll(const math::Transform& X_WR, double time_s,
                           localization::Estimator& estimator) {
   const double way_m = estimator.estimate().pose.distance_m;
   if (lander_schedule_.IsDue(way_m, time_s)) {
-    Take(lander_fix_.Observe(X_WR, terrain_, lander_number_++),
+    Take(lander_fix_.Observe(X_WR, terrain_, lander_number_++, SunElevation_rad(time_s)),
          time_s + params_.lander_fix.schedule.delay_s, estimator);
   }
   if (sun_schedule_.IsDue(way_m, time_s)) {
@@ -65,6 +66,11 @@ void AidSuite::MeasureAll(const math::Transform& X_WR, double time_s,
   if (beacon_schedule_.IsDue(way_m, time_s)) {
     Take(AskBeacon(X_WR), time_s + params_.beacon.schedule.delay_s, estimator);
   }
+}
+
+std::optional<double> AidSuite::SunElevation_rad(double time_s) const {
+  if (!params_.sun.schedule.enabled) return std::nullopt;
+  return std::asin(std::clamp(almanac_.Sun_W(time_s).z(), -1.0, 1.0));
 }
 
 std::optional<messages::PoseFix> AidSuite::LookForSun(const math::Transform& X_WR, double time_s,

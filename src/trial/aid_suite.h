@@ -53,6 +53,8 @@ class AidSuite {
   // Captures the moment of `fix`, or counts that there is none.
   void Take(std::optional<messages::PoseFix> fix, double ready_s,
             localization::Estimator& estimator);
+  // Of the sun of `sensors.aids.sun` where that aid is there.
+  std::optional<double> SunElevation_rad(double time_s) const;
   std::optional<messages::PoseFix> LookForSun(const math::Transform& X_WR, double time_s,
                                               const localization::Estimator& estimator);
   std::optional<messages::PoseFix> AskBeacon(const math::Transform& X_WR);

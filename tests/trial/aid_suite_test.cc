@@ -96,6 +96,28 @@ TEST(AidSuite, FilterAloneDrivesAsDeadReckoningDoes) {
   }
 }
 
+// By the law of the cylinder, found above 30 deg of sun alone. Of three drives one begins at noon,
+// one soon after sunrise, and one has no sun of its own and reckons with 60 deg.
+TEST(AidSuite, TellsTheLanderOfTheSun) {
+  const auto aids_used = [](const Overrides& sun) {
+    Overrides all{"sensors.aids.lander_fix.enabled=true",
+                  "sensors.aids.lander_fix.every_m=1",
+                  "sensors.aids.lander_fix.law=cylinder",
+                  "sensors.aids.lander_fix.cylinder.found.intercept=-500",
+                  "sensors.aids.lander_fix.cylinder.found.width=0",
+                  "sensors.aids.lander_fix.cylinder.found.light=1000",
+                  "sensors.aids.lander_fix.cylinder.wrong.intercept=-1000",
+                  "sensors.aids.sun.every_m=10000"};
+    all.insert(all.end(), sun.begin(), sun.end());
+    return RunTrial(WithAids(all), {1, 0}).record.aids_used;
+  };
+  EXPECT_GT(aids_used({"sensors.aids.sun.enabled=true", "sensors.aids.sun.start_solar_time_h=12"}),
+            0.0);
+  EXPECT_EQ(aids_used({"sensors.aids.sun.enabled=true", "sensors.aids.sun.start_solar_time_h=6.5"}),
+            0.0);
+  EXPECT_GT(aids_used({"sensors.aids.sun.start_solar_time_h=6.5"}), 0.0);
+}
+
 // What is late corrects all the same, and less where it never arrives.
 TEST(AidSuite, DataThatAreLateAreUsedWhenTheyArrive) {
   const Overrides late{"sensors.aids.sun.enabled=true", "sensors.aids.sun.delay_s=30"};
