@@ -140,9 +140,15 @@ void CylinderFitParams::Visit(core::FieldVisitor& v) {
            .source = "a rover on level ground among rocks",
            .study_low = 1.0,
            .study_high = 15.0});
-  VisitAssumed(v, "model_error_px", model_error_px,
-               "systematic error of a fitted boundary, added to the covariance",
-               "calibration of cameras, straightness of a panel's edge", {0.0, 2.0, 0.05, 0.3});
+  v.Real("model_error_px", model_error_px,
+         {.doc = "systematic error of a fitted boundary, added to the covariance",
+          .min = 0.0,
+          .max = 2.0,
+          .origin = Origin::kCalibrated,
+          .source = "540 views of scenarios/cylinder/views.json, seed 1: with 0.2 the mean squared "
+                    "error over the stated one was 4 to 8 by distance where 4 is right",
+          .study_low = 0.1,
+          .study_high = 0.5});
   VisitAssumed(v, "row_error_px", row_error_px, "error of the row of the centre",
                "upper and lower rim against textured ground", {0.01, 5.0, 0.2, 1.0});
   VisitAssumed(v, "largest_misfit", largest_misfit,
