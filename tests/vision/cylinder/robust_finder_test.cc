@@ -130,11 +130,13 @@ TEST(RobustFinderTest, GreyThingsThatTouchItAreNotPartOfIt) {
   for (const PaintColour& lid : {PaintColour(0.55, 0.53, 0.50), PaintColour(0.07, 0.08, 0.12)}) {
     PaintedScene scene = SceneFromAbove(2.2, DegToRad(100.0), DegToRad(25.0));
     scene.top = lid;
+    scene.crosstalk = 0.08;
     ExpectFound(Find(Paint(scene)), scene, 0.015, 1.0);
   }
   // Control: a finder that knows of nothing grey takes the cells for the blue quadrant.
   PaintedScene scene = SceneFromAbove(2.2, DegToRad(100.0), DegToRad(25.0));
   scene.top = {0.07, 0.08, 0.12};
+  scene.crosstalk = 0.08;
   RobustFinderParams no_grey;
   no_grey.colours.neutral_sd = 0.05;
   const CylinderFinding finding = Find(Paint(scene), no_grey);
