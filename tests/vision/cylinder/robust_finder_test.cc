@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "math/angles.h"
+#include "vision/cylinder/colour_model.h"
 #include "vision/cylinder/painted_cylinder.h"
 
 namespace rockyard::vision {
@@ -133,15 +134,22 @@ TEST(RobustFinderTest, GreyThingsThatTouchItAreNotPartOfIt) {
     scene.crosstalk = 0.08;
     ExpectFound(Find(Paint(scene)), scene, 0.015, 1.0);
   }
-  // Control: a finder that knows of nothing grey takes the cells for the blue quadrant.
-  PaintedScene scene = SceneFromAbove(2.2, DegToRad(100.0), DegToRad(25.0));
-  scene.top = {0.07, 0.08, 0.12};
-  scene.crosstalk = 0.08;
-  RobustFinderParams no_grey;
-  no_grey.colours.neutral_sd = 0.05;
-  const CylinderFinding finding = Find(Paint(scene), no_grey);
-  EXPECT_FALSE(finding.sighting &&
-               (finding.sighting->p_LT_L - scene.cylinders.front().p_LT_L).norm() < 0.015);
+}
+
+// Solar cells as an 8-bit camera sees them, and the blue of the cylinder in the same light.
+TEST(RobustFinderTest, SolarCellsAreGreyRatherThanBlue) {
+  const ColourModelParams colours;
+  const auto label_of = [](const Rgb& pixel, const ColourModelParams& params) {
+    return LabelSurfaces(ColourImage(1, 1, pixel), LogRatios::Zero(), {}, params).At(0, 0);
+  };
+  const Rgb cells{15, 16, 23};
+  const Rgb blue{40, 65, 140};
+  EXPECT_EQ(label_of(cells, colours), kBackground);
+  EXPECT_EQ(label_of(blue, colours), LabelOf(CylinderColour::kBlue));
+  // Control: to a finder that knows of nothing grey they are blue.
+  ColourModelParams no_grey;
+  no_grey.neutral_sd = 0.05;
+  EXPECT_EQ(label_of(cells, no_grey), LabelOf(CylinderColour::kBlue));
 }
 
 // Where the light of the sun ends on the wall, no quadrant ends.
