@@ -105,6 +105,12 @@ void ExpectFound(const CylinderFinding& finding, const PaintedScene& scene, doub
               0.0, angle_deg);
 }
 
+bool IsMissedOrTurned(const CylinderFinding& finding, const PaintedScene& scene, double angle_deg) {
+  return !finding.sighting ||
+         std::abs(RadToDeg(math::WrapAngle(finding.sighting->orientation_rad -
+                                           scene.cylinders.front().orientation_rad))) > angle_deg;
+}
+
 TEST(RobustFinderTest, CylindersSeenFromAboveAndBelowAreFound) {
   for (const double pitch_deg : {-25.0, 8.0, 20.0, 33.0}) {
     for (int deg = -160; deg < 180; deg += 85) {
@@ -152,27 +158,54 @@ TEST(RobustFinderTest, SolarCellsAreGreyRatherThanBlue) {
   EXPECT_EQ(label_of(cells, no_grey), LabelOf(CylinderColour::kBlue));
 }
 
-// Where the light of the sun ends on the wall, no quadrant ends.
-TEST(RobustFinderTest, ATerminatorIsNoBoundary) {
-  for (const int deg : {-179, -154, -130, 152}) {
-    for (const double sun_deg : {-120.0, 60.0, 110.0}) {
-      SCOPED_TRACE(testing::Message() << deg << ", sun " << sun_deg);
-      PaintedScene scene = SceneAt(4.0, DegToRad(deg));
-      scene.diffuse = 0.3;
-      scene.sun_azimuth_rad = DegToRad(sun_deg);
-      scene.noise_grey = 1.0;
-      ExpectFound(Find(Paint(scene)), scene, 0.05, 3.0);
-    }
-  }
-}
+struct SideLight {
+  double theta_deg = 0.0;
+  double sun_deg = 0.0;
+};
 
-// A strip as narrow as its blur.
-TEST(RobustFinderTest, BlurIsFoundByTheFit) {
-  PaintedScene scene = SceneAt(10.0, DegToRad(-146.0));
+// As a camera of one chip sees it, dark, blurred by a pixel, with the sun at a side.
+PaintedPair PaintSideLit(const PaintedScene& at, double sun_deg) {
+  PaintedScene scene = at;
+  scene.diffuse = 0.25;
+  scene.sun_azimuth_rad = DegToRad(sun_deg);
+  scene.noise_grey = 1.0;
+  scene.crosstalk = 0.08;
+  scene.exposure = 120.0;
+  scene.rays = 3;
   PaintedPair pair = Paint(scene);
   pair.left = Blurred(pair.left);
   pair.right = Blurred(pair.right);
-  ExpectFound(Find(pair), scene, 0.4, 5.0);
+  return pair;
+}
+
+// Where the light of the sun ends on the wall, no quadrant ends.
+TEST(RobustFinderTest, ATerminatorIsNoBoundary) {
+  // Control: a finder to which a darker column is another colour.
+  RobustFinderParams bright;
+  bright.fit.brightness_sd = 0.0;
+  for (const SideLight& view :
+       {SideLight{-154, 80}, SideLight{-144, 80}, SideLight{-130, -80}, SideLight{152, -80}}) {
+    SCOPED_TRACE(testing::Message() << view.theta_deg << ", sun " << view.sun_deg);
+    const PaintedScene scene = SceneAt(8.0, DegToRad(view.theta_deg));
+    const PaintedPair pair = PaintSideLit(scene, view.sun_deg);
+    ExpectFound(Find(pair), scene, 0.3, 3.0);
+    EXPECT_TRUE(IsMissedOrTurned(Find(pair, bright), scene, 5.0));
+  }
+}
+
+// Strips as narrow as their blur.
+TEST(RobustFinderTest, BlurIsFoundByTheFit) {
+  // Control: a blur that is taken for half of what it is.
+  RobustFinderParams sharp;
+  sharp.fit.edge_blur_px = 0.5;
+  sharp.fit.edge_blur_spread = 0.01;
+  for (const SideLight& view : {SideLight{-154, 80}, SideLight{-144, 80}, SideLight{152, -80}}) {
+    SCOPED_TRACE(testing::Message() << view.theta_deg << ", sun " << view.sun_deg);
+    const PaintedScene scene = SceneAt(11.0, DegToRad(view.theta_deg));
+    const PaintedPair pair = PaintSideLit(scene, view.sun_deg);
+    ExpectFound(Find(pair), scene, 0.6, 5.0);
+    EXPECT_TRUE(IsMissedOrTurned(Find(pair, sharp), scene, 5.0));
+  }
 }
 
 TEST(RobustFinderTest, GreenInPlaceOfOrangeIsASetting) {
