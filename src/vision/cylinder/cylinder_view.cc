@@ -21,10 +21,6 @@ std::optional<WallLine> LineAt(const CameraModel& camera, const CylinderPlace& p
   return WallLine{mean.x(), mean.y(), (lower->x() - upper->x()) / rows};
 }
 
-math::Vector3 AcrossAxis(const math::Vector3& v, const math::Vector3& axis) {
-  return v - v.dot(axis) * axis;
-}
-
 }  // namespace
 
 std::optional<WallView> WallSeen(const CameraModel& camera, const EyeGeometry& eyes,

@@ -34,6 +34,11 @@ struct WallView {
   std::vector<int> quadrants;   // 0 to 3 for A to D, from left to right
 };
 
+// The part of v across an axis of length 1.
+inline math::Vector3 AcrossAxis(const math::Vector3& v, const math::Vector3& axis) {
+  return v - v.dot(axis) * axis;
+}
+
 // What an eye sees. Nothing where the eye is not outside of the cylinder or a line is not imaged.
 // `height_m` of the wall about the middle tells the slopes.
 std::optional<WallView> WallSeen(const CameraModel& camera, const EyeGeometry& eyes,

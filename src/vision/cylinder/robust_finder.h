@@ -18,9 +18,9 @@ namespace rockyard::vision {
 //
 // The cylinder is taken as standing along ColourCylinder::axis_L but for a small lean to a side of
 // the image; it may be seen from above or below as long as some rows show the wall from side to
-// side (45 deg for that of the paper). distance_by_stereo_m and distance_by_size_m are those of a
-// fit whose radius is free; the position uses both. Requires images of the size of their cameras.
-// Throws nothing; a pure function. Cost: the figures are in src/vision/README.md.
+// side (some 40 deg for that of the paper). distance_by_stereo_m and distance_by_size_m are those
+// of a fit whose radius is free; the position uses both. Requires images of the size of their
+// cameras. Throws nothing; a pure function. Cost: the figures are in src/vision/README.md.
 CylinderFinding FindCylinder(const ColourPair& pair, const ColourCylinder& cylinder,
                              const RobustFinderParams& params);
 
