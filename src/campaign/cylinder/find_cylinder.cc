@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
@@ -13,9 +15,11 @@
 #include "core/json_text.h"
 #include "image_files/png_file.h"
 #include "image_files/read_image.h"
+#include "math/angles.h"
 #include "vision/cameras/camera_file.h"
 #include "vision/cylinder/published_finder.h"
 #include "vision/cylinder/robust_finder.h"
+#include "vision/cylinder/sight_lines.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -63,6 +67,26 @@ std::uint8_t ToByte(std::uint16_t sample, int full_scale) {
   return static_cast<std::uint8_t>((510 * clipped + full_scale) / (2 * full_scale));
 }
 
+// Cameras may be told in a frame whose z does not point upwards, and then the default axis is
+// wrong.
+void CheckAxis(const CylinderRequest& request, const vision::ColourPair& pair,
+               const vision::ColourCylinder& cylinder) {
+  constexpr double kMost_rad = math::DegToRad(60.0);
+  const auto eyes = vision::GeometryOf(pair);
+  if (!eyes) return;  // the finder says so
+  const double off_rad = std::acos(std::clamp(eyes->up_L.dot(cylinder.Axis_L()), -1.0, 1.0));
+  if (off_rad <= kMost_rad) return;
+  // To thousandths, and none of them -0.
+  const Eigen::Array3d up = (1000.0 * eyes->up_L.array()).round() / 1000.0 + 0.0;
+  throw core::UserError(
+      "cylinder.axis",
+      fmt::format("the cylinder would stand {:.0f} deg from upwards in the left image of {}",
+                  math::RadToDeg(off_rad), request.cameras.string()),
+      fmt::format("say which way is up in the cameras' frame; upwards in the image is "
+                  "cylinder.axis=[{:.3f},{:.3f},{:.3f}]",
+                  up.x(), up.y(), up.z()));
+}
+
 }  // namespace
 
 void CylinderParams::Visit(core::FieldVisitor& v) {
@@ -101,6 +125,8 @@ CylinderResult FindCylinderInFiles(const CylinderRequest& request) {
   CheckCamera(request, "left", cameras.left, left);
   CheckCamera(request, "right", cameras.right, right);
   const vision::ColourPair pair{left, right, cameras.left, cameras.right};
+  // The published finder knows no axis.
+  if (request.finder == CylinderFinder::kRobust) CheckAxis(request, pair, result.params.cylinder);
   result.finding =
       request.finder == CylinderFinder::kPublished
           ? vision::FindCylinderAsPublished(pair, result.params.cylinder, result.params.published)

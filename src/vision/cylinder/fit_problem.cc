@@ -52,6 +52,12 @@ SeenColour SeenColourOf(const QuadrantColour& quadrant) {
   return seen;
 }
 
+std::array<EyeProfile, 2> ProfilesOf(const ColourPair& pair, const RegionPair& candidate,
+                                     double sag_px, const CylinderFitParams& params) {
+  return {ProfileOf(pair.left, candidate.left, sag_px, params),
+          ProfileOf(pair.right, candidate.right, sag_px, params)};
+}
+
 }  // namespace
 
 FitProblem::FitProblem(const ColourPair& pair, const EyeGeometry& eyes,
@@ -61,10 +67,7 @@ FitProblem::FitProblem(const ColourPair& pair, const EyeGeometry& eyes,
       eyes_(eyes),
       cylinder_(cylinder),
       params_(params),
-      profiles_{
-          ProfileOf(pair.left, candidate.left, SagOf(eyes, cylinder, candidate.point), params.fit),
-          ProfileOf(pair.right, candidate.right, SagOf(eyes, cylinder, candidate.point),
-                    params.fit)},
+      profiles_(ProfilesOf(pair, candidate, SagOf(eyes, cylinder, candidate.point), params.fit)),
       start_L_(candidate.point.p_L),
       depth_m_(candidate.point.depth_m) {
   for (const EyeProfile& profile : profiles_) samples_ += ResidualsOf(profile) - kPriors;
@@ -77,8 +80,8 @@ void FitProblem::TakeRows() {
   double rise_m = 0.0;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const EyeProfile& profile = profiles_.at(eye);
-    const math::Vector3 to_eye = CentreOf(*cameras_.at(eye)) - start_L_;
-    const math::Vector3 ahead = (to_eye - to_eye.dot(axis_L) * axis_L).normalized();
+    const math::Vector3 ahead =
+        AcrossAxis(CentreOf(*cameras_.at(eye)) - start_L_, axis_L).normalized();
     const math::Vector3 front_L = start_L_ + kRimsAhead * 0.5 * cylinder_.diameter_m * ahead;
     const auto upper = Project(*cameras_.at(eye), front_L + half_axis_m);
     const auto lower = Project(*cameras_.at(eye), front_L - half_axis_m);

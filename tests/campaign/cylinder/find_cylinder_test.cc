@@ -95,6 +95,22 @@ TEST_F(FindCylinderTest, RefusesWhatIsNoPairOfColourImages) {
   EXPECT_THAT(Refusal(), HasSubstr("nonsense"));
 }
 
+// As with cameras that are told in a frame whose z points ahead.
+TEST_F(FindCylinderTest, RefusesAnAxisThatDoesNotPointUpwards) {
+  for (const char* axis : {"cylinder.axis=[1,0,0]", "cylinder.axis=[0,0,-1]"}) {
+    request_.settings = {axis};
+    EXPECT_THAT(Refusal(), HasSubstr("cylinder.axis"));
+    EXPECT_THAT(Refusal(), HasSubstr("[0.000,0.000,1.000]"));
+  }
+  request_.settings = {"cylinder.axis=[0,0,0]"};
+  EXPECT_THAT(Refusal(), HasSubstr("points nowhere"));
+  request_.settings = {"cylinder.axis=[0,0,0.5]"};
+  EXPECT_EQ(Refusal(), "nothing was refused");
+  request_.settings = {"cylinder.axis=[1,0,0]"};
+  request_.finder = CylinderFinder::kPublished;
+  EXPECT_EQ(Refusal(), "nothing was refused");
+}
+
 TEST_F(FindCylinderTest, RefusesCamerasOfAnotherSize) {
   WriteFile("a.png", image_files::EncodePng(vision::ColourImage(64, 48, {9, 9, 9})));
   WriteFile("b.png", image_files::EncodePng(vision::ColourImage(64, 48, {8, 9, 9})));
