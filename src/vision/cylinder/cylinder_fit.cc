@@ -1,15 +1,15 @@
 #include "vision/cylinder/cylinder_fit.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "math/angles.h"
+#include "vision/cylinder/fit_descent.h"
 #include "vision/cylinder/fit_problem.h"
 
 namespace rockyard::vision {
@@ -21,81 +21,14 @@ constexpr std::size_t kMostStarts = 5;
 // A cost so many times the least is not refined.
 constexpr double kFarAbove = 4.0;
 constexpr double kOtherOrientation_rad = math::DegToRad(25.0);
-constexpr int kMostSteps = 12;
-constexpr double kMostDamping = 1e3;
-// Of the squared residuals: this, or this share of a hundredth of them.
-constexpr double kConverged = 1e-2;
-constexpr int kRadius = 4;  // of the unknowns
-// A radius that is the cylinder's, and one that is free, over it.
-constexpr double kFixedRadius_sd = 1e-4;
-constexpr double kFreeRadius_sd = 1.0;
-
-using FitInformation = Eigen::Matrix<double, 6, 6>;
-
-struct FitState {
-  FitUnknowns unknowns = FitUnknowns::Zero();
-  double squares = std::numeric_limits<double>::infinity();
-  FitInformation information = FitInformation::Identity();
-  FitProblem::Evaluation evaluation;  // at the unknowns
-};
-
-// Forward derivatives of the residuals; of a fixed radius that of its prior alone. Nothing where a
-// step leaves what can be imaged.
-std::optional<Eigen::MatrixXd> Derivatives(const FitProblem& problem, const FitUnknowns& unknowns,
-                                           const Eigen::VectorXd& residuals, double radius_sd) {
-  const FitUnknowns steps = problem.Steps();
-  Eigen::MatrixXd derivatives = Eigen::MatrixXd::Zero(residuals.size(), steps.size());
-  for (int i = 0; i < steps.size(); ++i) {
-    if (i == kRadius && radius_sd == kFixedRadius_sd) {
-      derivatives(residuals.size() - 1, i) = 1.0 / radius_sd;
-      continue;
-    }
-    FitUnknowns step = FitUnknowns::Zero();
-    step[i] = steps[i];
-    const auto ahead = problem.Evaluate(unknowns + step, radius_sd);
-    if (!ahead) return std::nullopt;
-    derivatives.col(i) = (ahead->residuals - residuals) / steps[i];
-  }
-  return derivatives;
-}
-
-// Gauss-Newton with Levenberg's damping from a start.
-FitState RefinedFrom(const FitProblem& problem, const FitUnknowns& start, double radius_sd) {
-  FitState state;
-  state.unknowns = start;
-  auto evaluation = problem.Evaluate(start, radius_sd);
-  if (!evaluation) return state;
-  double damping = 1e-3;
-  std::optional<Eigen::MatrixXd> derivatives;
-  for (int i = 0; i < kMostSteps && damping < kMostDamping; ++i) {
-    if (!derivatives) {
-      derivatives = Derivatives(problem, state.unknowns, evaluation->residuals, radius_sd);
-      if (!derivatives) return state;
-      state.information = derivatives->transpose() * *derivatives;
-      state.squares = evaluation->residuals.squaredNorm();
-    }
-    FitInformation damped = state.information;
-    damped.diagonal() *= 1.0 + damping;
-    const FitUnknowns gradient = derivatives->transpose() * evaluation->residuals;
-    const FitUnknowns next = state.unknowns - damped.ldlt().solve(gradient);
-    auto there = next.allFinite() ? problem.Evaluate(next, radius_sd) : std::nullopt;
-    const double squares =
-        there ? there->residuals.squaredNorm() : std::numeric_limits<double>::infinity();
-    if (squares >= state.squares) {
-      damping *= 10.0;
-      continue;
-    }
-    const bool converged = state.squares - squares < kConverged * std::max(1.0, 0.01 * squares);
-    state.unknowns = next;
-    state.squares = squares;
-    evaluation = std::move(there);
-    damping = std::max(0.1 * damping, 1e-6);
-    if (converged) break;
-    derivatives.reset();
-  }
-  state.evaluation = std::move(*evaluation);
-  return state;
-}
+constexpr int kMostSteps = 30;
+// The walk about a minimum: places on either side of it, from one to the next, and the steps of the
+// descent at each.
+constexpr int kWalk = 6;
+constexpr double kWalkStep_rad = math::DegToRad(4.0);
+constexpr int kWalkDescent = 4;
+// Squared residuals above the best ones up to which a minimum of the walk is refined.
+constexpr double kWalkAbove = 30.0;
 
 FitUnknowns AtOrientation(double orientation_rad) {
   FitUnknowns unknowns = FitUnknowns::Zero();
@@ -109,6 +42,22 @@ struct Hypothesis {
   double cost = std::numeric_limits<double>::infinity();
 };
 
+void SortByCost(std::vector<Hypothesis>& hypotheses) {
+  std::sort(hypotheses.begin(), hypotheses.end(),
+            [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; });
+}
+
+// Adds the minimum that a descent from the start reaches.
+void Refine(const FitProblem& problem, const FitUnknowns& start, const LogRatios& light,
+            std::vector<Hypothesis>& hypotheses) {
+  Hypothesis hypothesis;
+  hypothesis.state = DescendFrom(problem, start, FitFreedom::kOrientation, kMostSteps);
+  if (!std::isfinite(hypothesis.state.squares)) return;
+  hypothesis.colour_misfit = problem.ColourMisfitOf(hypothesis.state.evaluation, light);
+  hypothesis.cost = hypothesis.state.squares + hypothesis.colour_misfit;
+  hypotheses.push_back(hypothesis);
+}
+
 // The starts: orientations whose cost is no larger than that of both neighbours and not far above
 // the least, best first.
 std::vector<double> StartsOf(const FitProblem& problem, const LogRatios& light) {
@@ -117,7 +66,8 @@ std::vector<double> StartsOf(const FitProblem& problem, const LogRatios& light) 
     return 2.0 * std::numbers::pi * static_cast<double>(i) / kOrientations;
   };
   for (std::size_t i = 0; i < kOrientations; ++i) {
-    const auto evaluation = problem.Evaluate(AtOrientation(orientation(i)), kFixedRadius_sd);
+    const auto evaluation =
+        problem.Evaluate(AtOrientation(orientation(i)), RadiusDeviation(FitFreedom::kOrientation));
     costs.at(i) = evaluation ? evaluation->residuals.squaredNorm() +
                                    problem.ColourMisfitOf(*evaluation, light)
                              : std::numeric_limits<double>::infinity();
@@ -141,19 +91,67 @@ std::vector<double> StartsOf(const FitProblem& problem, const LogRatios& light) 
   return starts;
 }
 
+// Best first.
 std::vector<Hypothesis> HypothesesOf(const FitProblem& problem, const LogRatios& light) {
   std::vector<Hypothesis> hypotheses;
   for (const double start_rad : StartsOf(problem, light)) {
-    Hypothesis hypothesis;
-    hypothesis.state = RefinedFrom(problem, AtOrientation(start_rad), kFixedRadius_sd);
-    if (!std::isfinite(hypothesis.state.squares)) continue;
-    hypothesis.colour_misfit = problem.ColourMisfitOf(hypothesis.state.evaluation, light);
-    hypothesis.cost = hypothesis.state.squares + hypothesis.colour_misfit;
-    hypotheses.push_back(hypothesis);
+    Refine(problem, AtOrientation(start_rad), light, hypotheses);
   }
-  std::sort(hypotheses.begin(), hypotheses.end(),
-            [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; });
+  SortByCost(hypotheses);
   return hypotheses;
+}
+
+// The better of two descents at a fixed theta: from the neighbour's place, and from the middle of
+// the candidate's boxes.
+FitState WalkedTo(const FitProblem& problem, const FitUnknowns& neighbour, double orientation_rad) {
+  FitUnknowns start = neighbour;
+  start[2] = orientation_rad;
+  FitState near = DescendFrom(problem, start, FitFreedom::kPlace, kWalkDescent);
+  FitState fresh =
+      DescendFrom(problem, AtOrientation(orientation_rad), FitFreedom::kPlace, kWalkDescent);
+  return near.squares <= fresh.squares ? near : fresh;
+}
+
+// Where few pixels show the wall, a descent ends a pixel beside the best place: theta is led away
+// from the best minimum in both directions, and what is a minimum on the way is refined.
+void WalkAboutBest(const FitProblem& problem, const LogRatios& light,
+                   std::vector<Hypothesis>& hypotheses) {
+  const FitState best = hypotheses.front().state;
+  std::array<FitState, 2 * kWalk + 1> walk;
+  walk[kWalk] = best;
+  for (const int direction : {-1, 1}) {
+    for (int i = 1; i <= kWalk; ++i) {
+      const auto at = static_cast<std::size_t>(kWalk + direction * i);
+      const FitState& before = walk.at(at - static_cast<std::size_t>(direction));
+      walk.at(at) =
+          WalkedTo(problem, before.unknowns, best.unknowns[2] + direction * i * kWalkStep_rad);
+    }
+  }
+  for (std::size_t i = 0; i < walk.size(); ++i) {
+    const double squares = walk.at(i).squares;
+    if (i == kWalk || !(squares <= best.squares + kWalkAbove)) continue;
+    if (i > 0 && walk.at(i - 1).squares < squares) continue;
+    if (i + 1 < walk.size() && walk.at(i + 1).squares < squares) continue;
+    Refine(problem, walk.at(i).unknowns, light, hypotheses);
+  }
+  SortByCost(hypotheses);
+}
+
+// The candidate moved to a place, with boxes that begin and end where the wall there does.
+RegionPair BoxedBy(const ColourPair& pair, const EyeGeometry& eyes, const CylinderPlace& place,
+                   double height_m, RegionPair regions) {
+  const auto fit_box = [&](const CameraModel& camera, ColourRegion& box) {
+    const auto view = WallSeen(camera, eyes, place, 0.5 * height_m);
+    if (!view) return;
+    const int last = camera.size.columns - 2;
+    box.left = std::clamp(static_cast<int>(std::lround(view->lines.front().column + 0.5)), 1, last);
+    box.right =
+        std::clamp(static_cast<int>(std::lround(view->lines.back().column - 0.5)), box.left, last);
+  };
+  fit_box(pair.left_camera, regions.left);
+  fit_box(pair.right_camera, regions.right);
+  regions.point = {place.p_LT_L, (place.p_LT_L - eyes.centre_L).dot(eyes.forward_L)};
+  return regions;
 }
 
 // What orientations near the best one that are nearly as likely add to its variance, rad^2: their
@@ -181,14 +179,8 @@ double MarginOf(const std::vector<Hypothesis>& hypotheses) {
   return std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
-
-std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry& eyes,
-                                       const ColourCylinder& cylinder, const RegionPair& candidate,
-                                       const LogRatios& light, const RobustFinderParams& params) {
-  const FitProblem problem(pair, eyes, cylinder, candidate, params);
-  const std::vector<Hypothesis> hypotheses = HypothesesOf(problem, light);
-  if (hypotheses.empty()) return std::nullopt;
+CylinderFit FitOf(const FitProblem& problem, const std::vector<Hypothesis>& hypotheses,
+                  const EyeGeometry& eyes) {
   const Hypothesis& best = hypotheses.front();
   CylinderFit fit;
   fit.place = problem.PlaceOf(best.state.unknowns);
@@ -201,12 +193,29 @@ std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry
   const double factor = std::max(fit.misfit, 1.0);
   fit.covariance = factor * best.state.information.inverse().topLeftCorner<4, 4>();
   fit.covariance(2, 2) += SpreadOf(hypotheses, factor);
-  const FitState free = RefinedFrom(problem, best.state.unknowns, kFreeRadius_sd);
+  const FitState free = DescendFrom(problem, best.state.unknowns, FitFreedom::kRadius, kMostSteps);
   const CylinderPlace free_place = problem.PlaceOf(free.unknowns);
   fit.free_depth_m = (free_place.p_LT_L - eyes.centre_L).dot(eyes.forward_L);
   fit.radius_ratio = 1.0 + free.unknowns[4];
   fit.radius_ratio_sd = std::sqrt(factor * free.information.inverse()(4, 4));
   return fit;
+}
+
+}  // namespace
+
+std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry& eyes,
+                                       const ColourCylinder& cylinder, const RegionPair& candidate,
+                                       const LogRatios& light, const RobustFinderParams& params) {
+  const FitProblem first(pair, eyes, cylinder, candidate, params);
+  const std::vector<Hypothesis> guesses = HypothesesOf(first, light);
+  if (guesses.empty()) return std::nullopt;
+  const RegionPair boxed = BoxedBy(pair, eyes, first.PlaceOf(guesses.front().state.unknowns),
+                                   cylinder.height_m, candidate);
+  const FitProblem problem(pair, eyes, cylinder, boxed, params);
+  std::vector<Hypothesis> hypotheses = HypothesesOf(problem, light);
+  if (hypotheses.empty()) return std::nullopt;
+  WalkAboutBest(problem, light, hypotheses);
+  return FitOf(problem, hypotheses, eyes);
 }
 
 }  // namespace rockyard::vision

@@ -2,8 +2,10 @@
 //
 // Unknown are the place across and along the view, theta, the roll, the blur of edges, and the
 // radius where it is free; the colours of the quadrants are solved for inside (wall_colours.h:
-// variable projection, Golub and Pereyra 1973). All orientations are tried in steps of 7.5 deg, the
-// best local minima refined by Gauss-Newton with numerical derivatives and Levenberg's damping.
+// variable projection, Golub and Pereyra 1973). All orientations are tried in steps of 7.5 deg, and
+// the best local minima refined (fit_descent.h): first in the candidate's boxes, then in those of
+// the wall that was found. About the best minimum theta is then led 24 deg to both sides, as beside
+// it may lie a better one that no descent from afar reaches.
 #pragma once
 
 #include <Eigen/Core>

@@ -66,11 +66,18 @@ void JudgeFit(const CylinderFit& fit, const ColourCylinder& cylinder,
   }
 }
 
+// How far boundaries may be off beyond what residuals tell: more where the pixels fit worse than
+// they usually do, and by what the wall is too wide or too narrow for its known radius.
+double BoundaryError(const CylinderFit& fit, double width_px, const CylinderFitParams& params) {
+  const double model_px = params.model_error_px * std::max(fit.misfit / params.usual_misfit, 1.0);
+  return std::hypot(model_px, 0.5 * width_px * (fit.radius_ratio - 1.0));
+}
+
 // Of p_LT_L and theta: the fit's, with the errors of its model and of the rows.
 Eigen::Matrix4d CovarianceOf(const CylinderFit& fit, const EyeGeometry& eyes, double depth_m,
                              double width_px, const CylinderFitParams& params) {
   const double m_a_px = depth_m / eyes.focal_px;
-  const double error_px = params.model_error_px;
+  const double error_px = BoundaryError(fit, width_px, params);
   Eigen::Matrix4d measured = Eigen::Matrix4d::Zero();  // across, along, up, theta
   measured.topLeftCorner<2, 2>() = fit.covariance.topLeftCorner<2, 2>();
   measured(3, 3) = fit.covariance(2, 2);
