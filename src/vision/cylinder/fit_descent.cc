@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/check.h"
+
 namespace rockyard::vision {
 namespace {
 
@@ -61,6 +63,7 @@ double RadiusDeviation(FitFreedom freedom) {
 
 FitState DescendFrom(const FitProblem& problem, const FitUnknowns& start, FitFreedom freedom,
                      int most_steps) {
+  EXPECT(most_steps >= 1);
   FitState state;
   state.unknowns = start;
   auto evaluation = problem.Evaluate(start, RadiusDeviation(freedom));
@@ -70,7 +73,7 @@ FitState DescendFrom(const FitProblem& problem, const FitUnknowns& start, FitFre
   for (int i = 0; i < most_steps && damping < kMostDamping; ++i) {
     if (!derivatives) {
       derivatives = Derivatives(problem, state.unknowns, evaluation->residuals, freedom);
-      if (!derivatives) return state;
+      if (!derivatives) break;
       state.information = derivatives->transpose() * *derivatives;
       state.squares = evaluation->residuals.squaredNorm();
     }

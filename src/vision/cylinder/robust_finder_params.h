@@ -56,12 +56,12 @@ struct CandidateParams {
 struct CylinderFitParams {
   double noise_grey = 2.5;
   double surface_noise = 0.03;
-  double shading_sd = 0.1;
+  double shading_sd = 0.5;
   double brightness_sd = 0.3;
-  double edge_blur_px = 1.15;
-  double edge_blur_spread = 0.2;
+  double edge_blur_px = 0.7;
+  double edge_blur_spread = 0.4;
   double roll_sd_rad = math::DegToRad(5.0);
-  double model_error_px = 0.3;
+  double model_error_px = 0.35;
   double usual_misfit = 0.3;
   double row_error_px = 0.3;
   double largest_misfit = 8.0;

@@ -10,6 +10,7 @@
 
 #include "math/angles.h"
 #include "vision/cylinder/colour_model.h"
+#include "vision/cylinder/cylinder_resolution.h"
 #include "vision/cylinder/painted_cylinder.h"
 
 namespace rockyard::vision {
@@ -176,6 +177,36 @@ PaintedPair PaintSideLit(const PaintedScene& at, double sun_deg) {
   pair.left = Blurred(pair.left);
   pair.right = Blurred(pair.right);
   return pair;
+}
+
+// What the cylinder is told to be 4 % narrower than has rims that are wrong by a pixel: boundaries
+// may be, too.
+TEST(RobustFinderTest, AWallTooWideForItsRadiusIsLessSure) {
+  const PaintedScene scene = SceneAt(4.5, DegToRad(20.0));
+  const PaintedPair pair = Paint(scene);
+  ColourCylinder narrow;
+  narrow.diameter_m *= 0.96;
+  RobustFinderParams params;
+  params.fit.usual_misfit = 10.0;  // that pixels fit worse is not what is tested
+  const CylinderFinding right = FindCylinder(pair.Pair(), {}, params);
+  const CylinderFinding wrong = FindCylinder(pair.Pair(), narrow, params);
+  ASSERT_TRUE(right.sighting && wrong.sighting) << right.reason << wrong.reason;
+  const double sd_px = std::sqrt(wrong.sighting->covariance(3, 3)) / CoarsestTurn(41.7);
+  EXPECT_NEAR(sd_px, std::hypot(0.35, 0.5 * 41.7 * 0.04), 0.15);
+  EXPECT_LT(right.sighting->covariance(3, 3), 0.25 * wrong.sighting->covariance(3, 3));
+}
+
+TEST(RobustFinderTest, PixelsThatFitWorseThanUsuallyAreLessSure) {
+  const PaintedPair pair = Paint(OutdoorsAt(4.5, DegToRad(20.0), 1));
+  const auto sd_rad = [&](double usual_misfit) {
+    RobustFinderParams params;
+    params.fit.usual_misfit = usual_misfit;
+    const CylinderFinding finding = Find(pair, params);
+    EXPECT_TRUE(finding.sighting) << finding.reason;
+    return finding.sighting ? std::sqrt(finding.sighting->covariance(3, 3)) : 0.0;
+  };
+  EXPECT_GT(sd_rad(0.02), 3.0 * sd_rad(8.0));
+  EXPECT_EQ(sd_rad(4.0), sd_rad(8.0));  // both beyond what it is
 }
 
 // Where the light of the sun ends on the wall, no quadrant ends.
