@@ -199,15 +199,31 @@ CylinderSightingParams FarViews() {
   return params;
 }
 
-// Trials of seed 3 at 9 to 11 m of which descents from 48 orientations alone came out 11 to 13 deg
-// off, a pixel beside a place that fits far better.
+// Trials of seed 3 at 9 and 10 m that came out 12 and 13 deg off by descents from 48 orientations
+// alone, a pixel beside a place that fits far better.
 TEST(CylinderSighting, TheBestPlaceIsFoundBesideALocalMinimum) {
   const CylinderSightingExperiment experiment(FarViews());
-  for (const std::int64_t trial : {281, 606, 1632, 2844}) {
+  for (const std::int64_t trial : {281, 2844}) {
     const truth::Record record = experiment.Run(3, trial);
     EXPECT_EQ(ValueOf(experiment, record, "robust_right"), 1.0) << trial;
     EXPECT_LT(std::abs(ValueOf(experiment, record, "robust_orientation_bias_deg")), 5.0) << trial;
   }
+}
+
+// Seed 6 at 7, 10 and 15 m: squared errors in units of the stated covariance are 4 each if that is
+// right; bounds of a quarter of it and twice as much.
+TEST(CylinderSighting, FarErrorsAreAsStated) {
+  const CylinderSightingExperiment experiment(FarViews());
+  double squares = 0.0;
+  double right = 0.0;
+  for (std::int64_t trial = 0; trial < 27; ++trial) {
+    const truth::Record record = experiment.Run(6, trial);
+    squares += ValueOf(experiment, record, "robust_nees");
+    right += ValueOf(experiment, record, "robust_right");
+  }
+  EXPECT_GE(right, 20.0);
+  EXPECT_GT(squares / right, 1.0);
+  EXPECT_LT(squares / right, 8.0);
 }
 
 }  // namespace
