@@ -24,7 +24,7 @@ constexpr double kOtherOrientation_rad = math::DegToRad(25.0);
 constexpr int kMostSteps = 30;
 // The walk about a minimum: places on either side of it, from one to the next, and the steps of the
 // descent at each.
-constexpr int kWalk = 6;
+constexpr std::size_t kWalk = 6;
 constexpr double kWalkStep_rad = math::DegToRad(4.0);
 constexpr int kWalkDescent = 4;
 // Squared residuals above the best ones up to which a minimum of the walk is refined.
@@ -119,12 +119,12 @@ void WalkAboutBest(const FitProblem& problem, const LogRatios& light,
   const FitState best = hypotheses.front().state;
   std::array<FitState, 2 * kWalk + 1> walk;
   walk[kWalk] = best;
-  for (const int direction : {-1, 1}) {
-    for (int i = 1; i <= kWalk; ++i) {
-      const auto at = static_cast<std::size_t>(kWalk + direction * i);
-      const FitState& before = walk.at(at - static_cast<std::size_t>(direction));
-      walk.at(at) =
-          WalkedTo(problem, before.unknowns, best.unknowns[2] + direction * i * kWalkStep_rad);
+  for (const bool leftwards : {true, false}) {
+    const double step_rad = leftwards ? -kWalkStep_rad : kWalkStep_rad;
+    for (std::size_t i = 1; i <= kWalk; ++i) {
+      const FitState& before = walk.at(leftwards ? kWalk + 1 - i : kWalk - 1 + i);
+      walk.at(leftwards ? kWalk - i : kWalk + i) =
+          WalkedTo(problem, before.unknowns, best.unknowns[2] + static_cast<double>(i) * step_rad);
     }
   }
   for (std::size_t i = 0; i < walk.size(); ++i) {
