@@ -1,6 +1,7 @@
 #include "vision/cylinder/colour_model.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -134,6 +135,12 @@ LogRatios SurfaceOf(CylinderColour colour, const SurfaceColourParams& surfaces) 
   return LogRatiosOf(PrimariesOf(surfaces.third));
 }
 
+Eigen::Vector3d DirectionOf(CylinderColour colour, const LogRatios& light,
+                            const SurfaceColourParams& surfaces, const ColourModelParams& params) {
+  const LogRatios ratios = light + params.saturation * SurfaceOf(colour, surfaces);
+  return Eigen::Vector3d(std::exp(ratios[0]), 1.0, std::exp(ratios[1])).normalized();
+}
+
 LogRatios GroundOf(const SurfaceColourParams& surfaces) {
   return LogRatiosOf(PrimariesOf(surfaces.ground));
 }
@@ -167,27 +174,33 @@ ClassImage LabelSurfaces(const ColourImage& image, const LogRatios& light,
   return labels;
 }
 
-double ColourMisfit(const std::vector<SeenColour>& seen, const LogRatios& light,
-                    const SurfaceColourParams& surfaces, const ColourModelParams& params) {
-  // Unknowns: the light's two ratios and the saturation, about their priors.
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  const double light_weight = 1.0 / (params.light_sd * params.light_sd);
-  normal.diagonal() << light_weight, light_weight,
-      1.0 / (params.saturation_sd * params.saturation_sd);
-  double squares = 0.0;
+Eigen::Matrix2d WhiteningOf(const Eigen::Matrix2d& covariance) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).operatorInverseSqrt();
+}
+
+std::vector<double> ColourResiduals(const std::vector<SeenColour>& seen, const LogRatios& light,
+                                    const SurfaceColourParams& surfaces,
+                                    const ColourModelParams& params) {
+  // Unknowns: the light's two ratios and the saturation, less their priors.
+  const Eigen::Vector3d prior_root(1.0 / params.light_sd, 1.0 / params.light_sd,
+                                   1.0 / params.saturation_sd);
+  const auto rows = static_cast<Eigen::Index>(2 * seen.size() + 3);
+  Eigen::MatrixXd by_unknown = Eigen::MatrixXd::Zero(rows, 3);
+  Eigen::VectorXd residuals = Eigen::VectorXd::Zero(rows);
+  const Eigen::Matrix2d surface = params.surface_sd * params.surface_sd * Eigen::Matrix2d::Identity();
+  Eigen::Index row = 0;
   for (const SeenColour& colour : seen) {
-    const LogRatios surface = SurfaceOf(colour.colour, surfaces);
-    const double weight = 1.0 / (params.surface_sd * params.surface_sd + colour.variance);
-    const LogRatios residual = colour.ratios - light - params.saturation * surface;
-    for (int i = 0; i < 2; ++i) {
-      Eigen::Vector3d row(i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, surface[i]);
-      normal += weight * row * row.transpose();
-      moment += weight * residual[i] * row;
-    }
-    squares += weight * residual.squaredNorm();
+    const LogRatios ratios = SurfaceOf(colour.colour, surfaces);
+    const Eigen::Matrix2d whitening = WhiteningOf(surface + colour.covariance);
+    by_unknown.block<2, 2>(row, 0) = whitening;
+    by_unknown.block<2, 1>(row, 2) = whitening * ratios;
+    residuals.segment<2>(row) = whitening * (colour.ratios - light - params.saturation * ratios);
+    row += 2;
   }
-  return squares - moment.dot(normal.llt().solve(moment));
+  by_unknown.bottomRows<3>() = prior_root.asDiagonal();
+  const Eigen::Matrix3d normal = by_unknown.transpose() * by_unknown;
+  residuals -= by_unknown * normal.llt().solve(by_unknown.transpose() * residuals);
+  return {residuals.data(), residuals.data() + rows};
 }
 
 }  // namespace rockyard::vision

@@ -23,6 +23,11 @@ using LogRatios = Eigen::Vector2d;
 // Of positive primaries; those below half a grey level count as half a one.
 LogRatios LogRatiosOf(const Eigen::Vector3d& primaries);
 
+// The direction of a class's primaries in a light that is known, of length 1: brightness moves a
+// colour along it.
+Eigen::Vector3d DirectionOf(CylinderColour colour, const LogRatios& light,
+                            const SurfaceColourParams& surfaces, const ColourModelParams& params);
+
 // The surface colour of a class, or of the ground.
 LogRatios SurfaceOf(CylinderColour colour, const SurfaceColourParams& surfaces);
 LogRatios GroundOf(const SurfaceColourParams& surfaces);
@@ -41,12 +46,17 @@ ClassImage LabelSurfaces(const ColourImage& image, const LogRatios& light,
 struct SeenColour {
   CylinderColour colour = CylinderColour::kBlue;  // which it would be
   LogRatios ratios = LogRatios::Zero();
-  double variance = 0.0;  // of each of them, by the fit
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the ratios, by the fit
 };
 
-// The squared residuals, light and saturation at their best: how unlike these colours are those of
-// the surfaces that they would be.
-double ColourMisfit(const std::vector<SeenColour>& seen, const LogRatios& light,
-                    const SurfaceColourParams& surfaces, const ColourModelParams& params);
+// Residuals over their standard deviations, light and saturation at their best: two of each colour,
+// and three of the light and the saturation. Their squares tell how unlike these colours are those
+// of the surfaces that they would be.
+std::vector<double> ColourResiduals(const std::vector<SeenColour>& seen, const LogRatios& light,
+                                    const SurfaceColourParams& surfaces,
+                                    const ColourModelParams& params);
+
+// The inverse of the symmetric root of a positive definite matrix.
+Eigen::Matrix2d WhiteningOf(const Eigen::Matrix2d& covariance);
 
 }  // namespace rockyard::vision

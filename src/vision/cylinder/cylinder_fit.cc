@@ -22,13 +22,6 @@ constexpr std::size_t kMostStarts = 5;
 constexpr double kFarAbove = 4.0;
 constexpr double kOtherOrientation_rad = math::DegToRad(25.0);
 constexpr int kMostSteps = 30;
-// The walk about a minimum: places on either side of it, from one to the next, and the steps of the
-// descent at each.
-constexpr std::size_t kWalk = 6;
-constexpr double kWalkStep_rad = math::DegToRad(4.0);
-constexpr int kWalkDescent = 4;
-// Squared residuals above the best ones up to which a minimum of the walk is refined.
-constexpr double kWalkAbove = 30.0;
 
 FitUnknowns AtOrientation(double orientation_rad) {
   FitUnknowns unknowns = FitUnknowns::Zero();
@@ -36,40 +29,29 @@ FitUnknowns AtOrientation(double orientation_rad) {
   return unknowns;
 }
 
-struct Hypothesis {
-  FitState state;
-  double colour_misfit = 0.0;
-  double cost = std::numeric_limits<double>::infinity();
-};
-
-void SortByCost(std::vector<Hypothesis>& hypotheses) {
+void SortBySquares(std::vector<FitState>& hypotheses) {
   std::sort(hypotheses.begin(), hypotheses.end(),
-            [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; });
+            [](const FitState& a, const FitState& b) { return a.squares < b.squares; });
 }
 
 // Adds the minimum that a descent from the start reaches.
-void Refine(const FitProblem& problem, const FitUnknowns& start, const LogRatios& light,
-            std::vector<Hypothesis>& hypotheses) {
-  Hypothesis hypothesis;
-  hypothesis.state = DescendFrom(problem, start, FitFreedom::kOrientation, kMostSteps);
-  if (!std::isfinite(hypothesis.state.squares)) return;
-  hypothesis.colour_misfit = problem.ColourMisfitOf(hypothesis.state.evaluation, light);
-  hypothesis.cost = hypothesis.state.squares + hypothesis.colour_misfit;
-  hypotheses.push_back(hypothesis);
+void Refine(const FitProblem& problem, const FitUnknowns& start,
+            std::vector<FitState>& hypotheses) {
+  const FitState minimum = DescendFrom(problem, start, FitRadius::kFixed, kMostSteps);
+  if (std::isfinite(minimum.squares)) hypotheses.push_back(minimum);
 }
 
 // The starts: orientations whose cost is no larger than that of both neighbours and not far above
 // the least, best first.
-std::vector<double> StartsOf(const FitProblem& problem, const LogRatios& light) {
+std::vector<double> StartsOf(const FitProblem& problem) {
   std::array<double, kOrientations> costs{};
   const auto orientation = [](std::size_t i) {
     return 2.0 * std::numbers::pi * static_cast<double>(i) / kOrientations;
   };
   for (std::size_t i = 0; i < kOrientations; ++i) {
     const auto evaluation =
-        problem.Evaluate(AtOrientation(orientation(i)), RadiusDeviation(FitFreedom::kOrientation));
-    costs.at(i) = evaluation ? evaluation->residuals.squaredNorm() +
-                                   problem.ColourMisfitOf(*evaluation, light)
+        problem.Evaluate(AtOrientation(orientation(i)), RadiusDeviation(FitRadius::kFixed));
+    costs.at(i) = evaluation ? evaluation->residuals.squaredNorm()
                              : std::numeric_limits<double>::infinity();
   }
   const double most = kFarAbove * *std::min_element(costs.begin(), costs.end());
@@ -92,49 +74,13 @@ std::vector<double> StartsOf(const FitProblem& problem, const LogRatios& light) 
 }
 
 // Best first.
-std::vector<Hypothesis> HypothesesOf(const FitProblem& problem, const LogRatios& light) {
-  std::vector<Hypothesis> hypotheses;
-  for (const double start_rad : StartsOf(problem, light)) {
-    Refine(problem, AtOrientation(start_rad), light, hypotheses);
+std::vector<FitState> HypothesesOf(const FitProblem& problem) {
+  std::vector<FitState> hypotheses;
+  for (const double start_rad : StartsOf(problem)) {
+    Refine(problem, AtOrientation(start_rad), hypotheses);
   }
-  SortByCost(hypotheses);
+  SortBySquares(hypotheses);
   return hypotheses;
-}
-
-// The better of two descents at a fixed theta: from the neighbour's place, and from the middle of
-// the candidate's boxes.
-FitState WalkedTo(const FitProblem& problem, const FitUnknowns& neighbour, double orientation_rad) {
-  FitUnknowns start = neighbour;
-  start[2] = orientation_rad;
-  FitState near = DescendFrom(problem, start, FitFreedom::kPlace, kWalkDescent);
-  FitState fresh =
-      DescendFrom(problem, AtOrientation(orientation_rad), FitFreedom::kPlace, kWalkDescent);
-  return near.squares <= fresh.squares ? near : fresh;
-}
-
-// Where few pixels show the wall, a descent ends a pixel beside the best place: theta is led away
-// from the best minimum in both directions, and what is a minimum on the way is refined.
-void WalkAboutBest(const FitProblem& problem, const LogRatios& light,
-                   std::vector<Hypothesis>& hypotheses) {
-  const FitState best = hypotheses.front().state;
-  std::array<FitState, 2 * kWalk + 1> walk;
-  walk[kWalk] = best;
-  for (const bool leftwards : {true, false}) {
-    const double step_rad = leftwards ? -kWalkStep_rad : kWalkStep_rad;
-    for (std::size_t i = 1; i <= kWalk; ++i) {
-      const FitState& before = walk.at(leftwards ? kWalk + 1 - i : kWalk - 1 + i);
-      walk.at(leftwards ? kWalk - i : kWalk + i) =
-          WalkedTo(problem, before.unknowns, best.unknowns[2] + static_cast<double>(i) * step_rad);
-    }
-  }
-  for (std::size_t i = 0; i < walk.size(); ++i) {
-    const double squares = walk.at(i).squares;
-    if (i == kWalk || !(squares <= best.squares + kWalkAbove)) continue;
-    if (i > 0 && walk.at(i - 1).squares < squares) continue;
-    if (i + 1 < walk.size() && walk.at(i + 1).squares < squares) continue;
-    Refine(problem, walk.at(i).unknowns, light, hypotheses);
-  }
-  SortByCost(hypotheses);
 }
 
 // The candidate moved to a place, with boxes that begin and end where the wall there does.
@@ -156,44 +102,44 @@ RegionPair BoxedBy(const ColourPair& pair, const EyeGeometry& eyes, const Cylind
 
 // What orientations near the best one that are nearly as likely add to its variance, rad^2: their
 // squared distances, weighted by likelihoods. `factor` is that of all variances.
-double SpreadOf(const std::vector<Hypothesis>& hypotheses, double factor) {
-  const Hypothesis& best = hypotheses.front();
+double SpreadOf(const std::vector<FitState>& hypotheses, double factor) {
+  const FitState& best = hypotheses.front();
   double weights = 0.0;
   double spread = 0.0;
-  for (const Hypothesis& other : hypotheses) {
-    const double turn_rad = math::WrapAngle(other.state.unknowns[2] - best.state.unknowns[2]);
+  for (const FitState& other : hypotheses) {
+    const double turn_rad = math::WrapAngle(other.unknowns[2] - best.unknowns[2]);
     if (std::abs(turn_rad) > kOtherOrientation_rad) continue;
-    const double weight = std::exp(0.5 * (best.cost - other.cost) / factor);
+    const double weight = std::exp(0.5 * (best.squares - other.squares) / factor);
     weights += weight;
     spread += weight * turn_rad * turn_rad;
   }
   return spread / weights;
 }
 
-double MarginOf(const std::vector<Hypothesis>& hypotheses) {
-  const Hypothesis& best = hypotheses.front();
-  for (const Hypothesis& other : hypotheses) {
-    const double turn_rad = math::WrapAngle(other.state.unknowns[2] - best.state.unknowns[2]);
-    if (std::abs(turn_rad) > kOtherOrientation_rad) return other.cost - best.cost;
+double MarginOf(const std::vector<FitState>& hypotheses) {
+  const FitState& best = hypotheses.front();
+  for (const FitState& other : hypotheses) {
+    const double turn_rad = math::WrapAngle(other.unknowns[2] - best.unknowns[2]);
+    if (std::abs(turn_rad) > kOtherOrientation_rad) return other.squares - best.squares;
   }
   return std::numeric_limits<double>::infinity();
 }
 
-CylinderFit FitOf(const FitProblem& problem, const std::vector<Hypothesis>& hypotheses,
+CylinderFit FitOf(const FitProblem& problem, const std::vector<FitState>& hypotheses,
                   const EyeGeometry& eyes) {
-  const Hypothesis& best = hypotheses.front();
+  const FitState& best = hypotheses.front();
   CylinderFit fit;
-  fit.place = problem.PlaceOf(best.state.unknowns);
+  fit.place = problem.PlaceOf(best.unknowns);
   fit.place.orientation_rad = math::WrapAngle(fit.place.orientation_rad);
-  fit.cost = best.cost;
-  fit.misfit = best.state.squares / problem.samples();
-  fit.colour_misfit = best.colour_misfit;
+  fit.cost = best.squares;
+  fit.colour_misfit = best.evaluation.colour_misfit;
+  fit.misfit = (best.squares - fit.colour_misfit) / problem.samples();
   fit.margin = MarginOf(hypotheses);
   fit.height_m = problem.height_m();
   const double factor = std::max(fit.misfit, 1.0);
-  fit.covariance = factor * best.state.information.inverse().topLeftCorner<4, 4>();
+  fit.covariance = factor * best.information.inverse().topLeftCorner<4, 4>();
   fit.covariance(2, 2) += SpreadOf(hypotheses, factor);
-  const FitState free = DescendFrom(problem, best.state.unknowns, FitFreedom::kRadius, kMostSteps);
+  const FitState free = DescendFrom(problem, best.unknowns, FitRadius::kFree, kMostSteps);
   const CylinderPlace free_place = problem.PlaceOf(free.unknowns);
   fit.free_depth_m = (free_place.p_LT_L - eyes.centre_L).dot(eyes.forward_L);
   fit.radius_ratio = 1.0 + free.unknowns[4];
@@ -206,15 +152,14 @@ CylinderFit FitOf(const FitProblem& problem, const std::vector<Hypothesis>& hypo
 std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry& eyes,
                                        const ColourCylinder& cylinder, const RegionPair& candidate,
                                        const LogRatios& light, const RobustFinderParams& params) {
-  const FitProblem first(pair, eyes, cylinder, candidate, params);
-  const std::vector<Hypothesis> guesses = HypothesesOf(first, light);
+  const FitProblem first(pair, eyes, cylinder, candidate, light, params);
+  const std::vector<FitState> guesses = HypothesesOf(first);
   if (guesses.empty()) return std::nullopt;
-  const RegionPair boxed = BoxedBy(pair, eyes, first.PlaceOf(guesses.front().state.unknowns),
+  const RegionPair boxed = BoxedBy(pair, eyes, first.PlaceOf(guesses.front().unknowns),
                                    cylinder.height_m, candidate);
-  const FitProblem problem(pair, eyes, cylinder, boxed, params);
-  std::vector<Hypothesis> hypotheses = HypothesesOf(problem, light);
+  const FitProblem problem(pair, eyes, cylinder, boxed, light, params);
+  const std::vector<FitState> hypotheses = HypothesesOf(problem);
   if (hypotheses.empty()) return std::nullopt;
-  WalkAboutBest(problem, light, hypotheses);
   return FitOf(problem, hypotheses, eyes);
 }
 

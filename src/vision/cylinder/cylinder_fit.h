@@ -4,8 +4,9 @@
 // radius where it is free; the colours of the quadrants are solved for inside (wall_colours.h:
 // variable projection, Golub and Pereyra 1973). All orientations are tried in steps of 7.5 deg, and
 // the best local minima refined (fit_descent.h): first in the candidate's boxes, then in those of
-// the wall that was found. About the best minimum theta is then led 24 deg to both sides, as beside
-// it may lie a better one that no descent from afar reaches.
+// the wall that was found. What the quadrants' colours tell against the surfaces' (colour_model.h)
+// is part of the least squares: an edge that leaves a quadrant too narrow or too wide mixes colours
+// that none has.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,9 +20,9 @@ namespace rockyard::vision {
 
 struct CylinderFit {
   CylinderPlace place;
-  double cost = 0.0;           // all squared residuals and the misfit of the colours
+  double cost = 0.0;           // all squared residuals
   double misfit = 0.0;         // mean squared residual of the pixels
-  double colour_misfit = 0.0;  // colour_model.h
+  double colour_misfit = 0.0;  // the squared residuals of the colours
   // By how much the cost of the best other orientation, more than 25 deg away, is larger.
   double margin = 0.0;
   // Of the place across (m), its depth (m), theta and roll (rad), from the derivatives and the

@@ -19,18 +19,15 @@ struct FitState {
   FitProblem::Evaluation evaluation;  // at the unknowns
 };
 
-// What a descent changes beside the place across and along the view, the roll and the blur.
-enum class FitFreedom {
-  kPlace,        // nothing: theta and the radius stay
-  kOrientation,  // theta
-  kRadius,       // theta and the radius
-};
+// Whether a descent may change the radius, beside the place across and along the view, theta, the
+// roll and the blur.
+enum class FitRadius { kFixed, kFree };
 
-// The prior of the radius over the cylinder's own: fixed, or free.
-double RadiusDeviation(FitFreedom freedom);
+// The standard deviation of the radius's prior over the cylinder's own.
+double RadiusDeviation(FitRadius radius);
 
 // At most `most_steps` steps from a start, fewer where the squares no longer fall.
-FitState DescendFrom(const FitProblem& problem, const FitUnknowns& start, FitFreedom freedom,
+FitState DescendFrom(const FitProblem& problem, const FitUnknowns& start, FitRadius radius,
                      int most_steps);
 
 }  // namespace rockyard::vision

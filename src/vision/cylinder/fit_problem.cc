@@ -21,35 +21,76 @@ double SagOf(const EyeGeometry& eyes, const ColourCylinder& cylinder, const Seen
   return 0.5 * cylinder.diameter_m * down * eyes.focal_px / point.depth_m;
 }
 
-// Quadrants that both eyes see count once, with the mean of both weighted by their covariances.
-std::vector<QuadrantColour> Together(const std::vector<QuadrantColour>& colours) {
-  std::vector<QuadrantColour> together;
-  for (const QuadrantColour& colour : colours) {
-    const auto same = std::find_if(together.begin(), together.end(), [&](const auto& other) {
-      return other.quadrant == colour.quadrant;
-    });
-    if (same == together.end()) {
-      together.push_back(colour);
-      continue;
-    }
-    const Eigen::Matrix3d first = same->covariance.inverse();
-    const Eigen::Matrix3d second = colour.covariance.inverse();
-    same->covariance = (first + second).inverse();
-    same->colour = same->covariance * (first * same->colour + second * colour.colour);
-  }
-  return together;
-}
-
 SeenColour SeenColourOf(const QuadrantColour& quadrant) {
-  const Eigen::Array3d levels = quadrant.colour.array().max(1.0);
+  // A level below its own deviation tells only that it is not far above that.
+  const Eigen::Array3d levels = quadrant.colour.array()
+                                    .max(quadrant.covariance.diagonal().array().sqrt())
+                                    .max(1.0);
   SeenColour seen;
   seen.colour = kQuadrantColours.at(static_cast<std::size_t>(quadrant.quadrant));
   seen.ratios = LogRatiosOf(levels);
-  // Of a logarithm of a ratio, the mean of both.
+  // Of a logarithm of a ratio.
   Eigen::Matrix<double, 2, 3> by_level;
   by_level << 1.0 / levels[0], -1.0 / levels[1], 0.0, 0.0, -1.0 / levels[1], 1.0 / levels[2];
-  seen.variance = 0.5 * (by_level * quadrant.covariance * by_level.transpose()).trace();
+  seen.covariance = by_level * quadrant.covariance * by_level.transpose();
   return seen;
+}
+
+// Each quadrant of four, where an eye sees it.
+using SeenQuadrants = std::array<std::optional<SeenColour>, 4>;
+
+// What both eyes see counts once, with the mean of both weighted by their covariances.
+SeenColour MeanOf(const SeenColour& left, const SeenColour& right) {
+  const Eigen::Matrix2d of_left = left.covariance.inverse();
+  const Eigen::Matrix2d of_right = right.covariance.inverse();
+  SeenColour mean = left;
+  mean.covariance = (of_left + of_right).inverse();
+  mean.ratios = mean.covariance * (of_left * left.ratios + of_right * right.ratios);
+  return mean;
+}
+
+// Two of each quadrant's difference between the eyes, two of each quadrant's colour, and three of
+// the light and the saturation; zeros for what is not seen.
+using ColourResidualsOfAll = std::array<double, 19>;
+
+ColourResidualsOfAll ResidualsOf(const std::array<SeenQuadrants, 2>& eyes, const LogRatios& light,
+                                 const RobustFinderParams& params) {
+  constexpr std::size_t kColours = 8;
+  constexpr std::size_t kLight = 16;
+  ColourResidualsOfAll residuals{};
+  std::vector<SeenColour> seen;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < kQuadrantColours.size(); ++i) {
+    const auto& left = eyes[0].at(i);
+    const auto& right = eyes[1].at(i);
+    if (!left && !right) continue;
+    places.push_back(kColours + 2 * i);
+    if (!left || !right) {
+      seen.push_back(left ? *left : *right);
+      continue;
+    }
+    seen.push_back(MeanOf(*left, *right));
+    const LogRatios apart =
+        WhiteningOf(left->covariance + right->covariance) * (left->ratios - right->ratios);
+    std::copy(apart.begin(), apart.end(), residuals.begin() + static_cast<std::ptrdiff_t>(2 * i));
+  }
+  places.push_back(kLight);
+  const std::vector<double> of_colours =
+      ColourResiduals(seen, light, params.surfaces, params.colours);
+  for (std::size_t i = 0; i < of_colours.size(); ++i) {
+    const std::size_t group = std::min(i / 2, seen.size());
+    residuals.at(places[group] + i - 2 * group) = of_colours[i];
+  }
+  return residuals;
+}
+
+QuadrantDirections DirectionsOf(const LogRatios& light, const RobustFinderParams& params) {
+  QuadrantDirections directions;
+  std::transform(kQuadrantColours.begin(), kQuadrantColours.end(), directions.begin(),
+                 [&](CylinderColour colour) {
+                   return DirectionOf(colour, light, params.surfaces, params.colours);
+                 });
+  return directions;
 }
 
 std::array<EyeProfile, 2> ProfilesOf(const ColourPair& pair, const RegionPair& candidate,
@@ -62,11 +103,13 @@ std::array<EyeProfile, 2> ProfilesOf(const ColourPair& pair, const RegionPair& c
 
 FitProblem::FitProblem(const ColourPair& pair, const EyeGeometry& eyes,
                        const ColourCylinder& cylinder, const RegionPair& candidate,
-                       const RobustFinderParams& params)
+                       const LogRatios& light, const RobustFinderParams& params)
     : cameras_{&pair.left_camera, &pair.right_camera},
       eyes_(eyes),
       cylinder_(cylinder),
+      light_(light),
       params_(params),
+      directions_(DirectionsOf(light, params)),
       profiles_(ProfilesOf(pair, candidate, SagOf(eyes, cylinder, candidate.point), params.fit)),
       start_L_(candidate.point.p_L),
       depth_m_(candidate.point.depth_m) {
@@ -123,11 +166,18 @@ std::optional<FitProblem::Evaluation> FitProblem::Evaluate(const FitUnknowns& un
   const double blur_px = params_.fit.edge_blur_px * std::exp(unknowns[5]);
   Evaluation evaluation;
   std::vector<double> residuals;
-  residuals.reserve(static_cast<std::size_t>(samples_) + static_cast<std::size_t>(2 * kPriors + 3));
+  std::array<SeenQuadrants, 2> quadrants;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const auto view = WallSeen(*cameras_.at(eye), eyes_, place, 0.5 * cylinder_.height_m);
     if (!view) return std::nullopt;
-    FitWallColours(profiles_.at(eye), *view, blur_px, params_.fit, residuals, evaluation.colours);
+    for (const QuadrantColour& colour : FitWallColours(profiles_.at(eye), *view, directions_,
+                                                       blur_px, params_.fit, residuals)) {
+      quadrants.at(eye).at(static_cast<std::size_t>(colour.quadrant)) = SeenColourOf(colour);
+    }
+  }
+  for (const double residual : ResidualsOf(quadrants, light_, params_)) {
+    residuals.push_back(residual);
+    evaluation.colour_misfit += residual * residual;
   }
   residuals.push_back(unknowns[5] / params_.fit.edge_blur_spread);
   residuals.push_back(unknowns[3] / params_.fit.roll_sd_rad);
@@ -135,14 +185,6 @@ std::optional<FitProblem::Evaluation> FitProblem::Evaluate(const FitUnknowns& un
   evaluation.residuals = Eigen::Map<const Eigen::VectorXd>(
       residuals.data(), static_cast<Eigen::Index>(residuals.size()));
   return evaluation;
-}
-
-double FitProblem::ColourMisfitOf(const Evaluation& evaluation, const LogRatios& light) const {
-  std::vector<SeenColour> seen;
-  for (const QuadrantColour& quadrant : Together(evaluation.colours)) {
-    seen.push_back(SeenColourOf(quadrant));
-  }
-  return ColourMisfit(seen, light, params_.surfaces, params_.colours);
 }
 
 }  // namespace rockyard::vision

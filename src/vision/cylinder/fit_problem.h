@@ -21,23 +21,24 @@ class FitProblem {
  public:
   // Starts where lines of sight to the middles of the candidate's boxes meet.
   FitProblem(const ColourPair& pair, const EyeGeometry& eyes, const ColourCylinder& cylinder,
-             const RegionPair& candidate, const RobustFinderParams& params);
+             const RegionPair& candidate, const LogRatios& light,
+             const RobustFinderParams& params);
 
   CylinderPlace PlaceOf(const FitUnknowns& unknowns) const;
 
   // What the eyes show of a place.
   struct Evaluation {
-    // Residuals over their standard deviations, of equal number for all places; the last three are
-    // the priors of the blur, of the roll and, about 0, of the radius with sd `radius_sd`.
+    // Residuals over their standard deviations, of equal number for all places: of the pixels, of
+    // the quadrants' colours, and, the last three, of the priors of the blur, of the roll and, about
+    // 0, of the radius with sd `radius_sd`.
     Eigen::VectorXd residuals;
-    std::vector<QuadrantColour> colours;  // of both eyes
+    // The squares of those of the colours: how unlike those of the surfaces, and each other's, what
+    // the eyes see is (colour_model.h).
+    double colour_misfit = 0.0;
   };
 
   // Nothing where the place cannot be imaged.
   std::optional<Evaluation> Evaluate(const FitUnknowns& unknowns, double radius_sd) const;
-
-  // How unlike the quadrants' colours are those of the surfaces (colour_model.h).
-  double ColourMisfitOf(const Evaluation& evaluation, const LogRatios& light) const;
 
   // Steps of numerical derivatives: some hundredths of a pixel each.
   FitUnknowns Steps() const;
@@ -57,7 +58,9 @@ class FitProblem {
   std::array<const CameraModel*, 2> cameras_;
   const EyeGeometry& eyes_;
   const ColourCylinder& cylinder_;
+  LogRatios light_;
   const RobustFinderParams& params_;
+  QuadrantDirections directions_;
   std::array<EyeProfile, 2> profiles_;
   math::Vector3 start_L_;
   double depth_m_;

@@ -57,6 +57,7 @@ struct CylinderFitParams {
   double noise_grey = 2.5;
   double surface_noise = 0.03;
   double shading_sd = 0.5;
+  double tint_sd = 0.1;
   double brightness_sd = 0.3;
   double edge_blur_px = 0.7;
   double edge_blur_spread = 0.4;
@@ -65,7 +66,7 @@ struct CylinderFitParams {
   double usual_misfit = 0.3;
   double row_error_px = 0.3;
   double largest_misfit = 8.0;
-  double largest_colour_misfit = 25.0;
+  double largest_colour_misfit = 21.0;
   double least_margin = 30.0;
   double radius_tolerance = 0.12;
 

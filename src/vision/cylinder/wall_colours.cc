@@ -92,16 +92,26 @@ class BandView {
   double blur_px_;
 };
 
+// Residuals of a prior per unit of a colour: 1 / along_sd along a direction, 1 / across_sd across.
+Eigen::Matrix3d PriorRoot(const Eigen::Vector3d& direction, double along_sd, double across_sd) {
+  return Eigen::Matrix3d::Identity() / across_sd +
+         (1.0 / along_sd - 1.0 / across_sd) * direction * direction.transpose();
+}
+
 // A profile against a view.
 class WallProblem {
  public:
-  WallProblem(const EyeProfile& profile, const WallView& view, double blur_px,
-              const CylinderFitParams& params)
+  WallProblem(const EyeProfile& profile, const WallView& view, const QuadrantDirections& directions,
+              double blur_px, const CylinderFitParams& params)
       : profile_(profile), view_(view), parts_(static_cast<int>(view.quadrants.size())) {
     EXPECT(parts_ >= 1 && parts_ <= kMostParts);
     const double level = std::max(profile.level, 1.0);
-    roots_ << 1.0 / (kLevelSpread * level), 1.0 / (params.shading_sd * level),
-        1.0 / (params.shading_sd * level);
+    level_root_ = 1.0 / (kLevelSpread * level);
+    for (std::size_t part = 0; part < view.quadrants.size(); ++part) {
+      const auto quadrant = static_cast<std::size_t>(view.quadrants[part]);
+      slope_roots_.at(part) = PriorRoot(directions.at(quadrant), params.shading_sd * level,
+                                        params.tint_sd * level);
+    }
     for (const ProfileBand& band : profile.bands) {
       bands_.emplace_back(view, band.row, blur_px);
     }
@@ -126,13 +136,13 @@ class WallProblem {
       }
     }
     for (int i = 0; i < kWallUnknowns; ++i) {
-      for (int primary = 0; primary < kPrimaries; ++primary) {
-        residuals.push_back(roots_[i % kWallTerms] * unknowns_(i, primary));
-      }
+      const Eigen::Vector3d left = RootOf(i) * unknowns_.row(i).transpose();
+      residuals.insert(residuals.end(), left.data(), left.data() + kPrimaries);
     }
   }
 
-  void AppendColours(std::vector<QuadrantColour>& colours) const {
+  std::vector<QuadrantColour> Colours() const {
+    std::vector<QuadrantColour> colours;
     const BandView& band = bands_[bands_.size() / 2];
     for (int part = 0; part < parts_; ++part) {
       const WallTerms terms = TermsAt(band.MiddleOfPart(part));
@@ -142,9 +152,16 @@ class WallProblem {
       colour.covariance = CovarianceOf(part, terms);
       colours.push_back(colour);
     }
+    return colours;
   }
 
  private:
+  // Of an unknown's prior.
+  Eigen::Matrix3d RootOf(int unknown) const {
+    if (unknown % kWallTerms == 0) return level_root_ * Eigen::Matrix3d::Identity();
+    return slope_roots_.at(static_cast<std::size_t>(unknown / kWallTerms));
+  }
+
   double ColumnOf(std::size_t i) const { return profile_.first_column + static_cast<double>(i); }
 
   static Eigen::Vector3d WithoutBackground(const ProfileBand& band, std::size_t i,
@@ -170,9 +187,9 @@ class WallProblem {
   void Solve() {
     WallNormal normal = WallNormal::Zero();
     WallVector moments = WallVector::Zero();
-    for (int i = 0; i < kAllUnknowns; ++i) {
-      const double root = roots_[(i / kPrimaries) % kWallTerms];
-      normal(i, i) = root * root;
+    for (int i = 0; i < kWallUnknowns; ++i) {
+      const Eigen::Matrix3d root = RootOf(i);
+      normal.block<kPrimaries, kPrimaries>(kPrimaries * i, kPrimaries * i) = root * root;
     }
     for (std::size_t b = 0; b < bands_.size(); ++b) {
       for (std::size_t i = 0; i < profile_.bands[b].colours.size(); ++i) {
@@ -209,8 +226,11 @@ class WallProblem {
   const WallView& view_;
   int parts_;
   std::vector<BandView> bands_;
-  std::vector<Mixture> mixtures_;                    // of all samples, band by band
-  Eigen::Vector3d roots_ = Eigen::Vector3d::Zero();  // of the priors' weights, by term
+  std::vector<Mixture> mixtures_;  // of all samples, band by band
+  double level_root_ = 1.0;
+  // Of the slopes of each part; of parts that are not seen, of whatever weight.
+  std::array<Eigen::Matrix3d, kMostParts> slope_roots_ = {
+      Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
   WallUnknowns unknowns_ = WallUnknowns::Zero();
   WallNormal covariance_ = WallNormal::Zero();
 };
@@ -223,12 +243,13 @@ int ResidualsOf(const EyeProfile& profile) {
   return kPrimaries * (static_cast<int>(samples) + kWallUnknowns);
 }
 
-void FitWallColours(const EyeProfile& profile, const WallView& view, double blur_px,
-                    const CylinderFitParams& params, std::vector<double>& residuals,
-                    std::vector<QuadrantColour>& colours) {
-  const WallProblem problem(profile, view, blur_px, params);
+std::vector<QuadrantColour> FitWallColours(const EyeProfile& profile, const WallView& view,
+                                           const QuadrantDirections& directions, double blur_px,
+                                           const CylinderFitParams& params,
+                                           std::vector<double>& residuals) {
+  const WallProblem problem(profile, view, directions, blur_px, params);
   problem.AppendResiduals(residuals);
-  problem.AppendColours(colours);
+  return problem.Colours();
 }
 
 }  // namespace rockyard::vision

@@ -7,11 +7,13 @@
 //   g_0 + g_1 t + g_2 (sqrt(1 - t^2) - pi / 4)
 //
 // with t from -1 to 1 across the cylinder: what a Lambertian wall shows in diffuse light and in a
-// sun from anywhere on its side. g_1 and g_2 are drawn to 0 by shading_sd. Given where the lines
-// are, the g are linear, the same normal equations for all primaries.
+// sun from anywhere on its side. g_1 and g_2 are drawn to 0, by shading_sd along the quadrant's
+// colour, where they tell brightness, and by tint_sd across it: a quadrant has one colour, and what
+// changes between its sides is the light's. Given where the lines are, the g are linear.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "vision/cylinder/cylinder_profile.h"
@@ -26,13 +28,17 @@ struct QuadrantColour {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
 };
 
+// Directions of the quadrants' primaries (DirectionOf), A to D.
+using QuadrantDirections = std::array<Eigen::Vector3d, 4>;
+
 // The number of residuals of a profile, whatever the view: samples, and shading terms.
 int ResidualsOf(const EyeProfile& profile);
 
-// Appends residuals over their standard deviations to `residuals`, ResidualsOf of them, and what
-// the quadrants look like to `colours`. `blur_px`: the standard deviation of the blur of edges.
-void FitWallColours(const EyeProfile& profile, const WallView& view, double blur_px,
-                    const CylinderFitParams& params, std::vector<double>& residuals,
-                    std::vector<QuadrantColour>& colours);
+// What the quadrants look like. Appends residuals over their standard deviations to `residuals`,
+// ResidualsOf of them. `blur_px`: the standard deviation of the blur of edges.
+std::vector<QuadrantColour> FitWallColours(const EyeProfile& profile, const WallView& view,
+                                           const QuadrantDirections& directions, double blur_px,
+                                           const CylinderFitParams& params,
+                                           std::vector<double>& residuals);
 
 }  // namespace rockyard::vision

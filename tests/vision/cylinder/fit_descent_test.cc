@@ -22,16 +22,16 @@ class Wall {
  public:
   explicit Wall(double diameter_m) : pair_(painted_.Pair()), eyes_(*GeometryOf(pair_)) {
     cylinder_.diameter_m = diameter_m;
-    const LogRatios light = LightOf(pair_.left, pair_.right, params_.surfaces, params_.colours);
+    light_ = LightOf(pair_.left, pair_.right, params_.surfaces, params_.colours);
     const auto labels = [&](const ColourImage& image) {
-      return LabelSurfaces(image, light, params_.surfaces, params_.colours);
+      return LabelSurfaces(image, light_, params_.surfaces, params_.colours);
     };
     const CandidateSearch search = FindCandidates(pair_, eyes_, cylinder_, labels(pair_.left),
                                                   labels(pair_.right), params_.candidates);
     candidate_ = search.pairs.at(0);
   }
 
-  FitProblem Problem() const { return {pair_, eyes_, cylinder_, candidate_, params_}; }
+  FitProblem Problem() const { return {pair_, eyes_, cylinder_, candidate_, light_, params_}; }
 
  private:
   PaintedPair painted_ = Paint(SceneAt(4.5, kTheta_rad));
@@ -39,11 +39,12 @@ class Wall {
   EyeGeometry eyes_;
   ColourCylinder cylinder_;
   RobustFinderParams params_;
+  LogRatios light_ = LogRatios::Zero();
   RegionPair candidate_;
 };
 
 double SquaresAt(const FitProblem& problem, const FitUnknowns& unknowns) {
-  return problem.Evaluate(unknowns, RadiusDeviation(FitFreedom::kPlace))->residuals.squaredNorm();
+  return problem.Evaluate(unknowns, RadiusDeviation(FitRadius::kFixed))->residuals.squaredNorm();
 }
 
 FitUnknowns TurnedBy(double turn_rad) {
@@ -52,34 +53,23 @@ FitUnknowns TurnedBy(double turn_rad) {
   return unknowns;
 }
 
-TEST(FitDescent, OfThePlaceLeavesThetaAndRadius) {
-  const Wall wall(0.192);
-  const FitProblem problem = wall.Problem();
-  const FitUnknowns start = TurnedBy(DegToRad(6.0));
-  const FitState state = DescendFrom(problem, start, FitFreedom::kPlace, 10);
-  EXPECT_EQ(state.unknowns[2], start[2]);
-  EXPECT_LT(std::abs(state.unknowns[4]), 1e-4);
-  EXPECT_NE(state.unknowns[0], 0.0);
-  EXPECT_LT(state.squares, SquaresAt(problem, start));
-  EXPECT_DOUBLE_EQ(state.squares, SquaresAt(problem, state.unknowns));
-  EXPECT_DOUBLE_EQ(state.evaluation.residuals.squaredNorm(), state.squares);
-}
-
-TEST(FitDescent, OfTheOrientationFindsIt) {
+TEST(FitDescent, FindsTheOrientationAndLeavesAFixedRadius) {
   const Wall wall(0.192);
   const FitProblem problem = wall.Problem();
   for (const double turn_deg : {-6.0, 6.0}) {
     const FitUnknowns start = TurnedBy(DegToRad(turn_deg));
-    const FitState state = DescendFrom(problem, start, FitFreedom::kOrientation, 30);
+    const FitState state = DescendFrom(problem, start, FitRadius::kFixed, 30);
     EXPECT_NEAR(state.unknowns[2], kTheta_rad, DegToRad(0.7));
     EXPECT_LT(std::abs(state.unknowns[4]), 1e-4);
-    EXPECT_LT(state.squares, DescendFrom(problem, start, FitFreedom::kPlace, 30).squares);
+    EXPECT_LT(state.squares, SquaresAt(problem, start));
+    EXPECT_DOUBLE_EQ(state.squares, SquaresAt(problem, state.unknowns));
+    EXPECT_DOUBLE_EQ(state.evaluation.residuals.squaredNorm(), state.squares);
   }
 }
 
-TEST(FitDescent, OfTheRadiusTellsASizeThatIsWrong) {
+TEST(FitDescent, OfAFreeRadiusTellsASizeThatIsWrong) {
   const Wall wall(0.96 * 0.192);
-  const FitState state = DescendFrom(wall.Problem(), TurnedBy(0.0), FitFreedom::kRadius, 30);
+  const FitState state = DescendFrom(wall.Problem(), TurnedBy(0.0), FitRadius::kFree, 30);
   EXPECT_NEAR(state.unknowns[4], 1.0 / 0.96 - 1.0, 0.01);
   EXPECT_LT(std::sqrt(state.information.inverse()(4, 4)), 0.02);
 }
@@ -90,7 +80,7 @@ TEST(FitDescent, MoreStepsAreNoWorse) {
   const FitUnknowns start = TurnedBy(DegToRad(5.0));
   double before = SquaresAt(problem, start);
   for (const int steps : {1, 2, 4, 8}) {
-    const double after = DescendFrom(problem, start, FitFreedom::kOrientation, steps).squares;
+    const double after = DescendFrom(problem, start, FitRadius::kFixed, steps).squares;
     EXPECT_LE(after, before) << steps;
     before = after;
   }
