@@ -294,6 +294,44 @@ TEST(ContinuousPlans, OfCsodTurnInPlaceAndDriveStraightOn) {
   EXPECT_EQ(drive.StopsToLook(), 1);
 }
 
+// Between walls: where a turn leads is not safe, so that the rover looks after it.
+TEST(ContinuousPlans, OfCsodLookAfterATurnTowardsAWall) {
+  MovingSetup setup = SetupOf(DriveCycle::kCsod);
+  setup.height = Blocks({{-2.0, 9.0, 1.2, 1.6}, {-2.0, 9.0, -1.6, -1.2}});
+  // It drives up to walls that it has seen.
+  setup.params.continuous.motion_m = 3.0;
+  // It never turns at rest, and always on the move.
+  setup.params.drive.search_turn_rad = 0.0;
+  setup.params.drive.point_turns = PointTurns::kCandidates;
+  setup.params.drive.point_turn_margin = -300.0;
+  MovingDrive drive(setup);
+  const auto turns = [&drive] {
+    return drive.log().back().motion.kind == MotionKind::kTurnInPlace;
+  };
+  StepUntil(drive, turns);
+  StepUntil(drive, [&] { return !turns(); });
+  EXPECT_TRUE(drive.log().back().decision.stops_to_look());
+}
+
+// With the goal behind it no spline leads there, but an arc does: along that it backs off.
+TEST(ContinuousPlans, OfCsadLeaveNothingToAnArcAfterThem) {
+  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  setup.params.waypoints.vote_index_variance = 1.0;
+  bool feels = false;
+  setup.feels = [&feels](int) { return feels; };
+  MovingDrive drive(setup);
+  DriveToPlan(drive, 1);
+  drive.navigator().SetGoal({drive.rover().estimate().x_m - 1.0, 0.7}, GoalChange::kMoved);
+  const auto curvature = [&drive] { return drive.log().back().motion.curvature_per_m; };
+  StepUntil(drive, [&] { return std::abs(curvature()) > 1.1; });
+  const double arc_per_m = curvature();
+  for (int i = 0; i < 20; ++i) drive.Step();
+  ASSERT_EQ(curvature(), arc_per_m);
+  feels = true;
+  StepUntil(drive, [&drive] { return drive.log().back().motion.direction < 0; });
+  EXPECT_EQ(curvature(), arc_per_m);
+}
+
 // Backward there is nothing ahead to plan for: the rover drives a step, and looks at rest.
 TEST(ContinuousPlans, AreNotMadeOnTheWayBack) {
   MovingSetup setup = SetupOf(DriveCycle::kCsod);
