@@ -94,7 +94,8 @@ const WheelCommand& WheelDriver::Steady(const MotionCommand& motion) {
 double WheelDriver::AllowedChange(MotionKind kind) const {
   // Once standing to steer, stand until the angles have arrived.
   if (steering_) return 0.0;
-  if (steers_while_rolling_ && kind == rolled_kind_) return std::numeric_limits<double>::infinity();
+  if (steers_while_rolling_ && kind == aligned_kind_)
+    return std::numeric_limits<double>::infinity();
   return params_.steer_while_driving_rad;
 }
 
@@ -113,7 +114,8 @@ WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
   steered_s_ = std::min(largest_change / params_.steer_rate_rad_s, duration_s);
   const bool moves = motion.kind != MotionKind::kStop;
   steering_ = moves && largest_change > AllowedChange(motion.kind);
-  if (moves && !steering_) rolled_kind_ = motion.kind;
+  // Wheels that are on their way from one kind to the other point to neither.
+  if (moves) aligned_kind_ = steering_ ? MotionKind::kStop : motion.kind;
   if (steering_) command.rate_rad_s.fill(0.0);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     // The wheel then stands the offset away from the angle that the rover believes in.

@@ -47,8 +47,9 @@ class WheelDriver {
 
   WheelDriverParams params_;
   bool steers_while_rolling_;
-  messages::MotionKind rolled_kind_ = messages::MotionKind::kArc;  // the last for which it rolled
-  messages::MotionCommand last_motion_;                            // to which steady_ belongs
+  // For which the wheels stand, whatever the curvature; kStop: for none.
+  messages::MotionKind aligned_kind_ = messages::MotionKind::kArc;
+  messages::MotionCommand last_motion_;  // to which steady_ belongs
   messages::WheelCommand steady_;
   messages::PerWheel<double> believed_steer_rad_{};
   bool steering_ = false;

@@ -55,7 +55,8 @@ class Drive {
   // Takes images for visual odometry: stops for them, and for the computer, where these may not
   // overlap with the drive.
   std::optional<Verdict> SeeMotion();
-  void SpendOnVision(Activity activity, double duration_s, bool beside);
+  // Returns for how much of it the rover rests.
+  double SpendOnVision(Activity activity, double duration_s, bool beside);
   // What the navigator made of the last look.
   void ShowStep();
   // What a move takes beyond the motion of wheels.

@@ -76,26 +76,26 @@ std::optional<Verdict> Drive::SeeMotion() {
   }
   const double imaging_s = parts_.vision.imaging_s();
   const double computing_s = parts_.vision.computing_s();
-  const double rest_s =
-      (overlap.imaging ? 0.0 : imaging_s) + (overlap.computing ? 0.0 : computing_s);
   const double now_s = parts_.ledger.time_s();
   const bool compares = parts_.vision.Look(parts_.state().X_WR, now_s,
                                            now_s + imaging_s + computing_s, *parts_.estimator);
   if (compares) tracer_.Vision(*parts_.vision.last());
-  SpendOnVision(Activity::kImaging, imaging_s, overlap.imaging);
-  if (compares) SpendOnVision(Activity::kComputing, computing_s, overlap.computing);
+  double rest_s = SpendOnVision(Activity::kImaging, imaging_s, overlap.imaging);
+  // The first images have none to be compared with.
+  if (compares) rest_s += SpendOnVision(Activity::kComputing, computing_s, overlap.computing);
   if (rest_s <= 0.0) return std::nullopt;
   UpdateEstimateAtRest(rest_s);
   UseAids();
   return AskReferee(Activity::kComputing, 0, rest_s);
 }
 
-void Drive::SpendOnVision(Activity activity, double duration_s, bool beside) {
-  if (beside) {
-    parts_.ledger.SpendBeside(activity, duration_s);
-  } else {
+double Drive::SpendOnVision(Activity activity, double duration_s, bool beside) {
+  if (!beside) {
     Rest(activity, duration_s);
+    return duration_s;
   }
+  parts_.ledger.SpendBeside(activity, duration_s);
+  return 0.0;
 }
 
 void Drive::ShowStep() {

@@ -137,6 +137,29 @@ TEST(WheelDriver, StopRollsNoWheel) {
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(Stands(driver.Tick({}, kTick_s)));
 }
 
+// Steered while it rolls: however far from arc to arc, but not between arcs and turns in place.
+TEST(WheelDriver, ThatSteersWhileRollingStandsBetweenArcsAndTurnsOnly) {
+  WheelDriver driver(SixWheels(), {}, true);
+  EXPECT_EQ(StandingTicks(driver, Arc(1.5)), 0);
+  EXPECT_EQ(StandingTicks(driver, Arc(-1.5)), 0);
+  EXPECT_GT(StandingTicks(driver, TurnInPlace(1)), 0);
+  EXPECT_EQ(StandingTicks(driver, TurnInPlace(-1)), 0);
+  EXPECT_GT(StandingTicks(driver, Arc(0.0)), 0);
+}
+
+// A stop while the wheels are on their way to another kind of motion: they point to neither.
+TEST(WheelDriver, ThatSteersWhileRollingStandsForWheelsOnTheirWay) {
+  const WheelDriverParams params;
+  const double half_s = 0.5 * SteerFromStraight(TurnInPlace(1)) / params.steer_rate_rad_s;
+  for (const messages::MotionCommand& next : {Arc(0.0), TurnInPlace(1)}) {
+    WheelDriver driver(SixWheels(), params, true);
+    StandingTicks(driver, Arc(0.0));
+    EXPECT_TRUE(Stands(driver.Tick(TurnInPlace(1), half_s)));
+    driver.Tick({}, kTick_s);
+    EXPECT_GT(StandingTicks(driver, next), 0);
+  }
+}
+
 // Every scan interrupts the motion: it must not cost steering to the middle and back.
 TEST(WheelDriver, MotionResumedAfterAStopNeedsNoSteering) {
   for (const messages::MotionCommand& motion : {TurnInPlace(1), Arc(1.5)}) {
@@ -144,6 +167,15 @@ TEST(WheelDriver, MotionResumedAfterAStopNeedsNoSteering) {
     StandingTicks(driver, motion);
     for (int i = 0; i < 100; ++i) driver.Tick({}, kTick_s);
     EXPECT_EQ(StandingTicks(driver, motion), 0);
+  }
+}
+
+TEST(WheelDriver, FollowsTheSpeedOfAMotion) {
+  WheelDriver driver(SixWheels(), {});
+  messages::MotionCommand motion = Arc(0.0);
+  for (const double share : {1.0, 0.5, 0.8}) {
+    motion.speed_share = share;
+    ExpectEqual(driver.Tick(motion, kTick_s), SteadyWheelCommand(motion, SixWheels()));
   }
 }
 

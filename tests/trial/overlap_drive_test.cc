@@ -406,6 +406,36 @@ TEST(OverlapDrive, TheEstimateIsCarriedOnOverEachRest) {
   }
 }
 
+// Images of visual odometry take 0.5 s, and work on them 8.8 s. What may not overlap the rover
+// stands for, every 10 s, and the estimate is carried on over all of it; else new images are taken
+// as soon as the last ones were worked on.
+TEST(OverlapDrive, VisualOdometryIsWaitedForWhereItMayNotOverlap) {
+  for (const bool images : {false, true}) {
+    for (const bool computes : {false, true}) {
+      const bool overlaps = images && computes;
+      const WeaverParams weaver{.drive_s = 60.0, .pause_s = 100.0};
+      const WitnessParams witness;
+      DriveParams drive =
+          WeaverDrive(weaver, {},
+                      {"localization.estimator=witness", "sensors.gyro.accumulates_at_rest=true",
+                       "clock.compute.computer=msl_rad750", "clock.compute.acquisition_s=0.5"},
+                      witness);
+      drive.clock.overlap.imaging = images;
+      drive.clock.overlap.computing = computes;
+      // Behind the checks: the witness does not listen.
+      drive.sensors.visual_odometry.enabled = true;
+      drive.sensors.visual_odometry.schedule.every_s = overlaps ? 0.1 : 10.0;
+      const truth::DriveRecord record = RunTrial(drive, {1, 0}).record;
+      EXPECT_NEAR(*witness.propagated_s, record.sim_time_s, 1e-9);
+      EXPECT_GE(record.visual_steps, 3.0);
+      // The last pair of images may wait for its answer.
+      EXPECT_LE((record.visual_steps - 1.0) * 9.3, record.sim_time_s);
+      // It brakes for each pair but for the first images, at the start.
+      EXPECT_EQ(record.stops >= record.visual_steps, !overlaps) << record.stops;
+    }
+  }
+}
+
 // Without overlap.steering the rover stands to steer by more than the wheel driver allows.
 TEST(OverlapDrive, SteersAtRestWhereItMayNotSteerOnTheMove) {
   const Overrides never = {"navigation.wheel_driver.steer_while_driving_deg=0"};

@@ -59,7 +59,7 @@ double CurvatureLaw::CurvatureOf(double integral_per_m) const {
     curvature = speed_.slow_curvature_per_m + (size - slow_integral_) / speed_.min_speed_share;
   } else if (over > 0.0) {
     // d - slope d^2 / 2 = F - c_full, solved for d = c - c_full so that no digits are lost.
-    const double share = std::sqrt(std::max(0.0, 1.0 - 2.0 * slope_m_ * over));
+    const double share = std::sqrt(1.0 - 2.0 * slope_m_ * over);
     curvature = speed_.full_speed_curvature_per_m + 2.0 * over / (1.0 + share);
   }
   return std::copysign(curvature, integral_per_m);

@@ -258,8 +258,6 @@ NavigatorDecision GestaltNavigator::OnFelt(const NavigatorInput& input) {
   awaits_look_ = false;
   const double driven_m = input.estimate.distance_m - anchor_.distance_m;
   motion_ = MotionAt(driven_m);
-  spline_.reset();
-  replans_ = false;
   if (params_.drive.veto_felt) vetoed_.push_back(motion_);
   felt_places_.Feel(input, motion_.direction, params_.map.rover, params_.drive.felt_radius_m, map_);
   // Back along the same arc, no farther than it came.

@@ -1,188 +1,15 @@
-// GESTALT on the move in closed loop with a fake rover whose looks take time.
+// GESTALT on the move: where it looks, waits and stops, and what it drives meanwhile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <functional>
 #include <limits>
 #include <set>
 
-#include "drive.h"
-#include "navigation/motion_follower.h"
+#include "moving_drive.h"
 
 namespace rockyard::navigation {
 namespace {
-
-using messages::LookDirection;
-using messages::MotionKind;
-
-constexpr double kRounding = 1e-9;
-
-struct MovingSetup {
-  GestaltParams params;
-  messages::Goal goal{8.0, 0.0};
-  FakeRoverConfig rover = TrueRover();
-  HeightAt height = Flat();
-  FakeRange range;
-  int latency_ticks = 0;  // from a look on the move to its answer
-  bool loses_answers = false;
-  std::function<bool(int tick)> feels = [](int) { return false; };
-  std::function<bool(int tick)> held = [](int) { return false; };  // it does not move
-};
-
-struct MovingTick {
-  double time_s = 0.0;
-  messages::PoseEstimate estimate;
-  math::Pose2 X_WR;
-  bool answered = false;
-  NavigatorDecision decision;
-  messages::MotionCommand motion;  // that the wheels were told, after the follower
-
-  bool stands() const { return motion.kind == MotionKind::kStop; }
-};
-
-// One tick of the rover as the loop of a trial makes it.
-class MovingDrive {
- public:
-  explicit MovingDrive(const MovingSetup& setup)
-      : setup_(setup),
-        navigator_(setup.params, setup.goal, setup.rover.speed_m_s),
-        follower_(setup.rover.speed_m_s, 0.0),
-        rover_(setup.rover, {}) {}
-
-  NavigatorStatus Run(int most_ticks = 40000) {
-    while (static_cast<int>(log_.size()) < most_ticks) {
-      Step();
-      if (log_.back().decision.status != NavigatorStatus::kDriving) break;
-    }
-    return log_.back().decision.status;
-  }
-
-  void Step() {
-    const int number = static_cast<int>(log_.size());
-    MovingTick tick;
-    tick.time_s = number * setup_.rover.tick_s;
-    tick.estimate = rover_.estimate();
-    tick.X_WR = rover_.X_WR();
-    NavigatorInput input{.time_s = tick.time_s, .estimate = tick.estimate, .odometry = odometry_};
-    std::optional<Answer> answer;
-    if (!under_way_.empty() && under_way_.front().ready_tick <= number) {
-      answer = under_way_.front();
-      under_way_.pop_front();
-      input.cloud = &answer->cloud;
-      input.look = &answer->moment;
-      tick.answered = true;
-    }
-    const messages::VehicleHazard felt{};
-    if (setup_.feels(number)) input.vehicle_hazard = &felt;
-    tick.decision = navigator_.Decide(input);
-    if (tick.decision.status == NavigatorStatus::kDriving) Act(tick, number);
-    log_.push_back(tick);
-  }
-
-  // The estimate jumps, the odometry does not.
-  void Correct(const messages::PoseUpdate& update) {
-    const messages::PoseEstimate before = rover_.estimate();
-    rover_.SetEstimate(update);
-    navigator_.OnCorrection(before, rover_.estimate());
-  }
-
-  // As operators do; looks under way are dropped, as a trial drops them.
-  void MoveByHand(const messages::PoseUpdate& update) {
-    const messages::PoseEstimate before = rover_.estimate();
-    rover_.SetEstimate(update);
-    odometry_ = rover_.estimate();
-    under_way_.clear();
-    navigator_.OnPoseUpdate(before, rover_.estimate());
-  }
-
-  const std::vector<MovingTick>& log() const { return log_; }
-  const GestaltNavigator& navigator() const { return navigator_; }
-  GestaltNavigator& navigator() { return navigator_; }
-  const FakeRover& rover() const { return rover_; }
-
-  int StopsToLook() const {
-    return static_cast<int>(std::count_if(log_.begin(), log_.end(), [](const MovingTick& tick) {
-      return tick.decision.stops_to_look();
-    }));
-  }
-  int Answers() const {
-    return static_cast<int>(std::count_if(log_.begin(), log_.end(),
-                                          [](const MovingTick& tick) { return tick.answered; }));
-  }
-
- private:
-  struct Answer {
-    int ready_tick = 0;
-    messages::PointCloud cloud;
-    messages::LookMoment moment;
-  };
-
-  void Act(MovingTick& tick, int number) {
-    if (tick.decision.looks()) {
-      const bool stops = tick.decision.stops_to_look();
-      if (stops) under_way_.clear();
-      if (stops || !setup_.loses_answers) See(*tick.decision.look, number, stops);
-      if (stops) return;
-    }
-    tick.motion =
-        follower_.Follow(tick.decision.motion, tick.estimate.distance_m, setup_.rover.tick_s);
-    const messages::PoseEstimate before = rover_.estimate();
-    if (!setup_.held(number)) rover_.Move(tick.motion);
-    CarryOdometry(before, rover_.estimate());
-  }
-
-  void See(LookDirection direction, int number, bool stops) {
-    Answer answer;
-    answer.ready_tick = number + 1 + (stops ? 0 : setup_.latency_ticks);
-    answer.cloud.direction = direction;
-    answer.cloud.points_R = setup_.range.Look(rover_.X_WR(), direction, setup_.height);
-    answer.moment = {looks_++, number * setup_.rover.tick_s, rover_.estimate(), odometry_, {}};
-    under_way_.push_back(answer);
-  }
-
-  // Adds the motion of a tick, as measured, to the pose in the frame of odometry.
-  void CarryOdometry(const messages::PoseEstimate& before, const messages::PoseEstimate& after) {
-    const double turn_rad = odometry_.heading_rad - before.heading_rad;
-    const double dx_m = after.x_m - before.x_m;
-    const double dy_m = after.y_m - before.y_m;
-    odometry_.x_m += std::cos(turn_rad) * dx_m - std::sin(turn_rad) * dy_m;
-    odometry_.y_m += std::sin(turn_rad) * dx_m + std::cos(turn_rad) * dy_m;
-    odometry_.heading_rad =
-        math::WrapAngle(odometry_.heading_rad + after.heading_rad - before.heading_rad);
-    odometry_.distance_m = after.distance_m;
-  }
-
-  MovingSetup setup_;
-  GestaltNavigator navigator_;
-  MotionFollower follower_;
-  FakeRover rover_;
-  messages::PoseEstimate odometry_;
-  std::deque<Answer> under_way_;
-  std::int64_t looks_ = 0;
-  std::vector<MovingTick> log_;
-};
-
-MovingSetup SetupOf(DriveCycle cycle) {
-  MovingSetup setup;
-  setup.params.continuous.cycle = cycle;
-  setup.params.waypoints.goal_tolerance_m = 0.5;
-  setup.params.drive.arrival_check = ArrivalCheck::kWhileDriving;
-  setup.rover.speed_m_s = 0.07;
-  return setup;
-}
-
-constexpr DriveCycle kOnTheMove[] = {DriveCycle::kCsod, DriveCycle::kCsad};
-
-// Blocks hold no place of the vehicle's centre: obstacles grow by half its width, 0.42 m, in the
-// map; a cell of 0.2 m may be half covered.
-void ExpectClearOf(const MovingDrive& drive, const Block& block) {
-  for (const MovingTick& tick : drive.log()) {
-    ASSERT_FALSE(block.Holds(tick.X_WR.x_m, tick.X_WR.y_m, 0.42 - 0.1))
-        << tick.X_WR.x_m << ", " << tick.X_WR.y_m;
-  }
-}
 
 TEST(ContinuousDrive, StandsOnceToLookOnEmptyGroundAndDrivesOn) {
   for (const DriveCycle cycle : kOnTheMove) {
@@ -240,29 +67,33 @@ TEST(ContinuousDrive, GoesRoundABlock) {
 
 // Of a spline the curvature changes by its rate times the way of a tick at most, over replans too,
 // where it is predicted without error.
+void ExpectContinuousCurvature(PlanStart start, int latency_ticks) {
+  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  setup.params.continuous.plan_start = start;
+  setup.height = Blocks({{3.0, 3.4, -0.3, 0.7}, {5.6, 6.2, -0.9, 0.1}});
+  setup.latency_ticks = latency_ticks;
+  MovingDrive drive(setup);
+  ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  ASSERT_EQ(drive.StopsToLook(), 1);
+  const GestaltSplineParams& splines = setup.params.splines;
+  const double most =
+      2.0 * splines.max_curvature_per_m / (0.5 * splines.length_m) * setup.rover.tick_distance_m();
+  double largest = 0.0;
+  double bent = 0.0;
+  const auto& log = drive.log();
+  for (std::size_t i = 2; i + 1 < log.size(); ++i) {
+    largest = std::max(largest,
+                       std::abs(log[i].motion.curvature_per_m - log[i - 1].motion.curvature_per_m));
+    bent = std::max(bent, std::abs(log[i].motion.curvature_per_m));
+  }
+  EXPECT_LE(largest, most * (1.0 + 1e-6));
+  EXPECT_GT(bent, 0.2) << "it has to steer";
+  EXPECT_NEAR(drive.navigator().plan_counts().start_error_squared_m2, 0.0, kRounding);
+}
+
 TEST(ContinuousDrive, CurvatureOfSplinesIsContinuousOverReplans) {
-  for (const int latency_ticks : {0, 25}) {
-    MovingSetup setup = SetupOf(DriveCycle::kCsad);
-    setup.height = Blocks({{3.0, 3.4, -0.3, 0.7}, {5.6, 6.2, -0.9, 0.1}});
-    setup.latency_ticks = latency_ticks;
-    MovingDrive drive(setup);
-    ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
-    ASSERT_EQ(drive.StopsToLook(), 1);
-    const GestaltSplineParams& splines = setup.params.splines;
-    const double most = 2.0 * splines.max_curvature_per_m / (0.5 * splines.length_m) *
-                        setup.rover.tick_distance_m();
-    double largest = 0.0;
-    double bent = 0.0;
-    const auto& log = drive.log();
-    for (std::size_t i = 2; i + 1 < log.size(); ++i) {
-      largest = std::max(
-          largest, std::abs(log[i].motion.curvature_per_m - log[i - 1].motion.curvature_per_m));
-      bent = std::max(bent, std::abs(log[i].motion.curvature_per_m));
-    }
-    EXPECT_LE(largest, most * (1.0 + 1e-6));
-    EXPECT_GT(bent, 0.2) << "it has to steer";
-    const PlanCounts counts = drive.navigator().plan_counts();
-    EXPECT_NEAR(counts.start_error_squared_m2, 0.0, kRounding);
+  for (const PlanStart start : {PlanStart::kPredicted, PlanStart::kEstimated}) {
+    for (const int latency_ticks : {0, 25}) ExpectContinuousCurvature(start, latency_ticks);
   }
 }
 

@@ -221,6 +221,8 @@ TEST(CurvatureLaw, PathsInTimeAgreeWithAnotherIntegral) {
     speed.min_speed_share = 0.05 + 0.95 * random.Uniform();
     ExpectPathsAgree(speed, from, to, 0.05 + 3.0 * random.Uniform());
   }
+  // A long way round, while it slows down and not by much.
+  ExpectPathsAgree(kSlow, 0.62, 0.5, 12.0);
   // The slowest, slow from the straight line on.
   ExpectPathsAgree(
       {.full_speed_curvature_per_m = 0.0, .min_speed_share = 0.05, .slow_curvature_per_m = 1.0},

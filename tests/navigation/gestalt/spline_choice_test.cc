@@ -74,6 +74,9 @@ TEST(GestaltSplineChoice, OfEqualSteeringHeadsBestForTheGoal) {
                     Voted(200, 0.1, 2.0 / 7.0, 3.0 / 7.0, 0.3 - 2e-12)}),
             0)
       << "equal, whatever rounding made of them";
+  EXPECT_EQ(
+      Chosen({Voted(200, 0.0, 1.0 / 7.0, 5.0 / 7.0, 0.5), Voted(200, 0.0, 0.0, 5.0 / 7.0, 0.3)}), 1)
+      << "4/7 + 1/7 is less than 5/7 in binary";
 }
 
 TEST(GestaltSplineChoice, OfMirrorImagesIsTheRightOne) {

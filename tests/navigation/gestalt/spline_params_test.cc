@@ -52,6 +52,16 @@ TEST(GestaltSplineParams, RateIsThatOfTheSteeringMotors) {
   EXPECT_NEAR(splines.max_curvature_rate_per_m_s, 0.9 * limit, 0.02);
 }
 
+// From knot to knot: 2 / m in 14 spaces, over 1.5 m. A single knot has no next one.
+TEST(GestaltSplineParams, LeastRateIsThatFromAKnotToTheNext) {
+  GestaltSplineParams splines;
+  EXPECT_NEAR(splines.LeastRate_per_m2(), 2.0 / 14.0 / 1.5, 1e-15);
+  splines.num_first_knots = 2;
+  EXPECT_NEAR(splines.LeastRate_per_m2(), 2.0 / 1.5, 1e-15);
+  splines.num_first_knots = 1;
+  EXPECT_EQ(splines.LeastRate_per_m2(), 0.0);
+}
+
 TEST(GestaltSplineParams, SurviveARoundTrip) {
   GestaltParams params;
   params.splines.law = SplineLaw::kTime;

@@ -125,6 +125,9 @@ TEST(GestaltSplineVotes, TheGoalIsADisc) {
   EXPECT_LT(straight(2.0, 0.6).waypoint, 200.0);
   params.waypoints.goal_tolerance_m = 0.1;
   EXPECT_LT(straight(5.0, 0.2).waypoint, 255.0);
+  // Ends on the edge of a wide disc, 3-4-5, whose centre lies abeam at first, and then behind.
+  params.waypoints.goal_tolerance_m = 5.0;
+  EXPECT_EQ(straight(0.0, 4.0).waypoint, 255.0);
 }
 
 TEST(GestaltSplineVotes, FacingAwayVotesFromTheLowerPeak) {
@@ -148,10 +151,9 @@ TEST(GestaltSplineVotes, GetAlongWithASingleArc) {
   for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].waypoint, two[i].waypoint);
 }
 
-// A rock ahead of half a metre's radius. A spline is forbidden if and only if one of the places at
-// which arcs would be judged, 0.35 m to 2.95 m, lies in one of its cells.
-TEST(GestaltSplineVotes, ARockForbidsTheSplinesThroughIt) {
-  const GoodnessGrid grid = GridWithDisc(2.2, 0.03, 0.5);
+// Expects that a spline is forbidden if and only if one of the places at which arcs would be
+// judged, 0.35 m to 2.95 m, lies in one of its cells, and that the rover drives round the rock.
+void ExpectForbiddenThrough(const GoodnessGrid& grid) {
   const SplineVotes votes = VotesOn(grid, {8.0, 0.0});
   const CurvatureLaw law(SplineLaw::kDistance, {});
   int forbidden = 0;
@@ -170,6 +172,19 @@ TEST(GestaltSplineVotes, ARockForbidsTheSplinesThroughIt) {
   const SplineVote* chosen = ChooseSpline(votes, {});
   ASSERT_NE(chosen, nullptr);
   EXPECT_EQ(chosen->hazard, 255.0) << "it drives round the rock";
+}
+
+// A rock ahead of half a metre's radius.
+TEST(GestaltSplineVotes, ARockForbidsTheSplinesThroughIt) {
+  ExpectForbiddenThrough(GridWithDisc(2.2, 0.03, 0.5));
+}
+
+// Of cells half as wide as long, in a window that is not square: the rock is half as wide.
+TEST(GestaltSplineVotes, ARockForbidsInCellsThatAreNotSquareToo) {
+  GoodnessGrid grid = GridWithDisc(2.2, 0.03, 0.5);
+  grid.ystep_m *= 0.5;
+  grid.y0_m *= 0.5;
+  ExpectForbiddenThrough(grid);
 }
 
 TEST(GestaltSplineVotes, WallLeavesNothing) {
@@ -248,6 +263,20 @@ TEST(GestaltSplineVotes, SteeringThatIsTooFastIsInfeasible) {
   EXPECT_FALSE(careful[IndexOf(4, 4)].feasible) << "over the straight line at full speed";
 }
 
+// 1 / m within 1 m at 0.5 m/s: just as fast as the motors, which is feasible.
+TEST(GestaltSplineVotes, SteeringAsFastAsTheMotorsIsFeasible) {
+  GestaltParams params;
+  params.splines.length_m = params.splines.waypoint_m = 2.0;
+  params.splines.num_first_knots = params.splines.num_second_knots = 3;
+  params.splines.max_curvature_rate_per_m_s = 0.5;
+  const SplineVotes votes = SplineVoter(params, 0.5).Vote(UniformGrid(kGood), {}, 0.0, {8.0, 0.0});
+  ASSERT_EQ(votes.size(), 9u);
+  for (const SplineVote& vote : votes) {
+    const double second = vote.spline.second_knot_per_m - vote.spline.first_knot_per_m;
+    EXPECT_EQ(vote.feasible, std::abs(second) <= 1.0);
+  }
+}
+
 TEST(GestaltSplineVotes, MirroredWorldGivesTheMirroredChoice) {
   core::RandomStream random({37, 0}, core::Purpose::kTest, 0);
   for (const SplineLaw law : {SplineLaw::kDistance, SplineLaw::kTime}) {
@@ -301,6 +330,9 @@ TEST(GestaltSplineVotes, AreJudgedUpToTheLargestTurn) {
   EXPECT_EQ(all[IndexOf(14, 14)].hazard, 0.0);
   EXPECT_EQ(short_ones[IndexOf(14, 14)].hazard, 255.0);
   EXPECT_EQ(short_ones[IndexOf(kStraight, kStraight)].hazard, 0.0);
+  // A straight line never turns by more than nothing.
+  params.plan.max_path_turn_rad = 0.0;
+  EXPECT_EQ(VotesOn(grid, {8.0, 0.0}, params)[IndexOf(kStraight, kStraight)].hazard, 0.0);
 }
 
 // Places beyond the end of a short spline follow its last knot.

@@ -44,6 +44,42 @@ TEST(QuasiStaticLevel, WheelsBearTheWeightAndSinkAsTheSoilSays) {
   EXPECT_NEAR(state.X_WR.translation().z(), -depth_m, 2e-4);
 }
 
+TEST(QuasiStaticLevel, SteeringIsLimitedInRateAndAngle) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain();
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  messages::WheelCommand command;
+  command.steer_rad.fill(2.0);
+  rover->Step(command);
+  const messages::PerWheel<double>& steer_rad = rover->state().steer_rad;
+  EXPECT_NEAR(steer_rad[0], params.drive.steer_rate_rad_s * rover->step_s(), 1e-12);
+  RunFor(*rover, command, 2.0);
+  EXPECT_NEAR(steer_rad[0], params.drive.max_steer_rad, 1e-12);
+  EXPECT_EQ(steer_rad[1], 0.0) << "middle wheels do not steer";
+}
+
+// Wheels that are steered on the way turn the rover from there on, in the middle of a stretch too.
+TEST(QuasiStaticLevel, SteeringOnTheWayTurnsTheRoverAtOnce) {
+  RoverParams params = QuasiStatic();
+  params.quasi_static.settle_distance_m = 0.1;
+  params.drive.steer_rate_rad_s = 100.0;
+  const terrain::Terrain terrain = FlatTerrain();
+  for (const double curvature_per_m : {0.2, 1.0}) {
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({});
+    const double speed_m_s = 0.1;
+    RunFor(*rover, Drive(params, speed_m_s, 0.0), 1.2);
+    const double heading_rad = math::Heading(rover->state().X_WR);
+    messages::WheelCommand curve = Drive(params, speed_m_s, curvature_per_m * speed_m_s);
+    // The wheels roll on as they do: nothing but their angles changes.
+    curve.rate_rad_s = Drive(params, speed_m_s, 0.0).rate_rad_s;
+    const double way_m = 0.07;
+    RunFor(*rover, curve, way_m / speed_m_s);
+    EXPECT_GT(math::Heading(rover->state().X_WR) - heading_rad, 0.4 * curvature_per_m * way_m);
+  }
+}
+
 // Wheels that share one slip i: sum tau(i) T_max = sum R. How finely the way is cut says nothing.
 TEST(QuasiStaticLevel, WayIsThatOfTheSlipLawHoweverFineTheStretches) {
   const terrain::Terrain terrain = FlatTerrain();
