@@ -187,7 +187,8 @@ std::vector<double> ColourResiduals(const std::vector<SeenColour>& seen, const L
   const auto rows = static_cast<Eigen::Index>(2 * seen.size() + 3);
   Eigen::MatrixXd by_unknown = Eigen::MatrixXd::Zero(rows, 3);
   Eigen::VectorXd residuals = Eigen::VectorXd::Zero(rows);
-  const Eigen::Matrix2d surface = params.surface_sd * params.surface_sd * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d surface =
+      params.surface_sd * params.surface_sd * Eigen::Matrix2d::Identity();
   Eigen::Index row = 0;
   for (const SeenColour& colour : seen) {
     const LogRatios ratios = SurfaceOf(colour.colour, surfaces);

@@ -51,8 +51,8 @@ std::vector<double> StartsOf(const FitProblem& problem) {
   for (std::size_t i = 0; i < kOrientations; ++i) {
     const auto evaluation =
         problem.Evaluate(AtOrientation(orientation(i)), RadiusDeviation(FitRadius::kFixed));
-    costs.at(i) = evaluation ? evaluation->residuals.squaredNorm()
-                             : std::numeric_limits<double>::infinity();
+    costs.at(i) =
+        evaluation ? evaluation->residuals.squaredNorm() : std::numeric_limits<double>::infinity();
   }
   const double most = kFarAbove * *std::min_element(costs.begin(), costs.end());
   std::vector<std::size_t> minima;
@@ -136,6 +136,7 @@ CylinderFit FitOf(const FitProblem& problem, const std::vector<FitState>& hypoth
   fit.misfit = (best.squares - fit.colour_misfit) / problem.samples();
   fit.margin = MarginOf(hypotheses);
   fit.height_m = problem.height_m();
+  fit.blur_px = problem.BlurOf(best.unknowns);
   const double factor = std::max(fit.misfit, 1.0);
   fit.covariance = factor * best.information.inverse().topLeftCorner<4, 4>();
   fit.covariance(2, 2) += SpreadOf(hypotheses, factor);
@@ -155,8 +156,8 @@ std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry
   const FitProblem first(pair, eyes, cylinder, candidate, light, params);
   const std::vector<FitState> guesses = HypothesesOf(first);
   if (guesses.empty()) return std::nullopt;
-  const RegionPair boxed = BoxedBy(pair, eyes, first.PlaceOf(guesses.front().unknowns),
-                                   cylinder.height_m, candidate);
+  const RegionPair boxed =
+      BoxedBy(pair, eyes, first.PlaceOf(guesses.front().unknowns), cylinder.height_m, candidate);
   const FitProblem problem(pair, eyes, cylinder, boxed, light, params);
   const std::vector<FitState> hypotheses = HypothesesOf(problem);
   if (hypotheses.empty()) return std::nullopt;

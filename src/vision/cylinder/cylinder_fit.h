@@ -34,6 +34,7 @@ struct CylinderFit {
   double radius_ratio = 1.0;
   double radius_ratio_sd = 0.0;
   double height_m = 0.0;  // by the rims
+  double blur_px = 0.0;   // of edges, a standard deviation
 };
 
 // Nothing where no orientation can be imaged.

@@ -23,9 +23,8 @@ double SagOf(const EyeGeometry& eyes, const ColourCylinder& cylinder, const Seen
 
 SeenColour SeenColourOf(const QuadrantColour& quadrant) {
   // A level below its own deviation tells only that it is not far above that.
-  const Eigen::Array3d levels = quadrant.colour.array()
-                                    .max(quadrant.covariance.diagonal().array().sqrt())
-                                    .max(1.0);
+  const Eigen::Array3d levels =
+      quadrant.colour.array().max(quadrant.covariance.diagonal().array().sqrt()).max(1.0);
   SeenColour seen;
   seen.colour = kQuadrantColours.at(static_cast<std::size_t>(quadrant.quadrant));
   seen.ratios = LogRatiosOf(levels);
@@ -53,10 +52,12 @@ SeenColour MeanOf(const SeenColour& left, const SeenColour& right) {
 // the light and the saturation; zeros for what is not seen.
 using ColourResidualsOfAll = std::array<double, 19>;
 
-ColourResidualsOfAll ResidualsOf(const std::array<SeenQuadrants, 2>& eyes, const LogRatios& light,
-                                 const RobustFinderParams& params) {
+ColourResidualsOfAll ResidualsOf(const std::array<SeenQuadrants, 2>& eyes, double parallax_rad,
+                                 const LogRatios& light, const RobustFinderParams& params) {
   constexpr std::size_t kColours = 8;
   constexpr std::size_t kLight = 16;
+  // Light on a round wall changes with the direction that one sees it from.
+  const Eigen::Matrix2d parallax = parallax_rad * parallax_rad * Eigen::Matrix2d::Identity();
   ColourResidualsOfAll residuals{};
   std::vector<SeenColour> seen;
   std::vector<std::size_t> places;
@@ -70,8 +71,8 @@ ColourResidualsOfAll ResidualsOf(const std::array<SeenQuadrants, 2>& eyes, const
       continue;
     }
     seen.push_back(MeanOf(*left, *right));
-    const LogRatios apart =
-        WhiteningOf(left->covariance + right->covariance) * (left->ratios - right->ratios);
+    const LogRatios apart = WhiteningOf(left->covariance + right->covariance + parallax) *
+                            (left->ratios - right->ratios);
     std::copy(apart.begin(), apart.end(), residuals.begin() + static_cast<std::ptrdiff_t>(2 * i));
   }
   places.push_back(kLight);
@@ -150,6 +151,10 @@ CylinderPlace FitProblem::PlaceOf(const FitUnknowns& unknowns) const {
   return place;
 }
 
+double FitProblem::BlurOf(const FitUnknowns& unknowns) const {
+  return params_.fit.edge_blur_px * std::exp(unknowns[5]);
+}
+
 FitUnknowns FitProblem::Steps() const {
   const double across_m = 0.02 * depth_m_ / eyes_.focal_px;
   const double along_m = 0.04 * depth_m_ * depth_m_ / (eyes_.focal_px * eyes_.baseline_m);
@@ -163,19 +168,20 @@ std::optional<FitProblem::Evaluation> FitProblem::Evaluate(const FitUnknowns& un
                                                            double radius_sd) const {
   if (!(unknowns[4] > -1.0)) return std::nullopt;
   const CylinderPlace place = PlaceOf(unknowns);
-  const double blur_px = params_.fit.edge_blur_px * std::exp(unknowns[5]);
+  const double blur_px = BlurOf(unknowns);
   Evaluation evaluation;
   std::vector<double> residuals;
   std::array<SeenQuadrants, 2> quadrants;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const auto view = WallSeen(*cameras_.at(eye), eyes_, place, 0.5 * cylinder_.height_m);
     if (!view) return std::nullopt;
-    for (const QuadrantColour& colour : FitWallColours(profiles_.at(eye), *view, directions_,
-                                                       blur_px, params_.fit, residuals)) {
+    for (const QuadrantColour& colour :
+         FitWallColours(profiles_.at(eye), *view, directions_, blur_px, params_.fit, residuals)) {
       quadrants.at(eye).at(static_cast<std::size_t>(colour.quadrant)) = SeenColourOf(colour);
     }
   }
-  for (const double residual : ResidualsOf(quadrants, light_, params_)) {
+  for (const double residual :
+       ResidualsOf(quadrants, eyes_.baseline_m / depth_m_, light_, params_)) {
     residuals.push_back(residual);
     evaluation.colour_misfit += residual * residual;
   }

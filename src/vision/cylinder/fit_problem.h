@@ -21,16 +21,18 @@ class FitProblem {
  public:
   // Starts where lines of sight to the middles of the candidate's boxes meet.
   FitProblem(const ColourPair& pair, const EyeGeometry& eyes, const ColourCylinder& cylinder,
-             const RegionPair& candidate, const LogRatios& light,
-             const RobustFinderParams& params);
+             const RegionPair& candidate, const LogRatios& light, const RobustFinderParams& params);
 
   CylinderPlace PlaceOf(const FitUnknowns& unknowns) const;
+
+  // The standard deviation of the blur of edges.
+  double BlurOf(const FitUnknowns& unknowns) const;
 
   // What the eyes show of a place.
   struct Evaluation {
     // Residuals over their standard deviations, of equal number for all places: of the pixels, of
-    // the quadrants' colours, and, the last three, of the priors of the blur, of the roll and, about
-    // 0, of the radius with sd `radius_sd`.
+    // the quadrants' colours, and, the last three, of the priors of the blur, of the roll and,
+    // about 0, of the radius with sd `radius_sd`.
     Eigen::VectorXd residuals;
     // The squares of those of the colours: how unlike those of the surfaces, and each other's, what
     // the eyes see is (colour_model.h).

@@ -109,8 +109,8 @@ class WallProblem {
     level_root_ = 1.0 / (kLevelSpread * level);
     for (std::size_t part = 0; part < view.quadrants.size(); ++part) {
       const auto quadrant = static_cast<std::size_t>(view.quadrants[part]);
-      slope_roots_.at(part) = PriorRoot(directions.at(quadrant), params.shading_sd * level,
-                                        params.tint_sd * level);
+      slope_roots_.at(part) =
+          PriorRoot(directions.at(quadrant), params.shading_sd * level, params.tint_sd * level);
     }
     for (const ProfileBand& band : profile.bands) {
       bands_.emplace_back(view, band.row, blur_px);

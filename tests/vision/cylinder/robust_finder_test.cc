@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -227,6 +228,27 @@ TEST(RobustFinderTest, ATerminatorIsNoBoundary) {
   }
 }
 
+// The sun's light makes one side of a quadrant brighter than the other, and leaves its colour.
+TEST(RobustFinderTest, AQuadrantMayBeBrighterAtASide) {
+  // Control: a finder that expects brightness to change as little as colour.
+  RobustFinderParams even;
+  even.fit.shading_sd = even.fit.tint_sd;
+  double error_rad = 0.0;
+  double of_even_rad = 0.0;
+  const std::array<double, 6> thetas_deg = {-160.0, -120.0, -100.0, 20.0, 60.0, 110.0};
+  for (const double theta_deg : thetas_deg) {
+    const double theta_rad = DegToRad(theta_deg);
+    const PaintedPair pair = PaintSideLit(SceneAt(10.0, theta_rad), 80.0);
+    const CylinderFinding finding = Find(pair);
+    const CylinderFinding of_even = Find(pair, even);
+    ASSERT_TRUE(finding.sighting && of_even.sighting) << theta_deg;
+    error_rad += std::abs(math::WrapAngle(finding.sighting->orientation_rad - theta_rad));
+    of_even_rad += std::abs(math::WrapAngle(of_even.sighting->orientation_rad - theta_rad));
+  }
+  EXPECT_LT(RadToDeg(error_rad), 1.5 * thetas_deg.size());
+  EXPECT_GT(RadToDeg(of_even_rad), 2.5 * thetas_deg.size());
+}
+
 // Strips as narrow as their blur.
 TEST(RobustFinderTest, BlurIsFoundByTheFit) {
   // Control: a blur that is taken for half of what it is.
@@ -240,6 +262,18 @@ TEST(RobustFinderTest, BlurIsFoundByTheFit) {
     ExpectFound(Find(pair), scene, 0.6, 5.0);
     EXPECT_TRUE(IsMissedOrTurned(Find(pair, sharp), scene, 5.0));
   }
+}
+
+// What fits a cylinder only if its edges are nowhere: no camera blurs so.
+TEST(RobustFinderTest, ABlurThatNoCameraHasIsNoCylinder) {
+  PaintedPair pair = Paint(SceneAt(6.0, DegToRad(30.0)));
+  for (int blurs = 1; blurs <= 9; ++blurs) {
+    pair.left = Blurred(pair.left);
+    pair.right = Blurred(pair.right);
+    // Control: a few of them are between what is expected.
+    if (blurs == 3) EXPECT_TRUE(Find(pair).sighting) << Find(pair).reason;
+  }
+  ExpectMiss(Find(pair), CylinderMiss::kNotACylinder, "its edges are blurred by");
 }
 
 TEST(RobustFinderTest, GreenInPlaceOfOrangeIsASetting) {
