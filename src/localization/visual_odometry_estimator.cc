@@ -9,7 +9,6 @@ namespace rockyard::localization {
 namespace {
 
 using math::Pose2;
-using messages::Index;
 using messages::PoseCoordinate;
 
 // pose (+) step: x and y of the step along the pose's heading.
@@ -31,8 +30,9 @@ Pose2 StepBetween(const Pose2& from, const Pose2& to) {
 }
 
 Pose2 PlanarStep(const messages::RelativeMotion& motion) {
-  return {motion.motion_F[Index(PoseCoordinate::kX)], motion.motion_F[Index(PoseCoordinate::kY)],
-          motion.motion_F[Index(PoseCoordinate::kHeading)]};
+  return {motion.motion_F[messages::Index(PoseCoordinate::kX)],
+          motion.motion_F[messages::Index(PoseCoordinate::kY)],
+          motion.motion_F[messages::Index(PoseCoordinate::kHeading)]};
 }
 
 Pose2 ToPose2(const messages::PoseEstimate& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
