@@ -123,7 +123,8 @@ class CheatingSources(unittest.TestCase):
     def test_control_compiles(self):
         for module, _ in self.PLACES:
             sources = [source for of, source in self.sources() if of == module]
-            # At once, for the headers that they share; names of files of a module differ anyway.
+            # At once, for the headers that they share. Names of a module do not clash: its library is built
+            # of joined sources, too.
             joined = "".join(f'#include "{source}"\n' for source in sources)
             with self.subTest(module=module):
                 result = compile_source(module, [], joined)
