@@ -22,6 +22,7 @@ constexpr std::size_t kMostStarts = 5;
 constexpr double kFarAbove = 4.0;
 constexpr double kOtherOrientation_rad = math::DegToRad(25.0);
 constexpr int kMostSteps = 30;
+constexpr double kMarginSigmas = 3.0;
 
 FitUnknowns AtOrientation(double orientation_rad) {
   FitUnknowns unknowns = FitUnknowns::Zero();
@@ -101,8 +102,10 @@ RegionPair BoxedBy(const ColourPair& pair, const EyeGeometry& eyes, const Cylind
 }
 
 // What orientations near the best one that are nearly as likely add to its variance, rad^2: their
-// squared distances, weighted by likelihoods. `factor` is that of all variances.
-double SpreadOf(const std::vector<FitState>& hypotheses, double factor) {
+// squared distances, weighted by likelihoods. Squared residuals of `margin` are worth three
+// standard deviations here, as they are where orientations farther away are ruled out.
+double SpreadOf(const std::vector<FitState>& hypotheses, double margin) {
+  const double factor = std::max(margin / (kMarginSigmas * kMarginSigmas), 1.0);
   const FitState& best = hypotheses.front();
   double weights = 0.0;
   double spread = 0.0;
@@ -126,7 +129,7 @@ double MarginOf(const std::vector<FitState>& hypotheses) {
 }
 
 CylinderFit FitOf(const FitProblem& problem, const std::vector<FitState>& hypotheses,
-                  const EyeGeometry& eyes) {
+                  const EyeGeometry& eyes, const CylinderFitParams& params) {
   const FitState& best = hypotheses.front();
   CylinderFit fit;
   fit.place = problem.PlaceOf(best.unknowns);
@@ -139,7 +142,7 @@ CylinderFit FitOf(const FitProblem& problem, const std::vector<FitState>& hypoth
   fit.blur_px = problem.BlurOf(best.unknowns);
   const double factor = std::max(fit.misfit, 1.0);
   fit.covariance = factor * best.information.inverse().topLeftCorner<4, 4>();
-  fit.covariance(2, 2) += SpreadOf(hypotheses, factor);
+  fit.covariance(2, 2) += SpreadOf(hypotheses, factor * params.least_margin);
   const FitState free = DescendFrom(problem, best.unknowns, FitRadius::kFree, kMostSteps);
   const CylinderPlace free_place = problem.PlaceOf(free.unknowns);
   fit.free_depth_m = (free_place.p_LT_L - eyes.centre_L).dot(eyes.forward_L);
@@ -161,7 +164,7 @@ std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry
   const FitProblem problem(pair, eyes, cylinder, boxed, light, params);
   const std::vector<FitState> hypotheses = HypothesesOf(problem);
   if (hypotheses.empty()) return std::nullopt;
-  return FitOf(problem, hypotheses, eyes);
+  return FitOf(problem, hypotheses, eyes, params.fit);
 }
 
 }  // namespace rockyard::vision

@@ -66,7 +66,7 @@ struct CylinderFitParams {
   double usual_misfit = 0.3;
   double row_error_px = 0.3;
   double largest_misfit = 8.0;
-  double largest_colour_misfit = 21.0;
+  double largest_colour_misfit = 17.0;
   double least_margin = 30.0;
   double radius_tolerance = 0.12;
 

@@ -270,8 +270,10 @@ TEST(RobustFinderTest, ABlurThatNoCameraHasIsNoCylinder) {
   for (int blurs = 1; blurs <= 9; ++blurs) {
     pair.left = Blurred(pair.left);
     pair.right = Blurred(pair.right);
-    // Control: a few of them are between what is expected.
-    if (blurs == 3) EXPECT_TRUE(Find(pair).sighting) << Find(pair).reason;
+    // Control: two of them are between what is expected.
+    if (blurs == 2) {
+      EXPECT_TRUE(Find(pair).sighting) << Find(pair).reason;
+    }
   }
   ExpectMiss(Find(pair), CylinderMiss::kNotACylinder, "its edges are blurred by");
 }
