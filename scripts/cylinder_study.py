@@ -5,11 +5,10 @@ Runs scenarios/cylinder/published.json (five distances, all orientations, ten me
 (a green panel for the orange one) and views.json (a rover before the lander's mast: any orientation, sun from any
 side, clutter), or takes the runs that are there, and prints tables: bias and spread of orientation and distance
 against the one-pixel limits of appendix A.2, statements of the text with a verdict, and of the views what was
-found, how well, and how many poses are wrong. The table "drives" is of what that is worth to a rover: 10 m over
-nominal terrain (scenarios/localization), found by the lander every 2.5 m. --markdown writes them between <!-- begin cylinder_NAME --> and
+found, how well, and how many poses are wrong. --markdown writes them between <!-- begin cylinder_NAME --> and
 <!-- end cylinder_NAME --> of a page; --studies writes the cells as CSV. Delete the runs after a change of the code.
 
-    scripts/cylinder_study.py [--seed 1] [--tables bias,limits,verdicts,green,views,without,drives] [--markdown PAGE]
+    scripts/cylinder_study.py [--seed 1] [--tables bias,limits,verdicts,green,views,without] [--markdown PAGE]
 """
 
 import argparse
@@ -23,15 +22,9 @@ SCENARIOS = study.ROOT / "scenarios/cylinder"
 FINDERS = {"published": "published", "robust": "ours"}
 MISSES = ("nothing", "clipped", "too_few_regions", "unlike_order", "unlike_eyes", "swapped_eyes", "two_cylinders",
           "not_a_cylinder", "ambiguous")
-TABLES = ("bias", "limits", "verdicts", "green", "views", "without", "drives")
+TABLES = ("bias", "limits", "verdicts", "green", "views", "without")
 RUN_OF = {"bias": "published", "limits": "published", "verdicts": "published", "green": "green",
           "views": "views", "without": "views_without"}
-# What finds the rover in "drives": a scenario of localization, and settings.
-FIX = "sensors.aids.lander_fix"
-DRIVES = {"nothing": ("drive", []),
-          "errors of the text": ("drive", [f"{FIX}.enabled=true", f"{FIX}.every_m=2.5"]),
-          "the published finder": ("drive_cylinder", []),
-          "ours": ("drive_cylinder_ours", [])}
 # Section 5: a cylinder of 19.2 cm, 512 columns of 29.33 deg, a baseline of 12 cm, fronts 7.6 cm before the origin.
 RADIUS_M, COLUMNS, FIELD_DEG, BASELINE_M, FRONT_M = 0.096, 512, 29.33, 0.12, 0.076
 PUBLISHED_M = (0.914, 1.829, 4.572, 10.058)
@@ -302,39 +295,6 @@ def write_cells(rows, path):
     study.write_csv(path, lines)
 
 
-def quantile(values, share):
-    return sorted(values)[min(int(share * len(values)), len(values) - 1)]
-
-
-def drive_line(finder, columns):
-    """Of a run's columns (study.trial_columns)."""
-    outcomes = columns["outcome"]
-    reached = outcomes.count("goal_reached")
-    low, high = study.wilson_interval(reached, len(outcomes))
-    used, refused = (sum(columns[name]) / len(outcomes) for name in ("aids_used", "aids_gated_out"))
-    position_m, heading_deg = ([abs(value) for value in columns[name] if not math.isnan(value)]
-                               for name in ("position_error_m", "heading_error_deg"))
-    return [finder, f"{100 * reached / len(outcomes):.0f} ({100 * low:.0f}..{100 * high:.0f})",
-            *(f"{quantile(values, 0.5):.2f} / {quantile(values, 0.95):.2f}" for values in (position_m, heading_deg)),
-            f"{used:.1f}", f"{refused:.2f}"]
-
-
-def drives(args):
-    """The table of drives, and a note on them."""
-    args.trials = args.drives
-    lines, made = [], ""
-    for finder, (scenario, settings) in DRIVES.items():
-        folder = args.out / f"drives-{finder.replace(' ', '_')}-{args.seed}"
-        if not args.count_only:
-            path = study.ROOT / f"scenarios/localization/{scenario}.json"
-            summary = study.run_scenario(args, path, folder, ["rover.fidelity=quasi_static", *settings, *args.set])
-            made = f"; made by rockyard {study.program(summary)}"
-        lines.append(drive_line(finder, study.trial_columns(folder)))
-    heads = ["found by", "true success, % (95 %)", "position error, m: median / 95 %", "heading error, deg: the same",
-             "fixes used", "refused by the filter"]
-    return study.table(heads, lines), f"{args.drives} drives each on the same rocks, seed {args.seed}{made}."
-
-
 def run(args, name):
     """The rows of a scenario, run or taken as they are, and a note on them."""
     path = SCENARIOS / f"{name}.json"
@@ -349,18 +309,10 @@ def run(args, name):
     return rows, f"{pairs:.0f} pairs of images, {len(rows)} views, seed {args.seed}{made}."
 
 
-def emit(args, name, table, note):
-    text = f"{table}\n\n{note}"
-    print(f"cylinder_{name}\n\n{text}\n", flush=True)
-    if args.markdown:
-        study.write_table([args.markdown], f"cylinder_{name}", text)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     study.add_run_arguments(parser, None, "cylinder")
     parser.add_argument("--views", type=int, help="views of views.json and views_without.json (the scenarios' own)")
-    parser.add_argument("--drives", type=int, default=300, help="drives of each line of the table of drives (300)")
     parser.add_argument("--tables", default=",".join(TABLES))
     parser.add_argument("--markdown", type=Path, metavar="PAGE")
     parser.add_argument("--studies", type=Path, help="folder for CSV files of the cells")
@@ -370,9 +322,6 @@ def main():
     for name in args.tables.split(","):
         if name not in TABLES:
             parser.error(f"--tables: no table {name}; there are {', '.join(TABLES)}")
-        if name == "drives":
-            emit(args, name, *drives(args))
-            continue
         scenario = RUN_OF[name]
         if scenario not in runs:
             runs[scenario] = run(args, scenario)
@@ -380,7 +329,10 @@ def main():
                 suffix = "" if scenario == "published" else "_green"
                 write_cells(runs[scenario][0], args.studies / f"cylinder{suffix}.csv")
         rows, note = runs[scenario]
-        emit(args, name, content(name, rows), note)
+        text = f"{content(name, rows)}\n\n{note}"
+        print(f"cylinder_{name}\n\n{text}\n", flush=True)
+        if args.markdown:
+            study.write_table([args.markdown], f"cylinder_{name}", text)
 
 
 if __name__ == "__main__":

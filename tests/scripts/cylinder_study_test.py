@@ -69,13 +69,6 @@ class Counting(unittest.TestCase):
         self.assertEqual(verdict_of["m = 17: 11.24 m"], "agrees")
         self.assertIn("misprint", verdict_of["about 5.8 %"])
 
-    def test_drives_are_counted_by_where_they_truly_end(self):
-        columns = {"outcome": ["goal_reached"] * 3 + ["false_goal"], "aids_used": [4.0, 4.0, 3.0, 1.0],
-                   "aids_gated_out": [0.0, 1.0, 0.0, 1.0], "position_error_m": [0.1, 0.2, math.nan, 0.9],
-                   "heading_error_deg": [-8.0, 1.0, 2.0, 3.0]}
-        self.assertEqual(cylinder_study.drive_line("ours", columns),
-                         ["ours", "75 (30..95)", "0.20 / 0.90", "3.00 / 8.00", "3.0", "0.50"])
-
 
 if __name__ == "__main__":
     unittest.main()
