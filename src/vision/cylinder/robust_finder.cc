@@ -27,7 +27,7 @@ struct JudgedCandidate {
 
 // What a radius may differ by from the cylinder's: a share, or so many standard deviations.
 constexpr double kRadiusSigmas = 4.0;
-// How far the logarithm of a fitted blur may be from the prior's, in standard deviations of that.
+// How far the logarithm of a fitted blur may be above the prior's, in standard deviations of that.
 constexpr double kBlurSigmas = 3.0;
 
 void JudgeFit(const CylinderFit& fit, const ColourCylinder& cylinder,
@@ -36,6 +36,8 @@ void JudgeFit(const CylinderFit& fit, const ColourCylinder& cylinder,
     candidate.miss = miss;
     candidate.reason = std::move(reason);
   };
+  const double most_blur_px =
+      params.fit.edge_blur_px * std::exp(kBlurSigmas * params.fit.edge_blur_spread);
   const double radius_error = std::abs(fit.radius_ratio - 1.0);
   const double height_error = std::abs(fit.height_m / cylinder.height_m - 1.0);
   const double px_m = fit.place.radius_m > 0.0 ? 2.0 * fit.place.radius_m : 1.0;
@@ -53,13 +55,10 @@ void JudgeFit(const CylinderFit& fit, const ColourCylinder& cylinder,
            fmt::format("its pixels are not those of a cylinder: a mean squared residual of {:.1f}, "
                        "{:g} is allowed",
                        fit.misfit, params.fit.largest_misfit));
-  } else if (std::abs(std::log(fit.blur_px / params.fit.edge_blur_px)) >
-             kBlurSigmas * params.fit.edge_blur_spread) {
+  } else if (fit.blur_px > most_blur_px) {
     refuse(CylinderMiss::kNotACylinder,
-           fmt::format(
-               "its edges are blurred by {:.1f} px, {:.1f} to {:.1f} px are expected", fit.blur_px,
-               params.fit.edge_blur_px * std::exp(-kBlurSigmas * params.fit.edge_blur_spread),
-               params.fit.edge_blur_px * std::exp(kBlurSigmas * params.fit.edge_blur_spread)));
+           fmt::format("its edges are blurred by {:.1f} px, at most {:.1f} px are expected",
+                       fit.blur_px, most_blur_px));
   } else if (radius_error >
                  std::max(params.fit.radius_tolerance, kRadiusSigmas * fit.radius_ratio_sd) ||
              height_error > height_tolerance) {

@@ -20,8 +20,10 @@ constexpr double kTheta_rad = DegToRad(30.0);
 // The fit of a painted cylinder 4.5 m away, of which the finder is told a diameter.
 class Wall {
  public:
-  explicit Wall(double diameter_m) : pair_(painted_.Pair()), eyes_(*GeometryOf(pair_)) {
+  explicit Wall(double diameter_m, double tint_sd = CylinderFitParams{}.tint_sd)
+      : pair_(painted_.Pair()), eyes_(*GeometryOf(pair_)) {
     cylinder_.diameter_m = diameter_m;
+    params_.fit.tint_sd = tint_sd;
     light_ = LightOf(pair_.left, pair_.right, params_.surfaces, params_.colours);
     const auto labels = [&](const ColourImage& image) {
       return LabelSurfaces(image, light_, params_.surfaces, params_.colours);
@@ -72,6 +74,16 @@ TEST(FitDescent, OfAFreeRadiusTellsASizeThatIsWrong) {
   const FitState state = DescendFrom(wall.Problem(), TurnedBy(0.0), FitRadius::kFree, 30);
   EXPECT_NEAR(state.unknowns[4], 1.0 / 0.96 - 1.0, 0.01);
   EXPECT_LT(std::sqrt(state.information.inverse()(4, 4)), 0.02);
+}
+
+// A quadrant whose colour may change across it could be two: its edge tells less.
+TEST(FitDescent, QuadrantsOfOneColourTellMoreOfTheOrientation) {
+  const auto turned_squares = [](double tint_sd) {
+    const Wall wall(0.192, tint_sd);
+    const FitProblem problem = wall.Problem();
+    return SquaresAt(problem, TurnedBy(DegToRad(8.0))) - SquaresAt(problem, TurnedBy(0.0));
+  };
+  EXPECT_GT(turned_squares(0.02), 1.5 * turned_squares(0.1));
 }
 
 TEST(FitDescent, MoreStepsAreNoWorse) {

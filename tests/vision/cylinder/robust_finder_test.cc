@@ -190,7 +190,9 @@ TEST(RobustFinderTest, AWallTooWideForItsRadiusIsLessSure) {
   ColourCylinder narrow;
   narrow.diameter_m *= 0.96;
   RobustFinderParams params;
-  params.fit.usual_misfit = 10.0;  // that pixels fit worse is not what is tested
+  // That pixels fit worse, and that colours mix at wrong edges, is not what is tested.
+  params.fit.usual_misfit = 10.0;
+  params.fit.largest_colour_misfit = 100.0;
   const CylinderFinding right = FindCylinder(pair.Pair(), {}, params);
   const CylinderFinding wrong = FindCylinder(pair.Pair(), narrow, params);
   ASSERT_TRUE(right.sighting && wrong.sighting) << right.reason << wrong.reason;
@@ -215,11 +217,12 @@ TEST(RobustFinderTest, PixelsThatFitWorseThanUsuallyAreLessSure) {
 
 // Where the light of the sun ends on the wall, no quadrant ends.
 TEST(RobustFinderTest, ATerminatorIsNoBoundary) {
-  // Control: a finder to which a darker column is another colour.
+  // Control: a finder to which a darker column, or side of a quadrant, is another colour.
   RobustFinderParams bright;
   bright.fit.brightness_sd = 0.0;
+  bright.fit.shading_sd = bright.fit.tint_sd;
   for (const SideLight& view :
-       {SideLight{-154, 80}, SideLight{-144, 80}, SideLight{-130, -80}, SideLight{152, -80}}) {
+       {SideLight{-134, -80}, SideLight{-94, -80}, SideLight{-134, 80}, SideLight{-74, 80}}) {
     SCOPED_TRACE(testing::Message() << view.theta_deg << ", sun " << view.sun_deg);
     const PaintedScene scene = SceneAt(8.0, DegToRad(view.theta_deg));
     const PaintedPair pair = PaintSideLit(scene, view.sun_deg);
@@ -255,7 +258,7 @@ TEST(RobustFinderTest, BlurIsFoundByTheFit) {
   RobustFinderParams sharp;
   sharp.fit.edge_blur_px = 0.5;
   sharp.fit.edge_blur_spread = 0.01;
-  for (const SideLight& view : {SideLight{-154, 80}, SideLight{-144, 80}, SideLight{152, -80}}) {
+  for (const SideLight& view : {SideLight{66, -80}, SideLight{106, -80}, SideLight{-64, 80}}) {
     SCOPED_TRACE(testing::Message() << view.theta_deg << ", sun " << view.sun_deg);
     const PaintedScene scene = SceneAt(11.0, DegToRad(view.theta_deg));
     const PaintedPair pair = PaintSideLit(scene, view.sun_deg);
@@ -337,6 +340,22 @@ TEST(RobustFinderTest, OneInEachEyeIsUnlike) {
   const CylinderFinding finding = Find(pair);
   EXPECT_FALSE(finding.sighting);
   EXPECT_EQ(finding.miss, CylinderMiss::kUnlikeEyes) << finding.reason;
+}
+
+// A quadrant that is yellower to one eye than to the other: each is as orange as orange may be.
+TEST(RobustFinderTest, EyesThatSeeOtherColoursSeeOtherThings) {
+  const auto painted = [](double green) {
+    PaintedScene scene = SceneAt(4.5, DegToRad(-100.0));
+    scene.quadrants[2] = {1.0, green, 0.1};
+    return Paint(scene);
+  };
+  const PaintedPair yellower = painted(0.42);
+  const PaintedPair redder = painted(0.28);
+  PaintedPair unlike = yellower;
+  unlike.right = redder.right;
+  EXPECT_TRUE(Find(yellower).sighting) << Find(yellower).reason;
+  EXPECT_TRUE(Find(redder).sighting) << Find(redder).reason;
+  ExpectMiss(Find(unlike), CylinderMiss::kNotACylinder, "the colours side by side");
 }
 
 // The same picture of a thing of another size.
