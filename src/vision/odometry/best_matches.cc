@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vision/odometry/best_matches.cc"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "vision/odometry/window_bounds.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
@@ -60,6 +64,18 @@ void OfferRow(const std::uint16_t* differences, std::size_t count, std::uint16_t
   best[2] = hn::GetLane(winner);
 }
 
+// Sets the bit of every column whose bound is not above both limits, that of the column and that of
+// the row, and clears the others, of `count` columns, which are whole words of bits.
+void MarkPossible(const std::uint16_t* bounds, const std::uint16_t* limits, std::uint16_t row_limit,
+                  std::size_t count, std::uint8_t* bits) {
+  const auto of_row = hn::Set(kDifferences, row_limit);
+  for (std::size_t x = 0; x < count; x += hn::Lanes(kDifferences)) {
+    const auto bound = hn::Load(kDifferences, bounds + x);
+    const auto limit = hn::Max(of_row, hn::Load(kDifferences, limits + x));
+    hn::StoreMaskBits(kDifferences, hn::Eq(hn::Min(bound, limit), bound), bits + x / 8);
+  }
+}
+
 }  // namespace rockyard::vision::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -67,6 +83,7 @@ HWY_AFTER_NAMESPACE();
 namespace rockyard::vision {
 
 HWY_EXPORT(OfferRow);
+HWY_EXPORT(MarkPossible);
 
 namespace {
 
@@ -139,16 +156,135 @@ class BestFinder {
   AlignedBuffer<std::uint16_t> columns_;
 };
 
+// First every window with that of the least bound, which is the best one in most cases; then with
+// those whose bound is not above what was found.
+class LeastFinder {
+ public:
+  LeastFinder(const WindowSet& first, const WindowSet& second, BestWindows& best)
+      : first_(first),
+        second_(second),
+        best_(best),
+        signatures_(second),
+        stride_((std::min(second.size(), kPanel) + kMostLanes - 1) / kMostLanes * kMostLanes),
+        bounds_(std::min(first.size(), kBlock) * stride_, Filled::kAnything),
+        columns_(3 * stride_),
+        limits_(stride_),
+        bits_(stride_ / 8),
+        differences_(stride_) {
+    possible_.reserve(stride_);
+  }
+
+  void Compare(const Part& block, const Part& panel) {
+    FindBounds(block, panel);
+    CompareLeastBounds(block, panel);
+    for (std::size_t j = 0; j < panel.count; ++j) {
+      limits_.data()[j] = best_.of_second[panel.first + j].difference;
+    }
+    for (std::size_t i = 0; i < block.count; ++i) ComparePossible(block.first + i, Row(i), panel);
+  }
+
+ private:
+  std::uint16_t* Row(std::size_t i) { return bounds_.data() + i * stride_; }
+
+  void FindBounds(const Part& block, const Part& panel) {
+    const std::size_t groups = (panel.count + SignatureSet::kGroup - 1) / SignatureSet::kGroup;
+    for (std::size_t i = 0; i < block.count; ++i) {
+      signatures_.FindBounds(SignatureOf(first_.At(block.first + i)), panel.first,
+                             {Row(i), groups * SignatureSet::kGroup});
+      std::fill(Row(i) + panel.count, Row(i) + stride_, kNoDifference);
+    }
+  }
+
+  void CompareLeastBounds(const Part& block, const Part& panel) {
+    std::fill_n(columns_.data(), 2 * stride_, kNoDifference);
+    for (std::size_t i = 0; i < block.count; ++i) {
+      std::array<std::uint16_t, 3> of_row{};
+      HWY_DYNAMIC_DISPATCH(OfferRow)
+      (Row(i), stride_, static_cast<std::uint16_t>(i), stride_, columns_.data(), of_row.data());
+      CompareOne(block.first + i, panel.first + of_row[2]);
+    }
+    for (std::size_t j = 0; j < panel.count; ++j) {
+      CompareOne(block.first + columns_.data()[2 * stride_ + j], panel.first + j);
+    }
+  }
+
+  void CompareOne(std::size_t i, std::size_t j) {
+    const auto column = static_cast<std::int32_t>(j);
+    std::uint16_t difference = 0;
+    ChosenDifferences(first_.At(i), second_, {&column, 1}, {&difference, 1});
+    Offer(i, j, difference);
+  }
+
+  void ComparePossible(std::size_t i, const std::uint16_t* bounds, const Part& panel) {
+    HWY_DYNAMIC_DISPATCH(MarkPossible)
+    (bounds, limits_.data(), best_.of_first[i].difference, stride_, bits_.data());
+    possible_.clear();
+    for (std::size_t x = 0; x < stride_; x += 64) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bits_.data() + x / 8, sizeof(word));
+      for (; word != 0; word &= word - 1) {
+        const std::size_t bit = static_cast<std::size_t>(std::countr_zero(word));
+        possible_.push_back(static_cast<std::int32_t>(panel.first + x + bit));
+      }
+    }
+    ChosenDifferences(first_.At(i), second_, possible_, differences_);
+    for (std::size_t k = 0; k < possible_.size(); ++k) {
+      const auto j = static_cast<std::size_t>(possible_[k]);
+      Offer(i, j, differences_[k]);
+      limits_.data()[j - panel.first] = best_.of_second[j].difference;
+    }
+  }
+
+  // Of equal differences that of the smaller index counts, whatever came first.
+  void Offer(std::size_t i, std::size_t j, std::uint16_t difference) {
+    const auto take = [difference](std::size_t index, BestWindow& best) {
+      const auto other = static_cast<std::int32_t>(index);
+      if (difference < best.difference || (difference == best.difference && other < best.index)) {
+        best = {other, difference, kNoDifference};
+      }
+    };
+    take(j, best_.of_first[i]);
+    take(i, best_.of_second[j]);
+  }
+
+  const WindowSet& first_;
+  const WindowSet& second_;
+  BestWindows& best_;
+  SignatureSet signatures_;
+  std::size_t stride_;
+  AlignedBuffer<std::uint16_t> bounds_;  // of a block to a panel
+  AlignedBuffer<std::uint16_t> columns_;
+  AlignedBuffer<std::uint16_t> limits_;  // of a panel: the least differences so far
+  std::vector<std::uint8_t> bits_;
+  std::vector<std::int32_t> possible_;
+  std::vector<std::uint16_t> differences_;
+};
+
+template <typename Compare>
+void ForAllParts(const WindowSet& first, const WindowSet& second, Compare compare) {
+  for (std::size_t j = 0; j < second.size(); j += kPanel) {
+    for (std::size_t i = 0; i < first.size(); i += kBlock) {
+      compare(PartFrom(i, kBlock, first), PartFrom(j, kPanel, second));
+    }
+  }
+}
+
 }  // namespace
 
 BestWindows FindBestWindows(const WindowSet& first, const WindowSet& second) {
   BestWindows best{std::vector<BestWindow>(first.size()), std::vector<BestWindow>(second.size())};
   BestFinder finder(first, second);
-  for (std::size_t j = 0; j < second.size(); j += kPanel) {
-    for (std::size_t i = 0; i < first.size(); i += kBlock) {
-      finder.Compare(PartFrom(i, kBlock, first), PartFrom(j, kPanel, second), best);
-    }
-  }
+  ForAllParts(first, second, [&](const Part& block, const Part& panel) {
+    finder.Compare(block, panel, best);
+  });
+  return best;
+}
+
+BestWindows FindLeastDifferent(const WindowSet& first, const WindowSet& second) {
+  BestWindows best{std::vector<BestWindow>(first.size()), std::vector<BestWindow>(second.size())};
+  LeastFinder finder(first, second, best);
+  ForAllParts(first, second,
+              [&](const Part& block, const Part& panel) { finder.Compare(block, panel); });
   return best;
 }
 

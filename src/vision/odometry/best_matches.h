@@ -42,4 +42,9 @@ struct BestWindows {
 // Every window with every one. Cost: 2 ns a pair with 64 bytes a vector.
 BestWindows FindBestWindows(const WindowSet& first, const WindowSet& second);
 
+// The same without second differences, which stay kNoDifference: windows that differ by more than
+// the best of both, which their bounds tell, are not compared. Cost: about a third where images are
+// smooth over three pixels, a tenth more where they are not.
+BestWindows FindLeastDifferent(const WindowSet& first, const WindowSet& second);
+
 }  // namespace rockyard::vision

@@ -50,7 +50,7 @@ Image<std::uint8_t> AllowedPixels(const ImageSize& size, int border,
 
 std::int32_t Whole(double threshold) { return static_cast<std::int32_t>(std::lround(threshold)); }
 
-// Of features in the order of rows, the `most` strongest, from the strongest on; of equal ones the
+// Of features, the `most` strongest, from the strongest on; of equal ones the
 // earlier is the stronger.
 void KeepStrongest(std::size_t most, Features& features) {
   const auto stronger = [](const Feature& a, const Feature& b) {

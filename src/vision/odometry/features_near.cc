@@ -11,6 +11,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "vision/odometry/set_lanes.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -30,8 +32,7 @@ std::size_t FindInside(const std::int32_t* columns, const std::int32_t* rows, st
     const auto inside = hn::Not(hn::Or(is_out(hn::Load(kPixels, columns + i), limits),
                                        is_out(hn::Load(kPixels, rows + i), limits + 2)));
     if (hn::AllFalse(kPixels, inside)) continue;
-    const auto index = hn::Iota(kPixels, static_cast<std::int32_t>(i));
-    number += hn::CompressStore(index, inside, kPixels, found + number);
+    number += WriteSetLanes(kPixels, inside, static_cast<std::int32_t>(i), found + number);
   }
   return number;
 }

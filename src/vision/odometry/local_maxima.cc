@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -12,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "core/check.h"
+#include "vision/odometry/set_lanes.h"
 #include "vision/stereo/aligned_buffer.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,61 +19,78 @@ namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::ScalableTag<std::int32_t> kResponses;
+using Responses = hn::Vec<decltype(kResponses)>;
 
-// The largest of 2 reach + 1 columns about each; there are `reach` more to either side.
-void LargestOfColumns(const std::int32_t* values, int reach, std::size_t width,
-                      std::int32_t* largest) {
+// The largest of some rows in every column.
+void LargestOfRows(const std::int32_t* const* rows, int count, std::size_t width,
+                   std::int32_t* largest) {
   for (std::size_t x = 0; x < width; x += hn::Lanes(kResponses)) {
-    auto most = hn::Load(kResponses, values + x);
-    for (int i = 1; i <= reach; ++i) {
-      most = hn::Max(most, hn::Max(hn::LoadU(kResponses, values + x - i),
-                                   hn::LoadU(kResponses, values + x + i)));
-    }
+    auto most = hn::Load(kResponses, rows[0] + x);
+    for (int i = 1; i < count; ++i) most = hn::Max(most, hn::Load(kResponses, rows[i] + x));
     hn::Store(most, kResponses, largest + x);
   }
 }
 
-// Whether one of `count` values from `values` on is `value`.
-HWY_INLINE bool Has(const std::int32_t* values, int count, std::int32_t value) {
-  const auto wanted = hn::Set(kResponses, value);
-  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(kResponses))) {
-    const auto counted = hn::FirstN(kResponses, static_cast<std::size_t>(count - i));
-    const auto equal = hn::Eq(hn::LoadU(kResponses, values + i), wanted);
-    if (!hn::AllFalse(kResponses, hn::And(equal, counted))) return true;
-  }
-  return false;
-}
-
-// Columns of the row `here` where the value is at least the threshold, no value is as large within
-// `reach` rows and columns before it in the order of rows, and none larger behind it; their number.
-// `before` and `from` have the largest values about every column of the rows before, and of this
-// and those that come. Rows have room for two whole vectors.
-std::size_t FindPeaks(const std::int32_t* here, const std::int32_t* const* before, int rows_before,
-                      const std::int32_t* const* from, int rows_from, int reach,
-                      std::int32_t threshold, std::size_t width, std::int32_t* columns) {
+// Columns whose value is at least the threshold, and none larger within `reach` columns; their
+// number. There are `reach` more values to either side, and whole vectors.
+std::size_t FindLargest(const std::int32_t* values, int reach, std::int32_t threshold,
+                        std::size_t width, std::int32_t* columns) {
   const auto least = hn::Set(kResponses, threshold);
-  const auto nothing = hn::Set(kResponses, std::numeric_limits<std::int32_t>::min());
   std::size_t found = 0;
   for (std::size_t x = 0; x < width; x += hn::Lanes(kResponses)) {
-    auto most = least;
-    for (int i = 0; i < rows_from; ++i) {
-      most = hn::Max(most, hn::Load(kResponses, from[i] + x));
+    const auto value = hn::Load(kResponses, values + x);
+    auto most = hn::Max(value, least);
+    for (int i = 1; i <= reach; ++i) {
+      most = hn::Max(most, hn::Max(hn::LoadU(kResponses, values + x - i),
+                                   hn::LoadU(kResponses, values + x + i)));
     }
-    auto most_before = nothing;
-    for (int i = 0; i < rows_before; ++i) {
-      most_before = hn::Max(most_before, hn::Load(kResponses, before[i] + x));
-    }
-    const auto value = hn::Load(kResponses, here + x);
-    const auto peaks = hn::And(hn::Eq(value, most), hn::Gt(value, most_before));
-    if (hn::AllFalse(kResponses, peaks)) continue;
-    const auto at = hn::Iota(kResponses, static_cast<std::int32_t>(x));
-    found += hn::CompressStore(at, peaks, kResponses, columns + found);
+    found += WriteSetLanes(kResponses, hn::Eq(value, most), static_cast<std::int32_t>(x),
+                           columns + found);
   }
+  return found;
+}
+
+// The larger lanes of `most` and of `count` values from `values` on; a whole vector is read.
+HWY_INLINE Responses Largest(const std::int32_t* values, int count, Responses most) {
+  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(kResponses))) {
+    const auto counted = hn::FirstN(kResponses, static_cast<std::size_t>(count - i));
+    most = hn::IfThenElse(counted, hn::Max(most, hn::LoadU(kResponses, values + i)), most);
+  }
+  return most;
+}
+
+// Whether the value of a column of rows[at] is larger than all within `reach` rows and columns that
+// come before it in the order of rows, and not smaller than those behind.
+HWY_INLINE bool IsPeak(const std::int32_t* const* rows, int count, int at, int column, int reach) {
+  const auto value = hn::Set(kResponses, rows[at][column]);
+  const int left = column - reach;
+  auto before = hn::Set(kResponses, std::numeric_limits<std::int32_t>::min());
+  auto after = before;
+  for (int i = std::max(at - reach, 0); i < at; ++i) {
+    before = Largest(rows[i] + left, 2 * reach + 1, before);
+  }
+  before = Largest(rows[at] + left, reach, before);
+  after = Largest(rows[at] + column + 1, reach, after);
+  for (int i = at + 1; i < std::min(at + reach + 1, count); ++i) {
+    after = Largest(rows[i] + left, 2 * reach + 1, after);
+  }
+  return hn::AllTrue(kResponses, hn::Gt(value, before)) &&
+         hn::AllFalse(kResponses, hn::Gt(after, value));
+}
+
+// Of `columns`, whose largest values in rows[first] to before rows[end] are known, those in which
+// the first such value is a peak, and the rows of these; their number.
+std::size_t KeepPeaks(const std::int32_t* const* rows, int count, int first, int reach,
+                      const std::int32_t* largest, std::size_t candidates, std::int32_t* columns,
+                      std::int32_t* rows_of_peaks) {
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < found; ++i) {
+  for (std::size_t i = 0; i < candidates; ++i) {
     const std::int32_t column = columns[i];
+    int row = first;
+    while (rows[row][column] != largest[column]) ++row;
     columns[kept] = column;
-    kept += Has(here + column - reach, reach, here[column]) ? 0 : 1;
+    rows_of_peaks[kept] = row;
+    kept += IsPeak(rows, count, row, column, reach) ? 1 : 0;
   }
   return kept;
 }
@@ -84,85 +101,96 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rockyard::vision {
 
-HWY_EXPORT(LargestOfColumns);
-HWY_EXPORT(FindPeaks);
+HWY_EXPORT(LargestOfRows);
+HWY_EXPORT(FindLargest);
+HWY_EXPORT(KeepPeaks);
 
 namespace {
 
 // Most lanes of 32 bits that any vector has.
 constexpr std::size_t kMostResponses = 32;
 
-// The rows of responses about the one that is looked at.
-class ResponseRows {
+std::size_t WholeVectors(std::size_t count) {
+  return (count + kMostResponses - 1) / kMostResponses * kMostResponses;
+}
+
+// Peaks of reach + 1 rows at a time: all that lie in one column of them are within reach of each
+// other, so that a column has one peak at most, its largest value, and those that are smaller than
+// the largest value of a column within reach have none (after Neubeck and Van Gool 2006). What is
+// left, some columns in seven, is looked at in both directions.
+class PeaksOfRows {
  public:
-  ResponseRows(const ResponseWriter& write, const ImageArea& all, int reach)
+  PeaksOfRows(const ResponseWriter& write, const ImageArea& all, int reach)
       : write_(write),
         all_(all),
         reach_(reach),
-        height_(2 * reach + 1),
+        next_(all.top),
+        height_(3 * reach + 1),
         width_(static_cast<std::size_t>(all.width())),
-        pad_(Whole(static_cast<std::size_t>(reach))),
-        stride_(Whole(width_) + 2 * pad_),
+        pad_(WholeVectors(static_cast<std::size_t>(reach))),
+        stride_(WholeVectors(width_) + 2 * pad_),
         values_(stride_ * static_cast<std::size_t>(height_)),
-        largest_(stride_ * static_cast<std::size_t>(height_)),
-        columns_(Whole(width_) + kMostResponses) {}
+        largest_(stride_),
+        columns_(WholeVectors(width_)),
+        peak_rows_(columns_.size()) {}
 
-  // Columns of the peaks of a row, counted from the first of the sums.
-  std::span<const std::int32_t> Peaks(int row, std::int32_t threshold) {
-    const int first = std::max(row - reach_, all_.top);
-    const int last = std::min(row + reach_, all_.bottom - 1);
-    next_ = std::max(next_, first);
-    for (; next_ <= last; ++next_) Find(next_);
-    before_.clear();
-    from_.clear();
-    for (int y = first; y < row; ++y) before_.push_back(Row(largest_, y));
-    for (int y = row; y <= last; ++y) from_.push_back(Row(largest_, y));
-    const std::size_t count = HWY_DYNAMIC_DISPATCH(FindPeaks)(
-        Row(values_, row), before_.data(), static_cast<int>(before_.size()), from_.data(),
-        static_cast<int>(from_.size()), reach_, threshold, width_, columns_.data());
-    return {columns_.data(), count};
+  // Of rows `top` to before `bottom`, at most reach + 1 and none before the last call's.
+  void AddPeaks(int top, int bottom, const ImageArea& area, std::int32_t threshold,
+                Features& peaks) {
+    const int first = std::max(top - reach_, all_.top);
+    const int end = std::min(bottom + reach_, all_.bottom);
+    for (next_ = std::max(next_, first); next_ < end; ++next_) Write(next_);
+    rows_.clear();
+    for (int row = first; row < end; ++row) rows_.push_back(Row(row));
+    std::int32_t* const largest = largest_.data() + pad_;
+    HWY_DYNAMIC_DISPATCH(LargestOfRows)
+    (rows_.data() + (top - first), bottom - top, width_, largest);
+    FillAround(largest);
+    const std::size_t candidates = HWY_DYNAMIC_DISPATCH(FindLargest)(largest, reach_, threshold,
+                                                                     width_, columns_.data());
+    const std::size_t count = HWY_DYNAMIC_DISPATCH(KeepPeaks)(
+        rows_.data(), static_cast<int>(rows_.size()), top - first, reach_, largest, candidates,
+        columns_.data(), peak_rows_.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int32_t column = columns_.data()[i];
+      const int x = all_.left + column;
+      if (x < area.left || x >= area.right) continue;
+      peaks.push_back({static_cast<std::int16_t>(x),
+                       static_cast<std::int16_t>(first + peak_rows_.data()[i]), largest[column]});
+    }
   }
 
-  std::int32_t Value(int row, int column) const { return Row(values_, row)[column]; }
-
  private:
-  static std::size_t Whole(std::size_t count) {
-    return (count + kMostResponses - 1) / kMostResponses * kMostResponses;
+  void Write(int row) {
+    std::int32_t* const values = Row(row);
+    write_(row, values);
+    FillAround(values);
   }
 
   // What lies outside is smaller than any response.
-  void Find(int row) {
+  void FillAround(std::int32_t* values) const {
     constexpr std::int32_t kNothing = std::numeric_limits<std::int32_t>::min();
-    std::int32_t* const values = Row(values_, row);
-    write_(row, values);
     std::fill(values - pad_, values, kNothing);
     std::fill(values + width_, values - pad_ + stride_, kNothing);
-    HWY_DYNAMIC_DISPATCH(LargestOfColumns)(values, reach_, width_, Row(largest_, row));
   }
 
-  std::size_t Offset(int row) const {
-    return static_cast<std::size_t>(row % height_) * stride_ + pad_;
-  }
-  std::int32_t* Row(AlignedBuffer<std::int32_t>& rows, int row) {
-    return rows.data() + Offset(row);
-  }
-  const std::int32_t* Row(const AlignedBuffer<std::int32_t>& rows, int row) const {
-    return rows.data() + Offset(row);
+  std::int32_t* Row(int row) {
+    return values_.data() + static_cast<std::size_t>(row % height_) * stride_ + pad_;
   }
 
   const ResponseWriter& write_;
   ImageArea all_;
   int reach_;
-  int height_;
-  int next_ = 0;
+  int next_;    // row that comes
+  int height_;  // rows that are there at once
   std::size_t width_;
   std::size_t pad_;
   std::size_t stride_;
   AlignedBuffer<std::int32_t> values_;
-  AlignedBuffer<std::int32_t> largest_;  // of the columns about each
+  AlignedBuffer<std::int32_t> largest_;  // of the rows that are looked at
   AlignedBuffer<std::int32_t> columns_;
-  std::vector<const std::int32_t*> before_;  // rows of largest_ above the one that is looked at
-  std::vector<const std::int32_t*> from_;    // and from it on
+  AlignedBuffer<std::int32_t> peak_rows_;
+  std::vector<const std::int32_t*> rows_;
 };
 
 }  // namespace
@@ -173,14 +201,9 @@ Features LocalMaxima(const ResponseWriter& write, const ImageArea& all, const Im
   EXPECT(all.top <= area.top && area.bottom <= all.bottom);
   EXPECT(reach >= 1);
   Features peaks;
-  ResponseRows rows(write, all, reach);
-  for (int row = area.top; row < area.bottom; ++row) {
-    for (const std::int32_t column : rows.Peaks(row, threshold)) {
-      const int x = all.left + column;
-      if (x < area.left || x >= area.right) continue;
-      peaks.push_back(
-          {static_cast<std::int16_t>(x), static_cast<std::int16_t>(row), rows.Value(row, column)});
-    }
+  PeaksOfRows rows(write, all, reach);
+  for (int top = area.top; top < area.bottom; top += reach + 1) {
+    rows.AddPeaks(top, std::min(top + reach + 1, area.bottom), area, threshold, peaks);
   }
   return peaks;
 }

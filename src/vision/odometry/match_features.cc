@@ -70,7 +70,8 @@ FeatureMatches MatchFeatures(const GrayImage& first, const Features& first_featu
   const bool near = params.search == MatchSearch::kPredicted && !predicted.empty();
   const BestWindows best =
       near ? CompareNear(first_windows, second_windows, second_features, params, predicted)
-           : FindBestWindows(first_windows, second_windows);
+      : params.ratio < 1.0 ? FindBestWindows(first_windows, second_windows)
+                           : FindLeastDifferent(first_windows, second_windows);
   const double most = params.max_difference * static_cast<double>(side * side);
   for (std::size_t i = 0; i < first_features.size(); ++i) {
     const BestWindow& found = best.of_first[i];

@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "core/check.h"
+#include "vision/odometry/sums_of_differences.h"
 #include "vision/odometry/window.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,23 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // At most a window's bytes at once.
 constexpr hn::CappedTag<std::uint8_t, kWindowBytes> kBytes;
 constexpr hn::Repartition<std::uint64_t, decltype(kBytes)> kSums;
-using Bytes = hn::Vec<decltype(kBytes)>;
 using Sums = hn::Vec<decltype(kSums)>;
-
-// Sums of eight absolute differences each. x86 has an instruction for it, which this version of
-// Highway does not know.
-HWY_INLINE Sums SumsOf8Differences(Bytes a, Bytes b) {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-  return Sums{_mm512_sad_epu8(a.raw, b.raw)};
-#elif HWY_TARGET == HWY_AVX2
-  return Sums{_mm256_sad_epu8(a.raw, b.raw)};
-#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
-  return Sums{_mm_sad_epu8(a.raw, b.raw)};
-#else
-  // One of the two differences is 0.
-  return hn::SumsOf8(hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)));
-#endif
-}
 
 // Sums of the differences of two windows that add up to all of them.
 HWY_INLINE Sums PartialDifferences(const std::uint8_t* a, const std::uint8_t* b) {

@@ -299,6 +299,11 @@ TEST(FastFeaturesTest, DifferencesOfBlackAndWhite) {
   }
 }
 
+std::vector<BestWindow> WithoutSecond(std::vector<BestWindow> windows) {
+  for (BestWindow& window : windows) window.second = kNoDifference;
+  return windows;
+}
+
 // More windows than are compared at once, many of them alike.
 TEST(FastFeaturesTest, TheBestOfManyWindows) {
   constexpr std::size_t kFirst = 300;
@@ -332,6 +337,9 @@ TEST(FastFeaturesTest, TheBestOfManyWindows) {
     const BestWindows found = FindBestWindows(first, second);
     EXPECT_EQ(found.of_first, expected.of_first) << InstructionSet();
     EXPECT_EQ(found.of_second, expected.of_second) << InstructionSet();
+    const BestWindows least = FindLeastDifferent(first, second);
+    EXPECT_EQ(least.of_first, WithoutSecond(expected.of_first)) << InstructionSet();
+    EXPECT_EQ(least.of_second, WithoutSecond(expected.of_second)) << InstructionSet();
   }
 }
 

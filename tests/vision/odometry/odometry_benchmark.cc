@@ -96,13 +96,14 @@ void DetectAndMatch(benchmark::State& state, std::int64_t set, Adapted adapted) 
   if (Lacks(state, set)) return;
   const UseInstructionSet use(set);
   const FeatureDetector detector(DetectorOf(adapted), {kWidth, kHeight});
+  const ImagePair& pair = Pair();
   Features first;
   Features second;
   FeatureMatches matches;
   for ([[maybe_unused]] auto _ : state) {
-    first = detector.Detect(Pair().first);
-    second = detector.Detect(Pair().second);
-    matches = MatchFeatures(Pair().first, first, Pair().second, second, MatcherOfAll());
+    first = detector.Detect(pair.first);
+    second = detector.Detect(pair.second);
+    matches = MatchFeatures(pair.first, first, pair.second, second, MatcherOfAll());
     benchmark::ClobberMemory();
   }
   Count(state, first, second, matches);
@@ -119,9 +120,10 @@ BENCHMARK_CAPTURE(DetectAndMatch, avx512_weight, HWY_AVX3, Adapted::kWeight)
 
 void Detect(benchmark::State& state, Adapted adapted) {
   const FeatureDetector detector(DetectorOf(adapted), {kWidth, kHeight});
+  const GrayImage& image = Pair().first;
   Features features;
   for ([[maybe_unused]] auto _ : state) {
-    features = detector.Detect(Pair().first);
+    features = detector.Detect(image);
     benchmark::ClobberMemory();
   }
   Count(state, features, {}, {});

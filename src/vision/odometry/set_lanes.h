@@ -1,0 +1,37 @@
+// Which lanes of a mask are set. Compiled once for every instruction set, hence its guard.
+#if defined(ROCKYARD_VISION_SET_LANES_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ROCKYARD_VISION_SET_LANES_H
+#undef ROCKYARD_VISION_SET_LANES_H
+#else
+#define ROCKYARD_VISION_SET_LANES_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace rockyard::vision::HWY_NAMESPACE {
+
+// Writes the numbers of the lanes that are set, counted from `first` on; returns how many. Highway's
+// CompressStore, compiled by GCC for AVX2, copies a table of 1 KiB each time.
+template <class D>
+HWY_INLINE std::size_t WriteSetLanes(D lanes, hwy::HWY_NAMESPACE::Mask<D> mask, std::int32_t first,
+                                     std::int32_t* numbers) {
+  std::uint8_t bytes[8];
+  const std::size_t count = hwy::HWY_NAMESPACE::StoreMaskBits(lanes, mask, bytes);
+  std::size_t set = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::uint32_t bits = bytes[i]; bits != 0; bits &= bits - 1) {
+      numbers[set++] = first + static_cast<std::int32_t>(8 * i) + std::countr_zero(bits);
+    }
+  }
+  return set;
+}
+
+}  // namespace rockyard::vision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ROCKYARD_VISION_SET_LANES_H
