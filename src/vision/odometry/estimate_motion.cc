@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "vision/odometry/pair_projection.h"
 
@@ -39,15 +41,16 @@ Transform Disturbed(const Transform& X_FS, const Vector6& change) {
   return moved;
 }
 
-// A point of the problem: what was measured, weighed by the inverse covariances, and where it is
-// believed to be, in F.
+// What was measured of a point, weighed by the inverse covariances.
 struct Point {
   PairPixel first;
   PairPixel second;
   Eigen::Matrix3d first_weight;
   Eigen::Matrix3d second_weight;
-  Vector3 p_F;
 };
+
+// Where points are believed to be, in F.
+using Places = std::vector<Vector3>;
 
 // What a point adds to the equations: N of the motion, of the point and of both, and the right
 // sides.
@@ -67,25 +70,26 @@ class Problem {
     for (const PointSeenTwice& point : points) {
       points_.push_back({Measured(point.first), Measured(point.second),
                          point.first.covariance_px2.inverse(),
-                         point.second.covariance_px2.inverse(), point.first.p_A});
+                         point.second.covariance_px2.inverse()});
+      places_.push_back(point.first.p_A);
     }
   }
 
   EstimatedMotion Solve() {
     EstimatedMotion result;
-    double cost = Cost(X_FS_, points_);
+    double cost = Cost(X_FS_, places_);
     double damping = 1e-4;
     while (std::isfinite(cost) && !result.converged && result.iterations < params_.max_iterations) {
       ++result.iterations;
-      const Step step = FindStep(damping);
-      const double next = Cost(step.X_FS, step.points);
+      Step step = FindStep(damping);
+      const double next = Cost(step.X_FS, step.places);
       result.converged = step.decrement <= params_.tolerance * params_.tolerance;
       if (!(next <= cost)) {
         damping *= 10.0;
         continue;
       }
       X_FS_ = step.X_FS;
-      points_ = step.points;
+      places_ = std::move(step.places);
       cost = next;
       damping = std::max(damping * 0.1, 1e-12);
     }
@@ -97,7 +101,7 @@ class Problem {
  private:
   struct Step {
     Transform X_FS;
-    std::vector<Point> points;
+    Places places;
     double decrement = 0.0;  // d' N d
   };
 
@@ -107,9 +111,10 @@ class Problem {
     double squared = 0.0;  // in units of their covariances
   };
 
-  std::optional<Residuals> ResidualsOf(const Transform& X_SF, const Point& point) const {
-    const auto first = project_(point.p_F);
-    const auto second = project_(X_SF * point.p_F);
+  std::optional<Residuals> ResidualsOf(const Transform& X_SF, const Point& point,
+                                       const Vector3& p_F) const {
+    const auto first = project_(p_F);
+    const auto second = project_(X_SF * p_F);
     if (!first || !second) return std::nullopt;
     Residuals r{point.first - *first, point.second - *second, 0.0};
     r.squared =
@@ -145,11 +150,11 @@ class Problem {
   }
 
   // Infinite where a point is not in front of the cameras.
-  double Cost(const Transform& X_FS, const std::vector<Point>& points) const {
+  double Cost(const Transform& X_FS, const Places& places) const {
     const Transform X_SF = X_FS.inverse();
     double cost = 0.0;
-    for (const Point& point : points) {
-      const auto r = ResidualsOf(X_SF, point);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const auto r = ResidualsOf(X_SF, points_[i], places[i]);
       if (!r) return std::numeric_limits<double>::infinity();
       cost += RobustCost(r->squared);
     }
@@ -157,11 +162,11 @@ class Problem {
   }
 
   // p_S = R' (p_F - p), with R = R_FS: d p_S = R' (d p_F - e_t + [p_F - p]x e_r).
-  Terms TermsOf(const Transform& X_SF, const Point& point) const {
-    Eigen::Matrix3d first_by_point;
-    Eigen::Matrix3d second_by_place;
-    const PairPixel first = *project_(point.p_F, &first_by_point);
-    const PairPixel second = *project_(X_SF * point.p_F, &second_by_place);
+  Terms TermsOf(const Transform& X_SF, const Point& point, const Vector3& p_F) const {
+    Eigen::Matrix3d first_by_point = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d second_by_place = Eigen::Matrix3d::Zero();
+    const PairPixel first = *project_(p_F, &first_by_point);
+    const PairPixel second = *project_(X_SF * p_F, &second_by_place);
     const PairPixel r_first = point.first - first;
     const PairPixel r_second = point.second - second;
     const double weight = RobustWeight(r_first.dot(point.first_weight * r_first) +
@@ -169,45 +174,54 @@ class Problem {
     const Eigen::Matrix3d second_by_point = second_by_place * X_SF.linear();
     Eigen::Matrix<double, 3, 6> second_by_motion;
     second_by_motion.leftCols<3>() = -second_by_point;
-    second_by_motion.rightCols<3>() = second_by_point * Cross(point.p_F - X_FS_.translation());
+    second_by_motion.rightCols<3>() = second_by_point * Cross(p_F - X_FS_.translation());
 
     const Eigen::Matrix3d W_first = weight * point.first_weight;
     const Eigen::Matrix3d W_second = weight * point.second_weight;
+    const Matrix63 motion_weighed = second_by_motion.transpose() * W_second;
+    const Eigen::Matrix3d first_weighed = first_by_point.transpose() * W_first;
+    const Eigen::Matrix3d second_weighed = second_by_point.transpose() * W_second;
     Terms terms;
-    terms.motion = second_by_motion.transpose() * W_second * second_by_motion;
-    terms.motion_side = second_by_motion.transpose() * W_second * r_second;
-    terms.both = second_by_motion.transpose() * W_second * second_by_point;
-    terms.point = first_by_point.transpose() * W_first * first_by_point +
-                  second_by_point.transpose() * W_second * second_by_point;
-    terms.point_side = first_by_point.transpose() * W_first * r_first +
-                       second_by_point.transpose() * W_second * r_second;
+    terms.motion = motion_weighed * second_by_motion;
+    terms.motion_side = motion_weighed * r_second;
+    terms.both = motion_weighed * second_by_point;
+    terms.point = first_weighed * first_by_point + second_weighed * second_by_point;
+    terms.point_side = first_weighed * r_first + second_weighed * r_second;
     return terms;
   }
 
+  // What the step of a point is found from once that of the motion is known.
+  struct Follower {
+    Eigen::Matrix3d inverse;
+    Vector3 side;
+    Matrix63 both;
+  };
+
   Step FindStep(double damping) const {
     const Transform X_SF = X_FS_.inverse();
-    std::vector<Terms> all;
-    all.reserve(points_.size());
+    std::vector<Follower> followers;
+    followers.reserve(points_.size());
     Matrix6 N = Matrix6::Zero();
     Vector6 side = Vector6::Zero();
     Matrix6 diagonal = Matrix6::Zero();
-    for (const Point& point : points_) {
-      all.push_back(TermsOf(X_SF, point));
-      Terms& terms = all.back();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      Terms terms = TermsOf(X_SF, points_[i], places_[i]);
       diagonal += terms.motion;
       terms.point.diagonal() *= 1.0 + damping;
       // Whatever the motion, the point follows: terms.point dp = point_side - both' dx.
       const Eigen::Matrix3d inverse = terms.point.inverse();
-      N += terms.motion - terms.both * inverse * terms.both.transpose();
-      side += terms.motion_side - terms.both * inverse * terms.point_side;
+      const Matrix63 both_inverse = terms.both * inverse;
+      N += terms.motion - both_inverse * terms.both.transpose();
+      side += terms.motion_side - both_inverse * terms.point_side;
+      followers.push_back({inverse, terms.point_side, terms.both});
     }
     Matrix6 damped = N;
     damped.diagonal() += damping * diagonal.diagonal();
     const Vector6 change = damped.ldlt().solve(side);
-    Step step{Disturbed(X_FS_, change), points_, change.dot(N * change)};
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      step.points[i].p_F +=
-          all[i].point.inverse() * (all[i].point_side - all[i].both.transpose() * change);
+    Step step{Disturbed(X_FS_, change), places_, change.dot(N * change)};
+    for (std::size_t i = 0; i < followers.size(); ++i) {
+      const Follower& point = followers[i];
+      step.places[i] += point.inverse * (point.side - point.both.transpose() * change);
     }
     return step;
   }
@@ -216,8 +230,8 @@ class Problem {
   Matrix6 Information() const {
     const Transform X_SF = X_FS_.inverse();
     Matrix6 N = Matrix6::Zero();
-    for (const Point& point : points_) {
-      const Terms terms = TermsOf(X_SF, point);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Terms terms = TermsOf(X_SF, points_[i], places_[i]);
       N += terms.motion - terms.both * terms.point.inverse() * terms.both.transpose();
     }
     return N;
@@ -248,8 +262,8 @@ class Problem {
     const Transform X_SF = X_FS_.inverse();
     double squares_px2 = 0.0;
     double weighted = 0.0;
-    for (const Point& point : points_) {
-      const auto r = ResidualsOf(X_SF, point);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const auto r = ResidualsOf(X_SF, points_[i], places_[i]);
       squares_px2 += r->first.squaredNorm() + r->second.squaredNorm();
       weighted += RobustWeight(r->squared) * r->squared;
     }
@@ -278,6 +292,7 @@ class Problem {
   const EstimationParams& params_;
   Transform X_FS_;
   std::vector<Point> points_;
+  Places places_;
 };
 
 }  // namespace

@@ -29,19 +29,40 @@ HWY_INLINE Sums AddPixel(Sums sum, std::uint8_t wanted, const std::uint8_t* seen
   return hn::Add(sum, hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)));
 }
 
+// Where x86 has an instruction for it, which this version of Highway does not know, four pixels at
+// once: sums of four absolute differences for eight offsets in each block of 16 bytes. Blocks are to
+// begin 8 bytes apart.
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-// Four pixels at once have an instruction there, which this version of Highway does not know: sums
-// of four absolute differences for eight offsets in each block of 16 bytes. Blocks are to begin 8
-// bytes apart, and their words of 4 bytes to be (0, 1) and (1, 2).
+// Words of 4 bytes of a block are to be (0, 1) and (1, 2).
+HWY_INLINE Sums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
+  const __m512i blocks = _mm512_set_epi64(4, 3, 3, 2, 2, 1, 1, 0);
+  const __m512i bytes = _mm512_permutexvar_epi64(blocks, _mm512_loadu_si512(seen));
+  constexpr int kWords = 0b10010100;
+  return Sums{_mm512_dbsad_epu8(_mm512_set1_epi32(wanted), bytes, kWords)};
+}
+#elif HWY_TARGET == HWY_AVX2
+HWY_INLINE Sums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
+  const auto block = [seen](std::size_t offset) HWY_ATTR {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(seen + offset));
+  };
+  const __m256i bytes = _mm256_inserti128_si256(_mm256_castsi128_si256(block(0)), block(8), 1);
+  return Sums{_mm256_mpsadbw_epu8(bytes, _mm256_set1_epi32(wanted), 0)};
+}
+#elif HWY_TARGET == HWY_SSE4
+HWY_INLINE Sums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
+  const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(seen));
+  return Sums{_mm_mpsadbw_epu8(bytes, _mm_set1_epi32(wanted), 0)};
+}
+#endif
+
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_AVX2 || \
+    HWY_TARGET == HWY_SSE4
 constexpr std::size_t kAtOnce = 4;
 
 HWY_INLINE Sums AddPixels(Sums sum, const std::uint8_t* wanted, const std::uint8_t* seen) {
   std::int32_t four;
   std::memcpy(&four, wanted, sizeof(four));
-  const __m512i blocks = _mm512_set_epi64(4, 3, 3, 2, 2, 1, 1, 0);
-  const __m512i bytes = _mm512_permutexvar_epi64(blocks, _mm512_loadu_si512(seen));
-  constexpr int kWords = 0b10010100;
-  return hn::Add(sum, Sums{_mm512_dbsad_epu8(_mm512_set1_epi32(four), bytes, kWords)});
+  return hn::Add(sum, SumsOfFour(four, seen));
 }
 #else
 constexpr std::size_t kAtOnce = 1;
