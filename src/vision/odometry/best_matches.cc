@@ -274,9 +274,8 @@ void ForAllParts(const WindowSet& first, const WindowSet& second, Compare compar
 BestWindows FindBestWindows(const WindowSet& first, const WindowSet& second) {
   BestWindows best{std::vector<BestWindow>(first.size()), std::vector<BestWindow>(second.size())};
   BestFinder finder(first, second);
-  ForAllParts(first, second, [&](const Part& block, const Part& panel) {
-    finder.Compare(block, panel, best);
-  });
+  ForAllParts(first, second,
+              [&](const Part& block, const Part& panel) { finder.Compare(block, panel, best); });
   return best;
 }
 

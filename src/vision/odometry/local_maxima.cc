@@ -146,8 +146,8 @@ class PeaksOfRows {
     HWY_DYNAMIC_DISPATCH(LargestOfRows)
     (rows_.data() + (top - first), bottom - top, width_, largest);
     FillAround(largest);
-    const std::size_t candidates = HWY_DYNAMIC_DISPATCH(FindLargest)(largest, reach_, threshold,
-                                                                     width_, columns_.data());
+    const std::size_t candidates =
+        HWY_DYNAMIC_DISPATCH(FindLargest)(largest, reach_, threshold, width_, columns_.data());
     const std::size_t count = HWY_DYNAMIC_DISPATCH(KeepPeaks)(
         rows_.data(), static_cast<int>(rows_.size()), top - first, reach_, largest, candidates,
         columns_.data(), peak_rows_.data());

@@ -184,7 +184,8 @@ PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Fe
     const Feature& found = features[static_cast<std::size_t>(match.second)];
     const StereoMeasurement& place = keyframe_->places[first];
     const WindowTemplate window(keyframe_->images.left, place.left,
-                                warp ? predicted[first].view : ViewChange{});
+                                warp ? predicted[first].view : ViewChange{},
+                                params_.placement.side());
     const auto refined = window.Find(images.left, Pixel(found.column, found.row),
                                      {.noise_px = params_.placement.noise_px});
     if (!refined) continue;

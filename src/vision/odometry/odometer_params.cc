@@ -22,6 +22,17 @@ void PlacementParams::Visit(core::FieldVisitor& v) {
          {.doc = "largest disparity", .min = 4.0, .max = 4096.0, .origin = Origin::kSetting});
   v.Require("max_disparity_px", max_disparity_px >= min_disparity_px + 4.0,
             "is less than 4 px above min_disparity_px", "search more disparities");
+  v.Integer("window_px", window_px,
+            {.doc = "side of the windows, odd, that are found between pixels, in time and in the "
+                    "right eye; whole disparities are those of 15 x 15 pixels",
+             .min = 5,
+             .max = 15,
+             .origin = Origin::kAssumed,
+             .source = "that of matching (Howard 2012 section 2); 9 shows two surfaces less often "
+                       "(results/visual_odometry.md)",
+             .study_low = 7,
+             .study_high = 15});
+  v.Require("window_px", window_px % 2 == 1, "must be odd", "use 9 or 15");
   v.Real("noise_px", noise_px,
          {.doc = "standard deviation of a feature's place, and of its disparity, beyond what the "
                  "noise of pixels makes of it: interpolation, another view of a surface",

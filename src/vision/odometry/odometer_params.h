@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -23,12 +24,15 @@ struct PlacementParams {
   PlaceSource source = PlaceSource::kRightEye;
   double min_disparity_px = 1.0;
   double max_disparity_px = 96.0;
+  std::int64_t window_px = 15;
   double noise_px = 0.025;
   double ambiguity = 0.9;
   bool slanted = true;
   double max_residual_ratio = 2.0;
   std::int64_t min_kept = 50;
   DisparityMapParams map = {};
+
+  std::size_t side() const { return static_cast<std::size_t>(window_px); }
 
   void Visit(core::FieldVisitor& v);
 };

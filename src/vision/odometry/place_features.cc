@@ -39,7 +39,7 @@ std::optional<double> FeaturePlacer::WholeColumn(const Pixel& left_pixel) const 
 
 std::optional<SlantedPlace> FeaturePlacer::FindOn(const DisparitySlope& slope,
                                                   const Pixel& left_pixel, double column) const {
-  const WindowTemplate window(left_, left_pixel, LeftViewOf(slope));
+  const WindowTemplate window(left_, left_pixel, LeftViewOf(slope), params_.side());
   const std::optional<RefinedPlace> right = window.Find(
       right_, Pixel(column, left_pixel.y()), {.along_row = true, .noise_px = params_.noise_px});
   if (!right) return std::nullopt;
@@ -52,7 +52,7 @@ std::optional<StereoMeasurement> FeaturePlacer::Place(const Pixel& left_pixel,
   const std::optional<double> column = WholeColumn(left_pixel);
   if (!column) return std::nullopt;
   const auto right = FindSlanted(left_, right_, left_pixel, *column,
-                                 {.along_row = true, .noise_px = params_.noise_px});
+                                 {.along_row = true, .noise_px = params_.noise_px}, params_.side());
   if (!right) return std::nullopt;
   return Measured(left_pixel, covariance_px2, *right);
 }

@@ -11,10 +11,10 @@
 namespace rockyard::vision {
 namespace {
 
-// The sum of the lanes, two by two.
-template <std::size_t kCount>
-float SumOf(std::array<float, kCount> lanes) {
-  for (std::size_t half = kCount / 2; half > 0; half /= 2) {
+// The sum of the lanes, two by two; those from `side` on do not count.
+float SumOf(WindowSamples::Lanes lanes, std::size_t side) {
+  std::fill(lanes.begin() + static_cast<std::ptrdiff_t>(side), lanes.end(), 0.0F);
+  for (std::size_t half = lanes.size() / 2; half > 0; half /= 2) {
     for (std::size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
   }
   return lanes[0];
@@ -22,13 +22,17 @@ float SumOf(std::array<float, kCount> lanes) {
 
 }  // namespace
 
-WindowTemplate::WindowTemplate(const GrayImage& image, const Pixel& middle, const ViewChange& view)
-    : samples_(SampleWindow(image, middle, view)),
-      mean_(SumOf(samples_.sum) / static_cast<float>(kPixels)),
-      across_sum_(SumOf(samples_.across_sum)),
-      down_sum_(SumOf(samples_.down_sum)) {
-  normal_ << SumOf(samples_.across_across), SumOf(samples_.across_down),
-      SumOf(samples_.across_down), SumOf(samples_.down_down);
+WindowTemplate::WindowTemplate(const GrayImage& image, const Pixel& middle, const ViewChange& view,
+                               std::size_t side)
+    : side_(side),
+      reach_(static_cast<int>(side) / 2),
+      pixels_(static_cast<float>(side * side)),
+      samples_(SampleWindow(image, middle, view, side)),
+      mean_(SumOf(samples_.sum, side) / pixels_),
+      across_sum_(SumOf(samples_.across_sum, side)),
+      down_sum_(SumOf(samples_.down_sum, side)) {
+  normal_ << SumOf(samples_.across_across, side), SumOf(samples_.across_down, side),
+      SumOf(samples_.across_down, side), SumOf(samples_.down_down, side);
   for (float& value : samples_.values) value -= mean_;
 }
 
@@ -38,12 +42,11 @@ WindowTemplate::Sums WindowTemplate::SumsAt(const GrayImage& second, const Pixel
   const auto u = static_cast<float>(middle.x() - x);
   const auto v = static_cast<float>(middle.y() - y);
   TemplateSums lanes;
-  SumTemplate({samples_.values.data(), samples_.across.data(), samples_.down.data(), mean_},
-              {&second.At(x - kReach, y - kReach), static_cast<std::size_t>(second.width()), u, v},
+  SumTemplate({samples_.values.data(), samples_.across.data(), samples_.down.data(), mean_, side_},
+              {&second.At(x - reach_, y - reach_), static_cast<std::size_t>(second.width()), u, v},
               lanes);
-  lanes.d[kSide] = 0.0F;
-  lanes.squares[kSide] = 0.0F;
-  return {SumOf(lanes.d), SumOf(lanes.across_d), SumOf(lanes.down_d), SumOf(lanes.squares)};
+  return {SumOf(lanes.d, side_), SumOf(lanes.across_d, side_), SumOf(lanes.down_d, side_),
+          SumOf(lanes.squares, side_)};
 }
 
 // With r = d - mean of d: sum g r = sum g d - mean sum g, sum r^2 = sum d^2 - n mean^2.
@@ -60,12 +63,9 @@ std::optional<RefinedPlace> WindowTemplate::Find(const GrayImage& second, const 
   Pixel shift = Pixel::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Pixel middle = start + shift;
-    if (!(middle.x() >= kReach && middle.x() < second.width() - kReach - 2 &&
-          middle.y() >= kReach && middle.y() < second.height() - kReach - 1)) {
-      return std::nullopt;
-    }
+    if (!HasTemplate(second, middle, side_)) return std::nullopt;
     const Sums sums = SumsAt(second, middle);
-    const float mean = sums.d / static_cast<float>(kPixels);
+    const float mean = sums.d / pixels_;
     const float across = sums.across_d - mean * across_sum_;
     const float down = sums.down_d - mean * down_sum_;
     const float squares = std::max(0.0F, sums.squares - mean * sums.d);
@@ -74,9 +74,9 @@ std::optional<RefinedPlace> WindowTemplate::Find(const GrayImage& second, const 
     shift -= change;
     if (!(shift.cwiseAbs().maxCoeff() <= limits.max_shift_px)) return std::nullopt;
     if (change.norm() >= kStep_px) continue;
-    if (squares > limits.max_residual * limits.max_residual * kPixels) return std::nullopt;
-    const double variance = squares / (kPixels - 3.0);
-    RefinedPlace place{start + shift, Eigen::Matrix2d::Zero(), std::sqrt(squares / kPixels)};
+    if (squares > limits.max_residual * limits.max_residual * pixels_) return std::nullopt;
+    const double variance = squares / (pixels_ - 3.0);
+    RefinedPlace place{start + shift, Eigen::Matrix2d::Zero(), std::sqrt(squares / pixels_)};
     if (limits.along_row) {
       place.covariance_px2(0, 0) = variance / normal_(0, 0) + limits.noise_px * limits.noise_px;
     } else {

@@ -24,12 +24,13 @@ struct RefinedPlace {
   double residual = 0.0;  // root mean square of what is left over the window, grey levels
 };
 
-// A window of 15 x 15 pixels about a place of the first image, as it looks in the second one.
+// A window of up to 15 x 15 pixels about a place of the first image, as it looks in the second one.
 class WindowTemplate {
  public:
   // What the second image shows at the offset o from the middle the first has where `view` puts
-  // it from `middle` (window_samples.h).
-  WindowTemplate(const GrayImage& image, const Pixel& middle, const ViewChange& view = {});
+  // it from `middle` (window_samples.h). The side is odd.
+  WindowTemplate(const GrayImage& image, const Pixel& middle, const ViewChange& view = {},
+                 std::size_t side = kTemplateRows);
 
   // Finds the shift s of the least sum of (second(start + s + o) - first(o))^2 over the window,
   // each less its mean (Lucas and Kanade 1981; inverse compositional, Baker and Matthews 2004):
@@ -41,10 +42,6 @@ class WindowTemplate {
                                    const RefineLimits& limits) const;
 
  private:
-  static constexpr int kSide = 15;
-  static constexpr int kReach = kSide / 2;
-  static constexpr int kPixels = kSide * kSide;
-
   // Sums over the window, d = second(start + s + o) - mean - (first(o) - mean), mean the
   // template's.
   struct Sums {
@@ -55,6 +52,9 @@ class WindowTemplate {
   };
   Sums SumsAt(const GrayImage& second, const Pixel& middle) const;
 
+  std::size_t side_;
+  int reach_;
+  float pixels_;
   WindowSamples samples_;  // values less their mean
   float mean_ = 0.0F;
   float across_sum_ = 0.0F;

@@ -30,8 +30,8 @@ HWY_INLINE Sums AddPixel(Sums sum, std::uint8_t wanted, const std::uint8_t* seen
 }
 
 // Where x86 has an instruction for it, which this version of Highway does not know, four pixels at
-// once: sums of four absolute differences for eight offsets in each block of 16 bytes. Blocks are to
-// begin 8 bytes apart.
+// once: sums of four absolute differences for eight offsets in each block of 16 bytes. Blocks are
+// to begin 8 bytes apart.
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
 // Words of 4 bytes of a block are to be (0, 1) and (1, 2).
 HWY_INLINE Sums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {

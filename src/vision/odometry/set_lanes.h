@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 
-// Writes the numbers of the lanes that are set, counted from `first` on; returns how many. Highway's
-// CompressStore, compiled by GCC for AVX2, copies a table of 1 KiB each time.
+// Writes the numbers of the lanes that are set, counted from `first` on; returns how many.
+// Highway's CompressStore, compiled by GCC for AVX2, copies a table of 1 KiB each time.
 template <class D>
 HWY_INLINE std::size_t WriteSetLanes(D lanes, hwy::HWY_NAMESPACE::Mask<D> mask, std::int32_t first,
                                      std::int32_t* numbers) {

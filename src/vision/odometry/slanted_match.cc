@@ -11,28 +11,21 @@
 namespace rockyard::vision {
 namespace {
 
-constexpr int kReach = 7;
-constexpr double kPixels = 225.0;
 // Of slopes, before the images are looked at: level ground under hazard cameras has 0.25.
 constexpr double kSlope = 0.3;
 // Steeper surfaces are seen from their edge.
 constexpr double kMostSlope = 0.5;
 
 // Sum of lane^power times the lanes, lanes counted from the middle of the window.
-double Moment(const WindowSamples::Lanes& lanes, int power) {
+double Moment(const WindowSamples::Lanes& lanes, std::size_t side, int power) {
+  const double reach = static_cast<double>(side / 2);
   double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < kTemplateLanes; ++i) {
-    const double offset = static_cast<double>(i) - kReach;
+  for (std::size_t i = 0; i < side; ++i) {
+    const double offset = static_cast<double>(i) - reach;
     const double weight = power == 0 ? 1.0 : power == 1 ? offset : offset * offset;
     sum += weight * lanes[i];
   }
   return sum;
-}
-
-// With two columns more to the right and a row below, which are interpolated.
-bool LiesInside(const GrayImage& image, const Pixel& middle) {
-  return middle.x() >= kReach && middle.x() < image.width() - kReach - 2 && middle.y() >= kReach &&
-         middle.y() < image.height() - kReach - 1;
 }
 
 // What one step of least squares needs, for the parameters shift, slope by column and by row.
@@ -43,34 +36,39 @@ struct Equations {
 };
 
 Equations EquationsAt(const GrayImage& left, const GrayImage& right, const Pixel& left_pixel,
-                      const SlantedPlace& place) {
+                      const SlantedPlace& place, std::size_t side) {
   WindowSamples window =
-      SampleWindow(left, left_pixel, LeftViewOf(place.slope), WindowGradients::kAlongRow);
-  const double mean = Moment(window.sum, 0) / kPixels;
+      SampleWindow(left, left_pixel, LeftViewOf(place.slope), side, WindowGradients::kAlongRow);
+  const auto pixels = static_cast<double>(side * side);
+  const int reach = static_cast<int>(side) / 2;
+  const auto moment = [side](const WindowSamples::Lanes& lanes, int power) {
+    return Moment(lanes, side, power);
+  };
+  const double mean = moment(window.sum, 0) / pixels;
   for (float& value : window.values) value -= static_cast<float>(mean);
   const auto column = static_cast<int>(place.column);
   const auto row = static_cast<int>(left_pixel.y());
   TemplateSums seen;
-  SumTemplate(
-      {window.values.data(), window.across.data(), window.down.data(), static_cast<float>(mean)},
-      {&right.At(column - kReach, row - kReach), static_cast<std::size_t>(right.width()),
-       static_cast<float>(place.column - column), static_cast<float>(left_pixel.y() - row)},
-      seen);
-  const Eigen::Vector3d j(Moment(window.across_sum, 0), Moment(window.across_sum, 1),
-                          Moment(window.down_sum, 0));
-  const double mean_difference = Moment(seen.d, 0) / kPixels;
+  SumTemplate({window.values.data(), window.across.data(), window.down.data(),
+               static_cast<float>(mean), side},
+              {&right.At(column - reach, row - reach), static_cast<std::size_t>(right.width()),
+               static_cast<float>(place.column - column), static_cast<float>(left_pixel.y() - row)},
+              seen);
+  const Eigen::Vector3d j(moment(window.across_sum, 0), moment(window.across_sum, 1),
+                          moment(window.down_sum, 0));
+  const double mean_difference = moment(seen.d, 0) / pixels;
   Equations equations;
-  const double xx = Moment(window.across_across, 1);
-  const double xy = Moment(window.across_down, 1);
-  const double y = Moment(window.across_down, 0);
-  equations.normal << Moment(window.across_across, 0), xx, y,  //
-      xx, Moment(window.across_across, 2), xy,                 //
-      y, xy, Moment(window.down_down, 0);
-  equations.normal -= j * j.transpose() / kPixels;
-  equations.right << Moment(seen.across_d, 0), Moment(seen.across_d, 1), Moment(seen.down_d, 0);
+  const double xx = moment(window.across_across, 1);
+  const double xy = moment(window.across_down, 1);
+  const double y = moment(window.across_down, 0);
+  equations.normal << moment(window.across_across, 0), xx, y,  //
+      xx, moment(window.across_across, 2), xy,                 //
+      y, xy, moment(window.down_down, 0);
+  equations.normal -= j * j.transpose() / pixels;
+  equations.right << moment(seen.across_d, 0), moment(seen.across_d, 1), moment(seen.down_d, 0);
   equations.right -= mean_difference * j;
   equations.squares =
-      std::max(0.0, Moment(seen.squares, 0) - mean_difference * mean_difference * kPixels);
+      std::max(0.0, moment(seen.squares, 0) - mean_difference * mean_difference * pixels);
   return equations;
 }
 
@@ -84,17 +82,18 @@ ViewChange LeftViewOf(const DisparitySlope& slope) {
 
 std::optional<SlantedPlace> FindSlanted(const GrayImage& left, const GrayImage& right,
                                         const Pixel& left_pixel, double column,
-                                        const RefineLimits& limits) {
+                                        const RefineLimits& limits, std::size_t side) {
   constexpr int kSteps = 4;
   constexpr double kShift_px = 0.02;
   constexpr double kChange = 0.01;
   // Below one grey level the rounding of pixels counts.
   constexpr double kLeastVariance = 1.0;
+  const auto pixels = static_cast<double>(side * side);
   SlantedPlace place{.column = column};
   for (int step = 0; step < kSteps; ++step) {
-    if (!LiesInside(right, Pixel(place.column, left_pixel.y()))) return std::nullopt;
-    const Equations equations = EquationsAt(left, right, left_pixel, place);
-    const double variance = std::max(kLeastVariance, equations.squares / (kPixels - 5.0));
+    if (!HasTemplate(right, Pixel(place.column, left_pixel.y()), side)) return std::nullopt;
+    const Equations equations = EquationsAt(left, right, left_pixel, place, side);
+    const double variance = std::max(kLeastVariance, equations.squares / (pixels - 5.0));
     const double prior = variance / (kSlope * kSlope);
     Eigen::Matrix3d normal = equations.normal;
     normal.diagonal().tail<2>().array() += prior;
@@ -106,7 +105,7 @@ std::optional<SlantedPlace> FindSlanted(const GrayImage& left, const GrayImage& 
     const Eigen::Vector3d change = covariance * pull;
     place.column -= change.x();
     place.slope = (place.slope + change.tail<2>()).cwiseMax(-kMostSlope).cwiseMin(kMostSlope);
-    place.residual = std::sqrt(equations.squares / kPixels);
+    place.residual = std::sqrt(equations.squares / pixels);
     place.variance_px2 = variance * covariance(0, 0) + limits.noise_px * limits.noise_px;
     if (!(std::abs(place.column - column) <= limits.max_shift_px)) return std::nullopt;
     if (std::abs(change.x()) < kShift_px && change.tail<2>().cwiseAbs().maxCoeff() < kChange) {

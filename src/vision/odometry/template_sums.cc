@@ -33,7 +33,7 @@ HWY_INLINE void SumLanes(const TemplateRows& rows, const TemplatePlace& place, s
   auto across = hn::Zero(kFloats);
   auto down = hn::Zero(kFloats);
   auto squares = hn::Zero(kFloats);
-  for (std::size_t row = 0; row < kTemplateRows; ++row) {
+  for (std::size_t row = 0; row < rows.side; ++row) {
     const std::uint8_t* const above = place.pixels + row * place.stride + first;
     const std::uint8_t* const below = above + place.stride;
     const std::size_t at = row * kTemplateLanes + first;
@@ -65,6 +65,17 @@ HWY_AFTER_NAMESPACE();
 namespace rockyard::vision {
 
 HWY_EXPORT(SumAllLanes);
+
+bool HasTemplate(const GrayImage& image, const Pixel& middle, std::size_t side) {
+  const int reach = static_cast<int>(side) / 2;
+  const bool inside = middle.x() >= reach && middle.x() < image.width() - reach - 2 &&
+                      middle.y() >= reach && middle.y() < image.height() - reach - 1;
+  if (!inside) return false;
+  // The last row that is read may end in the next one, but not behind the last one.
+  const int last_row = static_cast<int>(middle.y()) + reach + 1;
+  const int last_column = static_cast<int>(middle.x()) - reach + static_cast<int>(kTemplateLanes);
+  return last_row + 1 < image.height() || last_column < image.width();
+}
 
 void SumTemplate(const TemplateRows& rows, const TemplatePlace& place, TemplateSums& sums) {
   HWY_DYNAMIC_DISPATCH(SumAllLanes)(rows, place, sums);

@@ -45,12 +45,10 @@ void Bounds(const std::uint64_t* window, const std::uint64_t* words, std::size_t
   for (std::size_t group = 0; group < groups; ++group) {
     for (std::size_t lane = 0; lane < kQuarter; lane += hn::Lanes(kWords)) {
       const std::uint64_t* const at = words + group * SignatureSet::kGroup + lane;
-      const auto lower =
-          hn::Add(Differences(window, at, stride),
-                  hn::ShiftLeft<16>(Differences(window, at + kQuarter, stride)));
-      const auto upper =
-          hn::Add(Differences(window, at + 2 * kQuarter, stride),
-                  hn::ShiftLeft<16>(Differences(window, at + 3 * kQuarter, stride)));
+      const auto lower = hn::Add(Differences(window, at, stride),
+                                 hn::ShiftLeft<16>(Differences(window, at + kQuarter, stride)));
+      const auto upper = hn::Add(Differences(window, at + 2 * kQuarter, stride),
+                                 hn::ShiftLeft<16>(Differences(window, at + 3 * kQuarter, stride)));
       const auto sums = hn::BitCast(kBounds, hn::Add(lower, hn::ShiftLeft<32>(upper)));
       hn::Store(hn::SaturatedSub(hn::Mul(sums, nine), rounding), kBounds,
                 bounds + group * SignatureSet::kGroup + 4 * lane);

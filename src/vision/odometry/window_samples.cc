@@ -19,7 +19,6 @@ namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // At most a window's row at once.
-constexpr float kTemplateReach = 7.0F;
 constexpr hn::CappedTag<float, kTemplateLanes> kFloats;
 constexpr hn::Rebind<std::int32_t, decltype(kFloats)> kInts;
 constexpr hn::Rebind<std::uint8_t, decltype(kFloats)> kGreys;
@@ -90,24 +89,27 @@ void SampleMapped(const std::uint8_t* middle, std::int32_t stride, const WindowV
   }
 }
 
-void FindGradients(const float* wide, WindowGradients gradients, WindowSamples& samples) {
+void FindGradients(const float* wide, std::size_t side, WindowGradients gradients,
+                   WindowSamples& samples) {
   const auto half = hn::Set(kFloats, 0.5F);
+  const std::size_t reach = side / 2;
+  const float* const corner = wide + (kWideReach - reach) * (kWideSide + 1);
   for (std::size_t first = 0; first < kTemplateLanes; first += hn::Lanes(kFloats)) {
-    const auto inside = hn::FirstN(kFloats, kTemplateLanes - 1 - first);
+    const auto inside = hn::FirstN(kFloats, side - std::min(side, first));
     auto sum = hn::Zero(kFloats);
     auto across_sum = sum, down_sum = sum, xx = sum, xy = sum, yy = sum;
-    for (std::size_t row = 0; row < kTemplateRows; ++row) {
-      const float* const at = wide + (row + 1) * kWideSide + 1 + first;
+    for (std::size_t row = 0; row < side; ++row) {
+      const float* const at = corner + row * kWideSide + first;
       const auto step = [&](std::ptrdiff_t by) HWY_ATTR {
         const auto difference = hn::Sub(hn::LoadU(kFloats, at + by), hn::LoadU(kFloats, at - by));
         return hn::IfThenElseZero(inside, hn::Mul(half, difference));
       };
       const auto value = hn::IfThenElseZero(inside, hn::LoadU(kFloats, at));
       const auto across = step(1);
-      const auto down =
-          gradients == WindowGradients::kBoth
-              ? step(static_cast<std::ptrdiff_t>(kWideSide))
-              : hn::Mul(across, hn::Set(kFloats, static_cast<float>(row) - kTemplateReach));
+      const auto down = gradients == WindowGradients::kBoth
+                            ? step(static_cast<std::ptrdiff_t>(kWideSide))
+                            : hn::Mul(across, hn::Set(kFloats, static_cast<float>(row) -
+                                                                   static_cast<float>(reach)));
       const std::size_t to = row * kTemplateLanes + first;
       hn::StoreU(value, kFloats, samples.values.data() + to);
       hn::StoreU(across, kFloats, samples.across.data() + to);
@@ -188,7 +190,8 @@ void SampleAnywhere(const GrayImage& image, int column, int row, const WindowVie
 }  // namespace
 
 WindowSamples SampleWindow(const GrayImage& image, const Pixel& middle, const ViewChange& view,
-                           WindowGradients gradients) {
+                           std::size_t side, WindowGradients gradients) {
+  EXPECT(side % 2 == 1 && side <= kTemplateRows);
   const auto column = static_cast<int>(middle.x());
   const auto row = static_cast<int>(middle.y());
   EXPECT(middle.minCoeff() >= 0.0 && column < image.width() && row < image.height());
@@ -209,7 +212,11 @@ WindowSamples SampleWindow(const GrayImage& image, const Pixel& middle, const Vi
   }
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): every number is written
   WindowSamples samples;
-  HWY_DYNAMIC_DISPATCH(FindGradients)(wide.data(), gradients, samples);
+  HWY_DYNAMIC_DISPATCH(FindGradients)(wide.data(), side, gradients, samples);
+  const std::size_t used = side * kTemplateLanes;
+  for (WindowSamples::Rows* const rows : {&samples.values, &samples.across, &samples.down}) {
+    std::fill(rows->begin() + static_cast<std::ptrdiff_t>(used), rows->end(), 0.0F);
+  }
   return samples;
 }
 

@@ -67,5 +67,14 @@ TEST(GroundBiasTest, EdgesNodLittle) {
   EXPECT_GT(std::abs(PitchErrors(0.5, 0.4, params).mean_rad), kMean_rad);
 }
 
+// Small windows have fewer edges in them, and fewer are to be left out.
+TEST(GroundBiasTest, EdgesNodLessInSmallWindows) {
+  PlacementParams params;
+  params.max_residual_ratio = 1e6;
+  const double large_rad = PitchErrors(0.5, 0.4, params).rms_rad;
+  params.window_px = 9;
+  EXPECT_LT(PitchErrors(0.5, 0.4, params).rms_rad, 0.8 * large_rad);
+}
+
 }  // namespace
 }  // namespace rockyard::vision

@@ -79,35 +79,60 @@ TEST(TemplateSumsTest, AreThePlainSumsToTheBit) {
       number = static_cast<float>(core::SampleUniform(stream, -60, 60));
     }
   }
-  const TemplateRows all{rows[0].data(), rows[1].data(), rows[2].data(), 101.25F};
   const TemplatePlace place{&image.At(5, 2), 40, 0.3F, 0.7F};
-  TemplateSums plain;
-  for (std::size_t row = 0; row < kTemplateRows; ++row) {
-    for (std::size_t i = 0; i < kTemplateLanes; ++i) {
-      const auto grey = [&](int right, int below) {
-        return static_cast<float>(
-            image.At(5 + static_cast<int>(i) + right, 2 + static_cast<int>(row) + below));
-      };
-      const float upper =
-          (1.0F - 0.3F) * (1.0F - 0.7F) * grey(0, 0) + 0.3F * (1.0F - 0.7F) * grey(1, 0);
-      const float lower = (1.0F - 0.3F) * 0.7F * grey(0, 1) + 0.3F * 0.7F * grey(1, 1);
-      const std::size_t at = row * kTemplateLanes + i;
-      const float d = upper + lower - 101.25F - rows[0][at];
-      plain.d[i] += d;
-      plain.across_d[i] += rows[1][at] * d;
-      plain.down_d[i] += rows[2][at] * d;
-      plain.squares[i] += d * d;
+  const auto plain_sums = [&](std::size_t side) {
+    TemplateSums plain;
+    for (std::size_t row = 0; row < side; ++row) {
+      for (std::size_t i = 0; i < kTemplateLanes; ++i) {
+        const auto grey = [&](int right, int below) {
+          return static_cast<float>(
+              image.At(5 + static_cast<int>(i) + right, 2 + static_cast<int>(row) + below));
+        };
+        const float upper =
+            (1.0F - 0.3F) * (1.0F - 0.7F) * grey(0, 0) + 0.3F * (1.0F - 0.7F) * grey(1, 0);
+        const float lower = (1.0F - 0.3F) * 0.7F * grey(0, 1) + 0.3F * 0.7F * grey(1, 1);
+        const std::size_t at = row * kTemplateLanes + i;
+        const float d = upper + lower - 101.25F - rows[0][at];
+        plain.d[i] += d;
+        plain.across_d[i] += rows[1][at] * d;
+        plain.down_d[i] += rows[2][at] * d;
+        plain.squares[i] += d * d;
+      }
     }
-  }
+    return plain;
+  };
   for (const std::int64_t set : InstructionSets()) {
     const UseInstructionSet use(set);
-    TemplateSums sums;
-    SumTemplate(all, place, sums);
-    EXPECT_EQ(sums.d, plain.d);
-    EXPECT_EQ(sums.across_d, plain.across_d);
-    EXPECT_EQ(sums.down_d, plain.down_d);
-    EXPECT_EQ(sums.squares, plain.squares);
+    for (const std::size_t side : {5U, 9U, 15U}) {
+      TemplateSums sums;
+      SumTemplate({rows[0].data(), rows[1].data(), rows[2].data(), 101.25F, side}, place, sums);
+      const TemplateSums plain = plain_sums(side);
+      EXPECT_EQ(sums.d, plain.d);
+      EXPECT_EQ(sums.across_d, plain.across_d);
+      EXPECT_EQ(sums.down_d, plain.down_d);
+      EXPECT_EQ(sums.squares, plain.squares);
+    }
   }
+}
+
+// Of an image of 30 x 20 pixels, for windows of 15 and of 9 pixels; of these the last row that is
+// read, of 17 pixels, may not end behind the image.
+TEST(TemplateSumsTest, KnowsWhichWindowsAnImageHas) {
+  const GrayImage image(30, 20);
+  for (const auto& [side, reach] : {std::pair{15U, 7.0}, std::pair{9U, 4.0}}) {
+    const auto has = [&](double x, double y) { return HasTemplate(image, {x, y}, side); };
+    EXPECT_TRUE(has(reach, reach));
+    EXPECT_FALSE(has(reach - 0.01, reach));
+    EXPECT_FALSE(has(reach, reach - 0.01));
+    EXPECT_TRUE(has(30.0 - reach - 2.01, reach));
+    EXPECT_FALSE(has(30.0 - reach - 2.0, reach));
+    EXPECT_TRUE(has(reach, 20.0 - reach - 1.01));
+    EXPECT_FALSE(has(reach, 20.0 - reach - 1.0));
+    EXPECT_FALSE(has(std::nan(""), reach));
+  }
+  EXPECT_TRUE(HasTemplate(image, {17.9, 14.9}, 9));
+  EXPECT_FALSE(HasTemplate(image, {18.0, 14.9}, 9));
+  EXPECT_TRUE(HasTemplate(image, {18.0, 13.9}, 9));
 }
 
 // Features of a plane: the place on it, within the covariance that is told, and its disparity free
@@ -166,12 +191,14 @@ TEST(WindowTemplateTest, FindsFractionsOfPixelsUnderOtherLight) {
     return image;
   };
   const GrayImage first = pattern(0.0, 0.0, 0.0);
-  const WindowTemplate window(first, {30.0, 30.0});
-  for (const double brighter : {0.0, 30.0}) {
-    const auto found = window.Find(pattern(0.3, -0.4, brighter), {30.0, 30.0}, {});
-    ASSERT_TRUE(found) << brighter;
-    EXPECT_NEAR(found->pixel.x(), 30.3, 0.03) << brighter;
-    EXPECT_NEAR(found->pixel.y(), 29.6, 0.03) << brighter;
+  for (const std::size_t side : {9U, 15U}) {
+    const WindowTemplate window(first, {30.0, 30.0}, {}, side);
+    for (const double brighter : {0.0, 30.0}) {
+      const auto found = window.Find(pattern(0.3, -0.4, brighter), {30.0, 30.0}, {});
+      ASSERT_TRUE(found) << brighter;
+      EXPECT_NEAR(found->pixel.x(), 30.3, 0.03) << brighter;
+      EXPECT_NEAR(found->pixel.y(), 29.6, 0.03) << brighter;
+    }
   }
   const WindowTemplate flat(GrayImage(60, 60, 90), {30.0, 30.0});
   EXPECT_FALSE(flat.Find(first, {30.0, 30.0}, {}));

@@ -124,6 +124,25 @@ TEST(SlantedMatchTest, FindsRipplesOnABrightSlope) {
   }
 }
 
+// Every window shows its own side: stripes behind that of 9 pixels, which lie elsewhere in the
+// right image, draw that of 15 away.
+TEST(SlantedMatchTest, SmallWindowsDoNotSeeWhatLiesBesideThem) {
+  const auto image = [](double shift_px, double beside_px) {
+    return PatternImage([=](double x, int row) {
+      const double moved = std::abs(row) <= 4 && std::abs(x) <= 5.5 ? shift_px : beside_px;
+      return 128.0 + 40.0 * std::sin(0.6 * (x - moved)) + 20.0 * std::cos(0.9 * row);
+    });
+  };
+  const GrayImage left = image(0.0, 0.0);
+  const GrayImage right = image(0.3, 1.5);
+  const RefineLimits limits{.along_row = true, .max_residual = 60.0};
+  const auto small = FindSlanted(left, right, kMiddle, 30.0, limits, 9);
+  const auto large = FindSlanted(left, right, kMiddle, 30.0, limits, 15);
+  ASSERT_TRUE(small && large);
+  EXPECT_NEAR(small->column, 30.3, 0.05);
+  EXPECT_GT(large->column, 30.6);
+}
+
 // Waves of 12 px in the rows 5 above and below the middle, which lie a pixel to either side in the
 // right image: a slope of 0.2. The other rows of the right image are brighter and darker by
 // `stripes`, which says nothing of where waves lie and much of what the images are worth.

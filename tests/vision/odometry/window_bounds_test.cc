@@ -68,9 +68,8 @@ void ExpectBounds(const GrayImage& first, const GrayImage& second, int count, in
   for (const std::int64_t set : InstructionSets()) {
     const UseInstructionSet use(set);
     const SignatureSet signatures(others.set);
-    const std::size_t whole =
-        (others.plain.size() + SignatureSet::kGroup - 1) / SignatureSet::kGroup *
-        SignatureSet::kGroup;
+    const std::size_t whole = (others.plain.size() + SignatureSet::kGroup - 1) /
+                              SignatureSet::kGroup * SignatureSet::kGroup;
     AlignedBuffer<std::uint16_t> bounds(whole - from);
     for (std::size_t i = 0; i < own.plain.size(); ++i) {
       signatures.FindBounds(SignatureOf(own.set.At(i)), from, {bounds.data(), bounds.size()});

@@ -13,8 +13,6 @@
 namespace rockyard::vision {
 namespace {
 
-constexpr std::size_t kLast = kTemplateLanes - 1;  // the lane that is no column
-
 GrayImage Noise(int width, int height) {
   core::RandomStream stream({260, 0}, core::Purpose::kTest, 0);
   GrayImage image(width, height);
@@ -56,12 +54,13 @@ float PlainGrey(const GrayImage& image, const Pixel& middle, const ViewChange& v
 }
 
 WindowSamples PlainSamples(const GrayImage& image, const Pixel& middle, const ViewChange& view,
-                           WindowGradients gradients) {
+                           std::size_t side, WindowGradients gradients) {
   WindowSamples plain{};
-  for (std::size_t row = 0; row < kTemplateRows; ++row) {
-    for (std::size_t column = 0; column < kLast; ++column) {
-      const float across = static_cast<float>(column) - 7.0F;
-      const float down = static_cast<float>(row) - 7.0F;
+  const auto reach = static_cast<float>(side / 2);
+  for (std::size_t row = 0; row < side; ++row) {
+    for (std::size_t column = 0; column < side; ++column) {
+      const float across = static_cast<float>(column) - reach;
+      const float down = static_cast<float>(row) - reach;
       const auto grey = [&](float x, float y) {
         return PlainGrey(image, middle, view, across + x, down + y);
       };
@@ -113,9 +112,11 @@ TEST(WindowSamplesTest, HaveTheBitsOfAPlainLoop) {
            {Pixel(30.3, 22.8), Pixel(25.0, 20.0), Pixel(8.0, 8.0), Pixel(49.9, 37.9),
             Pixel(50.1, 38.2), Pixel(0.2, 46.0), Pixel(60.0, 0.0)}) {
         for (const auto gradients : {WindowGradients::kBoth, WindowGradients::kAlongRow}) {
-          SCOPED_TRACE(middle.transpose());
-          ExpectSame(SampleWindow(image, middle, view, gradients),
-                     PlainSamples(image, middle, view, gradients));
+          for (const std::size_t side : {5U, 7U, 9U, 15U}) {
+            SCOPED_TRACE(middle.transpose());
+            ExpectSame(SampleWindow(image, middle, view, side, gradients),
+                       PlainSamples(image, middle, view, side, gradients));
+          }
         }
       }
     }
