@@ -25,12 +25,10 @@ bool IsFew(std::int64_t count, const OdometerParams& params) {
 }
 
 // Whether windows that were turned and scaled by one of two motions look as the other has them.
-bool IsNear(const Transform& a, const Transform& b) {
-  constexpr double kWay_m = 0.1;
-  constexpr double kTurn_rad = math::DegToRad(3.0);
+bool IsNear(const Transform& a, const Transform& b, const OdometerParams& params) {
   const Transform difference = a.inverse() * b;
-  return difference.translation().norm() < kWay_m &&
-         Eigen::AngleAxisd(difference.linear()).angle() < kTurn_rad;
+  return difference.translation().norm() < params.round_way_m &&
+         Eigen::AngleAxisd(difference.linear()).angle() < params.round_turn_rad;
 }
 
 bool IsSmallShare(const MotionCounts& counts, const OdometerParams& params) {
@@ -99,7 +97,7 @@ VisualOdometer::Comparison VisualOdometer::Compare(const AlignedImages& images,
     }
   }
   for (std::int64_t round = 1; round < params_.rounds && best.rough_X_FS; ++round) {
-    if (expected && IsNear(*expected, *best.rough_X_FS)) break;
+    if (expected && IsNear(*expected, *best.rough_X_FS, params_)) break;
     expected = best.rough_X_FS;
     Comparison next = CompareOnce(images, features, expected, stream);
     if (next.consistent.size() < best.consistent.size()) break;

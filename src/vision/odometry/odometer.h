@@ -54,9 +54,9 @@ class VisualOdometer {
 
   // Takes the next pair, of the cameras' size. `predicted`: where the outer frame of the cameras is
   // expected, in that of the keyframe; it narrows the search (MatchSearch, MatchWarp), no more.
-  // Without it, where no motion is found near it, and where the motion found is more than 10 cm or
-  // 3 deg off, that of one round of matching is what the next one expects, up to
-  // OdometerParams::rounds; what had more consistent points stays.
+  // Without it, where no motion is found near it, and where the motion found is off by more than
+  // round_way_m or round_turn_deg, that of one round of matching is what the next one expects, up
+  // to OdometerParams::rounds; what had more consistent points stays.
   OdometryStep Add(AlignedImages images,
                    const std::optional<math::Transform>& predicted = std::nullopt);
 

@@ -28,6 +28,8 @@ struct PlacementParams {
   double noise_px = 0.025;
   double ambiguity = 0.9;
   bool slanted = true;
+  double slope_sd = 0.3;
+  double max_slope = 0.5;
   double max_residual_ratio = 2.0;
   std::int64_t min_kept = 50;
   DisparityMapParams map = {};
@@ -93,6 +95,8 @@ struct OdometerParams {
   KeyframeParams keyframe;
   double variance_factor = 3.5;
   std::int64_t rounds = 2;
+  double round_way_m = 0.1;
+  double round_turn_rad = math::DegToRad(3.0);
 
   void Visit(core::FieldVisitor& v);
 };

@@ -52,7 +52,11 @@ std::optional<StereoMeasurement> FeaturePlacer::Place(const Pixel& left_pixel,
   const std::optional<double> column = WholeColumn(left_pixel);
   if (!column) return std::nullopt;
   const auto right = FindSlanted(left_, right_, left_pixel, *column,
-                                 {.along_row = true, .noise_px = params_.noise_px}, params_.side());
+                                 {.along_row = true,
+                                  .noise_px = params_.noise_px,
+                                  .slope_sd = params_.slope_sd,
+                                  .max_slope = params_.max_slope},
+                                 params_.side());
   if (!right) return std::nullopt;
   return Measured(left_pixel, covariance_px2, *right);
 }

@@ -16,6 +16,8 @@ struct RefineLimits {
   double max_shift_px = 2.0;   // from where the search begins
   double max_residual = 20.0;  // root mean square of what is left, grey levels
   double noise_px = 0.05;      // of a place beyond that of the pixels' noise, standard deviation
+  double slope_sd = 0.3;       // of small planes (slanted_match.h), before images say more
+  double max_slope = 0.5;      // at which they end
 };
 
 struct RefinedPlace {

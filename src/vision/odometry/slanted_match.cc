@@ -11,11 +11,6 @@
 namespace rockyard::vision {
 namespace {
 
-// Of slopes, before the images are looked at: level ground under hazard cameras has 0.25.
-constexpr double kSlope = 0.3;
-// Steeper surfaces are seen from their edge.
-constexpr double kMostSlope = 0.5;
-
 // Sum of lane^power times the lanes, lanes counted from the middle of the window.
 double Moment(const WindowSamples::Lanes& lanes, std::size_t side, int power) {
   const double reach = static_cast<double>(side / 2);
@@ -94,7 +89,7 @@ std::optional<SlantedPlace> FindSlanted(const GrayImage& left, const GrayImage& 
     if (!HasTemplate(right, Pixel(place.column, left_pixel.y()), side)) return std::nullopt;
     const Equations equations = EquationsAt(left, right, left_pixel, place, side);
     const double variance = std::max(kLeastVariance, equations.squares / (pixels - 5.0));
-    const double prior = variance / (kSlope * kSlope);
+    const double prior = variance / (limits.slope_sd * limits.slope_sd);
     Eigen::Matrix3d normal = equations.normal;
     normal.diagonal().tail<2>().array() += prior;
     if (!(normal(0, 0) > 0.0)) return std::nullopt;
@@ -104,7 +99,8 @@ std::optional<SlantedPlace> FindSlanted(const GrayImage& left, const GrayImage& 
     // The left window lies where right(column + o) is left(o - e): r = -g e.
     const Eigen::Vector3d change = covariance * pull;
     place.column -= change.x();
-    place.slope = (place.slope + change.tail<2>()).cwiseMax(-kMostSlope).cwiseMin(kMostSlope);
+    place.slope =
+        (place.slope + change.tail<2>()).cwiseMax(-limits.max_slope).cwiseMin(limits.max_slope);
     place.residual = std::sqrt(equations.squares / pixels);
     place.variance_px2 = variance * covariance(0, 0) + limits.noise_px * limits.noise_px;
     if (!(std::abs(place.column - column) <= limits.max_shift_px)) return std::nullopt;

@@ -29,10 +29,10 @@ struct SlantedPlace {
 // Finds column and slope of the least sum of (right(column + o_x, row + o_y) - left(view o))^2 over
 // side x side pixels o, each less its mean: Gauss-Newton steps for shift and slope with g (1, o_x,
 // o_y), g the gradient along the row of the left window as the right eye would see it, until both
-// change by less than 0.02 px and 0.01, four times at most. Slopes have a standard deviation of 0.3
-// before the images say more, and end at 0.5. The variance is that of refine_match.h with n - 5
-// pixels. Nothing where the search leaves its limits (along_row is meant) or the window the image.
-// Cost: 2 us with 64 bytes a vector.
+// change by less than 0.02 px and 0.01, four times at most. Slopes have a standard deviation
+// (slope_sd) before the images say more, and end at max_slope. The variance is that of
+// refine_match.h with n - 5 pixels. Nothing where the search leaves its limits (along_row is meant)
+// or the window the image. Cost: 2 us with 64 bytes a vector.
 std::optional<SlantedPlace> FindSlanted(const GrayImage& left, const GrayImage& right,
                                         const Pixel& left_pixel, double column,
                                         const RefineLimits& limits,

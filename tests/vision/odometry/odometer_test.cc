@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "vision/odometry/plain_motion.h"
@@ -77,6 +78,44 @@ TEST(VisualOdometerTest, LargeStepsAreFoundInTwoRoundsAndByPrediction) {
   predicted.Add(See(Transform::Identity(), 0));
   const OdometryStep step = predicted.Add(See(moved, 1), Ahead(0.36, 0.17));
   ExpectNear(step, moved, 0.015, 0.006);
+}
+
+// How often features are matched where the camera goes 20 cm and turns by 4 deg.
+int RoundsOf(const OdometerParams& params, const std::optional<Transform>& predicted) {
+  int matched = 0;
+  VisualOdometer odometer(params, Cameras(), {}, {25, 1}, [&](OdometryStage stage) {
+    matched += stage == OdometryStage::kMatched ? 1 : 0;
+  });
+  odometer.Add(See(Transform::Identity(), 0));
+  const Transform moved = Ahead(0.2, math::DegToRad(4.0));
+  ExpectNear(odometer.Add(See(moved, 1), predicted), moved, 0.01, 0.004);
+  return matched;
+}
+
+TEST(VisualOdometerTest, MatchesAnewWhereAnotherMotionWasPredicted) {
+  OdometerParams params;
+  EXPECT_EQ(RoundsOf(params, std::nullopt), 2);
+  const Transform shorter = Ahead(0.15, math::DegToRad(4.0));
+  EXPECT_EQ(RoundsOf(params, shorter), 1);
+  params.round_way_m = 0.02;
+  EXPECT_EQ(RoundsOf(params, shorter), 2);
+  params.round_way_m = 0.1;
+  const Transform straighter = Ahead(0.2, math::DegToRad(2.0));
+  EXPECT_EQ(RoundsOf(params, straighter), 1);
+  params.round_turn_rad = math::DegToRad(1.0);
+  EXPECT_EQ(RoundsOf(params, straighter), 2);
+}
+
+// Windows that are not turned as they should look leave much, and what they leave is no reason to
+// leave them out: most matches stay, though they grow by a third.
+TEST(VisualOdometerTest, KeepsWindowsThatWereNotWarped) {
+  OdometerParams params;
+  params.rounds = 1;
+  params.placement.min_kept = 0;
+  VisualOdometer odometer = Odometer(params);
+  odometer.Add(See(Transform::Identity(), 0));
+  const MotionCounts counts = odometer.Add(See(Ahead(0.3), 1)).result.counts;
+  EXPECT_GT(counts.points, 0.6 * static_cast<double>(counts.matches)) << counts.matches;
 }
 
 TEST(VisualOdometerTest, AStillCameraStaysWhereItIs) {

@@ -146,7 +146,7 @@ TEST(SlantedMatchTest, SmallWindowsDoNotSeeWhatLiesBesideThem) {
 // Waves of 12 px in the rows 5 above and below the middle, which lie a pixel to either side in the
 // right image: a slope of 0.2. The other rows of the right image are brighter and darker by
 // `stripes`, which says nothing of where waves lie and much of what the images are worth.
-double SlopeAmong(double stripes) {
+double SlopeAmong(double stripes, RefineLimits limits = {}) {
   const auto image = [](double slope, double brighter) {
     return PatternImage([=](double x, int row) {
       const double wave = 6.0 * std::cos(std::numbers::pi / 6.0 * (x + slope * row));
@@ -154,8 +154,8 @@ double SlopeAmong(double stripes) {
       return 100.0 + (row % 2 == 0 ? brighter : -brighter);
     });
   };
-  const auto place =
-      FindSlanted(image(0.0, 0.0), image(0.2, stripes), kMiddle, 30.0, {.along_row = true});
+  limits.along_row = true;
+  const auto place = FindSlanted(image(0.0, 0.0), image(0.2, stripes), kMiddle, 30.0, limits);
   if (!place) return std::nan("");
   EXPECT_NEAR(place->column, 30.0, 0.05);
   EXPECT_NEAR(place->slope.x(), 0.0, 0.02);
@@ -167,6 +167,9 @@ double SlopeAmong(double stripes) {
 TEST(SlantedMatchTest, SlopesAreExpectedToBeSmallWhereImagesSayLittle) {
   EXPECT_NEAR(SlopeAmong(0.0), 0.2, 0.01);
   EXPECT_NEAR(SlopeAmong(18.0), 0.2 * 3700.0 / (3700.0 + 3190.0), 0.02);
+  // Of nine times the weight.
+  EXPECT_NEAR(SlopeAmong(18.0, {.slope_sd = 0.1}), 0.2 * 3700.0 / (3700.0 + 9.0 * 3190.0), 0.02);
+  EXPECT_NEAR(SlopeAmong(0.0, {.max_slope = 0.1}), 0.1, 1e-9);
 }
 
 PointsSeenTwice PointsWith(const std::vector<double>& first, const std::vector<double>& second) {
