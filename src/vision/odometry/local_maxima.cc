@@ -60,7 +60,8 @@ HWY_INLINE Responses Largest(const std::int32_t* values, int count, Responses mo
 }
 
 // Whether the value of a column of rows[at] is larger than all within `reach` rows and columns that
-// come before it in the order of rows, and not smaller than those behind.
+// come before it in the order of rows, and not smaller than those behind; none of its row is
+// larger.
 HWY_INLINE bool IsPeak(const std::int32_t* const* rows, int count, int at, int column, int reach) {
   const auto value = hn::Set(kResponses, rows[at][column]);
   const int left = column - reach;
@@ -70,7 +71,6 @@ HWY_INLINE bool IsPeak(const std::int32_t* const* rows, int count, int at, int c
     before = Largest(rows[i] + left, 2 * reach + 1, before);
   }
   before = Largest(rows[at] + left, reach, before);
-  after = Largest(rows[at] + column + 1, reach, after);
   for (int i = at + 1; i < std::min(at + reach + 1, count); ++i) {
     after = Largest(rows[i] + left, 2 * reach + 1, after);
   }

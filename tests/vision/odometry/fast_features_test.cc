@@ -343,6 +343,30 @@ TEST(FastFeaturesTest, TheBestOfManyWindows) {
   }
 }
 
+// Windows of which many are the same, on an image whose bounds say nearly all and on one so faint
+// that they say nothing: of equal differences the smaller index counts, in whatever order pairs are
+// looked at.
+TEST(FastFeaturesTest, TheLeastDifferentOfManyTwins) {
+  for (const double contrast : {25.0, 1.0}) {
+    const GrayImage image = WaveTexture(5, 6.0, 30.0).Render(90, 70, 0.0, 0.0, contrast, 0.5, 0);
+    const Features places = RandomFeatures(150, 90, 70, 8, 9);
+    const auto some = [&](std::size_t count, std::size_t step) {
+      Features features;
+      for (std::size_t i = 0; i < count; ++i) features.push_back(places[i * step % places.size()]);
+      return WindowsOf(image, features, 15);
+    };
+    const WindowSet first = some(600, 7);
+    const WindowSet second = some(500, 11);
+    for (const std::int64_t set : InstructionSets()) {
+      const UseInstructionSet use(set);
+      const BestWindows expected = FindBestWindows(first, second);
+      const BestWindows least = FindLeastDifferent(first, second);
+      EXPECT_EQ(least.of_first, WithoutSecond(expected.of_first)) << InstructionSet();
+      EXPECT_EQ(least.of_second, WithoutSecond(expected.of_second)) << InstructionSet();
+    }
+  }
+}
+
 void ExpectSameMatches(const GrayImage& first, const Features& first_features,
                        const GrayImage& second, const Features& second_features,
                        const FeatureMatcherParams& params, const PredictedFeatures& predicted) {

@@ -209,18 +209,21 @@ TEST(WindowTemplateTest, FindsFractionsOfPixelsUnderOtherLight) {
 TEST(FeaturePlacerTest, HasTheVarianceOfTheWindowThatItFound) {
   const RectifiedPair pair = PlanePair(kSize);
   const AlignedImages images = SeePlane(pair, math::Transform::Identity(), {}, 0);
-  const PlacementParams params;
+  PlacementParams params;
   const Pixel pixel(150, 110);
-  const auto place = FeaturePlacer(pair, params, images.left, images.right)
-                         .PlaceOn(DisparitySlope::Zero(), pixel, Eigen::Matrix2d::Identity());
-  ASSERT_TRUE(place);
-  const auto found =
-      WindowTemplate(images.left, pixel, ViewChange{})
-          .Find(images.right, Pixel(pixel.x() - std::round(place->disparity_px), pixel.y()),
-                {.along_row = true, .noise_px = params.noise_px});
-  ASSERT_TRUE(found);
-  EXPECT_NEAR(place->covariance_px2(2, 2), found->covariance_px2(0, 0),
-              1e-3 * found->covariance_px2(0, 0));
+  for (const std::int64_t window_px : {9, 15}) {
+    params.window_px = window_px;
+    const auto place = FeaturePlacer(pair, params, images.left, images.right)
+                           .PlaceOn(DisparitySlope::Zero(), pixel, Eigen::Matrix2d::Identity());
+    ASSERT_TRUE(place);
+    const auto found =
+        WindowTemplate(images.left, pixel, ViewChange{}, static_cast<std::size_t>(window_px))
+            .Find(images.right, Pixel(pixel.x() - std::round(place->disparity_px), pixel.y()),
+                  {.along_row = true, .noise_px = params.noise_px});
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(place->covariance_px2(2, 2), found->covariance_px2(0, 0),
+                1e-3 * found->covariance_px2(0, 0));
+  }
 }
 
 // A window of noise that the right eye sees twice, off by 10 grey levels at 40 px and by more at

@@ -124,6 +124,26 @@ TEST(SlantedMatchTest, FindsRipplesOnABrightSlope) {
   }
 }
 
+// Ripples on a plane: the right eye sees at (o_x, o_y) from its middle what the left one sees at
+// ((o_x + b o_y) / (1 - a), o_y), 0.3 px to the right.
+TEST(SlantedMatchTest, WindowsOfEverySideHaveTheSlope) {
+  const Eigen::Vector2d slope(0.15, -0.1);
+  const auto image = [](double shift_px, const Eigen::Vector2d& by) {
+    return PatternImage([=](double x, int row) {
+      const double seen = (x - shift_px + by.y() * row) / (1.0 - by.x());
+      return 128.0 + 40.0 * std::sin(0.8 * seen + 0.3 * row) +
+             30.0 * std::cos(0.7 * row - 0.6 * seen);
+    });
+  };
+  for (const std::size_t side : {9U, 11U, 15U}) {
+    const auto place = FindSlanted(image(0.0, {0.0, 0.0}), image(0.3, slope), kMiddle, 30.0,
+                                   {.along_row = true}, side);
+    ASSERT_TRUE(place) << side;
+    EXPECT_NEAR(place->column, 30.3, 0.03) << side;
+    EXPECT_NEAR((place->slope - slope).norm(), 0.0, 0.02) << side;
+  }
+}
+
 // Every window shows its own side: stripes behind that of 9 pixels, which lie elsewhere in the
 // right image, draw that of 15 away.
 TEST(SlantedMatchTest, SmallWindowsDoNotSeeWhatLiesBesideThem) {
