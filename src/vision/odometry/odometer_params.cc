@@ -284,8 +284,8 @@ void OdometerParams::Visit(core::FieldVisitor& v) {
        .min = 0.0,
        .max = 1e6,
        .origin = Origin::kAssumed,
-       .source = "an error of a seventh of a step of 75 cm; rounds of 0.03 and of 0.3 m change "
-                 "errors by less than a tenth (results/visual_odometry.md)",
+       .source = "an error of a seventh of a step of 75 cm; 0.03 and 0.3 m change the end error of "
+                 "three sequences by a seventh at most (results/visual_odometry.md)",
        .study_low = 0.03,
        .study_high = 0.3});
   v.Angle("round_turn_deg", round_turn_rad,
