@@ -1,12 +1,11 @@
-// Which lanes of a mask are set. Compiled once for every instruction set, hence its guard.
+// Which lanes of a mask are set. Compiled once for every instruction set, hence its
+// guard, in .cc files that have included Highway, which stays there.
 #if defined(ROCKYARD_VISION_SET_LANES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROCKYARD_VISION_SET_LANES_H
 #undef ROCKYARD_VISION_SET_LANES_H
 #else
 #define ROCKYARD_VISION_SET_LANES_H
 #endif
-
-#include <hwy/highway.h>
 
 #include <bit>
 #include <cstddef>

@@ -1,13 +1,11 @@
 // Sums of eight absolute differences of bytes. Compiled once for every instruction set, hence its
-// guard.
+// guard, in .cc files that have included Highway, which stays there.
 #if defined(ROCKYARD_VISION_SUMS_OF_DIFFERENCES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROCKYARD_VISION_SUMS_OF_DIFFERENCES_H
 #undef ROCKYARD_VISION_SUMS_OF_DIFFERENCES_H
 #else
 #define ROCKYARD_VISION_SUMS_OF_DIFFERENCES_H
 #endif
-
-#include <hwy/highway.h>
 
 #include <cstdint>
 
