@@ -13,10 +13,10 @@ namespace {
 
 // Sum of lane^power times the lanes, lanes counted from the middle of the window.
 double Moment(const WindowSamples::Lanes& lanes, std::size_t side, int power) {
-  const double reach = static_cast<double>(side / 2);
+  const auto reach = static_cast<int>(side / 2);
   double sum = 0.0;
   for (std::size_t i = 0; i < side; ++i) {
-    const double offset = static_cast<double>(i) - reach;
+    const auto offset = static_cast<double>(static_cast<int>(i) - reach);
     const double weight = power == 0 ? 1.0 : power == 1 ? offset : offset * offset;
     sum += weight * lanes[i];
   }

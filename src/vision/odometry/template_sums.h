@@ -20,7 +20,7 @@ struct TemplateRows {
   const float* across;  // gradients, 0 behind the side
   const float* down;
   float mean;
-  std::size_t side = kTemplateRows;
+  std::size_t side;
 };
 
 // Where the window lies: its upper left pixel, and what is left of a pixel, 0 <= u, v < 1. 17
