@@ -82,7 +82,7 @@ def measure(args):
     pairs, steps, features = [], [], []
     for _ in range(args.rounds):
         pairs.append(measured(programs / "odometry_benchmark", "^HundredPairs")["HundredPairs"])
-        steps.append(measured(programs / "odometer_benchmark", "^Step/1$")["Step/1"])
+        steps.append(measured(programs / "odometer_benchmark", "^Step/predicted$")["Step/predicted"])
         features.append(measured(programs / "odometer_benchmark", "^Features"))
     return {"rounds": args.rounds, "hundred_pairs": hundred_pairs(pairs),
             "step_ms": min(entry["cpu_time"] for entry in steps), "by_features": by_features(features)}

@@ -47,8 +47,8 @@ void ExpectInputs(const std::string& id, double first, double second) {
   EXPECT_NEAR(inputs.at(1), second, 1e-3 * second) << id;
 }
 
-// A Virtex 5 and a Pentium of 2012 are not reproduced. Of the five ratios of turns one differs:
-// twelve motions know each to some 15 %.
+// A Virtex 5 and a Pentium of 2012 are not reproduced. From 96 to 192 features errors grow: with 50
+// points or fewer none is left out (placement.min_kept), and on this plane the best ones would be.
 TEST(HowardOdometryReference, TimesOfAnotherComputerDiffer) {
   std::set<std::string> differ;
   for (const auto& value : statistics::Compare(Reference(), {}).values) {
@@ -59,7 +59,8 @@ TEST(HowardOdometryReference, TimesOfAnotherComputerDiffer) {
     }
   }
   EXPECT_EQ(differ,
-            (std::set<std::string>{"quality.deg_200", "time.front", "time.match", "time.rate"}));
+            (std::set<std::string>{"quality.deg_200", "quality.mm_200", "time.front", "time.match",
+                                   "time.rate"}));
 }
 
 TEST(HowardOdometryReference, TimesAreThoseOfTheHundredPairs) {
