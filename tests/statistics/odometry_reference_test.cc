@@ -58,9 +58,8 @@ TEST(HowardOdometryReference, TimesOfAnotherComputerDiffer) {
       EXPECT_EQ(value.verdict, Verdict::kHolds) << value.published.id;
     }
   }
-  EXPECT_EQ(differ,
-            (std::set<std::string>{"quality.deg_200", "quality.mm_200", "time.front", "time.match",
-                                   "time.rate"}));
+  EXPECT_EQ(differ, (std::set<std::string>{"quality.deg_200", "quality.mm_200", "time.front",
+                                           "time.match", "time.rate"}));
 }
 
 TEST(HowardOdometryReference, TimesAreThoseOfTheHundredPairs) {
