@@ -50,8 +50,8 @@ Image<std::uint8_t> AllowedPixels(const ImageSize& size, int border,
 
 std::int32_t Whole(double threshold) { return static_cast<std::int32_t>(std::lround(threshold)); }
 
-// Of features, the `most` strongest, from the strongest on; of equal ones the
-// earlier is the stronger.
+// Of features, the `most` strongest, from the strongest on; of equal ones the earlier is the
+// stronger.
 void KeepStrongest(std::size_t most, Features& features) {
   const auto stronger = [](const Feature& a, const Feature& b) {
     if (a.strength != b.strength) return a.strength > b.strength;
