@@ -22,6 +22,6 @@ inline constexpr std::array<double, 3> kOwnCycles_s{0.325e-3, 0.372e-3, 0.541e-3
 
 // A step of visual odometry on images of 512 x 384 pixels with 400 features
 // (results/studies/odometry_speed.json).
-inline constexpr double kOwnVisualOdometry_s = 2.623e-3;
+inline constexpr double kOwnVisualOdometry_s = 2.349e-3;
 
 }  // namespace rockyard::trial

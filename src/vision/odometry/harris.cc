@@ -58,12 +58,13 @@ void Products(const std::int16_t* smooth, const std::int16_t* step, std::size_t 
   }
 }
 
-// Sums of five rows >> 2.
+// Sums of five rows >> 2. Stores could change what `rows` has, as far as the compiler knows.
 void SumRows(const std::int16_t* const* rows, std::size_t width, std::int16_t* sums) {
+  const std::array<const std::int16_t*, 5> row{rows[0], rows[1], rows[2], rows[3], rows[4]};
   for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
-    const auto outer = hn::Add(hn::Load(kValues, rows[0] + x), hn::Load(kValues, rows[4] + x));
-    const auto inner = hn::Add(hn::Load(kValues, rows[1] + x), hn::Load(kValues, rows[3] + x));
-    const auto sum = hn::Add(hn::Add(outer, inner), hn::Load(kValues, rows[2] + x));
+    const auto outer = hn::Add(hn::Load(kValues, row[0] + x), hn::Load(kValues, row[4] + x));
+    const auto inner = hn::Add(hn::Load(kValues, row[1] + x), hn::Load(kValues, row[3] + x));
+    const auto sum = hn::Add(hn::Add(outer, inner), hn::Load(kValues, row[2] + x));
     hn::Store(hn::ShiftRight<2>(sum), kValues, sums + x);
   }
 }

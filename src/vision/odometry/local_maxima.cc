@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -21,76 +22,57 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr hn::ScalableTag<std::int32_t> kResponses;
 using Responses = hn::Vec<decltype(kResponses)>;
 
-// The largest of some rows in every column.
-void LargestOfRows(const std::int32_t* const* rows, int count, std::size_t width,
-                   std::int32_t* largest) {
+// Raises `count` rows of `largest` to the largest of 2 reach + 1 columns about each column; but the
+// first is set to it. There are `reach` more values to either side.
+void RaiseToLargest(const std::int32_t* values, int reach, std::size_t width,
+                    std::int32_t* const* largest, int count) {
   for (std::size_t x = 0; x < width; x += hn::Lanes(kResponses)) {
-    auto most = hn::Load(kResponses, rows[0] + x);
-    for (int i = 1; i < count; ++i) most = hn::Max(most, hn::Load(kResponses, rows[i] + x));
-    hn::Store(most, kResponses, largest + x);
-  }
-}
-
-// Columns whose value is at least the threshold, and none larger within `reach` columns; their
-// number. There are `reach` more values to either side, and whole vectors.
-std::size_t FindLargest(const std::int32_t* values, int reach, std::int32_t threshold,
-                        std::size_t width, std::int32_t* columns) {
-  const auto least = hn::Set(kResponses, threshold);
-  std::size_t found = 0;
-  for (std::size_t x = 0; x < width; x += hn::Lanes(kResponses)) {
-    const auto value = hn::Load(kResponses, values + x);
-    auto most = hn::Max(value, least);
+    auto most = hn::Load(kResponses, values + x);
     for (int i = 1; i <= reach; ++i) {
       most = hn::Max(most, hn::Max(hn::LoadU(kResponses, values + x - i),
                                    hn::LoadU(kResponses, values + x + i)));
     }
-    found += WriteSetLanes(kResponses, hn::Eq(value, most), static_cast<std::int32_t>(x),
-                           columns + found);
+    hn::Store(most, kResponses, largest[0] + x);
+    for (int i = 1; i < count; ++i) {
+      std::int32_t* const row = largest[i] + x;
+      hn::Store(hn::Max(most, hn::Load(kResponses, row)), kResponses, row);
+    }
   }
-  return found;
 }
 
-// The larger lanes of `most` and of `count` values from `values` on; a whole vector is read.
-HWY_INLINE Responses Largest(const std::int32_t* values, int count, Responses most) {
+// Whether one of `count` values from `values` on is `value`.
+HWY_INLINE bool Has(const std::int32_t* values, int count, std::int32_t value) {
+  const auto wanted = hn::Set(kResponses, value);
   for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(kResponses))) {
     const auto counted = hn::FirstN(kResponses, static_cast<std::size_t>(count - i));
-    most = hn::IfThenElse(counted, hn::Max(most, hn::LoadU(kResponses, values + i)), most);
+    const auto equal = hn::Eq(hn::LoadU(kResponses, values + i), wanted);
+    if (!hn::AllFalse(kResponses, hn::And(equal, counted))) return true;
   }
-  return most;
+  return false;
 }
 
-// Whether the value of a column of rows[at] is larger than all within `reach` rows and columns that
-// come before it in the order of rows, and not smaller than those behind; none of its row is
-// larger.
-HWY_INLINE bool IsPeak(const std::int32_t* const* rows, int count, int at, int column, int reach) {
-  const auto value = hn::Set(kResponses, rows[at][column]);
-  const int left = column - reach;
-  auto before = hn::Set(kResponses, std::numeric_limits<std::int32_t>::min());
-  auto after = before;
-  for (int i = std::max(at - reach, 0); i < at; ++i) {
-    before = Largest(rows[i] + left, 2 * reach + 1, before);
+// Columns of the row `here` where the value is at least the threshold, no value is as large within
+// `reach` columns before it and in `before`, and none larger in `from` and `below`; their number.
+// These have the largest values about every column of the `reach` rows before it, of as many from
+// it on, and of as many below. `columns` has room for a whole vector more.
+std::size_t FindPeaks(const std::int32_t* here, const std::int32_t* before,
+                      const std::int32_t* from, const std::int32_t* below, int reach,
+                      std::int32_t threshold, std::size_t width, std::int32_t* columns) {
+  const auto least = hn::Set(kResponses, threshold);
+  std::size_t found = 0;
+  for (std::size_t x = 0; x < width; x += hn::Lanes(kResponses)) {
+    const auto value = hn::Load(kResponses, here + x);
+    const auto largest =
+        hn::Max(hn::Max(least, hn::Load(kResponses, from + x)), hn::Load(kResponses, below + x));
+    const auto peaks =
+        hn::And(hn::Eq(value, largest), hn::Gt(value, hn::Load(kResponses, before + x)));
+    found += WriteSetLanes(kResponses, peaks, static_cast<std::int32_t>(x), columns + found);
   }
-  before = Largest(rows[at] + left, reach, before);
-  for (int i = at + 1; i < std::min(at + reach + 1, count); ++i) {
-    after = Largest(rows[i] + left, 2 * reach + 1, after);
-  }
-  return hn::AllTrue(kResponses, hn::Gt(value, before)) &&
-         hn::AllFalse(kResponses, hn::Gt(after, value));
-}
-
-// Of `columns`, whose largest values in rows[first] to before rows[end] are known, those in which
-// the first such value is a peak, and the rows of these; their number.
-std::size_t KeepPeaks(const std::int32_t* const* rows, int count, int first, int reach,
-                      const std::int32_t* largest, std::size_t candidates, std::int32_t* columns,
-                      std::int32_t* rows_of_peaks) {
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < candidates; ++i) {
+  for (std::size_t i = 0; i < found; ++i) {
     const std::int32_t column = columns[i];
-    int row = first;
-    while (rows[row][column] != largest[column]) ++row;
     columns[kept] = column;
-    rows_of_peaks[kept] = row;
-    kept += IsPeak(rows, count, row, column, reach) ? 1 : 0;
+    kept += Has(here + column - reach, reach, here[column]) ? 0 : 1;
   }
   return kept;
 }
@@ -101,9 +83,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rockyard::vision {
 
-HWY_EXPORT(LargestOfRows);
-HWY_EXPORT(FindLargest);
-HWY_EXPORT(KeepPeaks);
+HWY_EXPORT(RaiseToLargest);
+HWY_EXPORT(FindPeaks);
 
 namespace {
 
@@ -114,83 +95,73 @@ std::size_t WholeVectors(std::size_t count) {
   return (count + kMostResponses - 1) / kMostResponses * kMostResponses;
 }
 
-// Peaks of reach + 1 rows at a time: all that lie in one column of them are within reach of each
-// other, so that a column has one peak at most, its largest value, and those that are smaller than
-// the largest value of a column within reach have none (after Neubeck and Van Gool 2006). What is
-// left, some columns in seven, is looked at in both directions.
-class PeaksOfRows {
+// The rows of responses about the one that is looked at, and of every one the largest values about
+// each column in it and the rows below, `reach` rows in all.
+class ResponseRows {
  public:
-  PeaksOfRows(const ResponseWriter& write, const ImageArea& all, int reach)
+  // Peaks of rows from `top` on are asked for.
+  ResponseRows(const ResponseWriter& write, const ImageArea& all, int top, int reach)
       : write_(write),
         all_(all),
         reach_(reach),
-        next_(all.top),
-        height_(3 * reach + 1),
+        first_(top - reach),
+        next_(first_),
         width_(static_cast<std::size_t>(all.width())),
         pad_(WholeVectors(static_cast<std::size_t>(reach))),
         stride_(WholeVectors(width_) + 2 * pad_),
-        values_(stride_ * static_cast<std::size_t>(height_)),
-        largest_(stride_),
-        columns_(WholeVectors(width_)),
-        peak_rows_(columns_.size()) {}
+        values_(stride_ * static_cast<std::size_t>(reach + 1)),
+        largest_(stride_ * static_cast<std::size_t>(2 * reach + 1)),
+        columns_(WholeVectors(width_) + kMostResponses),
+        raised_(static_cast<std::size_t>(reach)) {}
 
-  // Of rows `top` to before `bottom`, at most reach + 1 and none before the last call's.
-  void AddPeaks(int top, int bottom, const ImageArea& area, std::int32_t threshold,
-                Features& peaks) {
-    const int first = std::max(top - reach_, all_.top);
-    const int end = std::min(bottom + reach_, all_.bottom);
-    for (next_ = std::max(next_, first); next_ < end; ++next_) Write(next_);
-    rows_.clear();
-    for (int row = first; row < end; ++row) rows_.push_back(Row(row));
-    std::int32_t* const largest = largest_.data() + pad_;
-    HWY_DYNAMIC_DISPATCH(LargestOfRows)
-    (rows_.data() + (top - first), bottom - top, width_, largest);
-    FillAround(largest);
-    const std::size_t candidates =
-        HWY_DYNAMIC_DISPATCH(FindLargest)(largest, reach_, threshold, width_, columns_.data());
-    const std::size_t count = HWY_DYNAMIC_DISPATCH(KeepPeaks)(
-        rows_.data(), static_cast<int>(rows_.size()), top - first, reach_, largest, candidates,
-        columns_.data(), peak_rows_.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::int32_t column = columns_.data()[i];
-      const int x = all_.left + column;
-      if (x < area.left || x >= area.right) continue;
-      peaks.push_back({static_cast<std::int16_t>(x),
-                       static_cast<std::int16_t>(first + peak_rows_.data()[i]), largest[column]});
-    }
+  // Columns of the peaks of a row, counted from the first of the responses.
+  std::span<const std::int32_t> Peaks(int row, std::int32_t threshold) {
+    for (; next_ <= row + reach_; ++next_) Add(next_);
+    const std::size_t count = HWY_DYNAMIC_DISPATCH(FindPeaks)(
+        Values(row), Largest(row - reach_), Largest(row), Largest(row + 1), reach_, threshold,
+        width_, columns_.data());
+    return {columns_.data(), count};
   }
+
+  std::int32_t Value(int row, int column) { return Values(row)[column]; }
 
  private:
-  void Write(int row) {
-    std::int32_t* const values = Row(row);
-    write_(row, values);
-    FillAround(values);
-  }
-
   // What lies outside is smaller than any response.
-  void FillAround(std::int32_t* values) const {
-    constexpr std::int32_t kNothing = std::numeric_limits<std::int32_t>::min();
+  static constexpr std::int32_t kNothing = std::numeric_limits<std::int32_t>::min();
+
+  void Add(int row) {
+    if (row < all_.top || row >= all_.bottom) {
+      std::fill_n(Largest(row) - pad_, stride_, kNothing);
+      return;
+    }
+    std::int32_t* const values = Values(row);
+    write_(row, values);
     std::fill(values - pad_, values, kNothing);
     std::fill(values + width_, values - pad_ + stride_, kNothing);
+    for (int i = 0; i < reach_; ++i) raised_[static_cast<std::size_t>(i)] = Largest(row - i);
+    HWY_DYNAMIC_DISPATCH(RaiseToLargest)(values, reach_, width_, raised_.data(), reach_);
   }
 
-  std::int32_t* Row(int row) {
-    return values_.data() + static_cast<std::size_t>(row % height_) * stride_ + pad_;
+  // Of `height` rows of a buffer, which later ones write over; `first_` - reach_ is the first that
+  // anything is written to.
+  std::size_t Offset(int row, int height) const {
+    return static_cast<std::size_t>((row - first_ + reach_) % height) * stride_ + pad_;
   }
+  std::int32_t* Values(int row) { return values_.data() + Offset(row, reach_ + 1); }
+  std::int32_t* Largest(int row) { return largest_.data() + Offset(row, 2 * reach_ + 1); }
 
   const ResponseWriter& write_;
   ImageArea all_;
   int reach_;
-  int next_;    // row that comes
-  int height_;  // rows that are there at once
+  int first_;  // row that is looked at before others
+  int next_;   // row that comes
   std::size_t width_;
   std::size_t pad_;
   std::size_t stride_;
-  AlignedBuffer<std::int32_t> values_;
-  AlignedBuffer<std::int32_t> largest_;  // of the rows that are looked at
+  AlignedBuffer<std::int32_t> values_;  // of the row that is looked at and those below
+  AlignedBuffer<std::int32_t> largest_;
   AlignedBuffer<std::int32_t> columns_;
-  AlignedBuffer<std::int32_t> peak_rows_;
-  std::vector<const std::int32_t*> rows_;
+  std::vector<std::int32_t*> raised_;  // rows of largest_
 };
 
 }  // namespace
@@ -201,9 +172,14 @@ Features LocalMaxima(const ResponseWriter& write, const ImageArea& all, const Im
   EXPECT(all.top <= area.top && area.bottom <= all.bottom);
   EXPECT(reach >= 1);
   Features peaks;
-  PeaksOfRows rows(write, all, reach);
-  for (int top = area.top; top < area.bottom; top += reach + 1) {
-    rows.AddPeaks(top, std::min(top + reach + 1, area.bottom), area, threshold, peaks);
+  ResponseRows rows(write, all, area.top, reach);
+  for (int row = area.top; row < area.bottom; ++row) {
+    for (const std::int32_t column : rows.Peaks(row, threshold)) {
+      const int x = all.left + column;
+      if (x < area.left || x >= area.right) continue;
+      peaks.push_back(
+          {static_cast<std::int16_t>(x), static_cast<std::int16_t>(row), rows.Value(row, column)});
+    }
   }
   return peaks;
 }

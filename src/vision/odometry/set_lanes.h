@@ -14,11 +14,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 
-// Writes the numbers of the lanes that are set, counted from `first` on; returns how many.
-// Highway's CompressStore, compiled by GCC for AVX2, copies a table of 1 KiB each time.
+// Writes the numbers of the lanes that are set, counted from `first` on, where there is room for a
+// whole vector; returns how many. CompressStore of Highway 1.0 is slower: for AVX-512 it compresses
+// into memory, for AVX2 GCC copies its table of 1 KiB each time. So is its Iota of what is no
+// constant, which is written lane by lane.
 template <class D>
 HWY_INLINE std::size_t WriteSetLanes(D lanes, hwy::HWY_NAMESPACE::Mask<D> mask, std::int32_t first,
                                      std::int32_t* numbers) {
+#if HWY_TARGET <= HWY_AVX3
+  namespace hn = hwy::HWY_NAMESPACE;
+  const auto all = hn::Add(hn::Iota(lanes, 0), hn::Set(lanes, first));
+  hn::StoreU(hn::Compress(all, mask), lanes, numbers);
+  return hn::CountTrue(lanes, mask);
+#else
   std::uint8_t bytes[8];
   const std::size_t count = hwy::HWY_NAMESPACE::StoreMaskBits(lanes, mask, bytes);
   std::size_t set = 0;
@@ -28,6 +36,7 @@ HWY_INLINE std::size_t WriteSetLanes(D lanes, hwy::HWY_NAMESPACE::Mask<D> mask, 
     }
   }
   return set;
+#endif
 }
 
 }  // namespace rockyard::vision::HWY_NAMESPACE
