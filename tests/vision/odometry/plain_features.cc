@@ -68,19 +68,6 @@ bool IsAllowed(const Image<std::uint8_t>& free, int width, int height, int borde
   return true;
 }
 
-bool IsCorner(const Image<std::int64_t>& response, int x, int y, int reach) {
-  for (int row = std::max(y - reach, 0); row <= std::min(y + reach, response.height() - 1); ++row) {
-    for (int column = std::max(x - reach, 0); column <= std::min(x + reach, response.width() - 1);
-         ++column) {
-      if (row == y && column == x) continue;
-      const bool before = std::tie(row, column) < std::tie(y, x);
-      const std::int64_t other = response.At(column, row);
-      if (other > response.At(x, y) || (before && other == response.At(x, y))) return false;
-    }
-  }
-  return true;
-}
-
 struct PlainRegion {
   int left, right, top, bottom;
 };
@@ -104,7 +91,7 @@ Features CornersOf(const GrayImage& image, const FeatureDetectorParams& params,
       if (response.At(x, y) >= std::lround(threshold) &&
           IsAllowed(free, image.width(), image.height(), static_cast<int>(params.border_px), x,
                     y) &&
-          IsCorner(response, x, y, static_cast<int>(params.suppression_px))) {
+          IsPeak(response, x, y, static_cast<int>(params.suppression_px))) {
         corners.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
                            static_cast<std::int32_t>(response.At(x, y))});
       }
@@ -200,6 +187,19 @@ Image<std::int64_t> PlainResponse(const GrayImage& image, std::int64_t weight) {
     }
   }
   return response;
+}
+
+bool IsPeak(const Image<std::int64_t>& response, int x, int y, int reach) {
+  for (int row = std::max(y - reach, 0); row <= std::min(y + reach, response.height() - 1); ++row) {
+    for (int column = std::max(x - reach, 0); column <= std::min(x + reach, response.width() - 1);
+         ++column) {
+      if (row == y && column == x) continue;
+      const bool before = std::tie(row, column) < std::tie(y, x);
+      const std::int64_t other = response.At(column, row);
+      if (other > response.At(x, y) || (before && other == response.At(x, y))) return false;
+    }
+  }
+  return true;
 }
 
 Features PlainFeatures(const GrayImage& image, const FeatureDetectorParams& params,

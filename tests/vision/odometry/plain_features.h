@@ -16,6 +16,10 @@ namespace rockyard::vision {
 // The response of every pixel (harris.h).
 Image<std::int64_t> PlainResponse(const GrayImage& image, std::int64_t weight);
 
+// Whether a response is larger than those within `reach` columns and rows that come before it in
+// the order of rows, and not smaller than those behind (local_maxima.h).
+bool IsPeak(const Image<std::int64_t>& response, int x, int y, int reach);
+
 // As FeatureDetector (detect_features.h).
 Features PlainFeatures(const GrayImage& image, const FeatureDetectorParams& params,
                        const Image<std::uint8_t>& free);
