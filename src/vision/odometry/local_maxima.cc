@@ -153,7 +153,7 @@ class ResponseRows {
   const ResponseWriter& write_;
   ImageArea all_;
   int reach_;
-  int first_;  // row that is looked at before others
+  int first_;  // first row that a peak looks at
   int next_;   // row that comes
   std::size_t width_;
   std::size_t pad_;
