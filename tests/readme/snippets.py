@@ -3,7 +3,8 @@
 A page is Markdown. Blocks of "sh" run in bash, stopping at the first command that fails; blocks of
 "python" run in Python; both in one folder, each going on from what those before it left. A block of
 "text" shows lines of what the block before it printed: each of its lines is part of a printed line,
-in this order. Other blocks (json, cpp, none) are not run.
+in this order. Other blocks (json, cpp, none) are not run. A line that begins with scripts/ gets --help: these install
+packages, or run for long.
 
 Numbers of results may differ a little from those that are shown (SLACK): the mathematical functions of
 another processor round otherwise in the last place, which changes the course of a trial in a thousand.
@@ -18,6 +19,7 @@ import subprocess
 from dataclasses import dataclass
 
 BLOCK = re.compile(r"^```(sh|python|text)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+SCRIPT = re.compile(r"^scripts/(?:\\\n|.)*", re.MULTILINE)
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 TIMEOUT_S = 1200  # against one that hangs
 SLACK = 3.0       # of a number: three trials, points, degrees
@@ -43,7 +45,8 @@ def snippets_of(page):
 def run(snippet, folder, environment, python):
     """(exit code, all that was printed) of a block."""
     program = ["bash", "-euo", "pipefail", "-c"] if snippet.kind == "sh" else [python, "-c"]
-    result = subprocess.run([*program, snippet.text], cwd=folder, env=environment, text=True, check=False,
+    text = SCRIPT.sub(r"\g<0> --help", snippet.text) if snippet.kind == "sh" else snippet.text
+    result = subprocess.run([*program, text], cwd=folder, env=environment, text=True, check=False,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=TIMEOUT_S)
     return result.returncode, result.stdout
 

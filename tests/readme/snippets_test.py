@@ -29,6 +29,16 @@ class SnippetsTest(unittest.TestCase):
     def test_so_does_one_in_a_pipe(self):
         self.assertIn("exit code 1", faults_of("```sh\nfalse | cat\n```\n")[0])
 
+    def test_scripts_are_asked_for_help_alone(self):
+        make = ("```sh\nmkdir scripts; echo 'for last; do :; done; test $last = --help' > scripts/a; chmod +x scripts/a\n"
+                "```\n```sh\n{}\n```\n")
+        for command in ("scripts/a", "scripts/a --out b \\\n  --more", "scripts/a\necho on"):
+            with self.subTest(command):
+                self.assertEqual(faults_of(make.format(command)), [])
+        for command in ("scripts/b", "./scripts/a --out b", "scripts/a --help && false"):
+            with self.subTest(command):
+                self.assertEqual(len(faults_of(make.format(command))), 1)
+
     def test_python_that_fails_is_told(self):
         self.assertIn("page.md:3: exit code 1", faults_of("\n\n```python\n1 / 0\n```\n")[0])
 
