@@ -43,7 +43,7 @@ class CliKill : public WatchedRunTest {
     fs::remove(Mark());
     setenv("ROCKYARD_KILL_AT", std::to_string(call).c_str(), 1);
     setenv("LD_PRELOAD", KILL_SHIM, 1);
-    const pid_t process = Start(words);
+    const pid_t process = StartProgram(With({ROCKYARD_COMMAND}, words));
     unsetenv("LD_PRELOAD");
     return Wait(process);
   }

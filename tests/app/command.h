@@ -1,4 +1,4 @@
-// Runs the real command and keeps what it says.
+// Runs the command and keeps what it says.
 #pragma once
 
 #include <fcntl.h>
@@ -6,12 +6,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "app/command_line.h"
 #include "core/test_folder.h"
 
 namespace rockyard::app {
@@ -41,37 +45,43 @@ inline bool Alive(pid_t process) {
   return state != 'Z' && state != 'X';
 }
 
-// False where it has not ended after some seconds.
-inline bool WaitForEnd(pid_t process) {
-  for (int i = 0; i < 5000 && Alive(process); ++i) usleep(1000);
-  return !Alive(process);
+// Looks again and again until it is so. False after ten minutes, which is no measure of speed: it
+// ends a test that would wait for ever.
+template <typename Condition>
+bool WaitUntil(const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    usleep(2000);
+  }
+  return true;
 }
 
-// A test with a folder of its own, in which the command runs.
+inline bool WaitForEnd(pid_t process) {
+  return WaitUntil([&] { return !Alive(process); });
+}
+
+// A test with a folder of its own, in which the command runs: in a process forked from this one,
+// which spares the loading of libraries, many times what most commands take. The program itself is
+// started by StartProgram.
 class CommandTest : public testing::Test {
  protected:
   CommandTest() { std::filesystem::create_directories(folder_ / "work"); }
 
-  pid_t Start(const std::vector<std::string>& words) const {
-    return StartProgram(With({ROCKYARD_COMMAND}, words));
-  }
-
   // `out`: its standard output, kClosed for none, kKept for what Wait gives back.
   static constexpr int kKept = -1;
   static constexpr int kClosed = -2;
-  pid_t StartProgram(std::vector<std::string> words, int out = kKept) const {
-    const pid_t process = fork();
-    if (process != 0) return process;
-    Redirect(folder_ / "out", STDOUT_FILENO);
-    Redirect(folder_ / "err", STDERR_FILENO);
-    if (out >= 0) dup2(out, STDOUT_FILENO);
-    if (out == kClosed) close(STDOUT_FILENO);
-    if (chdir(work().c_str()) != 0) _exit(126);
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    execv(arguments[0], arguments.data());
-    _exit(127);
+  pid_t Start(const std::vector<std::string>& words, int out = kKept) const {
+    return Fork(With({"rockyard"}, words), out, [](const std::vector<char*>& arguments) {
+      return RunCommandLine(static_cast<int>(arguments.size()) - 1, arguments.data());
+    });
+  }
+
+  pid_t StartProgram(const std::vector<std::string>& words) const {
+    return Fork(words, kKept, [](const std::vector<char*>& arguments) {
+      execv(arguments[0], arguments.data());
+      return 127;
+    });
   }
 
   CommandResult Wait(pid_t process) const {
@@ -84,7 +94,10 @@ class CommandTest : public testing::Test {
   CommandResult Run(const std::vector<std::string>& words) const { return Wait(Start(words)); }
 
   CommandResult RunInto(int out, const std::vector<std::string>& words) const {
-    return Wait(StartProgram(With({ROCKYARD_COMMAND}, words), out));
+    return Wait(Start(words, out));
+  }
+  CommandResult RunProgram(const std::vector<std::string>& words) const {
+    return Wait(StartProgram(With({ROCKYARD_COMMAND}, words)));
   }
 
   std::filesystem::path work() const { return folder_ / "work"; }
@@ -107,6 +120,23 @@ class CommandTest : public testing::Test {
   }
 
  private:
+  // `run` gets the words and a null pointer behind them.
+  template <typename Function>
+  pid_t Fork(std::vector<std::string> words, int out, const Function& run) const {
+    std::fflush(nullptr);  // or both processes would write what waits
+    const pid_t process = fork();
+    if (process != 0) return process;
+    Redirect(folder_ / "out", STDOUT_FILENO);
+    Redirect(folder_ / "err", STDERR_FILENO);
+    if (out >= 0) dup2(out, STDOUT_FILENO);
+    if (out == kClosed) close(STDOUT_FILENO);
+    if (chdir(work().c_str()) != 0) _exit(126);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    std::exit(run(arguments));
+  }
+
   static void Redirect(const std::filesystem::path& path, int descriptor) {
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(file, descriptor);
