@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy on the .cc files of folders of src/, or on what changed.
+"""Runs clang-tidy on the .cc files of folders of src/, or on what changed, on every processor.
 
-Usage: scripts/check_tidy.py BUILD_DIR FOLDER...            all files of these folders of src/
+Usage: scripts/check_tidy.py BUILD_DIR [FOLDER]...          all files, or those of these folders of src/
        scripts/check_tidy.py BUILD_DIR --changed [BASE]     files that differ from the commit BASE
 
-BUILD_DIR holds compile_commands.json. BASE is where the branch left its upstream or main; where it
+BUILD_DIR holds compile_commands.json. BASE is the commit at which all files passed last, as
+tests/long/README.md says (entry tidy); else where the branch left its upstream or main, and where it
 has not left, the commit before this one. What is not committed counts as changed.
 
 Folders: files that are compiled in one batch (ROCKYARD_UNITY_BATCH) are checked in one run, as
@@ -16,7 +17,8 @@ found both ways (tests/scripts/check_tidy_test.py plants some). What a batch can
 does not compile by itself, and, as with any error of the compiler, a file with an error keeps
 warnings of unused functions in its batch back until it is mended.
 
-Changed: each file by itself; a changed header by the source of its name, or by one that includes it.
+Changed: the changed files of each batch; a changed header by the source of its name, or by one that
+includes it.
 
 A batch or file passes again without running if nothing that it is made of changed: its text, the
 headers of this project that it includes, the options of the compiler, .clang-tidy and the version of
@@ -27,10 +29,12 @@ Exit code 0: no finding; 1: findings, printed; 2: wrong use.
 import functools
 import hashlib
 import json
+import os
 import re
 import shlex
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -38,6 +42,7 @@ ROOT = Path(__file__).resolve().parent.parent
 CLANG_TIDY = "clang-tidy"
 ONE_INSTRUCTION_SET = "-DHWY_COMPILE_ONLY_STATIC"  # of Highway; the time of a file is less than half
 
+LEDGER_ROW = re.compile(r"^\| tidy \|.*\| passed, [\d-]+, commit (\w+), [^|]*\|$", re.M)
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
 # Between two files of a batch: readability-duplicate-include forgets what was included before a
 # macro, and would take a header that both include for included twice.
@@ -170,8 +175,18 @@ def git(*arguments):
     return result.stdout.splitlines() if result.returncode == 0 else None
 
 
+def last_whole_pass():
+    """The commit at which all files passed last, if this history has it."""
+    ledger = ROOT / "tests" / "long" / "README.md"
+    row = LEDGER_ROW.search(read(ledger)) if ledger.is_file() else None
+    return row[1] if row and git("merge-base", "--is-ancestor", row[1], "HEAD") is not None else None
+
+
 def default_base():
-    """Where this branch left its upstream or main; the last commit but one where it has not left."""
+    """The last pass over all files; else where this branch left its upstream or main, or the last commit but one."""
+    whole = last_whole_pass()
+    if whole:
+        return whole
     head = git("rev-parse", "HEAD")
     for branch in ("@{upstream}", "origin/main", "main"):
         base = git("merge-base", "HEAD", branch)
@@ -190,7 +205,7 @@ def changed_files(base):
 
 
 def batches_of_changes(batches, base):
-    """A batch of one file for every changed file, or for a source that shows a changed header."""
+    """Of each batch what changed: its files, and sources that show a changed header."""
     by_file = {path: batch for batch in batches for path in batch.files}
     wanted = []
     for path in changed_files(base):
@@ -203,11 +218,14 @@ def batches_of_changes(batches, base):
             print(f"{path}: not compiled in this build, so not checked")
         elif source not in wanted:
             wanted.append(source)
-    return [Batch(path.stem, by_file[path].place, by_file[path].options, [path]) for path in wanted]
+    parts = [(batch, [path for path in batch.files if path in wanted]) for batch in batches]
+    return [Batch(f"{batch.name}_changed", batch.place, batch.options, files) for batch, files in parts if files]
 
 
 def batches_of_folders(batches, folders):
-    """The batches of src/FOLDER for each folder; a folder without any is an error."""
+    """The batches of src/FOLDER for each folder, all without one; a folder without any batch is an error."""
+    if not folders:
+        return batches
     chosen = []
     for folder in folders:
         place = (ROOT / "src" / folder).resolve()
@@ -220,7 +238,7 @@ def batches_of_folders(batches, folders):
 
 def main(arguments):
     changed = arguments[1:2] == ["--changed"]
-    if len(arguments) < 2 or arguments[0] in ("-h", "--help") or (changed and len(arguments) > 3):
+    if not arguments or arguments[0] in ("-h", "--help") or (changed and len(arguments) > 3):
         print(__doc__)
         return 2
     build = Path(arguments[0]).resolve()
@@ -235,7 +253,9 @@ def main(arguments):
         return 2
     version = subprocess.run([CLANG_TIDY, "--version"], text=True, capture_output=True,
                              check=True).stdout
-    failed = [batch for batch in batches if not passes(build, batch, version)]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        good = list(pool.map(lambda batch: passes(build, batch, version), batches))
+    failed = [batch for batch, passed in zip(batches, good) if not passed]
     count = sum(len(batch.files) for batch in batches)
     print(f"check_tidy: {count} files in {len(batches)} runs, {len(failed)} runs with findings")
     return 1 if failed else 0

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Runs the tests that take too long to run by default, and notes how each ended.
+"""Runs what a release needs beside the tests of every change, and notes how each entry ended.
 
-Usage: scripts/long_tests.py [--list] [NAME]...     (default: all, one after the other)
-tests/long/tests.json names them; tests/long/README.md lists them with their last results, and is
-written anew after each.
-Exit code 0: all pass; 1: some failed; 2: wrong use.
+Usage: scripts/long_tests.py [--list] [--again] [NAME]...     (default: all, one after the other)
+tests/long/tests.json names the entries; tests/long/README.md lists them with their last results, and is
+written anew after each. An entry that passed is not run again as long as nothing but that page and the changelog
+differs from the commit of its pass: what was interrupted goes on where it was (--again: run it all the same).
+Exit code 0: all pass; 1: some failed; 2: wrong use; 130: interrupted.
 """
 
 import argparse
@@ -19,7 +20,10 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER = ROOT / "tests" / "long"
 ROW = re.compile(r"^\| (\w+) \|.*\| ([^|]*) \|$", re.M)
+RESULT = re.compile(r"(passed|FAILED).*?, \d{4}-\d{2}-\d{2}, commit (\w+)(-dirty)?, ([\d.]+) min")
 NEVER = "not run yet"
+TOLD_APART = ("tests/long/README.md", "CHANGELOG.md")  # what may change after a pass
+LIMIT_MIN = 60.0
 
 
 def read_tests():
@@ -31,19 +35,51 @@ def read_results(table):
     return dict(ROW.findall(table.read_text(encoding="utf-8"))) if table.is_file() else {}
 
 
+def minutes_of(result):
+    match = RESULT.match(result)
+    return float(match[4]) if match else 0.0
+
+
 def page(tests, results):
+    """The table of all entries, and what they take together."""
+    told = {test["name"]: results.get(test["name"], NEVER) for test in tests}
     lines = ["# Long tests", "",
-             "`scripts/test.sh --long [NAME]...` runs them and writes this page.", "",
+             "`scripts/test.sh --all [NAME]...` runs them and writes this page.", "",
              "| name | what | command | last result |", "|---|---|---|---|"]
-    lines += [f"| {test['name']} | {test['what']} | `{test['command']}` | "
-              f"{results.get(test['name'], NEVER)} |" for test in tests]
+    lines += [f"| {test['name']} | {test['what']} | `{test['command']}` | {told[test['name']]} |" for test in tests]
+    times = {name: minutes_of(result) for name, result in told.items()}
+    over = [name for name, minutes in times.items() if minutes > LIMIT_MIN]
+    lines += ["", f"All of them took {sum(times.values()) / 60:.1f} hours when each was last run."]
+    if over:
+        lines += [f"Longer than an hour, and so to be divided: {', '.join(over)}."]
     return "\n".join(lines) + "\n"
 
 
+def git(*arguments):
+    result = subprocess.run(["git", *arguments], cwd=ROOT, text=True, capture_output=True, check=False)
+    return result.stdout.strip() if result.returncode == 0 else None
+
+
+def only_told_apart(names):
+    return all(name in TOLD_APART for name in names.splitlines())
+
+
 def commit():
-    described = subprocess.run(["git", "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"],
-                               cwd=ROOT, text=True, capture_output=True, check=False)
-    return described.stdout.strip() or "unknown"
+    """The commit that is tried, "-dirty" where anything else differs from it."""
+    at = git("rev-parse", "--short=12", "HEAD") or "unknown"
+    changed = git("diff", "--name-only", "HEAD")
+    unknown = git("ls-files", "--others", "--exclude-standard")
+    clean = changed is not None and only_told_apart(changed) and only_told_apart(unknown or "")
+    return at if clean else f"{at}-dirty"
+
+
+def holds_still(result):
+    """Whether it is of a pass, of the tree as it is now."""
+    match = RESULT.match(result)
+    if not match or match[1] != "passed" or match[3] or commit().endswith("-dirty"):
+        return False
+    changed = git("diff", "--name-only", match[2], "HEAD")
+    return changed is not None and only_told_apart(changed)
 
 
 def run(test):
@@ -57,31 +93,45 @@ def run(test):
     return code == 0, f"{verdict}, {today}, commit {at}, {minutes:.1f} min"
 
 
+def run_all(tests, results, again):
+    """Whether all pass; the page is written after each."""
+    table, passed = FOLDER / "README.md", True
+    for number, test in enumerate(tests, start=1):
+        name = test["name"]
+        before = f"== {name} ({number} of {len(tests)})"
+        if not again and holds_still(results.get(name, NEVER)):
+            print(f"{before}: {results[name]}; nothing has changed since", flush=True)
+            continue
+        print(f"{before}: {test['command']}", flush=True)
+        good, result = run(test)
+        print(f"{before}: {result}", flush=True)
+        passed = passed and good
+        results = read_results(table) | {name: result}  # others may have ended meanwhile
+        table.write_text(page(read_tests(), results), encoding="utf-8")
+    return passed
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--list", action="store_true", help="names and last results; runs nothing")
+    parser.add_argument("--again", action="store_true", help="also what passed and cannot have changed")
     parser.add_argument("names", metavar="NAME", nargs="*")
     options = parser.parse_args(arguments)
-    tests, table = read_tests(), FOLDER / "README.md"
-    results = read_results(table)
+    tests, results = read_tests(), read_results(FOLDER / "README.md")
     unknown = set(options.names) - {test["name"] for test in tests}
     if unknown:
         names = ", ".join(test["name"] for test in tests)
         parser.error(f"no long test {', '.join(sorted(unknown))}; there are {names}")
+    chosen = [test for test in tests if not options.names or test["name"] in options.names]
     if options.list:
-        for test in tests:
+        for test in chosen:
             print(f"{test['name']:18} {test['what']}\n{'':18} {results.get(test['name'], NEVER)}")
         return 0
-    passed = True
-    for test in tests:
-        if options.names and test["name"] not in options.names:
-            continue
-        print(f"== {test['name']}: {test['command']}", flush=True)
-        good, results[test["name"]] = run(test)
-        print(f"== {test['name']}: {results[test['name']]}", flush=True)
-        passed = passed and good
-        table.write_text(page(tests, results), encoding="utf-8")
-    return 0 if passed else 1
+    try:
+        return 0 if run_all(chosen, results, options.again) else 1
+    except KeyboardInterrupt:
+        print("long_tests: interrupted; what had passed is noted, and the next call goes on", file=sys.stderr)
+        return 130
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Everything that must hold before a change is accepted: installs what is missing, builds with
-# contracts on and every warning an error, then runs all tests: those of the code, the comparison of
-# trials of -O2 and -O3 builds bit for bit (scripts/same_bits.sh), the README's commands, the pages in
-# a browser, the layer check, clang-format and clang-tidy. The last lines are ctest's summary.
+# contracts on and every warning an error, then runs tests of every kind: those of the code, first trials
+# bit for bit, the commands of README and docs, the pages in a browser, layers, format, and clang-tidy
+# on what changed. The last lines are ctest's summary.
 #
 # Usage: scripts/test.sh [OPTION]... [FOLDER]...
 #   FOLDER...        only the tests of these folders of tests/ (navigation, trial, ...), and of the
@@ -13,8 +13,10 @@
 #   --no-lint        without clang-format and clang-tidy
 #   --preset PRESET  another build: debug, asan, tsan, release (default: test)
 #   --jobs N         compile and test N at a time (default: the number of processors)
-#   --long [NAME]... instead: the long tests of these names, or all (scripts/long_tests.py --list)
-# build/last_test then says what ran, on which commit, and how it ended.
+#   --times [N]      instead: the N (50) dearest tests of the last run
+#   --all [NAME]...  instead: what a release needs beside these tests, all or the entries of these
+#                    names (--all --list); goes on where it was interrupted
+# build/last_test then says what ran, on which commit, how it ended, and how long it took.
 # Exit code: 0 if everything passes.
 set -eu
 cd "$(dirname "$0")/.."
@@ -23,18 +25,27 @@ preset="test"
 jobs=$(nproc)
 label=""
 tier="full"
-exclude=""
+exclude='^long$'
 folders=""
 usage() {
   echo "test: $1 (try --help)" >&2
   exit 2
 }
+# What each test took: program or "ctest", test, seconds of the clock and of processors.
+record() { printf '%s/build/%s/test_times.tsv' "$PWD" "$preset"; }
+dearest() {
+  [ -f "$(record)" ] || usage "no times: $(record) is not there"
+  printf '%9s %9s\n' cpu_s clock_s
+  sort -t "$(printf '\t')" -k 4,4nr "$(record)" | head -n "$1" |
+    awk -F '\t' '{ printf "%9.1f %9.1f  %s %s\n", $4, $3, $1 == "ctest" ? "" : $1, $2 }'
+}
 while [ $# -gt 0 ]; do
   case "$1" in
-    -h | --help) sed -n '2,19s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    --long) shift; exec scripts/long_tests.py "$@" ;;
+    -h | --help) sed -n '2,23s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    --all) shift; exec scripts/long_tests.py "$@" ;;
+    --times) shift; dearest "${1:-50}"; exit 0 ;;
     --fast) tier="fast"; shift ;;
-    --no-lint) exclude='^lint$'; shift ;;
+    --no-lint) exclude='^(long|lint)$'; shift ;;
     --label | --preset | --jobs)
       [ $# -ge 2 ] || usage "$1 needs a value"
       case "$1" in
@@ -54,9 +65,10 @@ while [ $# -gt 0 ]; do
 done
 
 # What ran goes to build/last_test, also where something fails.
+start=$(date +%s)
 commit=$(git rev-parse HEAD 2> /dev/null || echo unknown)
 if [ -n "$(git status --porcelain 2> /dev/null)" ]; then commit="$commit with uncommitted changes"; fi
-what="preset $preset, tier $tier${label:+, label $label}${exclude:+, without $exclude}"
+what="preset $preset, tier $tier${label:+, label $label}, without $exclude"
 what="$what${folders:+, folders$folders}"
 tell() {
   code=$?
@@ -64,7 +76,7 @@ tell() {
   {
     if [ "$code" -eq 0 ]; then echo "passed: commit $commit"; else echo "FAILED: commit $commit"; fi
     echo "ran: $what"
-    echo "ended: $(date -u '+%Y-%m-%d %H:%M') UTC, exit code $code"
+    echo "ended: $(date -u '+%Y-%m-%d %H:%M') UTC, exit code $code, $(($(date +%s) - start)) s"
   } > build/last_test
 }
 trap tell EXIT
@@ -90,5 +102,7 @@ set -- --preset "$preset" -j "$jobs"
 if [ -n "$wanted" ]; then set -- "$@" -L "^($wanted)\$"; fi
 if [ "$tier" = fast ]; then set -- "$@" -L '^fast$'; fi
 if [ -n "$label" ]; then set -- "$@" -L "$label"; fi
-if [ -n "$exclude" ]; then set -- "$@" -LE "$exclude"; fi
-ctest "$@" --no-tests=error --output-on-failure
+ROCKYARD_TEST_TIMES=$(record)
+export ROCKYARD_TEST_TIMES
+: > "$ROCKYARD_TEST_TIMES"
+ctest "$@" -LE "$exclude" --no-tests=error --output-on-failure

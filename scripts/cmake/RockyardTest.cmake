@@ -2,13 +2,15 @@
 #
 # rockyard_test(NAME [UNIT file ...] [PROPERTY file ...] [PHYSICS file ...] [DIFFERENTIAL file ...]
 #               [STATISTICAL file ...] [DETERMINISM file ...] [FUZZ file ...] [CLI file ...]
-#               [SLOW file ...] [HELPERS file ...] [DEPENDS module ...] [LIBRARIES target ...])
-#   One GoogleTest executable of a folder of tests. Every test carries three labels: its kind, from the
-#   list that its file stands in; its tier, `full` where the file is listed under SLOW too, `fast`
-#   where not; and its folder, as in tests/navigation. HELPERS are compiled but hold no tests.
+#               [SLOW file ...] [LONG file ...] [HELPERS file ...] [DEPENDS module ...]
+#               [LIBRARIES target ...])
+#   One GoogleTest executable of a folder of tests. ctest runs the tests of a file in one process, by the
+#   file's path below tests/. Each file carries three labels: its kind, from the list that it stands in;
+#   its tier, `full` where it is listed under SLOW too, `long` under LONG, `fast` where neither; and
+#   its folder, as in tests/navigation. HELPERS are compiled but hold no tests.
 #
-# rockyard_label_test(NAME KIND [SLOW])
-#   The same labels for a test that is no GoogleTest.
+# rockyard_command_test(NAME KIND TIER COMMAND...)
+#   A test that is no GoogleTest, with the same labels: KIND in capitals, TIER is FAST, FULL or LONG.
 #
 # rockyard_tests_need_command()
 #   The command is built with the tests of this folder.
@@ -25,6 +27,12 @@ set(ROCKYARD_TEST_OPTIMIZATION $<$<CONFIG:Release>:-O1>)
 set(ROCKYARD_TEST_BATCH 8 CACHE STRING "Files of tests compiled together; 0: none")
 
 set(ROCKYARD_TEST_KINDS UNIT PROPERTY PHYSICS DIFFERENTIAL STATISTICAL DETERMINISM FUZZ CLI)
+
+# main() of all test programs.
+add_library(rockyard_test_main STATIC ${PROJECT_SOURCE_DIR}/tests/test_main.cc)
+target_compile_options(rockyard_test_main PRIVATE ${ROCKYARD_WARNINGS})
+target_compile_features(rockyard_test_main PUBLIC cxx_std_20)
+target_link_libraries(rockyard_test_main PUBLIC GTest::gmock GTest::gtest)
 
 # Sets VARIABLE to "tests/<folder>" of the folder that is being read.
 function(rockyard_folder_label VARIABLE)
@@ -67,7 +75,7 @@ function(rockyard_batches NAME FILES VARIABLE)
 endfunction()
 
 function(rockyard_test NAME)
-  cmake_parse_arguments(ARG "" "" "${ROCKYARD_TEST_KINDS};SLOW;HELPERS;DEPENDS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "${ROCKYARD_TEST_KINDS};SLOW;LONG;HELPERS;DEPENDS;LIBRARIES" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "rockyard_test(${NAME}): unknown arguments ${ARG_UNPARSED_ARGUMENTS}")
   endif()
@@ -79,16 +87,18 @@ function(rockyard_test NAME)
     foreach(file ${ARG_${kind}})
       list(APPEND sources ${file})
       set(tier fast)
-      if(file IN_LIST ARG_SLOW)
+      if(file IN_LIST ARG_LONG)
+        set(tier long)
+      elseif(file IN_LIST ARG_SLOW)
         set(tier full)
       endif()
       cmake_path(ABSOLUTE_PATH file NORMALIZE)
       string(APPEND labels "${file}\t${label};${tier};${folder}\n")
     endforeach()
   endforeach()
-  foreach(file ${ARG_SLOW})
+  foreach(file ${ARG_SLOW} ${ARG_LONG})
     if(NOT file IN_LIST sources)
-      message(FATAL_ERROR "rockyard_test(${NAME}): SLOW ${file} is in no list of tests")
+      message(FATAL_ERROR "rockyard_test(${NAME}): ${file} of SLOW or LONG is in no list of tests")
     endif()
   endforeach()
   set(labels_file ${CMAKE_CURRENT_BINARY_DIR}/${NAME}_labels.txt)
@@ -100,7 +110,7 @@ function(rockyard_test NAME)
   target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS} ${ROCKYARD_TEST_OPTIMIZATION})
   target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${NAME} PRIVATE ROCKYARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${NAME} PRIVATE ${dependencies} ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${NAME} PRIVATE ${dependencies} ${ARG_LIBRARIES} rockyard_test_main)
 
   # The program itself knows its tests and the file of each.
   set(list ${CMAKE_CURRENT_BINARY_DIR}/${NAME}_tests.cmake)
@@ -114,11 +124,14 @@ function(rockyard_test NAME)
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${include})
 endfunction()
 
+# The labels alone, of what add_test added.
 function(rockyard_label_test NAME KIND)
   string(TOLOWER ${KIND} label)
   set(tier fast)
   if("${ARGN}" STREQUAL "SLOW")
     set(tier full)
+  elseif("${ARGN}" STREQUAL "LONG")
+    set(tier long)
   endif()
   rockyard_folder_label(folder)
   set_tests_properties(${NAME} PROPERTIES LABELS "${label};${tier};${folder}")
