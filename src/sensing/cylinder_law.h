@@ -1,5 +1,5 @@
 // How well the lander finds the coloured cylinder on the rover: a law fitted to rendered views
-// (Matthies 1995, section 5 and appendix A; scripts/fit_lander_fix.py).
+// (Matthies 1995, section 5 and appendix A; fit_lander_fix.py).
 #pragma once
 
 #include "sensing/cylinder_law_params.h"

@@ -8,7 +8,7 @@ namespace {
 using core::Origin;
 
 constexpr const char* kCylinderFit =
-    "fitted to rendered views (scripts/fit_lander_fix.py; 2,000 of scenarios/cylinder/views.json, "
+    "fitted to rendered views (fit_lander_fix.py; 2,000 of scenarios/cylinder/views.json, "
     "seed 1)";
 
 }  // namespace

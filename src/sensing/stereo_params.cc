@@ -189,7 +189,7 @@ void VisitDropouts(StereoParams& p, core::FieldVisitor& v) {
        .min = 0.0,
        .max = 0.999,
        .origin = Origin::kAssumed,
-       .source = "the simplest choice: edges are sharp; scripts/fit_stereo_errors.py counts it in "
+       .source = "the simplest choice: edges are sharp; fit_stereo_errors.py counts it in "
                  "images",
        .study_low = 0.0,
        .study_high = 0.9});
@@ -200,7 +200,7 @@ void VisitDropouts(StereoParams& p, core::FieldVisitor& v) {
        .min = 0.0,
        .max = 0.999,
        .origin = Origin::kAssumed,
-       .source = "the simplest choice: light does not matter; scripts/fit_stereo_errors.py "
+       .source = "the simplest choice: light does not matter; fit_stereo_errors.py "
                  "counts it in images",
        .study_low = 0.0,
        .study_high = 0.9});

@@ -66,11 +66,10 @@ void VisitErrors(LightStripeParams& p, core::FieldVisitor& v) {
           .study_high = 0.01});
   v.Reals(
       "missed_at", p.missed_at,
-      {.doc =
-           "the same for each point, row by row from the nearest, left to right, in place of "
-           "missed_probability (geometric level only); empty: the same for all. Faint light "
-           "misses the farthest and outermost points first: scripts/fit_stripe_errors.py fits them "
-           "to images",
+      {.doc = "the same for each point, row by row from the nearest, left to right, in place of "
+              "missed_probability (geometric level only); empty: the same for all. Faint light "
+              "misses the farthest and outermost points first: fit_stripe_errors.py fits them "
+              "to images",
        .min = 0.0,
        .max = 1.0,
        .origin = Origin::kSetting});

@@ -8,7 +8,7 @@ namespace {
 using core::Origin;
 
 constexpr const char* kFit =
-    "fitted to rendered steps (scripts/fit_visual_motion.py; results/visual_odometry.md)";
+    "fitted to rendered steps (fit_visual_motion.py; results/visual_odometry.md)";
 
 double Squared(double value) { return value * value; }
 

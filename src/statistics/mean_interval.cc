@@ -13,7 +13,7 @@ namespace {
 
 using core::kNaN;
 
-// Both chosen by scripts/coverage_study.py on the trials of the nominal scenario.
+// Both chosen by coverage.py on the trials of the nominal scenario.
 constexpr double kSkewnessOfLaw = 2.0;  // over that of the sample
 constexpr double kFurthest = 1.75;      // end by Hall over end by Student
 

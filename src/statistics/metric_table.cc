@@ -74,7 +74,7 @@ constexpr Metric ShareWith(std::string_view name, std::string_view column,
 }
 
 // The least of 30, 40, 100 and 300 values from which on the interval of the mean held in both pools
-// of scripts/coverage_study.py, where it is not the first; never for a quotient whose denominator
+// of coverage.py, where it is not the first; never for a quotient whose denominator
 // may be nearly 0.
 constexpr Metric Needing(std::int64_t values, Metric metric) {
   metric.fewest_for_mean = values;

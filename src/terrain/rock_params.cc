@@ -163,7 +163,7 @@ void VisitShape(RockFieldParams& p, core::FieldVisitor& v) {
           .max = 0.99,
           .origin = Origin::kCalibrated,
           .source = "Matthies 1995 sec. 6: rocks typically seen are 7 to 8 cm or more high; "
-                    "scripts/calibrate_profile.py"});
+                    "calibrate_profile.py"});
   // Deeper ellipsoids are narrower on the ground than their outline, which caps keep there.
   v.Require("burial_spread", p.pointedness == 0.0 || p.burial_mean + p.burial_spread <= 0.5,
             "buries more than half of some rocks, of which pointed ones have no shape",

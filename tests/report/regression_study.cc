@@ -2,7 +2,7 @@
 //   regression_study TRIALS CAMPAIGNS SEED POOL.json...
 // Each POOL is a baseline of one cell with many trials. A campaign draws TRIALS of them for the
 // baseline and as many for the run. Prints one line of CSV for each case;
-// scripts/regression_study.py runs it.
+// scripts/studies/regression/regression.py runs it.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -11,9 +11,9 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
-import damage_study  # noqa: E402
-from damage_study import Answer, judge  # noqa: E402
+sys.path.insert(0, str(ROOT / "tests/long"))
+import damage as damages  # noqa: E402
+from damage import Answer, judge  # noqa: E402
 
 ROCKYARD = Path(sys.argv.pop(1)).resolve()
 RIGHT = Answer(0, "success 83 %", "", {"trials.csv": b"1,2"})
@@ -44,7 +44,7 @@ class Verdicts(unittest.TestCase):
                 (Answer(None), "hang")):
             with self.subTest(found=found):
                 self.assertEqual(judge(RIGHT, found), fault)
-                self.assertIn(fault, damage_study.FAULTS)
+                self.assertIn(fault, damages.FAULTS)
 
     def test_of_older_stores_another_result_is_unseen_and_a_crash_is_a_fault(self):
         self.assertEqual(judge(RIGHT, Answer(0, "success 100 %"), older=True), "unseen")
@@ -56,18 +56,18 @@ class Study(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.temporary.name)
-        cls.bases = damage_study.prepare(ROCKYARD, cls.folder / "whole", older=False)
+        cls.bases = damages.prepare(ROCKYARD, cls.folder / "whole", older=False)
 
     @classmethod
     def tearDownClass(cls):
         cls.temporary.cleanup()
 
     def test_every_damage_changes_stores(self):
-        for name, damage in damage_study.DAMAGES.items():
+        for name, damage in damages.DAMAGES.items():
             changed = 0
             for seed in range(16):  # most sectors hold the schema, which is that of every store
                 copy = self.folder / "copy.sqlite"
-                shutil.copy(self.bases[0].folder / damage_study.STORE, copy)
+                shutil.copy(self.bases[0].folder / damages.STORE, copy)
                 before = copy.read_bytes()
                 damage(copy, random.Random(seed), self.bases[0])
                 changed += copy.read_bytes() != before
@@ -77,16 +77,16 @@ class Study(unittest.TestCase):
         contents = []
         for _ in range(2):
             copy = self.folder / "copy.sqlite"
-            shutil.copy(self.bases[0].folder / damage_study.STORE, copy)
-            damage_study.edit_value(copy, random.Random(3), self.bases[0])
+            shutil.copy(self.bases[0].folder / damages.STORE, copy)
+            damages.edit_value(copy, random.Random(3), self.bases[0])
             with contextlib.closing(sqlite3.connect(copy)) as data:
                 contents.append(list(data.iterdump()))
         self.assertEqual(contents[0], contents[1])
 
     def test_each_damage_is_refused_or_harmless(self):
-        for number, damage in enumerate(damage_study.DAMAGES):
+        for number, damage in enumerate(damages.DAMAGES):
             base = self.bases[number % len(self.bases)]
-            verdicts = damage_study.attempt(ROCKYARD, base, damage, number,
+            verdicts = damages.attempt(ROCKYARD, base, damage, number,
                                             self.folder / f"{number}")
             for command, (verdict, found) in verdicts.items():
                 self.assertIn(verdict, ("same", "refused"),
@@ -97,7 +97,7 @@ class Command(unittest.TestCase):
     def test_prints_both_tables_and_counts_every_answer(self):
         out = io.StringIO()
         with contextlib.redirect_stdout(out):
-            code = damage_study.main(["--stores", "2", "--older", "0", "--rockyard", str(ROCKYARD)])
+            code = damages.main(["--stores", "2", "--older", "0", "--rockyard", str(ROCKYARD)])
         self.assertEqual(code, 0, out.getvalue())
         lines = [line.split() for line in out.getvalue().splitlines()]
         totals = [line[1:] for line in lines if line[:1] == ["all"]]

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/figures.py: what it draws is what the files say, and the same bytes each time.
+"""scripts/studies/figures/figures.py: what it draws is what the files say, and the same bytes each time.
 
 Usage: figures_test.py ROCKYARD [unittest options]. Needs Debian's matplotlib, as the script does.
 """
@@ -15,7 +15,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "scripts/studies"))
 
 # pylint: disable=wrong-import-position
 import figures
@@ -78,7 +78,7 @@ class FiguresTest(unittest.TestCase):
             sources, SimpleNamespace(**{"trial": 0, "step": 0, "fields": 3, **options}))
 
     def script(self, *words, code=0, rockyard=True):
-        command = [ROOT / "scripts/figures.py", *words]
+        command = [ROOT / "scripts/studies/figures/figures.py", *words]
         if rockyard:
             command += ["--rockyard", ROCKYARD]
         result = subprocess.run([str(word) for word in command], cwd=self.root, text=True,
@@ -475,7 +475,7 @@ class CommandLine(FiguresTest):
         (self.root / "shadow").mkdir(exist_ok=True)
         (self.root / "shadow/matplotlib.py").write_text("raise ImportError('no matplotlib')\n",
                                                         encoding="utf-8")
-        result = subprocess.run([ROOT / "scripts/figures.py", "--list"], text=True,
+        result = subprocess.run([ROOT / "scripts/studies/figures/figures.py", "--list"], text=True,
                                 env={"PYTHONPATH": str(self.root / "shadow")}, capture_output=True,
                                 check=False)
         self.assertEqual(result.returncode, 1)

@@ -1,4 +1,4 @@
-"""Whether scripts/fit_stereo_errors.py finds the errors that there are.
+"""Whether scripts/calibrations/fit_stereo_errors.py finds the errors that there are.
 
 Usage: fit_stereo_test.py ROCKYARD
 """
@@ -12,10 +12,11 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "scripts/studies"))
 
-import fit_stereo_errors as fit  # pylint: disable=wrong-import-position
-import stereo_study  # pylint: disable=wrong-import-position
+import study  # noqa: E402, F401  (knows where calibrations are)
+from calibrations import fit_stereo_errors as fit  # pylint: disable=wrong-import-position
+from stereo import stereo  # pylint: disable=wrong-import-position
 
 ROCKYARD = None
 SIDE_PX = 7
@@ -92,7 +93,7 @@ class Cells(unittest.TestCase):
         row = {"nearest_m": 1.0, "farthest_m": 2.0, "pixels": 8.0, "matched": 5.0, "good": 4.0, "wrong": 1.0,
                "error_px": 0.04, "bias_px": 0.4, "range_m": 6.0, "range_error_m": 0.0036,
                "range_step_m": 0.16, "axis_step_m": 0.36}
-        line = stereo_study.table_of("range", [row]).splitlines()[-1]
+        line = stereo.table_of("range", [row]).splitlines()[-1]
         # 0.1 px; 3 cm beside 0.1 sqrt(0.09) = 3 cm on the axis and 2 cm along the ray.
         for value in ("1 to 2", "0.100", "+0.100", "150", "3.00 | 3.00 | 2.00 | 1.50"):
             self.assertIn(f"| {value} |", line)
@@ -149,7 +150,7 @@ class Shipped(unittest.TestCase):
 
     def test_the_page_has_every_table(self):
         page = (ROOT / "results/stereo_sensing.md").read_text(encoding="utf-8")
-        for name in (*stereo_study.FACTORS, "fit", "levels", "noise"):
+        for name in (*stereo.FACTORS, "fit", "levels", "noise"):
             begin, end = f"<!-- begin stereo_{name} -->\n", f"\n<!-- end stereo_{name} -->"
             self.assertEqual((page.count(begin), page.count(end)), (1, 1), name)
             table = page.split(begin)[1].split(end)[0]

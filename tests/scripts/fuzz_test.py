@@ -1,20 +1,21 @@
-"""The harness of fuzz_study.py: it finds what is there to find, and makes a case again from its number."""
+"""The harness of fuzz.py: it finds what is there to find, and makes a case again from its number."""
 
 import contextlib
 import io
-import json
 import shutil
 import sys
 import tempfile
 import textwrap
 import unittest
+import unittest.mock
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "tests/long"))
 
-import fuzz_study  # noqa: E402
+import fuzz  # noqa: E402
 from fuzzing import harness, lines, scenarios, valid  # noqa: E402
+from progress import Progress  # noqa: E402
 
 ROCKYARD = None  # the real command; the first argument
 
@@ -82,7 +83,7 @@ class Study(unittest.TestCase):
 
     def study(self, *arguments):
         with contextlib.redirect_stdout(io.StringIO()) as told:
-            code = fuzz_study.main([*arguments, "--out", str(self.folder / "kept")])
+            code = fuzz.main([*arguments, "--out", str(self.folder / "kept")])
         return code, told.getvalue()
 
     def broken(self, body):
@@ -133,6 +134,19 @@ class Study(unittest.TestCase):
                                 "--lines", "60")
         self.assertEqual(code, 1, told)
         self.assertIn("was not lost", told)
+
+
+class LongTestProgress(unittest.TestCase):
+    def test_tells_what_is_done_and_left_twice_a_minute(self):
+        times = iter([100.0, 110.0, 131.0, 140.0, 170.0])
+        told = io.StringIO()
+        with unittest.mock.patch("time.monotonic", lambda: next(times)), contextlib.redirect_stderr(told):
+            progress = Progress("kills", 200)
+            for done in (10, 31, 40, 50):
+                progress.at(done, 1)
+        # After 31 s and 31 of 200: 169 more take 169 s; after 70 s and 50 of 200: 150 more take 210 s.
+        self.assertEqual(told.getvalue(), "kills: 31 of 200, 1 found, about 3 min left\n"
+                                          "kills: 50 of 200, 1 found, about 4 min left\n")
 
 
 if __name__ == "__main__":

@@ -7,11 +7,12 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
-import calibrate_profile  # noqa: E402
+sys.path.insert(0, str(ROOT / "scripts/studies"))
+import study  # noqa: E402, F401  (knows where calibrations are)
+from calibrations import calibrate_profile  # noqa: E402
 
 ROCKYARD = sys.argv.pop(1)
-# Of both readings of the rocks' heights, by scripts/calibrate_profile.py.
+# Of both readings of the rocks' heights, by scripts/calibrations/calibrate_profile.py.
 CALIBRATED = {(0.8, 1.2): 0.8675, (0.4, 0.9): 0.945}
 # Sets of scenes: ten for each of 16 heights. With 250 scenes each the crossing is known to 0.4 mm.
 TRIALS = 160
@@ -64,7 +65,7 @@ class Profile(unittest.TestCase):
                     f'{{"terrain": {{"rocks": {{"pointedness": {pointedness}}}}}}}',
                     encoding="utf-8")
                 return subprocess.run(
-                    [ROOT / "scripts/calibrate_profile.py", "--rockyard", ROCKYARD, "--trials",
+                    [ROOT / "scripts/calibrations/calibrate_profile.py", "--rockyard", ROCKYARD, "--trials",
                      str(TRIALS), "--against", scenario], text=True, capture_output=True,
                     check=False)
 

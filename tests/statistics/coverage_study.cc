@@ -6,7 +6,7 @@
 // trials are drawn from it with replacement, each interval is made of each of them, and compared
 // with the value of the pool. OTHER.csv is another run with the same seed: what compares two runs
 // is made of trials of both. Writes one line of CSV for each interval, column and size;
-// scripts/coverage_study.py makes the pools and the page.
+// scripts/studies/coverage/coverage.py makes the pools and the page.
 #include <algorithm>
 #include <array>
 #include <cmath>

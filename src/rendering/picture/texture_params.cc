@@ -32,7 +32,7 @@ void GravelParams::Visit(core::FieldVisitor& v) {
   VisitAs(
       v,
       "contrast and spectrum of three parts of a Navcam image of stony ground, sun at 8 degrees "
-      "(Curiosity, sol 3423, NRB_701383954RAS_F0933408NCAM00200M1; scripts/texture_study.py)");
+      "(Curiosity, sol 3423, NRB_701383954RAS_F0933408NCAM00200M1; texture.py)");
 }
 
 void TextureParams::VisitAs(core::FieldVisitor& v, std::string_view calibrated_to) {

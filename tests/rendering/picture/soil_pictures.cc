@@ -1,4 +1,4 @@
-// Renders a stereo pair of soil and rocks for scripts/texture_study.py:
+// Renders a stereo pair of soil and rocks for scripts/studies/texture/texture.py:
 //
 //   soil_pictures OUT GRAININESS SUN_DEG ROCKS_PER_LAW MRAD COLUMNS PITCH_DEG HEIGHT_M BASELINE_M
 //

@@ -1,0 +1,162 @@
+"""Matthies 1995, figures 7 and 8: a run among three rocks, in plan view and as its heading error."""
+
+import copy
+import math
+
+import study
+
+from . import Drawn, Figure, FigureError, style, three_rocks
+from .source import numbers
+
+MOST_RUNS = 60  # of which the band is made: each is driven again
+GRID_M = 0.1
+PUBLISHED_A_M, PUBLISHED_END_M = 2.6, 8.1  # section 5
+ROOM_M = 0.5  # about what is drawn
+ALARM_GAP_M = 0.3  # alarms of one avoidance are nearer together
+
+
+def accepted_runs(source):
+    source.require_run("the folder of a run of three_rock_run")
+    if source.scenario["experiment"] != "three_rock_run":
+        raise FigureError(f"{source.path}: is no run of the experiment three_rock_run")
+    rows = three_rocks.accepted(source.path)
+    if not rows:
+        raise FigureError(f"{source.path}: no run is accepted; run more of them")
+    return {int(row["trial"]): row for row in rows}
+
+
+def rocks_of(row):
+    """(name, x, y, diameter, height) of each rock."""
+    return [(name.upper(), *(row[f"{name}_{key}"] for key in ("x_m", "y_m", "diameter_m", "height_m")))
+            for name in "abc"]
+
+
+def drive_scenario(source, row):
+    """The drive of an accepted run as a scenario of its own."""
+    document = copy.deepcopy(source.scenario)
+    document["experiment"] = "drive"
+    document["course"]["goal_x_m"] = row["goal_m"]
+    rocks = document["terrain"]["rocks"]
+    rocks["kind"] = "listed"
+    for at, key in enumerate(("x_m", "y_m", "diameter_m", "height_m"), start=1):
+        rocks["listed"][key] = [rock[at] for rock in rocks_of(row)]
+    return document
+
+
+class Course:
+    """What a trace says: both paths, the heading error along the way, where alarms were raised."""
+
+    def __init__(self, rows):
+        samples = [row for row in rows if row["row"] == "sample"]
+        self.true = list(zip(numbers(samples, "true_x_m"), numbers(samples, "true_y_m")))
+        self.believed = list(zip(numbers(samples, "believed_x_m"), numbers(samples, "believed_y_m")))
+        self.path = [0.0]
+        for before, after in zip(self.true, self.true[1:]):
+            self.path.append(self.path[-1] + math.dist(before, after))
+        self.error_deg = [math.degrees(math.remainder(believed - true, 2.0 * math.pi))
+                          for believed, true in zip(numbers(samples, "believed_heading_rad"),
+                                                    numbers(samples, "true_heading_rad"))]
+        times = numbers(samples, "time_s")
+        self.alarms = self._alarms([row for row in rows if row["row"] == "event" and row["kind"] == "hazard"], times)
+
+    def _alarms(self, events, times):
+        found = []
+        for time_s in numbers(events, "time_s"):
+            at = next((i for i, tick in enumerate(times) if tick > time_s), len(times) - 1)
+            if not found or self.path[at] - found[-1][1] > ALARM_GAP_M:
+                found.append([at, self.path[at]])
+            else:
+                found[-1][1] = self.path[at]
+        return [first for first, _last in found]
+
+    def error_at(self, path_m):
+        return next(error for path, error in zip(self.path, self.error_deg) if path >= path_m)
+
+
+def course_of(source, row):
+    return Course(source.trace_of(drive_scenario(source, row), int(row["trial"])))
+
+
+def side_of(course, row):
+    """+1 or -1: how the error of the record is signed against the trace's."""
+    return math.copysign(1.0, row["final_deg"] * course.error_deg[-1])
+
+
+def chosen(runs, options):
+    if options.trial not in runs:
+        raise FigureError(f"--trial {options.trial}: is no accepted run; accepted are "
+                          f"{', '.join(str(trial) for trial in list(runs)[:10])} ...")
+    return runs[options.trial]
+
+
+def draw_plan(sources, options):
+    row = chosen(accepted_runs(sources[0]), options)
+    course = course_of(sources[0], row)
+    figure, axes = style.new_figure(7.5, 2.4)
+    style.octagons(axes, [rock[1:4] for rock in rocks_of(row)], facecolor=style.PALE,
+                   edgecolor=style.INK, linewidth=0.8)
+    for name, x, y, diameter, _height in rocks_of(row):
+        axes.annotate(name, (x, y + 0.5 * diameter), xytext=(0, 3), textcoords="offset points",
+                      ha="center", fontsize=9)
+    axes.plot(*zip(*course.true), color=style.BLUE, label="true")
+    axes.plot(*zip(*course.believed), color=style.VERMILION, linestyle="--", label="dead reckoned")
+    across = [y for _x, y in course.true + course.believed] + [rock[2] for rock in rocks_of(row)]
+    axes.set(xlabel="x (m)", ylabel="y (m)", aspect="equal",
+             ylim=(min(across) - ROOM_M, max(across) + ROOM_M))
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=8)
+    caption = (f"A run with three rocks, in the manner of Matthies 1995, figure 7: {sources[0].name}, seed "
+               f"{sources[0].seed}, accepted run {int(row['trial'])}; {row['length_m']:.2f} m long, final errors {row['position_error_m']:.2f} m and "
+               f"{row['heading_error_deg']:.1f} deg (published: 8.1 m, 1.0 m and 15.3 deg). The paper's own path "
+               "is not available, so none is drawn.")
+    return Drawn(figure, caption, {"true": course.true, "believed": course.believed})
+
+
+def band(courses):
+    """[path, lowest 2.5 %, median, highest 2.5 %] over the runs that are as long."""
+    rows = []
+    shortest = min(course.path[-1] for course, _side in courses)
+    for i in range(int(shortest / GRID_M) + 1):
+        errors = [side * course.error_at(i * GRID_M) for course, side in courses]
+        rows.append([i * GRID_M, *(study.quantile(errors, share) for share in (0.025, 0.5, 0.975))])
+    return rows
+
+
+def draw_heading(sources, options):
+    runs = accepted_runs(sources[0])
+    row = chosen(runs, options)
+    listed = list(runs.values())[:MOST_RUNS]
+    courses = [course_of(sources[0], each) for each in listed]
+    shown = course_of(sources[0], row)
+    rows = band([(course, side_of(course, each)) for course, each in zip(courses, listed)])
+    side = side_of(shown, row)
+    figure, axes = style.new_figure(7.0, 4.2)
+    path, low, median, high = zip(*rows)
+    axes.fill_between(path, low, high, color=style.SKY, alpha=0.3, linewidth=0,
+                      label=f"95 % of {len(listed)} accepted runs")
+    axes.plot(path, median, color=style.SKY, linestyle=":", label="their median")
+    axes.plot(shown.path, [side * error for error in shown.error_deg], color=style.BLUE,
+              label=f"run {int(row['trial'])}")
+    for at in shown.alarms:
+        axes.annotate("", (shown.path[at], side * shown.error_deg[at]), xytext=(0, 26),
+                      textcoords="offset points", arrowprops={"arrowstyle": "->", "color": style.INK})
+    axes.plot([PUBLISHED_A_M, PUBLISHED_A_M, PUBLISHED_END_M], [0.0, -5.0, 15.3], "D",
+              color=style.VERMILION, markersize=5, label="published, with its place")
+    for level in (10.0, 15.0):
+        axes.axhline(level, color=style.VERMILION, linewidth=0.8, linestyle=(0, (6, 3)))
+    axes.set(xlabel="distance travelled (m)", ylabel="heading error (deg)")
+    axes.legend(loc="upper left", fontsize=8)
+    caption = ("Heading error, believed less true, against the distance travelled, in the manner of Matthies 1995, "
+               f"figure 8: {sources[0].name}, seed {sources[0].seed}, run {int(row['trial'])}, and 95 % of "
+               f"{len(listed)} accepted runs at each distance, signed so that the side of the turn at rock A is "
+               "positive. Arrows: where that run believed to see a hazard. Diamonds: what the text gives with its "
+               "distance (near 0 and -5 deg at 2.6 m, 15.3 deg at 8.1 m); dashed: +10 from rock B to C and +15 "
+               "after the scrape of C, whose distances it does not give.")
+    return Drawn(figure, caption, {"band": rows, "alarms": [shown.path[at] for at in shown.alarms]})
+
+
+PLAN = Figure(name="matthies1995-7", title="a run among three rocks in plan view",
+              runs="a run of localization/three_rock_run.json; --trial names an accepted one",
+              accepts=(1, 1), draw=draw_plan)
+HEADING = Figure(name="matthies1995-8", title="heading error along a run among three rocks",
+                 runs="a run of localization/three_rock_run.json; --trial names an accepted one",
+                 accepts=(1, 1), draw=draw_heading)

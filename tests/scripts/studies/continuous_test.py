@@ -1,0 +1,124 @@
+"""Counts of the study of continuous driving, on numbers made by hand."""
+
+import math
+import sqlite3
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "scripts/studies"))
+from continuous import continuous as study  # noqa: E402  (the path comes first)
+
+
+def drive(outcome=study.ARRIVED, time_s=300.0, **values):
+    row = {name: 1.0 for name in study.COLUMNS} | {"sim_time_s": time_s, "visual_distance_m": 15.0} | values
+    return row | {"speed_cm_s": 100.0 * row["visual_distance_m"] / row["sim_time_s"], "outcome": outcome}
+
+
+def field(stop=600.0, csod=300.0, csad=240.0, lost=None, steering=0.5):
+    rows = {"stop_and_look": drive(time_s=stop), "csod": drive(time_s=csod),
+            "csad": drive(time_s=csad, steer_turned_rad=steering)}
+    if lost:
+        rows[lost]["outcome"] = "jammed"
+    return rows
+
+
+class Counts(unittest.TestCase):
+    def test_the_printed_gain_and_ratio(self):
+        self.assertAlmostEqual(study.GAIN, 0.193, places=3)
+        self.assertAlmostEqual(study.STEERING_RATIO, 0.93 / 2.03)
+        for cycle in study.CYCLES[1:]:
+            values = study.PUBLISHED[cycle]
+            self.assertAlmostEqual(100 * values["visual_distance_m"] / values["sim_time_s"], values["speed_cm_s"], places=2)
+
+    def test_places(self):
+        self.assertEqual(study.place([1.0, 2.0, 3.0, 4.0], 2.5), (0.5, 1.0))
+        share, chance = study.place([1.0] * 99, 0.5)
+        self.assertEqual(share, 0.0)
+        self.assertAlmostEqual(chance, 0.02)
+        # The other side counts alike.
+        self.assertEqual(study.place([1.0] * 99, 1.5)[1], chance)
+
+    def test_only_fields_in_which_all_arrive_are_compared(self):
+        fields = {(0.01, 0): field(), (0.01, 1): field(lost="csod"), (0.01, 2): field(lost="stop_and_look")}
+        self.assertEqual(list(study.shared_arrivals(fields)), [(0.01, 0)])
+        self.assertEqual(list(study.shared_arrivals(fields, study.CYCLES[1:])), [(0.01, 0), (0.01, 2)])
+
+    def test_gains_are_shares_of_the_first_time(self):
+        fields = {(0.01, 0): field(), (0.01, 1): field(csod=400.0, csad=300.0)}
+        for found, wanted in zip(study.gains(fields, "csod", "csad"), (0.2, 0.25), strict=True):
+            self.assertAlmostEqual(found, wanted)
+        self.assertEqual(study.differences(fields, "sim_time_s", "csod", "csad"), [-60.0, -100.0])
+        self.assertEqual(study.ratios(fields, "steer_turned_rad", "csod", "csad"), [0.5, 0.5])
+
+    def test_the_paired_table_counts_who_arrives_alone(self):
+        fields = {(0.01, i): field(csad=240.0 + i) for i in range(4)}
+        fields |= {(0.01, 4): field(lost="csod"), (0.01, 5): field(lost="csod"), (0.01, 6): field(lost="csad")}
+        text = study.paired_table(fields)
+        self.assertIn("over the 4 fields", text)
+        self.assertIn("csad alone arrives in 2 fields, csod alone in 1", text)
+
+    def test_fields_with_ways_like_the_published_ones(self):
+        near = {cycle: drive(visual_distance_m=14.9, time_s=time_s)
+                for cycle, time_s in zip(study.CYCLES, (400.0, 300.0, 240.0))}
+        far = {cycle: row | {"visual_distance_m": 15.2} for cycle, row in near.items()}
+        half = near | {"csad": far["csad"]}
+        self.assertEqual(list(study.alike({0: near, 1: far, 2: half})), [0])
+        self.assertIn("In the 2 fields", study.alike_text({0: near, 3: near}))
+        self.assertIn("csad gains 20.0 (20.0..20.0) %; medians csod 300 s", study.alike_text({0: near, 3: near}))
+        self.assertIn("No field", study.alike_text({1: far}))
+
+    def test_tables_have_a_line_for_each_cycle_and_abundance(self):
+        fields = {(k, i): field(csod=300.0 + i) for k in (0.004, 0.01) for i in range(3)}
+        self.assertEqual(len(study.drives_table(fields).split("\n\n")[0].splitlines()), 2 + 3)
+        self.assertEqual(len(study.strata_table(fields).splitlines()), 2 + 2)
+        plans = study.plans_table(fields).splitlines()
+        self.assertEqual(len(plans), 2 + 2)
+        self.assertIn("| csad | 1.0 | 1.00 | 1.00 | 1.00 | 1.0 | 1000.0 (1000.0) |", plans[3])
+
+    def test_maps_mark_what_holds_the_published_ratio(self):
+        cells = {(20.0, 0.5): {i: field(csad=300 * (1 - study.GAIN) + i - 1, steering=0.9 + 0.01 * i) for i in range(3)},
+                 (90.0, 0.5): {i: field(csad=280.0 + i) for i in range(3)}}
+        rows = study.map_rows(cells)
+        self.assertEqual([row["arrivals"] for row in rows], [3, 3])
+        lines = study.map_table(rows).splitlines()
+        self.assertIn("| 20 | 0.81*, 0.91 |", lines[2])
+        self.assertIn("| 90 | 0.94, 0.50 |", lines[3])
+        self.assertEqual([name for name, _ in study.map_panels(rows)[0][1]], ["20 deg/s", "90 deg/s", "published"])
+
+    def test_choices_are_held_against_what_is_assumed(self):
+        base = {0: drive(), 1: drive("jammed"), 2: drive(), 3: drive()}
+        other = {0: drive(time_s=330.0), 1: drive(), 2: drive("no_path"), 3: drive(time_s=330.0)}
+        cells = {(cycle, name): trials for cycle in study.CYCLES[1:]
+                 for name, trials in ((study.AS_ASSUMED, base), ("slower", other))}
+        rows = study.choice_rows(cells)
+        slower = next(row for row in rows if row["choice"] == "slower")
+        self.assertEqual((slower["arrived"], slower["won"], slower["lost"]), (3, 1, 1))
+        self.assertAlmostEqual(slower["time"], 1.1)
+        self.assertIn("| slower | 3 of 4 (+1, -1) | 1.10 (1.10..1.10) |", study.choices_table(rows))
+
+    def test_fields_are_read_by_abundance_and_number(self):
+        with tempfile.TemporaryDirectory() as folder:
+            store = sqlite3.connect(Path(folder) / "results.sqlite")
+            store.execute("create table cells (cell, name)")
+            store.execute("insert into cells values (1, 'cycle=csad,k_per_m2=0.013')")
+            columns = ", ".join(f'"{name}"' for name in study.COLUMNS)
+            store.execute(f"create table trials (campaign_cell, trial, outcome, {columns})")
+            marks = ", ".join("?" * len(study.COLUMNS))
+            values = [200.0 if name == "sim_time_s" else 14.0 for name in study.COLUMNS]
+            values[study.COLUMNS.index("plan_start_error_m")] = None
+            for trial, outcome in enumerate((study.ARRIVED, "simulator_fault")):
+                store.execute(f"insert into trials values (1, {trial}, '{outcome}', {marks})", values)
+            store.commit()
+            store.close()
+            fields = study.read_fields(folder)
+        self.assertEqual(list(fields), [(0.013, 0)])
+        row = fields[0.013, 0]["csad"]
+        self.assertAlmostEqual(row["speed_cm_s"], 7.0)
+        self.assertTrue(math.isnan(row["plan_start_error_m"]))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,74 @@
+"""Counting of the study of the coloured cylinder, on rows made by hand."""
+
+import math
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "scripts/studies"))
+from cylinder import cylinder  # noqa: E402  (the path comes first)
+
+
+def row(distance, orientation, errors_deg, stereo=0.0, wrong=0, measurements=None):
+    """A record of the published finder (and of ours, alike) with these errors."""
+    values = {"distance_m": distance, "orientation_deg": orientation,
+              "measurements": float(measurements or len(errors_deg))}
+    for finder in cylinder.FINDERS:
+        found = float(len(errors_deg))
+        values |= {f"{finder}_found": found, f"{finder}_wrong": float(wrong), f"{finder}_right": found - wrong,
+                   f"{finder}_orientation_bias_deg": sum(errors_deg),
+                   f"{finder}_orientation_error_deg": sum(e * e for e in errors_deg),
+                   f"{finder}_stereo_bias": stereo * found, f"{finder}_stereo_error": stereo * stereo * found,
+                   f"{finder}_size_bias": 0.0, f"{finder}_size_error": 0.0}
+    return values
+
+
+def verdicts(rows):
+    return {line[1]: line[3] for line in cylinder.verdict_lines(rows)}
+
+
+class Counting(unittest.TestCase):
+    def test_one_pixel_limits_are_those_of_the_text(self):
+        for d_m, turn, step in cylinder.PRINTED_LIMITS:
+            self.assertAlmostEqual(cylinder.finest_turn_deg(d_m) / turn, 1.0, delta=0.02)
+            self.assertAlmostEqual(cylinder.stereo_step(d_m) / step, 1.0, delta=0.01)
+
+    def test_means_and_spreads_are_those_of_the_measurements(self):
+        sums = cylinder.Sums([row(1.829, 0, [1.0, 2.0]), row(1.829, 0, [6.0])], "published")
+        self.assertAlmostEqual(sums.mean("orientation", "_deg"), 3.0)
+        self.assertAlmostEqual(sums.spread("orientation", "_deg"), math.sqrt(7.0))
+
+    def test_what_the_text_excepts(self):
+        self.assertTrue(cylinder.is_excepted(10.058, -130))
+        self.assertTrue(cylinder.is_excepted(15.0, 180))
+        self.assertFalse(cylinder.is_excepted(10.058, -80))
+        self.assertFalse(cylinder.is_excepted(4.572, -130))
+
+    def test_verdicts_follow_the_means(self):
+        good = [row(d, t, [1.0, 1.5], -0.01) for d in cylinder.PUBLISHED_M for t in (-130, 0)]
+        found = verdicts(good)
+        self.assertEqual(found["mean errors of distance within 5 %"], "agrees")
+        self.assertEqual(found["distances usually short"], "agrees")
+        self.assertEqual(found["at 10 m from -180 to -90 deg errors stand out"], "differs")
+        self.assertEqual(found["at 15 m from -180 to -90 deg no consistent result"], "undecided")
+        bad = good[:-2] + [row(10.058, -130, [30.0, 31.0]), row(10.058, 0, [1.0, 1.5]), row(15.0, -130, [], 0, 0, 2)]
+        found = verdicts(bad)
+        self.assertEqual(found["at 10 m from -180 to -90 deg errors stand out"], "agrees")
+        self.assertEqual(found["at 15 m from -180 to -90 deg no consistent result"], "agrees")
+        long = verdicts([row(0.914, 0, [9.0, 9.0], 0.06)])
+        self.assertEqual(long["mean errors of distance within 5 %"], "differs")
+        self.assertEqual(long["distances usually short"], "differs")
+
+    def test_shares_have_exact_intervals(self):
+        # Clopper and Pearson 1934, none of 10: 1 - 0.025^(1/10) = 30.8 %.
+        self.assertEqual(cylinder.share(0, 10), "0 of 10 (0.0..30.8 %)")
+
+    def test_exact_numbers(self):
+        verdict_of = {line[1]: line[3] for line in cylinder.exact_lines()}
+        self.assertEqual(verdict_of["m = 17: 11.24 m"], "agrees")
+        self.assertIn("misprint", verdict_of["about 5.8 %"])
+
+
+if __name__ == "__main__":
+    unittest.main()
