@@ -8,6 +8,7 @@
 #   FOLDER...        only the tests of these folders of tests/ (navigation, trial, ...), and of the
 #                    build only what they need
 #   --fast           only the fast tier: under a minute after a build
+#   --long           instead: the tests of the tier that these leave out
 #   --label LABEL    only tests of that label: unit, property, statistical, physics, differential,
 #                    determinism, regression, cli, fuzz, web, lint
 #   --no-lint        without clang-format and clang-tidy
@@ -41,10 +42,11 @@ dearest() {
 }
 while [ $# -gt 0 ]; do
   case "$1" in
-    -h | --help) sed -n '2,23s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,24s/^# \{0,1\}//p' "$0"; exit 0 ;;
     --all) shift; exec scripts/long_tests.py "$@" ;;
     --times) shift; dearest "${1:-50}"; exit 0 ;;
     --fast) tier="fast"; shift ;;
+    --long) tier="long"; exclude="^\$"; shift ;;
     --no-lint) exclude='^(long|lint)$'; shift ;;
     --label | --preset | --jobs)
       [ $# -ge 2 ] || usage "$1 needs a value"
@@ -100,9 +102,10 @@ cmake --build --preset "$preset" -j "$jobs" ${targets:+--target $targets}
 
 set -- --preset "$preset" -j "$jobs"
 if [ -n "$wanted" ]; then set -- "$@" -L "^($wanted)\$"; fi
-if [ "$tier" = fast ]; then set -- "$@" -L '^fast$'; fi
+if [ "$tier" != full ]; then set -- "$@" -L "^$tier\$"; fi
 if [ -n "$label" ]; then set -- "$@" -L "$label"; fi
 ROCKYARD_TEST_TIMES=$(record)
 export ROCKYARD_TEST_TIMES
+mkdir -p "build/$preset"
 : > "$ROCKYARD_TEST_TIMES"
 ctest "$@" -LE "$exclude" --no-tests=error --output-on-failure

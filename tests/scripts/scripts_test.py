@@ -126,8 +126,22 @@ class TestScript(ScriptTest):
         self.run_script("test.sh", "--preset", "tsan")
         self.assertEqual(self.called("install_dependencies.sh"), ["build mpi pages test figures tsan"])
 
+    def test_the_long_tier_is_what_the_others_leave_out(self):
+        self.run_script("test.sh", "--long")
+        self.assertIn("-L ^long$ -LE ^$ ", self.called("ctest")[0])
+
+    def test_the_dearest_tests_of_the_last_run(self):
+        self.assertEqual(self.run_script("test.sh", "--times").returncode, 2)
+        self.fake("bin/ctest").write_text("""#!/bin/sh
+printf 'a_test\\tA.Cheap\\t1.0\\t0.5\\nctest\\tpages\\t9.0\\t8.0\\nb_test\\tB.Dear\\t2.0\\t20.0\\n' >> "$ROCKYARD_TEST_TIMES"
+""", encoding="utf-8")
+        self.run_script("test.sh")
+        lines = self.run_script("test.sh", "--times", "2").stdout.splitlines()
+        self.assertEqual([line.split() for line in lines],
+                         [["cpu_s", "clock_s"], ["20.0", "2.0", "b_test", "B.Dear"], ["8.0", "9.0", "pages"]])
+
     def test_unknown_words_run_nothing(self):
-        for arguments in (["--quick"], ["--label"], ["nowhere"]):
+        for arguments in (["--quick"], ["--label"], ["--times"], ["nowhere"]):
             result = self.run_script("test.sh", *arguments)
             self.assertEqual(result.returncode, 2)
             self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
@@ -155,7 +169,7 @@ class LongTests(ScriptTest):
 
     def results(self):
         lines = (self.folder / "README.md").read_text(encoding="utf-8").splitlines()
-        return {line.split(" | ")[0].strip("| "): line.split(" | ")[-1] for line in lines[6:]}
+        return {line.split(" | ")[0].strip("| "): line.split(" | ")[-1] for line in lines[6:] if line.startswith("|")}
 
     def test_each_is_noted_with_its_last_result(self):
         self.assertEqual(self.run_script("test.sh", "--all").returncode, 1)
@@ -168,6 +182,40 @@ class LongTests(ScriptTest):
         self.assertEqual(self.run_script("long_tests.py", "good").returncode, 0)
         self.assertTrue(self.results()["bad"].startswith("FAILED"))
         self.assertEqual(self.calls.read_text(encoding="utf-8"), "bad\ngood\n")
+
+    def git(self, *arguments):
+        subprocess.run(["git", "-c", "user.name=a", "-c", "user.email=a@b", *arguments], cwd=self.root, check=True,
+                       capture_output=True)
+
+    def test_goes_on_where_it_was_interrupted_as_long_as_the_tree_is_the_same(self):
+        (self.root / ".gitignore").write_text("calls\nbuild\n__pycache__\n", encoding="utf-8")
+        self.git("init", "-q")
+        self.git("add", "-A")
+        self.git("commit", "-q", "-m", "first")
+        steps = ((["good"], "good\n"), (["good"], ""), ([], "bad\n"), (["--again", "good"], "good\n"))
+        for arguments, ran in steps:
+            with self.subTest(arguments=arguments):
+                self.calls.write_text("", encoding="utf-8")
+                self.run_script("long_tests.py", *arguments)
+                self.assertEqual(self.calls.read_text(encoding="utf-8"), ran)
+        self.git("add", "-A")  # its page, which is no reason to run again
+        self.git("commit", "-q", "-m", "results")
+        for name, ran in (("CHANGELOG.md", ""), ("another", "good\n")):
+            with self.subTest(changed=name):
+                self.calls.write_text("", encoding="utf-8")
+                (self.root / name).write_text("new", encoding="utf-8")
+                self.run_script("long_tests.py", "good")
+                self.assertEqual(self.calls.read_text(encoding="utf-8"), ran)
+        self.assertIn("-dirty, ", self.results()["good"])
+
+    def test_the_page_sums_up_and_names_what_is_too_long(self):
+        page = self.folder / "README.md"
+        row = "| {} | x | `y` | passed, 2026-01-01, commit 0123456789ab, {} min |"
+        page.write_text("\n".join([row.format("good", "30.0"), row.format("bad", "90.5")]), encoding="utf-8")
+        self.run_script("long_tests.py", "--again", "good")
+        text = page.read_text(encoding="utf-8")
+        self.assertIn("took 1.5 hours", text)
+        self.assertIn("Longer than an hour, and so to be divided: bad.", text)
 
     def test_list_and_unknown_names_run_nothing(self):
         listed = self.run_script("long_tests.py", "--list")
