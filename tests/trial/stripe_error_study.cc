@@ -1,6 +1,6 @@
 // Counts what the image level of the light stripe sensor finds, misses and misplaces, as JSON.
 //   stripe_error_study SCENARIO SCENES [PATH=VALUE]...
-// scripts/fit_stripe_errors.py runs it and fits the error model of the geometric level.
+// fit_stripe_errors.py runs it and fits the error model of the geometric level.
 #include <cstdlib>
 #include <iostream>
 #include <string>

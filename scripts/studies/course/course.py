@@ -107,6 +107,7 @@ def main():
     parser.add_argument("--courses", nargs="+", choices=names, default=names, metavar="COURSE")
     parser.add_argument("--set-gestalt", action="append", default=[], metavar="PATH=VALUE",
                         help="held where GESTALT drives")
+    parser.add_argument("--markdown", type=Path, metavar="PAGE", help="write the table `courses` of this page")
     study.add_run_arguments(parser, trials=40, out="courses")
     parser.set_defaults(seed=SEED)
     args = parser.parse_args()
@@ -120,6 +121,8 @@ def main():
         f"{args.seed}, Wilson's 95 % intervals; {'held: ' + ', '.join(held) + '; ' if held else ''}made by "
         f"rockyard {programs}.\n"])
     (args.out / "courses.md").write_text(text, encoding="utf-8")
+    if args.markdown:
+        study.write_table([args.markdown], "courses", text.rstrip())
     print(text)
     return 0
 

@@ -27,6 +27,7 @@ class Figure:
     accepts: tuple  # fewest and most of them
     draw: Callable
     defaults: tuple = ()  # files of the repository that are RUN... where none is given
+    chosen: Callable = lambda source: 0  # the trial that is drawn where none is named
 
 
 @dataclass

@@ -11,10 +11,12 @@ line asks for Debian's own Python).
 
 import argparse
 import sys
+import textwrap
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path[0] = str(ROOT / "scripts/studies")
+import study  # noqa: E402
 
 try:
     import figures
@@ -33,9 +35,11 @@ def parser():
     result.add_argument("--list", action="store_true", help="the figures, and the runs that each needs")
     result.add_argument("--out", type=Path, default=Path("."), metavar="FOLDER",
                         help="where the files go (default: here)")
+    result.add_argument("--page", type=Path, help="write the caption between the marks of the figure on this page")
     result.add_argument("--name", help="of the files (default: the figure's)")
     result.add_argument("--format", choices=style.FORMATS, help="of the picture (default: both)")
-    result.add_argument("--trial", type=int, default=0, help="for figures of one trial (default: 0)")
+    result.add_argument("--trial", type=int,
+                        help="for figures of one trial (default: 0; of figure 16 the first one like the published)")
     result.add_argument("--step", type=int, default=0,
                         help="for figures of one decision of a navigator (default: 0)")
     result.add_argument("--fields", type=int, default=100,
@@ -69,7 +73,7 @@ def check_count(figure, runs):
 
 def check_numbers(options):
     for name, least in (("trial", 0), ("step", 0), ("fields", 1)):
-        if getattr(options, name) < least:
+        if (getattr(options, name) or least) < least:
             raise figures.FigureError(f"--{name}: must be at least {least}")
 
 
@@ -79,13 +83,18 @@ def make(options, known):
     check_count(figure, runs)
     check_numbers(options)
     sources = [figure_source.Source(run, options.rockyard) for run in runs]
+    if options.trial is None:
+        options.trial = figure.chosen(sources[0]) if sources else 0
     drawn = figure.draw(sources, options)
     options.out.mkdir(parents=True, exist_ok=True)
     name = options.name or figure.name
     formats = (options.format,) if options.format else style.FORMATS
     paths = style.save(drawn.figure, options.out, name, formats)
-    text = options.out / f"{name}.txt"
-    text.write_text(drawn.caption + "\n", encoding="utf-8")
+    text = options.page or options.out / f"{name}.txt"
+    if options.page:
+        study.write_table([options.page], figure.name, textwrap.fill(drawn.caption, 118, break_on_hyphens=False))
+    else:
+        text.write_text(drawn.caption + "\n", encoding="utf-8")
     print("\n".join(str(path) for path in (*paths, text)))
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "scripts/studies"))
 
-from pyramid import pyramid  # noqa: E402  (the path comes first)
+from stereo_speedup import pyramid  # noqa: E402  (the path comes first)
 from stereo_speedup import stereo_speedup  # noqa: E402
 
 PAGE = (ROOT / "results/stereo_speed.md").read_text(encoding="utf-8")

@@ -9,7 +9,7 @@ benchmark, which matches a synthetic pair of the same size.
 
 Prints two tables; --csv also writes the first one for programs.
 
-    scripts/studies/pyramid/pyramid.py [--pairs 6] [--scenario FILE] [--csv FILE]
+    scripts/studies/stereo_speedup/pyramid.py [--pairs 6] [--scenario FILE] [--csv FILE]
         [--rockyard PROGRAM] [--render-pair PROGRAM] [--benchmark PROGRAM | --times FILE]
 """
 

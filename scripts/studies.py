@@ -1,0 +1,254 @@
+#!/usr/bin/env python3
+"""Makes what studies write, and says what of it is out of date.
+
+    scripts/studies.py list               what each shows, costs and writes, and of which build that is
+    scripts/studies.py run NAME...        runs studies, or all of a folder, and stamps what they write
+    scripts/studies.py stale [NAME...]    drives the first trials again and names what would come out otherwise
+    scripts/studies.py check              the cheap form: declarations, stamps, and what pages say at their heads
+
+A page says at its head which build it is of, and that it is stale where the program of today may give other numbers:
+without a stamp (results/stamps), or with one that is older than a change of results which touches its scenarios
+(CHANGELOG.md), or where `stale --mark` found other trials. `check --mark` writes the heads that are due.
+An interrupted study goes on where it was; its pages are the old ones until it is done.
+
+Exit code: 0 done; 1 `stale`, `check`: something is not as its page says; 2 wrong use or a study that failed.
+"""
+
+import argparse
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[0] = str(ROOT / "scripts/studies")
+from runner import declarations, heads, stamps, trials  # noqa: E402
+from runner.declarations import StudyError, carrier, file_of  # noqa: E402
+
+RUNS = ROOT / "results/runs/studies"
+# What a program is made of.
+SOURCES = ("src", "terrain", "CMakeLists.txt", "CMakePresets.json", "scripts/cmake")
+
+
+def git(*words):
+    result = subprocess.run(["git", *words], cwd=ROOT, text=True, capture_output=True, check=False)
+    if result.returncode != 0:
+        raise StudyError(f"git {' '.join(words)}: {result.stderr.strip()}")
+    return result.stdout
+
+
+def written_by(studies):
+    """Files that studies and their stamps may change."""
+    return {path for study in studies for item in study.writes for path in (file_of(item), carrier(item))}
+
+
+def require_clean(studies):
+    """Refuses a tree whose tracked files differ from its commit, but for what the studies write."""
+    own = written_by(studies)
+    changed = [line[3:].split(" -> ")[-1] for line in git("status", "--porcelain", "--untracked-files=no").splitlines()]
+    dirty = [file for file in changed if file not in own and not file.startswith(f"{stamps.STAMPS}/")]
+    if dirty:
+        raise StudyError(f"the tree is dirty, so that no commit would tell what was run: {', '.join(dirty[:5])}"
+                         f"{' and more' if len(dirty) > 5 else ''}; commit or set aside first")
+
+
+def version_of(rockyard):
+    """Version and commit of the program; refuses one that is not of the sources of HEAD."""
+    if not rockyard.is_file():
+        raise StudyError(f"{rockyard}: there is no such program; build it (cmake --build --preset release) "
+                         "or name one with --rockyard")
+    said = subprocess.run([rockyard, "--version"], text=True, capture_output=True, check=False).stdout
+    found = re.match(r"rockyard (\S+) \(commit ([0-9a-f]+)(-dirty)?", said)
+    if not found:
+        raise StudyError(f"{rockyard} --version names no commit: {said.strip()[:80]}")
+    if found[3]:
+        raise StudyError(f"{rockyard} was built from a dirty tree ({found[2]}-dirty); build it from a commit")
+    if git("diff", "--name-only", found[2], "HEAD", "--", *SOURCES).strip():
+        raise StudyError(f"{rockyard} is of {found[2]}, whose sources differ from those of HEAD; build it anew")
+    return found[1], found[2]
+
+
+def list_studies(options):
+    studies, _ = declarations.read(ROOT)
+    known = stamps.read(ROOT)
+    total = 0.0
+    for study in studies.values():
+        total += study.cpu_minutes
+        state = "stale" if stamps.is_stale(study, known, ROOT) else "current"
+        made = heads.build_of(study, study.writes, known, ROOT)
+        print(f"{study.name}  ({study.folder}, {study.cpu_minutes:g} CPU-minutes, {state}, {made})\n    {study.what}")
+        for item in study.writes if options.files else ():
+            print(f"    writes {item}")
+    print(f"{len(studies)} studies, {total / 60:.0f} CPU-hours; what they write: --files")
+    return 0
+
+
+class Kept:
+    """What the study is going to write, put back where it does not end well."""
+
+    def __init__(self, study):
+        self.before = {path: path.read_bytes() if path.is_file() else None
+                       for path in (ROOT / file for file in written_by([study]))}
+
+    def put_back(self):
+        for path, content in self.before.items():
+            if content is None:
+                path.unlink(missing_ok=True)
+            elif path.read_bytes() != content:
+                part = path.with_name(path.name + ".part")
+                part.write_bytes(content)
+                part.replace(path)
+
+
+def make(study, rockyard, threads, commit):
+    """Gives the study's commands; returns its cells. Pages are as they were where a command fails."""
+    runs = RUNS / f"{study.name}-{commit[:12]}"
+    runs.mkdir(parents=True, exist_ok=True)
+    noting, kept = trials.wrapped(rockyard, runs), Kept(study)
+    try:
+        for command in study.commands:
+            line = command.format(rockyard=noting, threads=threads, runs=runs)
+            print(f"== {study.name}: {line}", file=sys.stderr, flush=True)
+            code = subprocess.run(line, shell=True, cwd=ROOT, stdout=sys.stderr, check=False).returncode
+            if code != 0:
+                raise StudyError(f"{study.name}: exit code {code} of {line}\n"
+                                 "what it writes is as it was; the same command goes on")
+    except BaseException:
+        kept.put_back()
+        raise
+    return trials.cells_of(runs, study.first, ROOT)
+
+
+def progress(name):
+    start = time.monotonic()
+
+    def told(done, all_of_them):
+        end = "\n" if done == all_of_them else ""
+        print(f"\r{name}: first trials of {done} of {all_of_them} cells, {time.monotonic() - start:.0f} s", end=end,
+              file=sys.stderr, flush=True)
+    return told
+
+
+def run(options):
+    studies, faults = declarations.read(ROOT)
+    if faults:
+        raise StudyError("\n".join(faults))
+    wanted = declarations.chosen(studies, options.names)
+    by_hand = [study.name for study in wanted if not study.commands]
+    if by_hand:
+        raise StudyError(f"no script makes {', '.join(by_hand)}")
+    require_clean(wanted)
+    rockyard = options.rockyard.resolve()
+    version, commit = version_of(rockyard)
+    for study in wanted:
+        cells = make(study, rockyard, options.threads, git("rev-parse", "HEAD").strip())
+        first = trials.drive_all(rockyard, cells, options.threads, progress(study.name), ROOT)
+        stamps.write({"study": study.name, "version": version, "commit": commit, "changes": stamps.know_all(ROOT),
+                      "cells": [cell | found for cell, found in zip(cells, first)]}, ROOT)
+        heads.write(studies, stamps.read(ROOT), ROOT, {carrier(item) for item in study.writes})
+        print(f"{study.name}: made; {', '.join(study.writes)}")
+    return 0
+
+
+def differences(stamp, found):
+    """What of the cells comes out otherwise: words, one a cell."""
+    told = []
+    for cell, now in zip(stamp["cells"], found):
+        name = " ".join([cell.get("file", "a composed scenario"), *cell["set"]])
+        if now["cpu_level"] != cell["cpu_level"]:
+            told.append(f"{name}: made on {cell['cpu_level']}, this is {now['cpu_level']}")
+        elif now["trial_hash"] != cell["trial_hash"]:
+            told.append(f"{name}: other trials")
+        elif now["fingerprint"] != cell["fingerprint"]:
+            told.append(f"{name}: another scenario")
+    return told
+
+
+def stale(options):
+    studies, faults = declarations.read(ROOT)
+    if faults:
+        raise StudyError("\n".join(faults))
+    known = stamps.read(ROOT)
+    wanted = declarations.chosen(studies, options.names) if options.names else list(studies.values())
+    stamped = [study for study in wanted if study.name in known]
+    cells = [cell for study in stamped for cell in known[study.name]["cells"]]
+    found = trials.drive_all(options.rockyard.resolve(), cells, options.jobs, progress("stale"), ROOT)
+    wrong = []
+    for study in wanted:
+        reasons = ["no stamp"]
+        if study in stamped:
+            own, found = found[:len(known[study.name]["cells"])], found[len(known[study.name]["cells"]):]
+            reasons = differences(known[study.name], own)
+            if options.mark and bool(reasons) != known[study.name].get("differs", False):
+                known[study.name]["differs"] = bool(reasons)
+                stamps.write(known[study.name], ROOT)
+        says = stamps.is_stale(study, known, ROOT)
+        if reasons:
+            print(f"{study.name}: {reasons[0]}{f' and {len(reasons) - 1} more' if len(reasons) > 1 else ''}; "
+                  f"stale: {', '.join(study.writes) or 'nothing that is kept'}")
+        elif says:
+            print(f"{study.name}: its first trials are as they were, and a change of results touches it")
+        if bool(reasons) and not says:
+            wrong.append(f"{study.name} is stale, and its pages do not say so (--mark makes them)")
+        elif study in stamped and not reasons and known[study.name].get("differs", False):
+            wrong.append(f"{study.name} is marked as giving other trials, and does not (--mark takes it away)")
+    if options.mark:
+        heads.write(studies, known, ROOT)
+    wrong += heads.faults(studies, known, ROOT)
+    print("\n".join(wrong) or f"{len(wanted)} studies: pages say what is true of them")
+    return 1 if wrong else 0
+
+
+def check(options):
+    studies, faults = declarations.read(ROOT)
+    faults += declarations.faults_of(studies, ROOT)
+    known = stamps.read(ROOT)
+    faults += [f"{stamps.STAMPS}/{name}.json is of no study" for name in known if name not in studies]
+    if options.mark and not faults:
+        for page in heads.write(studies, known, ROOT):
+            print(f"{page}: head written")
+    faults += heads.faults(studies, known, ROOT) if not faults else []
+    print("\n".join(faults) or f"{len(studies)} studies, {len(known)} with a stamp; pages say what is known of them")
+    return 1 if faults else 0
+
+
+def parser():
+    result = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = result.add_subparsers(required=True, metavar="COMMAND")
+    program = {"type": Path, "default": ROOT / "build/release/bin/rockyard",
+               "help": "the program (default: build/release/bin/rockyard)"}
+    one = commands.add_parser("list", help="what there is")
+    one.add_argument("--files", action="store_true", help="also what each writes")
+    one.set_defaults(call=list_studies)
+    one = commands.add_parser("run", help="makes what studies write")
+    one.add_argument("names", nargs="+", metavar="NAME")
+    one.add_argument("--rockyard", **program)
+    one.add_argument("--threads", type=int, default=1)
+    one.set_defaults(call=run)
+    one = commands.add_parser("stale", help="drives the first trials of stamped studies again")
+    one.add_argument("names", nargs="*", metavar="NAME")
+    one.add_argument("--rockyard", **program)
+    one.add_argument("--jobs", type=int, default=2, help="cells at a time (2)")
+    one.add_argument("--mark", action="store_true", help="note what differs in stamps and heads")
+    one.set_defaults(call=stale)
+    one = commands.add_parser("check", help="what can be told without driving")
+    one.add_argument("--mark", action="store_true", help="write the heads that are due")
+    one.set_defaults(call=check)
+    return result
+
+
+def main():
+    options = parser().parse_args()
+    try:
+        return options.call(options)
+    except (StudyError, OSError) as error:
+        print(f"studies: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("\nstudies: interrupted; nothing that was written is in halves", file=sys.stderr)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

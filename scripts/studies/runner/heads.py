@@ -1,0 +1,110 @@
+"""What stands at the head of pages about the age of what studies wrote there."""
+
+import re
+
+from . import stamps as stamping
+from .declarations import ROOT, carrier, file_of, has_table
+
+BEGIN, END = "<!-- begin made -->", "<!-- end made -->"
+HEAD = re.compile(rf"{BEGIN}\n.*?{END}\n\n?", re.S)
+BUILD = re.compile(r"\b(\d+\.\d+\.\d+ [0-9a-f]{7,40}(?:-dirty)?)\b")
+
+
+def named_builds(item, root=ROOT):
+    """The builds that a table or file names, or else the only one that its page names."""
+    text = HEAD.sub("", (root / file_of(item)).read_text(encoding="utf-8", errors="replace"))
+    own = list(dict.fromkeys(BUILD.findall(text)))
+    if "#" not in item:
+        return own
+    table = has_table(text, item.split("#")[1])
+    return list(dict.fromkeys(BUILD.findall(table[0]))) if table and BUILD.search(table[0]) else own[:len(own) == 1]
+
+
+def build_of(study, items, stamps, root=ROOT):
+    """Version and commit, of the stamp or as the items themselves name them."""
+    if study.name in stamps:
+        return f"rockyard {stamps[study.name]['version']} {stamps[study.name]['commit'][:12]}"
+    found = list(dict.fromkeys(build for item in items for build in named_builds(item, root)))
+    if len(found) > 3:
+        return f"rockyard {found[0]} and {len(found) - 1} other builds"
+    return "rockyard " + " and ".join(found) if found else "an unknown build"
+
+
+def names_of(items):
+    """Tables and files; a caption goes with its figure."""
+    names = [item.split("#")[-1].rsplit("/", 1)[-1] for item in items]
+    return ", ".join(f"`{name}`" for name in names if f"{name}.svg" not in names)
+
+
+def line(kind, made, found, alone):
+    """What a page says of studies of one kind and one build: their names and items; `alone`: there are no others."""
+    items = names_of([item for _, own in found for item in own])
+    what = "" if alone else f" ({items})"
+    run = f"`scripts/studies.py run {' '.join(study.name for study, _ in found)}`"
+    if kind == "current":
+        return f"> Made by {made} by {run}{what}."
+    again = f"{run} makes it anew." if kind == "stale" else "No script makes it anew."
+    return f"> **Stale**{what}: made by {made}; today's program may give other numbers. {again}"
+
+
+def pages(studies):
+    """Items by page and study."""
+    found = {}
+    for study in studies.values():
+        for item in study.writes:
+            found.setdefault(carrier(item), {}).setdefault(study.name, []).append(item)
+    return found
+
+
+def head(written, studies, stamps, root=ROOT):
+    """The head of a page: {study: items} that stand on it."""
+    groups = {}
+    for name, items in sorted(written.items()):
+        study = studies[name]
+        stale = stamping.is_stale(study, stamps, root)
+        kind = "current" if not stale else "stale" if study.commands else "by hand"
+        groups.setdefault((kind, build_of(study, items, stamps, root)), []).append((study, items))
+    lines = [line(*key, found, len(groups) == 1) for key, found in sorted(groups.items())]
+    return f"{BEGIN}\n" + "\n>\n".join(lines) + f"\n{END}\n"
+
+
+def with_head(text, wanted):
+    """The page with this head, below its title where it has one."""
+    bare = HEAD.sub("", text)
+    title = re.match(r"# .*\n\n?", bare)
+    if not title:
+        return f"{wanted}\n{bare}"
+    return f"{title[0].rstrip()}\n\n{wanted}\n{bare[title.end():]}"
+
+
+def write(studies, stamps, root=ROOT, only=None):
+    """Brings the heads of pages up to date (only: of these); those that were not."""
+    changed = []
+    for page, written in pages(studies).items():
+        path = root / page
+        if (only and page not in only) or not path.is_file():
+            continue
+        text = path.read_text(encoding="utf-8")
+        mended = with_head(text, head(written, studies, stamps, root))
+        if mended != text:
+            stamping.write_whole(path, mended)
+            changed.append(page)
+    return changed
+
+
+def faults(studies, stamps, root=ROOT):
+    """Pages whose head does not say what is known, each with what it should say."""
+    found = []
+    for page, written in sorted(pages(studies).items()):
+        path = root / page
+        if not path.is_file():
+            continue
+        text = path.read_text(encoding="utf-8")
+        wanted = head(written, studies, stamps, root)
+        heads = HEAD.findall(text)
+        if len(heads) == 1 and heads[0].rstrip("\n") == wanted.rstrip("\n"):
+            continue
+        said = heads[0].splitlines()[1:-1] if heads else []
+        lines = [one for one in wanted.splitlines()[1:-1] if one != ">" and one not in said]
+        found.append(f"{page} does not say at its head: {' / '.join(lines) or 'only what is true of it'}")
+    return found
