@@ -102,22 +102,20 @@ class Kept:
 
 
 def make(study, rockyard, threads, commit):
-    """Gives the study's commands; returns its cells. Pages are as they were where a command fails."""
+    """Gives the study's commands; returns its cells with what their first trials give."""
     runs = RUNS / f"{study.name}-{commit[:12]}"
     runs.mkdir(parents=True, exist_ok=True)
-    noting, kept = trials.wrapped(rockyard, runs), Kept(study)
-    try:
-        for command in study.commands:
-            line = command.format(rockyard=noting, threads=threads, runs=runs)
-            print(f"== {study.name}: {line}", file=sys.stderr, flush=True)
-            code = subprocess.run(line, shell=True, cwd=ROOT, stdout=sys.stderr, check=False).returncode
-            if code != 0:
-                raise StudyError(f"{study.name}: exit code {code} of {line}\n"
-                                 "what it writes is as it was; the same command goes on")
-    except BaseException:
-        kept.put_back()
-        raise
-    return trials.cells_of(runs, study.first, ROOT)
+    noting = trials.wrapped(rockyard, runs)
+    for command in study.commands:
+        line = command.format(rockyard=noting, threads=threads, runs=runs)
+        print(f"== {study.name}: {line}", file=sys.stderr, flush=True)
+        code = subprocess.run(line, shell=True, cwd=ROOT, stdout=sys.stderr, check=False).returncode
+        if code != 0:
+            raise StudyError(f"{study.name}: exit code {code} of {line}\n"
+                             "what it writes is as it was; the same command goes on")
+    cells = trials.cells_of(runs, study.first, ROOT)
+    first = trials.drive_all(rockyard, cells, threads, progress(study.name), ROOT)
+    return [cell | found for cell, found in zip(cells, first)]
 
 
 def progress(name):
@@ -142,10 +140,14 @@ def run(options):
     rockyard = options.rockyard.resolve()
     version, commit = version_of(rockyard)
     for study in wanted:
-        cells = make(study, rockyard, options.threads, git("rev-parse", "HEAD").strip())
-        first = trials.drive_all(rockyard, cells, options.threads, progress(study.name), ROOT)
+        kept = Kept(study)
+        try:
+            cells = make(study, rockyard, options.threads, git("rev-parse", "HEAD").strip())
+        except BaseException:
+            kept.put_back()
+            raise
         stamps.write({"study": study.name, "version": version, "commit": commit, "changes": stamps.know_all(ROOT),
-                      "cells": [cell | found for cell, found in zip(cells, first)]}, ROOT)
+                      "cells": cells}, ROOT)
         heads.write(studies, stamps.read(ROOT), ROOT, {carrier(item) for item in study.writes})
         print(f"{study.name}: made; {', '.join(study.writes)}")
     return 0

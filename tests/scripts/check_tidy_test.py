@@ -5,6 +5,7 @@ import io
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -209,8 +210,12 @@ class Runs(Project):
         self.check("plant")
         self.assertEqual(self.runs(), ["one.cc"], "other batches")
 
+    def test_all_batches_without_a_folder(self):
+        self.check()
+        self.assertEqual(len(self.runs()), 2)
+
     def test_what_is_not_there_is_wrong_use(self):
-        for arguments in (["cloud"], ["--changed", "no-such-commit"], ["--changed", "a", "b"], []):
+        for arguments in (["cloud"], ["--changed", "no-such-commit"], ["--changed", "a", "b"]):
             with self.subTest(arguments=arguments):
                 self.assertEqual(self.check(*arguments)[0], 2)
         (self.build / "compile_commands.json").unlink()
@@ -243,6 +248,24 @@ class Runs(Project):
         code, output = self.check("--changed", "HEAD")
         self.assertEqual((code, self.runs()), (1, ["main.cc"]))
         self.assertIn("main.cc:1:1", output)
+
+    def test_changes_since_all_files_were_clean(self):
+        self.start_repository()
+        clean = subprocess.run(["git", "-C", str(self.root), "rev-parse", "HEAD"], text=True, capture_output=True,
+                               check=True).stdout[:12]
+        for name in ("one", "two"):
+            self.write(f"src/plant/{name}.cc", f"int {name}_other;\n")
+            self.commit()
+        row = "| tidy | every source | `x` | {}, 2026-01-01, commit {}, 9.0 min |\n"
+        for told, files in (("passed", 2), ("FAILED with exit code 1", 1)):
+            with self.subTest(told=told):
+                self.write("tests/long/README.md", row.format(told, clean))
+                check_tidy.read.cache_clear()
+                shutil.rmtree(self.build / "clang-tidy", ignore_errors=True)
+                self.check("--changed")
+                texts = [(self.build / "clang-tidy" / name) for name in self.runs() if "changed" in name]
+                found = texts[0].read_text(encoding="utf-8").count("_other") if texts else 1
+                self.assertEqual(found, files)
 
     def test_a_branch_that_has_not_left_is_compared_with_the_commit_before(self):
         self.start_repository()

@@ -84,6 +84,14 @@ TABLE_3_STEPS = {
 }
 MEANS = ("mean_a", "mean_b", "difference", "ci95_low", "ci95_high")
 QUASI_STATIC = ["rover.fidelity=quasi_static"]
+# Rows of the first page, by their id in the references.
+EXCERPT = {
+    "obstacles_0.85.success": "arrivals, 0.85 rocks per m2",
+    "nominal.success": "arrivals, nominal terrain",
+    "nominal.hazards_begun": "hazards met a metre",
+    "nominal.distance.mode": "most frequent distance (m)",
+    "missed.nominal": "share of hazards missed",
+}
 VERDICTS = ("agrees", "holds", "differs", "underpowered", "not judged")
 
 
@@ -165,21 +173,28 @@ def comparison(study):
 
 
 def comparison_excerpt(study):
-    """A row of each verdict for the first page; the whole table stands on a page of its own."""
-    shown = {"obstacles_0.28": "declared", "obstacles_0.85": "declared", "nominal": "declared",
-             "nominal_perfect_localization": "true distance, lower bound",
-             "level_sand": "k distance error, mode"}
-    lines, rows = published_check(study).splitlines(), []
-    scenario = None
-    for line in lines:
-        if line.startswith("  number"):
-            rows.append(line)
-        elif line in shown:
-            scenario = line
-        elif scenario and line.removeprefix("  ").startswith(shown[scenario]):
-            rows += [scenario, line]
-            scenario = None
-    return "```\n" + "\n".join(rows) + "\n```"
+    """Five numbers for the first page, of each verdict some; whole tables stand on pages of their own."""
+    study.published()
+    found = {row["id"]: row for runs, file in ((study.out / "published", REFERENCE),
+                                               (hazard_runs(study), HAZARD_REFERENCE))
+             for row in checked(study, runs, file)}
+    return table(["Matthies 1995", "published", "simulated (95 %)", "verdict"],
+                 [[words, *excerpt(found[name]), found[name]["verdict"]] for name, words in EXCERPT.items()])
+
+
+def excerpt(row):
+    """What was published and what is predicted; of successes in as many runs."""
+    published, median, low, high = (f"{float(row[key]):.3g}" for key in (
+        "published", "predicted_median", "predicted_low", "predicted_high"))
+    runs = f" of {row['published_runs']}" if row["unit"] == "runs" else ""
+    return published + runs, f"{median} ({low} to {high})"
+
+
+def first_answer(study):
+    """The lines of the first command of README that tell how often the rover arrived."""
+    folder = study.out / "first"
+    text = study.tool("run", "nominal", "--trials", 40, "--out", folder, "--resume", "--force")
+    return "```text\n" + "\n".join(line for line in text.splitlines() if " success  " in line) + "\n```"
 
 
 def hazards(study):
@@ -474,7 +489,7 @@ def scaling(study):
     return result.stdout.strip() if result.returncode == 0 else sys.exit(result.stderr)
 
 
-TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, hazards, mission, verdicts,
+TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, first_answer, hazards, mission, verdicts,
                                  errors, envelope, corridor, unmeasured, causes, fidelity, speed,
                                  gestalt, navigators, navigator_speed, table_3,
                                  abundance_sweep, navigator_sweep, attribution, scaling)}

@@ -17,9 +17,10 @@ printf '%s\\037' "$PWD" "$@" >> '{log}'
 printf '\\n' >> '{log}'
 exec '{rockyard}' "$@"
 """
-DRIVES = ("run", "sweep", "replay", "trace", "render", "terrain")
+CAMPAIGNS = ("run", "sweep")
+DRIVES = (*CAMPAIGNS, "replay", "trace", "render", "terrain")
 VALUES = ("--trials", "--seed", "--set", "--trial", "--out", "--threads")
-CAMPAIGN = "results.sqlite"
+STORE = "results.sqlite"
 
 
 def wrapped(rockyard, runs):
@@ -56,6 +57,8 @@ def cells_of(runs, first, root=ROOT):
         if not found:
             continue
         path, options = (Path(folder) / found[0]).resolve(), found[1]
+        if words[0] not in CAMPAIGNS and not path.is_relative_to(root):
+            continue  # a copy for a picture of what a run drove
         cell = {"kind": "sweep" if words[0] == "sweep" else "run", "set": options["--set"],
                 "seed": options.get("--seed"), "trials": min(first, int(options.get("--trials", first)))}
         if path.is_relative_to(runs.resolve()) or not path.is_relative_to(root):
@@ -72,7 +75,7 @@ def fingerprint_of(out, summary):
     """Of a run its scenario's; of a sweep those of its cells together."""
     if "fingerprint" in summary:
         return summary["fingerprint"]
-    with closing(sqlite3.connect(f"file:{out / CAMPAIGN}?mode=ro", uri=True)) as store:
+    with closing(sqlite3.connect(f"file:{out / STORE}?mode=ro", uri=True)) as store:
         return " ".join(row[0] for row in store.execute("select fingerprint from cells order by cell"))
 
 

@@ -174,6 +174,15 @@ class Runner(unittest.TestCase):
             said = self.call("check")[1]
             self.assertEqual({name for name in ("one", "two") if f"results/{name}.md" in said}, pages, said)
 
+    def test_what_another_study_came_to_know_does_not_vouch_for_this_one(self):
+        self.made()
+        self.write("CHANGELOG.md", "### Changes results\n\n- New words.\n- Old.\n")
+        self.commit()
+        self.assertEqual(self.call("run", "two")[0], 0)
+        said = self.call("check")[1]
+        self.assertIn("results/one.md does not say", said)
+        self.assertNotIn("results/two.md", said)
+
     def test_a_dirty_tree_or_another_program_is_refused(self):
         self.write("scenarios/one.json", "{}")
         code, _, errors = self.call("run", "one")
