@@ -1,7 +1,8 @@
 // main() of every test program: GoogleTest's, which also writes what each test took.
 //
-// Where ROCKYARD_TEST_TIMES names a file, each test appends a line to it: program, test, seconds of the
-// clock and of processors (children that ended included), joined by tabs (scripts/test.sh --times).
+// Where ROCKYARD_TEST_TIMES names a file, each test appends a line to it: program, test, seconds of
+// the clock and of processors (children that ended included), joined by tabs (scripts/test.sh
+// --times).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -46,7 +47,8 @@ class TimesOfTests final : public testing::EmptyTestEventListener {
     const std::chrono::duration<double> clock = std::chrono::steady_clock::now() - start_;
     std::ostringstream line;
     line << std::fixed << std::setprecision(3) << program_ << '\t' << test.test_suite_name() << '.'
-         << test.name() << '\t' << clock.count() << '\t' << ProcessorTime_s() - start_cpu_s_ << '\n';
+         << test.name() << '\t' << clock.count() << '\t' << ProcessorTime_s() - start_cpu_s_
+         << '\n';
     // In one write, as other programs append to the same file.
     std::ofstream(file_, std::ios::app) << line.str();
   }
