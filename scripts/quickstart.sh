@@ -56,13 +56,15 @@ if [ -z "$out" ]; then
   fi
 fi
 
+tell_path() {
+  echo "So that your shell finds rockyard: export PATH=\"$PWD/build/release/bin:\$PATH\""
+}
 say() { printf '\n== %s\n' "$*"; }
 
 say "What comes"
-echo "Packages (on a bare Debian 12 81 of them, 106 MB to fetch), a build (5 minutes of one core), 40 drives
-and a first page to look at; then 1,800 drives, 3 minutes of one core. On two cores the first page is there
-after 3 minutes and everything after 5. Disk: 0.7 GB, packages included. Interrupt it when you like: it
-goes on where it was."
+echo "Missing packages (some 80 on a bare Debian 12, 106 MB to fetch), a build, 40 drives and a first page to
+look at, which takes some minutes; then 1,800 drives, some minutes more. Disk: 0.7 GB, packages included.
+Interrupt it when you like: it goes on where it was."
 
 say "Packages"
 scripts/install_dependencies.sh build
@@ -87,7 +89,10 @@ say "A first look: nominal terrain, simplified physics"
 run nominal --out "$out/first_look" --set rover.fidelity=quasi_static $few "$@"
 "$rockyard" report "$out/first_look" --out "$out/first_look.html"
 echo "Open $out/first_look.html in a browser."
-[ "$first" = no ] || exit 0
+if [ "$first" = yes ]; then
+  tell_path
+  exit 0
+fi
 
 runs=""
 for scenario in $scenarios; do
@@ -115,3 +120,4 @@ echo "The run folders are in $out: summary.json, trials.csv, distance_cdf.csv, r
 echo "With and without dead-reckoning errors, and replays of the worst trials: $page (open it in a browser)."
 echo "Any other trial as a 3-D replay: $rockyard replay $out/nominal --trial 1"
 echo "Run scripts/quickstart.sh again to go on after an interruption."
+tell_path

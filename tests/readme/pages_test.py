@@ -53,6 +53,9 @@ class PagesTest(unittest.TestCase):
     def test_the_project_keeps_the_rules(self):
         self.assertEqual(pages.check_project(ROOT), [])
 
+    def test_the_front_page_is_short(self):
+        self.assertLessEqual(len((ROOT / "README.md").read_text(encoding="utf-8").split()), 700)
+
     def test_the_small_tree_keeps_the_rules(self):
         self.expect({})
 
