@@ -37,10 +37,10 @@ def names_of(items):
 
 
 def line(kind, made, found, alone):
-    """What a page says of studies of one kind and one build: their names and items; `alone`: there are no others."""
-    items = names_of([item for _, own in found for item in own])
+    """What a page says of one kind and one build: items by study; `alone`: there is nothing else on the page."""
+    items = names_of([item for own in found.values() for item in own])
     what = "" if alone else f" ({items})"
-    run = f"`scripts/studies.py run {' '.join(study.name for study, _ in found)}`"
+    run = f"`scripts/studies.py run {' '.join(found)}`"
     if kind == "current":
         return f"> Made by {made} by {run}{what}."
     again = f"{run} makes it anew." if kind == "stale" else "No script makes it anew."
@@ -63,7 +63,9 @@ def head(written, studies, stamps, root=ROOT):
         study = studies[name]
         stale = stamping.is_stale(study, stamps, root)
         kind = "current" if not stale else "stale" if study.commands else "by hand"
-        groups.setdefault((kind, build_of(study, items, stamps, root)), []).append((study, items))
+        for item in items:
+            own = groups.setdefault((kind, build_of(study, [item], stamps, root)), {})
+            own.setdefault(name, []).append(item)
     lines = [line(*key, found, len(groups) == 1) for key, found in sorted(groups.items())]
     return f"{BEGIN}\n" + "\n>\n".join(lines) + f"\n{END}\n"
 
