@@ -48,7 +48,8 @@ TEST_F(CliRun, ThreadsAndResumeGiveTheSameHash) {
 
 TEST_F(CliRun, AnInterruptStoresWhatIsFinishedAndSaysHowToGoOn) {
   const pid_t process = Start(With(QuickRun("a", 100000), {"--threads", "2"}));
-  for (int i = 0; i < 1000 && !fs::exists(work() / "a" / "results.sqlite"); ++i) usleep(10000);
+  ASSERT_TRUE(core::WaitForHandler(process, SIGINT));
+  ASSERT_TRUE(WaitUntil([&] { return fs::exists(work() / "a" / "results.sqlite"); }));
   usleep(300000);
   kill(process, SIGINT);
   const CommandResult result = Wait(process);

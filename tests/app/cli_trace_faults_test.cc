@@ -27,7 +27,7 @@ class CliTraceFaults : public WatchedRunTest {
 
   // Trials of some tenths of a second each, so that there is time to meddle between two of them.
   std::vector<std::string> SlowRun(const std::vector<std::string>& more) const {
-    return With({"run", Scenario("nominal"), "--out", "run", "--trials", "12", "--traces", "all",
+    return With({"run", Scenario("nominal"), "--out", "run", "--trials", "8", "--traces", "all",
                  "--threads", "1"},
                 more);
   }
@@ -42,8 +42,7 @@ class CliTraceFaults : public WatchedRunTest {
   }
 
   bool WaitForTraces(std::size_t count) const {
-    for (int i = 0; i < 60000 && Files() < count; ++i) usleep(500);
-    return Files() >= count;
+    return WaitUntil([&] { return Files() >= count; });
   }
 
   // The exit code of writing all traces of `run` with drives that do `hook` first.
@@ -83,9 +82,9 @@ TEST_F(CliTraceFaults, AKilledWorkerLeavesOneDocument) {
   kill(workers.front(), SIGKILL);
   const CommandResult result = Wait(process);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(nlohmann::json::parse(result.out)["trials"]["completed"], 12);
-  EXPECT_THAT(result.err, HasSubstr("12 traces are in run/traces"));
-  EXPECT_EQ(Files(), 12U);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["trials"]["completed"], 8);
+  EXPECT_THAT(result.err, HasSubstr("8 traces are in run/traces"));
+  EXPECT_EQ(Files(), 8U);
 }
 
 TEST_F(CliTraceFaults, CtrlCLeavesWholeFilesAndGoesOn) {
@@ -97,12 +96,12 @@ TEST_F(CliTraceFaults, CtrlCLeavesWholeFilesAndGoesOn) {
     kill(process, SIGINT);
     const CommandResult result = Wait(process);
     EXPECT_EQ(result.exit_code, 130) << result.err;
-    EXPECT_THAT(result.err, AllOf(HasSubstr("interrupted: "), HasSubstr(" of 12 traces"),
+    EXPECT_THAT(result.err, AllOf(HasSubstr("interrupted: "), HasSubstr(" of 8 traces"),
                                   HasSubstr("--resume")));
-    EXPECT_LT(Files(), 12U);
+    EXPECT_LT(Files(), 8U);
     const CommandResult resumed = Run(SlowRun({"--resume"}));
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-    EXPECT_EQ(Files(), 12U);
+    EXPECT_EQ(Files(), 8U);
   }
 }
 

@@ -149,8 +149,7 @@ TEST_F(CliVo, KilledLeavesNothingInterruptedLeavesAPath) {
   EXPECT_FALSE(fs::exists(work() / "path"));
 
   const pid_t ended = Start(words);
-  // Once it says on /proc that it has read images, it listens.
-  usleep(2000000);
+  ASSERT_TRUE(core::WaitForHandler(ended, SIGINT));
   kill(ended, SIGINT);
   const CommandResult result = Wait(ended);
   EXPECT_EQ(result.exit_code, 130) << result.err;

@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +16,7 @@
 
 #include "app/command_line.h"
 #include "core/test_folder.h"
+#include "core/wait_until.h"
 
 namespace rockyard::app {
 
@@ -35,31 +35,9 @@ inline void WriteFile(const std::filesystem::path& path, const std::string& text
   std::ofstream(path, std::ios::binary) << text;
 }
 
-// A process that has ended, but whom nobody has waited for, is not alive. The state is read, not
-// the command line: a process that is starting its program has none for a moment.
-inline bool Alive(pid_t process) {
-  const std::string stat = ReadFile("/proc/" + std::to_string(process) + "/stat");
-  const std::size_t name_end = stat.rfind(')');  // the state follows the name: "7 (sh) R ..."
-  if (name_end == std::string::npos || name_end + 2 >= stat.size()) return false;
-  const char state = stat[name_end + 2];
-  return state != 'Z' && state != 'X';
-}
-
-// Looks again and again until it is so. False after ten minutes, which is no measure of speed: it
-// ends a test that would wait for ever.
-template <typename Condition>
-bool WaitUntil(const Condition& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    usleep(2000);
-  }
-  return true;
-}
-
-inline bool WaitForEnd(pid_t process) {
-  return WaitUntil([&] { return !Alive(process); });
-}
+using core::Alive;
+using core::WaitForEnd;
+using core::WaitUntil;
 
 // A test with a folder of its own, in which the command runs: in a process forked from this one,
 // which spares the loading of libraries, many times what most commands take. The program itself is

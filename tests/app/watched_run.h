@@ -1,7 +1,9 @@
 // Runs of the real command that a test watches, and meddles with, while they go on.
 #pragma once
 
+#include <algorithm>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "app/command.h"
@@ -16,14 +18,13 @@ class WatchedRunTest : public CommandTest {
   // `threads` of a run that does not say otherwise.
   explicit WatchedRunTest(int threads) : threads_(threads) {}
 
-  // Trials of some milliseconds: what a rover weighs does not matter here.
+  // Trials of some milliseconds.
   std::vector<std::string> Drives(const std::string& out, int trials,
                                   const std::vector<std::string>& more = {},
                                   int threads = 0) const {
     return With({"run", Scenario("nominal"), "--out", out, "--set", "referee.time_limit_s=300",
-                 "--set", "rover.fidelity=quasi_static", "--threads",
-                 std::to_string(threads > 0 ? threads : threads_), "--quiet", "--trials",
-                 std::to_string(trials)},
+                 "--threads", std::to_string(threads > 0 ? threads : threads_), "--quiet",
+                 "--trials", std::to_string(trials)},
                 more);
   }
 
@@ -43,6 +44,18 @@ class WatchedRunTest : public CommandTest {
     return batch::TrialHash(batch::ResultStore::Read(work() / out).Load());
   }
 
+  // Of the first trials of a run that nobody disturbs, which is made once for all tests.
+  std::string PlainHash(int trials) const {
+    constexpr std::size_t kMost = 400;
+    const auto count = static_cast<std::size_t>(trials);
+    if (plain_.size() < count) {
+      const int most = static_cast<int>(std::max(count, kMost));
+      EXPECT_EQ(Run(Drives("plain", most, {"--no-supervisor"}, 2)).exit_code, 0);
+      plain_ = batch::ResultStore::Read(work() / "plain").Load();
+    }
+    return batch::TrialHash(std::span(plain_).first(count));
+  }
+
   // Processes that this one has started.
   static std::vector<pid_t> ChildrenOf(pid_t process) {
     const std::string id = std::to_string(process);
@@ -52,6 +65,7 @@ class WatchedRunTest : public CommandTest {
 
  private:
   int threads_;
+  static inline std::vector<truth::Record> plain_;
 };
 
 }  // namespace rockyard::app

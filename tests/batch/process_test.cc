@@ -14,6 +14,7 @@
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
 #include "core/test_folder.h"
+#include "core/wait_until.h"
 #include "fake_experiment.h"
 
 namespace rockyard::batch {
@@ -95,11 +96,7 @@ std::size_t StoredTrials(const fs::path& folder) {
 
 // Waits until the store holds that many trials; false when it never does.
 bool WaitForTrials(const fs::path& folder, std::size_t count) {
-  for (int i = 0; i < 2000; ++i) {
-    if (StoredTrials(folder) >= count) return true;
-    usleep(10000);
-  }
-  return false;
+  return core::WaitUntil([&] { return StoredTrials(folder) >= count; });
 }
 
 std::string PlainHash(std::uint64_t trials) {

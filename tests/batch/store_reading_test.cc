@@ -17,6 +17,7 @@
 #include "batch/trial_hash.h"
 #include "core/temporary_file.h"
 #include "core/test_folder.h"
+#include "core/wait_until.h"
 #include "fake_experiment.h"
 #include "unprivileged.h"
 
@@ -86,11 +87,9 @@ class Writer {
 class StoreReading : public testing::Test {
  protected:
   bool WaitForTrials(std::size_t count) const {
-    for (int i = 0; i < 2000; ++i) {
-      if (HoldsStore(path()) && ResultStore::Read(path()).Finished().size() >= count) return true;
-      usleep(5000);
-    }
-    return false;
+    return core::WaitUntil([&] {
+      return HoldsStore(path()) && ResultStore::Read(path()).Finished().size() >= count;
+    });
   }
 
   // In two commits.

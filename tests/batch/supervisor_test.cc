@@ -16,6 +16,7 @@
 
 #include "batch/child_process.h"
 #include "batch/watchdog.h"
+#include "core/wait_until.h"
 
 namespace rockyard::batch {
 namespace {
@@ -399,10 +400,10 @@ TEST_F(SupervisorTest, SecondSignalKills) {
   const pid_t supervisor = getpid();
   const Worker worker = [&](const Mission&) {
     std::signal(SIGTERM, SIG_IGN);
-    kill(supervisor, SIGINT);
-    std::this_thread::sleep_for(std::chrono::milliseconds(800));
-    kill(supervisor, SIGINT);
-    std::this_thread::sleep_for(std::chrono::hours(1));
+    for (;;) {  // signals that come close together are one wish
+      kill(supervisor, SIGINT);
+      std::this_thread::sleep_for(std::chrono::milliseconds(800));
+    }
     return 0;
   };
   EXPECT_EQ(Supervise(log_, worker, {}, [](const std::string&) {}), 130);
@@ -410,25 +411,21 @@ TEST_F(SupervisorTest, SecondSignalKills) {
 
 // A worker without supervisor would hold the folder, unseen.
 TEST_F(SupervisorTest, WorkerDiesWithItsSupervisor) {
-  std::atomic<int>& heartbeat = board_->runs[0];
+  std::atomic<int>& process = board_->runs[0];
   const pid_t supervisor = fork();
   if (supervisor == 0) {
     const Worker worker = [&](const Mission&) {
-      for (;;) {
-        ++heartbeat;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      }
+      process = getpid();
+      std::this_thread::sleep_for(std::chrono::hours(1));
       return 0;
     };
     _exit(Supervise(log_, worker, {}, [](const std::string&) {}));
   }
-  while (heartbeat == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_TRUE(core::WaitUntil([&] { return process != 0; }));
+  EXPECT_TRUE(core::Alive(process));
   kill(supervisor, SIGKILL);
   waitpid(supervisor, nullptr, 0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  const int last = heartbeat;
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  EXPECT_EQ(heartbeat, last);
+  EXPECT_TRUE(core::WaitForEnd(process));
 }
 
 }  // namespace
