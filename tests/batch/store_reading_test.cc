@@ -87,9 +87,8 @@ class Writer {
 class StoreReading : public testing::Test {
  protected:
   bool WaitForTrials(std::size_t count) const {
-    return core::WaitUntil([&] {
-      return HoldsStore(path()) && ResultStore::Read(path()).Finished().size() >= count;
-    });
+    return core::WaitUntil(
+        [&] { return HoldsStore(path()) && ResultStore::Read(path()).Finished().size() >= count; });
   }
 
   // In two commits.
