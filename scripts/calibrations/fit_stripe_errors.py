@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fits the error model of the geometric light stripe sensor to its image level.
 
-Runs stripe_error_study (built with the benchmarks) for some conditions of light: both levels look at
+Runs stripe_error_study (target benchmarks) for some conditions of light: both levels look at
 the same scenes, flat ground and rocks, and each point that geometry shows is found right (within two
 columns), missed or misplaced by the images and the finder of stripes. Writes for each condition
 scenarios/sensors/fitted_<light>.json: the light, and the errors as counted, with the counts and 95 %

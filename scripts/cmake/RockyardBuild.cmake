@@ -33,14 +33,18 @@ if(ROCKYARD_SANITIZE)
   add_link_options(${sanitizer_flags})
 endif()
 
-# Sources of one target are compiled in batches of this many, because most of the time goes into the
-# headers that they share. 0: every file by itself.
-set(ROCKYARD_UNITY_BATCH 8 CACHE STRING "Sources compiled together; 0: none")
+# Sources of one target are compiled in batches of about equal length, none longer than this, because most
+# of the time goes into the headers that they share. 0: every file by itself.
+set(ROCKYARD_UNITY_BATCH 32 CACHE STRING "Sources compiled together; 0: none")
 
 function(rockyard_set_unity target)
   get_target_property(type ${target} TYPE)
   if(ROCKYARD_UNITY_BATCH GREATER 1 AND NOT type STREQUAL "INTERFACE_LIBRARY")
+    get_target_property(sources ${target} SOURCES)
+    list(LENGTH sources count)
+    math(EXPR batches "(${count} + ${ROCKYARD_UNITY_BATCH} - 1) / ${ROCKYARD_UNITY_BATCH}")
+    math(EXPR length "(${count} + ${batches} - 1) / ${batches}")
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE BATCH
-      UNITY_BUILD_BATCH_SIZE ${ROCKYARD_UNITY_BATCH})
+      UNITY_BUILD_BATCH_SIZE ${length})
   endif()
 endfunction()

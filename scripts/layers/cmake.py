@@ -4,7 +4,7 @@ import re
 
 from layers.rules import FOR_ALL, HEAVY
 
-KEYWORDS = {"SOURCES", "DEPENDS", "PARAMS_OF", "PRIVATE_LIBRARIES"}
+KEYWORDS = {"SOURCES", "DEPENDS", "PARAMS_OF", "PRIVATE_LIBRARIES", "SELDOM_RUN"}
 SOURCE = re.compile(r"[\w./-]+\.cc\b")
 
 

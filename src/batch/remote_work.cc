@@ -4,12 +4,6 @@
 #include <utility>
 
 namespace rockyard::batch {
-namespace {
-
-// How soon a thread that waits for a trial sees that the campaign is to stop.
-constexpr std::chrono::milliseconds kStopCheck{50};
-
-}  // namespace
 
 std::optional<TrialId> RemoteWorkSource::Take() {
   std::unique_lock lock(mutex_);

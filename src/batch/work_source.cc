@@ -1,15 +1,8 @@
 #include "batch/work_source.h"
 
-#include <chrono>
 #include <utility>
 
 namespace rockyard::batch {
-namespace {
-
-// How soon a thread that waits for the end of a round sees that the campaign is to stop.
-constexpr std::chrono::milliseconds kStopCheck{50};
-
-}  // namespace
 
 LocalWorkSource::LocalWorkSource(WorkPlan& plan, RecordWriter& writer,
                                  const std::atomic<bool>& stop)

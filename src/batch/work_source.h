@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -11,6 +12,10 @@
 #include "batch/work_plan.h"
 
 namespace rockyard::batch {
+
+// How soon a thread that waits for a trial or for the end of a round sees that the campaign is to
+// stop.
+inline constexpr std::chrono::milliseconds kStopCheck{50};
 
 // For several threads at once.
 class WorkSource {

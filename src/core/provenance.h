@@ -10,7 +10,8 @@ struct Provenance {
   std::string commit;      // of the sources when the build was configured, "-dirty" where they had
                            // changes; "unknown" outside git
   std::string compiler;    // "GNU 12.2.0"
-  std::string flags;       // of the build type, with the floating-point options
+  std::string flags;       // of the build type, with the floating-point options; modules in which
+                           // drives spend no time have -O1 (SELDOM_RUN in CMake)
   std::string build_type;  // "Release"
   std::string host;        // name of this machine
   std::string cpu_model;

@@ -65,6 +65,12 @@ struct NavigatorDecision {
   bool stops_to_look() const { return looks() && !looks_on_the_move; }
 };
 
+inline NavigatorDecision Move(const messages::MotionCommand& motion) {
+  return {NavigatorStatus::kDriving, {}, motion};
+}
+
+inline NavigatorDecision Finish(NavigatorStatus status) { return {status, {}, {}}; }
+
 // What became of plans that were made on the move.
 struct PlanCounts {
   std::int64_t plans = 0;    // looks on the move that were answered

@@ -18,7 +18,6 @@ using statistics::RateDifference;
 
 // More cells than this are shown by their smallest p-values.
 constexpr std::size_t kMaxLines = 40;
-constexpr std::size_t kMaxFactors = 4;
 
 std::string Head(const ComparedRun& first, const ComparedRun& second,
                  const CellComparison& comparison) {

@@ -23,8 +23,8 @@ constexpr std::string_view kRoverStyle =
 constexpr std::string_view kPlaceStyle = "fill=\"none\" stroke=\"#d55e00\" stroke-width=\"2\"";
 constexpr double kBorder_m = 0.3;
 constexpr std::size_t kMostPathPoints = 1000;
-constexpr double kSmallestRock = 3.0;  // px
-constexpr double kSquareRock = 7.0;    // px; below it four corners of eight are as good
+constexpr double kSmallestRock_px = 3.0;
+constexpr double kSquareRock = 7.0;  // px; below it four corners of eight are as good
 
 struct Place {
   double x_m = 0.0;
@@ -135,7 +135,7 @@ class Plan {
         std::minmax_element(corners.begin(), corners.end(),
                             [](const SvgPoint& a, const SvgPoint& b) { return a.x < b.x; });
     const double width = most->x - least->x;
-    if (width < kSmallestRock) return "";
+    if (width < kSmallestRock_px) return "";
     if (width < kSquareRock) corners = EverySecond(corners);
     // Light for low rocks.
     const int grey = static_cast<int>(std::lround(205.0 - 135.0 * rock.height_share));

@@ -18,10 +18,9 @@ using statistics::Cell;
 using statistics::MeasurementSummary;
 
 // More cells than this are pooled.
-constexpr std::size_t kMaxLines = 40;
+constexpr std::size_t kMaxUnpooled = 40;
 // Columns of numbers that fit into 100 characters.
 constexpr std::size_t kMaxColumns = 7;
-constexpr std::size_t kMaxFactors = 4;
 
 std::string Head(const RunDescription& run, const MeasurementSummary& summary, TextStyle style) {
   const std::string name = Cut(Printable(run.scenario), 40);
@@ -157,7 +156,7 @@ std::string MeasurementText(const RunDescription& run, const MeasurementSummary&
   if (!summary.cells.empty()) {
     text += Bases(summary) + Widest(summary);
     const std::size_t rate = MainRate(summary.rates);
-    const bool pool = summary.cells.size() > kMaxLines && rate < summary.rates.size();
+    const bool pool = summary.cells.size() > kMaxUnpooled && rate < summary.rates.size();
     text += pool ? Pooled(summary, rate) : EveryCell(summary);
     text += "  intervals of every cell, and of all cells at once, in cells.csv\n";
   }

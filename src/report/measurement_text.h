@@ -1,6 +1,7 @@
 // The cells of a measurement for people.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "report/run_description.h"
@@ -8,6 +9,9 @@
 #include "statistics/cell_summary.h"
 
 namespace rockyard::report {
+
+// Of the factors of a cell, so many are shown beside its numbers.
+inline constexpr std::size_t kMaxFactors = 4;
 
 // Runs, widest intervals, and the cells: every one where they are few, otherwise the main rate
 // pooled over all factors but the first two. At most 100 columns.

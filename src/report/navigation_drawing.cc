@@ -117,13 +117,13 @@ class MapPanel {
   double scale_;  // pixels per metre
 };
 
-struct Range {
+struct ElevationRange {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 };
 
-Range Elevations(const MapView& map) {
-  Range range;
+ElevationRange Elevations(const MapView& map) {
+  ElevationRange range;
   for (const MapCellView& cell : map.cells) {
     if (!cell.has_data) continue;
     range.low = std::min(range.low, cell.elevation_m);
@@ -133,7 +133,7 @@ Range Elevations(const MapView& map) {
 }
 
 std::string ElevationPanel(const NavigationView& view, const MapPanel& panel, double left) {
-  const Range range = Elevations(view.map);
+  const ElevationRange range = Elevations(view.map);
   const double span_m = std::max(range.high - range.low, 1e-3);
   std::string title = "elevation: no data";
   if (range.low <= range.high) {

@@ -33,7 +33,7 @@ std::vector<std::string> AllRemarks(const ComparedValue& value) {
   return remarks;
 }
 
-std::string Row(const ComparedValue& value) {
+std::string JsonRow(const ComparedValue& value) {
   const PublishedValue& published = value.published;
   const bool tolerance = statistics::HasTolerance(published.statistic);
   const double predicted = tolerance ? value.pool_value : value.median;
@@ -66,7 +66,7 @@ std::string PublishedJson(const statistics::PublishedReference& reference,
                           const statistics::ComparisonResult& result, std::string_view scenario) {
   std::vector<std::string> rows;
   for (const ComparedValue& value : result.values) {
-    if (value.published.scenario == scenario) rows.push_back(Row(value));
+    if (value.published.scenario == scenario) rows.push_back(JsonRow(value));
   }
   if (rows.empty()) return "null";
   std::vector<std::string> notes = ComparisonNotes(result);

@@ -13,15 +13,15 @@
 namespace rockyard::report {
 namespace {
 
-std::string Percent(const statistics::Proportion& rate) {
+std::string CountAndPercent(const statistics::Proportion& rate) {
   return fmt::format("{} of {} ({:.1f} %)", rate.count, rate.trials, 100.0 * rate.rate);
 }
 
 std::string SuccessLines(const SuccessComparison& success, bool paired) {
   std::string text = fmt::format(
       "  {:<17} A {:<26} B {}\n  {:<17} B - A {:+.1f} points (95 % interval {:+.1f} .. {:+.1f})\n",
-      success.what, Percent(success.first), Percent(success.second), "", 100.0 * success.difference,
-      100.0 * success.interval.low, 100.0 * success.interval.high);
+      success.what, CountAndPercent(success.first), CountAndPercent(success.second), "",
+      100.0 * success.difference, 100.0 * success.interval.low, 100.0 * success.interval.high);
   const statistics::PairedCounts& counts = success.counts;
   if (paired) {
     text += fmt::format(

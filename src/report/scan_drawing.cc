@@ -50,16 +50,16 @@ Extent ExtentOf(const ScanView& scan) {
 }
 
 // SVG coordinates of a point of R: forward is up, left is left.
-struct Place {
+struct SvgPlace {
   double x;
   double y;
 };
-Place At(double x_R_m, double y_R_m) { return {-kUnits * y_R_m, -kUnits * x_R_m}; }
+SvgPlace At(double x_R_m, double y_R_m) { return {-kUnits * y_R_m, -kUnits * x_R_m}; }
 
 std::string Polygon(const GroundOutline& outline, std::string_view style) {
   std::string points;
   for (const auto& [x, y] : outline) {
-    const Place at = At(x, y);
+    const SvgPlace at = At(x, y);
     fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", at.x, at.y);
   }
   return fmt::format("<polygon points=\"{}\" {}/>\n", points, style);
@@ -73,20 +73,20 @@ std::string Colour(double elevation_m) {
 }
 
 std::string Line(const math::Vector3& from_R, const math::Vector3& to_R, std::string_view style) {
-  const Place a = At(from_R.x(), from_R.y());
-  const Place b = At(to_R.x(), to_R.y());
+  const SvgPlace a = At(from_R.x(), from_R.y());
+  const SvgPlace b = At(to_R.x(), to_R.y());
   return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", a.x,
                      a.y, b.x, b.y, style);
 }
 
 // White, from its upper left corner.
-std::string Rectangle(const Place& corner, double width_m, double height_m) {
+std::string Rectangle(const SvgPlace& corner, double width_m, double height_m) {
   return fmt::format(
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#fff\"/>\n",
       corner.x, corner.y, kUnits * width_m, kUnits * height_m);
 }
 
-std::string Label(const Place& at, double size, std::string_view text) {
+std::string Label(const SvgPlace& at, double size, std::string_view text) {
   return fmt::format(
       "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.0f}\" "
       "font-family=\"sans-serif\">{}</text>\n",
@@ -101,7 +101,7 @@ std::string PointMark(const ShownPoint& point) {
     return Line(point.expected_R - arm, point.expected_R + arm, kStyle) +
            Line(point.expected_R - other, point.expected_R + other, kStyle);
   }
-  const Place at = At(point.p_RoP_R.x(), point.p_RoP_R.y());
+  const SvgPlace at = At(point.p_RoP_R.x(), point.p_RoP_R.y());
   const double elevation_m = point.elevation.elevation_m;
   return fmt::format(
              "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"14\" fill=\"{}\" stroke=\"#000\" "
@@ -128,8 +128,8 @@ std::string ScanSvg(const ScanView& scan) {
   const Extent extent = ExtentOf(scan);
   const double width_m = extent.y_max_m - extent.y_min_m;
   const double height_m = extent.x_max_m - extent.x_min_m + kFooter_m;
-  const Place corner = At(extent.x_max_m, extent.y_max_m);
-  const Place foot = At(extent.x_min_m, extent.y_max_m);
+  const SvgPlace corner = At(extent.x_max_m, extent.y_max_m);
+  const SvgPlace foot = At(extent.x_min_m, extent.y_max_m);
   const std::string box = fmt::format("{:.1f} {:.1f} {:.1f} {:.1f}", corner.x, corner.y,
                                       kUnits * width_m, kUnits * height_m);
   std::string svg = fmt::format(

@@ -23,7 +23,7 @@ constexpr std::size_t kMaxDifferences = 40;
 constexpr double kHugeCell = 1e5;
 constexpr double kMinP = 1e-9;
 
-std::string Percent(const statistics::Proportion& rate) {
+std::string RateColumn(const statistics::Proportion& rate) {
   if (rate.trials == 0) return fmt::format("{:>22}", "-");
   return fmt::format("{:5.1f} ({:5.1f} ..{:6.1f})", 100.0 * rate.rate, 100.0 * rate.interval.low,
                      100.0 * rate.interval.high);
@@ -108,8 +108,8 @@ std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle
     const SweepCellSummary& cell = summary.cells[i];
     text += fmt::format("  {:<{}} {:>5} {} {} {:>6} {:>7} {:>6}\n",
                         Cut(Label(sweep, i), kLabelWidth), kLabelWidth,
-                        Count(cell.completed - cell.faults), Percent(cell.declared_success.rate),
-                        Percent(cell.true_success.rate), Mean(cell, "path_ratio"),
+                        Count(cell.completed - cell.faults), RateColumn(cell.declared_success.rate),
+                        RateColumn(cell.true_success.rate), Mean(cell, "path_ratio"),
                         Mean(cell, "time_to_goal_s"), Mean(cell, "energy_to_goal_wh"));
   }
   if (summary.cells.size() > kMaxCells) {

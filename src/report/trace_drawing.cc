@@ -23,7 +23,7 @@ constexpr std::string_view kTrueColour = "#000";
 constexpr std::string_view kBelievedColour = "#b0005a";
 constexpr std::string_view kScrapeColour = "#e06000";
 constexpr double kMarkSpacing_m = 0.02;
-constexpr double kFooter_m = 0.75;  // below the plan: scale, key, title
+constexpr double kPlanFooter_m = 0.75;  // below the plan: scale, key, title
 
 void Include(double x_m, double y_m, DrawnArea& area) {
   area.x_min_m = std::min(area.x_min_m, x_m);
@@ -139,7 +139,7 @@ void DrawFooter(const truth::TracedTrial& trial, Canvas& canvas) {
                   EscapeXml(fmt::format("{}, seed {}, trial {}: {} ({})", trial.scenario,
                                         trial.seed, trial.record.trial,
                                         truth::Name(trial.record.outcome), trial.record.detail)));
-  canvas.GrowDown(kFooter_m);
+  canvas.GrowDown(kPlanFooter_m);
 }
 
 }  // namespace

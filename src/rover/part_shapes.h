@@ -10,6 +10,14 @@
 
 namespace rockyard::rover {
 
+// Sine of the wheel's tilt against ground or wall at which it stands on the edge of its rim. Below,
+// the contact moves in proportion across the rim, as soft soil bears the whole width; so does the
+// contact of its side with a wall across that side.
+inline constexpr double kEdgeTilt = 0.1;
+// Chassis and panel cannot touch a plane while the rover stands on its wheels; cosine of the tilt
+// from which on they are tested, given the most that rockers and bogies let the chassis lean.
+inline constexpr double kUprightCosine = 0.9;
+
 // The core of a part; a_B and b_B are its two vectors.
 enum class Core {
   kPoint,

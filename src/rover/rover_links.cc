@@ -9,7 +9,7 @@
 namespace rockyard::rover {
 namespace {
 
-constexpr std::array<std::string_view, 2> kSides{"left", "right"};
+constexpr std::array<std::string_view, 2> kSideNames{"left", "right"};
 constexpr std::array<std::string_view, 3> kAxles{"front", "middle", "rear"};
 
 class LinkTree {
@@ -31,7 +31,7 @@ class LinkTree {
   }
 
   void AddSide(std::size_t side) {
-    const std::string name(kSides[side]);
+    const std::string name(kSideNames[side]);
     const math::Vector3& rocker_R = geometry_.rocker_pivot_R[side];
     const math::Vector3& bogie_R = geometry_.bogie_pivot_R[side];
     const int offset = static_cast<int>(side);

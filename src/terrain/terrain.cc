@@ -10,9 +10,9 @@
 namespace rockyard::terrain {
 namespace {
 
-constexpr double kSmallestCell_m = 0.25;
+constexpr double kSmallestGridCell_m = 0.25;
 // Bounds the grid's memory for wide, sparse fields: the cells grow instead.
-constexpr double kMaxCells = 250000.0;
+constexpr double kMaxGridCells = 250000.0;
 
 // Radius of the circle around the outline seen from above.
 double FootprintRadius(const Rock& rock) {
@@ -103,8 +103,8 @@ void Terrain::BuildGrid() {
     high = high.max(center + FootprintRadius(rock));
   }
   const Eigen::Array2d extent = high - low;
-  // Square cells; fields that would need more than kMaxCells get larger ones.
-  cell_m_ = std::max(kSmallestCell_m, std::sqrt(extent.prod() / kMaxCells));
+  // Square cells; fields that would need more than kMaxGridCells get larger ones.
+  cell_m_ = std::max(kSmallestGridCell_m, std::sqrt(extent.prod() / kMaxGridCells));
   cells_per_m_ = 1.0 / cell_m_;
   grid_x0_m_ = low.x();
   grid_y0_m_ = low.y();

@@ -501,7 +501,7 @@ def main():
     parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
     parser.add_argument("--benchmark", type=Path,
                         default=ROOT / "build/release/tests/navigation/gestalt_benchmark",
-                        help="for table_3 (built with -DROCKYARD_BUILD_BENCHMARKS=ON)")
+                        help="for table_3 (target benchmarks)")
     parser.add_argument("--out", type=Path, default=ROOT / "results/runs/readme")
     parser.add_argument("--pages", type=Path, nargs="+",
                         default=[ROOT / "README.md", *sorted((ROOT / "results").glob("*.md"))],

@@ -25,12 +25,6 @@ using messages::PoseEstimate;
 // Angles that add up to a full turn may miss it by rounding.
 constexpr double kRounding_rad = 1e-9;
 
-NavigatorDecision Move(const MotionCommand& motion) {
-  return {NavigatorStatus::kDriving, {}, motion};
-}
-
-NavigatorDecision Finish(NavigatorStatus status) { return {status, {}, {}}; }
-
 math::Transform BelievedPose(const NavigatorInput& input) {
   const PoseEstimate& e = input.estimate;
   return math::MakePose({e.x_m, e.y_m, input.attitude.z_m}, e.heading_rad, input.attitude.pitch_rad,

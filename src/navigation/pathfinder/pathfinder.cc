@@ -23,12 +23,6 @@ bool OnlyOutermostStripes(const HazardReport& report) {
   return report.stripe_hazard.front() && report.stripe_hazard.back();
 }
 
-NavigatorDecision Move(const MotionCommand& motion) {
-  return {NavigatorStatus::kDriving, {}, motion};
-}
-
-NavigatorDecision Finish(NavigatorStatus status) { return {status, {}, {}}; }
-
 }  // namespace
 
 PathfinderNavigator::PathfinderNavigator(const PathfinderParams& params, const messages::Goal& goal,

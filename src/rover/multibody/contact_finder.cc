@@ -18,13 +18,6 @@ constexpr double kFollowedGap_m = 0.03;
 constexpr int kSweeps = 3;
 constexpr int kFirstSweeps = 30;
 constexpr double kConverged_m = 1e-6;
-// Sine of the wheel's tilt against ground or wall at which it stands on the edge of its rim. Below,
-// the contact moves in proportion across the rim, as soft soil bears the whole width; so does the
-// contact of its side with a wall across that side.
-constexpr double kEdgeTilt = 0.1;
-// Chassis and panel cannot touch a plane while the rover stands on its wheels; cosine of the tilt
-// from which on they are tested, given the most that rockers and bogies let the chassis lean.
-constexpr double kUprightCosine = 0.9;
 
 }  // namespace
 

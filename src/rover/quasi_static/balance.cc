@@ -17,7 +17,7 @@ constexpr double kMinReference = 0.05;
 // 0.15 m/s, which no balance at rest lasts long enough to show.
 constexpr double kStandingReference = 0.08;
 // The last change of the rates, over the rover's speed. Newton's method leaves far less.
-constexpr double kTolerance = 1e-2;
+constexpr double kSettledChange = 1e-2;
 // Force that a rover at rest may be left with, over its weight.
 constexpr double kBalanced = 0.01;
 // Changes of the rates, over the rim speed, below which tractions are taken along their tangent;
@@ -388,7 +388,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     for (std::size_t i = 0; i < contacts.size(); ++i) AddStiffness(contacts[i], rows_[i]);
     const LinkageVector change = equations_.Solve();
     const double drop = equations_.force().dot(change);
-    if (tangent_ && !traction_lags_ && IsSmall(change, kTolerance * speed_m_s_) &&
+    if (tangent_ && !traction_lags_ && IsSmall(change, kSettledChange * speed_m_s_) &&
         (rims_turn_ || IsBalanced())) {
       rates += change;
       Finish(change, contacts);

@@ -11,14 +11,10 @@ namespace {
 using math::Vector3;
 
 // The list of near rocks is renewed after this much travel, m.
-constexpr double kGatherStep_m = 0.25;
+constexpr double kRegatherStep_m = 0.25;
 // Alternating projections of a body part: most sweeps, and the movement that ends them, m.
-constexpr int kSweeps = 20;
-constexpr double kConverged_m = 1e-4;
-// As in contact_finder.cc: sine of the tilt at which a wheel stands on the edge of its rim.
-constexpr double kEdgeTilt = 0.1;
-// As there: chassis and panel cannot touch a plane while the rover stands on its wheels.
-constexpr double kUprightCosine = 0.9;
+constexpr int kMostSweeps = 20;
+constexpr double kResting_m = 1e-4;
 
 // Height of the lowest point of a part that rocks can touch.
 double LowestPoint(const Part& part, const Linkage::Frame& frame) {
@@ -77,12 +73,13 @@ void QuasiStaticContacts::Clear() {
   gathered_ = false;
 }
 
-// Rocks near the rover, kept while it stays within kGatherStep_m: the radius has room for that way
-// twice.
+// Rocks near the rover, kept while it stays within kRegatherStep_m: the radius has room for that
+// way twice.
 void QuasiStaticContacts::Gather(const Vector3& p_WR) {
-  if (gathered_ && (p_WR - gathered_at_W_).head<2>().squaredNorm() < kGatherStep_m * kGatherStep_m)
+  if (gathered_ &&
+      (p_WR - gathered_at_W_).head<2>().squaredNorm() < kRegatherStep_m * kRegatherStep_m)
     return;
-  terrain_.RocksNear(p_WR.x(), p_WR.y(), reach_R_m_ + 2.0 * kGatherStep_m, near_);
+  terrain_.RocksNear(p_WR.x(), p_WR.y(), reach_R_m_ + 2.0 * kRegatherStep_m, near_);
   rocks_.clear();
   for (const int index : near_) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
@@ -262,12 +259,12 @@ void QuasiStaticContacts::MeetPart(const Linkage& linkage, const PlacedPart& pla
   SurfacePoint surface = rock.body.Nearest(center_W);
   Vector3 core_W = center_W;
   // Alternating projections onto core and rock, see ContactFinder::MeetRock.
-  for (int i = 0; i < kSweeps; ++i) {
+  for (int i = 0; i < kMostSweeps; ++i) {
     const Vector3 before_W = surface.point_W;
     core_W = frame.p_WB + frame.R_WB * NearestOnCore(part, frame.R_WB.transpose() *
                                                                (surface.point_W - frame.p_WB));
     surface = rock.body.Nearest(core_W);
-    if ((surface.point_W - before_W).squaredNorm() < kConverged_m * kConverged_m) break;
+    if ((surface.point_W - before_W).squaredNorm() < kResting_m * kResting_m) break;
   }
   const double gap_m = surface.distance_m - part.margin_m;
   if (gap_m > reach_m) return;

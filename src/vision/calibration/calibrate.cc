@@ -105,7 +105,7 @@ Estimate EstimateOf(double value, const CameraVector& gradient,
 
 // |A x X| with X = H or V: by X (X - (A.X) A) / f, by A (|X|^2 A - (A.X) X) / f, for |A| = 1.
 Estimate FocalOf(const Cahvor& camera, const CameraCovariance& covariance, const Vector3& X,
-                 CameraBlock block) {
+                 ParameterBlock block) {
   const Vector3& A = camera.linear.A;
   const double focal_px = A.cross(X).norm();
   CameraVector gradient = CameraVector::Zero();
@@ -115,7 +115,7 @@ Estimate FocalOf(const Cahvor& camera, const CameraCovariance& covariance, const
 }
 
 Estimate CentreOf(const Cahvor& camera, const CameraCovariance& covariance, const Vector3& X,
-                  CameraBlock block) {
+                  ParameterBlock block) {
   CameraVector gradient = CameraVector::Zero();
   gradient.segment<3>(block) = camera.linear.A;
   gradient.segment<3>(kBlockA) = X;

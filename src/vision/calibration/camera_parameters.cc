@@ -27,7 +27,7 @@ CameraVector NumbersOf(const Cahvor& camera) {
 }
 
 Cahvor CameraOfNumbers(const CameraVector& numbers) {
-  const auto block = [&](CameraBlock at) -> Vector3 { return numbers.segment<3>(at); };
+  const auto block = [&](ParameterBlock at) -> Vector3 { return numbers.segment<3>(at); };
   return {{block(kBlockC), block(kBlockA), block(kBlockH), block(kBlockV)},
           block(kBlockO),
           block(kBlockR)};

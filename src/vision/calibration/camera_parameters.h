@@ -10,7 +10,14 @@
 namespace rockyard::vision {
 
 inline constexpr int kCameraNumbers = 18;
-enum CameraBlock { kBlockC = 0, kBlockA = 3, kBlockH = 6, kBlockV = 9, kBlockO = 12, kBlockR = 15 };
+enum ParameterBlock {
+  kBlockC = 0,
+  kBlockA = 3,
+  kBlockH = 6,
+  kBlockV = 9,
+  kBlockO = 12,
+  kBlockR = 15
+};
 
 using CameraVector = Eigen::Matrix<double, kCameraNumbers, 1>;
 using NumbersJacobian = Eigen::Matrix<double, 2, kCameraNumbers>;
