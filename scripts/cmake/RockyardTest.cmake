@@ -11,6 +11,7 @@
 #
 # rockyard_command_test(NAME KIND TIER COMMAND...)
 #   A test that is no GoogleTest, with the same labels: KIND in capitals, TIER is FAST, FULL or LONG.
+#   The run records what it took (record_times.py).
 #
 # rockyard_tests_need_command()
 #   The command is built with the tests of this folder.
@@ -125,17 +126,18 @@ function(rockyard_test NAME)
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${include})
 endfunction()
 
-# The labels alone, of what add_test added.
-function(rockyard_label_test NAME KIND)
-  string(TOLOWER ${KIND} label)
-  set(tier fast)
-  if("${ARGN}" STREQUAL "SLOW")
-    set(tier full)
-  elseif("${ARGN}" STREQUAL "LONG")
-    set(tier long)
+function(rockyard_command_test NAME KIND TIER PROGRAM)
+  if(NOT TIER MATCHES "^(FAST|FULL|LONG)$")
+    message(FATAL_ERROR "rockyard_command_test(${NAME}): no tier ${TIER}")
   endif()
+  string(TOLOWER "${KIND};${TIER}" labels)
   rockyard_folder_label(folder)
-  set_tests_properties(${NAME} PROPERTIES LABELS "${label};${tier};${folder}")
+  if(TARGET ${PROGRAM})
+    set(PROGRAM $<TARGET_FILE:${PROGRAM}>)
+  endif()
+  add_test(NAME ${NAME} COMMAND Python3::Interpreter
+    ${PROJECT_SOURCE_DIR}/scripts/cmake/record_times.py ${NAME} ${PROGRAM} ${ARGN})
+  set_tests_properties(${NAME} PROPERTIES LABELS "${labels};${folder}")
 endfunction()
 
 function(rockyard_tests_need_command)

@@ -3,7 +3,7 @@
 
 Usage: record_times.py NAME COMMAND [ARGUMENT]...
 The line: "ctest", NAME, seconds of the clock and of processors, joined by tabs, as those of GoogleTest programs
-(tests/support/test_main.cc). Ends as the command ends.
+(tests/test_main.cc). Ends as the command ends.
 """
 
 import os
