@@ -4,21 +4,26 @@
 Usage: figures_test.py ROCKYARD [unittest options]. Needs Debian's matplotlib, as the script does.
 """
 
+import contextlib
 import csv
+import io
 import json
 import math
+import os
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts/studies"))
 
 # pylint: disable=wrong-import-position
 import figures
+from figures import figures as command
 from figures import goldberg2002_figure3 as gestalt
 from figures import howard2012
 from figures import howard2012_figure6 as figure6
@@ -78,13 +83,13 @@ class FiguresTest(unittest.TestCase):
             sources, SimpleNamespace(**{"trial": 0, "step": 0, "fields": 3, **options}))
 
     def script(self, *words, code=0, rockyard=True):
-        command = [ROOT / "scripts/studies/figures/figures.py", *words]
-        if rockyard:
-            command += ["--rockyard", ROCKYARD]
-        result = subprocess.run([str(word) for word in command], cwd=self.root, text=True,
-                                capture_output=True, check=False)
-        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
-        return result.stdout + result.stderr
+        """What the command says to these words, which it is given in this process."""
+        words = [*words, "--rockyard", ROCKYARD] if rockyard else words
+        said = io.StringIO()
+        with (contextlib.chdir(self.root), contextlib.redirect_stdout(said), contextlib.redirect_stderr(said),
+              mock.patch.object(sys, "argv", ["figures.py", *map(str, words)])):
+            self.assertEqual(command.main(), code, said.getvalue())
+        return said.getvalue()
 
 
 class DrawnNumbers(FiguresTest):
@@ -400,7 +405,8 @@ class CommandLine(FiguresTest):
         self.assertAlmostEqual(rows[-1][2], 6.0)
 
     def test_every_figure_is_listed_with_its_runs(self):
-        text = self.script("--list")
+        text = subprocess.run([ROOT / "scripts/studies/figures/figures.py", "--list"], text=True, check=True,
+                              capture_output=True).stdout
         for name in ("matthies1995-13", "matthies1995-15", "matthies1995-16", "matthies1995-17", "matthies1995-5",
                      "matthies1995-6", "matthies1995-7", "matthies1995-8", "matthies1995-table4",
                      "goldberg2002-3", "howard2012-6", "howard2012-7", "howard2012-8"):
@@ -419,13 +425,18 @@ class CommandLine(FiguresTest):
             figure16.like_the_published(source)
 
     def test_the_same_runs_give_the_same_bytes(self):
-        for out in ("first", "second"):
-            for name, run in (("matthies1995-17", "nominal"), ("goldberg2002-3", "gestalt"),
-                              ("matthies1995-16", "nominal"), ("matthies1995-13", "nominal"),
-                              ("howard2012-6", "gestalt"), ("howard2012-7", "gestalt"),
-                              ("howard2012-8", "gestalt")):
-                chosen = ("--trial", "0") if name == "matthies1995-16" else ()
-                self.script(name, run, *chosen, "--out", out)
+        drawn = [(name, run, "--trial", "0") for name, run in (
+            ("matthies1995-17", "nominal"), ("goldberg2002-3", "gestalt"), ("matthies1995-16", "nominal"),
+            ("matthies1995-13", "nominal"), ("howard2012-6", "gestalt"), ("howard2012-7", "gestalt"),
+            ("howard2012-8", "gestalt"))]
+        for words in drawn:
+            self.script(*words, "--out", "first")
+        again = ("import sys; from figures import figures as command\n"
+                 "for words in map(str.split, sys.stdin):\n"
+                 "    sys.argv[1:] = words; assert command.main() == 0")
+        lines = "\n".join(" ".join([*words, "--out", "second", "--rockyard", str(ROCKYARD)]) for words in drawn)
+        subprocess.run([sys.executable, "-c", again], cwd=self.root, check=True, input=lines, text=True, stdout=subprocess.DEVNULL,
+                       env={**os.environ, "PYTHONPATH": str(ROOT / "scripts/studies")})
         files = sorted(path.name for path in (self.root / "first").iterdir())
         self.assertEqual(len(files), 21)  # SVG, PNG and caption of each
         for name in files:
