@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -45,7 +46,8 @@ class ScriptTest(unittest.TestCase):
     def run_script(self, name, *arguments, **environment):
         variables = {**os.environ, "CALLS": str(self.calls), **environment,
                      "PATH": f"{self.root / 'bin'}:{os.environ['PATH']}"}
-        return subprocess.run([self.root / "scripts" / name, *arguments], env=variables, text=True,
+        program = [sys.executable] if name.endswith(".py") else []
+        return subprocess.run([*program, self.root / "scripts" / name, *arguments], env=variables, text=True,
                               capture_output=True, check=False)
 
     def called(self, program):

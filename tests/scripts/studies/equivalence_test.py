@@ -1,52 +1,22 @@
 """scripts/studies/equivalence/equivalence.py: its intervals, its verdicts, and which runs it makes, takes and refuses."""
 
+import contextlib
 import csv
+import io
+import json
 import math
-import os
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "scripts/studies"))
+import study  # pylint: disable=wrong-import-position
 from equivalence import equivalence  # pylint: disable=wrong-import-position
-
-# A rockyard whose fingerprints follow from scenario, seed and settings but those of a default, and whose
-# trials all arrive truly, but the first $LOST of those with $CHANGED in their settings.
-FAKE = """#!/usr/bin/env python3
-import json, os, pathlib, sys
-words = sys.argv[1:]
-with open(os.environ["CALLS"], "a", encoding="utf-8") as file:
-    print(*words, file=file)
-options = {name: value for name, value in zip(words, words[1:]) if name in ("--trials", "--seed", "--out")}
-settings = [value for name, value in zip(words, words[1:]) if name == "--set"]
-seed = options.get("--seed") or next(each for each in settings if each.startswith("seed="))[5:]
-settings = [each for each in settings if not each.startswith("seed=")]
-made = " ".join([pathlib.Path(words[1]).stem, seed, *settings])
-mark = made.encode().hex()
-if words[0] == "validate":
-    print(f"{words[1]}: valid, fingerprint {mark}")
-    sys.exit()
-folder, trials = pathlib.Path(options["--out"]), int(options["--trials"])
-folder.mkdir(parents=True, exist_ok=True)
-(folder / "summary.json").write_text(json.dumps({
-    "scenario": "nominal", "seed": int(seed), "settings": settings, "fingerprint": mark,
-    "trials": {"stored": trials},
-    "provenance": {"version": "0.1.0", "commit": os.environ.get("COMMIT", "abc")}}))
-changed = os.environ.get("CHANGED", "nothing") in made
-lost = int(os.environ.get("LOST", 0)) if changed else 0
-lines = ["trial,outcome,true_distance_m,distance_error_percent,position_error_m,detail"]
-for trial in range(trials):
-    outcome = os.environ.get("AS", "no_path") if trial < lost else "goal_reached"
-    distance = 8 + trial % 3 + (float(os.environ.get("FARTHER", 0)) if changed else 0)
-    lines.append(f"{trial},{outcome},{distance},{trial % 2},0.5,")
-if "FAULT" in os.environ and changed:
-    lines[1] = "0,simulator_fault,,,,bad"
-(folder / "trials.csv").write_text("\\n".join(lines) + "\\n")
-"""
 
 
 class Intervals(unittest.TestCase):
@@ -141,29 +111,59 @@ class Verdicts(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
-    """A copy of the scripts with a rockyard that invents its trials."""
+    """With a rockyard that invents its trials."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
-        self.calls, self.out = self.root / "calls", self.root / "out"
-        self.calls.touch()
-        shutil.copytree(ROOT / "scripts", self.root / "scripts")
-        self.rockyard = self.root / "rockyard"
-        self.rockyard.write_text(FAKE, encoding="utf-8")
-        self.rockyard.chmod(0o755)
+        self.out = self.root / "out"
+        self.calls = []
 
-    def study(self, *arguments, **environment):
-        variables = {**os.environ, "CALLS": str(self.calls), **environment}
-        return subprocess.run(
-            [sys.executable, self.root / "scripts/studies/equivalence/equivalence.py", "--rockyard", self.rockyard,
-             "--out", self.out, "--csv", self.root / "rows.csv", *arguments],
-            env=variables, text=True, capture_output=True, check=False)
+    def rockyard(self, command, changed="nothing", lost=0, outcome="no_path", farther=0.0, fault=False, commit="abc"):
+        """Fingerprints follow from scenario, seed and settings; trials all arrive truly, but the first `lost` of those
+        with `changed` in their settings."""
+        words = list(map(str, command[1:]))
+        self.calls.append(" ".join(words))
+        pairs = list(zip(words, words[1:]))
+        options, settings = dict(pairs), [value for name, value in pairs if name == "--set"]
+        seed = options.get("--seed") or next(each for each in settings if each.startswith("seed="))[5:]
+        settings = [each for each in settings if not each.startswith("seed=")]
+        made = " ".join([Path(words[1]).stem, seed, *settings])
+        if words[0] == "validate":
+            return f"{words[1]}: valid, fingerprint {made.encode().hex()}"
+        folder, trials = Path(options["--out"]), int(options["--trials"])
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "summary.json").write_text(json.dumps({
+            "scenario": "nominal", "seed": int(seed), "settings": settings, "fingerprint": made.encode().hex(),
+            "trials": {"stored": trials}, "provenance": {"version": "0.1.0", "commit": commit}}), encoding="utf-8")
+        is_changed = changed in made
+        lines = ["trial,outcome,true_distance_m,distance_error_percent,position_error_m,detail"]
+        for trial in range(trials):
+            end = outcome if is_changed and trial < lost else "goal_reached"
+            lines.append(f"{trial},{end},{8 + trial % 3 + (farther if is_changed else 0)},{trial % 2},0.5,")
+        if fault and is_changed:
+            lines[1] = "0,simulator_fault,,,,bad"
+        (folder / "trials.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return ""
+
+    def study(self, *arguments, **trials):
+        words = ["equivalence.py", "--out", self.out, "--csv", self.root / "rows.csv", *arguments]
+        out, err = io.StringIO(), io.StringIO()
+        with (mock.patch.object(study, "run", lambda command: self.rockyard(command, **trials)),
+              mock.patch.object(sys, "argv", list(map(str, words))),
+              contextlib.redirect_stdout(out), contextlib.redirect_stderr(err)):
+            try:
+                code = equivalence.main()
+            except SystemExit as end:
+                code = end.code
+                if isinstance(code, str):
+                    code = 1
+                    print(end, file=err)
+        return SimpleNamespace(returncode=code, stdout=out.getvalue(), stderr=err.getvalue())
 
     def runs(self):
-        lines = self.calls.read_text(encoding="utf-8").splitlines()
-        return [line for line in lines if line.startswith("run ")]
+        return [line for line in self.calls if line.startswith("run ")]
 
     def rows(self):
         with open(self.root / "rows.csv", encoding="utf-8", newline="") as file:
@@ -200,7 +200,7 @@ class Study(unittest.TestCase):
 
     def test_finished_runs_are_taken(self):
         self.study()
-        self.calls.write_text("", encoding="utf-8")
+        self.calls.clear()
         result = self.study("--trials", "50")
         self.assertEqual((self.runs(), result.stderr.count(": taken (")), ([], 14))
         self.assertEqual({row["pairs"] for row in self.rows().values()}, {"50"})
@@ -209,13 +209,13 @@ class Study(unittest.TestCase):
         self.study("--studies", "step", "--trials", "9")
         self.out.joinpath("fidelity").mkdir()
         (self.out / "step/nominal_60").rename(self.out / "fidelity/nominal_multibody")
-        self.calls.write_text("", encoding="utf-8")
+        self.calls.clear()
         self.study("--studies", "step", "--trials", "9")
         self.assertEqual(self.runs(), [])
 
     def test_short_runs_are_extended(self):
         self.study("--studies", "step", "--trials", "10")
-        self.calls.write_text("", encoding="utf-8")
+        self.calls.clear()
         result = self.study("--studies", "step", "--trials", "12")
         self.assertEqual(len(self.runs()), 4)
         self.assertTrue(all("--resume" in line and "--force" not in line for line in self.runs()))
@@ -223,7 +223,7 @@ class Study(unittest.TestCase):
 
     def test_runs_of_other_settings_are_refused(self):
         self.study("--studies", "step", "--trials", "10")
-        self.calls.write_text("", encoding="utf-8")
+        self.calls.clear()
         for change in (["--seed", "2"], ["--set", "clock.stop_time_s=0.1"]):
             result = self.study("--studies", "step", "--trials", "10", *change)
             self.assertEqual(result.returncode, 1)
@@ -235,7 +235,7 @@ class Study(unittest.TestCase):
         # 45 of 1000 pairs lost: the interval crosses 5 points. 30 of 1000: it does not.
         for lost, code, wanted in ((45, 1, "not equivalent"), (30, 0, "equivalent")):
             shutil.rmtree(self.out, ignore_errors=True)
-            result = self.study(CHANGED="quasi_static", LOST=str(lost))
+            result = self.study(changed="quasi_static", lost=lost)
             self.assertEqual(result.returncode, code, result.stderr)
             for kind in ("declared success (%)", "true success (%)"):
                 self.assertEqual(self.verdict("fidelity", "slope_10", kind), wanted)
@@ -246,7 +246,7 @@ class Study(unittest.TestCase):
             self.assertLess(float(row["low"]), -lost / 10)
 
     def test_a_false_goal_is_a_declared_success_only(self):
-        self.study("--studies", "step", CHANGED="step_s", LOST="100", AS="false_goal")
+        self.study("--studies", "step", changed="step_s", lost=100, outcome="false_goal")
         self.assertEqual(self.verdict("step", "nominal", "declared success (%)"), "equivalent")
         self.assertEqual(self.verdict("step", "nominal", "true success (%)"), "not equivalent")
 
@@ -258,14 +258,14 @@ class Study(unittest.TestCase):
                 ("high_centred", 13, -0.46, "not equivalent", "not equivalent"),
                 ("no_path", 13, 0.46, "estimate within", "not equivalent")):
             shutil.rmtree(self.out, ignore_errors=True)
-            self.study("--studies", "step", CHANGED="step_s", LOST=str(lost), AS=outcome,
-                       FARTHER=str(farther))
+            self.study("--studies", "step", changed="step_s", lost=lost, outcome=outcome,
+                       farther=farther)
             self.assertEqual(self.verdict("step", "vl2", "jams (%)"), jams)
             self.assertEqual(self.verdict("step", "vl2", equivalence.RATIO), distance)
             self.assertEqual(self.verdict("step", "nominal", "jams (%)"), "-")
 
     def test_pairs_with_a_fault_are_left_out_and_told(self):
-        result = self.study("--studies", "step", "--trials", "20", CHANGED="step_s", FAULT="1")
+        result = self.study("--studies", "step", "--trials", "20", changed="step_s", fault=True)
         self.assertEqual(self.rows()["step", "nominal", "jams (%)"]["pairs"], "19")
         self.assertIn("1 of 20 pairs left out", result.stderr)
 
@@ -302,13 +302,13 @@ class Study(unittest.TestCase):
     def test_two_programs_are_named(self):
         self.study("--studies", "step", "--trials", "10")
         shutil.rmtree(self.out / "step/nominal_480")
-        result = self.study("--studies", "step", "--trials", "10", COMMIT="def")
+        result = self.study("--studies", "step", "--trials", "10", commit="def")
         self.assertIn("made by rockyard 0.1.0 abc and 0.1.0 def: not one program.", result.stdout)
 
     def test_what_makes_no_sense_runs_nothing(self):
         for arguments in (["--trials", "1"], ["--studies", "other"]):
             self.assertEqual(self.study(*arguments).returncode, 2)
-        self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
+        self.assertEqual(self.calls, [])
 
     def test_the_page_has_the_marks_and_the_scenarios_are_there(self):
         text = (ROOT / "results/studies/equivalence.md").read_text(encoding="utf-8")

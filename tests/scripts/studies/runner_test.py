@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 
 # Gives a hash by the scenario's text and the file `bits`, which stands for what the program computes.
-ROCKYARD = r"""#!/usr/bin/env python3
+ROCKYARD = rf"#!{sys.executable}" + r"""
 import hashlib, json, pathlib, sys
 root = pathlib.Path(__file__).resolve().parents[3]
 words = sys.argv[1:]
@@ -28,13 +28,13 @@ trials = words[words.index("--trials") + 1]
 print(json.dumps({"fingerprint": made(text), "trial_hash": made(text, bits, trials),
                   "provenance": {"cpu_level": "v4"}}))
 """
-SCRIPT = """#!/usr/bin/env python3
+SCRIPT = f"#!{sys.executable}" + """
 import subprocess, sys, time
 from pathlib import Path
 page, rockyard = sys.argv[1:3]
 Path(page).write_text("# Half\\n")
 if Path("build/slow").exists():
-    time.sleep(60)
+    time.sleep(600)
 if Path("build/fails").exists():
     sys.exit(3)
 said = subprocess.run([rockyard, "run", f"scenarios/{Path(page).stem}.json", "--trials", "50"], capture_output=True,
@@ -224,6 +224,7 @@ class Runner(unittest.TestCase):
         with subprocess.Popen([sys.executable, self.root / "scripts/studies.py", "run", "one"], text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as process:
             while "# Half" not in self.read("results/one.md"):
+                self.assertIsNone(process.poll(), "it ended before it was interrupted")
                 time.sleep(0.05)
             os.killpg(process.pid, signal.SIGINT)
             _, errors = process.communicate()
