@@ -12,7 +12,7 @@ from fuzzing import harness
 from progress import Progress
 
 LINES_A_FOLDER = 250  # then it is made anew, as they write into it
-TIMEOUT_S = 60
+TIMEOUT_S = 600
 
 SCENARIO = {"extends": str(harness.ROOT / "scenarios/pathfinder/nominal.json"), "name": "small", "trials": 2,
             "referee": {"time_limit_s": 1}}

@@ -18,7 +18,7 @@ FIDELITIES = ("multibody", "quasi_static")
 BATCH = 50
 TRIALS = 2
 TRIAL_CPU_S = 20
-TIMEOUT_S = 180
+TIMEOUT_S = 600
 SIMULATED_S = 120
 # What says who and how much rather than what is simulated.
 KEPT = {"schema_version", "name", "description", "experiment", "trials", "rover.fidelity", "referee.time_limit_s",
