@@ -9,6 +9,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests/long"))
@@ -92,11 +93,9 @@ class Study(unittest.TestCase):
                 self.assertIn(verdict, ("same", "refused"),
                               f"{base.name}, {damage}, {command}: {found}")
 
-
-class Command(unittest.TestCase):
-    def test_prints_both_tables_and_counts_every_answer(self):
+    def test_the_command_prints_both_tables_and_counts_every_answer(self):
         out = io.StringIO()
-        with contextlib.redirect_stdout(out):
+        with contextlib.redirect_stdout(out), mock.patch.object(damages, "prepare", lambda *_, **__: self.bases):
             code = damages.main(["--stores", "2", "--older", "0", "--rockyard", str(ROCKYARD)])
         self.assertEqual(code, 0, out.getvalue())
         lines = [line.split() for line in out.getvalue().splitlines()]
