@@ -32,11 +32,11 @@ RoverParams AtRate(double rate_Hz, double ramp_s) {
 }
 
 // The way of a rover that starts and stops is that of a step sixteen times finer, on three soils,
-// level, up, down and across, whether its motors jump, ramp, or ramp gently.
+// level, up, down and across, whether its motors jump or ramp gently.
 TEST(StopAndGo, WayAt60HzIsThatAt960Hz) {
   for (const Ground& ground : kGrounds) {
     const terrain::SoilParams soil = terrain::MakeSoil(ground.soil);
-    for (const double ramp_s : {0.0, 0.1, 0.2}) {
+    for (const double ramp_s : {0.0, 0.2}) {
       for (const double direction : {-1.0, kUphill, kAcross, kDownhill}) {
         const double slope = direction < 0.0 ? 0.0 : math::DegToRad(ground.slope_deg);
         const terrain::Terrain terrain = SlopeTerrain(slope, std::max(direction, 0.0), soil);
@@ -56,7 +56,7 @@ TEST(StopAndGo, WayAt60HzIsThatAt960Hz) {
 TEST(StopAndGo, WayOnSteepDriftAt60HzIsThatAt960Hz) {
   const terrain::SoilParams soil = terrain::MakeSoil(terrain::SoilPreset::kMarsDrift);
   for (const double slope_deg : {8.0, 15.0}) {
-    for (const double ramp_s : {0.0, 0.1, 0.2}) {
+    for (const double ramp_s : {0.0, 0.2}) {
       for (const double direction : {kUphill, kAcross, kDownhill}) {
         const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(slope_deg), direction, soil);
         const LegResult coarse = DriveLegs(AtRate(60.0, ramp_s), terrain, 4);

@@ -92,7 +92,8 @@ TEST(ScenarioFuzzTest, MutatedTexts) {
   EXPECT_LT(valid, kCases);
 }
 
-// Valid JSON in which one parameter has an odd value of any type.
+// Valid JSON in which one parameter has an odd value of any type: each of them meets a third of the
+// values, and its neighbours the others.
 TEST(ScenarioFuzzTest, OddValuesOfEveryParameter) {
   constexpr std::array<std::string_view, 22> kValues = {"null",        "true",
                                                         "0",           "-0.0",
@@ -107,8 +108,11 @@ TEST(ScenarioFuzzTest, OddValuesOfEveryParameter) {
                                                         "{\"a\": {}}", "9223372036854775807"};
   int valid = 0;
   int refused = 0;
+  std::size_t number = 0;
   for (const core::ParameterInfo& parameter : ListParameters()) {
-    for (const std::string_view value : kValues) {
+    ++number;
+    for (std::size_t i = number % 3; i < kValues.size(); i += 3) {
+      const std::string_view value = kValues[i];
       core::JsonValue document = core::JsonValue::Object();
       core::SetPath(document, parameter.path, core::ParseJson(value, "value"));
       const bool good = IsScenarioOrUserError([&document] { return ReadScenario(document); });
@@ -125,7 +129,7 @@ TEST(ScenarioFuzzTest, OddValuesOfEveryParameter) {
 TEST(ScenarioFuzzTest, RandomValuesWithinBounds) {
   const std::vector<core::ParameterInfo> parameters = ListParameters();
   int valid = 0;
-  for (std::uint32_t i = 0; i < 1000; ++i) {
+  for (std::uint32_t i = 0; i < 500; ++i) {
     core::RandomStream stream({kSeed, i}, core::Purpose::kTest, 1);
     core::JsonValue document = core::JsonValue::Object();
     for (int change = 0; change < 3; ++change) {
@@ -138,7 +142,7 @@ TEST(ScenarioFuzzTest, RandomValuesWithinBounds) {
     valid += IsScenarioOrUserError([&document] { return ReadScenario(document); }) ? 1 : 0;
     ASSERT_FALSE(HasFailure()) << "case " << i;
   }
-  EXPECT_GT(valid, 100);
+  EXPECT_GT(valid, 50);
 }
 
 }  // namespace

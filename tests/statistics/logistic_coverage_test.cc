@@ -156,15 +156,13 @@ Coverages CoverageOf(const Dependent& law) {
 // Common random numbers shift a whole curve up or down. Nominal within what 4000 campaigns see
 // where clusters are the 100 trials; independence is the negative control.
 TEST(LogisticCoverageTest, ClustersHoldTheTruthWithCommonRandomNumbers) {
-  for (const double rho : {0.5, 0.9}) {
-    const Coverages coverages = CoverageOf({.rho = rho});
-    for (const auto count :
-         {coverages.clustered.band, coverages.clustered.half, coverages.clustered.ninety}) {
-      EXPECT_TRUE(FitsNominal(count)) << count << " of " << kCampaigns << " at rho " << rho;
-    }
-    EXPECT_LT(coverages.independent.half, 0.86 * kCampaigns) << rho;
-    EXPECT_LT(coverages.independent.band, 0.86 * kCampaigns) << rho;
+  const Coverages coverages = CoverageOf({.rho = 0.9});
+  for (const auto count :
+       {coverages.clustered.band, coverages.clustered.half, coverages.clustered.ninety}) {
+    EXPECT_TRUE(FitsNominal(count)) << count << " of " << kCampaigns;
   }
+  EXPECT_LT(coverages.independent.half, 0.86 * kCampaigns);
+  EXPECT_LT(coverages.independent.band, 0.86 * kCampaigns);
 }
 
 // 20 layouts of 5 trials, in every cell the same ones: so few clusters that Student's law is only

@@ -263,17 +263,15 @@ constexpr Deviation kCloseQuasiStatic{0.0015, 0.0015};
 
 TEST(ClothoidDrive, ThePathIsThePlannedOneWithinATick) {
   for (const Plan& plan : {kBend, kSnake, kSharp, kCorner}) {
-    for (const Plan& each : {plan, plan.Mirrored()}) {
-      for (const int direction : {1, -1}) {
-        SCOPED_TRACE(testing::Message() << each.Curvature(0.7) << " 1/m, way " << direction);
-        const Driven quasi_static = Follow(each, kQuasiStatic + kRolling, direction);
-        ExpectPlanned(quasi_static, each, kCloseQuasiStatic, direction);
-        const Driven multibody = Follow(each, kMultibody + kRolling, direction);
-        ExpectPlanned(multibody, each, kCloseMultibody, direction);
-        for (const Driven* driven : {&quasi_static, &multibody}) {
-          EXPECT_EQ(driven->record().moves, 1.0);
-          EXPECT_EQ(driven->record().stops, 1.0);  // the end
-        }
+    for (const auto& [each, direction] : {std::pair(plan, 1), std::pair(plan.Mirrored(), -1)}) {
+      SCOPED_TRACE(testing::Message() << each.Curvature(0.7) << " 1/m, way " << direction);
+      const Driven quasi_static = Follow(each, kQuasiStatic + kRolling, direction);
+      ExpectPlanned(quasi_static, each, kCloseQuasiStatic, direction);
+      const Driven multibody = Follow(each, kMultibody + kRolling, direction);
+      ExpectPlanned(multibody, each, kCloseMultibody, direction);
+      for (const Driven* driven : {&quasi_static, &multibody}) {
+        EXPECT_EQ(driven->record().moves, 1.0);
+        EXPECT_EQ(driven->record().stops, 1.0);  // the end
       }
     }
   }

@@ -136,7 +136,7 @@ TEST(ContinuousTrialProperty, AnySoundSettingsEndInAnOutcome) {
   };
   int arrived = 0;
   std::uint32_t trial = 0;
-  for (const std::vector<double>& u : core::LatinHypercube(20, 10, 5)) {
+  for (const std::vector<double>& u : core::LatinHypercube(10, 10, 5)) {
     const Overrides settings = {
         kContinuous + "motion_m=" + between(0.06, 2.9, u[0]),
         kContinuous + "replan_fraction=" + between(0.02, 1.0, u[1]),
@@ -155,7 +155,7 @@ TEST(ContinuousTrialProperty, AnySoundSettingsEndInAnOutcome) {
     }
     ++trial;
   }
-  EXPECT_GT(arrived, 5);
+  EXPECT_GT(arrived, 2);
 }
 
 }  // namespace
