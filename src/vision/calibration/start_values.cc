@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,7 @@ namespace rockyard::vision {
 namespace {
 
 using core::Problem;
+using Eigen::MatrixXd;
 using math::Transform;
 using math::Vector3;
 
@@ -22,50 +22,52 @@ constexpr double kLeastTilt_deg = 5.0;
 // Of surveyed points: their spread across the plane that fits best over that along it.
 constexpr double kLeastDepth = 0.02;
 
-// Shifts points to their mean and scales them to a root mean square of 1 a coordinate.
-template <int size>
-Eigen::Matrix<double, size + 1, size + 1> Normalization(
-    const std::vector<Eigen::Matrix<double, size, 1>>& points) {
-  Eigen::Matrix<double, size, 1> mean = Eigen::Matrix<double, size, 1>::Zero();
-  for (const auto& point : points) mean += point;
-  mean /= static_cast<double>(points.size());
+// Points as columns, homogeneous. Shifts them to their mean and scales them to a root mean square of
+// 1 a coordinate.
+MatrixXd Normalization(const MatrixXd& points) {
+  const Eigen::Index size = points.rows() - 1;
+  const Eigen::VectorXd mean = points.topRows(size).rowwise().mean();
   double squares = 0.0;
-  for (const auto& point : points) squares += (point - mean).squaredNorm();
-  const double scale = std::sqrt(size * static_cast<double>(points.size()) / squares);
-  Eigen::Matrix<double, size + 1, size + 1> matrix;
-  matrix.setIdentity();
-  matrix.template topLeftCorner<size, size>() *= scale;
-  matrix.template topRightCorner<size, 1>() = -scale * mean;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    squares += (points.col(i).head(size) - mean).squaredNorm();
+  }
+  const double scale = std::sqrt(static_cast<double>(size * points.cols()) / squares);
+  MatrixXd matrix = MatrixXd::Identity(size + 1, size + 1);
+  matrix.topLeftCorner(size, size) *= scale;
+  matrix.topRightCorner(size, 1) = -scale * mean;
   return matrix;
 }
 
-// The 3 x (size + 1) matrix P with (pixel, 1) ~ P (point, 1): the eigenvector of the least
-// eigenvalue of the equations p1 X - u p3 X = 0, p2 X - v p3 X = 0.
-template <int size>
-Eigen::Matrix<double, 3, size + 1> DirectLinear(
-    const std::vector<Eigen::Matrix<double, size, 1>>& points, const std::vector<Pixel>& pixels) {
-  constexpr int kSide = size + 1;
-  const auto of_points = Normalization<size>(points);
-  const Eigen::Matrix3d of_pixels = Normalization<2>(pixels);
-  Eigen::Matrix<double, 3 * kSide, 3 * kSide> gram;
-  gram.setZero();
+template <class Points>
+MatrixXd Homogeneous(const Points& points) {
+  const Eigen::Index size = points.front().size();
+  MatrixXd columns = MatrixXd::Ones(size + 1, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Matrix<double, 1, kSide> X = (of_points * points[i].homogeneous()).transpose();
-    const Vector3 pixel = of_pixels * pixels[i].homogeneous();
-    Eigen::Matrix<double, 2, 3 * kSide> rows;
-    rows.setZero();
-    rows.template block<1, kSide>(0, 0) = X;
-    rows.template block<1, kSide>(1, kSide) = X;
-    rows.template block<1, kSide>(0, 2 * kSide) = -pixel.x() * X;
-    rows.template block<1, kSide>(1, 2 * kSide) = -pixel.y() * X;
-    gram += rows.transpose() * rows;
+    columns.col(static_cast<Eigen::Index>(i)).head(size) = points[i];
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 3 * kSide, 3 * kSide>> solver(gram);
-  const auto least = solver.eigenvectors().col(0);
-  Eigen::Matrix<double, 3, kSide> matrix;
-  for (int row = 0; row < 3; ++row) {
-    matrix.row(row) = least.template segment<kSide>(row * kSide).transpose();
+  return columns;
+}
+
+// The matrix P of three rows with (pixel, 1) ~ P (point, 1), of homogeneous columns: the eigenvector
+// of the least eigenvalue of the equations p1 X - u p3 X = 0, p2 X - v p3 X = 0. Sizes are dynamic,
+// and the vector is a singular one, because Eigen's other templates compile for half a minute.
+MatrixXd DirectLinear(const MatrixXd& points, const MatrixXd& pixels) {
+  const Eigen::Index side = points.rows();
+  const MatrixXd of_points = Normalization(points);
+  const Eigen::Matrix3d of_pixels = Normalization(pixels);
+  MatrixXd gram = MatrixXd::Zero(3 * side, 3 * side);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::VectorXd X = of_points * points.col(i);
+    const Vector3 pixel = of_pixels * pixels.col(i);
+    MatrixXd rows = MatrixXd::Zero(3 * side, 2);
+    rows.col(0).head(side) = X;
+    rows.col(1).segment(side, side) = X;
+    rows.col(0).tail(side) = -pixel.x() * X;
+    rows.col(1).tail(side) = -pixel.y() * X;
+    gram += rows * rows.transpose();
   }
+  const Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner> svd(gram, Eigen::ComputeFullV);
+  const MatrixXd matrix = svd.matrixV().rightCols(1).reshaped(side, 3).transpose();
   return of_pixels.inverse() * matrix * of_points;
 }
 
@@ -143,9 +145,8 @@ bool LieInOnePlane(const std::vector<Vector3>& points) {
   mean /= static_cast<double>(points.size());
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Vector3& point : points) scatter += (point - mean) * (point - mean).transpose();
-  const Eigen::Vector3d spread =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues();
-  return spread[0] < kLeastDepth * kLeastDepth * spread[1];
+  const Vector3 spread = Eigen::JacobiSVD<Eigen::Matrix3d>(scatter).singularValues();
+  return spread[2] < kLeastDepth * kLeastDepth * spread[1];
 }
 
 core::Result<BundleState> FromSurvey(const CalibrationData& data) {
@@ -170,7 +171,7 @@ Eigen::Matrix3d PlaneHomography(const ChessboardParams& board, const CornerImage
   for (std::size_t i = 0; i < corners.size(); ++i) {
     points.emplace_back(CornerPosition(board, i).head<2>());
   }
-  return DirectLinear<2>(points, corners);
+  return DirectLinear(Homogeneous(points), Homogeneous(corners));
 }
 
 std::optional<double> FocalLength(const std::vector<Eigen::Matrix3d>& homographies,
@@ -202,18 +203,19 @@ Transform PoseOfBoard(const Eigen::Matrix3d& homography, double focal_px, const 
   columns.topRows<2>() /= focal_px;
   columns *= 2.0 / (columns.col(0).norm() + columns.col(1).norm());
   if (columns(2, 2) < 0.0) columns = -columns;
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 3, 2>> svd(
-      columns.leftCols<2>(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix<double, 3, 2> axes = svd.matrixU().leftCols<2>() * svd.matrixV().transpose();
+  Eigen::Matrix3d pair = columns;
+  pair.col(2).setZero();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(pair, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d axes = svd.matrixU() * svd.matrixV().transpose();
   Transform X_AT = Transform::Identity();
-  X_AT.linear().leftCols<2>() = axes;
+  X_AT.linear().leftCols<2>() = axes.leftCols<2>();
   X_AT.linear().col(2) = axes.col(0).cross(axes.col(1));
   X_AT.translation() = columns.col(2);
   return X_AT;
 }
 
 Cahv LinearCamera(const std::vector<Vector3>& points_A, const std::vector<Pixel>& pixels) {
-  Eigen::Matrix<double, 3, 4> P = DirectLinear<3>(points_A, pixels);
+  Eigen::Matrix<double, 3, 4> P = DirectLinear(Homogeneous(points_A), Homogeneous(pixels));
   P /= P.block<1, 3>(2, 0).norm();
   double depth = 0.0;
   for (const Vector3& point : points_A) depth += P.row(2).dot(point.homogeneous());
