@@ -23,6 +23,9 @@ export const requirePackage = createRequire(path.join(pagesFolder, "package.json
 
 const { chromium } = requirePackage("playwright-core");
 
+/** Ends what hangs; no test waits by the clock. */
+const HANG_MS = 900_000;
+
 /** A module of the pages, by its path in src/web, for tests without a browser. */
 export async function loadModule(module) {
   const entry = path.join(sourceFolder, "src/web", module);
@@ -54,19 +57,36 @@ export function temporaryFolder() {
 /** The browser without a window, with 3-D drawing in software. */
 export function launch() {
   return chromium.launch({
+    timeout: HANG_MS,
     executablePath: fromEnvironment("CHROMIUM"),
     // No sandbox: tests run as root in containers, and open only pages that they wrote themselves.
     args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
   });
 }
 
+/** In the page: triangles are handed on, but filled only while `window.paints`, as filling in software takes nearly all the time. */
+function paintWhenAsked() {
+  const { getContext } = HTMLCanvasElement.prototype;
+  HTMLCanvasElement.prototype.getContext = function (kind, settings) {
+    return getContext.call(this, kind, kind === "webgl2" ? { ...settings, antialias: false } : settings);
+  };
+  for (const name of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced", "drawRangeElements"]) {
+    const draw = WebGL2RenderingContext.prototype[name];
+    WebGL2RenderingContext.prototype[name] = function (...values) {
+      if (window.paints) draw.apply(this, values);
+    };
+  }
+}
+
 /**
- * Opens a file. Returns the page, every request that it made and everything that went wrong in it:
+ * Opens a file. With `paints` the browser fills every picture, else those that pixels() reads. Returns the page, every request that it made and everything that went wrong in it:
  * errors and warnings on the console, exceptions, requests that failed.
  */
-export async function openPage(browser, file, { width = 1280, height = 900, scheme = "light", ...context } = {}) {
+export async function openPage(browser, file, { width = 1280, height = 900, scheme = "light", paints = false, ...context } = {}) {
   // Less motion, so that a replay stands at its start until a test moves it.
   const opened = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, reducedMotion: "reduce", ...context });
+  opened.setDefaultTimeout(HANG_MS);
+  if (!paints) await opened.addInitScript(paintWhenAsked);
   const page = await opened.newPage();
   const requests = [];
   const problems = [];

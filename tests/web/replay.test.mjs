@@ -38,7 +38,7 @@ test("plays to its end, where the rover stands as the stored record says", async
   for (let i = 0; i < 12; ++i) await page.keyboard.press("+");
   await page.keyboard.press("Space");
   assert.equal(await page.evaluate(() => rockyardReplay.playing), true);
-  await page.waitForFunction(() => !rockyardReplay.playing, null, { timeout: 60_000 });
+  await page.waitForFunction(() => !rockyardReplay.playing);
   const { pose, at, end } = await page.evaluate(() => ({
     pose: rockyardReplay.pose(), at: rockyardReplay.time, end: rockyardReplay.sample(0).t + rockyardReplay.duration,
   }));

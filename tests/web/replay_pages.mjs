@@ -59,7 +59,9 @@ export async function open(file, options) {
 /** Every fourth colour of the picture, as one list. */
 export const pixels = (page) =>
   page.evaluate(() => {
+    window.paints = true;
     rockyardReplay.pose();
+    window.paints = false;
     const canvas = document.querySelector(".picture canvas");
     const copy = document.createElement("canvas");
     copy.width = canvas.width / 4;

@@ -58,7 +58,7 @@ test("opens with the overview, which ends at the end with how it ended", async (
   assert.equal(await runs(page), true);
   assert.match(await page.textContent(".overview .caption-now"), /The goal is 7\.6 m away|hazard|scrapes/);
   assert.equal(await page.isVisible(".ending"), false);
-  await page.waitForFunction(() => !rockyardReplay.overview, null, { timeout: 40_000 });
+  await page.waitForFunction(() => !rockyardReplay.overview);
   assert.equal(await time(page), await end(page));
   assert.equal(await page.isVisible(".overview"), false);
   assert.match(await page.textContent(".ending h2"), /It drove too far without coming nearer to the goal\./);
@@ -161,12 +161,12 @@ test("no sentence has the name of a parameter or an underscore in it", async () 
 });
 
 async function download(page, act) {
-  const [saved] = await Promise.all([page.waitForEvent("download", { timeout: 60_000 }), act()]);
+  const [saved] = await Promise.all([page.waitForEvent("download"), act()]);
   return { name: saved.suggestedFilename(), bytes: readFileSync(await saved.path()) };
 }
 
 test("the picture is saved as PNG, with what it shows and when", async () => {
-  const { page, problems } = await open(file, { acceptDownloads: true });
+  const { page, problems } = await open(file, { acceptDownloads: true, paints: true });
   await seekShare(page, 0.5);
   const { name, bytes } = await download(page, () => page.click("text=Save picture"));
   assert.match(name, /^nominal-seed1-trial1-[\d-]+\.png$/);
@@ -204,7 +204,7 @@ async function filmLength(context, bytes) {
 }
 
 test("the overview is saved as a film that lasts as long, or given up", async () => {
-  const { page, problems } = await open(file, { acceptDownloads: true });
+  const { page, problems } = await open(file, { acceptDownloads: true, paints: true });
   const began_ms = performance.now();
   const { name, bytes } = await download(page, () => page.click("text=Save film"));
   const took_s = (performance.now() - began_ms) / 1000;
