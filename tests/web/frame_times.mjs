@@ -33,7 +33,7 @@ async function pictureTime(page) {
 const browser = await launch();
 const pages = [];
 for (const file of files) {
-  const { page } = await openPage(browser, file, { width: 1280, height: 800 });
+  const { page } = await openPage(browser, file, { width: 1280, height: 800, paints: true });
   await page.waitForFunction(() => window.rockyardReplay);
   pages.push(page);
 }
