@@ -1,7 +1,8 @@
-// A store that another program keeps locked: every statement waits for it, which takes most of a
-// minute.
+// What goes wrong around a campaign and takes long: random kills, and a store that another program
+// keeps locked, for which every statement waits, most of a minute.
 #include <gmock/gmock.h>
 
+#include <random>
 #include <set>
 
 #include "app/watched_run.h"
@@ -41,6 +42,42 @@ TEST_F(CliFaultLong, StoreThatStaysLockedEndsTheRun) {
     EXPECT_EQ(batch::TrialHash({&record, 1}), batch::TrialHash({&all[record.trial], 1}));
     EXPECT_TRUE(seen.insert(record.trial).second);
   }
+}
+
+TEST_F(CliFaultLong, CrashedWorkerLeavesNoFaultWhereTheTrialsPass) {
+  ExpectReplaced(SIGSEGV, "SIGSEGV");
+}
+
+// By a seed, so that a failure can be looked at again; the moment decides what is cut in two.
+TEST_F(CliFaultLong, RandomKillsAndTheSameHash) {
+  constexpr int kTrials = 300;
+  const std::string expected = PlainHash(kTrials);
+  std::mt19937 random(20261121);
+  const auto below = [&](unsigned limit) { return static_cast<unsigned>(random() % limit); };
+  std::size_t stored = 0;
+  for (int kills = 0; kills < 8; ++kills) {
+    const pid_t process = Start(Drives("a", kTrials, {"--resume"}));
+    if (kills % 2 == 0) {
+      WaitUntil([&] { return Stored("a") > stored || !Alive(process); });
+    }
+    usleep(20000 + below(300000));
+    const pid_t worker = WorkerOf(process);
+    const bool both = below(3) != 0;
+    if (!both && worker != 0) kill(worker, SIGKILL);
+    if (!both) usleep(below(100000));
+    kill(process, SIGKILL);
+    Wait(process);
+    if (worker != 0) {
+      ASSERT_TRUE(WaitForEnd(worker));
+    }
+    usleep(20000);  // a worker that was started meanwhile dies with its supervisor
+    ASSERT_GE(Stored("a"), stored) << "no stored trial is lost";
+    stored = Stored("a");
+  }
+  EXPECT_GT(stored, 0U);
+  const CommandResult result = Run(Drives("a", kTrials, {"--resume"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Hash("a"), expected);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace {
 
 using CliKill = KillRuns;
 
-constexpr int kStep = 12;
+constexpr int kStep = 24;
 
 TEST_F(CliKill, RunAnywhere) { ExpectOfRuns(kStep); }
 

@@ -192,7 +192,7 @@ TEST_F(CliRegression, AChangedBuildIsCaught) {
   const std::string root = ROCKYARD_SOURCE_DIR;
   const CommandResult run =
       Run({"sweep", root + "/scenarios/sweeps/regression.json", "--out", "changed", "--quiet",
-           "--trials", "100", "--set", "sensors.light_stripe.missed_probability=0.05"});
+           "--trials", "60", "--set", "sensors.light_stripe.missed_probability=0.05"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const CommandResult result =
       Run({"check", "changed", "--against", root + "/results/baselines/regression.json",

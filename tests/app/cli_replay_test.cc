@@ -158,7 +158,8 @@ TEST_F(CliReplay, AScanThatWasNotTakenIsSaid) {
 }
 
 TEST_F(CliReplay, PicturesOfTwoScansAreNotMixed) {
-  ASSERT_EQ(Run(Trial({"--scan", "0", "--out", "scan"})).exit_code, 0);
+  fs::create_directories(work() / "scan");
+  WriteFile(work() / "scan" / "array.svg", "");
   const CommandResult result = Run(Trial({"--scan", "1", "--out", "scan"}));
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("scan exists and is no empty folder"));

@@ -27,7 +27,7 @@ class CliTraceFaults : public WatchedRunTest {
 
   // Trials of some tenths of a second each, so that there is time to meddle between two of them.
   std::vector<std::string> SlowRun(const std::vector<std::string>& more) const {
-    return With({"run", Scenario("nominal"), "--out", "run", "--trials", "8", "--traces", "all",
+    return With({"run", Scenario("nominal"), "--out", "run", "--trials", "6", "--traces", "all",
                  "--threads", "1"},
                 more);
   }
@@ -82,9 +82,9 @@ TEST_F(CliTraceFaults, AKilledWorkerLeavesOneDocument) {
   kill(workers.front(), SIGKILL);
   const CommandResult result = Wait(process);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(nlohmann::json::parse(result.out)["trials"]["completed"], 8);
-  EXPECT_THAT(result.err, HasSubstr("8 traces are in run/traces"));
-  EXPECT_EQ(Files(), 8U);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["trials"]["completed"], 6);
+  EXPECT_THAT(result.err, HasSubstr("6 traces are in run/traces"));
+  EXPECT_EQ(Files(), 6U);
 }
 
 TEST_F(CliTraceFaults, CtrlCLeavesWholeFilesAndGoesOn) {
@@ -96,12 +96,12 @@ TEST_F(CliTraceFaults, CtrlCLeavesWholeFilesAndGoesOn) {
     kill(process, SIGINT);
     const CommandResult result = Wait(process);
     EXPECT_EQ(result.exit_code, 130) << result.err;
-    EXPECT_THAT(result.err, AllOf(HasSubstr("interrupted: "), HasSubstr(" of 8 traces"),
+    EXPECT_THAT(result.err, AllOf(HasSubstr("interrupted: "), HasSubstr(" of 6 traces"),
                                   HasSubstr("--resume")));
-    EXPECT_LT(Files(), 8U);
+    EXPECT_LT(Files(), 6U);
     const CommandResult resumed = Run(SlowRun({"--resume"}));
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-    EXPECT_EQ(Files(), 8U);
+    EXPECT_EQ(Files(), 6U);
   }
 }
 

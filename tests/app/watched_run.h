@@ -1,7 +1,8 @@
 // Runs of the real command that a test watches, and meddles with, while they go on.
 #pragma once
 
-#include <algorithm>
+#include <gmock/gmock.h>
+
 #include <iterator>
 #include <span>
 #include <utility>
@@ -44,13 +45,12 @@ class WatchedRunTest : public CommandTest {
     return batch::TrialHash(batch::ResultStore::Read(work() / out).Load());
   }
 
-  // Of the first trials of a run that nobody disturbs, which is made once for all tests.
+  // Of the first trials of a run that nobody disturbs, which is made once for all tests that ask for
+  // no more.
   std::string PlainHash(int trials) const {
-    constexpr std::size_t kMost = 400;
     const auto count = static_cast<std::size_t>(trials);
     if (plain_.size() < count) {
-      const int most = static_cast<int>(std::max(count, kMost));
-      EXPECT_EQ(Run(Drives("plain", most, {"--no-supervisor"}, 2)).exit_code, 0);
+      EXPECT_EQ(Run(Drives("plain", trials, {"--no-supervisor", "--force"}, 2)).exit_code, 0);
       plain_ = batch::ResultStore::Read(work() / "plain").Load();
     }
     return batch::TrialHash(std::span(plain_).first(count));
@@ -61,6 +61,26 @@ class WatchedRunTest : public CommandTest {
     const std::string id = std::to_string(process);
     std::ifstream file("/proc/" + id + "/task/" + id + "/children");
     return {std::istream_iterator<pid_t>(file), {}};
+  }
+
+  // The process that the supervisor has started; 0: none.
+  static pid_t WorkerOf(pid_t supervisor) {
+    const std::vector<pid_t> children = ChildrenOf(supervisor);
+    return children.empty() ? 0 : children.front();
+  }
+
+  // A worker that dies by a signal from outside is replaced, and the records are the same.
+  void ExpectReplaced(int signal, const std::string& name) const {
+    const std::string expected = PlainHash(300);
+    const pid_t process = Start(Drives("a", 300));
+    ASSERT_TRUE(WaitForTrials("a", 20));
+    const pid_t worker = WorkerOf(process);
+    ASSERT_GT(worker, 0) << "the run is long enough to be hit";
+    ASSERT_EQ(kill(worker, signal), 0);
+    const CommandResult result = Wait(process);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, testing::HasSubstr(name));
+    EXPECT_EQ(Hash("a"), expected);
   }
 
  private:
