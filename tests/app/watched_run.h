@@ -45,8 +45,8 @@ class WatchedRunTest : public CommandTest {
     return batch::TrialHash(batch::ResultStore::Read(work() / out).Load());
   }
 
-  // Of the first trials of a run that nobody disturbs, which is made once for all tests that ask for
-  // no more.
+  // Of the first trials of a run that nobody disturbs, which is made once for all tests that ask
+  // for no more.
   std::string PlainHash(int trials) const {
     const auto count = static_cast<std::size_t>(trials);
     if (plain_.size() < count) {

@@ -435,8 +435,8 @@ class CommandLine(FiguresTest):
                  "for words in map(str.split, sys.stdin):\n"
                  "    sys.argv[1:] = words; assert command.main() == 0")
         lines = "\n".join(" ".join([*words, "--out", "second", "--rockyard", str(ROCKYARD)]) for words in drawn)
-        subprocess.run([sys.executable, "-c", again], cwd=self.root, check=True, input=lines, text=True, stdout=subprocess.DEVNULL,
-                       env={**os.environ, "PYTHONPATH": str(ROOT / "scripts/studies")})
+        subprocess.run([sys.executable, "-c", again], cwd=self.root, check=True, input=lines, text=True,
+                       stdout=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": str(ROOT / "scripts/studies")})
         files = sorted(path.name for path in (self.root / "first").iterdir())
         self.assertEqual(len(files), 21)  # SVG, PNG and caption of each
         for name in files:
