@@ -74,7 +74,7 @@ def main():
     parser.add_argument("--rockyard", default=str(ROOT / "build/test/bin/rockyard"))
     parser.add_argument("--web", default=str(ROOT / "build/test/web"))
     parser.add_argument("--out", default=str(ROOT / "docs/pictures"))
-    parser.add_argument("--chromium", default=shutil.which("chromium"))
+    parser.add_argument("--chromium", default=shutil.which("chromium-headless-shell") or shutil.which("chromium"))
     arguments = parser.parse_args()
     out = Path(arguments.out)
     out.mkdir(parents=True, exist_ok=True)

@@ -22,8 +22,8 @@ constexpr double kLeastTilt_deg = 5.0;
 // Of surveyed points: their spread across the plane that fits best over that along it.
 constexpr double kLeastDepth = 0.02;
 
-// Points as columns, homogeneous. Shifts them to their mean and scales them to a root mean square of
-// 1 a coordinate.
+// Points as columns, homogeneous. Shifts them to their mean and scales them to a root mean square
+// of 1 a coordinate.
 MatrixXd Normalization(const MatrixXd& points) {
   const Eigen::Index size = points.rows() - 1;
   const Eigen::VectorXd mean = points.topRows(size).rowwise().mean();
@@ -48,9 +48,10 @@ MatrixXd Homogeneous(const Points& points) {
   return columns;
 }
 
-// The matrix P of three rows with (pixel, 1) ~ P (point, 1), of homogeneous columns: the eigenvector
-// of the least eigenvalue of the equations p1 X - u p3 X = 0, p2 X - v p3 X = 0. Sizes are dynamic,
-// and the vector is a singular one, because Eigen's other templates compile for half a minute.
+// The matrix P of three rows with (pixel, 1) ~ P (point, 1), of homogeneous columns: the
+// eigenvector of the least eigenvalue of the equations p1 X - u p3 X = 0, p2 X - v p3 X = 0. Sizes
+// are dynamic, and the vector is a singular one, because Eigen's other templates compile for half a
+// minute.
 MatrixXd DirectLinear(const MatrixXd& points, const MatrixXd& pixels) {
   const Eigen::Index side = points.rows();
   const MatrixXd of_points = Normalization(points);
