@@ -38,6 +38,11 @@ Unknowns Changed(const Unknowns& at, const VectorXd& change) {
   return changed;
 }
 
+// Of one type, since each other one takes seconds to compile.
+MatrixXd Solved(const MatrixXd& N, const MatrixXd& right) { return N.ldlt().solve(right); }
+
+MatrixXd Inverse(const MatrixXd& N) { return Solved(N, MatrixXd::Identity(N.rows(), N.cols())); }
+
 Vector3d Seen(const RectifiedPair& cameras, const Vector3d& p_A) {
   const Pixel left = *Project(cameras.left, p_A);
   const Pixel right = *Project(cameras.right, p_A);
@@ -81,9 +86,9 @@ Motion PlainBundle(const PointsSeenTwice& points, const RectifiedPair& cameras,
                  (2.0 * h);
     }
     N = J.transpose() * J;
-    at = Changed(at, -N.ldlt().solve(J.transpose() * residuals));
+    at = Changed(at, -Solved(N, J.transpose() * residuals));
   }
-  return {at.X_FS, N.inverse().topLeftCorner<6, 6>()};
+  return {at.X_FS, Inverse(N).topLeftCorner<6, 6>()};
 }
 
 Motion MotionInSpace(const PointsSeenTwice& points, const Transform& start) {
@@ -107,10 +112,10 @@ Motion MotionInSpace(const PointsSeenTwice& points, const Transform& start) {
       N += J.transpose() * W * J;
       side -= J.transpose() * W * r;
     }
-    const Eigen::Matrix<double, 6, 1> change = N.ldlt().solve(side);
+    const VectorXd change = Solved(N, side);
     X_FS = Turned(X_FS, change.head<3>(), change.tail<3>());
   }
-  return {X_FS, N.inverse()};
+  return {X_FS, Inverse(N)};
 }
 
 Eigen::Matrix<double, 6, 1> ErrorOf(const Transform& estimated, const Transform& truth) {
