@@ -3,15 +3,13 @@
 import json
 import math
 import shutil
-import sys
 import unittest
-from pathlib import Path
 
-sys.path[:0] = [str(Path(__file__).resolve().parents[1]), str(Path(__file__).resolve().parents[3] / "scripts/studies")]
-import study  # noqa: E402
-from fake_scripts import ROOT, ScriptTest  # noqa: E402
-from navigator import navigator  # noqa: E402
-from pathfinder.pathfinder import mean_cells  # noqa: E402
+import context  # noqa: F401  (where studies are)
+import study
+from fake_scripts import ROOT, ScriptTest
+from navigator import navigator
+from pathfinder.pathfinder import mean_cells
 
 
 class RegressionStudy(ScriptTest):
@@ -477,7 +475,3 @@ class StudyStatistics(unittest.TestCase):
         self.assertEqual(self.study.mcnemar(0, 0), 1.0)
         self.assertEqual(self.study.mcnemar(3, 3), 1.0)
         self.interval(self.study.holm([0.01, 0.04, 0.03]), (0.03, 0.06, 0.06))
-
-
-if __name__ == "__main__":
-    unittest.main()

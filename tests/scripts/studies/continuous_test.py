@@ -2,14 +2,12 @@
 
 import math
 import sqlite3
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-from continuous import continuous as study  # noqa: E402  (the path comes first)
+import context  # noqa: F401  (where studies are)
+from continuous import continuous as study
 
 
 def drive(outcome=study.ARRIVED, time_s=300.0, **values):
@@ -118,7 +116,3 @@ class Counts(unittest.TestCase):
         row = fields[0.013, 0]["csad"]
         self.assertAlmostEqual(row["speed_cm_s"], 7.0)
         self.assertTrue(math.isnan(row["plan_start_error_m"]))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,13 +2,10 @@
 
 import json
 import math
-import sys
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-from cylinder import effects  # noqa: E402  (the path comes first)
+from context import ROOT
+from cylinder import effects
 
 
 class Counting(unittest.TestCase):
@@ -31,7 +28,3 @@ class Counting(unittest.TestCase):
         for scenario, _ in effects.DRIVES.values():
             path = ROOT / f"scenarios/localization/{scenario}.json"
             self.assertEqual(json.loads(path.read_text(encoding="utf-8"))["name"], scenario)
-
-
-if __name__ == "__main__":
-    unittest.main()

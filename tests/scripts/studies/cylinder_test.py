@@ -1,13 +1,10 @@
 """Counting of the study of the coloured cylinder, on rows made by hand."""
 
 import math
-import sys
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-from cylinder import cylinder  # noqa: E402  (the path comes first)
+import context  # noqa: F401  (where studies are)
+from cylinder import cylinder
 
 
 def row(distance, orientation, errors_deg, stereo=0.0, wrong=0, measurements=None):
@@ -68,7 +65,3 @@ class Counting(unittest.TestCase):
         verdict_of = {line[1]: line[3] for line in cylinder.exact_lines()}
         self.assertEqual(verdict_of["m = 17: 11.24 m"], "agrees")
         self.assertIn("misprint", verdict_of["about 5.8 %"])
-
-
-if __name__ == "__main__":
-    unittest.main()

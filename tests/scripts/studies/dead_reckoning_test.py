@@ -12,12 +12,10 @@ import unittest
 import unittest.mock
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-
-from dead_reckoning import dead_reckoning as sand  # noqa: E402  (the path comes first)
-from dead_reckoning import sand_slopes  # noqa: E402
-import study  # noqa: E402
+from context import ROOT
+from dead_reckoning import dead_reckoning as sand
+from dead_reckoning import sand_slopes
+import study
 
 PAGE = (ROOT / "results/studies/dead_reckoning.md").read_text(encoding="utf-8")
 
@@ -194,7 +192,3 @@ class Study(unittest.TestCase):
             # Where the printed slopes lie: well inside of what sets of twenty scatter.
             self.assertTrue(10 < below < 90, what)
             self.assertGreater(study.mean_interval(values)[2], sand.PUBLISHED[which])
-
-
-if __name__ == "__main__":
-    unittest.main()

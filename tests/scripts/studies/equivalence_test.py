@@ -13,10 +13,9 @@ from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-import study  # pylint: disable=wrong-import-position
-from equivalence import equivalence  # pylint: disable=wrong-import-position
+from context import ROOT
+import study
+from equivalence import equivalence
 
 
 class Intervals(unittest.TestCase):
@@ -316,7 +315,3 @@ class Study(unittest.TestCase):
             self.assertRegex(text, rf"(?s)<!-- begin {name} -->\n.*\n<!-- end {name} -->")
             for scenario, *_ in cells.values():
                 self.assertTrue((equivalence.PATHFINDER / f"{scenario}.json").is_file())
-
-
-if __name__ == "__main__":
-    sys.exit(unittest.main())

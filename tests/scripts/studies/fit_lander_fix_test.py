@@ -2,14 +2,10 @@
 
 import math
 import random
-import sys
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-import study  # noqa: E402, F401  (knows where calibrations are)
-from calibrations import fit_lander_fix  # noqa: E402  (the path comes first)
+import context  # noqa: F401  (where studies are)
+from calibrations import fit_lander_fix
 
 LAW = {
     "found": {"intercept": 0.5, "width": 2.0, "no_blue": -1.0, "pink_aside": 0.6, "light": 0.8},
@@ -98,7 +94,3 @@ class Fits(unittest.TestCase):
         fix = scenario["sensors"]["aids"]["lander_fix"]
         self.assertEqual((scenario["name"], fix["enabled"], fix["law"]), ("a", True, "cylinder"))
         self.assertEqual(fix["cylinder"]["range_bias"], 0.02)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,14 +2,12 @@
 
 import math
 import sqlite3
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-from localization import localization  # noqa: E402  (the path comes first)
+import context  # noqa: F401  (where studies are)
+from localization import localization
 
 
 def trial(goal_m, outcome="goal_reached", nees=math.nan):
@@ -77,7 +75,3 @@ class Counting(unittest.TestCase):
         self.assertEqual(row["outcome"], "jammed")
         self.assertEqual(row["true_goal_distance_m"], 0.5)
         self.assertTrue(math.isnan(row["pose_nees"]))
-
-
-if __name__ == "__main__":
-    unittest.main()

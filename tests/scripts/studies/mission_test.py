@@ -1,15 +1,10 @@
-#!/usr/bin/env python3
 """scripts/studies/mission/mission.py: counting of missions made by hand."""
 
-import sys
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-
-import study  # noqa: E402
-from mission import mission  # pylint: disable=wrong-import-position
+import context  # noqa: F401  (where studies are)
+import study
+from mission import mission
 
 
 def missions(reached, errors_m):
@@ -81,7 +76,3 @@ class Counting(unittest.TestCase):
     def test_quantiles(self):
         self.assertEqual(mission.median([4.0, 1.0, 2.0, 3.0]), 2.5)
         self.assertAlmostEqual(study.quantile([0.0, 1.0, 2.0, 3.0, 4.0], 0.3), 1.2)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,12 +1,9 @@
 """Counting of the study of visual odometry's speed, on numbers made by hand."""
 
-import sys
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-from odometry_speed import odometry_speed as speed  # noqa: E402
+import context  # noqa: F401  (where studies are)
+from odometry_speed import odometry_speed as speed
 
 
 class Speed(unittest.TestCase):
@@ -33,7 +30,3 @@ class Speed(unittest.TestCase):
             speed.with_inputs(text, document),
             '{"id": "time.front", "inputs": [1.235, 1], "unit": "ms"},\n{"id": "vo.regions", "inputs": [4, 4]},\n'
             '{"id": "quality.deg_100", "inputs": [0.3, 0.1]}\n{"id": "cost.ms_100", "inputs": [7, 1]}\n')
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,12 +1,9 @@
 """Counting of the study of visual odometry, on lines made by hand."""
 
-import sys
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-from odometry import odometry  # noqa: E402  (the path comes first)
+import context  # noqa: F401  (where studies are)
+from odometry import odometry
 
 
 def line(end_percent, gaps=0, steps=100, case="navcam"):
@@ -31,7 +28,3 @@ class Counting(unittest.TestCase):
         self.assertEqual(found[7], "4 of 400")
         self.assertTrue(found[8].startswith("1.0 ("))
         self.assertIsNone(odometry.summary(rows, "navcam, VL-2"))
-
-
-if __name__ == "__main__":
-    unittest.main()

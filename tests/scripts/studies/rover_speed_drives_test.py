@@ -2,14 +2,11 @@
 
 import csv
 import math
-import sys
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-from rover_speed import drives  # noqa: E402  (the path comes first)
-from rover_speed import model  # noqa: E402
+from context import ROOT
+from rover_speed import drives
+from rover_speed import model
 
 
 def drive(outcome="goal_reached", **values):
@@ -68,7 +65,3 @@ class Counts(unittest.TestCase):
         page = (ROOT / "results/speed.md").read_text(encoding="utf-8")
         for name, make in drives.TABLES.items():
             self.assertIn(f"<!-- begin {name} -->\n{make(lines)}\n<!-- end {name} -->", page)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,18 +1,16 @@
 """The closed forms of a rover's speed, on numbers made by hand and against a drive that is stepped through."""
 
 import math
-import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-from rover_speed import figure  # noqa: E402  (the path comes first)
-from rover_speed import model  # noqa: E402
-from rover_speed import rover_speed as study  # noqa: E402
+from context import ROOT
+from rover_speed import figure
+from rover_speed import model
+from rover_speed import rover_speed as study
 
 TIMES = model.Times(images=2.0, stereo=10.0, navigation=4.0, visual=30.0)
 ROVER = model.Rover(0.05, 0.5, 0.8, overhead_s=3.0, steering_s=1.5)
@@ -160,7 +158,3 @@ class Figure(unittest.TestCase):
 
     def test_the_scale_is_one_of_powers(self):
         self.assertAlmostEqual(figure.x_of(20) - figure.x_of(10), figure.x_of(200) - figure.x_of(100))
-
-
-if __name__ == "__main__":
-    unittest.main()

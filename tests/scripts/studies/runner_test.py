@@ -238,7 +238,3 @@ class Runner(unittest.TestCase):
         code, _, errors = self.call("run", "three")
         self.assertEqual(code, 2)
         self.assertIn("three: is no study; there are one, two", errors)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,14 +2,12 @@
 
 import math
 import sqlite3
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-from slip_loop import slip_loop  # noqa: E402  (the path comes first)
+import context  # noqa: F401  (where studies are)
+from slip_loop import slip_loop
 
 
 def drive(outcome, onset_m=math.nan, alarm_m=math.nan, **values):
@@ -76,7 +74,3 @@ class Counts(unittest.TestCase):
             cells = slip_loop.read_cells(folder)
         self.assertEqual(list(cells), [("deep", "gestalt", "stop 5 Hz")])
         self.assertEqual(list(cells["deep", "gestalt", "stop 5 Hz"]), [0])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -12,11 +12,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-
-from stereo_speedup import pyramid  # noqa: E402  (the path comes first)
-from stereo_speedup import stereo_speedup  # noqa: E402
+from context import ROOT
+from stereo_speedup import pyramid
+from stereo_speedup import stereo_speedup
 
 PAGE = (ROOT / "results/stereo_speed.md").read_text(encoding="utf-8")
 TIMES = ROOT / "results/studies/stereo_speedup.json"
@@ -115,7 +113,3 @@ class ErrorTest(unittest.TestCase):
         row = tally.row(0, (1.5, 2.0))
         self.assertEqual((row["pixels"], row["matched"], row["wrong"]), (5, 0.4, 0.5))
         self.assertAlmostEqual(row["disparity_rms_px"], 0.5)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,16 +1,12 @@
-#!/usr/bin/env python3
 """scripts/studies/figures/three_rocks.py: percentiles and the joint distance against samples that are known."""
 
 import random
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-
-from figures import three_rocks  # pylint: disable=wrong-import-position
+import context  # noqa: F401  (where studies are)
+from figures import three_rocks
 
 
 class SharesTest(unittest.TestCase):
@@ -72,7 +68,3 @@ class ReportTest(unittest.TestCase):
     def test_too_few_runs_are_an_error(self):
         self.assertEqual(three_rocks.main([str(self.run_folder([1, 0]))]), 2)
         self.assertEqual(three_rocks.main([]), 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

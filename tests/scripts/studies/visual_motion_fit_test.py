@@ -2,15 +2,11 @@
 
 import math
 import random
-import sys
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts/studies"))
-import study  # noqa: E402, F401  (knows where calibrations are)
-from calibrations import fit_visual_motion  # noqa: E402  (the path comes first)
-from visual_odometry import visual_odometry  # noqa: E402
+import context  # noqa: F401  (where studies are)
+from calibrations import fit_visual_motion
+from visual_odometry import visual_odometry
 
 
 class Fits(unittest.TestCase):
@@ -69,7 +65,3 @@ class Counts(unittest.TestCase):
         self.assertEqual(visual_odometry.parse_images("nominal/vision=a,VL-2/both=b"),
                          {("nominal", "vision"): "a", ("VL-2", "both"): "b"})
         self.assertEqual(visual_odometry.parse_images(None), {})
-
-
-if __name__ == "__main__":
-    unittest.main()
