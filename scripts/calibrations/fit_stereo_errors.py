@@ -66,14 +66,6 @@ class Cell:
         return math.sqrt(self.mean(column, base))
 
 
-def rows_of(folder):
-    """The records of a run folder, one dictionary each."""
-    columns = study.trial_columns(folder)
-    numbers = {name: values for name, values in columns.items() if name not in study.TEXT_COLUMNS}
-    count = len(next(iter(numbers.values())))
-    return [{name: values[i] for name, values in numbers.items()} for i in range(count)]
-
-
 def cells_by(rows, *factors):
     """Cells by the values of some factors, in the order in which they come."""
     cells = {}
@@ -176,7 +168,7 @@ def run(args, name, seed, settings):
     seeded = argparse.Namespace(**{**vars(args), "seed": seed})
     summary = study.run_scenario(seeded, SCENARIO, folder, held + args.set)
     args.programs.add(study.program(summary))
-    return rows_of(folder)
+    return study.trial_rows(folder)
 
 
 def side_by_side(name, images, model):

@@ -284,12 +284,6 @@ def csv_rows(fields, fidelity):
             for key, rows in sorted(fields.items()) for cycle, row in rows.items()]
 
 
-def show(args, name, text):
-    print(f"{name}\n\n{text}\n", flush=True)
-    if args.markdown:
-        study.write_table([args.markdown], name, text)
-
-
 def sweep_folder(args, name):
     """Runs a sweep beside that of the first table, or goes on with it."""
     folder = argparse.Namespace(**vars(args) | {"sweep": args.sweep.with_name(name)})
@@ -305,7 +299,7 @@ def count_drives(args, skipped):
         fields = read_fields(sweep_folder(args, name))
         rows += csv_rows(fields, fidelity)
         for table, make in TABLES.items():
-            show(args, table if fidelity == "quasi_static" else f"{table}_multibody", make(fields))
+            study.show(args, table if fidelity == "quasi_static" else f"{table}_multibody", make(fields))
     study.write_csv(args.out / "continuous.csv", rows)
 
 
@@ -313,17 +307,17 @@ def count_maps(args):
     rows = map_rows(read_map(sweep_folder(args, "continuous_maps")))
     study.write_csv(args.out / "continuous_maps.csv", rows)
     study.write_svg(args.out / "continuous_maps.svg", map_panels(rows), "replan fraction")
-    show(args, "continuous_maps", map_table(rows))
+    study.show(args, "continuous_maps", map_table(rows))
 
 
 def count_assumptions(args):
     rows = choice_rows(read_choices(sweep_folder(args, "continuous_assumptions")))
     study.write_csv(args.out / "continuous_assumptions.csv", rows)
-    show(args, "continuous_assumptions", choices_table(rows))
+    study.show(args, "continuous_assumptions", choices_table(rows))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     study.add_sweep_arguments(parser, "continuous", "write the tables between their marks on this page")
     parser.add_argument("--skip", default="", help=f"of {', '.join(PARTS)}: what is neither run nor counted")
     args = parser.parse_args()

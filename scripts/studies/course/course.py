@@ -10,8 +10,6 @@ Writes courses.csv and courses.md.
     scripts/studies/course/course.py [--courses wall_3 gravel] [--trials 40] [--threads 2]
 """
 
-import argparse
-import csv
 import json
 import math
 import sys
@@ -26,8 +24,7 @@ SEED = 20261123  # of the courses' own files
 
 
 def expectations():
-    with open(COURSES / "expected.csv", encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    return study.read_csv(COURSES / "expected.csv")
 
 
 def read_course(path):
@@ -100,8 +97,7 @@ def table_of(rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     every = expectations()
     names = list(dict.fromkeys(row["course"] for row in every))
     parser.add_argument("--courses", nargs="+", choices=names, default=names, metavar="COURSE")

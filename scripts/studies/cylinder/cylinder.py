@@ -11,11 +11,11 @@ found, how well, and how many poses are wrong. --markdown writes them between <!
     scripts/studies/cylinder/cylinder.py [--seed 1] [--tables bias,limits,verdicts,green,views,without] [--markdown PAGE]
 """
 
-import argparse
 import json
 import math
 import sys
 from pathlib import Path
+from statistics import median
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
@@ -77,13 +77,6 @@ class Sums:
         return math.sqrt(max(square, 0.0) * count / (count - 1))
 
 
-def rows_of(folder):
-    columns = study.trial_columns(folder)
-    numbers = {name: values for name, values in columns.items() if name not in study.TEXT_COLUMNS}
-    count = len(next(iter(numbers.values())))
-    return [{name: values[i] for name, values in numbers.items()} for i in range(count)]
-
-
 def groups(rows, *factors):
     found = {}
     for row in rows:
@@ -107,12 +100,6 @@ def share(count, total):
     """Count of a total with the exact 95 % interval of its share in per cent."""
     low, high = study.exact_interval(int(count), int(total))
     return f"{count:.0f} of {total:.0f} ({100 * low:.1f}..{100 * high:.1f} %)"
-
-
-def median(values):
-    ordered = sorted(values)
-    middle = len(ordered) // 2
-    return ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle])
 
 
 def bias_table(rows):
@@ -306,13 +293,13 @@ def run(args, name):
         document = json.loads(path.read_text(encoding="utf-8"))
         args.trials = document.get("trials", 180) if args.views is None or "views" not in name else args.views
         made = f"; made by rockyard {study.program(study.run_scenario(args, path, folder, args.set))}"
-    rows = rows_of(folder)
+    rows = study.trial_rows(folder)
     pairs = sum(row["measurements"] for row in rows)
     return rows, f"{pairs:.0f} pairs of images, {len(rows)} views, seed {args.seed}{made}."
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     study.add_run_arguments(parser, None, "cylinder")
     parser.add_argument("--views", type=int, help="views of views.json and views_without.json (the scenarios' own)")
     parser.add_argument("--tables", default=",".join(TABLES))
@@ -332,9 +319,7 @@ def main():
                 write_cells(runs[scenario][0], args.studies / f"cylinder{suffix}.csv")
         rows, note = runs[scenario]
         text = f"{content(name, rows)}\n\n{note}"
-        print(f"cylinder_{name}\n\n{text}\n", flush=True)
-        if args.markdown:
-            study.write_table([args.markdown], f"cylinder_{name}", text)
+        study.show(args, f"cylinder_{name}", text)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,6 @@ how many poses are wrong. drives: 10 m over nominal terrain (scenarios/localizat
 and <!-- end cylinder_NAME --> of a page. Delete the runs after a change of the code.
 """
 
-import argparse
 import math
 import sys
 from pathlib import Path
@@ -71,7 +70,7 @@ def run(args, trials, scenario, name, settings):
 
 
 def assumption_line(name, rows):
-    """Of rows of cylinder.rows_of."""
+    """Of rows of study.trial_rows."""
     line = [name]
     for finder in cylinder.FINDERS:
         sums = cylinder.Sums(rows, finder)
@@ -86,7 +85,7 @@ def assumptions(args):
     for name, values in ASSUMPTIONS.items():
         settings = [f"{PICTURE}.{path}={value}" for path, value in values.items()]
         folder, made = run(args, args.views, "cylinder/views", name, settings)
-        lines.append(assumption_line(name, cylinder.rows_of(folder)))
+        lines.append(assumption_line(name, study.trial_rows(folder)))
     heads = [f"{called}: {head}" for called in cylinder.FINDERS.values()
              for head in ("found, %", "orientation error, deg", "wrong, %")]
     return study.table(["views", *heads], lines), f"{args.views} views each, seed {args.seed}{made}."
@@ -125,7 +124,7 @@ TABLES = {"assumptions": assumptions, "drives": drives}
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     study.add_run_arguments(parser, None, "cylinder_effects")
     parser.add_argument("--views", type=int, default=324, help="views of each assumption (324)")
     parser.add_argument("--drives", type=int, default=300, help="drives with each finder (300)")
@@ -137,9 +136,7 @@ def main():
         if name not in TABLES:
             parser.error(f"--tables: no table {name}; there are {', '.join(TABLES)}")
         table, note = TABLES[name](args)
-        print(f"cylinder_{name}\n\n{table}\n\n{note}\n", flush=True)
-        if args.markdown:
-            study.write_table([args.markdown], f"cylinder_{name}", f"{table}\n\n{note}")
+        study.show(args, f"cylinder_{name}", f"{table}\n\n{note}")
 
 
 if __name__ == "__main__":

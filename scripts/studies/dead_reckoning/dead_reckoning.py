@@ -17,7 +17,6 @@ terrain.ground.slope_direction_deg=180 for down; 500 trials, seeds 25 and 26), s
 these are added: "ten runs each direction up and down the course".
 """
 
-import argparse
 import json
 import math
 import random
@@ -246,8 +245,7 @@ def page(measured, replicates, seed):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("runs", nargs="+", type=Path, metavar="RUN")
     parser.add_argument("--replicates", type=int, default=20000, help="of the powers (20000)")
     parser.add_argument("--seed", type=int, default=24, help="of the powers (24)")

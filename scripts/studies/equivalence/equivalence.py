@@ -20,8 +20,6 @@ Exit code: 0 done, 1 something is not equivalent.
     scripts/studies/equivalence/equivalence.py [--studies step] [--trials 100] [--csv FILE] [--markdown PAGE]
 """
 
-import argparse
-import csv
 import json
 import math
 import re
@@ -272,16 +270,14 @@ def write_rows(path, rows, studies):
     """Rows of other studies that the file has stay."""
     kept = []
     if path.is_file():
-        with open(path, encoding="utf-8", newline="") as file:
-            kept = [row for row in csv.DictReader(file) if row["study"] not in studies]
+        kept = [row for row in study.read_csv(path) if row["study"] not in studies]
     rows = kept + [{key: value for key, value in row.items() if key != "digits"} for row in rows]
     path.parent.mkdir(parents=True, exist_ok=True)
     study.write_csv(path, sorted(rows, key=lambda row: list(CELLS).index(row["study"])))
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("--studies", nargs="+", choices=list(CELLS), default=list(CELLS))
     study.add_run_arguments(parser, trials=1000, out="equivalence")
     parser.add_argument("--csv", type=Path, metavar="FILE", help="write the rows to this file")
@@ -301,9 +297,7 @@ def main():
         rows = [{**row, "seed": args.seed, "program": " and ".join(sorted(programs))} for row in rows]
         found += rows
         text = text_of(args, name, rows, programs)
-        print(f"{name}\n\n{text}\n", flush=True)
-        if args.markdown:
-            study.write_table([args.markdown], name, text)
+        study.show(args, name, text)
         if args.csv:
             write_rows(args.csv, rows, [name])
     return int(any(row["verdict"] == "not equivalent" for row in found))

@@ -9,7 +9,6 @@ same bytes. Needs Debian's matplotlib: scripts/install_dependencies.sh figures (
 line asks for Debian's own Python).
 """
 
-import argparse
 import sys
 import textwrap
 from pathlib import Path
@@ -28,8 +27,7 @@ except ImportError as missing:
 
 
 def parser():
-    result = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    result = study.argument_parser(__doc__)
     result.add_argument("figure", nargs="?", metavar="FIGURE", help="a name of --list")
     result.add_argument("runs", nargs="*", metavar="RUN", help="run folders, or what else --list says")
     result.add_argument("--list", action="store_true", help="the figures, and the runs that each needs")

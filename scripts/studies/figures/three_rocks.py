@@ -6,7 +6,6 @@ Prints percentiles of the published numbers among the accepted runs, and the joi
 whole history. Needs nothing but Python.
 """
 
-import csv
 import math
 import sys
 from pathlib import Path
@@ -23,8 +22,7 @@ HISTORY = ("after_a_deg", "after_b_deg", "at_c_deg", "after_c_deg")
 
 def accepted(folder):
     """Rows of the accepted runs of a run folder, numbers where they are some."""
-    with open(Path(folder) / "trials.csv", encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row.get("accepted") == "1"]
+    rows = [row for row in study.read_csv(Path(folder) / "trials.csv") if row.get("accepted") == "1"]
     return [{key: _number(value) for key, value in row.items()} for row in rows]
 
 

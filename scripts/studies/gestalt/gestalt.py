@@ -21,7 +21,6 @@ Runs that are there already are resumed. --markdown writes the tables between <!
     scripts/studies/gestalt/gestalt.py [--trials 200] [--tables odometer,changes,...] [--markdown PAGE]
 """
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -182,8 +181,7 @@ TABLES = {f.__name__: f for f in (odometer, changes, other_readings, dense)}
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     study.add_run_arguments(parser, trials=200, out="gestalt_study")
     study.print_tables(study.parse_with_tables(parser, TABLES), TABLES, Runs)
     return 0

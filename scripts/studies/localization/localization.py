@@ -13,10 +13,7 @@ localization.md and localization.svg.
     scripts/studies/localization/localization.py [--threads 2] [--out FOLDER] [--markdown results/localization.md]
 """
 
-import argparse
-import json
 import math
-import sqlite3
 import sys
 from collections import defaultdict
 from pathlib import Path
@@ -36,28 +33,11 @@ COLUMNS = ("true_goal_distance_m", "position_error_m", "heading_error_deg", "pos
 ARRIVED = ("goal_reached", "false_goal")
 
 
-def run_sweep(args):
-    command = [args.rockyard, "sweep", SWEEP, "--out", args.sweep, "--threads", args.threads, "--quiet"]
-    if args.sweep.exists():
-        command += ["--resume", "--force"]
-    study.run(command)
-
-
 def read_cells(folder):
     """Trials by (terrain, distance, aid): lists of rows in the order of trials."""
-    path = Path(folder).resolve() / "results.sqlite"
-    store = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
-    names = dict(store.execute("select cell, name from cells"))
     cells = defaultdict(list)
-    wanted = ", ".join(f'"{name}"' for name in COLUMNS)
-    for cell, outcome, *values in store.execute(
-            f"select campaign_cell, outcome, {wanted} from trials "
-            "where outcome != 'simulator_fault' order by campaign_cell, trial"):
-        levels = dict(part.split("=", 1) for part in names[cell].split(","))
-        key = (TERRAINS[levels["k_per_m2"]], levels["distance_m"], levels["aids"])
-        row = {name: math.nan if value is None else float(value)
-               for name, value in zip(COLUMNS, values)}
-        cells[key].append(row | {"outcome": outcome})
+    for levels, _, row in study.stored_trials(folder, COLUMNS):
+        cells[TERRAINS[levels["k_per_m2"]], levels["distance_m"], levels["aids"]].append(row)
     return cells
 
 
@@ -212,36 +192,20 @@ def draw(path, cells, rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--sweep", type=Path, default=study.ROOT / "results/runs/localization",
-                        help="folder of the sweep, made or gone on with")
-    parser.add_argument("--out", type=Path, default=study.ROOT / "results/studies")
-    parser.add_argument("--rockyard", type=Path, default=study.ROOT / "build/release/bin/rockyard")
-    parser.add_argument("--markdown", type=Path, metavar="PAGE",
-                        help="write the tables between the marks of this page")
-    parser.add_argument("--count-only", action="store_true", help="the sweep is there: count it")
+    parser = study.argument_parser(__doc__)
+    study.add_sweep_arguments(parser, "localization", "write the tables between the marks of this page")
     args = parser.parse_args()
-    if not args.count_only:
-        run_sweep(args)
-    cells = read_cells(args.sweep)
-    if not cells:
-        sys.exit(f"{args.sweep}: holds no trial")
+    cells, note = study.counted_sweep(args, SWEEP, read_cells)
     reach, pairs, belief = reach_rows(cells), pair_rows(cells), belief_rows(cells)
     args.out.mkdir(parents=True, exist_ok=True)
     study.write_csv(args.out / "localization.csv", reach)
     study.write_csv(args.out / "localization_pairs.csv", pairs)
     study.write_csv(args.out / "localization_belief.csv", belief)
     draw(args.out / "localization.svg", cells, reach)
-    made = study.program(json.loads((args.sweep / "summary.json").read_text(encoding="utf-8")))
-    note = f"\n\n{len(next(iter(cells.values())))} trials a cell; made by rockyard {made}."
     tables = {"reach": reach_table(cells, reach), "pairs": pairs_table(cells, pairs),
               "belief": belief_table(cells, belief), "day": day_table(cells, reach)}
     for name, text in tables.items():
-        print(f"{name}\n\n{text}{note}\n")
-        if args.markdown:
-            study.write_table([args.markdown], name, text + note)
+        study.show(args, name, text + note)
 
 
 if __name__ == "__main__":

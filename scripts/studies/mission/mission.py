@@ -17,6 +17,7 @@ import argparse
 import math
 import sys
 from pathlib import Path
+from statistics import median
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
@@ -38,12 +39,6 @@ ROWS = (("hour", FAR + ["mission.day.window_h=1"], "way in an hour, 'a few meter
         ("day", FAR, "way in a day of 4 h, 'under 40 m'", "40 m", 0.0022 * 14400),
         ("no_stops", FAR + ["clock.scan_time_s=0", "clock.scan_fixed_s=0"], "the same without a stop, 'about 95 m'",
          "95 m", 0.0067 * 14400))
-
-
-def median(values):
-    ordered = sorted(values)
-    middle = len(ordered) // 2
-    return ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle])
 
 
 def ratio(columns, part, whole):
@@ -150,7 +145,7 @@ def draw(path, missions):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     study.add_run_arguments(parser, 300, "missions")
     parser.set_defaults(seed=4)
     parser.add_argument("--studies", type=Path, default=study.ROOT / "results/studies", help="where files go")
@@ -177,9 +172,7 @@ def main():
               "energy": energy_table(missions) + f"\n\nSources less sinks, over sinks: {closure:.1g} at most."}
     for name, text in tables.items():
         text += note if name != "rows" else ""
-        print(f"{name}\n\n{text}\n")
-        if args.markdown:
-            study.write_table([args.markdown], f"missions_{name}", text)
+        study.show(args, f"missions_{name}", text)
 
 
 if __name__ == "__main__":

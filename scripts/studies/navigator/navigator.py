@@ -11,7 +11,6 @@ navigators.svg. Success is tested by pairs of trials (McNemar, exact), all tests
     scripts/studies/navigator/navigator.py [--trials 200] [--threads 2]
 """
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -149,8 +148,7 @@ def panels(rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("--rovers", nargs="+", choices=list(ROVERS), default=list(ROVERS))
     study.add_run_arguments(parser, trials=200, out="navigators")
     args = parser.parse_args()

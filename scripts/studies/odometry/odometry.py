@@ -19,7 +19,6 @@ the width of VL-2's arena was set later, as the first way led out of the first o
 same sequences seen by another odometer.
 """
 
-import argparse
 import csv
 import json
 import math
@@ -27,6 +26,7 @@ import shutil
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import median
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
@@ -139,8 +139,7 @@ def run_sequence(args, case_name, trial):
 def read_rows(path):
     if not path.exists():
         return []
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    return study.read_csv(path)
 
 
 def append_row(path, row):
@@ -162,12 +161,6 @@ def run_case(args, name, table):
             append_row(table, row)
             trials.append(trial)
         trial += 1
-
-
-def median(values):
-    values = sorted(values)
-    middle = len(values) // 2
-    return values[middle] if len(values) % 2 else 0.5 * (values[middle - 1] + values[middle])
 
 
 def median_interval(values, level=0.95):
@@ -243,7 +236,7 @@ def standing_table(found):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("--cases", default=",".join(name.replace(",", ";") for name in CASES),
                         help="names of cases, with ; for their commas, parted by commas; empty: none")
     parser.add_argument("--standing", type=int, default=STANDING_PAIRS, help="pairs of the standing camera; 0: none")
@@ -261,9 +254,7 @@ def main():
     if args.standing:
         tables["odometry_standing"] = standing_table(standing(args))
     for name, text in tables.items():
-        print(f"{name}\n\n{text}\n")
-        if args.markdown:
-            study.write_table([args.markdown], name, text)
+        study.show(args, name, text)
 
 
 if __name__ == "__main__":

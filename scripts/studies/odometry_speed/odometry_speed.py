@@ -10,7 +10,6 @@ inputs from, and --reference writes them there. --from reads that file in place 
         [--reference results/reference/howard2012_odometry.json] [--from FILE] [--build build/test]
 """
 
-import argparse
 import json
 import re
 import sys
@@ -90,7 +89,7 @@ def measure(args):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--json", type=Path)
     parser.add_argument("--build", type=Path, default=study.ROOT / "build/test")

@@ -11,7 +11,6 @@ were.
         --set terrain.rocks.mobility=fixed scenarios/pathfinder/nominal.json ...
 """
 
-import argparse
 import csv
 import functools
 import io
@@ -46,8 +45,7 @@ METRICS = {
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("scenarios", nargs="+", type=Path)
     parser.add_argument("--points", type=int, default=50, help="points of the design (default 50)")
     parser.add_argument("--trials", type=int, default=40, help="trials a point (default 40)")

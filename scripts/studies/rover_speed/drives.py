@@ -10,7 +10,6 @@ Writes rover_speed_drives.csv and rover_speed_drives.svg.
     scripts/studies/rover_speed/drives.py [--sweep FOLDER] [--out FOLDER] [--markdown results/speed.md]
 """
 
-import argparse
 import math
 import sys
 from collections import defaultdict
@@ -145,7 +144,7 @@ TABLES = {"drives_speed": drives_speed, "drives_parts": drives_parts, "drives_wi
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     study.add_sweep_arguments(parser, "rover_speed", "write the tables between the marks of this page")
     args = parser.parse_args()
     study.run_sweep(args, SWEEP)
@@ -154,9 +153,7 @@ def main():
     draw(args.out / "rover_speed_drives.svg", lines)
     for name, make in TABLES.items():
         text = make(lines)
-        print(f"{name}\n\n{text}\n")
-        if args.markdown:
-            study.write_table([args.markdown], name, text)
+        study.show(args, name, text)
 
 
 if __name__ == "__main__":

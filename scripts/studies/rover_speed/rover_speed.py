@@ -11,7 +11,6 @@ Writes rover_speed.csv and rover_speed.svg.
     scripts/studies/rover_speed/rover_speed.py [--out FOLDER] [--markdown results/speed.md]
 """
 
-import argparse
 import csv
 import math
 import sys
@@ -197,7 +196,7 @@ TABLES = {"mer_speeds": mer_speeds, "computers": computers, "cameras": cameras, 
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("--out", type=Path, default=study.ROOT / "results/studies")
     parser.add_argument("--markdown", type=Path, metavar="PAGE", help="write the tables between the marks of this page")
     args = parser.parse_args()
@@ -207,9 +206,7 @@ def main():
     tables = {name: make(rows) for name, make in TABLES.items()}
     tables["position"] = position(position_shares(study.ROOT / "results/studies/visual_odometry.csv"))
     for name, text in tables.items():
-        print(f"{name}\n\n{text}\n")
-        if args.markdown:
-            study.write_table([args.markdown], name, text)
+        study.show(args, name, text)
 
 
 if __name__ == "__main__":

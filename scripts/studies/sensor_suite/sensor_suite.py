@@ -10,7 +10,6 @@ all tests of all scenarios together one family (Holm).
     scripts/studies/sensor_suite/sensor_suite.py [--trials 100] [SCENARIO ...]
 """
 
-import argparse
 import itertools
 import sys
 from pathlib import Path
@@ -105,8 +104,7 @@ def subsets():
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("scenarios", nargs="*", type=Path, default=SCENARIOS)
     study.add_run_arguments(parser, trials=100, out="sensor_suite")
     return parser.parse_args()

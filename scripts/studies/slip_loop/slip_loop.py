@@ -10,8 +10,6 @@ Writes slip_closed_loop.csv.
     scripts/studies/slip_loop/slip_loop.py [--sweep FOLDER] [--out FOLDER] [--markdown results/visual_odometry.md]
 """
 
-import argparse
-import json
 import math
 import sys
 from collections import defaultdict
@@ -142,25 +140,18 @@ def count(cells):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     study.add_sweep_arguments(parser, "slip_closed_loop",
                               "write the tables between the marks slip_endings and slip_alarms of this page")
     args = parser.parse_args()
-    study.run_sweep(args, SWEEP)
-    cells = read_cells(args.sweep)
-    if not cells:
-        sys.exit(f"{args.sweep}: holds no trial")
+    cells, note = study.counted_sweep(args, SWEEP, read_cells)
     rows = count(cells)
     args.out.mkdir(parents=True, exist_ok=True)
     study.write_csv(args.out / "slip_closed_loop.csv",
                     [{name: round(value, 5) if isinstance(value, float) else value for name, value in row.items()}
                      for row in rows])
-    made = study.program(json.loads((args.sweep / "summary.json").read_text(encoding="utf-8")))
-    note = f"\n\n{len(next(iter(cells.values())))} trials a cell; made by rockyard {made}."
     for name, text in {"slip_endings": endings_table(rows), "slip_alarms": alarms_table(rows)}.items():
-        print(f"{name}\n\n{text}{note}\n")
-        if args.markdown:
-            study.write_table([args.markdown], name, text + note)
+        study.show(args, name, text + note)
 
 
 if __name__ == "__main__":

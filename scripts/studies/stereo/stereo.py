@@ -9,14 +9,13 @@ them. --markdown writes the tables between <!-- begin stereo_NAME --> and <!-- e
     scripts/studies/stereo/stereo.py [--share 1] [--seed 1] [--tables range,rocks,texture,sun,baseline] [--markdown PAGE]
 """
 
-import argparse
 import json
 import sys
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
-from calibrations.fit_stereo_errors import HEIGHTS, Cell, add_arguments, cells_by, percent, rows_of  # noqa: E402
+from calibrations.fit_stereo_errors import HEIGHTS, Cell, add_arguments, cells_by, percent  # noqa: E402
 
 SCENARIOS = study.ROOT / "scenarios/stereo_sensing"
 # Name of the table: factor, its heading, how its values are written.
@@ -43,7 +42,7 @@ def run(args, name):
     folder = args.out / f"{name}-{args.seed}-{args.trials}"
     summary = study.run_scenario(args, path, folder, args.set)
     args.programs.add(study.program(summary))
-    return rows_of(folder)
+    return study.trial_rows(folder)
 
 
 def error_row(cell):
@@ -89,8 +88,7 @@ def rocks_of(rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     add_arguments(parser, "stereo")
     parser.add_argument("--share", type=float, default=1.0, help="of the scenarios' runs (1)")
     args = study.parse_with_tables(parser, FACTORS)
@@ -101,9 +99,7 @@ def main():
                 f"{'held: ' + ', '.join(args.set) + '; ' if args.set else ''}"
                 f"made by rockyard {' and '.join(sorted(args.programs))}.")
         text = rocks_of(rows) if name == "rocks" else table_of(name, rows)
-        print(f"stereo_{name}\n\n{text}\n\n{note}\n", flush=True)
-        if args.markdown:
-            study.write_table([args.markdown], f"stereo_{name}", f"{text}\n\n{note}")
+        study.show(args, f"stereo_{name}", f"{text}\n\n{note}")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,6 @@ CPU-seconds. --markdown writes the tables between <!-- begin NAME --> and <!-- e
     scripts/studies/stereo_levels/stereo_levels.py [--trials 100] [--seed 1] [--tables levels,course] [--markdown PAGE]
 """
 
-import argparse
 import json
 import sys
 from pathlib import Path
@@ -112,8 +111,7 @@ TABLES = {"levels": levels_table, "course": course_table}
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     study.add_run_arguments(parser, trials=100, out="stereo_levels")
     parser.add_argument("--cells", default=",".join(CELLS.values()), help="which, joined by commas")
     parser.add_argument("--fitted", type=study.Path, default=FITTED,

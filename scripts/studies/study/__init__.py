@@ -1,5 +1,6 @@
 """What the studies share: running a scenario with settings, tables, intervals, curves."""
 
+import argparse
 import csv
 import json
 import math
@@ -25,6 +26,11 @@ def run(command):
         sys.exit(f"{' '.join(map(str, command))}\nexit code {result.returncode}\n"
                  f"{result.stderr}{result.stdout}")
     return result.stdout
+
+
+def argument_parser(text):
+    """A parser whose help shows the text of the script as it stands."""
+    return argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
 def add_run_arguments(parser, trials, out):
@@ -54,6 +60,16 @@ def run_sweep(args, sweep):
         return
     command = [args.rockyard, "sweep", sweep, "--out", args.sweep, "--threads", args.threads, "--quiet"]
     run(command + (["--resume", "--force"] if args.sweep.exists() else []))
+
+
+def counted_sweep(args, sweep, read_cells):
+    """Cells that `read_cells` finds in the sweep, run before, and what is noted below its tables."""
+    run_sweep(args, sweep)
+    cells = read_cells(args.sweep)
+    if not cells:
+        sys.exit(f"{args.sweep}: holds no trial")
+    made = program(json.loads((args.sweep / "summary.json").read_text(encoding="utf-8")))
+    return cells, f"\n\n{len(next(iter(cells.values())))} trials a cell; made by rockyard {made}."
 
 
 def stored_trials(folder, columns):
@@ -102,9 +118,7 @@ def compare(rockyard, first, second):
                        r".*?p = (\S+)", text)
     success = {kind: tuple(float(part) for part in parts)
                for kind, parts in zip(("declared", "true"), found)}
-    with open(path, encoding="utf-8", newline="") as file:
-        means = {(row["trials"], row["column"]): row for row in csv.DictReader(file)}
-    return success, means
+    return success, {(row["trials"], row["column"]): row for row in read_csv(path)}
 
 
 # Columns of trials.csv that hold words (report/run_csv.cc).
@@ -116,11 +130,16 @@ def trial_columns(folder):
 
     Those of TEXT_COLUMNS are text; a number that is undefined is NaN.
     """
-    with open(Path(folder) / "trials.csv", encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["outcome"] != "simulator_fault"]
+    rows = [row for row in read_csv(Path(folder) / "trials.csv") if row["outcome"] != "simulator_fault"]
     columns = {name: [row[name] for row in rows] for name in (rows[0] if rows else {})}
     return {name: values if name in TEXT_COLUMNS else [float(value or "nan") for value in values]
             for name, values in columns.items()}
+
+
+def trial_rows(folder):
+    """The same numbers as a dictionary for each trial."""
+    numbers = {name: values for name, values in trial_columns(folder).items() if name not in TEXT_COLUMNS}
+    return [dict(zip(numbers, values)) for values in zip(*numbers.values())]
 
 
 def failures(summary):
@@ -150,6 +169,12 @@ def table(header, rows):
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
+def read_csv(path):
+    """Rows of a file, as dictionaries of text."""
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def write_csv(path, rows):
     """Rows are dictionaries with equal keys."""
     with open(path, "w", encoding="utf-8", newline="") as file:
@@ -170,6 +195,13 @@ def write_table(pages, name, content):
             found = True
     if not found:
         sys.exit(f"no page has a table {name}")
+
+
+def show(args, name, text):
+    """Prints a table, and writes it between its marks on the page of the arguments, if that names one."""
+    print(f"{name}\n\n{text}\n", flush=True)
+    if args.markdown:
+        write_table([args.markdown], name, text)
 
 
 def parse_with_tables(parser, tables):
@@ -195,6 +227,4 @@ def print_tables(args, tables, make_runs, note=""):
         held = f"held: {', '.join(args.set)}; " if args.set else ""
         text += (f"\n\n{args.trials} trials each, seed {args.seed}; {note}{held}made by rockyard "
                  f"{' and '.join(sorted(runs.programs))}.")
-        print(f"{name}\n\n{text}\n", flush=True)
-        if args.markdown:
-            write_table([args.markdown], name, text)
+        show(args, name, text)

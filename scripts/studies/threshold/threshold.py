@@ -9,7 +9,6 @@ threshold of the whole array's range stays at the clearance of the undercarriage
     scripts/studies/threshold/threshold.py [--trials 300] [--low 3 --high 13] [SCENARIO ...]
 """
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -36,8 +35,7 @@ DRAWN = ("declared success (%)", "true success (%)", "true distance (m)", "scrap
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("scenarios", nargs="*", type=Path, default=SCENARIOS)
     parser.add_argument("--low", type=int, default=3, help="smallest threshold, cm")
     parser.add_argument("--high", type=int, default=13, help="largest threshold, cm")

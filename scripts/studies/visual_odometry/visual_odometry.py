@@ -12,9 +12,6 @@ paired trials. Writes visual_odometry.csv and the drawing.
     scripts/studies/visual_odometry/visual_odometry.py [--sweep FOLDER] [--out FOLDER] [--markdown results/visual_odometry.md]
 """
 
-import argparse
-import csv
-import json
 import math
 import sys
 from collections import defaultdict
@@ -85,8 +82,7 @@ def paired_table(cells, images):
              "model | position error, m, median: images, model | steps without a motion, %: images, model |",
              "|---|---|---|---|---|---|"]
     for key, folder in images.items():
-        with open(Path(folder) / "trials.csv", encoding="utf-8") as file:
-            seen = {int(row["trial"]): row for row in csv.DictReader(file)}
+        seen = {int(row["trial"]): row for row in study.read_csv(Path(folder) / "trials.csv")}
         model = {row["trial"]: row for row in cells[key]}
         pairs = [(seen[i], model[i]) for i in sorted(seen) if i in model]
         both = [(a["outcome"] == "goal_reached", b["outcome"] == "goal_reached") for a, b in pairs]
@@ -128,29 +124,22 @@ def parse_images(text):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     study.add_sweep_arguments(parser, "visual_odometry", "write the tables between the marks of this page")
     parser.add_argument("--images", metavar="TERRAIN/LOCALIZATION=FOLDER,...",
                         help="runs of the same trials from rendered images")
     args = parser.parse_args()
-    study.run_sweep(args, SWEEP)
-    cells = read_cells(args.sweep)
-    if not cells:
-        sys.exit(f"{args.sweep}: holds no trial")
+    cells, note = study.counted_sweep(args, SWEEP, read_cells)
     rows = [{"terrain": key[0], "localization": key[1]} | summary(trials) for key, trials in cells.items()]
     args.out.mkdir(parents=True, exist_ok=True)
     study.write_csv(args.out / "visual_odometry.csv", rows)
     draw(args.out / "visual_odometry.svg", cells)
-    made = study.program(json.loads((args.sweep / "summary.json").read_text(encoding="utf-8")))
-    note = f"\n\n{len(next(iter(cells.values())))} trials a cell; made by rockyard {made}."
     tables = {"worth": worth_table(rows), "computers": computers_table(rows)}
     images = parse_images(args.images)
     if images:
         tables["fidelities"] = paired_table(cells, images)
     for name, text in tables.items():
-        print(f"{name}\n\n{text}{note}\n")
-        if args.markdown:
-            study.write_table([args.markdown], name, text + note)
+        study.show(args, name, text + note)
 
 
 if __name__ == "__main__":
