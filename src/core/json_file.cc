@@ -77,7 +77,13 @@ class ExtendsLoader {
       throw UserError(Join(at, kExtends), fmt::format("is {}, not a file name", Abbreviate(name)),
                       "write a path relative to this file");
     }
-    JsonValue base = Load(folder / name.text(), at);
+    const fs::path path = folder / name.text();
+    if (std::error_code error; fs::status(path, error).type() == fs::file_type::not_found) {
+      throw UserError(Join(at, kExtends),
+                      fmt::format("names {}, which does not exist", path.string()),
+                      "check the name and the folder; it is relative to the file that extends it");
+    }
+    JsonValue base = Load(path, at);
     if (!base.Is(JsonValue::Type::kObject)) {
       throw UserError(Join(at, kExtends),
                       fmt::format("names {}, which holds {}", name.text(), Describe(base.type())),

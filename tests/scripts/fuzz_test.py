@@ -47,6 +47,9 @@ class Verdicts(unittest.TestCase):
                               (end(2, "error: a\x1b[2J: b"), "terminal"),
                               (end(2, "error: a\u202e: b"), "terminal")):
             self.assertIn(reason, harness.problem_of(wrong))
+        quoted = "error: 7.json: line 1: last read: '\"stof?C'; expected string literal"
+        self.assertEqual(harness.problem_of(end(2, quoted)), "")
+        self.assertIn("not its own", harness.problem_of(end(2, quoted.replace("last read", "stof"))))
         self.assertIn("ends with 1", harness.problem_of(end(1), {0, 2}))
 
 

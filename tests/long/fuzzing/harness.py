@@ -24,6 +24,9 @@ FOREIGN = re.compile(
     r"filesystem error|what\(\)|error: rockyard: |Sanitizer|runtime error|SQLITE_|Assertion|core dumped|"
     r"CLI::|fmt::|boost::|invalid string position|mutex lock failed")
 
+# What a message quotes of the file.
+QUOTED = re.compile(r"last read: '.*'")
+
 # No command of a part asks for as much; a runaway one must not take the machine with it.
 MEMORY_BYTES = 6 << 30
 
@@ -77,7 +80,7 @@ def problem_of(end, expected=frozenset(DOCUMENTED - {FAILED})):
         return f"is ended by signal {-end.code}"
     if end.code not in DOCUMENTED:
         return f"ends with {end.code}, which no page knows"
-    foreign = FOREIGN.search(end.err)
+    foreign = FOREIGN.search(QUOTED.sub("", end.err))
     if foreign:
         return f"shows a message that is not its own: {foreign.group(0)}"
     if end.code not in expected:
