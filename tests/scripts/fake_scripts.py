@@ -50,6 +50,11 @@ class ScriptTest(unittest.TestCase):
         return subprocess.run([*program, self.root / "scripts" / name, *arguments], env=variables, text=True,
                               capture_output=True, check=False)
 
+    def run_well(self, name, *arguments, **environment):
+        result = self.run_script(name, *arguments, **environment)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
     def called(self, program):
         lines = self.calls.read_text(encoding="utf-8").splitlines()
         return [line.removeprefix(f"{program} ") for line in lines if line.startswith(program)]

@@ -13,8 +13,7 @@ from fake_scripts import ROOT, ScriptTest
 
 class Quickstart(ScriptTest):
     def test_runs_every_scenario_of_the_comparison_with_300_trials(self):
-        result = self.run_script("quickstart.sh")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("quickstart.sh")
         out = "results/runs/quickstart"
         names = ["obstacles_0.28", "obstacles_0.57", "obstacles_0.85", "nominal",
                  "nominal_perfect_localization", "level_sand"]

@@ -44,9 +44,8 @@ END
 
     def test_page_says_what_was_found(self):
         page = self.root / "page.md"
-        result = self.run_script("studies/regression/regression.py", "--markdown", page, "--reruns", "2",
-                                 "--repeats", "1", "--pool", "40")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("studies/regression/regression.py", "--markdown", page, "--reruns", "2",
+                               "--repeats", "1", "--pool", "40")
         study = self.called("study")
         self.assertEqual(len(study), 1)
         self.assertTrue(study[0].startswith("750 2000 1 "), study)
@@ -62,19 +61,34 @@ END
         self.assertIn("--set perception.hazard.neighbour_threshold_m=0.06", "".join(sweeps))
 
 
-class Studies(ScriptTest):
-    """With a rockyard that leaves the same three trials in every run folder."""
+RATE = {"rate": 0.5, "ci95": [0.25, 0.75]}
+SUMMARY = {"declared_success": RATE, "true_success": RATE, "provenance": {"version": "0.1.0", "commit": "abc"}}
+
+
+class FakeRuns(ScriptTest):
+    """With a rockyard that leaves the same trials in every run folder."""
+
+    def fake_runs(self, trials, first="", **summary):
+        """`first`: what its script does before that."""
+        self.fake("build/release/bin/rockyard").write_text(f"""#!/bin/sh
+echo "rockyard $*" >> "$CALLS"
+{first}
+while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
+mkdir -p "$out"
+cat > "$out/summary.json" << END
+{json.dumps(SUMMARY | summary)}
+END
+cat > "$out/trials.csv" << END
+{trials}END
+""", encoding="utf-8")
+
+
+class Studies(FakeRuns):
+    """Three trials, and a fault."""
 
     def setUp(self):
         super().setUp()
-        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
-echo "rockyard $*" >> "$CALLS"
-while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
-mkdir -p "$out"
-rate='{"rate": 0.5, "ci95": [0.25, 0.75]}'
-made='"provenance": {"version": "0.1.0", "commit": "abc"}'
-echo "{\\"declared_success\\": $rate, \\"true_success\\": $rate, $made}" > "$out/summary.json"
-cat > "$out/trials.csv" << END
+        self.fake_runs("""\
 trial,outcome,detail,true_distance_m,scrapes,hazards_met,hazards_missed,sim_time_s,energy_wh,\
 scan_energy_wh,contact_hazards,tilt_hazards,articulation_hazards,current_hazards,\
 no_progress_distance_m,no_progress_turn_deg
@@ -82,16 +96,14 @@ no_progress_distance_m,no_progress_turn_deg
 1,simulator_fault,,,,,,,,,,,,,,
 2,no_path,,6,3,4,1,1200,12,6,0,0,0,2,50.1,400
 3,jammed,,4,2,2,0,1800,14,7,0,0,1,0,6.5,100
-END
-""", encoding="utf-8")
+""")
 
     def lines(self, name):
         return (self.root / "results/runs" / name).read_text(encoding="utf-8").splitlines()
 
     def test_threshold_study_drives_every_threshold(self):
-        result = self.run_script("studies/threshold/threshold.py", "--trials", "7", "--low", "4", "--high", "6",
-                                 "--set", "clock.stop_time_s=0.1")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("studies/threshold/threshold.py", "--trials", "7", "--low", "4", "--high", "6",
+                               "--set", "clock.stop_time_s=0.1")
         runs = self.called("rockyard")
         self.assertEqual(len(runs), 6)
         for index, line in enumerate(runs):
@@ -110,8 +122,7 @@ END
         self.assertEqual(svg.count("<polyline"), 10)
 
     def test_suite_study_drives_every_subset_once(self):
-        result = self.run_script("studies/sensor_suite/sensor_suite.py", "scenarios/mars/mfex_nominal.json")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("studies/sensor_suite/sensor_suite.py", "scenarios/mars/mfex_nominal.json")
         runs = self.called("rockyard")
         self.assertEqual(len({line.split("--set", 1)[1] for line in runs}), 32)
         for sensor in ("perception.hazard.enabled", "sensors.vehicle.contact.enabled",
@@ -161,14 +172,13 @@ END
                       "\n".join(self.lines("sensor_suite/sensor_suite.md")))
 
 
-class NavigatorStudy(ScriptTest):
-    """With a rockyard whose GESTALT gains two of three pairs, whatever the rocks."""
+class NavigatorStudy(FakeRuns):
+    """A rockyard whose GESTALT gains two of three pairs, whatever the rocks."""
 
     def setUp(self):
         super().setUp()
         shutil.copytree(ROOT / "scenarios/gestalt", self.root / "scenarios/gestalt")
-        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
-echo "rockyard $*" >> "$CALLS"
+        self.fake_runs("trial,outcome,detail\n0,goal_reached,\n1,no_path,\n2,no_path,\n", first="""
 if [ "$1" = compare ]; then
   echo "  declared success  A 1 of 3 (33.3 %)  B 3 of 3 (100.0 %)"
   echo "                    B - A +66.7 points (95 % interval +7.7 .. +92.3)"
@@ -182,22 +192,14 @@ if [ "$1" = compare ]; then
       echo "arrived,$column,m,0,,,,,"
     done; } > "$5"
   exit 0
-fi
-while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
-mkdir -p "$out"
-rate='{"rate": 0.5, "ci95": [0.25, 0.75]}'
-made='"provenance": {"version": "0.1.0", "commit": "abc"}'
-echo "{\\"declared_success\\": $rate, \\"true_success\\": $rate, $made}" > "$out/summary.json"
-printf 'trial,outcome,detail\\n0,goal_reached,\\n1,no_path,\\n2,no_path,\\n' > "$out/trials.csv"
-""", encoding="utf-8")
+fi""")
 
     def lines(self, name):
         path = self.root / "results/runs/navigators" / name
         return path.read_text(encoding="utf-8").splitlines()
 
     def test_both_navigators_meet_the_same_trials(self):
-        result = self.run_script("studies/navigator/navigator.py", "--trials", "3")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("studies/navigator/navigator.py", "--trials", "3")
         calls = self.called("rockyard")
         runs = [line for line in calls if line.startswith("run")]
         # Two rovers: five abundances with two arms, and at two of them three more.
@@ -239,8 +241,8 @@ printf 'trial,outcome,detail\\n0,goal_reached,\\n1,no_path,\\n2,no_path,\\n' > "
                 self.assertTrue((ROOT / f"scenarios/gestalt/{stem}{ending}.json").is_file())
 
 
-class GestaltStudy(ScriptTest):
-    """With a rockyard that gains two of three pairs, whatever is compared."""
+class GestaltStudy(FakeRuns):
+    """A rockyard that gains two of three pairs, whatever is compared."""
 
     # A setting that undoes each choice, in the order of the script.
     UNDONE = ("max_turn_share=2", "max_bogie_deg=30", "backward_arcs=below_threshold",
@@ -249,35 +251,25 @@ class GestaltStudy(ScriptTest):
 
     def setUp(self):
         super().setUp()
-        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
-echo "rockyard $*" >> "$CALLS"
-if [ "$1" = compare ]; then
+        self.fake_runs("""\
+trial,outcome,detail,true_distance_m,dead_reckoned_distance_m,moves,rear_image_sets,reversals,safeguard_stops
+0,goal_reached,,8,9,10,2,1,0
+1,no_path,,2,2.5,10,4,3,1
+2,jammed,,2,9.5,20,0,0,2
+""", first="""if [ "$1" = compare ]; then
   echo "                    B - A +0.0 points (95 % interval -42.0 .. +42.0)"
   echo "                    both 1, only A 0, only B 0, neither 2; McNemar, exact: p = 1"
   echo "                    B - A +66.7 points (95 % interval +7.7 .. +92.3)"
   echo "                    both 1, only A 0, only B 2, neither 0; McNemar, exact: p = 0.5"
   echo trials,column > "$5"
   exit 0
-fi
-while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
-mkdir -p "$out"
-rate='{"rate": 0.5, "ci95": [0.25, 0.75]}'
-made='"provenance": {"version": "0.1.0", "commit": "abc"}, "outcomes": {"jammed": 1}'
-echo "{\\"declared_success\\": $rate, \\"true_success\\": $rate, $made}" > "$out/summary.json"
-cat > "$out/trials.csv" << END
-trial,outcome,detail,true_distance_m,dead_reckoned_distance_m,moves,rear_image_sets,reversals,safeguard_stops
-0,goal_reached,,8,9,10,2,1,0
-1,no_path,,2,2.5,10,4,3,1
-2,jammed,,2,9.5,20,0,0,2
-END
-""", encoding="utf-8")
+fi""", outcomes={"jammed": 1})
 
     def runs(self):
         return [line for line in self.called("rockyard") if line.startswith("run ")]
 
     def test_every_choice_stands_alone_and_is_left_out(self):
-        result = self.run_script("studies/gestalt/gestalt.py", "--tables", "changes", "--trials", "3")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("studies/gestalt/gestalt.py", "--tables", "changes", "--trials", "3")
         count = len(self.UNDONE)
         alone = [tuple(other != choice for other in range(count)) for choice in range(count)]
         without = [tuple(other == choice for other in range(count)) for choice in range(count)]
@@ -291,8 +283,7 @@ END
         self.assertNotIn("(-42.0..42.0)", result.stdout)
 
     def test_dense_drives_both_readings_at_both_fidelities(self):
-        result = self.run_script("studies/gestalt/gestalt.py", "--tables", "dense", "--seed", "9")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("studies/gestalt/gestalt.py", "--tables", "dense", "--seed", "9")
         found = [("localization.estimator=oracle" in line, "multibody" in line, "veto_felt=false" in line)
                  for line in self.runs()]
         self.assertEqual(found, [(oracle, multibody, printed) for oracle in (False, True)
@@ -302,8 +293,7 @@ END
         self.assertIn("| jammed 1 | 13 | 2.0 | 10 | 1.0 | +75 |", result.stdout)
 
     def test_the_odometer_leaves_out_drives_that_got_stuck(self):
-        result = self.run_script("studies/gestalt/gestalt.py", "--tables", "odometer")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("studies/gestalt/gestalt.py", "--tables", "odometer")
         self.assertTrue(all("distance_scale=1" in line for line in self.runs()))
         # 11.5 m for 10 m.
         self.assertEqual(result.stdout.count("| 2 | 1.1500 | 0.8696 |"), 5)
@@ -328,8 +318,7 @@ END
     def write(self):
         page = self.root / "page.md"
         page.write_text("<!-- begin table_3 -->\n\n<!-- end table_3 -->\n", encoding="utf-8")
-        result = self.run_script("studies/pathfinder/pathfinder.py", "--tables", "table_3", "--pages", str(page))
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("studies/pathfinder/pathfinder.py", "--tables", "table_3", "--pages", str(page))
         return page.read_text(encoding="utf-8"), result.stderr
 
     def test_stands_beside_what_is_printed(self):
@@ -358,28 +347,20 @@ class FidelityTable(unittest.TestCase):
         self.assertEqual(self.cells("", ""), ("7.613", "7.627", "0.01376 (no interval)"))
 
 
-class CourseStudy(ScriptTest):
-    """With a rockyard of whose four trials three truly arrive."""
+class CourseStudy(FakeRuns):
+    """A rockyard of whose four trials three truly arrive."""
 
     def setUp(self):
         super().setUp()
         for folder in ("courses", "gestalt"):
             shutil.copytree(ROOT / "scenarios" / folder, self.root / "scenarios" / folder)
-        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
-echo "rockyard $*" >> "$CALLS"
-while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
-mkdir -p "$out"
-rate='{"rate": 0.75, "ci95": [0.3, 0.95]}'
-made='"provenance": {"version": "0.1.0", "commit": "abc"}'
-echo "{\\"true_success\\": $rate, $made}" > "$out/summary.json"
-cat > "$out/trials.csv" << END
+        self.fake_runs("""\
 trial,outcome,detail,path_ratio,turned_in_place_rad
 0,goal_reached,,1.2,0
 1,goal_reached,,1.5,6.2831853
 2,goal_reached,,1.1,0
 3,false_goal,,9.0,3.14159
-END
-""", encoding="utf-8")
+""", true_success={"rate": 0.75, "ci95": [0.3, 0.95]})
         self.expected = self.root / "scenarios/courses/expected.csv"
 
     def expect(self, *rows):
@@ -389,8 +370,7 @@ END
     def test_a_course_is_passed_where_all_three_keep_to_what_was_expected(self):
         self.expect("wall_3,gestalt,75,1.5,361", "wall_3,behaviour,76,1.5,361",
                     "wall_6,gestalt,75,1.49,361", "wall_6,behaviour,75,1.5,359")
-        result = self.run_script("studies/course/course.py")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("studies/course/course.py")
         passed = [line.split("|")[-2].strip() for line in result.stdout.splitlines()
                   if line.startswith("| wall")]
         self.assertEqual(passed, ["yes", "**no**", "**no**", "**no**"])
@@ -399,8 +379,7 @@ END
                       result.stdout)
 
     def test_both_navigators_meet_the_same_course(self):
-        result = self.run_script("studies/course/course.py", "--courses", "ditch", "gravel")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_well("studies/course/course.py", "--courses", "ditch", "gravel")
         runs = [line for line in self.called("rockyard") if line.startswith("run ")]
         self.assertEqual(len(runs), 4)
         for course in ("ditch", "gravel"):
