@@ -302,15 +302,11 @@ def main():
     parser = study.argument_parser(__doc__)
     study.add_run_arguments(parser, None, "cylinder")
     parser.add_argument("--views", type=int, help="views of views.json and views_without.json (the scenarios' own)")
-    parser.add_argument("--tables", default=",".join(TABLES))
-    parser.add_argument("--markdown", type=Path, metavar="PAGE")
     parser.add_argument("--studies", type=Path, help="folder for CSV files of the cells")
     parser.add_argument("--count-only", action="store_true", help="the runs are there: count them")
-    args = parser.parse_args()
+    args = study.parse_with_tables(parser, TABLES)
     runs = {}
     for name in args.tables.split(","):
-        if name not in TABLES:
-            parser.error(f"--tables: no table {name}; there are {', '.join(TABLES)}")
         scenario = RUN_OF[name]
         if scenario not in runs:
             runs[scenario] = run(args, scenario)

@@ -128,13 +128,9 @@ def main():
     study.add_run_arguments(parser, None, "cylinder_effects")
     parser.add_argument("--views", type=int, default=324, help="views of each assumption (324)")
     parser.add_argument("--drives", type=int, default=300, help="drives with each finder (300)")
-    parser.add_argument("--tables", default=",".join(TABLES))
-    parser.add_argument("--markdown", type=Path, metavar="PAGE")
     parser.add_argument("--count-only", action="store_true", help="the runs are there: count them")
-    args = parser.parse_args()
+    args = study.parse_with_tables(parser, TABLES)
     for name in args.tables.split(","):
-        if name not in TABLES:
-            parser.error(f"--tables: no table {name}; there are {', '.join(TABLES)}")
         table, note = TABLES[name](args)
         study.show(args, f"cylinder_{name}", f"{table}\n\n{note}")
 
