@@ -92,8 +92,6 @@ namespace {
 constexpr std::size_t kBlock = 256;
 constexpr std::size_t kTile = 128;
 constexpr std::size_t kPanel = 4096;
-// Most lanes of 16 bits that any vector has.
-constexpr std::size_t kMostLanes = 64;
 
 // Some windows of one set, from the first on.
 struct Part {
@@ -115,7 +113,7 @@ class BestFinder {
   BestFinder(const WindowSet& first, const WindowSet& second)
       : first_(first),
         second_(second),
-        stride_((std::min(second.size(), kPanel) + kMostLanes - 1) / kMostLanes * kMostLanes),
+        stride_(WholeVectors<std::uint16_t>(std::min(second.size(), kPanel))),
         differences_(std::min(first.size(), kBlock) * stride_, Filled::kAnything),
         columns_(3 * stride_) {}
 
@@ -165,7 +163,7 @@ class LeastFinder {
         second_(second),
         best_(best),
         signatures_(second),
-        stride_((std::min(second.size(), kPanel) + kMostLanes - 1) / kMostLanes * kMostLanes),
+        stride_(WholeVectors<std::uint16_t>(std::min(second.size(), kPanel))),
         bounds_(std::min(first.size(), kBlock) * stride_, Filled::kAnything),
         columns_(3 * stride_),
         limits_(stride_),

@@ -47,8 +47,6 @@ HWY_EXPORT(FindInside);
 
 namespace {
 
-// Most lanes of 32 bits that any vector has.
-constexpr std::size_t kMostPixels = 32;
 // Where no feature is.
 constexpr std::int32_t kNowhere = std::numeric_limits<std::int32_t>::min();
 
@@ -63,9 +61,9 @@ std::array<std::int32_t, 2> RangeAbout(double place, double reach) {
 
 FeaturesNear::FeaturesNear(const Features& features)
     : count_(features.size()),
-      columns_(count_ + kMostPixels),
-      rows_(count_ + kMostPixels),
-      found_(count_ + kMostPixels) {
+      columns_(count_ + kMostLanes<std::int32_t>),
+      rows_(count_ + kMostLanes<std::int32_t>),
+      found_(count_ + kMostLanes<std::int32_t>) {
   std::fill_n(columns_.data(), columns_.size(), kNowhere);
   for (std::size_t i = 0; i < count_; ++i) {
     columns_.data()[i] = features[i].column;

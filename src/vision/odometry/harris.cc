@@ -17,7 +17,7 @@ namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::ScalableTag<std::int16_t> kValues;
-constexpr hn::Rebind<std::uint8_t, decltype(kValues)> kBytes;
+constexpr hn::Rebind<std::uint8_t, decltype(kValues)> kGreyBytes;
 constexpr hn::RepartitionToWide<decltype(kValues)> kWide;
 constexpr hn::Half<decltype(kValues)> kHalf;
 using Values = hn::Vec<decltype(kValues)>;
@@ -27,9 +27,9 @@ using Wide = hn::Vec<decltype(kWide)>;
 void SmoothColumns(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                    std::size_t width, std::int16_t* smooth, std::int16_t* step) {
   for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
-    const auto a = hn::PromoteTo(kValues, hn::LoadU(kBytes, above + x));
-    const auto h = hn::PromoteTo(kValues, hn::LoadU(kBytes, here + x));
-    const auto b = hn::PromoteTo(kValues, hn::LoadU(kBytes, below + x));
+    const auto a = hn::PromoteTo(kValues, hn::LoadU(kGreyBytes, above + x));
+    const auto h = hn::PromoteTo(kValues, hn::LoadU(kGreyBytes, here + x));
+    const auto b = hn::PromoteTo(kValues, hn::LoadU(kGreyBytes, below + x));
     hn::Store(hn::Add(hn::Add(a, b), hn::Add(h, h)), kValues, smooth + x);
     hn::Store(hn::Sub(b, a), kValues, step + x);
   }
@@ -109,14 +109,21 @@ HWY_EXPORT(Responses);
 
 namespace {
 
-// Most lanes of 16 bits that any vector has: rows are padded to as many.
-constexpr std::size_t kMostLanes = 64;
 // Columns of the image before an area that its sums look at, and as many behind.
 constexpr int kAround = kHarrisMargin_px;
 
-std::size_t WholeVectors(int values) {
-  return (static_cast<std::size_t>(values) + kMostLanes - 1) / kMostLanes * kMostLanes;
+// Values of a row of sums, padded.
+std::size_t StrideOf(int values) {
+  return WholeVectors<std::int16_t>(static_cast<std::size_t>(values));
 }
+
+void WriteResponses(const std::int16_t* sums, std::size_t stride, std::int32_t weight, int width,
+                    std::int32_t* response) {
+  HWY_DYNAMIC_DISPATCH(Responses)
+  (sums, sums + stride, sums + 2 * stride, weight, static_cast<std::size_t>(width), response);
+}
+
+}  // namespace
 
 // The last rows of an area on their way to sums. A row has `stride` values, of which the first is
 // that of the column kAround before the area. Columns outside of the image are 0, and reach nothing
@@ -126,12 +133,12 @@ class SlidingRows {
   SlidingRows(const GrayImage& image, const ImageArea& area)
       : image_(image),
         first_(area.left - kAround),
-        stride_(WholeVectors(area.width() + 2 * kAround)),
+        stride_(StrideOf(area.width() + 2 * kAround)),
         bytes_(3 * stride_),
         smooth_(stride_),
         step_(stride_),
         products_(15 * stride_),
-        columns_(stride_ + kMostLanes) {
+        columns_(stride_ + kMostLanes<std::int16_t>) {
     next_ = std::max(area.top, kHarrisMargin_px) - 2;
     copied_ = next_ - 1;
   }
@@ -220,14 +227,6 @@ class AreaRows {
   SlidingRows rows_;
 };
 
-void WriteResponses(const std::int16_t* sums, std::size_t stride, std::int32_t weight, int width,
-                    std::int32_t* response) {
-  HWY_DYNAMIC_DISPATCH(Responses)
-  (sums, sums + stride, sums + 2 * stride, weight, static_cast<std::size_t>(width), response);
-}
-
-}  // namespace
-
 ImageArea Widened(const ImageArea& area, int reach, int width, int height) {
   return {std::max(area.left - reach, 0), std::min(area.right + reach, width),
           std::max(area.top - reach, 0), std::min(area.bottom + reach, height)};
@@ -240,7 +239,7 @@ std::int32_t HarrisWeight(double weight) {
 
 GradientSums::GradientSums(const GrayImage& image, const ImageArea& area)
     : area_(area),
-      stride_(WholeVectors(area.width())),
+      stride_(StrideOf(area.width())),
       sums_(3 * stride_ * static_cast<std::size_t>(area.height()), Filled::kAnything) {
   AreaRows rows(image, area);
   for (int row = area.top; row < area.bottom; ++row) rows.Write(row, stride_, Row(row));
@@ -251,30 +250,19 @@ void GradientSums::WriteResponse(int row, std::int32_t weight, std::int32_t* res
   WriteResponses(Row(row), stride_, weight, area_.width(), response);
 }
 
-class HarrisRows::Sums {
- public:
-  Sums(const GrayImage& image, const ImageArea& area)
-      : rows_(image, area), stride_(WholeVectors(area.width())), sums_(3 * stride_) {}
-
-  void Write(int row, std::int32_t weight, int width, std::int32_t* response) {
-    rows_.Write(row, stride_, sums_.data());
-    WriteResponses(sums_.data(), stride_, weight, width, response);
-  }
-
- private:
-  AreaRows rows_;
-  std::size_t stride_;
-  AlignedBuffer<std::int16_t> sums_;
-};
-
 HarrisRows::HarrisRows(const GrayImage& image, const ImageArea& area, std::int32_t weight)
-    : area_(area), weight_(weight), sums_(std::make_unique<Sums>(image, area)) {}
+    : area_(area),
+      weight_(weight),
+      stride_(StrideOf(area.width())),
+      sums_(3 * stride_),
+      rows_(std::make_unique<AreaRows>(image, area)) {}
 
 HarrisRows::~HarrisRows() = default;
 
 void HarrisRows::WriteResponse(int row, std::int32_t* response) {
   EXPECT(row >= area_.top && row < area_.bottom);
-  sums_->Write(row, weight_, area_.width(), response);
+  rows_->Write(row, stride_, sums_.data());
+  WriteResponses(sums_.data(), stride_, weight_, area_.width(), response);
 }
 
 }  // namespace rockyard::vision

@@ -68,6 +68,8 @@ class GradientSums {
   AlignedBuffer<std::int16_t> sums_;
 };
 
+class AreaRows;
+
 // The responses of an area of an image to one weight, from its first row on, without keeping sums.
 class HarrisRows {
  public:
@@ -83,11 +85,11 @@ class HarrisRows {
   void WriteResponse(int row, std::int32_t* response);
 
  private:
-  class Sums;
-
   ImageArea area_;
   std::int32_t weight_;
-  std::unique_ptr<Sums> sums_;
+  std::size_t stride_;
+  AlignedBuffer<std::int16_t> sums_;  // of the row that was written last
+  std::unique_ptr<AreaRows> rows_;
 };
 
 }  // namespace rockyard::vision

@@ -20,7 +20,6 @@ namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::ScalableTag<std::int32_t> kResponses;
-using Responses = hn::Vec<decltype(kResponses)>;
 
 // Raises `count` rows of `largest` to the largest of 2 reach + 1 columns about each column; but the
 // first is set to it. There are `reach` more values to either side.
@@ -88,13 +87,6 @@ HWY_EXPORT(FindPeaks);
 
 namespace {
 
-// Most lanes of 32 bits that any vector has.
-constexpr std::size_t kMostResponses = 32;
-
-std::size_t WholeVectors(std::size_t count) {
-  return (count + kMostResponses - 1) / kMostResponses * kMostResponses;
-}
-
 // The rows of responses about the one that is looked at, and of every one the largest values about
 // each column in it and the rows below, `reach` rows in all.
 class ResponseRows {
@@ -107,11 +99,11 @@ class ResponseRows {
         first_(top - reach),
         next_(first_),
         width_(static_cast<std::size_t>(all.width())),
-        pad_(WholeVectors(static_cast<std::size_t>(reach))),
-        stride_(WholeVectors(width_) + 2 * pad_),
+        pad_(WholeVectors<std::int32_t>(static_cast<std::size_t>(reach))),
+        stride_(WholeVectors<std::int32_t>(width_) + 2 * pad_),
         values_(stride_ * static_cast<std::size_t>(reach + 1)),
         largest_(stride_ * static_cast<std::size_t>(2 * reach + 1)),
-        columns_(WholeVectors(width_) + kMostResponses),
+        columns_(WholeVectors<std::int32_t>(width_) + kMostLanes<std::int32_t>),
         raised_(static_cast<std::size_t>(reach)) {}
 
   // Columns of the peaks of a row, counted from the first of the responses.

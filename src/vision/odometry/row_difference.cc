@@ -12,19 +12,20 @@
 
 #include "core/check.h"
 #include "vision/odometry/row_difference.h"
+#include "vision/stereo/aligned_buffer.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr hn::ScalableTag<std::uint16_t> kSums;
-constexpr hn::Rebind<std::uint8_t, decltype(kSums)> kPixels;
-using Sums = hn::Vec<decltype(kSums)>;
+constexpr hn::ScalableTag<std::uint16_t> kRowSums;
+constexpr hn::Rebind<std::uint8_t, decltype(kRowSums)> kRowPixels;
+using RowSums = hn::Vec<decltype(kRowSums)>;
 
 // Adds the absolute differences of the pixel `wanted` to those from `seen` on.
-HWY_INLINE Sums AddPixel(Sums sum, std::uint8_t wanted, const std::uint8_t* seen) {
-  const auto a = hn::Set(kSums, wanted);
-  const auto b = hn::PromoteTo(kSums, hn::LoadU(kPixels, seen));
+HWY_INLINE RowSums AddPixel(RowSums sum, std::uint8_t wanted, const std::uint8_t* seen) {
+  const auto a = hn::Set(kRowSums, wanted);
+  const auto b = hn::PromoteTo(kRowSums, hn::LoadU(kRowPixels, seen));
   // One of the two differences is 0.
   return hn::Add(sum, hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)));
 }
@@ -34,24 +35,24 @@ HWY_INLINE Sums AddPixel(Sums sum, std::uint8_t wanted, const std::uint8_t* seen
 // to begin 8 bytes apart.
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
 // Words of 4 bytes of a block are to be (0, 1) and (1, 2).
-HWY_INLINE Sums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
+HWY_INLINE RowSums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
   const __m512i blocks = _mm512_set_epi64(4, 3, 3, 2, 2, 1, 1, 0);
   const __m512i bytes = _mm512_permutexvar_epi64(blocks, _mm512_loadu_si512(seen));
   constexpr int kWords = 0b10010100;
-  return Sums{_mm512_dbsad_epu8(_mm512_set1_epi32(wanted), bytes, kWords)};
+  return RowSums{_mm512_dbsad_epu8(_mm512_set1_epi32(wanted), bytes, kWords)};
 }
 #elif HWY_TARGET == HWY_AVX2
-HWY_INLINE Sums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
+HWY_INLINE RowSums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
   const auto block = [seen](std::size_t offset) HWY_ATTR {
     return _mm_loadu_si128(reinterpret_cast<const __m128i*>(seen + offset));
   };
   const __m256i bytes = _mm256_inserti128_si256(_mm256_castsi128_si256(block(0)), block(8), 1);
-  return Sums{_mm256_mpsadbw_epu8(bytes, _mm256_set1_epi32(wanted), 0)};
+  return RowSums{_mm256_mpsadbw_epu8(bytes, _mm256_set1_epi32(wanted), 0)};
 }
 #elif HWY_TARGET == HWY_SSE4
-HWY_INLINE Sums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
+HWY_INLINE RowSums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
   const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(seen));
-  return Sums{_mm_mpsadbw_epu8(bytes, _mm_set1_epi32(wanted), 0)};
+  return RowSums{_mm_mpsadbw_epu8(bytes, _mm_set1_epi32(wanted), 0)};
 }
 #endif
 
@@ -59,7 +60,7 @@ HWY_INLINE Sums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
     HWY_TARGET == HWY_SSE4
 constexpr std::size_t kAtOnce = 4;
 
-HWY_INLINE Sums AddPixels(Sums sum, const std::uint8_t* wanted, const std::uint8_t* seen) {
+HWY_INLINE RowSums AddPixels(RowSums sum, const std::uint8_t* wanted, const std::uint8_t* seen) {
   std::int32_t four;
   std::memcpy(&four, wanted, sizeof(four));
   return hn::Add(sum, SumsOfFour(four, seen));
@@ -67,7 +68,7 @@ HWY_INLINE Sums AddPixels(Sums sum, const std::uint8_t* wanted, const std::uint8
 #else
 constexpr std::size_t kAtOnce = 1;
 
-HWY_INLINE Sums AddPixels(Sums sum, const std::uint8_t* wanted, const std::uint8_t* seen) {
+HWY_INLINE RowSums AddPixels(RowSums sum, const std::uint8_t* wanted, const std::uint8_t* seen) {
   return AddPixel(sum, *wanted, seen);
 }
 #endif
@@ -78,8 +79,8 @@ HWY_INLINE Sums AddPixels(Sums sum, const std::uint8_t* wanted, const std::uint8
 void AlongRow(const std::uint8_t* left, std::size_t left_stride, const std::uint8_t* rows,
               std::size_t rows_stride, std::size_t count, std::uint16_t* sums) {
   constexpr std::size_t kTogether = kRowSide / kAtOnce * kAtOnce;
-  for (std::size_t first = 0; first < count; first += hn::Lanes(kSums)) {
-    auto sum = hn::Zero(kSums);
+  for (std::size_t first = 0; first < count; first += hn::Lanes(kRowSums)) {
+    auto sum = hn::Zero(kRowSums);
     for (std::size_t y = 0; y < kRowSide; ++y) {
       const std::uint8_t* const wanted = left + y * left_stride;
       const std::uint8_t* const seen = rows + y * rows_stride + first;
@@ -87,7 +88,7 @@ void AlongRow(const std::uint8_t* left, std::size_t left_stride, const std::uint
       for (; x < kTogether; x += kAtOnce) sum = AddPixels(sum, wanted + x, seen + x);
       for (; x < kRowSide; ++x) sum = AddPixel(sum, wanted[x], seen + x);
     }
-    hn::StoreU(sum, kSums, sums + first);
+    hn::StoreU(sum, kRowSums, sums + first);
   }
 }
 
@@ -99,13 +100,6 @@ namespace rockyard::vision {
 
 HWY_EXPORT(AlongRow);
 
-namespace {
-
-// Most lanes of 16 bits that any vector has.
-constexpr std::size_t kMostLanes = 64;
-
-}  // namespace
-
 void RowDifferences(const GrayImage& left, const GrayImage& right, int column, int row,
                     int first_disparity, std::span<std::uint16_t> differences) {
   const auto count = differences.size();
@@ -115,9 +109,9 @@ void RowDifferences(const GrayImage& left, const GrayImage& right, int column, i
   EXPECT(column >= kRowReach && column + kRowReach < left.width());
   EXPECT(last >= kRowReach && first + kRowReach < right.width());
   // Whole vectors are read from behind the last window: the rows are copied to where they may.
-  const std::size_t whole = (count + kMostLanes - 1) / kMostLanes * kMostLanes;
+  const std::size_t whole = WholeVectors<std::uint16_t>(count);
   const std::size_t used = count + kRowSide - 1;
-  const std::size_t stride = whole + kMostLanes;
+  const std::size_t stride = whole + kMostLanes<std::uint16_t>;
   std::vector<std::uint8_t> rows(kRowSide * stride);
   for (std::size_t y = 0; y < kRowSide; ++y) {
     const std::uint8_t* const from =

@@ -21,7 +21,7 @@ HWY_INLINE auto SumsOf8Differences(Bytes a, Bytes b) {
   return hn::Vec512<std::uint64_t>{_mm512_sad_epu8(a.raw, b.raw)};
 #elif HWY_TARGET == HWY_AVX2
   return hn::Vec256<std::uint64_t>{_mm256_sad_epu8(a.raw, b.raw)};
-#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+#elif HWY_TARGET == HWY_SSE4
   return hn::Vec128<std::uint64_t>{_mm_sad_epu8(a.raw, b.raw)};
 #else
   // One of the two differences is 0.

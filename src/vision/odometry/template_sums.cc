@@ -13,47 +13,47 @@ HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr hn::CappedTag<float, kTemplateLanes> kFloats;
-constexpr hn::Rebind<std::int32_t, decltype(kFloats)> kIntegers;
-constexpr hn::Rebind<std::uint8_t, decltype(kFloats)> kGreys;
+constexpr hn::CappedTag<float, kTemplateLanes> kLanes;
+constexpr hn::Rebind<std::int32_t, decltype(kLanes)> kLaneInts;
+constexpr hn::Rebind<std::uint8_t, decltype(kLanes)> kLaneGreys;
 
-HWY_INLINE auto Greys(const std::uint8_t* pixels) {
-  return hn::ConvertTo(kFloats, hn::PromoteTo(kIntegers, hn::LoadU(kGreys, pixels)));
+HWY_INLINE auto LaneGreys(const std::uint8_t* pixels) {
+  return hn::ConvertTo(kLanes, hn::PromoteTo(kLaneInts, hn::LoadU(kLaneGreys, pixels)));
 }
 
 // Lanes from `first` on.
 HWY_INLINE void SumLanes(const TemplateRows& rows, const TemplatePlace& place, std::size_t first,
                          TemplateSums& sums) {
-  const auto w00 = hn::Set(kFloats, (1.0F - place.u) * (1.0F - place.v));
-  const auto w01 = hn::Set(kFloats, place.u * (1.0F - place.v));
-  const auto w10 = hn::Set(kFloats, (1.0F - place.u) * place.v);
-  const auto w11 = hn::Set(kFloats, place.u * place.v);
-  const auto mean = hn::Set(kFloats, rows.mean);
-  auto d_sum = hn::Zero(kFloats);
-  auto across = hn::Zero(kFloats);
-  auto down = hn::Zero(kFloats);
-  auto squares = hn::Zero(kFloats);
+  const auto w00 = hn::Set(kLanes, (1.0F - place.u) * (1.0F - place.v));
+  const auto w01 = hn::Set(kLanes, place.u * (1.0F - place.v));
+  const auto w10 = hn::Set(kLanes, (1.0F - place.u) * place.v);
+  const auto w11 = hn::Set(kLanes, place.u * place.v);
+  const auto mean = hn::Set(kLanes, rows.mean);
+  auto d_sum = hn::Zero(kLanes);
+  auto across = hn::Zero(kLanes);
+  auto down = hn::Zero(kLanes);
+  auto squares = hn::Zero(kLanes);
   for (std::size_t row = 0; row < rows.side; ++row) {
     const std::uint8_t* const above = place.pixels + row * place.stride + first;
     const std::uint8_t* const below = above + place.stride;
     const std::size_t at = row * kTemplateLanes + first;
-    const auto upper = hn::Add(hn::Mul(w00, Greys(above)), hn::Mul(w01, Greys(above + 1)));
-    const auto lower = hn::Add(hn::Mul(w10, Greys(below)), hn::Mul(w11, Greys(below + 1)));
-    const auto value = hn::LoadU(kFloats, rows.values + at);
+    const auto upper = hn::Add(hn::Mul(w00, LaneGreys(above)), hn::Mul(w01, LaneGreys(above + 1)));
+    const auto lower = hn::Add(hn::Mul(w10, LaneGreys(below)), hn::Mul(w11, LaneGreys(below + 1)));
+    const auto value = hn::LoadU(kLanes, rows.values + at);
     const auto d = hn::Sub(hn::Sub(hn::Add(upper, lower), mean), value);
     d_sum = hn::Add(d_sum, d);
-    across = hn::Add(across, hn::Mul(hn::LoadU(kFloats, rows.across + at), d));
-    down = hn::Add(down, hn::Mul(hn::LoadU(kFloats, rows.down + at), d));
+    across = hn::Add(across, hn::Mul(hn::LoadU(kLanes, rows.across + at), d));
+    down = hn::Add(down, hn::Mul(hn::LoadU(kLanes, rows.down + at), d));
     squares = hn::Add(squares, hn::Mul(d, d));
   }
-  hn::StoreU(d_sum, kFloats, sums.d.data() + first);
-  hn::StoreU(across, kFloats, sums.across_d.data() + first);
-  hn::StoreU(down, kFloats, sums.down_d.data() + first);
-  hn::StoreU(squares, kFloats, sums.squares.data() + first);
+  hn::StoreU(d_sum, kLanes, sums.d.data() + first);
+  hn::StoreU(across, kLanes, sums.across_d.data() + first);
+  hn::StoreU(down, kLanes, sums.down_d.data() + first);
+  hn::StoreU(squares, kLanes, sums.squares.data() + first);
 }
 
 void SumAllLanes(const TemplateRows& rows, const TemplatePlace& place, TemplateSums& sums) {
-  for (std::size_t first = 0; first < kTemplateLanes; first += hn::Lanes(kFloats)) {
+  for (std::size_t first = 0; first < kTemplateLanes; first += hn::Lanes(kLanes)) {
     SumLanes(rows, place, first, sums);
   }
 }

@@ -18,13 +18,13 @@ namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // At most a window's row at once.
-constexpr hn::CappedTag<std::int32_t, kWindowStride> kInts;
-constexpr hn::Rebind<std::uint8_t, decltype(kInts)> kBytes;
-using Ints = hn::Vec<decltype(kInts)>;
+constexpr hn::CappedTag<std::int32_t, kWindowStride> kPlaces;
+constexpr hn::Rebind<std::uint8_t, decltype(kPlaces)> kWarpedBytes;
+using Places = hn::Vec<decltype(kPlaces)>;
 
 // g (256 - t) + h t, where g and h are the two lowest bytes of each lane.
-HWY_INLINE Ints BetweenColumns(Ints words, Ints t) {
-  const auto byte = hn::Set(kInts, 255);
+HWY_INLINE Places BetweenColumns(Places words, Places t) {
+  const auto byte = hn::Set(kPlaces, 255);
   const auto left = hn::And(words, byte);
   const auto right = hn::And(hn::ShiftRight<8>(words), byte);
   return hn::Add(hn::ShiftLeft<8>(left), hn::Mul(hn::Sub(right, left), t));
@@ -35,34 +35,35 @@ HWY_INLINE Ints BetweenColumns(Ints words, Ints t) {
 void WarpInside(const std::uint8_t* middle, std::int32_t stride, const Warp& warp, int side,
                 std::uint8_t* window) {
   const auto* const words = reinterpret_cast<const std::int32_t*>(middle);
-  const auto fraction = hn::Set(kInts, 255);
+  const auto fraction = hn::Set(kPlaces, 255);
   const int reach = side / 2;
   for (int row = 0; row < side; ++row) {
     std::uint8_t* const to = window + static_cast<std::size_t>(row) * kWindowStride;
     for (int first = 0; first < static_cast<int>(kWindowStride);
-         first += static_cast<int>(hn::Lanes(kInts))) {
-      const auto column = hn::Iota(kInts, first);
-      const auto is_used = hn::Lt(column, hn::Set(kInts, side));
-      const auto across = hn::Sub(column, hn::Set(kInts, reach));
+         first += static_cast<int>(hn::Lanes(kPlaces))) {
+      const auto column = hn::Iota(kPlaces, first);
+      const auto is_used = hn::Lt(column, hn::Set(kPlaces, side));
+      const auto across = hn::Sub(column, hn::Set(kPlaces, reach));
       const auto place = [&](std::int32_t by_column, std::int32_t by_row) HWY_ATTR {
-        const auto start = hn::Set(kInts, by_row * (row - reach) + Warp::kHalf);
+        const auto start = hn::Set(kPlaces, by_row * (row - reach) + Warp::kHalf);
         return hn::ShiftRight<Warp::kShift>(
-            hn::Add(hn::Mul(across, hn::Set(kInts, by_column)), start));
+            hn::Add(hn::Mul(across, hn::Set(kPlaces, by_column)), start));
       };
       const auto x = place(warp.x_by_column, warp.x_by_row);
       const auto y = place(warp.y_by_column, warp.y_by_row);
       const auto offset = hn::IfThenElseZero(
           is_used,
-          hn::Add(hn::Mul(hn::ShiftRight<8>(y), hn::Set(kInts, stride)), hn::ShiftRight<8>(x)));
+          hn::Add(hn::Mul(hn::ShiftRight<8>(y), hn::Set(kPlaces, stride)), hn::ShiftRight<8>(x)));
       const auto below_offset =
-          hn::IfThenElseZero(is_used, hn::Add(offset, hn::Set(kInts, stride)));
+          hn::IfThenElseZero(is_used, hn::Add(offset, hn::Set(kPlaces, stride)));
       const auto u = hn::And(x, fraction);
       const auto v = hn::And(y, fraction);
-      const auto above = BetweenColumns(hn::GatherOffset(kInts, words, offset), u);
-      const auto below = BetweenColumns(hn::GatherOffset(kInts, words, below_offset), u);
+      const auto above = BetweenColumns(hn::GatherOffset(kPlaces, words, offset), u);
+      const auto below = BetweenColumns(hn::GatherOffset(kPlaces, words, below_offset), u);
       const auto sum = hn::Add(hn::ShiftLeft<8>(above), hn::Mul(hn::Sub(below, above), v));
-      const auto grey = hn::ShiftRight<16>(hn::Add(sum, hn::Set(kInts, 1 << 15)));
-      hn::StoreU(hn::DemoteTo(kBytes, hn::IfThenElseZero(is_used, grey)), kBytes, to + first);
+      const auto grey = hn::ShiftRight<16>(hn::Add(sum, hn::Set(kPlaces, 1 << 15)));
+      hn::StoreU(hn::DemoteTo(kWarpedBytes, hn::IfThenElseZero(is_used, grey)), kWarpedBytes,
+                 to + first);
     }
   }
 }

@@ -19,17 +19,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // At most the words of a quarter of a group at once.
 constexpr hn::CappedTag<std::uint64_t, 8> kWords;
-constexpr hn::Repartition<std::uint8_t, decltype(kWords)> kBytes;
+constexpr hn::Repartition<std::uint8_t, decltype(kWords)> kMeans;
 constexpr hn::Repartition<std::uint16_t, decltype(kWords)> kBounds;
 using Words = hn::Vec<decltype(kWords)>;
 
 // Lane by lane, the sum of |m_a - m_b| of the windows whose first words begin at `words`.
-HWY_INLINE Words Differences(const std::uint64_t* window, const std::uint64_t* words,
-                             std::size_t stride) {
+HWY_INLINE Words SignatureDifferences(const std::uint64_t* window, const std::uint64_t* words,
+                                      std::size_t stride) {
   auto sum = hn::Zero(kWords);
   for (std::size_t i = 0; i < kSignatureWords; ++i) {
-    const auto own = hn::BitCast(kBytes, hn::Set(kWords, window[i]));
-    const auto others = hn::BitCast(kBytes, hn::Load(kWords, words + i * stride));
+    const auto own = hn::BitCast(kMeans, hn::Set(kWords, window[i]));
+    const auto others = hn::BitCast(kMeans, hn::Load(kWords, words + i * stride));
     sum = hn::Add(sum, SumsOf8Differences(own, others));
   }
   return sum;
@@ -45,10 +45,12 @@ void Bounds(const std::uint64_t* window, const std::uint64_t* words, std::size_t
   for (std::size_t group = 0; group < groups; ++group) {
     for (std::size_t lane = 0; lane < kQuarter; lane += hn::Lanes(kWords)) {
       const std::uint64_t* const at = words + group * SignatureSet::kGroup + lane;
-      const auto lower = hn::Add(Differences(window, at, stride),
-                                 hn::ShiftLeft<16>(Differences(window, at + kQuarter, stride)));
-      const auto upper = hn::Add(Differences(window, at + 2 * kQuarter, stride),
-                                 hn::ShiftLeft<16>(Differences(window, at + 3 * kQuarter, stride)));
+      const auto lower =
+          hn::Add(SignatureDifferences(window, at, stride),
+                  hn::ShiftLeft<16>(SignatureDifferences(window, at + kQuarter, stride)));
+      const auto upper =
+          hn::Add(SignatureDifferences(window, at + 2 * kQuarter, stride),
+                  hn::ShiftLeft<16>(SignatureDifferences(window, at + 3 * kQuarter, stride)));
       const auto sums = hn::BitCast(kBounds, hn::Add(lower, hn::ShiftLeft<32>(upper)));
       hn::Store(hn::SaturatedSub(hn::Mul(sums, nine), rounding), kBounds,
                 bounds + group * SignatureSet::kGroup + 4 * lane);

@@ -41,4 +41,14 @@ class AlignedBuffer {
   std::size_t size_ = 0;
 };
 
+// Most lanes of Value that any vector has.
+template <typename Value>
+constexpr std::size_t kMostLanes = 128 / sizeof(Value);
+
+// So many values and those that fill up the last vector, whatever its length.
+template <typename Value>
+constexpr std::size_t WholeVectors(std::size_t count) {
+  return (count + kMostLanes<Value> - 1) / kMostLanes<Value> * kMostLanes<Value>;
+}
+
 }  // namespace rockyard::vision

@@ -101,9 +101,6 @@ HWY_EXPORT(WeighRow);
 
 namespace {
 
-// Most lanes of 16 bits that any vector has: rows are padded by as many.
-constexpr std::size_t kMostLanes = 64;
-
 // Column sums of one square along a row, with the columns of its edge repeated on either side.
 class ColumnSums {
  public:
@@ -111,7 +108,7 @@ class ColumnSums {
   ColumnSums(const GrayImage& image, int side, int y)
       : image_(&image),
         half_(side / 2),
-        sums_(static_cast<std::size_t>(image.width() + side) + kMostLanes),
+        sums_(static_cast<std::size_t>(image.width() + side) + kMostLanes<std::uint16_t>),
         nothing_(static_cast<std::size_t>(image.width())) {
     for (int k = -half_; k <= half_; ++k) Update(RowAt(y - 1 + k), nothing_.data());
   }
@@ -144,7 +141,8 @@ class ColumnSums {
 class BinomialSums {
  public:
   explicit BinomialSums(const GrayImage& image)
-      : image_(&image), sums_(static_cast<std::size_t>(image.width()) + 2 + kMostLanes) {}
+      : image_(&image),
+        sums_(static_cast<std::size_t>(image.width()) + 2 + kMostLanes<std::uint16_t>) {}
 
   void MoveTo(int y) {
     const auto row = [&](int at) { return image_->Row(std::clamp(at, 0, image_->height() - 1)); };
@@ -172,7 +170,7 @@ class RowWriter {
       : weights_(MakeDogWeights(params)),
         limit_(static_cast<int>(params.limit)),
         out_(&out),
-        row_(static_cast<std::size_t>(out.width()) + kMostLanes) {}
+        row_(static_cast<std::size_t>(out.width()) + kMostLanes<std::uint16_t>) {}
 
   void Write(const std::uint16_t* first, int first_side, const std::uint16_t* second,
              int second_side, int y) {
