@@ -1,5 +1,7 @@
 #include "experiments/hazard_detection/hazard_detection_params.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/sources.h"
@@ -13,9 +15,16 @@ using core::Origin;
 using core::kMatthiesSection6;
 // Nearer emitters are looked at by the camera of the other side (sensing/stripe_layout_params.h).
 constexpr double kMinBaseline_m = 0.05;
+constexpr double kLeastHeight_m = 0.001;  // far below what any sensor tells from the ground
 
 bool AtLeast(const std::vector<double>& values, double low) {
   return std::all_of(values.begin(), values.end(), [&](double value) { return value >= low; });
+}
+
+// Each value 0, or no less than `low`.
+bool AreNoneOrAtLeast(const std::vector<double>& values, double low) {
+  return std::all_of(values.begin(), values.end(),
+                     [&](double value) { return value == 0.0 || value >= low; });
 }
 
 void VisitList(core::FieldVisitor& v, std::string_view name, std::vector<double>& values,
@@ -34,6 +43,9 @@ void VisitRocks(HazardDetectionParams& p, core::FieldVisitor& v) {
              .min = 0.0,
              .max = 2.0,
              .origin = Origin::kSetting});
+  v.Require("heights_m", AreNoneOrAtLeast(p.heights_m, kLeastHeight_m),
+            fmt::format("has a height between 0 and {} m", kLeastHeight_m),
+            fmt::format("use 0 for no rock, or at least {}", kLeastHeight_m));
   VisitList(v, "diameters_m", p.diameters_m,
             {.doc = "largest horizontal diameters of the rock",
              .min = 0.01,
