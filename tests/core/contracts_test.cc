@@ -3,7 +3,6 @@
 #define ROCKYARD_CONTRACTS
 #endif
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/check.h"
 

@@ -1,6 +1,5 @@
 // What is told about parameters: tables and schemas.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 

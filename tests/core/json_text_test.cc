@@ -1,9 +1,7 @@
 #include "core/json_text.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <string>
 

@@ -1,8 +1,6 @@
 // JSON text as result files and pages hold it.
-#include <gmock/gmock.h>
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>

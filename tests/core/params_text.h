@@ -1,11 +1,14 @@
 // Parameters read from a JSON text, and what is wrong with it, for tests of parameter structs.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <map>
 #include <string>
 
 #include "core/archive.h"
-#include "core/error.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
 
 namespace rockyard::core {
 
@@ -20,12 +23,22 @@ Params ReadText(const std::string& json) {
 // The problems of a text in one; empty where it is accepted.
 template <typename Params>
 std::string ProblemsOf(const std::string& json) {
-  try {
-    ReadText<Params>(json);
-  } catch (const UserError& error) {
-    return error.what();
+  return RefusalOf([&] { ReadText<Params>(json); });
+}
+
+// These defaults, by path as JSON, are published.
+template <typename Params>
+void ExpectPublished(const std::map<std::string, std::string>& defaults) {
+  const FieldTable table = ListParams<Params>();
+  std::size_t found = 0;
+  for (const ParameterInfo& parameter : table.parameters()) {
+    const auto published = defaults.find(parameter.path);
+    if (published == defaults.end()) continue;
+    ++found;
+    EXPECT_EQ(DumpJson(parameter.value), published->second + "\n") << parameter.path;
+    EXPECT_EQ(parameter.origin, Origin::kPublished) << parameter.path;
   }
-  return "";
+  EXPECT_EQ(found, defaults.size()) << "a path is none";
 }
 
 }  // namespace rockyard::core

@@ -1,7 +1,6 @@
 #include "core/provenance.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace rockyard::core {
 namespace {

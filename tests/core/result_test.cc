@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "core/refusals.h"
+
 namespace rockyard::core {
 namespace {
 
@@ -31,12 +33,7 @@ TEST(Result, HoldsEveryProblem) {
 
 TEST(Result, ThrowsWhereTheValueIsAskedFor) {
   EXPECT_EQ(Parse("7").OrThrow(), 7);
-  try {
-    Parse("").OrThrow();
-    FAIL();
-  } catch (const UserError& error) {
-    EXPECT_EQ(error.problems().size(), 2U);
-  }
+  EXPECT_EQ(ProblemsIn([] { Parse("").OrThrow(); }).size(), 2U);
 }
 
 TEST(Result, MovesWhatCannotBeCopied) {

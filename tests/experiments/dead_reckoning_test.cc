@@ -1,7 +1,6 @@
 #include "experiments/dead_reckoning/dead_reckoning.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
@@ -11,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "core/refusals.h"
 #include "experiments/hazard_scenarios.h"
 #include "experiments/scenario_experiment.h"
 #include "scenario/load.h"
@@ -33,16 +32,7 @@ scenario::Scenario SandScenario(const std::vector<std::string>& overrides) {
 }
 
 std::string ProblemsWith(const std::vector<std::string>& overrides) {
-  try {
-    SandScenario(overrides);
-  } catch (const core::UserError& error) {
-    std::string text;
-    for (const core::Problem& problem : error.problems()) {
-      text += problem.path + " " + problem.reason + "; " + problem.suggestion + "\n";
-    }
-    return text;
-  }
-  return "";
+  return core::RefusalOf([&] { SandScenario(overrides); });
 }
 
 TEST(DeadReckoningParamsTest, BadScenariosSayWhatIsWrong) {
@@ -57,7 +47,7 @@ TEST(DeadReckoningParamsTest, BadScenariosSayWhatIsWrong) {
   EXPECT_THAT(ProblemsWith({"dead_reckoning.heading_variances_deg2_per_m=[-1]"}),
               HasSubstr("heading_variances_deg2_per_m"));
   EXPECT_THAT(ProblemsWith({"localization.estimator=oracle"}),
-              HasSubstr("the experiment dead_reckoning measures; use dead_reckoning"));
+              HasSubstr("the experiment dead_reckoning measures (use dead_reckoning"));
   std::string many = "[0";
   for (int i = 0; i < 61; ++i) many += ", 0";
   EXPECT_THAT(ProblemsWith({"dead_reckoning.rests_s=" + many + "]"}),

@@ -2,18 +2,17 @@
 #include "experiments/designation/designation.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "core/refusals.h"
 #include "experiments/designation/columns.h"
 #include "experiments/designation/range_law.h"
 #include "experiments/scenario_experiment.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 #include "statistics/drive_summary.h"
 #include "truth/measurement_record.h"
 
@@ -24,8 +23,7 @@ using math::Vector3;
 using testing::HasSubstr;
 
 scenario::Scenario Study(const std::vector<std::string>& overrides = {}) {
-  return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/localization/designation.json", overrides);
+  return scenario::Shipped("localization/designation", overrides);
 }
 
 // One run of one cell, seed 1.
@@ -267,16 +265,7 @@ TEST(DesignationTest, GoesByCellSeedAndNothingElse) {
 }
 
 std::string ProblemsWith(const std::vector<std::string>& overrides) {
-  try {
-    Study(overrides);
-  } catch (const core::UserError& error) {
-    std::string text;
-    for (const core::Problem& problem : error.problems()) {
-      text += problem.path + " " + problem.reason + "; " + problem.suggestion + "\n";
-    }
-    return text;
-  }
-  return "";
+  return core::RefusalOf([&] { Study(overrides); });
 }
 
 TEST(DesignationStudyParamsTest, BadScenariosSayWhatIsWrong) {

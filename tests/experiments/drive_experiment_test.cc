@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <string>
@@ -10,15 +9,14 @@
 
 #include "experiments/scenario_experiment.h"
 #include "math/angles.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 #include "trial/run_trial.h"
 
 namespace rockyard::experiments {
 namespace {
 
 scenario::Scenario Pathfinder(const std::string& name, std::vector<std::string> overrides = {}) {
-  return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/" + name + ".json", overrides);
+  return scenario::Shipped("pathfinder/" + name, overrides);
 }
 
 // Clear zones about start and goal that leave room for all fifteen rocks in some layouts only.

@@ -1,13 +1,12 @@
 #include "experiments/hazard_detection/hazard_detection.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <set>
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "core/refusals.h"
 #include "experiments/hazard_scenarios.h"
 #include "truth/measurement_record.h"
 
@@ -17,24 +16,18 @@ namespace {
 using testing::HasSubstr;
 
 std::string ProblemsOf(const std::vector<std::string>& overrides) {
-  try {
-    HazardScenario("detection", overrides);
-  } catch (const core::UserError& error) {
-    std::string text;
-    for (const core::Problem& problem : error.problems()) {
-      text += problem.path + " " + problem.reason + "; " + problem.suggestion + "\n";
-    }
-    return text;
-  }
-  return "";
+  return core::RefusalOf([&] { HazardScenario("detection", overrides); });
 }
 
 TEST(HazardScenarioTest, BadScenariosSayWhatIsWrong) {
   EXPECT_EQ(ProblemsOf({}), "");
   EXPECT_THAT(ProblemsOf({"hazard_detection.heights_m=[]"}),
-              HasSubstr("hazard_detection.heights_m is an empty list"));
+              HasSubstr("hazard_detection.heights_m: is an empty list"));
   EXPECT_THAT(ProblemsOf({"hazard_detection.heights_m=[0.1, -0.05]"}),
               HasSubstr("hazard_detection.heights_m"));
+  EXPECT_THAT(ProblemsOf({"hazard_detection.heights_m=[0, 0.0009]"}),
+              HasSubstr("has a height between 0 and 0.001 m"));
+  EXPECT_EQ(ProblemsOf({"hazard_detection.heights_m=[0, 0.001]"}), "");
   EXPECT_THAT(ProblemsOf({"hazard_detection.distances_m=[0.01]"}),
               HasSubstr("puts a rock inside the rover"));
   EXPECT_THAT(ProblemsOf({"hazard_detection.first_scan_m=0.05"}),

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/scenario_experiment.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 #include "statistics/drive_summary.h"
 #include "truth/record.h"
 
@@ -17,9 +17,7 @@ namespace rockyard::experiments {
 // A shipped scenario with changes.
 inline scenario::Scenario HazardScenario(const std::string& name,
                                          std::vector<std::string> overrides = {}) {
-  return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/" + name + ".json",
-      overrides);
+  return scenario::Shipped("hazard_detection/" + name, overrides);
 }
 
 // A value of a record by the name of its column.

@@ -11,8 +11,6 @@
 namespace rockyard::experiments {
 namespace {
 
-using math::Vector3;
-
 messages::MapView Map(int nx, int ny) {
   messages::MapView map;
   map.x0_m = -1.0;

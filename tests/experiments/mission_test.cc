@@ -1,7 +1,6 @@
 // Missions of many sols: hand-made ones on empty ground against closed forms, nights, energy, aids.
 #include "experiments/mission/mission.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +17,7 @@
 #include "experiments/scenario_experiment.h"
 #include "math/angles.h"
 #include "math/sun_position.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -29,8 +28,7 @@ using Overrides = std::vector<std::string>;
 constexpr core::TrialKey kKey{5, 3};
 
 scenario::Scenario Load(const std::string& name, const Overrides& overrides) {
-  return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/mission/" + name + ".json", overrides);
+  return scenario::Shipped("mission/" + name, overrides);
 }
 
 MissionCourse RunMission(const scenario::Scenario& scenario, core::TrialKey key = kKey) {

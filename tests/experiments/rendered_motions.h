@@ -8,7 +8,7 @@
 
 #include "core/chi_squared.h"
 #include "experiments/scenario_experiment.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::experiments {
 
@@ -25,9 +25,8 @@ inline RenderedMotions MeasureMotions(const std::string& source, std::uint64_t r
   constexpr std::uint64_t kSeed = 3;
   const std::vector<std::string> overrides{"visual_motion.steps_per_run=1",
                                            "perception.visual_odometry.placement.source=" + source};
-  const auto experiment = MakeExperiment(scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/visual_odometry/steps_hazcam.json",
-      overrides));
+  const auto experiment =
+      MakeExperiment(scenario::Shipped("visual_odometry/steps_hazcam", overrides));
   RenderedMotions motions;
   for (std::uint64_t run = 0; run < runs; ++run) {
     const truth::Record record = experiment->Run(kSeed, run);

@@ -7,7 +7,7 @@
 
 #include "experiments/hazard_scenarios.h"
 #include "experiments/scenario_experiment.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 #include "truth/record.h"
 
 namespace rockyard::experiments {
@@ -15,8 +15,7 @@ namespace rockyard::experiments {
 // A shipped scenario with changes.
 inline scenario::Scenario StereoScenario(const std::string& name,
                                          const std::vector<std::string>& overrides = {}) {
-  return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/stereo_sensing/" + name + ".json", overrides);
+  return scenario::Shipped("stereo_sensing/" + name, overrides);
 }
 
 // The error model without any error, all distances in one cell.

@@ -1,7 +1,6 @@
 #include "experiments/stereo_sensing/stereo_sensing.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "core/refusals.h"
 #include "experiments/stereo_scenarios.h"
 #include "experiments/stereo_sensing/random_place.h"
 #include "truth/measurement_record.h"
@@ -23,16 +22,7 @@ using testing::HasSubstr;
 const std::string kFolder = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/stereo_sensing";
 
 std::string ProblemsWith(const std::vector<std::string>& overrides) {
-  try {
-    StereoScenario("range", overrides);
-  } catch (const core::UserError& error) {
-    std::string text;
-    for (const core::Problem& problem : error.problems()) {
-      text += problem.path + " " + problem.reason + "; " + problem.suggestion + "\n";
-    }
-    return text;
-  }
-  return "";
+  return core::RefusalOf([&] { StereoScenario("range", overrides); });
 }
 
 TEST(StereoSensingParamsTest, BadScenariosSayWhatIsWrong) {
@@ -47,7 +37,7 @@ TEST(StereoSensingParamsTest, BadScenariosSayWhatIsWrong) {
   EXPECT_THAT(ProblemsWith({"sensors.stereo.fidelity=ideal"}), HasSubstr("no errors to measure"));
   EXPECT_THAT(ProblemsWith({"sensors.stereo.field_of_view=stripe"}), HasSubstr("every pixel"));
   EXPECT_THAT(ProblemsWith({"sensors.terrain_sensor=light_stripe"}),
-              HasSubstr("the experiment stereo_sensing measures; use stereo"));
+              HasSubstr("the experiment stereo_sensing measures (use stereo"));
   EXPECT_THAT(ProblemsWith({"navigation.navigator=pathfinder"}), HasSubstr("use gestalt"));
   EXPECT_THAT(ProblemsWith({"terrain.ground.slope_deg=5"}), HasSubstr("level ground"));
   EXPECT_THAT(ProblemsWith({"terrain.rocks.pointedness=0.5"}), HasSubstr("ellipsoids only"));

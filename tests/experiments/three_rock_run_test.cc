@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_value.h"
+#include "core/refusals.h"
 #include "experiments/drive/drive_experiment.h"
 #include "experiments/hazard_scenarios.h"
 #include "experiments/scenario_experiment.h"
@@ -18,7 +19,7 @@
 #include "experiments/three_rock_run/rock_layout_draw.h"
 #include "experiments/three_rock_traces.h"
 #include "math/angles.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -27,8 +28,7 @@ namespace {
 constexpr core::TrialKey kKey{3, 7};
 
 scenario::Scenario ThreeRocks(const std::vector<std::string>& overrides = {}) {
-  return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/localization/three_rock_run.json", overrides);
+  return scenario::Shipped("localization/three_rock_run", overrides);
 }
 
 TEST(RockLayoutTest, PlacesTheFirstRockBeforeTheRoversFront) {
@@ -89,13 +89,8 @@ TEST(RockLayoutTest, EveryTryHasAStreamOfItsOwn) {
 }
 
 TEST(ThreeRockParamsTest, RefuseARangeThatEndsBelowItsStart) {
-  try {
-    ThreeRocks({"three_rock_run.prior.b.height_m=[0.2, 0.1]"});
-    FAIL();
-  } catch (const core::UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("three_rock_run.prior.b.height_m"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_THAT(core::RefusalOf([] { ThreeRocks({"three_rock_run.prior.b.height_m=[0.2, 0.1]"}); }),
+              testing::HasSubstr("three_rock_run.prior.b.height_m"));
 }
 
 TEST(ThreeRockParamsTest, RefuseADriveThatIsNotThePublishedOne) {

@@ -3,16 +3,15 @@
 #include "experiments/visual_motion/visual_motion.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 #include <string>
 
 #include "core/chi_squared.h"
-#include "core/error.h"
+#include "core/refusals.h"
 #include "experiments/scenario_experiment.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::experiments {
 namespace {
@@ -20,8 +19,7 @@ namespace {
 using testing::HasSubstr;
 
 scenario::Scenario Steps(const std::vector<std::string>& overrides) {
-  return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/visual_odometry/steps_hazcam.json", overrides);
+  return scenario::Shipped("visual_odometry/steps_hazcam", overrides);
 }
 
 // The columns of a run added up over runs 0 to count - 1.
@@ -128,12 +126,7 @@ TEST(VisualMotionExperimentTest, MeasuresRenderedMotions) {
 
 TEST(VisualMotionParamsTest, BadScenariosSayWhatIsWrong) {
   const auto refused = [](const std::vector<std::string>& overrides, const std::string& path) {
-    try {
-      Steps(overrides);
-      ADD_FAILURE() << path << " was accepted";
-    } catch (const core::UserError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(path));
-    }
+    EXPECT_THAT(core::RefusalOf([&] { Steps(overrides); }), HasSubstr(path));
   };
   refused({"visual_motion.steps_m=[]"}, "visual_motion.steps_m");
   refused({"visual_motion.turns_deg=[]"}, "visual_motion.steps_m");

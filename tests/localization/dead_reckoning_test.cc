@@ -9,7 +9,6 @@ namespace rockyard::localization {
 namespace {
 
 using messages::MotionMeasurement;
-using messages::PerWheel;
 
 constexpr double kRadius_m = 0.065;
 

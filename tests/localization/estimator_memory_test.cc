@@ -1,8 +1,6 @@
 // What an estimator keeps over a night, and what it begins the next day with.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "localization/dead_reckoning_estimator.h"
 #include "localization/filter_rover.h"
 #include "localization/visual_odometry_estimator.h"

@@ -1,11 +1,10 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 
 #include "core/archive.h"
-#include "core/error.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
 #include "localization/dead_reckoning_estimator.h"
 #include "localization/toy_estimator.h"
 
@@ -15,6 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 struct Group {
   EstimatorSet set;
@@ -37,12 +37,7 @@ Group Read(const std::string& json) {
 
 std::string ProblemOf(std::string_view name) {
   Group group = WithToy();
-  try {
-    group.set.Add(DescribeToy(name));
-  } catch (const core::UserError& error) {
-    return error.problems()[0].path + " " + error.problems()[0].reason;
-  }
-  return "";
+  return core::RefusalOf([&] { group.set.Add(DescribeToy(name)); });
 }
 
 TEST(EstimatorSet, TheFirstIsChosen) {
@@ -73,15 +68,10 @@ TEST(EstimatorSet, WritesWhatItReads) {
 }
 
 TEST(EstimatorSet, RefusesWhatItDoesNotKnow) {
-  try {
-    Read(R"({"estimator": "toi"})");
-    FAIL() << "was read";
-  } catch (const core::UserError& error) {
-    EXPECT_THAT(error.problems()[0].suggestion, HasSubstr("toy"));
-  }
-  EXPECT_EQ(ProblemOf("toy"), "localization.toy is taken");
-  EXPECT_EQ(ProblemOf("estimator"), "localization.estimator is taken");
-  EXPECT_EQ(ProblemOf("Toy"), "localization.Toy cannot be the name of an estimator");
+  EXPECT_THAT(core::RefusalOf([] { Read(R"({"estimator": "toi"})"); }), HasSubstr("toy"));
+  EXPECT_THAT(ProblemOf("toy"), StartsWith("localization.toy: is taken"));
+  EXPECT_THAT(ProblemOf("estimator"), StartsWith("localization.estimator: is taken"));
+  EXPECT_THAT(ProblemOf("Toy"), StartsWith("localization.Toy: cannot be the name of an estimator"));
   EXPECT_EQ(ProblemOf("toy_2"), "");
 }
 

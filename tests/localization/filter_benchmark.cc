@@ -1,8 +1,6 @@
 // Cost of the error-state filter. Each benchmark prints a hash of what it believes at the end.
 #include <benchmark/benchmark.h>
 
-#include <string>
-
 #include "core/hash.h"
 #include "localization/dead_reckoning_estimator.h"
 #include "localization/filter_rover.h"

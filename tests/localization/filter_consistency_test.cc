@@ -3,8 +3,6 @@
 // Kirubarajan 2001, section 5.4), with controls in which it is wrong.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "core/chi_squared.h"
 #include "localization/filter_rover.h"
 

@@ -6,8 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
-#include <optional>
 #include <random>
 #include <vector>
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "core/json_file.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
 #include "scenario/load.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::scenario {
 namespace {
@@ -18,17 +18,11 @@ namespace {
 using Names = std::vector<std::string>;
 
 Scenario Nominal(const std::vector<std::string>& overrides = {}) {
-  return LoadScenario(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json",
-                      overrides);
+  return Shipped("pathfinder/nominal", overrides);
 }
 
 std::string ReasonOf(const Scenario& scenario, const Names& names) {
-  try {
-    WithAblations(scenario, names);
-  } catch (const core::UserError& error) {
-    return error.what();
-  }
-  return "";
+  return core::RefusalOf([&] { WithAblations(scenario, names); });
 }
 
 TEST(AblationsTest, EachHasANameASentenceAndSettings) {
@@ -66,8 +60,7 @@ TEST(AblationsTest, TheFourFunctionsAreIndependent) {
 // An experiment that measures errors refuses to have them taken away: that is said to who asks for
 // it.
 TEST(AblationsTest, WhatTheExperimentRefusesIsNotInForce) {
-  const Scenario measured =
-      LoadScenario(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/stereo_sensing/range.json");
+  const Scenario measured = Shipped("stereo_sensing/range");
   const Names in_force = AblationsInForce(measured);
   EXPECT_EQ(std::count(in_force.begin(), in_force.end(), "perfect_sensing"), 0);
   EXPECT_NE(ReasonOf(measured, {"perfect_sensing"}).find("no errors to measure"),

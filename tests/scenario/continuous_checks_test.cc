@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/refusals.h"
 #include "scenario/load.h"
 
 namespace rockyard::scenario {
@@ -15,12 +16,7 @@ using Overrides = std::vector<std::string>;
 
 std::vector<core::Problem> ProblemsOf(const std::string& name, const Overrides& overrides) {
   const auto folder = std::filesystem::path(ROCKYARD_SOURCE_DIR) / "scenarios/continuous";
-  try {
-    LoadScenario(folder / (name + ".json"), overrides);
-  } catch (const core::UserError& error) {
-    return error.problems();
-  }
-  return {};
+  return core::ProblemsIn([&] { LoadScenario(folder / (name + ".json"), overrides); });
 }
 
 struct Case {

@@ -1,20 +1,22 @@
 #include "scenario/former_keys.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "core/refusals.h"
 #include "scenario/load.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::scenario {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 std::string EstimatorOf(const std::string& json, const std::vector<std::string>& overrides = {}) {
   return std::string(ParseScenario(json, overrides).drive.localization.estimators.chosen().name());
@@ -48,14 +50,12 @@ TEST(FormerKeys, WhatIsSetLastCounts) {
 }
 
 TEST(FormerKeys, BothWithDifferentValuesAreRefused) {
-  try {
-    ParseScenario(R"({"sensors": {"localization": "oracle"},
-                      "localization": {"estimator": "dead_reckoning"}})");
-    FAIL() << "was read";
-  } catch (const core::UserError& error) {
-    EXPECT_EQ(error.problems()[0].path, "sensors.localization");
-    EXPECT_THAT(error.problems()[0].reason, HasSubstr("former name of localization.estimator"));
-  }
+  EXPECT_THAT(core::RefusalOf([] {
+                ParseScenario(R"({"sensors": {"localization": "oracle"},
+                                  "localization": {"estimator": "dead_reckoning"}})");
+              }),
+              AllOf(StartsWith("sensors.localization: "),
+                    HasSubstr("former name of localization.estimator")));
   EXPECT_EQ(EstimatorOf(R"({"sensors": {"localization": "oracle"},
                             "localization": {"estimator": "oracle"}})"),
             "oracle");
@@ -65,12 +65,9 @@ TEST(FormerKeys, WrongValuesAreNamedByTheKeyOfToday) {
   for (const char* wrong :
        {R"({"sensors": {"localization": "oracel"}})", R"({"sensors": {"localization": 7}})",
         R"({"sensors": {"localization": {"estimator": "oracle"}}})"}) {
-    try {
-      ParseScenario(wrong);
-      FAIL() << "was read: " << wrong;
-    } catch (const core::UserError& error) {
-      EXPECT_EQ(error.problems()[0].path, "localization.estimator") << wrong;
-    }
+    EXPECT_THAT(core::RefusalOf([&] { ParseScenario(wrong); }),
+                StartsWith("localization.estimator: "))
+        << wrong;
   }
   // What holds groups now is no group in these files.
   EXPECT_THROW(ParseScenario(R"({"sensors": {"localization": "oracle"}, "localization": 3})"),

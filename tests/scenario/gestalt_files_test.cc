@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/archive.h"
-#include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
 #include "navigation/gestalt/gestalt_params.h"
 #include "scenario/load.h"
 
@@ -27,12 +27,7 @@ Scenario Load(const std::string& name, const Overrides& overrides = {}) {
 
 // What is said to be wrong, one problem after the other; empty if nothing is.
 std::string ProblemsOf(const std::string& name, const Overrides& overrides) {
-  try {
-    Load(name, overrides);
-  } catch (const core::UserError& error) {
-    return error.what();
-  }
-  return "";
+  return core::RefusalOf([&] { Load(name, overrides); });
 }
 
 bool Complains(const std::string& name, const Overrides& overrides, const std::string& path) {

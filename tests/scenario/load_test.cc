@@ -1,9 +1,7 @@
 #include "scenario/load.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -11,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
 #include "core/test_folder.h"
 #include "navigation/pathfinder/pathfinder_params.h"
 
@@ -19,19 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using core::Problem;
-using testing::HasSubstr;
 
 Scenario Parse(std::string_view text, std::vector<std::string> overrides = {}) {
   return ParseScenario(text, overrides);
 }
 
 std::vector<Problem> ProblemsOf(std::string_view text, std::vector<std::string> overrides = {}) {
-  try {
-    Parse(text, std::move(overrides));
-  } catch (const core::UserError& error) {
-    return error.problems();
-  }
-  return {};
+  return core::ProblemsIn([&] { Parse(text, std::move(overrides)); });
 }
 
 TEST(LoadTest, DefaultsAreAValidScenario) {
@@ -72,25 +65,12 @@ TEST(LoadTest, OverridesComeLastAndInOrder) {
   EXPECT_EQ(scenario.name, "a name");
 }
 
-struct BadScenario {
-  std::string_view label;
-  std::string_view json;
-  std::string_view path;
-  std::string_view reason;
-  std::string_view suggestion;
-};
-
-std::ostream& operator<<(std::ostream& out, const BadScenario& bad) { return out << bad.label; }
+using BadScenario = core::BadInput;
 
 class BadScenarioTest : public testing::TestWithParam<BadScenario> {};
 
 TEST_P(BadScenarioTest, NamesPathReasonAndSuggestion) {
-  const BadScenario& bad = GetParam();
-  const std::vector<Problem> problems = ProblemsOf(bad.json);
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].path, bad.path);
-  EXPECT_THAT(problems[0].reason, HasSubstr(bad.reason));
-  EXPECT_THAT(problems[0].suggestion, HasSubstr(bad.suggestion));
+  EXPECT_THAT(ProblemsOf(GetParam().json), IsProblemOf(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -198,10 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return std::string(tested.param.label); });
 
 TEST(LoadTest, UnknownOverridePathsAreErrors) {
-  const auto problems = ProblemsOf("{}", {"terrain.rock.kind=none"});
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].path, "terrain.rock");
-  EXPECT_THAT(problems[0].suggestion, HasSubstr("did you mean \"rocks\"?"));
+  EXPECT_THAT(ProblemsOf("{}", {"terrain.rock.kind=none"}),
+              core::OneProblem("terrain.rock", "", "did you mean \"rocks\"?"));
   EXPECT_EQ(ProblemsOf("{}", {"seed.x=1"})[0].path, "seed");
 }
 

@@ -1,7 +1,6 @@
 #include "scenario/open_values.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 #include <vector>

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/json_file.h"
 #include "core/json_text.h"
-#include "core/units.h"
+#include "core/refusals.h"
 #include "scenario/load.h"
 
 namespace rockyard::scenario {
@@ -79,6 +80,29 @@ TEST(ParametersTest, EveryParameterCanBeSetByItsPath) {
     core::SetPath(document, parameter.path, parameter.value);
     EXPECT_NO_THROW(ReadScenario(document)) << parameter.path;
   }
+}
+
+// Every number comes back as set, where no condition across fields refuses it.
+TEST(ParametersTest, WhatIsSetIsRead) {
+  const std::vector<ParameterInfo> defaults = ListParameters();
+  std::size_t numbers = 0;
+  std::size_t accepted = 0;
+  for (std::size_t i = 0; i < defaults.size(); ++i) {
+    const ParameterInfo& parameter = defaults[i];
+    if (!IsNumber(parameter)) continue;
+    ++numbers;
+    const double value = parameter.value.number();
+    const bool integer = parameter.kind == FieldKind::kInteger;
+    const double other = integer ? value + 1.0 : value + 0.01 * (parameter.max - value);
+    core::JsonValue document = core::JsonValue::Object();
+    core::SetPath(document, parameter.path, core::JsonValue(other));
+    Scenario scenario;
+    if (!core::ProblemsIn([&] { scenario = ReadScenario(document); }).empty()) continue;
+    ++accepted;
+    EXPECT_NEAR(ListParameters(scenario)[i].value.number(), other, 1e-12 * std::abs(other))
+        << parameter.path;
+  }
+  EXPECT_GT(accepted, numbers * 3 / 4);
 }
 
 TEST(ParametersTest, TheSchemaDescribesEveryParameter) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "core/refusals.h"
 #include "scenario/ablations.h"
 #include "scenario/load.h"
 #include "scenario/sweep.h"
@@ -25,12 +25,7 @@ constexpr std::string_view kFactorial = R"({
 })";
 
 std::string ProblemsOf(const std::string& axes, const std::string& more = "") {
-  try {
-    ParseSweep("{" + more + R"("axes": [)" + axes + "]}");
-  } catch (const core::UserError& error) {
-    return error.what();
-  }
-  return "";
+  return core::RefusalOf([&] { ParseSweep("{" + more + R"("axes": [)" + axes + "]}"); });
 }
 
 TEST(SweepAblationTest, AnAxisIsOffAndOn) {

@@ -1,9 +1,8 @@
 // Everything that can be wrong with a sweep file: path, reason and suggestion.
 #include <gmock/gmock.h>
 
-#include <ostream>
-
 #include "core/error.h"
+#include "core/refusals.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::scenario {
@@ -13,33 +12,15 @@ using core::Problem;
 using testing::HasSubstr;
 
 std::vector<Problem> ProblemsOf(std::string_view json, const SweepChanges& changes = {}) {
-  try {
-    ParseSweep(json, changes);
-    return {};
-  } catch (const core::UserError& error) {
-    return error.problems();
-  }
+  return core::ProblemsIn([&] { ParseSweep(json, changes); });
 }
 
-struct BadSweep {
-  std::string_view label;
-  std::string_view json;
-  std::string_view path;
-  std::string_view reason;
-  std::string_view suggestion;
-};
-
-std::ostream& operator<<(std::ostream& out, const BadSweep& bad) { return out << bad.label; }
+using BadSweep = core::BadInput;
 
 class BadSweepTest : public testing::TestWithParam<BadSweep> {};
 
 TEST_P(BadSweepTest, NamesPathReasonAndSuggestion) {
-  const BadSweep& bad = GetParam();
-  const std::vector<Problem> problems = ProblemsOf(bad.json);
-  ASSERT_EQ(problems.size(), 1u) << (problems.empty() ? "" : problems.back().reason);
-  EXPECT_EQ(problems[0].path, bad.path);
-  EXPECT_THAT(problems[0].reason, HasSubstr(bad.reason));
-  EXPECT_THAT(problems[0].suggestion, HasSubstr(bad.suggestion));
+  EXPECT_THAT(ProblemsOf(GetParam().json), IsProblemOf(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -168,32 +149,23 @@ TEST(SweepErrorsTest, EverythingWrongIsSaidAtOnce) {
 }
 
 TEST(SweepErrorsTest, WhatManyCellsShareIsSaidOnce) {
-  const std::vector<Problem> problems = ProblemsOf(
-      R"({"axes": [{"path": "course.goal_x_m", "values": [5, 6, 7]},
-                   {"path": "terrain.rocks.k_per_m2", "values": [-1, 0.01]}]})");
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].path, "cell goal_x_m=5,k_per_m2=-1: terrain.rocks.k_per_m2");
-  EXPECT_THAT(problems[0].reason, HasSubstr("(and so in 2 more cells)"));
+  EXPECT_THAT(ProblemsOf(R"({"axes": [{"path": "course.goal_x_m", "values": [5, 6, 7]},
+                   {"path": "terrain.rocks.k_per_m2", "values": [-1, 0.01]}]})"),
+              core::OneProblem("cell goal_x_m=5,k_per_m2=-1: terrain.rocks.k_per_m2",
+                               "(and so in 2 more cells)"));
 }
 
 TEST(SweepErrorsTest, AnOverrideOfAnAxisIsRefused) {
-  const std::vector<Problem> problems =
+  EXPECT_THAT(
       ProblemsOf(R"({"axes": [{"path": "course.goal_x_m", "values": [5]}]})",
-                 {.overrides = {"course.goal_x_m=4"}, .trials = {}, .seed = {}});
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_THAT(problems[0].reason, HasSubstr("was set to 4, but is 5"));
-  EXPECT_THAT(problems[0].suggestion, HasSubstr("--set"));
+                 {.overrides = {"course.goal_x_m=4"}, .trials = {}, .seed = {}}),
+      core::OneProblem("cell goal_x_m=5: course.goal_x_m", "was set to 4, but is 5", "--set"));
 }
 
 TEST(SweepErrorsTest, AScenarioIsNoSweep) {
-  try {
-    LoadSweep(ROCKYARD_SOURCE_DIR "/scenarios/pathfinder/nominal.json");
-    FAIL() << "no error";
-  } catch (const core::UserError& error) {
-    ASSERT_EQ(error.problems().size(), 1u);
-    EXPECT_THAT(error.problems()[0].reason, HasSubstr("is no sweep"));
-    EXPECT_THAT(error.problems()[0].suggestion, HasSubstr("rockyard run"));
-  }
+  const std::string file = ROCKYARD_SOURCE_DIR "/scenarios/pathfinder/nominal.json";
+  EXPECT_THAT(core::ProblemsIn([&] { LoadSweep(file); }),
+              core::OneProblem(file, "is no sweep", "rockyard run"));
 }
 
 TEST(SweepErrorsTest, AtMostAHundredProblemsAreListed) {

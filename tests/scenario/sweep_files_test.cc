@@ -1,5 +1,4 @@
 // The sweep files of the project.
-#include <gmock/gmock.h>
 
 #include <filesystem>
 #include <set>

@@ -16,7 +16,6 @@ namespace rockyard::scenario {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 std::vector<std::string> Names(const Sweep& sweep) {
   std::vector<std::string> names;

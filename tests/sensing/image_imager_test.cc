@@ -7,7 +7,6 @@
 
 #include "core/archive.h"
 #include "core/distributions.h"
-#include "core/error.h"
 #include "core/hash.h"
 #include "core/json_text.h"
 #include "image_kit.h"

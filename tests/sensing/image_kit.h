@@ -1,15 +1,12 @@
 // What the tests of the image formation share.
 #pragma once
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
-#include <numbers>
 #include <string>
-#include <vector>
 
 #include "core/archive.h"
-#include "core/error.h"
-#include "core/json_text.h"
+#include "core/params_text.h"
 #include "rendering/line_kit.h"
 #include "rendering/quiet_imager.h"
 #include "rendering/row_renderer.h"
@@ -73,13 +70,7 @@ struct LineView {
 
 // Every refusal names the field.
 inline void ExpectRefused(const std::string& json, const std::string& field) {
-  LightStripeParams params;
-  try {
-    core::ReadParams(core::ParseJson(json, "test"), params);
-    FAIL() << "accepted " << json;
-  } catch (const core::UserError& error) {
-    EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(core::ProblemsOf<LightStripeParams>(json), testing::HasSubstr(field)) << json;
 }
 
 }  // namespace rockyard::sensing

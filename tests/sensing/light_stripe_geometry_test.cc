@@ -14,7 +14,6 @@ namespace {
 
 using math::Vector3;
 using messages::kStripeRows;
-using messages::kStripes;
 
 // Where the row's scanline plane and the stripe's light plane meet the datum plane, in R.
 Vector3 GroundPoint(const messages::StripeCalibration& calibration, std::size_t row,

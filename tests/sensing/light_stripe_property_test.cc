@@ -1,8 +1,6 @@
 // Symmetries and determinism of the light stripe sensor.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "core/distributions.h"
 #include "sensing/stripe_scene.h"
 

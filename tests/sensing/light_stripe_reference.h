@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
 
 #include "sensing/light_stripe.h"
 #include "terrain/terrain.h"

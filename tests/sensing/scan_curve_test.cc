@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "sensing/stripe_layout_params.h"
 #include "sensing/stripe_scene.h"

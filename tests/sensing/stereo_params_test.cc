@@ -1,5 +1,5 @@
 // What users may ask of the stereo cameras, and what is refused.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,22 +7,16 @@
 #include <string>
 
 #include "core/archive.h"
-#include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "core/params_text.h"
 #include "stereo_scene.h"
 
 namespace rockyard::sensing {
 namespace {
 
 void ExpectRefused(const std::string& json, const std::string& field) {
-  StereoParams params;
-  try {
-    core::ReadParams(core::ParseJson(json, "test"), params);
-    FAIL() << "accepted " << json;
-  } catch (const core::UserError& error) {
-    EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(core::ProblemsOf<StereoParams>(json), testing::HasSubstr(field)) << json;
 }
 
 TEST(StereoParamsTest, LayoutsThatCannotWorkAreRefused) {

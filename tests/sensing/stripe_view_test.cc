@@ -12,7 +12,6 @@
 namespace rockyard::sensing {
 namespace {
 
-using math::Vector3;
 using messages::Lens;
 
 void ExpectAccepted(const std::string& json) {

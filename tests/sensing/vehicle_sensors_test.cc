@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/archive.h"
+#include "core/refusals.h"
 #include "math/angles.h"
 
 namespace rockyard::sensing {
@@ -227,12 +228,7 @@ std::vector<core::Problem> ProblemsOf(const std::function<void(VehicleSensorPara
   change(params);
   const core::JsonValue document = core::WriteParams(params);
   VehicleSensorParams read;
-  try {
-    core::ReadParams(document, read);
-  } catch (const core::UserError& error) {
-    return error.problems();
-  }
-  return {};
+  return core::ProblemsIn([&] { core::ReadParams(document, read); });
 }
 
 TEST(VehicleSensorParamsTest, WrongValuesAreNamed) {
@@ -248,10 +244,7 @@ TEST(VehicleSensorParamsTest, WrongValuesAreNamed) {
       {"contact.edge_width_m", [](auto& p) { p.contact.edge_width_m = 0.0; }},
       {"contact.false_probability", [](auto& p) { p.contact.false_probability = 1.5; }}};
   for (const auto& [path, change] : wrong) {
-    const std::vector<core::Problem> problems = ProblemsOf(change);
-    ASSERT_EQ(problems.size(), 1U) << path;
-    EXPECT_EQ(problems[0].path, path);
-    EXPECT_FALSE(problems[0].suggestion.empty()) << path;
+    EXPECT_THAT(ProblemsOf(change), core::OneProblem(path));
   }
 }
 
