@@ -73,8 +73,7 @@ TEST(Rock, GlancingBlowDeflects) {
 TEST(Rock, TallerThanTheBellyBlocksIt) {
   const RoverParams params;
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
   const truth::RoverState& state = rover->state();
   EXPECT_LT(state.X_WR.translation().x(), 0.5);
@@ -116,8 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Fidelity, RockAtEachFidelity,
 
 TEST_P(RockAtEachFidelity, UnderTheBellyScrapesAndLiftsIt) {
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.08, 0.137)});
-  const auto rover = MakeRover(params_, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params_, terrain);
   const messages::WheelCommand command = Drive(params_, 0.15, 0.0);
   bool scraped = false;
   for (double time_s = 0.0; time_s < 7.0; time_s += rover->step_s()) {
@@ -132,8 +130,7 @@ TEST_P(RockAtEachFidelity, UnderTheBellyScrapesAndLiftsIt) {
 // High-centred: the belly rests on a rock, the wheels hang or slip, and it does not get off.
 TEST_P(RockAtEachFidelity, HighCentresTheRoverPlacedOnIt) {
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.0, 0.0, 0.0, 0.2, 0.16, 0.18)});
-  const auto rover = MakeRover(params_, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params_, terrain);
   RunFor(*rover, Drive(params_, 0.15, 0.0), 10.0);
   const truth::RoverState& state = rover->state();
   const auto belly =
@@ -152,8 +149,7 @@ TEST_P(RockAtEachFidelity, TwoOfThemJamTheRover) {
   params_.contact.wheel_rock_friction = 0.3;
   const terrain::Terrain terrain = FlatTerrain(
       {MakeRock(0.7, 0.33, 0.0, 0.15, 0.15, 0.5), MakeRock(0.7, -0.33, 0.0, 0.15, 0.15, 0.5)});
-  const auto rover = MakeRover(params_, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params_, terrain);
   RunFor(*rover, Drive(params_, 0.15, 0.0), 10.0);
   EXPECT_LT(rover->state().X_WR.translation().x(), 0.5);
   EXPECT_LT(rover->state().v_WR_m_s.norm(), 0.01);
@@ -176,8 +172,7 @@ TEST(Wall, PushesTurnedWheelsAway) {
     std::vector<terrain::Wall> walls;
     if (walled) walls.push_back({math::Vector3::UnitY(), wall_y_m});
     const terrain::Terrain terrain = FlatTerrain({}, std::move(walls));
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     RunFor(*rover, command, 3.0);
     const double y_m = rover->state().X_WR.translation().y();
     if (walled) {
@@ -192,8 +187,7 @@ TEST(Wall, PushesTurnedWheelsAway) {
 TEST(Wall, StopsThePanel) {
   const RoverParams params;
   const terrain::Terrain terrain = FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   RunFor(*rover, Drive(params, 0.15, 0.0), 6.0);
   EXPECT_NEAR(rover->state().X_WR.translation().x(), 0.8 - 0.5 * params.geometry.length_m, 0.01);
   ASSERT_FALSE(rover->state().contacts.empty());

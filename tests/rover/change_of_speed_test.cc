@@ -2,8 +2,6 @@
 // of speed.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "rover/multibody/loose_rocks.h"
 #include "stop_and_go.h"
 #include "terrain/rock_holding.h"
@@ -24,8 +22,7 @@ terrain::Terrain Level(terrain::SoilPreset preset) {
 
 // Where the rover is after it was told to and fro twice, with a stop before each change of mind.
 double WayToAndFro(const RoverParams& params, const terrain::Terrain& terrain, double stop_s) {
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const double from_m = rover->state().X_WR.translation().x();
   for (int i = 0; i < 2; ++i) {
     RunFor(*rover, Drive(params, 0.15, 0.0), 0.5);
@@ -89,8 +86,7 @@ TEST(ChangeOfSpeed, TimeScaleDoesNotChangeWhatAStopCosts) {
     RoverParams params;
     params.drive.speed_m_s = 0.0067;
     params.physics.time_scale = time_scale;
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     const double from_m = rover->state().X_WR.translation().x();
     for (int i = 0; i < 3; ++i) {
       RunFor(*rover, Drive(params, params.drive.speed_m_s, 0.0), 8.0);
@@ -114,8 +110,7 @@ TEST(ChangeOfSpeed, JumpsOfAFastMarsRoverLoseAsMuchAt60HzAsAt480Hz) {
     params.physics.gravity_m_s2 = 3.72;
     params.drive.speed_m_s = 0.0067;
     params.physics.time_scale = 18.0;
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     const double from_m = rover->state().X_WR.translation().x();
     for (int i = 0; i < 3; ++i) {
       RunFor(*rover, Drive(params, params.drive.speed_m_s, 0.0), 7.2);

@@ -4,7 +4,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <numbers>
 #include <string>
 
 #include "rover_drive.h"
@@ -28,8 +27,7 @@ void Rocks(benchmark::State& bench) {
        MakeRock(1.6, 0.18, -0.03, 0.15, 0.2, 0.10), MakeRock(2.1, 0.0, -0.05, 0.3, 0.5, 0.09)});
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   for (auto _ : bench) {
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     double tilt_rad = 0.0;
     for (int i = 0; i < static_cast<int>(std::lround(14.0 / rover->step_s())); ++i) {
       rover->Step(command);
@@ -49,8 +47,7 @@ void Slope(benchmark::State& bench) {
   const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(15.0), 0.0);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   for (auto _ : bench) {
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     RunFor(*rover, command, 3.0);
     const math::Vector3 from = rover->state().X_WR.translation();
     RunFor(*rover, command, 4.0);

@@ -8,8 +8,7 @@ namespace rockyard::rover {
 namespace {
 
 std::uint64_t DriveAndHash(const RoverParams& params, const terrain::Terrain& terrain) {
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   core::Hasher hasher;
   for (int i = 0; i < 900; ++i) {
     rover->Step(Drive(params, 0.12, i % 300 < 150 ? 0.1 : -0.2));

@@ -32,8 +32,7 @@ Crossing DriveAcross(Fidelity fidelity, double width_m, double depth_m, double f
                     .depth_m = {depth_m},
                     .flank_m = {flank_m}};
   const terrain::Terrain terrain(terrain::Ground(ground, {}), {}, {});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   Crossing crossing;
   for (int i = 0; i < 1200; ++i) {  // 20 s

@@ -13,8 +13,7 @@ TEST(RoughGround, CarriesTheRoverWithoutSnagging) {
   terrain::GroundParams ground;
   ground.roughness_rms_m = 0.02;
   const terrain::Terrain terrain(terrain::Ground(ground, {}), {}, {});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   for (int i = 0; i < 1200; ++i) {
     rover->Step(command);
@@ -27,8 +26,7 @@ TEST(RoughGround, CarriesTheRoverWithoutSnagging) {
 TEST(Fault, AFallIsReported) {
   const RoverParams params;
   const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(60.0), 0.0, RigidGround(0.0));
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   EXPECT_THROW(RunFor(*rover, kBraked, 3.0), std::runtime_error);
 }
 

@@ -8,8 +8,6 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
-#include <numbers>
-#include <vector>
 
 #include "core/random.h"
 #include "rover/rover_geometry.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "rover/mass_properties_params.h"
 #include "rover/static_loads_params.h"
@@ -94,8 +93,7 @@ TEST(StaticLoads, RoverFallsOverBeyondTheRange) {
   const auto tilt_rad = [&params](double com_x_m) {
     params.mass.chassis_com_x_m = com_x_m;
     const terrain::Terrain terrain = FlatTerrain();
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     RunFor(*rover, kBraked, 5.0);
     return math::Tilt(rover->state().X_WR);
   };
@@ -115,8 +113,7 @@ TEST(StaticLoads, AgreeWithTheSimulation) {
   terrain::GroundParams ground;
   ground.soil = smooth;
   const terrain::Terrain terrain(terrain::Ground(ground, {}), {}, {});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   RunFor(*rover, kBraked, 3.0);
   const messages::PerWheel<double> load_N = StaticWheelLoads(params);
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {

@@ -13,8 +13,7 @@ Climb TryStep(double height_m, double friction, const RoverParams& rover_params 
   RoverParams params = rover_params;
   params.contact.wheel_rock_friction = friction;
   const terrain::Terrain terrain = StepTerrain(height_m, RigidGround(friction));
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   // The rear wheels stand on the step from x = 0.6 + 0.26 on.
   for (int i = 0; i < 20 * 60; ++i) {
@@ -57,8 +56,7 @@ TEST(Step, FailsWithoutFrictionOrTorque) {
 TEST(Rock, DifferentialHalvesThePitchOfOneSide) {
   const RoverParams params;
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.2, 0.0, 0.15, 0.15, 0.1)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   double max_rad = 0.0;
   for (int i = 0; i < 600; ++i) {
@@ -77,8 +75,7 @@ TEST(Rock, DifferentialHalvesThePitchOfOneSide) {
 TEST(Rock, LowerThanTheBellyPassesBetweenTheWheels) {
   const RoverParams params;
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   for (int i = 0; i < 600; ++i) {
     rover->Step(command);

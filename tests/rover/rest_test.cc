@@ -1,8 +1,6 @@
 // A braked rover: it comes to rest, does not creep, and never gains energy.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "rover/multibody/constraint_solver.h"
 #include "rover/multibody/joint_space_inertia.h"
 #include "rover/wheel_soil.h"
@@ -149,8 +147,7 @@ TEST(Rest, BrakedRoverDoesNotCreep) {
       ground.slope_rad = math::DegToRad(slope_deg);
       ground.slope_direction_rad = 0.7;
       const terrain::Terrain terrain(terrain::Ground(ground, {}), on, {});
-      const auto rover = MakeRover({}, terrain);
-      rover->Place({});
+      const auto rover = PlacedRover({}, terrain);
       RunFor(*rover, kBraked, 5.0);
       const math::Vector3 from = rover->state().X_WR.translation();
       double fastest_m_s = 0.0;

@@ -72,8 +72,7 @@ void Minute(benchmark::State& bench, double k, double pointedness = 0.0) {
       Drive(params, 0.15, 0.0), Drive(params, -0.15, 0.0), Drive(params, 0.0, 0.5)};
   std::string hash;
   for (auto _ : bench) {
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     for (int i = 0; i < kStepsPerTrial; ++i) rover->Step(Pattern(i, commands));
     hash = StateHash(rover->state());
   }
@@ -94,8 +93,7 @@ void Course(benchmark::State& bench, double k) {
   const terrain::Terrain terrain = RockField(k);
   std::string hash;
   for (auto _ : bench) {
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     for (int i = 0; i < steps; ++i) rover->Step(command);
     bench.counters["reached_m"] = rover->state().X_WR.translation().x();
     hash = StateHash(rover->state());
@@ -111,8 +109,7 @@ void MakeAndPlace(benchmark::State& bench) {
   const RoverParams params;
   const terrain::Terrain terrain = RockField(0.013);
   for (auto _ : bench) {
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     benchmark::DoNotOptimize(rover->state().X_WR);
   }
 }

@@ -1,7 +1,6 @@
 // Every rover of scenarios/rovers stands, drives, turns and climbs in the multibody simulation.
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <string>
 
 #include "rover_drive.h"

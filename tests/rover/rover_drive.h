@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,14 @@ inline messages::WheelCommand Drive(const RoverParams& params, double v_m_s, dou
 inline messages::WheelCommand SteerOnly(messages::WheelCommand command) {
   command.rate_rad_s.fill(0.0);
   return command;
+}
+
+// A rover that has been placed at the origin.
+inline std::unique_ptr<Rover> PlacedRover(const RoverParams& params,
+                                          const terrain::Terrain& terrain) {
+  auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  return rover;
 }
 
 inline terrain::Terrain FlatTerrain(std::vector<terrain::Rock> rocks = {},

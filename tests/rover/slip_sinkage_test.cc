@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "rover/quasi_static/wheel_soil_table.h"
 #include "rover/wheel_soil.h"
@@ -170,8 +169,7 @@ struct Climb {
 Climb SteadyClimb(const RoverParams& params, double slope_deg, const terrain::SoilParams& soil,
                   double first_s = 12.0) {
   const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(slope_deg), 0.0, soil);
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   RunFor(*rover, command, first_s);
   const math::Vector3 from = rover->state().X_WR.translation();
@@ -243,8 +241,7 @@ TEST_P(SlipSinkageRover, SpinningWheelsDigInLittleByLittle) {
   params.quasi_static.settle_distance_m = 0.005;
   const terrain::SoilParams soil = Digging(terrain::SoilPreset::kMarsDrift);
   const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(20.0), 0.0, soil);
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const double load_N = Weights(params).total_N * std::cos(math::DegToRad(20.0)) / 6.0;
   double last_m = 0.0;
   for (const double way_m : {0.03, 0.06, 0.1, 0.2, 0.4}) {
@@ -273,8 +270,7 @@ TEST_P(SlipSinkageRover, ChangesNoBitWhereItIsOff) {
   off.slip_sinkage = {.enabled = false, .exponent_per_slip = 0.9, .length_m = 0.01};
   const auto drive = [&](const terrain::SoilParams& soil) {
     const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(12.0), 0.4, soil);
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     RunFor(*rover, Drive(params, 0.15, 0.1), 5.0);
     return rover->state().X_WR.matrix();
   };

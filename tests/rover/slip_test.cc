@@ -37,8 +37,7 @@ void ExpectSlipOfTheCurve(const SlipCase& c) {
   params.physics.gravity_m_s2 = c.gravity_m_s2;
   const double slope = math::DegToRad(c.slope_deg);
   const terrain::Terrain terrain = SlopeTerrain(slope, 0.0, c.soil);
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, c.speed_m_s, 0.0);
   RunFor(*rover, command, 4.0);
   const truth::RoverState from = rover->state();
@@ -88,8 +87,7 @@ TEST(Slip, WheelsPullSteadilyNearTheLargestTraction) {
   terrain::SoilParams soil;
   soil.shear_modulus_m = 0.001;
   const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(26.0), 0.0, soil);
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   RunFor(*rover, command, 4.0);
   for (int i = 0; i < 120; ++i) {
@@ -137,8 +135,7 @@ TEST(Slip, SideSlipOnACrossSlope) {
     const RoverParams params;
     const double slope = math::DegToRad(slope_deg);
     const terrain::Terrain terrain = SlopeTerrain(slope, 0.5 * std::numbers::pi);
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     RunFor(*rover, Drive(params, 0.15, 0.0), 1.5);
     const truth::RoverState& state = rover->state();
     const math::Vector3 down_R = state.X_WR.linear().transpose() * -math::Vector3::UnitZ();

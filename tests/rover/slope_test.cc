@@ -34,8 +34,7 @@ TEST(Slope, BrakedRoverSlidesBeyondTheFrictionAngle) {
         params.physics.gravity_m_s2 = gravity_m_s2;
         const double slope = std::atan(0.5) + math::DegToRad(excess_deg);
         const terrain::Terrain terrain = SlopeTerrain(slope, direction, RigidGround(0.5));
-        const auto rover = MakeRover(params, terrain);
-        rover->Place({});
+        const auto rover = PlacedRover(params, terrain);
         const math::Vector3 from = rover->state().X_WR.translation();
         RunFor(*rover, kBraked, 1.5);
         const double expected_m = SlideLength(slope, 0.5, gravity_m_s2, 1.5);
@@ -72,8 +71,7 @@ TEST(Slope, BrakedRoverStaysUpToWhatTheSoilHolds) {
     for (const double excess_deg : {-1.0, 1.0}) {
       const terrain::Terrain terrain =
           SlopeTerrain(held + math::DegToRad(excess_deg), kLeftUp, soil);
-      const auto rover = MakeRover({}, terrain);
-      rover->Place({});
+      const auto rover = PlacedRover({}, terrain);
       RunFor(*rover, kBraked, 1.0);
       const math::Vector3 from = rover->state().X_WR.translation();
       RunFor(*rover, kBraked, 2.0);
@@ -112,8 +110,7 @@ TEST(Slope, SlidesStraightDownTheFallLine) {
 // How far the rover leans beyond the slope within three seconds, braked, at most 35 deg.
 double LeanAfter3s(const RoverParams& params, double slope, double direction) {
   const terrain::Terrain terrain = SlopeTerrain(slope, direction, RigidGround(3.0));
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   double lean = 0.0;
   for (int i = 0; i < 180 && lean < math::DegToRad(35.0); ++i) {
     lean = math::Tilt(rover->state().X_WR) - slope;

@@ -2,10 +2,8 @@
 // sum over the rut, to compare rover/wheel_soil.h and the moving rover with.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
-#include <vector>
 
 #include "messages/wheels.h"
 #include "terrain/soil_params.h"

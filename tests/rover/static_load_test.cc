@@ -80,8 +80,7 @@ struct Side {
 };
 
 PerWheel<double> LoadsAfterDriving(const RoverParams& params, const terrain::Terrain& terrain) {
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   RunFor(*rover, Drive(params, 0.1, 0.0), 4.0);
   return rover->state().wheel_load_N;
 }
@@ -142,8 +141,7 @@ TEST(StaticLoads, LevelWithoutFriction) {
   params.mass.chassis_com_x_m = 0.02;
   const Weights w(params);
   const terrain::Terrain terrain = SlopeTerrain(0.0, 0.0, RigidGround(0.0));
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   RunFor(*rover, kBraked, 3.0);
   const RoverGeometry g = MakeRoverGeometry(params.geometry);
   const double rocker_wheel_x = g.wheel_R[2].x();

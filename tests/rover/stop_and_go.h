@@ -18,8 +18,7 @@ struct LegResult {
 
 // Drives `legs` legs, after two that are not counted, and compares the way with that of the rims.
 inline LegResult DriveLegs(const RoverParams& params, const terrain::Terrain& terrain, int legs) {
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand drive = Drive(params, params.drive.speed_m_s, 0.0);
   const auto leg = [&] {
     RunFor(*rover, drive, kLegDrive_s);

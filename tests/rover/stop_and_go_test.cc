@@ -158,8 +158,7 @@ TEST(StopAndGo, BrakingDoesNotBounce) {
   const terrain::Terrain terrain = FlatTerrain();
   for (const double ramp_s : {0.0, 0.1}) {
     const RoverParams params = AtRate(60.0, ramp_s);
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     RunFor(*rover, Drive(params, 0.15, 0.0), 1.0);
     double slowest_m_s = 1.0;
     for (int i = 0; i < 30; ++i) {
@@ -180,8 +179,7 @@ TEST(StopAndGo, AStalledRoverHoldsOn20Degrees) {
   const double pull_N = Weights(params).total_N * std::sin(slope) / messages::kWheelCount;
   params.drive.stall_torque_Nm = 1.1 * pull_N * params.geometry.wheel_radius_m;
   const terrain::Terrain terrain = SlopeTerrain(slope, kUphill);
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   RunFor(*rover, command, 2.0);
   const math::Vector3 from = rover->state().X_WR.translation();
@@ -200,8 +198,7 @@ TEST(StopAndGo, TurnsInPlaceLikeFineSteps) {
     const auto heading = [&](double rate_Hz) {
       const RoverParams params = AtRate(rate_Hz, ramp_s);
       const terrain::Terrain terrain = FlatTerrain();
-      const auto rover = MakeRover(params, terrain);
-      rover->Place({});
+      const auto rover = PlacedRover(params, terrain);
       const messages::WheelCommand turn = Drive(params, 0.0, 0.4);
       RunFor(*rover, SteerOnly(turn), 1.0);
       for (int i = 0; i < 4; ++i) {

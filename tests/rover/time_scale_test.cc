@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/archive.h"
-#include "core/error.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
 #include "rover_drive.h"
 
 namespace rockyard::rover {
@@ -54,8 +54,7 @@ struct Sample {
 // Sampled at the steps of scale `sampled_at`.
 std::vector<Sample> DriveFor(double time_s, const RoverParams& params, double sampled_at,
                              const terrain::Terrain& terrain) {
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, kMfexSpeed_m_s, 0.0);
   const int every = static_cast<int>(std::lround(sampled_at / params.physics.time_scale));
   std::vector<Sample> samples;
@@ -115,8 +114,7 @@ TEST(TimeScale, ReportsRealTimesAndVelocities) {
   const double scales[] = {1.0, 22.0};
   for (int i = 0; i < 2; ++i) {
     const RoverParams params = SlowRover(scales[i]);
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     EXPECT_DOUBLE_EQ(rover->step_s(), scales[i] / 60.0);
     EXPECT_DOUBLE_EQ(rover->ramp_s(), scales[i] * params.drive.ramp_s);
     ramp_s[i] = rover->ramp_s();
@@ -139,8 +137,7 @@ TEST(TimeScale, ReportsRealTimesAndVelocities) {
 TEST(TimeScale, SteersAtTheRealRate) {
   const RoverParams params = SlowRover(22.0);
   const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   messages::WheelCommand command;
   command.steer_rad.fill(1.0);
   rover->Step(command);
@@ -150,17 +147,14 @@ TEST(TimeScale, SteersAtTheRealRate) {
 // What is wrong with a rover of that speed and scale; empty where nothing is.
 std::string Problems(double speed_m_s, double time_scale, double gravity_m_s2 = 9.81) {
   RoverParams params;
-  try {
+  return core::RefusalOf([&] {
     core::ReadParams(
         core::ParseJson("{\"drive\": {\"speed_m_s\": " + std::to_string(speed_m_s) +
                             "}, \"physics\": {\"time_scale\": " + std::to_string(time_scale) +
                             ", \"gravity_m_s2\": " + std::to_string(gravity_m_s2) + "}}",
                         "test"),
         params);
-  } catch (const core::UserError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(TimeScale, IsRefusedWhereInertiaWouldTell) {

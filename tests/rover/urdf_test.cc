@@ -6,8 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
-#include <numbers>
 #include <string>
 
 #include "math/pose.h"

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <vector>
 
-#include "core/error.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
 #include "report/metric_table.h"
 
 namespace rockyard::report {
@@ -82,12 +82,7 @@ TEST(Baseline, EveryMistakeIsNamed) {
                      "seed": "x", "outcomes": "G?", "resolved": {},
                      "margins": {"max_tilt_deg": 0}, "metrics": {"max_tilt_deg": ["a"]}}]})",
       "baseline");
-  try {
-    ParseBaseline(json);
-    FAIL();
-  } catch (const core::UserError& error) {
-    EXPECT_EQ(error.problems().size(), 6u);
-  }
+  EXPECT_EQ(core::ProblemsIn([&] { ParseBaseline(json); }).size(), 6u);
 }
 
 TEST(MetricTable, StandsInTheReadme) {

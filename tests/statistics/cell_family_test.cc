@@ -1,7 +1,6 @@
 // How often a comparison of cells says that something differs. Fixed seeds.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "core/json_file.h"

@@ -1,15 +1,14 @@
 // The committed reference, its parser, and the tables made from a comparison.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <sstream>
 
-#include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
+#include "core/says.h"
 #include "report/comparison_reference.h"
 #include "report/comparison_table.h"
 #include "synthetic_trials.h"
@@ -50,12 +49,7 @@ TEST(Reference, TheCommittedFileParses) {
 }
 
 std::string ProblemsOf(const char* text) {
-  try {
-    ParseReference(core::ParseJson(text, "test"));
-  } catch (const core::UserError& error) {
-    return error.what();
-  }
-  return "";
+  return core::RefusalOf([&] { ParseReference(core::ParseJson(text, "test")); });
 }
 
 TEST(Reference, EveryMistakeIsNamedWithItsPath) {
@@ -71,14 +65,9 @@ TEST(Reference, EveryMistakeIsNamedWithItsPath) {
     {"id": "c", "scenario": "s", "statistic": "outcome_count", "sample_size": 6,
      "outcomes": ["no_path"], "value": 7},
     {"id": "c", "scenario": "s", "statistic": "minimum", "sample_size": 6}]})");
-  EXPECT_THAT(text, HasSubstr("extra"));
-  EXPECT_THAT(text, HasSubstr("values[0].outcomes[0]"));
-  EXPECT_THAT(text, HasSubstr("goal_reached"));
-  EXPECT_THAT(text, HasSubstr("values[1].statistic"));
-  EXPECT_THAT(text, HasSubstr("values[2].value"));
-  EXPECT_THAT(text, HasSubstr("values[3].id"));
-  EXPECT_THAT(text, HasSubstr("values[3].column"));
-  EXPECT_THAT(text, HasSubstr("values[3].value"));
+  EXPECT_THAT(text,
+              core::Says("extra", "values[0].outcomes[0]", "goal_reached", "values[1].statistic",
+                         "values[2].value", "values[3].id", "values[3].column", "values[3].value"));
 }
 
 TEST(Reference, FailureKindsMustAddUp) {
@@ -122,8 +111,7 @@ TEST(ComparisonText, FitsAHundredColumnsAndNamesEveryValue) {
   std::string line;
   while (std::getline(lines, line)) EXPECT_LE(line.size(), 100u) << line;
   for (const auto& value : reference.values) EXPECT_THAT(text, HasSubstr(value.what));
-  EXPECT_THAT(text, HasSubstr("39/40"));
-  EXPECT_THAT(text, HasSubstr("no run of level_sand"));
+  EXPECT_THAT(text, core::Says("39/40", "no run of level_sand"));
 }
 
 // A difference that one layout for all runs of the set could make is none for certain.
@@ -167,9 +155,9 @@ TEST(ComparisonJUnit, CountsVerdictsAndEscapes) {
     result.values[i].verdict = Verdict::kAgrees;
   }
   const std::string xml = ComparisonJUnit(Matthies(), result);
-  EXPECT_THAT(xml, HasSubstr("tests=\"29\" failures=\"1\" skipped=\"0\""));
-  EXPECT_THAT(xml, HasSubstr("a &lt; b &amp; &quot;c&quot;"));
-  EXPECT_THAT(xml, HasSubstr("<testcase classname=\"nominal\" name=\"nominal.success\"/>"));
+  EXPECT_THAT(
+      xml, core::Says("tests=\"29\" failures=\"1\" skipped=\"0\"", "a &lt; b &amp; &quot;c&quot;",
+                      "<testcase classname=\"nominal\" name=\"nominal.success\"/>"));
 }
 
 // A misspelt name or a moved file would take the warning away without a word.

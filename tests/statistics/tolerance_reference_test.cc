@@ -1,13 +1,12 @@
 // The committed numbers of hazard detection, and mistakes in such a file.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 #include <string>
 
-#include "core/error.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
 #include "report/comparison_reference.h"
 #include "report/comparison_table.h"
 #include "statistics/published_comparison.h"
@@ -71,12 +70,7 @@ std::string ProblemsOf(const std::string& members) {
   const std::string text = R"({"schema_version": 1, "title": "t", "citation": "c", "values": [)"
                            R"({"id": "x", "what": "w", "place": "p", )" +
                            members + "}]}";
-  try {
-    ParseReference(core::ParseJson(text, "test"));
-  } catch (const core::UserError& error) {
-    return error.what();
-  }
-  return "";
+  return core::RefusalOf([&] { ParseReference(core::ParseJson(text, "test")); });
 }
 
 TEST(HazardReference, MistakesAreNamed) {

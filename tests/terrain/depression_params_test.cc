@@ -2,20 +2,17 @@
 #include "terrain/depression_params.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
 #include "core/archive.h"
 #include "core/params_text.h"
+#include "core/says.h"
 #include "terrain/terrain_params.h"
 
 namespace rockyard::terrain {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 constexpr auto& Read = core::ReadText<TerrainParams>;
 constexpr auto& Problems = core::ProblemsOf<TerrainParams>;
@@ -46,20 +43,19 @@ TEST(DepressionParamsTest, ReadsDitchesAndPits) {
 
 TEST(DepressionParamsTest, ListsOfOtherLengthsSayWhich) {
   EXPECT_EQ(Problems(Ditch("")), "");
-  EXPECT_THAT(
-      Problems(Ditch(R"(, "flank_m": [0.1])")),
-      AllOf(HasSubstr("ground.ditches.flank_m"), HasSubstr("has 1 entries"), HasSubstr("has 2")));
+  EXPECT_THAT(Problems(Ditch(R"(, "flank_m": [0.1])")),
+              core::Says("ground.ditches.flank_m", "has 1 entries", "has 2"));
   EXPECT_THAT(Problems(R"({"ground": {"pits": {"x_m": [1], "y_m": [1], "diameter_m": [1]}}})"),
-              AllOf(HasSubstr("ground.pits.depth_m"), HasSubstr("has 0 entries")));
+              core::Says("ground.pits.depth_m", "has 0 entries"));
 }
 
 TEST(DepressionParamsTest, FlanksAndLengthsFitTheWidth) {
   EXPECT_EQ(Problems(Ditch(R"(, "flank_m": [0.25, 0.2])")), "");
   EXPECT_THAT(Problems(Ditch(R"(, "flank_m": [0.25, 0.21])")),
-              AllOf(HasSubstr("ground.ditches.flank_m[1]"), HasSubstr("at most half")));
+              core::Says("ground.ditches.flank_m[1]", "at most half"));
   EXPECT_THAT(Problems(R"({"ground": {"ditches": {"x_m": [2], "y_m": [0], "direction_deg": [0],
                            "length_m": [0.4], "width_m": [0.5], "depth_m": [0.3]}}})"),
-              AllOf(HasSubstr("ground.ditches.length_m[0]"), HasSubstr("less than the width")));
+              core::Says("ground.ditches.length_m[0]", "less than the width"));
 }
 
 std::string RockAt(const char* x_m) {
@@ -72,8 +68,7 @@ std::string RockAt(const char* x_m) {
 TEST(DepressionParamsTest, ListedRocksStandBesideOrOnTheFloor) {
   for (const char* x_m : {"1.39", "2.61", "2.0", "2.19"}) EXPECT_EQ(Problems(RockAt(x_m)), "");
   for (const char* x_m : {"1.41", "2.59", "2.21", "1.7"}) {
-    EXPECT_THAT(Problems(RockAt(x_m)), AllOf(HasSubstr("rocks.listed.x_m[1]"), HasSubstr("flank")))
-        << x_m;
+    EXPECT_THAT(Problems(RockAt(x_m)), core::Says("rocks.listed.x_m[1]", "flank")) << x_m;
   }
 }
 
@@ -81,7 +76,7 @@ TEST(DepressionParamsTest, PointedRocksStandOnLevelGround) {
   EXPECT_THAT(Problems(R"({"rocks": {"pointedness": 0.5, "burial_mean": 0.3},
                            "ground": {"pits": {"x_m": [9], "y_m": [0], "diameter_m": [1],
                                                "depth_m": [0.2]}}})"),
-              AllOf(HasSubstr("rocks.pointedness"), HasSubstr("no ditches or pits")));
+              core::Says("rocks.pointedness", "no ditches or pits"));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "terrain/field_export.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <sstream>

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "terrain/rock_profile.h"
 #include "terrain/rock_shape.h"

@@ -1,8 +1,6 @@
 // The roughness of the ground against the asked RMS and scaling.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "terrain/ground.h"
 
 namespace rockyard::terrain {

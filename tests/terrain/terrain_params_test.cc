@@ -1,12 +1,9 @@
 #include "terrain/terrain_params.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 
-#include "core/archive.h"
-#include "core/json_text.h"
 #include "core/params_text.h"
 #include "terrain/arena.h"
 #include "terrain/test_fields.h"
@@ -16,14 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr auto& Read = core::ReadText<TerrainParams>;
 constexpr auto& Problems = core::ProblemsOf<TerrainParams>;
-
-TEST(TerrainParamsTest, DefaultsAreValidAndSurviveARoundTrip) {
-  const TerrainParams defaults;
-  const std::string json = core::DumpJson(core::WriteParams(defaults));
-  EXPECT_EQ(core::DumpJson(core::WriteParams(Read(json))), json);
-}
 
 TEST(TerrainParamsTest, EveryArenaAndFieldKindIsValidWithDefaults) {
   for (const char* arena : {"open", "walled", "virtual_unfolded", "virtual_reflected"}) {

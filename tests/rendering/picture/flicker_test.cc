@@ -2,7 +2,6 @@
 // pixels does, and no more.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 #include "rendering/picture/picture_kit.h"

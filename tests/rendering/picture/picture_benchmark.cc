@@ -2,7 +2,6 @@
 // of both images.
 #include <benchmark/benchmark.h>
 
-#include <array>
 #include <cmath>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // Statistics of noise and faults of whole images.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "rendering/picture/picture_kit.h"

@@ -2,14 +2,13 @@
 #include "rendering/picture/picture_params.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/archive.h"
-#include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
 
 namespace rockyard::rendering {
 namespace {
@@ -59,12 +58,7 @@ TEST(PictureParams, GravelIsCalibrated) {
 
 TEST(PictureParams, ConditionsAcrossFieldsHold) {
   const auto reason = [](std::string_view path, core::JsonValue value) -> std::string {
-    try {
-      ReadWith(path, std::move(value));
-    } catch (const core::UserError& error) {
-      return error.what();
-    }
-    return {};
+    return core::RefusalOf([&] { ReadWith(path, std::move(value)); });
   };
   EXPECT_EQ(reason("look.drift.finest_wavelength_m", core::JsonValue(0.01)), "");
   EXPECT_THAT(reason("look.rock.finest_wavelength_m", core::JsonValue(0.9)),

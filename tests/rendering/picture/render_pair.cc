@@ -12,7 +12,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <fstream>
 #include <iostream>
@@ -21,7 +20,6 @@
 #include <vector>
 
 #include "core/archive.h"
-#include "core/json_file.h"
 #include "rendering/picture/picture_kit.h"
 #include "rendering/picture/picture_readout.h"
 #include "rendering/picture/stereo_truth.h"

@@ -13,7 +13,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
-#include <vector>
 
 #include "rendering/picture/picture_kit.h"
 #include "rendering/picture/picture_readout.h"

@@ -24,8 +24,7 @@ TEST(QuasiStaticRock, BogieAngleFromGeometry) {
   const RoverParams params = QuasiStatic();
   const double top_m = 0.05;
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.26, 0.2, 0.0, 0.1, 0.1, top_m)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
   const double length_m = geometry.wheel_R[0].x() - geometry.wheel_R[1].x();
   const truth::RoverState& state = rover->state();
@@ -38,8 +37,7 @@ TEST(QuasiStaticRock, BogieAngleFromGeometry) {
 TEST(QuasiStaticRock, LowerThanTheBellyPassesBetweenTheWheels) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   for (int i = 0; i < 200; ++i) {
     rover->Step(command);
@@ -51,8 +49,7 @@ TEST(QuasiStaticRock, LowerThanTheBellyPassesBetweenTheWheels) {
 TEST(QuasiStaticRock, TallerThanTheBellyBlocksItUntilItBacksOff) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
   const truth::RoverState& state = rover->state();
   EXPECT_LT(state.X_WR.translation().x(), 0.5);
@@ -68,8 +65,7 @@ TEST(QuasiStaticRock, TallerThanTheBellyBlocksItUntilItBacksOff) {
 TEST(QuasiStaticWall, StopsTheRover) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   RunFor(*rover, Drive(params, 0.15, 0.0), 6.0);
   EXPECT_NEAR(rover->state().X_WR.translation().x(), 0.8 - 0.5 * params.geometry.length_m, 0.01);
 }
@@ -78,8 +74,7 @@ TEST(QuasiStaticWall, StopsTheRover) {
 TEST(QuasiStaticRock, SteeringAtRestLeavesNoWheelInsideARock) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.30, -0.345, 0.1, 0.1, 0.1, 0.3)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const math::Vector3 before = rover->state().X_WR.translation();
   RunFor(*rover, SteerOnly(Drive(params, 0.0, -0.4)), 1.0);
   EXPECT_GT((rover->state().X_WR.translation() - before).norm(), 0.001);
@@ -92,8 +87,7 @@ messages::PerWheel<double> TurnSharesAtAWall(Fidelity fidelity, double stall_tor
   params.fidelity = fidelity;
   params.drive.stall_torque_Nm = stall_torque_Nm;
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.7, 0.0, 0.0, 0.2, 2.0, 0.6)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   RunFor(*rover, command, 6.0);
   const messages::PerWheel<double> before = rover->state().wheel_angle_rad;
@@ -134,8 +128,7 @@ Stalled StalledWheels(Fidelity fidelity, const terrain::Terrain& terrain, double
   RoverParams params;
   params.fidelity = fidelity;
   params.drive.stall_torque_Nm = stall_torque_Nm;
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   const int steps = static_cast<int>(std::lround(1.0 / rover->step_s()));
   Stalled result;

@@ -47,8 +47,7 @@ TEST(QuasiStaticLevel, WheelsBearTheWeightAndSinkAsTheSoilSays) {
 TEST(QuasiStaticLevel, SteeringIsLimitedInRateAndAngle) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   messages::WheelCommand command;
   command.steer_rad.fill(2.0);
   rover->Step(command);
@@ -66,8 +65,7 @@ TEST(QuasiStaticLevel, SteeringOnTheWayTurnsTheRoverAtOnce) {
   params.drive.steer_rate_rad_s = 100.0;
   const terrain::Terrain terrain = FlatTerrain();
   for (const double curvature_per_m : {0.2, 1.0}) {
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     const double speed_m_s = 0.1;
     RunFor(*rover, Drive(params, speed_m_s, 0.0), 1.2);
     const double heading_rad = math::Heading(rover->state().X_WR);
@@ -86,8 +84,7 @@ TEST(QuasiStaticLevel, WayIsThatOfTheSlipLawHoweverFineTheStretches) {
   for (const double settle_distance_m : {0.02, 0.01, 0.005, 0.0025}) {
     RoverParams params = QuasiStatic();
     params.quasi_static.settle_distance_m = settle_distance_m;
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     RunFor(*rover, Drive(params, 0.15, 0.0), 1.0);
     const double from_m = rover->state().X_WR.translation().x();
     RunFor(*rover, Drive(params, 0.15, 0.0), 20.0);
@@ -104,8 +101,7 @@ TEST(QuasiStaticLevel, WayIsThatOfTheSlipLawHoweverFineTheStretches) {
 TEST(QuasiStaticLevel, BogieSharesItsLoadByLevers) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::PerWheel<double>& load_N = rover->state().wheel_load_N;
   EXPECT_NEAR(load_N[0], load_N[1], 0.1);
   EXPECT_NEAR(load_N[0], load_N[3], 1e-3);
@@ -128,8 +124,7 @@ TEST(QuasiStaticSlope, SlipFollowsTheSoil) {
     const RoverParams params = QuasiStatic();
     const double slope = math::DegToRad(slope_deg);
     const terrain::Terrain terrain = SlopeTerrain(slope, kUphill);
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     const messages::WheelCommand command = Drive(params, 0.15, 0.0);
     RunFor(*rover, command, 2.0);
     const math::Vector3 from = rover->state().X_WR.translation();
@@ -163,8 +158,7 @@ TEST(QuasiStaticSlope, WayIsThatOfTheClosedFormOnEverySoil) {
       for (const Fidelity fidelity : {Fidelity::kMultibody, Fidelity::kQuasiStatic}) {
         RoverParams params;
         params.fidelity = fidelity;
-        const auto rover = MakeRover(params, terrain);
-        rover->Place({});
+        const auto rover = PlacedRover(params, terrain);
         const messages::WheelCommand command = Drive(params, 0.15, 0.0);
         RunFor(*rover, command, 2.0);
         const truth::RoverState from = rover->state();
@@ -196,8 +190,7 @@ TEST(QuasiStaticSlope, WheelsCarryTheNormalPartOfTheWeight) {
       const RoverParams params = QuasiStatic();
       const double slope = math::DegToRad(slope_deg);
       const terrain::Terrain terrain = SlopeTerrain(slope, direction);
-      const auto rover = MakeRover(params, terrain);
-      rover->Place({});
+      const auto rover = PlacedRover(params, terrain);
       EXPECT_NEAR(Sum(rover->state().wheel_load_N), Weights(params).total_N * std::cos(slope),
                   1e-3 * Weights(params).total_N)
           << slope_deg;
@@ -211,8 +204,7 @@ TEST(QuasiStaticSlope, BrakedRoverSlidesBeyondTheFrictionAngle) {
     const RoverParams params = QuasiStatic();
     const double slope = std::atan(0.5) + math::DegToRad(excess_deg);
     const terrain::Terrain terrain = SlopeTerrain(slope, kLeftUp, RigidGround(0.5));
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     const math::Vector3 from = rover->state().X_WR.translation();
     RunFor(*rover, kBraked, 2.0);
     const math::Vector3 moved = rover->state().X_WR.translation() - from;
@@ -233,8 +225,7 @@ TEST(QuasiStaticSlope, NothingCreepsWhereNothingCanMove) {
   const RoverParams params = QuasiStatic();
   for (const double slope_deg : {0.0, 5.0}) {
     const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(slope_deg), kUphill, soil);
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     const math::Vector3 from = rover->state().X_WR.translation();
     RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
     // The referee calls a rover stuck that moved less than 2 cm in ten seconds.
@@ -246,8 +237,7 @@ TEST(QuasiStaticSlope, NothingCreepsWhereNothingCanMove) {
 TEST(QuasiStaticSlope, SteepSandIsNotClimbed) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(28.0), kUphill);
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   RunFor(*rover, Drive(params, 0.15, 0.0), 5.0);
   EXPECT_LT(rover->state().X_WR.translation().x(), 0.05);
   EXPECT_NEAR(rover->state().wheel_angle_rad[0] * params.geometry.wheel_radius_m, 0.75, 0.01);
@@ -265,8 +255,7 @@ TEST(QuasiStaticSlope, TipsOverSidewaysAtTheStaticAngle) {
     ground.soil = terrain::MakeSoil(terrain::SoilPreset::kHardGround);
     ground.soil.friction_angle_rad = math::DegToRad(60.0);  // holds until it tips
     const terrain::Terrain terrain(terrain::Ground(ground, {}), {}, {});
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     RunFor(*rover, Drive(params, 0.15, 0.0), 2.0);
     return math::Tilt(rover->state().X_WR) - slope;
   };
@@ -278,8 +267,7 @@ TEST(QuasiStaticSlope, TipsOverSidewaysAtTheStaticAngle) {
 TEST(QuasiStaticDrive, TurnsInPlaceAboutItsCentre) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.0, 0.4);
   RunFor(*rover, SteerOnly(command), 1.0);
   RunFor(*rover, command, 1.0);
@@ -298,8 +286,7 @@ TEST(QuasiStaticDrive, TurnsInPlaceAboutItsCentre) {
 TEST(QuasiStaticDrive, FollowsTheArcOfItsSteering) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.1, 0.1);  // radius 1 m
   RunFor(*rover, SteerOnly(command), 1.0);
   RunFor(*rover, command, 10.0);
@@ -314,8 +301,7 @@ TEST(QuasiStaticDrive, FollowsTheArcOfItsSteering) {
 TEST(QuasiStaticDrive, StandsWhereItIsPutWhileItDrives) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   RunFor(*rover, Drive(params, 0.15, 0.0), 2.0);
   rover->Place({3.0, 0.0, 0.0});
   RunFor(*rover, kBraked, 1.0);
@@ -330,8 +316,7 @@ TEST(QuasiStaticDrive, StatesTheSinkageOfItsWheels) {
     RoverParams params;
     params.fidelity = fidelity;
     const terrain::Terrain terrain = FlatTerrain();
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     RunFor(*rover, Drive(params, 0.15, 0.0), 2.0);
     const SoilReference soil{terrain.ground().soil()};
     for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
@@ -347,8 +332,7 @@ TEST(QuasiStaticDrive, StatesTheSinkageOfItsWheels) {
 TEST(QuasiStaticDrive, ChangesOfMindGiveNoJumps) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.5, 0.2, 0.0, 0.1, 0.08, 0.07)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand commands[] = {
       Drive(params, 0.15, 0.0), SteerOnly(Drive(params, 0.0, 0.4)), Drive(params, -0.15, 0.0),
       Drive(params, 0.15, 0.0), Drive(params, 0.0, -0.4),           Drive(params, 0.1, 0.3)};

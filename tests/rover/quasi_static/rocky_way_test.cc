@@ -28,8 +28,7 @@ struct RockyDrive {
 };
 
 RockyDrive DriveOverRocks(const RoverParams& params, const terrain::Terrain& terrain) {
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand drive = Drive(params, params.drive.speed_m_s, 0.0);
   const double rolled_m = params.drive.speed_m_s * kDrive_s;
   RockyDrive found;

@@ -26,8 +26,7 @@ TEST(QuasiStaticStanding, SlidesOffSlipperyGroundBeyondItsAngleOfFriction) {
       const double slope = std::atan(friction) + math::DegToRad(excess_deg);
       const terrain::Terrain terrain =
           SlopeTerrain(slope, 0.5 * std::numbers::pi, RigidGround(friction));
-      const auto rover = MakeRover(QuasiStatic(0.1), terrain);
-      rover->Place({});
+      const auto rover = PlacedRover(QuasiStatic(0.1), terrain);
       const math::Vector3 from = rover->state().X_WR.translation();
       RunFor(*rover, kBraked, 1.0);
       const math::Vector3 moved = rover->state().X_WR.translation() - from;
@@ -67,8 +66,7 @@ TEST(QuasiStaticStanding, ReportsTheVelocityOfItsMotionAfterAStopOnASlope) {
     const RoverParams params = QuasiStatic(0.1);
     const terrain::Terrain terrain =
         SlopeTerrain(0.96 * std::atan(friction), 0.0, RigidGround(friction));
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({});
+    const auto rover = PlacedRover(params, terrain);
     const messages::WheelCommand drive = Drive(params, 0.07, 0.0);
     for (int stop = 0; stop < 5; ++stop) {
       RunFor(*rover, drive, 0.2);

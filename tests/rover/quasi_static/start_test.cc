@@ -2,7 +2,6 @@
 // closed forms and the multibody.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "rover/rover_drive.h"
@@ -33,8 +32,7 @@ TEST(QuasiStaticStart, SlidesOnRockByCoulombsLaw) {
     for (const double friction : {0.1, 0.2, 0.4}) {
       RoverParams params = With(fidelity, 0.0);
       params.contact.wheel_rock_friction = friction;
-      const auto rover = MakeRover(params, terrain);
-      rover->Place({});
+      const auto rover = PlacedRover(params, terrain);
       const auto x_m = [&] { return rover->state().X_WR.translation().x(); };
       const double from_m = x_m();
       RunFor(*rover, Drive(params, 0.15, 0.0), 0.6);
@@ -58,8 +56,7 @@ TEST(QuasiStaticStart, RockAndSoilPullTogether) {
     for (const Fidelity fidelity : {Fidelity::kMultibody, Fidelity::kQuasiStatic}) {
       RoverParams params = With(fidelity, 0.0);
       params.contact.wheel_rock_friction = friction;
-      const auto rover = MakeRover(params, terrain);
-      rover->Place({});
+      const auto rover = PlacedRover(params, terrain);
       const double from_m = rover->state().X_WR.translation().x();
       RunFor(*rover, Drive(params, 0.15, 0.0), 0.5);
       const double brakes_at_m = rover->state().X_WR.translation().x();
@@ -83,8 +80,7 @@ TEST(QuasiStaticStart, TurnsInPlaceWithTheInertiaOfTheMultibody) {
       double turned_rad[2] = {};
       for (const Fidelity fidelity : {Fidelity::kMultibody, Fidelity::kQuasiStatic}) {
         const RoverParams params = With(fidelity, ramp_s);
-        const auto rover = MakeRover(params, terrain);
-        rover->Place({});
+        const auto rover = PlacedRover(params, terrain);
         const messages::WheelCommand turn = Drive(params, 0.0, 0.4);
         RunFor(*rover, SteerOnly(turn), 1.0);
         for (int i = 0; i < 4; ++i) {
@@ -106,8 +102,7 @@ TEST(QuasiStaticStart, SkidsAroundWithTheInertiaOfTheMultibody) {
     double turned_rad[2] = {};
     for (const Fidelity fidelity : {Fidelity::kMultibody, Fidelity::kQuasiStatic}) {
       const RoverParams params = With(fidelity, ramp_s);
-      const auto rover = MakeRover(params, terrain);
-      rover->Place({});
+      const auto rover = PlacedRover(params, terrain);
       messages::WheelCommand skid;
       for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
         skid.rate_rad_s[i] = (i < 3 ? -0.12 : 0.12) / params.geometry.wheel_radius_m;
@@ -126,8 +121,7 @@ TEST(QuasiStaticStart, SkidsAroundWithTheInertiaOfTheMultibody) {
 double WayOfStart(Fidelity fidelity, double ramp_s, const terrain::Terrain& terrain,
                   double time_s) {
   const RoverParams params = With(fidelity, ramp_s);
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  const auto rover = PlacedRover(params, terrain);
   const double from_m = rover->state().X_WR.translation().x();
   RunFor(*rover, Drive(params, 0.15, 0.0), time_s);
   return rover->state().X_WR.translation().x() - from_m;
@@ -167,8 +161,7 @@ TEST(QuasiStaticStart, FollowsWideArcsFromStraightDrives) {
     double turned_rad[2] = {};
     for (const Fidelity fidelity : {Fidelity::kMultibody, Fidelity::kQuasiStatic}) {
       const RoverParams params = With(fidelity, 0.1);
-      const auto rover = MakeRover(params, terrain);
-      rover->Place({});
+      const auto rover = PlacedRover(params, terrain);
       RunFor(*rover, Drive(params, 0.14, 0.0), 0.5);
       RunFor(*rover, Drive(params, 0.14, 0.14 / radius_m), 5.0);
       turned_rad[static_cast<std::size_t>(fidelity)] = math::Heading(rover->state().X_WR);
