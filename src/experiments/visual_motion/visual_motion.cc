@@ -1,6 +1,5 @@
 #include "experiments/visual_motion/visual_motion.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -15,6 +14,7 @@
 #include "experiments/stereo_sensing/random_place.h"
 #include "experiments/visual_motion/columns.h"
 #include "math/angles.h"
+#include "math/decompositions.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -77,9 +77,9 @@ void AddStep(const StudiedStep& step, const vision::MotionResult& seen, VisualSu
   const Eigen::AngleAxisd turned(seen.motion->X_FS.linear() * truth.linear().transpose());
   const math::Vector3 way_m = seen.motion->X_FS.translation() - truth.translation();
   const math::Vector3 turn_rad = turned.angle() * turned.axis();
-  Eigen::Matrix<double, 6, 1> error;
+  math::Vector6 error;
   error << way_m, turn_rad;
-  const double nees = error.dot(seen.motion->covariance.ldlt().solve(error));
+  const double nees = error.dot(math::SolveSymmetric(seen.motion->covariance, error));
   sums.nees += nees;
   sums.position_m += way_m.norm();
   const bool far = way_m.norm() > kWrong_m || turn_rad.norm() > kWrong_rad;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "math/decompositions.h"
 #include "vision/cameras/camera_model.h"
 
 namespace rockyard::vision {
@@ -146,7 +147,7 @@ bool LieInOnePlane(const std::vector<Vector3>& points) {
   mean /= static_cast<double>(points.size());
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Vector3& point : points) scatter += (point - mean) * (point - mean).transpose();
-  const Vector3 spread = Eigen::JacobiSVD<Eigen::Matrix3d>(scatter).singularValues();
+  const Vector3 spread = math::SingularValuesOf(scatter).values;
   return spread[2] < kLeastDepth * kLeastDepth * spread[1];
 }
 
@@ -206,8 +207,8 @@ Transform PoseOfBoard(const Eigen::Matrix3d& homography, double focal_px, const 
   if (columns(2, 2) < 0.0) columns = -columns;
   Eigen::Matrix3d pair = columns;
   pair.col(2).setZero();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(pair, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d axes = svd.matrixU() * svd.matrixV().transpose();
+  const math::SingularValues svd = math::SingularValuesOf(pair);
+  const Eigen::Matrix3d axes = svd.U * svd.V.transpose();
   Transform X_AT = Transform::Identity();
   X_AT.linear().leftCols<2>() = axes.leftCols<2>();
   X_AT.linear().col(2) = axes.col(0).cross(axes.col(1));

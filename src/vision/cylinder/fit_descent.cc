@@ -1,11 +1,11 @@
 #include "vision/cylinder/fit_descent.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "core/check.h"
+#include "math/decompositions.h"
 
 namespace rockyard::vision {
 namespace {
@@ -45,7 +45,7 @@ FitUnknowns DampedStep(const FitInformation& information, const FitUnknowns& gra
                        double damping) {
   FitInformation damped = information;
   damped.diagonal() *= 1.0 + damping;
-  return -damped.ldlt().solve(gradient);
+  return -math::SolveSymmetric(damped, gradient);
 }
 
 }  // namespace

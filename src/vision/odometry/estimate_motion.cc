@@ -1,22 +1,21 @@
 #include "vision/odometry/estimate_motion.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "math/decompositions.h"
 #include "vision/odometry/pair_projection.h"
 
 namespace rockyard::vision {
 namespace {
 
+using math::Matrix6;
 using math::Transform;
 using math::Vector3;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
+using math::Vector6;
 using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
 Eigen::Matrix3d Cross(const Vector3& v) {
@@ -217,7 +216,7 @@ class Problem {
     }
     Matrix6 damped = N;
     damped.diagonal() += damping * diagonal.diagonal();
-    const Vector6 change = damped.ldlt().solve(side);
+    const Vector6 change = math::SolveSymmetric(damped, side);
     Step step{Disturbed(X_FS_, change), places_, change.dot(N * change)};
     for (std::size_t i = 0; i < followers.size(); ++i) {
       const Follower& point = followers[i];
@@ -247,11 +246,10 @@ class Problem {
       result.reason = NoMotion::kPoorFit;
       return;
     }
-    const Matrix6 N = Information();
-    const Eigen::LDLT<Matrix6> solver(N);
+    const std::optional<Matrix6> inverse = math::InverseOfPositive(Information());
     const MotionCovariance covariance =
-        std::max(result.fit, 1.0) * MotionCovariance(solver.solve(Matrix6::Identity()));
-    if (!solver.isPositive() || !IsSure(covariance)) {
+        std::max(result.fit, 1.0) * inverse.value_or(Matrix6::Zero());
+    if (!inverse || !IsSure(covariance)) {
       result.reason = NoMotion::kUncertain;
       return;
     }
@@ -275,13 +273,8 @@ class Problem {
 
   // The largest standard deviation in any direction.
   bool IsSure(const MotionCovariance& covariance) const {
-    const auto largest = [](const Eigen::Matrix3d& part) {
-      return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(part, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .maxCoeff();
-    };
-    const double place = largest(covariance.topLeftCorner<3, 3>());
-    const double turn = largest(covariance.bottomRightCorner<3, 3>());
+    const double place = math::LargestEigenvalue(covariance.topLeftCorner<3, 3>());
+    const double turn = math::LargestEigenvalue(covariance.bottomRightCorner<3, 3>());
     return place <= params_.max_position_sd_m * params_.max_position_sd_m &&
            turn <= params_.max_rotation_sd_rad * params_.max_rotation_sd_rad;
   }

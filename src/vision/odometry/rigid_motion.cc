@@ -1,8 +1,7 @@
 #include "vision/odometry/rigid_motion.h"
 
-#include <Eigen/SVD>
-
 #include "core/check.h"
+#include "math/decompositions.h"
 
 namespace rockyard::vision {
 namespace {
@@ -37,13 +36,13 @@ std::optional<math::Transform> RigidMotion(std::span<const math::Vector3> points
         WeightOf(weights, i) * (points_F[i] - middle_F) * (points_S[i] - middle_S).transpose();
   }
   if (!moments.allFinite()) return std::nullopt;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moments, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const math::SingularValues svd = math::SingularValuesOf(moments);
   constexpr double kFlat = 1e-12;  // of squares
-  if (!(svd.singularValues()[1] > kFlat * svd.singularValues()[0])) return std::nullopt;
+  if (!(svd.values[1] > kFlat * svd.values[0])) return std::nullopt;
   math::Vector3 sign = math::Vector3::Ones();
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) sign.z() = -1.0;
+  if (svd.U.determinant() * svd.V.determinant() < 0.0) sign.z() = -1.0;
   math::Transform X_FS = math::Transform::Identity();
-  X_FS.linear() = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  X_FS.linear() = svd.U * sign.asDiagonal() * svd.V.transpose();
   X_FS.translation() = middle_F - X_FS.linear() * middle_S;
   return X_FS;
 }

@@ -1,12 +1,11 @@
 #include "vision/odometry/trajectory_error.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "core/check.h"
+#include "math/decompositions.h"
 
 namespace rockyard::vision {
 namespace {
@@ -39,12 +38,11 @@ Transform RigidAlignment(const Trajectory& truth, const Trajectory& estimate) {
     covariance += (truth[i].translation() - mean_truth) *
                   (estimate[i].translation() - mean_estimate).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const math::SingularValues svd = math::SingularValuesOf(covariance);
   Vector3 signs = Vector3::Ones();
-  signs.z() = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
+  signs.z() = svd.U.determinant() * svd.V.determinant() < 0.0 ? -1.0 : 1.0;
   Transform X_TE = Transform::Identity();
-  X_TE.linear() = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  X_TE.linear() = svd.U * signs.asDiagonal() * svd.V.transpose();
   X_TE.translation() = mean_truth - X_TE.linear() * mean_estimate;
   return X_TE;
 }
@@ -147,9 +145,9 @@ RelativeErrors RelativeErrorsOf(const Trajectory& truth, const Trajectory& estim
 
 double NormalizedErrorSquared(const Motion& estimated, const Transform& true_X_FS) {
   const Eigen::AngleAxisd turn(true_X_FS.linear() * estimated.X_FS.linear().transpose());
-  Eigen::Matrix<double, 6, 1> error;
+  math::Vector6 error;
   error << true_X_FS.translation() - estimated.X_FS.translation(), turn.angle() * turn.axis();
-  return error.dot(estimated.covariance.ldlt().solve(error));
+  return error.dot(math::SolveSymmetric(estimated.covariance, error));
 }
 
 }  // namespace rockyard::vision
