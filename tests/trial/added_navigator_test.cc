@@ -1,15 +1,14 @@
 // A navigator that no file of rockyard knows drives a trial: all that the trial asks it are its
 // traits.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/archive.h"
 #include "core/error.h"
 #include "navigation/navigator.h"
+#include "scenario/shipped.h"
 #include "trial/gestalt_trials.h"
 #include "trial/look_time.h"
 
@@ -85,9 +84,7 @@ DriveParams WithToy(const ToyParams& params, const Overrides& overrides = {}) {
       params);
   Overrides all = {"navigation.navigator=toy", "rover.fidelity=quasi_static"};
   all.insert(all.end(), overrides.begin(), overrides.end());
-  return scenario::LoadScenario(
-             std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json", all, defaults)
-      .drive;
+  return scenario::Shipped("pathfinder/nominal", all, defaults).drive;
 }
 
 // "PATH REASON" of the only thing that is wrong.

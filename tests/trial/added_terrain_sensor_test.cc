@@ -1,10 +1,11 @@
 // A terrain sensor that no file of rockyard knows looks in a trial.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 
 #include "core/error.h"
+#include "core/refusals.h"
+#include "scenario/shipped.h"
 #include "trial/gestalt_trials.h"
 #include "trial/toy_terrain_sensor.h"
 
@@ -15,10 +16,7 @@ using testing::HasSubstr;
 
 DriveParams WithToy(const ToySensorParams& params, const Overrides& overrides) {
   const Overrides all = kShortAndEmpty + Overrides{"rover.fidelity=quasi_static"} + overrides;
-  return scenario::LoadScenario(
-             std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/abundance.json", all,
-             WithToySensor(params))
-      .drive;
+  return scenario::Shipped("gestalt/abundance", all, WithToySensor(params)).drive;
 }
 
 // Both readings of a look, by a map and by a behaviour controller: each look takes its time.
@@ -41,12 +39,7 @@ TEST(AddedTerrainSensor, ShowsTheGroundToEitherNavigator) {
 
 TEST(AddedTerrainSensor, HasItsGroupAndItsConditionsInAScenario) {
   const auto problem = [](const Overrides& overrides) -> std::string {
-    try {
-      WithToy({}, overrides);
-    } catch (const core::UserError& error) {
-      return error.what();
-    }
-    return "";
+    return core::RefusalOf([&] { WithToy({}, overrides); });
   };
   EXPECT_EQ(problem({"sensors.toy.computing_s=60"}), "");  // of a sensor that is not chosen
   EXPECT_THAT(problem({"sensors.terrain_sensor=toy", "sensors.toy.computing_s=60"}),

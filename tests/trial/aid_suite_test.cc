@@ -2,11 +2,10 @@
 #include "trial/aid_suite.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/error.h"
+#include "core/refusals.h"
 #include "trial/aid_schedule.h"
 #include "trial/lander_place.h"
 #include "trial/pathfinder_trials.h"
@@ -139,19 +138,12 @@ TEST(AidSuite, CountsWhatFoundNothing) {
 }
 
 TEST(AidSuite, IsRefusedWhereNobodyListens) {
-  try {
-    Pathfinder("nominal", {"sensors.aids.sun.enabled=true"});
-    FAIL() << "was read";
-  } catch (const core::UserError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("localization.estimator"));
-    EXPECT_THAT(error.what(), HasSubstr("error_state"));
-  }
-  try {
-    WithAids({"sensors.aids.beacon.enabled=true", "sensors.aids.beacon.every_m=0"});
-    FAIL() << "was read";
-  } catch (const core::UserError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("sensors.aids.beacon.every_m"));
-  }
+  EXPECT_THAT(core::RefusalOf([] { Pathfinder("nominal", {"sensors.aids.sun.enabled=true"}); }),
+              testing::AllOf(HasSubstr("localization.estimator"), HasSubstr("error_state")));
+  EXPECT_THAT(core::RefusalOf([] {
+                WithAids({"sensors.aids.beacon.enabled=true", "sensors.aids.beacon.every_m=0"});
+              }),
+              HasSubstr("sensors.aids.beacon.every_m"));
 }
 
 // One pan axis serves both: the rover ends where goals are told, not beside them by the pan error.

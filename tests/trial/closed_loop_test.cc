@@ -1,6 +1,5 @@
 // What holds for whole drives, whatever the rocks.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

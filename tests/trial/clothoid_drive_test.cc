@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "math/angles.h"
 #include "navigation/navigator.h"
 #include "rover/rover_geometry.h"
+#include "scenario/shipped.h"
 #include "trial/gestalt_trials.h"
 
 namespace rockyard::trial {
@@ -187,8 +187,7 @@ DriveParams PlanDrive(const DraughtsmanParams& draughtsman, const Overrides& ove
   const Overrides empty = {"navigation.navigator=draughtsman", "terrain.rocks.kind=none",
                            "terrain.arena.kind=open", "localization.estimator=oracle",
                            "clock.control_rate_hz=20"};
-  const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json";
-  return scenario::LoadScenario(file, empty + overrides, defaults).drive;
+  return scenario::Shipped("pathfinder/nominal", empty + overrides, defaults).drive;
 }
 
 struct Driven {

@@ -1,6 +1,5 @@
 // A trial is a pure function of (scenario, seed, index).
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <future>
 

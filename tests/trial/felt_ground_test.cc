@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-#include "core/distributions.h"
 #include "gestalt_trials.h"
 #include "navigation/gestalt/gestalt_params.h"
 

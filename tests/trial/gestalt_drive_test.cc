@@ -1,6 +1,5 @@
 // Whole drives of the map-based navigator: arrival, what ends a step, time and energy, watchers.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,13 @@
 // Drives of the map-based navigator for the tests of the closed loop.
 #pragma once
 
+#include "scenario/shipped.h"
 #include "trial/pathfinder_trials.h"
 
 namespace rockyard::trial {
 
 inline DriveParams Gestalt(const std::string& name, const Overrides& overrides = {}) {
-  return scenario::LoadScenario(
-             std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/" + name + ".json", overrides)
-      .drive;
+  return scenario::Shipped("gestalt/" + name, overrides).drive;
 }
 
 inline Overrides operator+(Overrides a, const Overrides& b) {

@@ -2,14 +2,14 @@
 #include "trial/goal_rock.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "core/refusals.h"
 #include "math/angles.h"
+#include "scenario/shipped.h"
 #include "terrain/field.h"
 #include "trial/layout.h"
 #include "trial/pathfinder_trials.h"
@@ -25,8 +25,7 @@ using truth::TrialOutcome;
 scenario::Scenario Outdoor(const Overrides& overrides = {}) {
   Overrides all = {"rover.fidelity=quasi_static"};
   all.insert(all.end(), overrides.begin(), overrides.end());
-  return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/localization/outdoor_5m.json", all);
+  return scenario::Shipped("localization/outdoor_5m", all);
 }
 
 // 3 m of empty sand to the rock.
@@ -256,16 +255,7 @@ TEST(GoalRockDriveTest, RecognitionLooksAhead) {
 }
 
 std::string ProblemsWith(const Overrides& overrides) {
-  try {
-    Outdoor(overrides);
-  } catch (const core::UserError& error) {
-    std::string text;
-    for (const core::Problem& problem : error.problems()) {
-      text += problem.path + " " + problem.reason + "; " + problem.suggestion + "\n";
-    }
-    return text;
-  }
-  return "";
+  return core::RefusalOf([&] { Outdoor(overrides); });
 }
 
 TEST(GoalRockParamsTest, BadScenariosSayWhatIsWrong) {

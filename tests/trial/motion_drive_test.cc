@@ -2,10 +2,10 @@
 // and plans that end before another one is there.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <memory>
 
 #include "navigation/navigator.h"
+#include "scenario/shipped.h"
 #include "trial/gestalt_trials.h"
 
 namespace rockyard::trial {
@@ -62,8 +62,7 @@ TracedTrial DriveScript(const ScriptParams& params, const Overrides& overrides =
   const Overrides empty = {"navigation.navigator=script", "rover.fidelity=quasi_static",
                            "terrain.rocks.kind=none", "terrain.arena.kind=open",
                            "localization.estimator=oracle"};
-  const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json";
-  return RunTraced(scenario::LoadScenario(file, empty + overrides, defaults).drive, 0);
+  return RunTraced(scenario::Shipped("pathfinder/nominal", empty + overrides, defaults).drive, 0);
 }
 
 ScriptParams Clothoid() {

@@ -5,6 +5,7 @@
 
 #include "navigation/pathfinder/pathfinder_params.h"
 #include "pathfinder_trials.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::trial {
 namespace {
@@ -12,9 +13,7 @@ namespace {
 constexpr double kFourHours_s = 14400.0;
 
 DriveParams Mars(const std::string& name, const Overrides& overrides = {}) {
-  return scenario::LoadScenario(
-             std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/mars/" + name + ".json", overrides)
-      .drive;
+  return scenario::Shipped("mars/" + name, overrides).drive;
 }
 
 // One scan a step: v = s / (s / v0 + T + stop), with the step s rounded up to whole ticks.

@@ -1,10 +1,8 @@
 // What wrong calibrations do to a rover that is true to its description.
 #include "trial/onboard_calibration.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "perception/triangulation.h"

@@ -14,6 +14,7 @@
 #include "math/angles.h"
 #include "messages/look.h"
 #include "navigation/navigator.h"
+#include "scenario/shipped.h"
 #include "trial/gestalt_trials.h"
 #include "trial/onboard_calibration.h"
 #include "trial/toy_terrain_sensor.h"
@@ -160,8 +161,7 @@ DriveParams WeaverDrive(const WeaverParams& weaver, const ToySensorParams& senso
                          "rover.fidelity=quasi_static", "terrain.rocks.kind=none",
                          "terrain.arena.kind=open",     "localization.estimator=oracle",
                          "clock.control_rate_hz=20",    "energy.computing_W=1.5"};
-  const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json";
-  return scenario::LoadScenario(file, all + overrides, defaults).drive;
+  return scenario::Shipped("pathfinder/nominal", all + overrides, defaults).drive;
 }
 
 const Overrides kOverlap = {"clock.overlap.imaging=true", "clock.overlap.computing=true",

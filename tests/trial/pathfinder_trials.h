@@ -3,11 +3,10 @@
 
 #include <bit>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 #include "trial/run_trial.h"
 
 namespace rockyard::trial {
@@ -15,10 +14,7 @@ namespace rockyard::trial {
 using Overrides = std::vector<std::string>;  // "PATH=VALUE"
 
 inline DriveParams Pathfinder(const std::string& name, const Overrides& overrides = {}) {
-  return scenario::LoadScenario(
-             std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/" + name + ".json",
-             overrides)
-      .drive;
+  return scenario::Shipped("pathfinder/" + name, overrides).drive;
 }
 
 // A trial with its course over time.

@@ -1,6 +1,5 @@
 // Rovers whose wheels slip, with a check of slip by what they see.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>

@@ -2,13 +2,13 @@
 #include "trial/stereo_eyes.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "core/refusals.h"
 #include "sensing/stereo_view.h"
 #include "trial/gestalt_trials.h"
 #include "trial/terrain_sensing.h"
@@ -151,14 +151,8 @@ TEST(StereoEyesTest, ImagesThatAreTooLargeAreRefusedByName) {
   const Overrides large = {"sensors.stereo.fidelity=image", "sensors.stereo.columns=512",
                            "sensors.stereo.images.pyramid_level=3",
                            "sensors.stereo.max_disparity_px=64"};
-  try {
-    Gestalt("abundance", large);
-    FAIL() << "accepted";
-  } catch (const core::UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("sensors.stereo.images.pyramid_level"),
-              std::string::npos)
-        << error.what();
-  }
+  EXPECT_THAT(core::RefusalOf([&] { Gestalt("abundance", large); }),
+              testing::HasSubstr("sensors.stereo.images.pyramid_level"));
 }
 
 }  // namespace

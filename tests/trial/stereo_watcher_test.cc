@@ -1,7 +1,6 @@
 // Who looks over the shoulder of stereo cameras is shown what the navigator gets, and changes
 // nothing.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>

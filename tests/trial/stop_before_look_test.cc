@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "pathfinder_trials.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::trial {
 namespace {
@@ -14,8 +14,7 @@ namespace {
 // second from rest to full speed: over half a metre of empty ground.
 DriveParams SlowDrive() {
   const Overrides empty = {"terrain.rocks.kind=none", "course.goal_x_m=0.5"};
-  const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/mars/mfex_nominal.json";
-  return scenario::LoadScenario(file, empty).drive;
+  return scenario::Shipped("mars/mfex_nominal", empty).drive;
 }
 
 // Way of the rim that has turned farthest.

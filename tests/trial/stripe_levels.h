@@ -3,8 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "scenario/scenario.h"
 #include "sensing/light_stripe.h"

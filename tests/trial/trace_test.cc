@@ -1,5 +1,4 @@
 // What a trace holds, against the record of the same drive.
-#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 // Whole drives of a rover that feels: the sensors change what it does, and nothing where they are
 // off.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,10 @@
 #include "trial/visual_aid.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/error.h"
+#include "core/refusals.h"
 #include "trial/compute_profile.h"
 #include "trial/pathfinder_trials.h"
 #include "trial/stereo_tables.h"
@@ -374,12 +373,7 @@ TEST(VisualDrive, GoesOnWhileTheComputerWorks) {
 
 TEST(VisualDrive, IsRefusedWhereNobodyListensOrNothingIsEverDue) {
   const auto refused = [](const Overrides& overrides, const std::string& path) {
-    try {
-      Seeing(overrides);
-      ADD_FAILURE() << path << " was accepted";
-    } catch (const core::UserError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(path));
-    }
+    EXPECT_THAT(core::RefusalOf([&] { Seeing(overrides); }), HasSubstr(path));
   };
   refused({"localization.estimator=dead_reckoning"}, "localization.estimator");
   refused({"localization.estimator=visual_odometry", "sensors.aids.sun.enabled=true"},

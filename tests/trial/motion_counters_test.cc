@@ -1,11 +1,57 @@
-#include "trial/steer_counter.h"
-
+// Counts of stops, turns on the spot and turns of the steering motors.
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+
 #include "core/check.h"
+#include "trial/steer_counter.h"
+#include "trial/stop_counter.h"
+#include "trial/turn_counter.h"
 
 namespace rockyard::trial {
 namespace {
+
+using messages::MotionCommand;
+using messages::MotionKind;
+
+std::int64_t StopsOf(std::initializer_list<bool> moving) {
+  StopCounter counter;
+  for (const bool each : moving) counter.Observe(each);
+  return counter.stops();
+}
+
+TEST(StopCounterTest, CountsEndsOfMotion) {
+  EXPECT_EQ(StopsOf({}), 0);
+  EXPECT_EQ(StopsOf({false, false}), 0);
+  EXPECT_EQ(StopsOf({true, true, false, false, true, false}), 2);
+}
+
+TEST(StopCounterTest, TheEndStopsARoverThatMoves) { EXPECT_EQ(StopsOf({true, false, true}), 2); }
+
+constexpr MotionCommand kLeft{MotionKind::kTurnInPlace, 0.0, 1};
+constexpr MotionCommand kRight{MotionKind::kTurnInPlace, 0.0, -1};
+constexpr MotionCommand kAhead{MotionKind::kArc, 0.0, 1};
+constexpr MotionCommand kBack{MotionKind::kArc, 0.0, -1};
+
+std::int64_t Turns(std::initializer_list<MotionCommand> motions) {
+  TurnCounter counter;
+  for (const MotionCommand& motion : motions) counter.Observe(motion);
+  return counter.turns();
+}
+
+TEST(TurnCounterTest, ATurnCountsOnceHoweverLong) {
+  EXPECT_EQ(Turns({}), 0);
+  EXPECT_EQ(Turns({kAhead, kBack, kAhead}), 0);
+  EXPECT_EQ(Turns({kLeft, kLeft, kLeft}), 1);
+}
+
+TEST(TurnCounterTest, DrivingEndsATurn) {
+  EXPECT_EQ(Turns({kLeft, kAhead, kLeft, kLeft, kBack, kRight}), 3);
+}
+
+TEST(TurnCounterTest, TheOtherWayIsAnotherTurn) {
+  EXPECT_EQ(Turns({kLeft, kLeft, kRight, kRight, kLeft}), 3);
+}
 
 constexpr messages::PerWheel<bool> kCorners = {true, false, true, true, false, true};
 constexpr messages::PerWheel<bool> kAll = {true, true, true, true, true, true};
