@@ -12,17 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::AllOf;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
 class CliAblation : public CommandTest {
  protected:
-  json Summary(const std::string& folder) const {
-    return json::parse(ReadFile(work() / folder / "summary.json"));
-  }
   json Resolved(const std::string& folder) const {
     return json::parse(ReadFile(work() / folder / "scenario.resolved.json"))["scenario"];
   }
@@ -42,8 +37,7 @@ class CliAblation : public CommandTest {
 };
 
 TEST_F(CliAblation, ListTellsEachWithItsSettings) {
-  const CommandResult result = Run({"list", "--ablations"});
-  EXPECT_EQ(result.exit_code, 0);
+  const CommandResult result = RunTo(0, {"list", "--ablations"});
   for (const char* name : {"perfect_designation", "perfect_localization", "perfect_sensing",
                            "perfect_path_selection", "no_avoidance", "no_slip"}) {
     EXPECT_THAT(result.out, HasSubstr(std::string(name) + ": "));
@@ -61,8 +55,7 @@ TEST_F(CliAblation, ChangesTheRunAndIsTold) {
   EXPECT_EQ(Resolved("ablated")["localization"]["estimator"], "oracle");
   EXPECT_EQ(Resolved("ablated")["terrain"]["ground"]["soil"]["friction_angle_deg"], 60);
   EXPECT_NE(Summary("ablated")["trial_hash"], Summary("plain")["trial_hash"]);
-  EXPECT_THAT(result.out, HasSubstr("ablations: no_slip"));
-  EXPECT_THAT(result.out, HasSubstr("perfect localization"));
+  EXPECT_THAT(result.out, Says("ablations: no_slip", "perfect localization"));
   EXPECT_THAT(result.err, Not(HasSubstr("changes nothing")));
 }
 
@@ -75,9 +68,8 @@ TEST_F(CliAblation, IsTheSameAsItsSettings) {
 }
 
 TEST_F(CliAblation, TellsWhatHasNoEffect) {
-  const CommandResult idle = Run(With(QuickRun("idle", 2), {"--ablate", "perfect_designation"}));
-  EXPECT_EQ(idle.exit_code, 0) << idle.err;
-  EXPECT_THAT(idle.err, HasSubstr("--ablate perfect_designation changes nothing"));
+  EXPECT_THAT(RunTo(0, With(QuickRun("idle", 2), {"--ablate", "perfect_designation"})).err,
+              HasSubstr("--ablate perfect_designation changes nothing"));
   EXPECT_THAT(RunAblated("told", {"--ablate", "perfect_designation"}).err,
               Not(HasSubstr("changes nothing")));
   EXPECT_THAT(Run(With(QuickRun("quiet", 2), {"--ablate", "perfect_designation", "--quiet"})).err,
@@ -117,8 +109,8 @@ TEST_F(CliAblation, ASweepAlongThemAttributesFailures) {
   const CommandResult two = Run({"sweep", "factorial.json", "--out", "two", "--threads", "2"});
   ASSERT_EQ(one.exit_code, 0) << one.err;
   ASSERT_EQ(two.exit_code, 0) << two.err;
-  EXPECT_THAT(one.out, AllOf(HasSubstr("attribution of failures, true success: 4 paired trials"),
-                             HasSubstr("Shapley share"), HasSubstr("these need not sum")));
+  EXPECT_THAT(one.out, Says("attribution of failures, true success: 4 paired trials",
+                            "Shapley share", "these need not sum"));
   const std::string csv = ReadFile(work() / "one" / "attribution.csv");
   EXPECT_THAT(csv, HasSubstr(",true success,share,\"pose, <believed>\","));
   EXPECT_EQ(csv, ReadFile(work() / "two" / "attribution.csv"));
@@ -130,22 +122,19 @@ TEST_F(CliAblation, ASweepAlongThemAttributesFailures) {
   std::string independent = kFactorial;
   independent.replace(independent.find(": true"), 6, ": false");
   WriteFile(work() / "independent.json", independent);
-  const CommandResult apart = Run({"sweep", "independent.json", "--out", "apart"});
-  EXPECT_EQ(apart.exit_code, 0) << apart.err;
+  const CommandResult apart = RunTo(0, {"sweep", "independent.json", "--out", "apart"});
   EXPECT_THAT(apart.out, Not(HasSubstr("Shapley share")));
   EXPECT_FALSE(fs::exists(work() / "apart" / "attribution.csv"));
 }
 
 TEST_F(CliAblation, SweepsRefuseUnknownAndContraryOnes) {
   WriteFile(work() / "bad.json", R"({"axes": [{"ablation": "no_slp"}]})");
-  const CommandResult unknown = Run({"sweep", "bad.json", "--out", "a"});
-  EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("did you mean \"no_slip\"?"));
+  EXPECT_THAT(RunTo(2, {"sweep", "bad.json", "--out", "a"}).err,
+              HasSubstr("did you mean \"no_slip\"?"));
   WriteFile(work() / "bad.json",
             R"({"axes": [{"ablation": "no_avoidance"}, {"ablation": "perfect_path_selection"}]})");
-  const CommandResult contrary = Run({"sweep", "bad.json", "--out", "a"});
-  EXPECT_EQ(contrary.exit_code, 2);
-  EXPECT_THAT(contrary.err, HasSubstr("undone by another one"));
+  EXPECT_THAT(RunTo(2, {"sweep", "bad.json", "--out", "a"}).err,
+              HasSubstr("undone by another one"));
   EXPECT_FALSE(fs::exists(work() / "a"));
 }
 
@@ -195,9 +184,8 @@ TEST_F(CliAblation, BlindSwathPrintsTheClosedFormBesideFields) {
 
 TEST_F(CliAblation, BlindSwathTakesTheRoverByDefault) {
   const CommandResult rover = Run(Swath(Scenario("nominal"), {"--fields", "10"}));
-  const CommandResult wide =
-      Run(Swath(Scenario("nominal"), {"--fields", "10", "--set", "rover.geometry.width_m=0.6"}));
-  EXPECT_EQ(wide.exit_code, 0) << wide.err;
+  const CommandResult wide = RunTo(
+      0, Swath(Scenario("nominal"), {"--fields", "10", "--set", "rover.geometry.width_m=0.6"}));
   EXPECT_THAT(wide.out, HasSubstr("blind swath of 0.60 m"));
   EXPECT_NE(wide.out, rover.out);
   EXPECT_NE(Run(Swath(Scenario("nominal"), {"--fields", "10", "--seed", "9"})).out, rover.out);

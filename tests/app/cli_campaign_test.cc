@@ -15,9 +15,6 @@ using testing::HasSubstr;
 
 class CliCampaign : public CommandTest {
  protected:
-  json Summary(const std::string& folder) const {
-    return json::parse(ReadFile(work() / folder / "summary.json"));
-  }
   CommandResult RunShard(const std::string& folder, const std::string& shard, int trials = 7) {
     return Run(With(QuickRun(folder, trials), {"--shard", shard}));
   }
@@ -28,41 +25,34 @@ TEST_F(CliCampaign, MergedShardsAreTheRunOfOneMachine) {
   RunShard("s1", "1/3");
   const CommandResult second = RunShard("s2", "2/3");
   RunShard("s3", "3/3");
-  EXPECT_THAT(second.out, HasSubstr("shard 2 of 3"));
-  EXPECT_THAT(second.out, HasSubstr("rockyard merge"));
+  EXPECT_THAT(second.out, Says("shard 2 of 3", "rockyard merge"));
   EXPECT_FALSE(Summary("s2").contains("declared_success")) << "no rates from a shard";
   EXPECT_EQ(Summary("s2")["accounting"]["planned"], 2);
 
-  const CommandResult merged = Run({"merge", "s2", "s3", "s1", "--out", "merged"});
-  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  const CommandResult merged = RunTo(0, {"merge", "s2", "s3", "s1", "--out", "merged"});
   EXPECT_EQ(Summary("merged")["trial_hash"], Summary("whole")["trial_hash"]);
   EXPECT_EQ(Summary("merged")["accounting"], Summary("whole")["accounting"]);
   EXPECT_EQ(ReadFile(work() / "merged" / "trials.csv"), ReadFile(work() / "whole" / "trials.csv"));
 
   // As by a job that is started again, although its files were lost.
   fs::remove(work() / "merged" / "trials.csv");
-  const CommandResult repeated = Run({"merge", "s1", "s2", "s3", "--out", "merged"});
-  EXPECT_EQ(repeated.exit_code, 0);
-  EXPECT_THAT(repeated.err, HasSubstr("merged holds these shards already"));
+  EXPECT_THAT(RunTo(0, {"merge", "s1", "s2", "s3", "--out", "merged"}).err,
+              HasSubstr("merged holds these shards already"));
   EXPECT_EQ(ReadFile(work() / "merged" / "trials.csv"), ReadFile(work() / "whole" / "trials.csv"));
-  EXPECT_EQ(Run({"merge", "s1", "s2", "--out", "merged", "--partial"}).exit_code, 2);
+  RunTo(2, {"merge", "s1", "s2", "--out", "merged", "--partial"});
 }
 
 TEST_F(CliCampaign, ShardsThatAreNotAllThereAreRefused) {
   RunShard("s1", "1/2");
-  const CommandResult missing = Run({"merge", "s1", "--out", "merged"});
-  EXPECT_EQ(missing.exit_code, 2);
+  const CommandResult missing = RunTo(2, {"merge", "s1", "--out", "merged"});
   EXPECT_THAT(missing.err, HasSubstr("are missing: 2/2"));
   EXPECT_FALSE(fs::exists(work() / "merged"));
-  EXPECT_EQ(Run({"merge", "s1", "--out", "merged", "--partial"}).exit_code, 0);
+  RunTo(0, {"merge", "s1", "--out", "merged", "--partial"});
   EXPECT_EQ(Summary("merged")["accounting"]["pending"], 3);
 
-  const CommandResult compared = Run({"compare", "s1", "merged"});
-  EXPECT_EQ(compared.exit_code, 2);
-  EXPECT_THAT(compared.err, HasSubstr("rockyard merge"));
-  const CommandResult resumed = Run(With(QuickRun("s1", 7), {"--shard", "2/2", "--resume"}));
-  EXPECT_EQ(resumed.exit_code, 2);
-  EXPECT_THAT(resumed.err, HasSubstr("shard: is 1/2 in the stored run and 2/2 now"));
+  EXPECT_THAT(RunTo(2, {"compare", "s1", "merged"}).err, HasSubstr("rockyard merge"));
+  EXPECT_THAT(RunTo(2, With(QuickRun("s1", 7), {"--shard", "2/2", "--resume"})).err,
+              HasSubstr("shard: is 1/2 in the stored run and 2/2 now"));
   for (const char* wrong : {"0/2", "3/2", "1", "a/b", "1/", "-1/2", "1/99999999999"}) {
     EXPECT_EQ(RunShard("bad", wrong).exit_code, 2) << wrong;
     EXPECT_FALSE(fs::exists(work() / "bad")) << wrong;
@@ -75,10 +65,10 @@ TEST_F(CliCampaign, StopsByPrecisionAndGoesOnWithTheSameRule) {
   const auto trials = std::find(words.begin(), words.end(), "--trials");
   ASSERT_NE(trials, words.end());
   words.erase(trials, trials + 2);
-  const CommandResult result =
-      Run(With(words, {"--until-half-width", "0.1", "--block", "10", "--max-trials", "200"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("precise enough after"));
+  EXPECT_THAT(
+      RunTo(0, With(words, {"--until-half-width", "0.1", "--block", "10", "--max-trials", "200"}))
+          .out,
+      HasSubstr("precise enough after"));
   const json stopping = Summary("a")["stopping"];
   EXPECT_EQ(stopping["end"], "precise");
   EXPECT_EQ(stopping["trials"], Summary("a")["accounting"]["planned"]);
@@ -89,12 +79,10 @@ TEST_F(CliCampaign, StopsByPrecisionAndGoesOnWithTheSameRule) {
   EXPECT_EQ(Summary("a")["declared_success"]["ci_method"], "clopper_pearson_stopped");
   EXPECT_EQ(Summary("a")["true_success"]["ci_method"], "clopper_pearson_stopped");
   const std::string hash = Summary("a")["trial_hash"];
-  EXPECT_EQ(Run(With(words, {"--resume"})).exit_code, 0);
+  RunTo(0, With(words, {"--resume"}));
   EXPECT_EQ(Summary("a")["trial_hash"], hash) << "the rule of the store still holds";
 
-  const CommandResult shard =
-      Run(With(words, {"--until-half-width", "0.1", "--shard", "1/2", "--out", "b"}));
-  EXPECT_EQ(shard.exit_code, 2);
+  RunTo(2, With(words, {"--until-half-width", "0.1", "--shard", "1/2", "--out", "b"}));
   EXPECT_EQ(Run(With(words, {"--block", "10"})).exit_code, 2) << "of what?";
 }
 
@@ -109,8 +97,7 @@ TEST_F(CliCampaign, HalfWidthsThatSayNothingAreRefused) {
     EXPECT_THAT(result.err, HasSubstr("--until-half-width")) << wrong;
     EXPECT_FALSE(fs::exists(work() / "a")) << wrong;
   }
-  const CommandResult widest = Run(With(words, {"--until-half-width", "0.49", "--block", "1"}));
-  EXPECT_EQ(widest.exit_code, 0) << widest.err;
+  RunTo(0, With(words, {"--until-half-width", "0.49", "--block", "1"}));
   EXPECT_GE(Summary("a")["accounting"]["completed"], 1);
 }
 
@@ -121,8 +108,7 @@ TEST_F(CliCampaign, RuleOnALongerRunIsTheRunOfTheRule) {
   const auto trials = std::find(words.begin(), words.end(), "--trials");
   words.erase(trials, trials + 2);
   const std::vector<std::string> rule = {"--until-half-width", "0.2", "--block", "10"};
-  const CommandResult result = Run(With(With(words, rule), {"--resume"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  RunTo(0, With(With(words, rule), {"--resume"}));
   std::vector<std::string> fresh = With(words, rule);
   *std::find(fresh.begin(), fresh.end(), "a") = "b";
   ASSERT_EQ(Run(fresh).exit_code, 0);
@@ -136,17 +122,16 @@ TEST_F(CliCampaign, RuleNeedsIndependentTrials) {
   std::vector<std::string> words = QuickRun("a", 7);
   const auto trials = std::find(words.begin(), words.end(), "--trials");
   words.erase(trials, trials + 2);
-  const CommandResult result =
-      Run(With(words, {"--until-half-width", "0.1", "--set", "course.trials_per_layout=5"}));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("share a layout"));
+  EXPECT_THAT(
+      RunTo(2, With(words, {"--until-half-width", "0.1", "--set", "course.trials_per_layout=5"}))
+          .err,
+      HasSubstr("share a layout"));
   EXPECT_FALSE(fs::exists(work() / "a"));
 }
 
 TEST_F(CliCampaign, DryRunWritesNothing) {
-  const CommandResult result = Run(With(QuickRun("a", 50), {"--dry-run"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("50 trials planned, 0 stored, 50 to run"));
+  EXPECT_THAT(RunTo(0, With(QuickRun("a", 50), {"--dry-run"})).out,
+              HasSubstr("50 trials planned, 0 stored, 50 to run"));
   EXPECT_FALSE(fs::exists(work() / "a"));
   Run(QuickRun("a", 3));
   EXPECT_EQ(Run(With(QuickRun("a", 50), {"--dry-run"})).exit_code, 2) << "as without --dry-run";
@@ -159,8 +144,7 @@ TEST_F(CliCampaign, EveryTrialIsAccountedFor) {
   EXPECT_THAT(result.out, HasSubstr("3 planned = 3 completed + 0 faulted + 0 pending"));
   const json accounting = Summary("a")["accounting"];
   EXPECT_EQ(accounting["infrastructure_faults"], 0);
-  const CommandResult cell = Run({"replay", "a", "--cell", "wrong", "--trial", "0"});
-  EXPECT_EQ(cell.exit_code, 2);
+  const CommandResult cell = RunTo(2, {"replay", "a", "--cell", "wrong", "--trial", "0"});
   EXPECT_THAT(cell.err, HasSubstr("is no cell of"));
 }
 

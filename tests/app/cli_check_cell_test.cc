@@ -35,8 +35,7 @@ TEST_F(CliCheckCell, OnlyThatCellIsCompared) {
   ASSERT_EQ(Run({"sweep", "two.json", "--out", "a"}).exit_code, 0);
   MakeBaseline("a");
   const CommandResult all = Check("a", {});
-  EXPECT_THAT(all.out, HasSubstr("k_per_m2=0.001"));
-  EXPECT_THAT(all.out, HasSubstr("k_per_m2=0.004"));
+  EXPECT_THAT(all.out, Says("k_per_m2=0.001", "k_per_m2=0.004"));
   for (const char* cell : {"k_per_m2=0.004", "1"}) {
     const CommandResult one = Check("a", {"--cell", cell});
     EXPECT_THAT(one.out, HasSubstr("k_per_m2=0.004"));
@@ -62,12 +61,11 @@ TEST_F(CliCheckCell, PairsThatAreTheSameAreCounted) {
   ASSERT_EQ(Run(Drives("short", 21)).exit_code, 0);
   MakeBaseline("long");
   const std::string same = Check("short", {}).out;
-  EXPECT_THAT(same, HasSubstr("21 pairs with the baseline's trials (seed 1)\n"));
-  EXPECT_THAT(same, HasSubstr("records: the same, as far as the baseline keeps them"));
+  EXPECT_THAT(same, Says("21 pairs with the baseline's trials (seed 1)\n",
+                         "records: the same, as far as the baseline keeps them"));
   ASSERT_EQ(Run(With(Drives("other", 21), {"--set", "rover.drive.speed_m_s=0.03"})).exit_code, 0);
   const std::string text = Check("other", {"--allow-scenario-change"}).out;
-  EXPECT_THAT(text, HasSubstr("21 pairs with the baseline's trials (seed 1)\n"));
-  EXPECT_THAT(text, HasSubstr("records: changed"));
+  EXPECT_THAT(text, Says("21 pairs with the baseline's trials (seed 1)\n", "records: changed"));
 }
 
 }  // namespace

@@ -111,9 +111,7 @@ TEST_F(CliCompletion, OtherShellsReadTheirs) {
 }
 
 TEST_F(CliCompletion, UnknownShell) {
-  const CommandResult result = Run({"completion", "tcsh"});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("bash"));
+  EXPECT_THAT(RunTo(2, {"completion", "tcsh"}).err, HasSubstr("bash"));
 }
 
 }  // namespace

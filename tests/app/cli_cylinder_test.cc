@@ -30,8 +30,7 @@ class CliCylinder : public CommandTest {
   // Exit code 2, these words, and nothing written.
   void ExpectRefused(const std::vector<std::string>& words,
                      const std::vector<std::string>& said) const {
-    const CommandResult result = Run(words);
-    EXPECT_EQ(result.exit_code, 2) << result.out;
+    const CommandResult result = RunTo(2, words);
     EXPECT_EQ(result.out, "");
     for (const std::string& word : said) EXPECT_THAT(result.err, HasSubstr(word));
     EXPECT_FALSE(fs::exists(work() / "seen"));
@@ -39,12 +38,10 @@ class CliCylinder : public CommandTest {
 };
 
 TEST_F(CliCylinder, AFoundOneIsToldWithItsUnits) {
-  const CommandResult result = Run(Words());
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, Words());
   EXPECT_EQ(result.err, "");
-  EXPECT_THAT(result.out, AllOf(HasSubstr("left   left.png: "), HasSubstr("right  right.png: "),
-                                HasSubstr("\nfound\n"), HasSubstr(" deg: azimuth of the cameras"),
-                                HasSubstr(" m by stereo, "), HasSubstr(" m by size\n")));
+  EXPECT_THAT(result.out, Says("left   left.png: ", "right  right.png: ", "\nfound\n",
+                               " deg: azimuth of the cameras", " m by stereo, ", " m by size\n"));
   EXPECT_THAT(result.out, Not(HasSubstr("regions.png")));
   EXPECT_FALSE(fs::exists(work() / "seen"));
 }
@@ -63,26 +60,22 @@ TEST_F(CliCylinder, JsonIsThatOfItsFile) {
 }
 
 TEST_F(CliCylinder, FilesAreToldWhereTheyAreAsked) {
-  const CommandResult result = Run(Words({"--out", "seen", "--published"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out,
-              AllOf(HasSubstr(" in seen/regions.png\n"), HasSubstr(" in seen/cylinder.json\n")));
+  EXPECT_THAT(RunTo(0, Words({"--out", "seen", "--published"})).out,
+              Says(" in seen/regions.png\n", " in seen/cylinder.json\n"));
 }
 
 TEST_F(CliCylinder, AMissIsInconclusiveAndSaysWhy) {
   const std::vector<std::string> swapped = {"cylinder",     "right.png", "left.png", "--cameras",
                                             "cameras.json", "--out",     "seen"};
-  const CommandResult result = Run(swapped);
-  EXPECT_EQ(result.exit_code, 4);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("\nnot found (swapped_eyes): "), Not(HasSubstr("deg"))));
+  EXPECT_THAT(RunTo(4, swapped).out,
+              AllOf(HasSubstr("\nnot found (swapped_eyes): "), Not(HasSubstr("deg"))));
   EXPECT_EQ(json::parse(ReadFile(work() / "seen/cylinder.json"))["miss"], "swapped_eyes");
 }
 
 TEST_F(CliCylinder, ParametersAreListedAndChangeWhatIsFound) {
-  const CommandResult list = Run({"cylinder", "--parameters"});
-  EXPECT_EQ(list.exit_code, 0);
-  EXPECT_THAT(list.out, AllOf(HasSubstr("robust.fit.least_margin"), HasSubstr("cylinder.axis")));
-  EXPECT_EQ(Run(Words({"--param", "robust.candidates.least_whole_px=100000"})).exit_code, 4);
+  EXPECT_THAT(RunTo(0, {"cylinder", "--parameters"}).out,
+              Says("robust.fit.least_margin", "cylinder.axis"));
+  RunTo(4, Words({"--param", "robust.candidates.least_whole_px=100000"}));
   ExpectRefused(Words({"--out", "seen", "--param", "robust.fit.least_margins=1"}),
                 {"robust.fit.least_margins", "least_margin"});
   ExpectRefused(Words({"--out", "seen", "--param", "robust.fit.noise_grey=-1"}),
@@ -106,9 +99,7 @@ TEST_F(CliCylinder, BrokenImagesAreRefusedBeforeAnythingIsWritten) {
 }
 
 TEST_F(CliCylinder, AFolderThatCannotBeMadeIsAnError) {
-  const CommandResult result = Run(Words({"--out", "left.png/seen"}));
-  EXPECT_EQ(result.exit_code, 2) << result.out;
-  EXPECT_THAT(result.err, HasSubstr("left.png/seen"));
+  EXPECT_THAT(RunTo(2, Words({"--out", "left.png/seen"})).err, HasSubstr("left.png/seen"));
 }
 
 }  // namespace

@@ -42,8 +42,7 @@ TEST_F(CliDryRun, CountsTheTrialsOfTheRuleTheBudgetAndTheShard) {
 
   const CommandResult rule =
       Plan("rule", {"--pilots", "2", "--until-half-width", "0.1", "--max-trials", "300"});
-  EXPECT_THAT(rule.out, HasSubstr("2 cells, at most 600 trials"));
-  EXPECT_THAT(rule.out, HasSubstr("pilot trials: at most "));
+  EXPECT_THAT(rule.out, Says("2 cells, at most 600 trials", "pilot trials: at most "));
   EXPECT_EQ(PlanIn("rule")["trials"], 600);
   EXPECT_EQ(PlanIn("rule")["at_most"], true);
   EXPECT_EQ(PlanIn("rule")["cells"][0]["trials"], 300);
@@ -122,12 +121,9 @@ TEST_F(CliDryRun, NoLogarithmicFitOverZero) {
 }
 
 TEST_F(CliDryRun, SweepsAndScenariosAreToldApart) {
-  const CommandResult sweep = Run({"sweep", Scenario("nominal")});
-  EXPECT_EQ(sweep.exit_code, 2);
+  const CommandResult sweep = RunTo(2, {"sweep", Scenario("nominal")});
   EXPECT_THAT(sweep.err, HasSubstr("use rockyard run"));
-  const CommandResult run = Run({"run", "small.json"});
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("use rockyard sweep"));
+  EXPECT_THAT(RunTo(2, {"run", "small.json"}).err, HasSubstr("use rockyard sweep"));
 }
 
 }  // namespace

@@ -6,16 +6,13 @@
 namespace rockyard::app {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-
 class CliErrors : public CommandTest {
  protected:
   void ExpectRefused(const std::vector<std::string>& words, const std::string& where) {
     const CommandResult result = Run(words);
     SCOPED_TRACE(testing::PrintToString(words));
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_THAT(result.err, AllOf(HasSubstr("error: "), HasSubstr(where), HasSubstr("  try: ")));
+    EXPECT_THAT(result.err, Says("error: ", where, "  try: "));
     EXPECT_EQ(result.out, "");
     EXPECT_TRUE(NothingWritten());
   }
@@ -58,8 +55,7 @@ TEST_F(CliErrors, EnumerationsNameTheOptionAndWhatItTakes) {
        "error: SHELL: \"tcsh\" is none of its values\n"
        "  try: did you mean \"bash\"? one of: bash, zsh, fish\n"}};
   for (const auto& [words, message] : refused) {
-    const CommandResult result = Run(words);
-    EXPECT_EQ(result.exit_code, 2);
+    const CommandResult result = RunTo(2, words);
     EXPECT_EQ(result.err, message);
   }
   ExpectRefused({"run", "nominal", "--threads", "0"}, "error: --threads: ");
@@ -86,12 +82,10 @@ TEST_F(CliErrors, ScenarioValues) {
 
 TEST_F(CliErrors, AllProblemsAtOnce) {
   const CommandResult result =
-      Run({"run", Scenario("nominal"), "--trials", "0", "--set", "referee.time_limit_s=-1", "--set",
-           "terrain.ground.sloap_deg=3"});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err,
-              AllOf(HasSubstr("error: trials:"), HasSubstr("error: referee.time_limit_s:"),
-                    HasSubstr("error: terrain.ground.sloap_deg:"), HasSubstr("slope_deg")));
+      RunTo(2, {"run", Scenario("nominal"), "--trials", "0", "--set", "referee.time_limit_s=-1",
+                "--set", "terrain.ground.sloap_deg=3"});
+  EXPECT_THAT(result.err, Says("error: trials:", "error: referee.time_limit_s:",
+                               "error: terrain.ground.sloap_deg:", "slope_deg"));
 }
 
 TEST_F(CliErrors, MalformedFiles) {
@@ -113,8 +107,7 @@ TEST_F(CliErrors, MalformedFiles) {
 }
 
 TEST_F(CliErrors, ControlCharactersDoNotReachTheTerminal) {
-  const CommandResult result = Run({"run", "evil\x1b[31m\nname.json"});
-  EXPECT_EQ(result.exit_code, 2);
+  const CommandResult result = RunTo(2, {"run", "evil\x1b[31m\nname.json"});
   EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
 }
 

@@ -13,7 +13,6 @@ namespace rockyard::app {
 namespace {
 
 using batch::ResultStore;
-using testing::HasSubstr;
 
 class CliFaultLong : public WatchedRunTest {
  protected:
@@ -26,15 +25,13 @@ TEST_F(CliFaultLong, StoreThatStaysLockedEndsTheRun) {
   {
     batch::SqliteDatabase other(batch::StorePath(work() / "a"), batch::Access::kChange);
     other.Execute("BEGIN IMMEDIATE");
-    const CommandResult result = Wait(process);
-    EXPECT_EQ(result.exit_code, 5) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("results.sqlite: is locked by another program"));
-    EXPECT_THAT(result.err, HasSubstr("could not be stored"));
-    EXPECT_THAT(result.err, HasSubstr("--resume"));
+    const CommandResult result = WaitTo(5, process);
+    EXPECT_THAT(result.err, Says("results.sqlite: is locked by another program",
+                                 "could not be stored", "--resume"));
   }
   const auto trials = static_cast<int>(Stored("a")) + 20;
   EXPECT_GE(trials, 30);
-  EXPECT_EQ(Run(Drives("b", trials)).exit_code, 0);
+  RunTo(0, Drives("b", trials));
   const std::vector<truth::Record> all = ResultStore::Read(work() / "b").Load();
   std::set<std::uint64_t> seen;
   for (const truth::Record& record : ResultStore::Read(work() / "a").Load()) {
@@ -75,8 +72,7 @@ TEST_F(CliFaultLong, RandomKillsAndTheSameHash) {
     stored = Stored("a");
   }
   EXPECT_GT(stored, 0U);
-  const CommandResult result = Run(Drives("a", kTrials, {"--resume"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  RunTo(0, Drives("a", kTrials, {"--resume"}));
   EXPECT_EQ(Hash("a"), expected);
 }
 

@@ -32,9 +32,7 @@ TEST_F(CliFault, SignalsReachTheWorker) {
     ASSERT_TRUE(WaitForTrials(out, 10));
     const pid_t worker = WorkerOf(process);
     kill(process, signal);
-    const CommandResult result = Wait(process);
-    EXPECT_EQ(result.exit_code, 130) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("--resume"));
+    EXPECT_THAT(WaitTo(130, process).err, HasSubstr("--resume"));
     EXPECT_FALSE(Alive(worker));
     EXPECT_GE(Stored(out), 10U);
   }
@@ -59,10 +57,8 @@ TEST_F(CliFault, ScenarioChangedBetweenRuns) {
   ASSERT_EQ(Run(Drives("a", 5)).exit_code, 0);
   const std::string before = Hash("a");
   const CommandResult result =
-      Run(Drives("a", 10, {"--resume", "--set", "terrain.rocks.k_per_m2=0.02"}));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("terrain.rocks.k_per_m2: is "));
-  EXPECT_THAT(result.err, HasSubstr("0.02 now"));
+      RunTo(2, Drives("a", 10, {"--resume", "--set", "terrain.rocks.k_per_m2=0.02"}));
+  EXPECT_THAT(result.err, Says("terrain.rocks.k_per_m2: is ", "0.02 now"));
   EXPECT_EQ(Hash("a"), before);
 }
 
@@ -74,8 +70,7 @@ TEST_F(CliFault, StoreLockedForAMomentIsWaitedFor) {
   const pid_t process = StartProgram(With({ROCKYARD_COMMAND}, Drives("a", 50, {"--resume"})));
   usleep(700000);
   other.Execute("ROLLBACK");
-  const CommandResult result = Wait(process);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  WaitTo(0, process);
   EXPECT_EQ(Hash("a"), PlainHash(50));
 }
 
@@ -84,10 +79,8 @@ TEST_F(CliFault, StoreCutOffIsRefusedAndKept) {
   const fs::path store = batch::StorePath(work() / "a");
   fs::resize_file(store, fs::file_size(store) / 2);
   const std::string half = ReadFile(store);
-  const CommandResult result = Run(Drives("a", 40, {"--resume"}));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("results.sqlite"));
-  EXPECT_THAT(result.err, HasSubstr("--force"));
+  const CommandResult result = RunTo(2, Drives("a", 40, {"--resume"}));
+  EXPECT_THAT(result.err, Says("results.sqlite", "--force"));
   EXPECT_EQ(ReadFile(store), half);
 }
 
@@ -110,14 +103,12 @@ TEST_F(CliFault, DiskFull) {
   setrlimit(RLIMIT_FSIZE, &small);
   const pid_t process = Start(Drives("a", 100000));
   setrlimit(RLIMIT_FSIZE, &former);
-  const CommandResult result = Wait(process);
-  EXPECT_EQ(result.exit_code, 5) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("results.sqlite: cannot be written"));
-  EXPECT_THAT(result.err, HasSubstr("could not be stored"));
+  const CommandResult result = WaitTo(5, process);
+  EXPECT_THAT(result.err, Says("results.sqlite: cannot be written", "could not be stored"));
   const std::size_t stored = Stored("a");
   EXPECT_GT(stored, 0U);
   const auto trials = static_cast<int>(stored) + 50;
-  EXPECT_EQ(Run(Drives("a", trials, {"--resume"})).exit_code, 0);
+  RunTo(0, Drives("a", trials, {"--resume"}));
   EXPECT_EQ(Hash("a"), PlainHash(trials));
 }
 
@@ -131,9 +122,7 @@ TEST_F(CliFault, NoRoomAtAll) {
   const pid_t process = Start(Drives("deep/er/a", 5));
   setrlimit(RLIMIT_FSIZE, &former);
   std::signal(SIGXFSZ, former_action);
-  const CommandResult result = Wait(process);
-  EXPECT_EQ(result.exit_code, 5) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("deep/er/a/results.sqlite: cannot be written"));
+  EXPECT_THAT(WaitTo(5, process).err, HasSubstr("deep/er/a/results.sqlite: cannot be written"));
   EXPECT_TRUE(NothingWritten());
 }
 
@@ -155,10 +144,8 @@ TEST_F(CliFault, AStoreWithoutAHeadHasNotBegun) {
   fs::create_directories(work() / "a");
   WriteFile(work() / "a" / "results.sqlite", "");
   EXPECT_EQ(Run(Drives("a", 5)).exit_code, 2) << "something is there";
-  const CommandResult dry = Run(Drives("a", 5, {"--resume", "--dry-run"}));
-  EXPECT_EQ(dry.exit_code, 0) << dry.err;
-  const CommandResult result = Run(Drives("a", 5, {"--resume"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  RunTo(0, Drives("a", 5, {"--resume", "--dry-run"}));
+  RunTo(0, Drives("a", 5, {"--resume"}));
   EXPECT_EQ(Hash("a"), PlainHash(5));
   EXPECT_TRUE(fs::exists(work() / "a" / "results.old-1.sqlite"));
 }

@@ -1,6 +1,5 @@
 // The scenarios and rovers that come with the program, by their names.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 
@@ -18,21 +17,18 @@ TEST_F(CliFind, AreTheFilesOfThatName) {
   const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json";
   const std::string fingerprint = Run({"validate", file}).out.substr(file.size());
   for (const char* name : {"nominal", "pathfinder/nominal", "nominal.json"}) {
-    const CommandResult result = Run({"validate", name});
-    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const CommandResult result = RunTo(0, {"validate", name});
     EXPECT_TRUE(result.out.ends_with(fingerprint)) << result.out;
   }
   EXPECT_THAT(Run({"run", "nominal", "--dry-run"}).out, StartsWith("nominal, seed 1: 300 trials"));
   EXPECT_THAT(Run({"trace", "nominal", "--trial", "0", "--set", "rover.fidelity=quasi_static"}).out,
               StartsWith("nominal, seed 1, trial 0"));
-  EXPECT_EQ(Run({"terrain", "vl2", "--out", "field.svg"}).exit_code, 0);
+  RunTo(0, {"terrain", "vl2", "--out", "field.svg"});
 }
 
 TEST_F(CliFind, AMistypedPathSuggestsTheName) {
   for (const char* word : {"nominl", "scenarios/pathfinder/nominl.json", "Nominal"}) {
-    const CommandResult result = Run({"run", word});
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_THAT(result.err, HasSubstr("did you mean \"nominal\"?")) << word;
+    EXPECT_THAT(RunTo(2, {"run", word}).err, HasSubstr("did you mean \"nominal\"?")) << word;
   }
 }
 
@@ -44,8 +40,7 @@ TEST_F(CliFind, ErrorsNameTheKindThatIsMeant) {
 }
 
 TEST_F(CliFind, ARoverByItsFileAlone) {
-  const CommandResult rover = Run({"rover", "athena_sdm"});
-  EXPECT_EQ(rover.exit_code, 0) << rover.err;
+  const CommandResult rover = RunTo(0, {"rover", "athena_sdm"});
   EXPECT_THAT(rover.out, StartsWith("rover of athena_sdm\n"));
   EXPECT_THAT(rover.out, HasSubstr("61.8 kg"));
   EXPECT_THAT(Run({"rover", "athena_sdm", "--set", "rover.mass.total_kg=70"}).out,

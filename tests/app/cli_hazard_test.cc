@@ -26,14 +26,10 @@ class CliHazard : public CommandTest {
             "--trials",
             std::to_string(trials)};
   }
-  json Summary(const std::string& folder) const {
-    return json::parse(ReadFile(work() / folder / "summary.json"));
-  }
 };
 
 TEST_F(CliHazard, WritesCellsAndNoSuccess) {
-  const CommandResult result = Run(Study("approach", "a", 96));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, Study("approach", "a", 96));
   for (const char* name : {"results.sqlite", "summary.json", "trials.csv", "cells.csv", "cells.svg",
                            "scenario.resolved.json"}) {
     EXPECT_TRUE(fs::exists(work() / "a" / name)) << name;
@@ -48,16 +44,15 @@ TEST_F(CliHazard, ThreadsAndResumeGiveTheSameHash) {
   Run(With(Study("detection", "one", 30), {"--threads", "1"}));
   Run(With(Study("detection", "two", 30), {"--threads", "2"}));
   Run(Study("detection", "parts", 11));
-  EXPECT_EQ(Run(With(Study("detection", "parts", 30), {"--resume"})).exit_code, 0);
+  RunTo(0, With(Study("detection", "parts", 30), {"--resume"}));
   EXPECT_EQ(Summary("two")["trial_hash"], Summary("one")["trial_hash"]);
   EXPECT_EQ(Summary("parts")["trial_hash"], Summary("one")["trial_hash"]);
 }
 
 TEST_F(CliHazard, ABadScenarioWritesNothing) {
-  const CommandResult result =
-      Run(With(Study("detection", "a", 3), {"--set", "hazard_detection.heights_m=[]"}));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("hazard_detection.heights_m"));
+  EXPECT_THAT(
+      RunTo(2, With(Study("detection", "a", 3), {"--set", "hazard_detection.heights_m=[]"})).err,
+      HasSubstr("hazard_detection.heights_m"));
   EXPECT_TRUE(NothingWritten());
 }
 
@@ -68,19 +63,16 @@ TEST_F(CliHazard, CheckJudgesByTolerance) {
       {"check", "runs", "--against",
        std::string(ROCKYARD_SOURCE_DIR) + "/results/reference/matthies1995_hazard_detection.json",
        "--csv", "check.csv"});
-  EXPECT_THAT(result.out, HasSubstr("a wrong point among 20"));
-  EXPECT_THAT(result.out, HasSubstr("tolerance 0.16 .. 0.2"));
+  EXPECT_THAT(result.out, Says("a wrong point among 20", "tolerance 0.16 .. 0.2"));
   EXPECT_THAT(ReadFile(work() / "check.csv"), HasSubstr("false_alarm.single"));
 }
 
 TEST_F(CliHazard, CompareShowsNoSuccess) {
   Run(Study("false_alarm", "a", 6));
   Run(Study("false_alarm", "b", 6));
-  const CommandResult result = Run({"compare", "a", "b"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, {"compare", "a", "b"});
   EXPECT_THAT(result.out, Not(HasSubstr("success")));
-  EXPECT_THAT(result.out, HasSubstr("alarm_single"));
-  EXPECT_THAT(result.out, HasSubstr("6 cells in both; none differs"));
+  EXPECT_THAT(result.out, Says("alarm_single", "6 cells in both; none differs"));
 }
 
 TEST_F(CliHazard, CompareMatchesCellsAndReportsADifference) {
@@ -110,14 +102,10 @@ TEST_F(CliHazard, CompareRefusesWhatHasNothingInCommon) {
   Run(With(Study("detection", "others", 3), {"--set", "hazard_detection.heights_m=[0.123]"}));
   Run(Study("approach", "approach", 3));
   Run(QuickRun("drive", 1));
-  const CommandResult cells = Run({"compare", "detection", "others"});
-  EXPECT_EQ(cells.exit_code, 2);
-  EXPECT_THAT(cells.err, HasSubstr("shares no cell"));
-  const CommandResult study = Run({"compare", "detection", "approach"});
-  EXPECT_EQ(study.exit_code, 2);
+  EXPECT_THAT(RunTo(2, {"compare", "detection", "others"}).err, HasSubstr("shares no cell"));
+  const CommandResult study = RunTo(2, {"compare", "detection", "approach"});
   EXPECT_THAT(study.err, HasSubstr("study approach of experiment hazard_detection"));
-  const CommandResult experiment = Run({"compare", "drive", "detection"});
-  EXPECT_EQ(experiment.exit_code, 2);
+  const CommandResult experiment = RunTo(2, {"compare", "drive", "detection"});
   EXPECT_THAT(experiment.err, HasSubstr("is one of experiment drive"));
 }
 

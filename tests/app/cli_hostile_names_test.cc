@@ -1,7 +1,6 @@
 // Names and folders that a terminal would obey, or that mean something else where they are pasted.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -63,7 +63,7 @@ TEST_F(CliMpiLong, CtrlCDuringTracesLeavesTheRestToResume) {
     return std::distance(begin(folder), end(folder));
   };
   EXPECT_LT(files(), 300);
-  EXPECT_EQ(Run(Drives("a", 300, With(traces, {"--resume"}))).exit_code, 0);
+  RunTo(0, Drives("a", 300, With(traces, {"--resume"})));
   EXPECT_EQ(files(), 300);
 }
 
@@ -74,8 +74,7 @@ TEST_F(CliMpiLong, OneRankMayLeave) {
   const std::vector<pid_t> ranks = ChildrenOf(process);
   ASSERT_EQ(ranks.size(), 3U);
   kill(ranks.back(), SIGTERM);
-  const CommandResult result = Wait(process);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  WaitTo(0, process);
   EXPECT_EQ(Hash("a"), PlainHash(400));
 }
 
@@ -87,9 +86,7 @@ TEST_F(CliMpiLong, AFrozenRankIsGivenUp) {
   const std::vector<pid_t> ranks = ChildrenOf(process);
   ASSERT_EQ(ranks.size(), 3U);
   kill(ranks.back(), SIGSTOP);
-  const CommandResult result = Wait(process);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("rank 2 has said nothing for 8 s"));
+  EXPECT_THAT(WaitTo(0, process).err, HasSubstr("rank 2 has said nothing for 8 s"));
   EXPECT_EQ(Hash("a"), PlainHash(400));
   EXPECT_TRUE(WaitForEnd(ranks.back()));
 }
@@ -102,8 +99,7 @@ TEST_F(CliMpiLong, AHangingTrialIsNotedAndStaysPending) {
                        "rover.fidelity=multibody", "--set", "referee.time_limit_s=5000", "--set",
                        "rover.drive.speed_m_s=0.01"}));
   EXPECT_EQ(result.exit_code, 5) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("--trial-cpu-limit"));
-  EXPECT_THAT(result.err, HasSubstr("is pending"));
+  EXPECT_THAT(result.err, Says("--trial-cpu-limit", "is pending"));
   const batch::ResultStore store = batch::ResultStore::Read(work() / "a");
   const std::vector<batch::InfrastructureFault> faults = store.InfrastructureFaults();
   ASSERT_FALSE(faults.empty());

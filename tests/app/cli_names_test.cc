@@ -12,7 +12,6 @@ namespace rockyard::app {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -34,25 +33,23 @@ TEST_F(CliNames, StandForFilesWhereAFileIsTaken) {
   WriteFile(work() / "scenarios/grid.json",
             R"({"name": "grid", "scenario": "a/one.json", "trials": 1, "seed": 1,
                 "axes": [{"path": "terrain.rocks.k_per_m2", "values": [0.001, 0.002]}]})");
-  EXPECT_THAT(Run({"validate", "one", "a/one", "one.json", "scenarios/a/one", "grid"}).out,
-              AllOf(HasSubstr("scenarios/a/one.json: valid"),
-                    HasSubstr("scenarios/grid.json: valid, a sweep of 2 cells")));
+  EXPECT_THAT(
+      Run({"validate", "one", "a/one", "one.json", "scenarios/a/one", "grid"}).out,
+      Says("scenarios/a/one.json: valid", "scenarios/grid.json: valid, a sweep of 2 cells"));
   EXPECT_THAT(Run({"rover", "one"}).out, HasSubstr("rover of one"));
-  EXPECT_EQ(Run({"terrain", "one", "--out", "field.svg"}).exit_code, 0);
-  EXPECT_EQ(Run({"parameters", "one"}).exit_code, 0);
-  EXPECT_EQ(Run({"sweep", "grid", "--dry-run", "--pilots", "0"}).exit_code, 0);
-  EXPECT_EQ(Run({"trace", "one", "--trial", "0", "--set", "referee.time_limit_s=1"}).exit_code, 0);
-  EXPECT_EQ(Run({"run", "one", "--trials", "1", "--set", "referee.time_limit_s=1"}).exit_code, 0);
+  RunTo(0, {"terrain", "one", "--out", "field.svg"});
+  RunTo(0, {"parameters", "one"});
+  RunTo(0, {"sweep", "grid", "--dry-run", "--pilots", "0"});
+  RunTo(0, {"trace", "one", "--trial", "0", "--set", "referee.time_limit_s=1"});
+  RunTo(0, {"run", "one", "--trials", "1", "--set", "referee.time_limit_s=1"});
 }
 
 TEST_F(CliNames, OfTwoFilesNameBoth) {
   Place("scenarios/a/same.json");
   Place("scenarios/b/same.json");
   Place("scenarios/b/a/same.json");
-  const CommandResult result = Run({"validate", "same"});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, AllOf(HasSubstr("error: same: is the name of 3 files"),
-                                HasSubstr("say which: a/same, b/a/same, b/same")));
+  EXPECT_THAT(RunTo(2, {"validate", "same"}).err,
+              Says("error: same: is the name of 3 files", "say which: a/same, b/a/same, b/same"));
   EXPECT_THAT(Run({"validate", "a/same"}).out, HasSubstr("scenarios/a/same.json: valid"))
       << "the path from the folder itself goes first";
 }
@@ -70,17 +67,15 @@ TEST_F(CliNames, KindsThatAreNotWantedDoNotCount) {
             R"({"name": "both", "scenario": "a/both.json", "trials": 1, "seed": 1,
                 "axes": [{"path": "terrain.rocks.k_per_m2", "values": [0.001]}]})");
   EXPECT_THAT(Run({"rover", "a/both"}).out, HasSubstr("rover of both"));
-  EXPECT_EQ(Run({"terrain", "a/both", "--out", "field.svg"}).exit_code, 0);
-  EXPECT_EQ(Run({"sweep", "both", "--dry-run", "--pilots", "0"}).exit_code, 0);
-  EXPECT_EQ(Run({"sweep", "a/both", "--dry-run", "--pilots", "0"}).exit_code, 2);
+  RunTo(0, {"terrain", "a/both", "--out", "field.svg"});
+  RunTo(0, {"sweep", "both", "--dry-run", "--pilots", "0"});
+  RunTo(2, {"sweep", "a/both", "--dry-run", "--pilots", "0"});
 }
 
 TEST_F(CliNames, MistypedOnesGetASuggestion) {
   Place("scenarios/a/first_try.json");
   for (const char* word : {"frist_try", "first_tri", "a/first_trx.json"}) {
-    const CommandResult result = Run({"run", word});
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_THAT(result.err, HasSubstr("did you mean \"first_try\"?")) << word;
+    EXPECT_THAT(RunTo(2, {"run", word}).err, HasSubstr("did you mean \"first_try\"?")) << word;
   }
   EXPECT_THAT(Run({"run", "scenarios/a/frist_try.json"}).err,
               HasSubstr("did you mean \"scenarios/a/first_try.json\"?"));
@@ -95,12 +90,12 @@ TEST_F(CliNames, FoldersAreTakenInOrder) {
   EXPECT_THAT(Run({"list"}).out, HasSubstr("/scenarios/pathfinder\n"));
   Place("scenarios/one.json");
   EXPECT_THAT(Run({"validate", "one"}).out, HasSubstr("scenarios/one.json: valid"));
-  EXPECT_EQ(Run({"validate", "nominal"}).exit_code, 2);
+  RunTo(2, {"validate", "nominal"});
   Place("mine/two.json");
   setenv("ROCKYARD_SCENARIOS", "mine", 1);
   EXPECT_THAT(Run({"list"}).out, HasSubstr("two.json"));
   EXPECT_THAT(Run({"validate", "two"}).out, HasSubstr("mine/two.json: valid"));
-  EXPECT_EQ(Run({"validate", "one"}).exit_code, 2);
+  RunTo(2, {"validate", "one"});
 }
 
 TEST_F(CliNames, InstalledProgramsFindTheShareFolder) {

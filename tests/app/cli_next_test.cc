@@ -21,8 +21,7 @@ std::string LastLine(const std::string& text) {
 }
 
 TEST_F(CliNext, IsTheLastLineOfARun) {
-  const CommandResult run = Run(QuickRun("a", 2));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const CommandResult run = RunTo(0, QuickRun("a", 2));
   EXPECT_THAT(LastLine(run.out), StartsWith("  next: rockyard "));
   EXPECT_THAT(LastLine(run.out), HasSubstr(" a"));
 }

@@ -14,7 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
-using testing::Not;
 
 class CliOptions : public CommandTest {
  protected:
@@ -22,8 +21,7 @@ class CliOptions : public CommandTest {
     const CommandResult result = Run(words);
     SCOPED_TRACE(testing::PrintToString(words));
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_THAT(result.err, HasSubstr(where));
-    EXPECT_THAT(result.err, HasSubstr("  try: "));
+    EXPECT_THAT(result.err, Says(where, "  try: "));
     EXPECT_EQ(result.out, "");
     EXPECT_TRUE(NothingWritten());
   }
@@ -89,15 +87,14 @@ TEST_F(CliOptions, ForceOverwritesNothing) {
   fs::create_directories(work() / "a");
   WriteFile(work() / "a" / "summary.json", "keep");
   WriteFile(work() / "a" / "letter.txt", "dear");
-  const CommandResult first = Run(With(QuickRun("a", 1), {"--force"}));
-  EXPECT_EQ(first.exit_code, 0) << first.err;
+  const CommandResult first = RunTo(0, With(QuickRun("a", 1), {"--force"}));
   EXPECT_EQ(ReadFile(work() / "a" / "summary.old-1.json"), "keep");
   EXPECT_EQ(ReadFile(work() / "a" / "letter.txt"), "dear");
   EXPECT_THAT(first.err, HasSubstr("summary.old-1.json"));
 
   const std::string trials = ReadFile(work() / "a" / "trials.csv");
   const std::string summary = ReadFile(work() / "a" / "summary.json");
-  EXPECT_EQ(Run(With(QuickRun("a", 2), {"--force"})).exit_code, 0);
+  RunTo(0, With(QuickRun("a", 2), {"--force"}));
   EXPECT_EQ(ReadFile(work() / "a" / "summary.old-2.json"), summary);
   EXPECT_EQ(ReadFile(work() / "a" / "trials.old-1.csv"), trials);
 }
@@ -133,7 +130,7 @@ TEST_F(CliOptions, ForceKnowsEveryFileOfEveryCampaign) {
 }
 
 TEST_F(CliOptions, NoLineIsLongerThanAHundredColumns) {
-  EXPECT_EQ(Run(QuickRun("a", 2)).exit_code, 0);
+  RunTo(0, QuickRun("a", 2));
   const std::vector<std::vector<std::string>> commands = {
       {"metrics"},
       {"plan", "claim", "--below", "1e-7", "--failures", "10000"},
@@ -144,8 +141,7 @@ TEST_F(CliOptions, NoLineIsLongerThanAHundredColumns) {
        "--dry-run", "--set", "referee.time_limit_s=1", "--out", "c"}};
   for (const std::vector<std::string>& words : commands) {
     SCOPED_TRACE(testing::PrintToString(words));
-    const CommandResult result = Run(words);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const CommandResult result = RunTo(0, words);
     std::istringstream lines(result.out + result.err);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
   }

@@ -9,7 +9,6 @@ namespace rockyard::app {
 namespace {
 
 using nlohmann::json;
-using testing::AllOf;
 using testing::HasSubstr;
 
 class CliRegression : public CommandTest {
@@ -26,8 +25,7 @@ class CliRegression : public CommandTest {
 };
 
 TEST_F(CliRegression, PlanAnswersInTextAndJson) {
-  const CommandResult claim = Run({"plan", "claim", "--below", "0.001", "--json"});
-  EXPECT_EQ(claim.exit_code, 0);
+  const CommandResult claim = RunTo(0, {"plan", "claim", "--below", "0.001", "--json"});
   EXPECT_EQ(json::parse(claim.out)["trials"], 2995);
   EXPECT_EQ(json::parse(claim.out)["rule_of_three"], 3000);
   // The rule is that of no failure; two of them ask for more than 3 over the rate.
@@ -45,9 +43,9 @@ TEST_F(CliRegression, PlanAnswersInTextAndJson) {
 }
 
 TEST_F(CliRegression, PlanRefusesWhatHasNoAnswer) {
-  EXPECT_EQ(Run({"plan"}).exit_code, 2);
-  EXPECT_EQ(Run({"plan", "claim", "--below", "2"}).exit_code, 2);
-  EXPECT_EQ(Run({"plan", "half-width", "--half-width", "0.5"}).exit_code, 2);
+  RunTo(2, {"plan"});
+  RunTo(2, {"plan", "claim", "--below", "2"});
+  RunTo(2, {"plan", "half-width", "--half-width", "0.5"});
   EXPECT_THAT(Run({"plan", "difference", "--from", "0.5", "--to", "0.5"}).err, HasSubstr("--to"));
   EXPECT_THAT(
       Run({"plan", "difference", "--from", "0.9", "--to", "0.8", "--discordant", "0.01"}).err,
@@ -55,20 +53,14 @@ TEST_F(CliRegression, PlanRefusesWhatHasNoAnswer) {
 }
 
 TEST_F(CliRegression, MetricsAreListed) {
-  const CommandResult result = Run({"metrics"});
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("path_ratio"), HasSubstr("min_clearance_m")));
+  EXPECT_THAT(RunTo(0, {"metrics"}).out, Says("path_ratio", "min_clearance_m"));
 }
 
 TEST_F(CliRegression, IdenticalRunsAreDoneHoweverFewAndLonger) {
   MakeBaseline(4);
-  const CommandResult same = Run(CheckOf("a"));
-  EXPECT_EQ(same.exit_code, 0) << same.out;
-  EXPECT_THAT(same.out, HasSubstr("identical: 4 trials, every bit"));
+  EXPECT_THAT(RunTo(0, CheckOf("a")).out, HasSubstr("identical: 4 trials, every bit"));
   ASSERT_EQ(Run(QuickRun("longer", 6)).exit_code, 0);
-  const CommandResult longer = Run(CheckOf("longer"));
-  EXPECT_EQ(longer.exit_code, 0) << longer.out;
-  EXPECT_THAT(longer.out, HasSubstr("the first 4 of 6 trials are used"));
+  EXPECT_THAT(RunTo(0, CheckOf("longer")).out, HasSubstr("the first 4 of 6 trials are used"));
 }
 
 TEST_F(CliRegression, AnotherHashOfTheSameBuildIsADifference) {
@@ -90,7 +82,7 @@ TEST_F(CliRegression, ChangedRecordsAreAFindingOfTheirOwn) {
   MakeBaseline(4);
   const auto told = [&] { return json::parse(Run(With(CheckOf("a"), {"--json"})).out); };
   EXPECT_EQ(told()["records"], "same");
-  EXPECT_EQ(Run(With(CheckOf("a"), {"--same-records"})).exit_code, 0);
+  RunTo(0, With(CheckOf("a"), {"--same-records"}));
 
   json baseline = Baseline();
   baseline["build"] = "another";
@@ -112,18 +104,16 @@ TEST_F(CliRegression, ChangedRecordsAreAFindingOfTheirOwn) {
                                         {"column": "stops", "trials": 1}]})"));
   const CommandResult result = Run(CheckOf("a"));
   EXPECT_EQ(result.exit_code, 4) << "four trials tell nothing of the distribution";
-  EXPECT_THAT(result.out,
-              AllOf(HasSubstr("records: changed"), HasSubstr("2 of 4 trials: scans 2, stops 1"),
-                    HasSubstr("distribution: inconclusive")));
-  EXPECT_EQ(Run(With(CheckOf("a"), {"--same-records"})).exit_code, 1);
+  EXPECT_THAT(result.out, Says("records: changed", "2 of 4 trials: scans 2, stops 1",
+                               "distribution: inconclusive"));
+  RunTo(1, With(CheckOf("a"), {"--same-records"}));
 }
 
 TEST_F(CliRegression, RecordsOfOtherSeedsAreNotComparable) {
   MakeBaseline(4);
   ASSERT_EQ(Run(With(QuickRun("other", 4), {"--seed", "77"})).exit_code, 0);
-  const CommandResult result = Run(With(CheckOf("other"), {"--same-records"}));
-  EXPECT_EQ(result.exit_code, 4);
-  EXPECT_THAT(result.out, HasSubstr("records: not comparable"));
+  EXPECT_THAT(RunTo(4, With(CheckOf("other"), {"--same-records"})).out,
+              HasSubstr("records: not comparable"));
 }
 
 TEST_F(CliRegression, UnknownMetricsAreNotPassedOver) {
@@ -132,17 +122,13 @@ TEST_F(CliRegression, UnknownMetricsAreNotPassedOver) {
   baseline["cells"][0]["margins"]["smoothness"] = 1.0;
   baseline["cells"][0]["metrics"]["smoothness"] = {1, 2, 3, 4};
   Write(baseline);
-  const CommandResult result = Run(CheckOf("a"));
-  EXPECT_EQ(result.exit_code, 4);
-  EXPECT_THAT(result.out, HasSubstr("unknown to this program: smoothness"));
+  EXPECT_THAT(RunTo(4, CheckOf("a")).out, HasSubstr("unknown to this program: smoothness"));
 }
 
 TEST_F(CliRegression, OtherScenariosAreRefused) {
   MakeBaseline(4);
   ASSERT_EQ(Run(With(QuickRun("c", 4), {"--set", "terrain.rocks.k_per_m2=0.01"})).exit_code, 0);
-  const CommandResult refused = Run(CheckOf("c"));
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("terrain.rocks.k_per_m2"));
+  EXPECT_THAT(RunTo(2, CheckOf("c")).err, HasSubstr("terrain.rocks.k_per_m2"));
   EXPECT_NE(Run(With(CheckOf("c"), {"--allow-scenario-change"})).exit_code, 2);
 }
 
@@ -155,35 +141,29 @@ TEST_F(CliRegression, YoungerSettingsAreAnotherScenarioUnlessAtTheirDefault) {
   json& referee = cell["resolved"]["referee"];
   referee.erase("time_limit_s");  // which the run has at 1 s, not at its default
   Write(baseline);
-  const CommandResult refused = Run(CheckOf("a"));
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("referee.time_limit_s"));
+  EXPECT_THAT(RunTo(2, CheckOf("a")).err, HasSubstr("referee.time_limit_s"));
   baseline = Baseline();
   json& resolved = baseline["cells"][0]["resolved"];
   resolved["referee"]["time_limit_s"] = 1.0;
   resolved["course"].erase("trials_per_layout");
   Write(baseline);
-  const CommandResult passed = Run(CheckOf("a"));
-  EXPECT_EQ(passed.exit_code, 0) << passed.err;
-  EXPECT_THAT(passed.out, HasSubstr("course.trials_per_layout"));
+  EXPECT_THAT(RunTo(0, CheckOf("a")).out, HasSubstr("course.trials_per_layout"));
 }
 
 TEST_F(CliRegression, SharedRocksAreRefused) {
   ASSERT_EQ(Run(With(QuickRun("s", 4), {"--set", "course.trials_per_layout=2"})).exit_code, 0);
-  const CommandResult made = Run({"baseline", "s", "--reason", "r", "--out", "b.json"});
-  EXPECT_EQ(made.exit_code, 2);
-  EXPECT_THAT(made.err, HasSubstr("not independent"));
+  EXPECT_THAT(RunTo(2, {"baseline", "s", "--reason", "r", "--out", "b.json"}).err,
+              HasSubstr("not independent"));
   MakeBaseline(4);
-  const CommandResult checked = Run(With(CheckOf("s"), {"--allow-scenario-change"}));
-  EXPECT_EQ(checked.exit_code, 2);
-  EXPECT_THAT(checked.err, HasSubstr("not independent"));
+  EXPECT_THAT(RunTo(2, With(CheckOf("s"), {"--allow-scenario-change"})).err,
+              HasSubstr("not independent"));
 }
 
 TEST_F(CliRegression, BaselinesNeedAReasonAndARun) {
   ASSERT_EQ(Run(QuickRun("a", 2)).exit_code, 0);
-  EXPECT_EQ(Run({"baseline", "a"}).exit_code, 2);
+  RunTo(2, {"baseline", "a"});
   EXPECT_THAT(Run({"baseline", "a", "--reason", " "}).err, HasSubstr("--reason"));
-  EXPECT_EQ(Run({"baseline", "nowhere", "--reason", "r", "--out", "b.json"}).exit_code, 2);
+  RunTo(2, {"baseline", "nowhere", "--reason", "r", "--out", "b.json"});
   EXPECT_FALSE(std::filesystem::exists(work() / "b.json"));
 }
 
@@ -195,10 +175,9 @@ TEST_F(CliRegression, AChangedBuildIsCaught) {
            "--trials", "60", "--set", "sensors.light_stripe.missed_probability=0.05"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const CommandResult result =
-      Run({"check", "changed", "--against", root + "/results/baselines/regression.json",
-           "--allow-scenario-change"});
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("missed_probability"), HasSubstr("time_to_goal_s rose")));
+      RunTo(1, {"check", "changed", "--against", root + "/results/baselines/regression.json",
+                "--allow-scenario-change"});
+  EXPECT_THAT(result.out, Says("missed_probability", "time_to_goal_s rose"));
 }
 
 }  // namespace

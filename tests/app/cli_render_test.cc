@@ -28,8 +28,8 @@ class CliRender : public CommandTest {
 TEST_F(CliRender, WhatItWritesIsMatchedAndHeldAgainstTheTruth) {
   const CommandResult rendered = Run(Render("pair", 1));
   ASSERT_EQ(rendered.exit_code, 0) << rendered.err;
-  EXPECT_THAT(rendered.out, HasSubstr("256 x 256 pixels each, exposed for "));
-  EXPECT_THAT(rendered.out, HasSubstr("rover at x 0.00 m, y 0.00 m, heading 0.0 deg"));
+  EXPECT_THAT(rendered.out, Says("256 x 256 pixels each, exposed for ",
+                                 "rover at x 0.00 m, y 0.00 m, heading 0.0 deg"));
   for (const char* name :
        {"left.png", "right.png", "cameras.json", "disparity.pfm", "disparity.png"}) {
     EXPECT_TRUE(fs::exists(work() / "pair" / name)) << name;
@@ -70,18 +70,16 @@ TEST_F(CliRender, PlaceDirectionTrialAndLightChangeTheImages) {
 }
 
 TEST_F(CliRender, MistakesAreExplained) {
-  const CommandResult no_folder =
-      Run({"render", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/abundance.json"});
-  EXPECT_EQ(no_folder.exit_code, 2);
-  EXPECT_THAT(no_folder.err, HasSubstr("--out: is missing"));
+  EXPECT_THAT(
+      RunTo(2, {"render", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/abundance.json"})
+          .err,
+      HasSubstr("--out: is missing"));
   std::vector<std::string> command = Render("pair");
   command.insert(command.end(), {"--set", "sensors.look.soil_graininess=2"});
-  const CommandResult too_much = Run(command);
-  EXPECT_EQ(too_much.exit_code, 2);
-  EXPECT_THAT(too_much.err, HasSubstr("sensors.look.soil_graininess"));
+  EXPECT_THAT(RunTo(2, command).err, HasSubstr("sensors.look.soil_graininess"));
   EXPECT_FALSE(fs::exists(work() / "pair"));
   WriteFile(work() / "file", "x");
-  EXPECT_EQ(Run(Render("file")).exit_code, 2);
+  RunTo(2, Render("file"));
 }
 
 }  // namespace

@@ -27,17 +27,13 @@ class CliReplay : public CommandTest {
 };
 
 TEST_F(CliReplay, ListsTheScansOfATrial) {
-  const CommandResult result = Run(Trial({"--list"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("scan     0   x   0.000 m"));
-  EXPECT_THAT(result.out, HasSubstr("2 scans; --scan N draws one of them"));
+  const CommandResult result = RunTo(0, Trial({"--list"}));
+  EXPECT_THAT(result.out, Says("scan     0   x   0.000 m", "2 scans; --scan N draws one of them"));
   EXPECT_TRUE(NothingWritten());
 }
 
 TEST_F(CliReplay, DrawsOneScan) {
-  const CommandResult result = Run(Trial({"--scan", "1", "--out", "scan"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("elevation [mm]"));
+  EXPECT_THAT(RunTo(0, Trial({"--scan", "1", "--out", "scan"})).out, HasSubstr("elevation [mm]"));
   // Two lasers at a time: three groups, of which the last holds the centre stripe alone.
   for (const char* stem :
        {"left-group0", "left-group1", "left-group2", "right-group0", "right-group1"}) {
@@ -58,9 +54,8 @@ TEST_F(CliReplay, AStoredTrialComesOutTheSame) {
       Run(With(QuickRun("run", 2), {"--set", "referee.time_limit_s=30", "--quiet"})).exit_code, 0);
   for (const std::vector<std::string>& how :
        {std::vector<std::string>{}, std::vector<std::string>{"--list"}}) {
-    const CommandResult result = Run(With({"replay", "run", "--trial", "1"}, how));
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_THAT(result.out, HasSubstr("same as the stored record, bit for bit"));
+    EXPECT_THAT(RunTo(0, With({"replay", "run", "--trial", "1"}, how)).out,
+                HasSubstr("same as the stored record, bit for bit"));
   }
 }
 
@@ -70,25 +65,22 @@ TEST_F(CliReplay, ATrialThatComesOutOtherwiseIsSaidOnThePageToo) {
       Run(With(QuickRun("run", 2), {"--set", "referee.time_limit_s=30", "--quiet"})).exit_code, 0);
   batch::MakeOlder(work() / "run" / "results.sqlite",
                    "UPDATE trials SET outcome = 'jammed' WHERE trial = 1");
-  const CommandResult result =
-      Run({"replay", "run", "--trial", "1", "--out", "page.html", "--data", "page.json"});
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("this trial is not the stored one"));
+  EXPECT_THAT(
+      RunTo(1, {"replay", "run", "--trial", "1", "--out", "page.html", "--data", "page.json"}).err,
+      HasSubstr("this trial is not the stored one"));
   EXPECT_THAT(ReadFile(work() / "page.json"), HasSubstr("\"repeats_stored\":false"));
 }
 
 TEST_F(CliReplay, WritesPagePlanAndData) {
-  const CommandResult result = Run(Trial({"--out", "page.html", "--data", "data.json"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("3-D replay in page.html"));
+  EXPECT_THAT(RunTo(0, Trial({"--out", "page.html", "--data", "data.json"})).out,
+              HasSubstr("3-D replay in page.html"));
   EXPECT_THAT(ReadFile(work() / "page.html"), HasSubstr("<title>nominal, seed 1, trial 1"));
   EXPECT_THAT(ReadFile(work() / "page.svg"), HasSubstr("<title>goal</title>"));
   EXPECT_THAT(ReadFile(work() / "data.json"), StartsWith("{\"version\":1,"));
 }
 
 TEST_F(CliReplay, ChoosesNamesByItself) {
-  const CommandResult result = Run(Trial({}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  RunTo(0, Trial({}));
   EXPECT_TRUE(fs::exists(work() / "results/runs/nominal-seed1-trial1.svg"));
   EXPECT_TRUE(fs::exists(work() / "results/runs/nominal-seed1-trial1.html"));
 }
@@ -97,9 +89,9 @@ TEST_F(CliReplay, TwoTrialsStandOnOnePage) {
   ASSERT_EQ(Run(With(QuickRun("one", 3), {"--set", "referee.time_limit_s=30"})).exit_code, 0);
   ASSERT_EQ(Run(With(QuickRun("two", 3), {"--set", "referee.time_limit_s=20"})).exit_code, 0);
   const auto data = [&](const std::vector<std::string>& with) {
-    const CommandResult result = Run(
+    const CommandResult result = RunTo(
+        0,
         With({"replay", "one", "--trial", "1", "--out", "both.html", "--data", "both.json"}, with));
-    EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("same as the stored record, bit for bit"));
     return nlohmann::json::parse(ReadFile(work() / "both.json"));
   };
@@ -119,10 +111,9 @@ TEST_F(CliReplay, TwoTrialsStandOnOnePage) {
 // What is not the first trial is checked as well as that.
 TEST_F(CliReplay, ASecondTrialThatIsNotThereWritesNothing) {
   ASSERT_EQ(Run(With(QuickRun("one", 2), {"--set", "referee.time_limit_s=30"})).exit_code, 0);
-  EXPECT_EQ(Run({"replay", "one", "--trial", "1", "--with-trial", "7"}).exit_code, 2);
-  EXPECT_EQ(Run({"replay", "one", "--trial", "1", "--with", "three"}).exit_code, 2);
-  const CommandResult list = Run({"replay", "one", "--trial", "1", "--with", "one", "--list"});
-  EXPECT_EQ(list.exit_code, 2);
+  RunTo(2, {"replay", "one", "--trial", "1", "--with-trial", "7"});
+  RunTo(2, {"replay", "one", "--trial", "1", "--with", "three"});
+  RunTo(2, {"replay", "one", "--trial", "1", "--with", "one", "--list"});
   EXPECT_FALSE(fs::exists(work() / "results"));
 }
 
@@ -140,30 +131,26 @@ TEST_F(CliReplay, FilesThatCannotBeAreSaidBeforeTheDrive) {
 }
 
 TEST_F(CliReplay, AStudyOfASensorHasNoCourse) {
-  const CommandResult result = Run(
-      {"replay", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/false_alarm.json",
-       "--trial", "0"});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("is no drive"));
-  EXPECT_THAT(result.err, HasSubstr("replay --list"));
+  const CommandResult result =
+      RunTo(2, {"replay",
+                std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/false_alarm.json",
+                "--trial", "0"});
+  EXPECT_THAT(result.err, Says("is no drive", "replay --list"));
   EXPECT_TRUE(NothingWritten());
 }
 
 TEST_F(CliReplay, AScanThatWasNotTakenIsSaid) {
-  const CommandResult result = Run(Trial({"--scan", "99", "--out", "scan"}));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("scan 99 does not occur in this trial"));
-  EXPECT_THAT(result.err, HasSubstr("the trial has 2 scans"));
+  const CommandResult result = RunTo(2, Trial({"--scan", "99", "--out", "scan"}));
+  EXPECT_THAT(result.err, Says("scan 99 does not occur in this trial", "the trial has 2 scans"));
   EXPECT_TRUE(NothingWritten());
 }
 
 TEST_F(CliReplay, PicturesOfTwoScansAreNotMixed) {
   fs::create_directories(work() / "scan");
   WriteFile(work() / "scan" / "array.svg", "");
-  const CommandResult result = Run(Trial({"--scan", "1", "--out", "scan"}));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("scan exists and is no empty folder"));
-  EXPECT_EQ(Run(Trial({"--scan", "-1", "--out", "other"})).exit_code, 2);
+  EXPECT_THAT(RunTo(2, Trial({"--scan", "1", "--out", "scan"})).err,
+              HasSubstr("scan exists and is no empty folder"));
+  RunTo(2, Trial({"--scan", "-1", "--out", "other"}));
 }
 
 // A study takes the sensor of each cell from its factors: the lasers of the first are the weakest.
@@ -183,9 +170,7 @@ TEST_F(CliReplay, ScansOfAStudyAreDrawnWithTheSensorOfTheirCell) {
 
 TEST_F(CliReplay, AFolderThatCannotBeMadeIsSaid) {
   WriteFile(work() / "file", "");
-  const CommandResult result = Run(Trial({"--scan", "0", "--out", "file/scan"}));
-  EXPECT_EQ(result.exit_code, 5) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("--out"));
+  EXPECT_THAT(RunTo(5, Trial({"--scan", "0", "--out", "file/scan"})).err, HasSubstr("--out"));
 }
 
 class CliReplayStep : public CommandTest {
@@ -200,26 +185,21 @@ class CliReplayStep : public CommandTest {
 };
 
 TEST_F(CliReplayStep, ListsTheSteps) {
-  const CommandResult result = Run(Trial({"--list"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("step     0   x   0.000 m"));
-  EXPECT_THAT(result.out, HasSubstr("(vote "));
-  EXPECT_THAT(result.out, HasSubstr("steps; --step N draws one of them"));
+  const CommandResult result = RunTo(0, Trial({"--list"}));
+  EXPECT_THAT(result.out,
+              Says("step     0   x   0.000 m", "(vote ", "steps; --step N draws one of them"));
   EXPECT_THAT(result.out, testing::Not(HasSubstr("scans")));
   EXPECT_TRUE(NothingWritten());
 }
 
 TEST_F(CliReplayStep, DrawsOneStep) {
-  const CommandResult result = Run(Trial({"--step", "2", "--out", "step"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  RunTo(0, Trial({"--step", "2", "--out", "step"}));
   const std::string svg = ReadFile(work() / "step" / "step.svg");
   EXPECT_THAT(svg, HasSubstr("trial 0, step 2: forward"));
   // Both paths, the outline of the rover, cells of the grid in the view ahead; of some hundred
   // rocks.
-  EXPECT_THAT(svg, HasSubstr("stroke=\"#b0005a\""));
-  EXPECT_THAT(svg, HasSubstr("<title>goal</title>"));
-  EXPECT_THAT(svg, HasSubstr("left front camera"));
-  EXPECT_THAT(svg, HasSubstr("fill-opacity=\"0.55\""));
+  EXPECT_THAT(svg, Says("stroke=\"#b0005a\"", "<title>goal</title>", "left front camera",
+                        "fill-opacity=\"0.55\""));
   EXPECT_LT(svg.size(), 400000u);
   const std::string votes = ReadFile(work() / "step" / "votes.csv");
   EXPECT_EQ(std::count(votes.begin(), votes.end(), '\n'), 1 + 23 + 23 + 2);
@@ -231,11 +211,10 @@ TEST_F(CliReplayStep, DrawsOneStep) {
 }
 
 TEST_F(CliReplayStep, AStepThatDoesNotOccur) {
-  const CommandResult result = Run(Trial({"--step", "99", "--out", "step"}));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("step 99 does not occur in this trial"));
+  EXPECT_THAT(RunTo(2, Trial({"--step", "99", "--out", "step"})).err,
+              HasSubstr("step 99 does not occur in this trial"));
   EXPECT_TRUE(NothingWritten());
-  EXPECT_EQ(Run(Trial({"--step", "1", "--scan", "1"})).exit_code, 2);
+  RunTo(2, Trial({"--step", "1", "--scan", "1"}));
 }
 
 }  // namespace

@@ -63,9 +63,7 @@ TEST_F(CliReportErrors, WhatIsNoWholeRunIsRefused) {
 TEST_F(CliReportErrors, FilesThatCannotBeMeantAreRefusedBeforeTheWork) {
   ASSERT_EQ(Drive("a", 2).exit_code, 0);
   const auto refused = [&](const std::vector<std::string>& words, const char* why) {
-    const CommandResult result = Run(With({"report", "a"}, words));
-    EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(why));
+    EXPECT_THAT(RunTo(2, With({"report", "a"}, words)).err, HasSubstr(why));
   };
   refused({"--data", "a/summary.json"}, "is a file of the run itself");
   refused({"--data", "no/where/data.json"}, "--data");

@@ -29,9 +29,7 @@ TEST_F(CliReportPages, ThePageHoldsWhatDataSays) {
   ASSERT_EQ(Drive("a", 3).exit_code, 0);
   const CommandResult result = Report({"a", "--title", "</title><img src=x onerror=alert(1)>"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("a/report.html"));
-  EXPECT_THAT(result.out, HasSubstr("1 run, 3 trials"));
-  EXPECT_THAT(result.out, HasSubstr("next: "));
+  EXPECT_THAT(result.out, Says("a/report.html", "1 run, 3 trials", "next: "));
   EXPECT_THAT(ReadFile(work() / "a/report.html"), Not(HasSubstr("<img src=x")));
   EXPECT_EQ(Data()["title"], "</title><img src=x onerror=alert(1)>");
   const pid_t python =
@@ -108,9 +106,7 @@ TEST_F(CliReportPages, PagesOfEarlierReportsAreTold) {
 TEST_F(CliReportPages, OutThatCannotBeMeantIsRefused) {
   ASSERT_EQ(Drive("a", 2).exit_code, 0);
   const auto refused = [&](const std::vector<std::string>& words, const char* why) {
-    const CommandResult result = Run(With({"report", "a"}, words));
-    EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(why));
+    EXPECT_THAT(RunTo(2, With({"report", "a"}, words)).err, HasSubstr(why));
   };
   refused({"--out", "a/results.sqlite"}, "does not end in .html");
   refused({"--out", "no/where/page.html"}, "--out");

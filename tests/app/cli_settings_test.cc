@@ -53,8 +53,8 @@ TEST_F(CliSettings, OfARunAreToldAndRecorded) {
 TEST_F(CliSettings, OfAnotherCaseStandBesideItsVerdicts) {
   ASSERT_EQ(Run(With(QuickRun("a", 2), {"--set", kRocks})).exit_code, 0);
   const CommandResult table = Check("a");
-  EXPECT_THAT(table.out, HasSubstr("NOT the published case"));
-  EXPECT_THAT(table.out, HasSubstr("terrain.rocks.k_per_m2 is 0.002, 0.00415 in"));
+  EXPECT_THAT(table.out,
+              Says("NOT the published case", "terrain.rocks.k_per_m2 is 0.002, 0.00415 in"));
   const json changed = Changed("a");
   ASSERT_EQ(changed.size(), 1U);
   EXPECT_EQ(changed[0]["scenario"], "nominal");

@@ -11,7 +11,6 @@
 namespace rockyard::app {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -73,8 +72,7 @@ TEST_F(CliStore, WithAChangedValueIsRefusedByEveryCommand) {
     EXPECT_EQ(result.exit_code, 2) << command.front();
     EXPECT_THAT(result.out, IsEmpty()) << command.front();
     EXPECT_THAT(result.err,
-                AllOf(HasSubstr("run/results.sqlite"), HasSubstr("table trials, cell 0, trial 1"),
-                      HasSubstr("row_checksum")))
+                Says("run/results.sqlite", "table trials, cell 0, trial 1", "row_checksum"))
         << command.front();
   }
 }

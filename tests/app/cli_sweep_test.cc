@@ -29,15 +29,10 @@ class CliSweep : public CommandTest {
   static std::vector<std::string> SweepTo(const std::string& out) {
     return {"sweep", "small.json", "--out", out};
   }
-  json Summary(const std::string& folder) const {
-    return json::parse(ReadFile(work() / folder / "summary.json"));
-  }
-  std::string Hash(const std::string& folder) const { return Summary(folder)["trial_hash"]; }
 };
 
 TEST_F(CliSweep, WritesTheWholeFolder) {
-  const CommandResult result = Run(SweepTo("a"));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, SweepTo("a"));
   for (const char* name : {"results.sqlite", "summary.json", "sweep.json", "cells.csv",
                            "curves.csv", "fit.csv", "fits.csv", "differences.csv", "success.svg"}) {
     EXPECT_TRUE(fs::exists(work() / "a" / name)) << name;
@@ -49,8 +44,8 @@ TEST_F(CliSweep, WritesTheWholeFolder) {
   EXPECT_EQ(summary["cells"][1]["levels"]["k_per_m2"], 0.001);
   EXPECT_EQ(summary["cells"][1]["levels"]["speed"], "../fast");
   EXPECT_EQ(summary["cells"][3]["outcomes"]["time_limit"], 3);
-  EXPECT_THAT(result.out, HasSubstr("12 of 12 trials"));
-  EXPECT_THAT(result.out, HasSubstr("no fit: nothing but successes, or nothing but failures"));
+  EXPECT_THAT(result.out,
+              Says("12 of 12 trials", "no fit: nothing but successes, or nothing but failures"));
   EXPECT_THAT(result.err, HasSubstr("12/12 done"));
 }
 
@@ -58,8 +53,7 @@ TEST_F(CliSweep, MergedShardsAreTheSweepOfOneMachine) {
   ASSERT_EQ(Run(SweepTo("whole")).exit_code, 0);
   for (const char* part : {"1", "2"}) {
     const std::string out = std::string("s") + part;
-    const CommandResult shard = Run(With(SweepTo(out), {"--shard", std::string(part) + "/2"}));
-    EXPECT_EQ(shard.exit_code, 0) << shard.err;
+    const CommandResult shard = RunTo(0, With(SweepTo(out), {"--shard", std::string(part) + "/2"}));
     EXPECT_THAT(shard.out, HasSubstr(std::string("shard ") + part + " of 2"));
   }
   // Trials 0, 2 of each of four cells here, trial 1 there.
@@ -67,19 +61,16 @@ TEST_F(CliSweep, MergedShardsAreTheSweepOfOneMachine) {
   EXPECT_EQ(Summary("s2")["accounting"]["planned"], 4);
   EXPECT_EQ(Summary("s2")["cells"][3]["accounting"]["completed"], 1);
   EXPECT_FALSE(Summary("s2")["cells"][3].contains("declared_success")) << "no rates from a shard";
-  const CommandResult merged = Run({"merge", "s2", "s1", "--out", "merged"});
-  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  const CommandResult merged = RunTo(0, {"merge", "s2", "s1", "--out", "merged"});
   EXPECT_EQ(Hash("merged"), Hash("whole"));
   EXPECT_EQ(ReadFile(work() / "merged" / "cells.csv"), ReadFile(work() / "whole" / "cells.csv"));
   EXPECT_EQ(Summary("merged")["accounting"], Summary("whole")["accounting"]);
 }
 
 TEST_F(CliSweep, SaysWhereEachCellStoppedAndWhy) {
-  const CommandResult result =
-      Run(With(SweepTo("a"), {"--until-half-width", "0.15", "--block", "5", "--max-trials", "60"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("stopping rule: half-width 15.00 %"));
-  EXPECT_THAT(result.out, HasSubstr("precise enough after"));
+  const CommandResult result = RunTo(
+      0, With(SweepTo("a"), {"--until-half-width", "0.15", "--block", "5", "--max-trials", "60"}));
+  EXPECT_THAT(result.out, Says("stopping rule: half-width 15.00 %", "precise enough after"));
   const json summary = Summary("a");
   std::int64_t planned = 0;
   for (const json& cell : summary["cells"]) {
@@ -95,40 +86,33 @@ TEST_F(CliSweep, SaysWhereEachCellStoppedAndWhy) {
 }
 
 TEST_F(CliSweep, ThreadsResumeAndGrowthGiveTheSameHash) {
-  EXPECT_EQ(Run(With(SweepTo("one"), {"--threads", "1"})).exit_code, 0);
-  EXPECT_EQ(Run(With(SweepTo("two"), {"--threads", "2", "--no-supervisor"})).exit_code, 0);
-  EXPECT_EQ(Run(With(SweepTo("grown"), {"--trials", "2"})).exit_code, 0);
+  RunTo(0, With(SweepTo("one"), {"--threads", "1"}));
+  RunTo(0, With(SweepTo("two"), {"--threads", "2", "--no-supervisor"}));
+  RunTo(0, With(SweepTo("grown"), {"--trials", "2"}));
   EXPECT_NE(Hash("grown"), Hash("one"));
-  EXPECT_EQ(Run(With(SweepTo("grown"), {"--trials", "3", "--resume"})).exit_code, 0);
+  RunTo(0, With(SweepTo("grown"), {"--trials", "3", "--resume"}));
   EXPECT_EQ(Hash("two"), Hash("one"));
   EXPECT_EQ(Hash("grown"), Hash("one"));
-  EXPECT_EQ(Run(With(SweepTo("other"), {"--seed", "5"})).exit_code, 0);
+  RunTo(0, With(SweepTo("other"), {"--seed", "5"}));
   EXPECT_NE(Hash("other"), Hash("one")) << "the comparison could not fail";
 }
 
 TEST_F(CliSweep, ResumeRefusesAnotherDesign) {
-  EXPECT_EQ(Run(SweepTo("a")).exit_code, 0);
-  const CommandResult again = Run(SweepTo("a"));
-  EXPECT_EQ(again.exit_code, 2);
-  EXPECT_THAT(again.err, HasSubstr("--resume"));
-  const CommandResult other =
-      Run(With(SweepTo("a"), {"--resume", "--set", "course.goal_radius_m=0.9"}));
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.err, HasSubstr("course.goal_radius_m"));
+  RunTo(0, SweepTo("a"));
+  EXPECT_THAT(RunTo(2, SweepTo("a")).err, HasSubstr("--resume"));
+  EXPECT_THAT(RunTo(2, With(SweepTo("a"), {"--resume", "--set", "course.goal_radius_m=0.9"})).err,
+              HasSubstr("course.goal_radius_m"));
 }
 
 TEST_F(CliSweep, OverridesReachEveryCell) {
-  EXPECT_EQ(Run(With(SweepTo("a"), {"--dry-run", "--pilots", "0", "--set", "course.goal_x_m=5"}))
-                .exit_code,
-            0);
+  RunTo(0, With(SweepTo("a"), {"--dry-run", "--pilots", "0", "--set", "course.goal_x_m=5"}));
   for (const auto& entry : fs::directory_iterator(work() / "a" / "cells")) {
     EXPECT_EQ(json::parse(ReadFile(entry.path()))["course"]["goal_x_m"], 5.0);
   }
 }
 
 TEST_F(CliSweep, ADryRunWritesThePlanAndRunsNothing) {
-  const CommandResult result = Run(With(SweepTo("plan"), {"--dry-run", "--pilots", "2"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, With(SweepTo("plan"), {"--dry-run", "--pilots", "2"}));
   EXPECT_FALSE(fs::exists(work() / "plan" / "results.sqlite"));
   const json plan = json::parse(ReadFile(work() / "plan" / "plan.json"));
   EXPECT_EQ(plan["trials"], 12);
@@ -150,13 +134,12 @@ TEST_F(CliSweep, ADryRunWritesThePlanAndRunsNothing) {
 }
 
 TEST_F(CliSweep, APlanReplacesAPlanAndNothingElse) {
-  EXPECT_EQ(Run(With(SweepTo("p"), {"--dry-run", "--pilots", "0"})).exit_code, 0);
-  EXPECT_EQ(Run(With(SweepTo("p"), {"--dry-run", "--pilots", "0"})).exit_code, 0);
+  RunTo(0, With(SweepTo("p"), {"--dry-run", "--pilots", "0"}));
+  RunTo(0, With(SweepTo("p"), {"--dry-run", "--pilots", "0"}));
   fs::create_directories(work() / "mine");
   WriteFile(work() / "mine" / "letter.txt", "dear");
-  const CommandResult refused = Run(With(SweepTo("mine"), {"--dry-run", "--pilots", "0"}));
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("something else than a plan"));
+  EXPECT_THAT(RunTo(2, With(SweepTo("mine"), {"--dry-run", "--pilots", "0"})).err,
+              HasSubstr("something else than a plan"));
 }
 
 // What has no effect comes to light where the numbers are common.
@@ -165,16 +148,14 @@ TEST_F(CliSweep, CellsWithEqualTrialsAreNamed) {
     "name": "idle", "trials": 2, "common_random_numbers": true,
     "set": {"rover.fidelity": "quasi_static", "referee.time_limit_s": 1},
     "axes": [{"path": "terrain.rocks.uniform_max_diameter_m", "values": [0.4, 0.5]}]})");
-  const CommandResult result = Run({"sweep", "idle.json", "--out", "a"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("had no effect"));
+  EXPECT_THAT(RunTo(0, {"sweep", "idle.json", "--out", "a"}).out, HasSubstr("had no effect"));
   const CommandResult plan = Run({"sweep", "idle.json", "--out", "p", "--dry-run"});
   EXPECT_THAT(plan.err, HasSubstr("may have no effect"));
   EXPECT_THAT(Run(SweepTo("b")).out, Not(HasSubstr("no effect")));
 }
 
 TEST_F(CliSweep, NamesAreTextInEveryFile) {
-  EXPECT_EQ(Run(SweepTo("a")).exit_code, 0);
+  RunTo(0, SweepTo("a"));
   const std::string drawing = ReadFile(work() / "a" / "success.svg");
   EXPECT_THAT(drawing, HasSubstr("speed=&lt;slow&gt;"));
   EXPECT_THAT(drawing, Not(HasSubstr("<slow>")));
@@ -184,22 +165,16 @@ TEST_F(CliSweep, NamesAreTextInEveryFile) {
 TEST_F(CliSweep, BadFilesAreRefusedAndNothingIsWritten) {
   WriteFile(work() / "small.json",
             R"({"axes": [{"path": "terrain.rocks.kper_m2", "values": [1]}]})");
-  const CommandResult result = Run(SweepTo("a"));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("axes[0].path"));
-  EXPECT_THAT(result.err, HasSubstr("did you mean \"terrain.rocks.k_per_m2\"?"));
+  const CommandResult result = RunTo(2, SweepTo("a"));
+  EXPECT_THAT(result.err, Says("axes[0].path", "did you mean \"terrain.rocks.k_per_m2\"?"));
   EXPECT_FALSE(fs::exists(work() / "a"));
-  EXPECT_EQ(Run({"sweep", "none.json"}).exit_code, 2);
+  RunTo(2, {"sweep", "none.json"});
 }
 
 TEST_F(CliSweep, OtherCommandsKnowSweeps) {
-  const CommandResult valid = Run({"validate", "small.json"});
-  EXPECT_EQ(valid.exit_code, 0) << valid.err;
-  EXPECT_THAT(valid.out, HasSubstr("a sweep of 4 cells"));
+  EXPECT_THAT(RunTo(0, {"validate", "small.json"}).out, HasSubstr("a sweep of 4 cells"));
   EXPECT_THAT(Run({"list", "."}).out, HasSubstr("sweep of 4 cells: small"));
-  const CommandResult run = Run({"run", "small.json"});
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("use rockyard sweep"));
+  EXPECT_THAT(RunTo(2, {"run", "small.json"}).err, HasSubstr("use rockyard sweep"));
 }
 
 TEST_F(CliSweep, JsonIsTheSummary) {

@@ -8,7 +8,6 @@
 namespace rockyard::app {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -16,13 +15,10 @@ using testing::StartsWith;
 using CliTools = CommandTest;
 
 TEST_F(CliTools, VersionAndHelp) {
-  const CommandResult version = Run({"--version"});
-  EXPECT_EQ(version.exit_code, 0);
+  const CommandResult version = RunTo(0, {"--version"});
   EXPECT_THAT(version.out, StartsWith("rockyard "));
-  EXPECT_THAT(version.out, HasSubstr("commit"));
-  EXPECT_THAT(version.out, HasSubstr("flags"));
-  const CommandResult help = Run({"--help"});
-  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(version.out, Says("commit", "flags"));
+  const CommandResult help = RunTo(0, {"--help"});
   for (const char* name : {"run", "check", "compare", "rover", "terrain", "validate", "defaults",
                            "schema", "list", "parameters"}) {
     EXPECT_THAT(help.out, HasSubstr(name));
@@ -32,50 +28,42 @@ TEST_F(CliTools, VersionAndHelp) {
 
 TEST_F(CliTools, DefaultsAreAValidScenario) {
   WriteFile(work() / "defaults.json", Run({"defaults"}).out);
-  const CommandResult result = Run({"validate", "defaults.json", Scenario("nominal")});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("defaults.json: valid"));
+  EXPECT_THAT(RunTo(0, {"validate", "defaults.json", Scenario("nominal")}).out,
+              HasSubstr("defaults.json: valid"));
   EXPECT_EQ(json::parse(Run({"schema"}).out)["type"], "object");
 }
 
 TEST_F(CliTools, ListIsWholeWherePiped) {
-  const CommandResult result = Run({"list", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios"});
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.out, HasSubstr("/pathfinder\n"));
-  EXPECT_THAT(result.out, HasSubstr("  obstacles_0.28.json "));
+  const CommandResult result = RunTo(0, {"list", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios"});
+  EXPECT_THAT(result.out, Says("/pathfinder\n", "  obstacles_0.28.json "));
   EXPECT_THAT(result.out, testing::Not(HasSubstr("not valid")));
   EXPECT_THAT(result.out, HasSubstr("open towards the start; the goal lies behind it.\n"));
 }
 
 TEST_F(CliTools, ParametersAsTableAndCsv) {
   const CommandResult csv =
-      Run({"parameters", Scenario("nominal"), "--csv", "--origin", "assumed"});
-  EXPECT_EQ(csv.exit_code, 0) << csv.err;
+      RunTo(0, {"parameters", Scenario("nominal"), "--csv", "--origin", "assumed"});
   EXPECT_THAT(csv.out, StartsWith("path,kind,value"));
   EXPECT_THAT(csv.out, HasSubstr("referee.no_path_distance_m"));
-  EXPECT_EQ(Run({"parameters", "--origin", "guessed"}).exit_code, 2);
+  RunTo(2, {"parameters", "--origin", "guessed"});
   const CommandResult found = Run({"parameters", "--csv", "--search", "SLOPE_deg"});
   EXPECT_THAT(found.out, HasSubstr("\nterrain.ground.slope_deg,"));
   EXPECT_THAT(found.out, testing::Not(HasSubstr("referee.no_path_distance_m")));
   EXPECT_THAT(Run({"parameters", "--search", "moore"}).out, HasSubstr("terrain.rocks.k_per_m2"))
       << "in the source alone";
-  const CommandResult none = Run({"parameters", "--search", "blurgh"});
-  EXPECT_EQ(none.exit_code, 2);
-  EXPECT_THAT(none.err, HasSubstr("no parameter has \"blurgh\""));
+  EXPECT_THAT(RunTo(2, {"parameters", "--search", "blurgh"}).err,
+              HasSubstr("no parameter has \"blurgh\""));
   EXPECT_THAT(Run({"parameters"}).out, HasSubstr("| "));
 }
 
 TEST_F(CliTools, CompareAndCheck) {
   ASSERT_EQ(Run(QuickRun("runs/a", 3)).exit_code, 0);
   ASSERT_EQ(Run(With(QuickRun("other/b", 3), {"--set", "name=b"})).exit_code, 0);
-  const CommandResult compare = Run({"compare", "runs/a", "other/b"});
-  EXPECT_EQ(compare.exit_code, 0) << compare.err;
-  EXPECT_THAT(compare.out, HasSubstr("3 pairs"));
-  EXPECT_THAT(compare.out, HasSubstr("equal rocks and equal noise"));
+  const CommandResult compare = RunTo(0, {"compare", "runs/a", "other/b"});
+  EXPECT_THAT(compare.out, Says("3 pairs", "equal rocks and equal noise"));
   Run(With(QuickRun("dense", 3), {"--set", "terrain.rocks.k_per_m2=0.01"}));
   const CommandResult other = Run({"compare", "runs/a", "dense", "--csv", "columns.csv"});
-  EXPECT_THAT(other.out, HasSubstr("other settings of terrain"));
-  EXPECT_THAT(other.out, HasSubstr("terrain.rocks.k_per_m2"));
+  EXPECT_THAT(other.out, Says("other settings of terrain", "terrain.rocks.k_per_m2"));
   EXPECT_THAT(ReadFile(work() / "columns.csv"), HasSubstr("all,true_distance_m,m,3,"));
 
   const std::string reference =
@@ -85,25 +73,20 @@ TEST_F(CliTools, CompareAndCheck) {
   // Three trials that all end after one second: whether that differs is not the question here.
   EXPECT_THAT((std::vector<int>{0, 1, 4}), testing::Contains(check.exit_code)) << check.err;
   EXPECT_THAT(check.out, HasSubstr("nominal"));
-  EXPECT_THAT(check.err, HasSubstr("  JUnit report in junit.xml\n"));
-  EXPECT_THAT(check.err, HasSubstr("  table in table.csv\n"));
+  EXPECT_THAT(check.err, Says("  JUnit report in junit.xml\n", "  table in table.csv\n"));
   EXPECT_THAT(ReadFile(work() / "junit.xml"), HasSubstr("<testsuite"));
   EXPECT_THAT(ReadFile(work() / "table.csv"), StartsWith("id,scenario"));
 
   ASSERT_EQ(Run(QuickRun("runs/again", 1)).exit_code, 0);
-  const CommandResult twice = Run({"check", "runs", "--against", reference});
-  EXPECT_EQ(twice.exit_code, 2);
-  EXPECT_THAT(twice.err, HasSubstr("is a run of nominal, and so is"));
+  EXPECT_THAT(RunTo(2, {"check", "runs", "--against", reference}).err,
+              HasSubstr("is a run of nominal, and so is"));
 }
 
 TEST_F(CliTools, RoverIsDescribed) {
   const CommandResult result =
-      Run({"rover", Scenario("nominal"), "--set", "rover.mass.wheel_kg=0.6"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+      RunTo(0, {"rover", Scenario("nominal"), "--set", "rover.mass.wheel_kg=0.6"});
   EXPECT_THAT(result.out, StartsWith("rover of nominal\n"));
-  EXPECT_THAT(result.out, HasSubstr("0.65 x 0.48 x 0.3 m"));
-  EXPECT_THAT(result.out, HasSubstr("wheels 6 x 0.6"));
-  EXPECT_THAT(result.out, HasSubstr("9.81 m/s2"));
+  EXPECT_THAT(result.out, Says("0.65 x 0.48 x 0.3 m", "wheels 6 x 0.6", "9.81 m/s2"));
   EXPECT_TRUE(NothingWritten());
   const CommandResult help = Run({"rover", "--help"});
   EXPECT_THAT(help.out, HasSubstr("Examples:\n  rockyard rover"));
@@ -111,18 +94,15 @@ TEST_F(CliTools, RoverIsDescribed) {
 
 TEST_F(CliTools, RoverOfAFileOfItsOwn) {
   const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/rovers/mfex.json";
-  const CommandResult result = Run({"rover", file, "--set", "rover.mass.wheel_kg=0.25"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, {"rover", file, "--set", "rover.mass.wheel_kg=0.25"});
   EXPECT_THAT(result.out, StartsWith("rover of mfex\n"));
-  EXPECT_THAT(result.out, HasSubstr("11.5 kg"));
-  EXPECT_THAT(result.out, HasSubstr("wheels 6 x 0.25"));
+  EXPECT_THAT(result.out, Says("11.5 kg", "wheels 6 x 0.25"));
   WriteFile(work() / "odd.json", "{\"geometry\": {\"legs\": 4}}");
   EXPECT_THAT(Run({"rover", "odd.json"}).err, HasSubstr("rover.geometry.legs"));
 }
 
 TEST_F(CliTools, RoverAsUrdf) {
-  const CommandResult result = Run({"rover", Scenario("nominal"), "--out", "rocky.urdf"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, {"rover", Scenario("nominal"), "--out", "rocky.urdf"});
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err, "  URDF in rocky.urdf\n");
   EXPECT_THAT(ReadFile(work() / "rocky.urdf"), StartsWith("<?xml"));
@@ -146,8 +126,7 @@ TEST_F(CliTools, OutputsThatCannotBeMeantAreRefusedBeforeTheWork) {
 }
 
 TEST_F(CliTools, Terrain) {
-  const CommandResult result = Run({"terrain", Scenario("nominal"), "--out", "field.svg"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, {"terrain", Scenario("nominal"), "--out", "field.svg"});
   EXPECT_EQ(result.err, "  terrain in field.svg\n");
   EXPECT_THAT(ReadFile(work() / "field.svg"), HasSubstr("<svg"));
 }

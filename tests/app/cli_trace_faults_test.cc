@@ -2,7 +2,6 @@
 // trial named that is to blame, and the others there all the same.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -80,8 +79,7 @@ TEST_F(CliTraceFaults, AKilledWorkerLeavesOneDocument) {
   const std::vector<pid_t> workers = ChildrenOf(process);
   ASSERT_EQ(workers.size(), 1U);
   kill(workers.front(), SIGKILL);
-  const CommandResult result = Wait(process);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = WaitTo(0, process);
   EXPECT_EQ(nlohmann::json::parse(result.out)["trials"]["completed"], 6);
   EXPECT_THAT(result.err, HasSubstr("6 traces are in run/traces"));
   EXPECT_EQ(Files(), 6U);
@@ -94,13 +92,9 @@ TEST_F(CliTraceFaults, CtrlCLeavesWholeFilesAndGoesOn) {
     fs::remove_all(work() / "run/traces");
     ASSERT_TRUE(WaitForTraces(2));
     kill(process, SIGINT);
-    const CommandResult result = Wait(process);
-    EXPECT_EQ(result.exit_code, 130) << result.err;
-    EXPECT_THAT(result.err, AllOf(HasSubstr("interrupted: "), HasSubstr(" of 6 traces"),
-                                  HasSubstr("--resume")));
+    EXPECT_THAT(WaitTo(130, process).err, Says("interrupted: ", " of 6 traces", "--resume"));
     EXPECT_LT(Files(), 6U);
-    const CommandResult resumed = Run(SlowRun({"--resume"}));
-    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    RunTo(0, SlowRun({"--resume"}));
     EXPECT_EQ(Files(), 6U);
   }
 }
@@ -115,9 +109,7 @@ TEST_F(CliTraceFaults, InterruptedInTheFirstCellItCountsAll) {
       Start({"sweep", "sweep.json", "--out", "run", "--traces", "all", "--threads", "1"});
   ASSERT_TRUE(WaitForTraces(2));
   kill(process, SIGTERM);
-  const CommandResult result = Wait(process);
-  EXPECT_EQ(result.exit_code, 130) << result.err;
-  EXPECT_THAT(result.err, HasSubstr(" of 12 traces are written"));
+  EXPECT_THAT(WaitTo(130, process).err, HasSubstr(" of 12 traces are written"));
 }
 
 TEST_F(CliTraceFaults, ADriveThatCrashesIsNamedAndTheOthersGoOn) {
@@ -144,16 +136,14 @@ TEST_F(CliTraceFaults, ADriveThatThrowsIsNamedAndTheOthersGoOn) {
     if (trial == 2) throw std::runtime_error("has no terrain");
   };
   EXPECT_EQ(Trace(fail, 1), ExitCode::kFailed);
-  EXPECT_THAT(said_, AllOf(HasSubstr("trial-000001.npz: is not written: std::bad_alloc"),
-                           HasSubstr("trial-000002.npz: is not written: has no terrain")));
+  EXPECT_THAT(said_, Says("trial-000001.npz: is not written: std::bad_alloc",
+                          "trial-000002.npz: is not written: has no terrain"));
   EXPECT_EQ(Files(), 3U);
 }
 
 TEST_F(CliTraceFaults, TheWorstOfAShardAreRefused) {
-  const CommandResult result =
-      Run(With(QuickRun("run", 4), {"--shard", "1/2", "--traces", "worst:1"}));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("--traces: worst:N is asked of all trials"));
+  EXPECT_THAT(RunTo(2, With(QuickRun("run", 4), {"--shard", "1/2", "--traces", "worst:1"})).err,
+              HasSubstr("--traces: worst:N is asked of all trials"));
   EXPECT_TRUE(NothingWritten());
 }
 
@@ -164,13 +154,10 @@ TEST_F(CliTraceFaults, MergeSaysThatTracesStayAndTheWholeMakesThem) {
                   .exit_code,
               0);
   }
-  const CommandResult merged = Run({"merge", "shard1", "shard2", "--out", "run"});
-  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  const CommandResult merged = RunTo(0, {"merge", "shard1", "shard2", "--out", "run"});
   EXPECT_THAT(merged.err, HasSubstr("traces of shards are not merged"));
   EXPECT_FALSE(fs::exists(work() / "run/traces"));
-  const CommandResult traced =
-      Run(With(QuickRun("run", 4), {"--resume", "--traces", "worst:1", "--quiet"}));
-  EXPECT_EQ(traced.exit_code, 0) << traced.err;
+  RunTo(0, With(QuickRun("run", 4), {"--resume", "--traces", "worst:1", "--quiet"}));
   EXPECT_EQ(Files(), 1U);
 }
 

@@ -28,10 +28,9 @@ class CliTrace : public CommandTest {
 TEST_F(CliTrace, AStoredTrialComesOutTheSame) {
   MakeRun();
   const CommandResult result =
-      Run({"trace", "run", "--trial", "2", "--csv", "trace.csv", "--svg", "trace.svg"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("seed 1, trial 2: time_limit"));
-  EXPECT_THAT(result.out, HasSubstr("same as the stored record, bit for bit"));
+      RunTo(0, {"trace", "run", "--trial", "2", "--csv", "trace.csv", "--svg", "trace.svg"});
+  EXPECT_THAT(result.out,
+              Says("seed 1, trial 2: time_limit", "same as the stored record, bit for bit"));
   EXPECT_LE(std::count(result.out.begin(), result.out.end(), '\n'), 63);
   EXPECT_THAT(ReadFile(work() / "trace.csv"), StartsWith("row,time_s,kind,true_x_m"));
   const std::string svg = ReadFile(work() / "trace.svg");
@@ -52,45 +51,36 @@ TEST_F(CliTrace, ADamagedScenarioIsRefused) {
   ASSERT_NE(at, std::string::npos);
   bytes.replace(at, before.size(), "\"time_limit_s\": 20");
   WriteFile(store, bytes);
-  const CommandResult result = Run({"trace", "run", "--trial", "0"});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("table cells, row 0"));
+  EXPECT_THAT(RunTo(2, {"trace", "run", "--trial", "0"}).err, HasSubstr("table cells, row 0"));
 }
 
 TEST_F(CliTrace, AnotherRecordThanTheStoredOneIsFound) {
   MakeRun();
   batch::MakeOlder(work() / "run" / "results.sqlite",
                    "UPDATE trials SET sim_time_s = sim_time_s + 1.0");
-  const CommandResult result = Run({"trace", "run", "--trial", "0"});
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("sim_time_s: stored"));
-  EXPECT_THAT(result.err, HasSubstr("this trial is not the stored one"));
+  const CommandResult result = RunTo(1, {"trace", "run", "--trial", "0"});
+  EXPECT_THAT(result.err, Says("sim_time_s: stored", "this trial is not the stored one"));
 }
 
 TEST_F(CliTrace, OfAScenarioWithOverrides) {
   const std::vector<std::string> words = {"trace", Scenario("nominal"),       "--trial", "4",
                                           "--set", "referee.time_limit_s=60", "--seed",  "9"};
-  const CommandResult result = Run(words);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("seed 9, trial 4: time_limit"));
-  EXPECT_EQ(Run(With(words, {"--all"})).exit_code, 0);
+  EXPECT_THAT(RunTo(0, words).out, HasSubstr("seed 9, trial 4: time_limit"));
+  RunTo(0, With(words, {"--all"}));
   EXPECT_TRUE(NothingWritten());
 }
 
 TEST_F(CliTrace, BadInputSaysWhatWouldBeRight) {
   MakeRun();
-  const CommandResult missing = Run({"trace", "run", "--trial", "3"});
-  EXPECT_EQ(missing.exit_code, 2);
-  EXPECT_THAT(missing.err, HasSubstr("trial 3 is not stored in run"));
-  const CommandResult seed = Run({"trace", "run", "--trial", "0", "--seed", "2"});
-  EXPECT_EQ(seed.exit_code, 2);
-  EXPECT_THAT(seed.err, HasSubstr("scenario.resolved.json"));
-  EXPECT_EQ(Run({"trace", "run", "--trial", "-1"}).exit_code, 2);
-  EXPECT_EQ(Run({"trace", "run"}).exit_code, 2);
-  const CommandResult folder = Run({"trace", "run", "--trial", "0", "--svg", "no/such.svg"});
-  EXPECT_EQ(folder.exit_code, 2);
+  EXPECT_THAT(RunTo(2, {"trace", "run", "--trial", "3"}).err,
+              HasSubstr("trial 3 is not stored in run"));
+  EXPECT_THAT(RunTo(2, {"trace", "run", "--trial", "0", "--seed", "2"}).err,
+              HasSubstr("scenario.resolved.json"));
+  RunTo(2, {"trace", "run", "--trial", "-1"});
+  RunTo(2, {"trace", "run"});
+  const CommandResult folder = RunTo(2, {"trace", "run", "--trial", "0", "--svg", "no/such.svg"});
   EXPECT_THAT(folder.err, HasSubstr("folder that does not exist"));
-  EXPECT_EQ(Run({"trace", "run", "--trial", "0", "--csv", "a", "--svg", "a"}).exit_code, 2);
+  RunTo(2, {"trace", "run", "--trial", "0", "--csv", "a", "--svg", "a"});
   EXPECT_FALSE(fs::exists(work() / "a"));
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 
 class CliTraces : public CommandTest {
  protected:
@@ -44,9 +42,8 @@ class CliTraces : public CommandTest {
 
 // Trials of one second reach no goal: all of them fail, at the time limit.
 TEST_F(CliTraces, OfTheWorstTrials) {
-  const CommandResult result = Run(Campaign(5, {"--traces", "worst:2"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("2 traces written, in run/traces"));
+  EXPECT_THAT(RunTo(0, Campaign(5, {"--traces", "worst:2"})).err,
+              HasSubstr("2 traces written, in run/traces"));
   EXPECT_EQ(Files().size(), 2U);
   EXPECT_THAT(ReadFile(work() / "run/traces" / Files().front()), testing::StartsWith("PK"));
 }
@@ -67,9 +64,8 @@ TEST_F(CliTraces, AsCsv) {
 TEST_F(CliTraces, ThoseThatAreThereAreKept) {
   ASSERT_EQ(Run(Campaign(3, {"--traces", "all"})).exit_code, 0);
   WriteFile(work() / "run/traces/trial-000001.npz", "mine");
-  const CommandResult result = Run(Campaign(5, {"--traces", "all", "--resume", "--threads", "2"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("2 traces written, 3 were there"));
+  EXPECT_THAT(RunTo(0, Campaign(5, {"--traces", "all", "--resume", "--threads", "2"})).err,
+              HasSubstr("2 traces written, 3 were there"));
   EXPECT_EQ(ReadFile(work() / "run/traces/trial-000001.npz"), "mine");
   EXPECT_EQ(Files().size(), 5U);
 }
@@ -77,8 +73,7 @@ TEST_F(CliTraces, ThoseThatAreThereAreKept) {
 // The same file whatever wrote it: resumed or not, on one thread or on two, or the single command.
 TEST_F(CliTraces, AreTheSameBytesWhateverWritesThem) {
   ASSERT_EQ(Run(Campaign(3, {"--traces", "all", "--threads", "2"})).exit_code, 0);
-  const CommandResult one = Run({"trace", "run", "--trial", "2", "--npz", "one.npz"});
-  EXPECT_EQ(one.exit_code, 0) << one.err;
+  const CommandResult one = RunTo(0, {"trace", "run", "--trial", "2", "--npz", "one.npz"});
   EXPECT_THAT(one.out, HasSubstr("arrays for NumPy in one.npz"));
   EXPECT_EQ(ReadFile(work() / "one.npz"), ReadFile(work() / "run/traces/trial-000002.npz"));
 }
@@ -96,37 +91,32 @@ TEST_F(CliTraces, OfEveryCellOfASweep) {
 }
 
 TEST_F(CliTraces, ARuleThatIsNoneWritesNothing) {
-  const CommandResult result = Run(Campaign(2, {"--traces", "worst:0", "--traces", "most"}));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("--traces: \"worst:0\" is no rule"));
-  EXPECT_THAT(result.err, HasSubstr("\"most\" is no rule"));
-  EXPECT_THAT(result.err, HasSubstr("use all, failures, worst:N"));
+  const CommandResult result = RunTo(2, Campaign(2, {"--traces", "worst:0", "--traces", "most"}));
+  EXPECT_THAT(result.err, Says("--traces: \"worst:0\" is no rule", "\"most\" is no rule",
+                               "use all, failures, worst:N"));
   EXPECT_TRUE(NothingWritten());
 }
 
 TEST_F(CliTraces, MeasurementsHaveNone) {
-  const CommandResult result =
-      Run({"run", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/false_alarm.json",
-           "--trials", "1", "--out", "run", "--traces", "all"});
-  EXPECT_EQ(result.exit_code, 2);
+  const CommandResult result = RunTo(
+      2, {"run", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/false_alarm.json",
+          "--trials", "1", "--out", "run", "--traces", "all"});
   EXPECT_THAT(result.err, HasSubstr("--traces: needs drives"));
   EXPECT_TRUE(NothingWritten());
 }
 
 TEST_F(CliTraces, ADryRunSaysWhichAndWritesNothing) {
-  const CommandResult result =
-      Run(Campaign(20, {"--dry-run", "--traces", "failures", "--traces", "share:0.1"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("traces of every failure, 10 % of all trials"));
+  EXPECT_THAT(
+      RunTo(0, Campaign(20, {"--dry-run", "--traces", "failures", "--traces", "share:0.1"})).out,
+      HasSubstr("traces of every failure, 10 % of all trials"));
   EXPECT_TRUE(NothingWritten());
 }
 
 TEST_F(CliTraces, AFolderThatCannotBeWrittenFailsAfterTheCampaign) {
   ASSERT_EQ(Run(Campaign(1, {"--quiet"})).exit_code, 0);
   WriteFile(work() / "run" / "traces", "a file");
-  const CommandResult result = Run(Campaign(2, {"--resume", "--traces", "all"}));
-  EXPECT_EQ(result.exit_code, 5);
-  EXPECT_THAT(result.err, HasSubstr("error: run/traces: cannot be made"));
+  EXPECT_THAT(RunTo(5, Campaign(2, {"--resume", "--traces", "all"})).err,
+              HasSubstr("error: run/traces: cannot be made"));
   EXPECT_FALSE(Hash("run").empty());
 }
 
@@ -143,8 +133,7 @@ TEST_F(CliTraces, GoOnAfterTheyWereKilled) {
   Wait(process);
   ASSERT_TRUE(fs::exists(second)) << "ended before its second trace";
   const std::vector<std::string> before = Files();
-  const CommandResult result = Run(With(words, {"--resume"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  RunTo(0, With(words, {"--resume"}));
   const std::vector<std::string> files = Files();
   EXPECT_EQ(files.size(), 6U) << "no temporary file is left";
   EXPECT_LT(before.size(), 6U);

@@ -13,9 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 
 class CliVo : public CommandTest {
  protected:
@@ -31,10 +29,9 @@ class CliVo : public CommandTest {
   }
 
   CliVo() {
-    const CommandResult rendered = Run(RenderWords("way"));
-    EXPECT_EQ(rendered.exit_code, 0) << rendered.err;
-    EXPECT_THAT(rendered.out, HasSubstr("5 of 5 pairs of 160 x 128 pixels, over 0.4"));
-    EXPECT_THAT(rendered.out, HasSubstr("next: rockyard vo way --cameras way/cameras.json"));
+    const CommandResult rendered = RunTo(0, RenderWords("way"));
+    EXPECT_THAT(rendered.out, Says("5 of 5 pairs of 160 x 128 pixels, over 0.4",
+                                   "next: rockyard vo way --cameras way/cameras.json"));
   }
 
   static std::vector<std::string> VoWords(const std::vector<std::string>& more = {}) {
@@ -44,8 +41,7 @@ class CliVo : public CommandTest {
   // Exit code 2, these words, and nothing written.
   void ExpectRefused(const std::vector<std::string>& words,
                      const std::vector<std::string>& said) const {
-    const CommandResult result = Run(words);
-    EXPECT_EQ(result.exit_code, 2) << result.out;
+    const CommandResult result = RunTo(2, words);
     for (const std::string& word : said) EXPECT_THAT(result.err, HasSubstr(word));
     EXPECT_FALSE(fs::exists(work() / "path"));
   }
@@ -55,11 +51,10 @@ TEST_F(CliVo, ARenderedSequenceAndItsErrors) {
   const CommandResult result = Run(VoWords({"--truth", "way/poses.txt", "--lengths", "0.2,0.3"}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out,
-              AllOf(HasSubstr("5 of 5 pairs of way, folders left and right"),
-                    HasSubstr("160 x 128 pixels, aligned as they are: focal length 56.0 px"),
-                    HasSubstr("4 of 4 pairs have a motion\n"),
-                    HasSubstr("against the truth, 5 pairs over 0.4"),
-                    HasSubstr("segments of 0.2, 0.3 m"), HasSubstr("errors in path/errors.csv")));
+              Says("5 of 5 pairs of way, folders left and right",
+                   "160 x 128 pixels, aligned as they are: focal length 56.0 px",
+                   "4 of 4 pairs have a motion\n", "against the truth, 5 pairs over 0.4",
+                   "segments of 0.2, 0.3 m", "errors in path/errors.csv"));
   EXPECT_THAT(result.err, HasSubstr("5/5 pairs, 0 without a motion"));
   const json summary = json::parse(ReadFile(work() / "path/vo.json"));
   EXPECT_EQ(summary["pairs"], 5);
@@ -78,15 +73,12 @@ TEST_F(CliVo, JsonIsThatOfItsFileAndQuietSaysNothing) {
   printed.erase("files");
   written.erase("files");
   EXPECT_EQ(printed, written);
-  const CommandResult quiet = Run(VoWords({"--quiet"}));
-  EXPECT_EQ(quiet.exit_code, 0);
+  const CommandResult quiet = RunTo(0, VoWords({"--quiet"}));
   EXPECT_EQ(quiet.out + quiet.err, "");
 }
 
 TEST_F(CliVo, SettingsChangeWhatIsFound) {
-  const CommandResult list = Run({"vo", "--parameters"});
-  EXPECT_EQ(list.exit_code, 0);
-  EXPECT_THAT(list.out, HasSubstr("keyframe.max_way_m"));
+  EXPECT_THAT(RunTo(0, {"vo", "--parameters"}).out, HasSubstr("keyframe.max_way_m"));
   ASSERT_EQ(Run(VoWords({"--param", "keyframe.max_way_m=0"})).exit_code, 0);
   EXPECT_THAT(ReadFile(work() / "path/trajectory.csv"), HasSubstr("\n4,4,3,1,1,,"));
   fs::remove_all(work() / "path");
@@ -151,9 +143,7 @@ TEST_F(CliVo, KilledLeavesNothingInterruptedLeavesAPath) {
   const pid_t ended = Start(words);
   ASSERT_TRUE(core::WaitForHandler(ended, SIGINT));
   kill(ended, SIGINT);
-  const CommandResult result = Wait(ended);
-  EXPECT_EQ(result.exit_code, 130) << result.err;
-  EXPECT_THAT(result.out, HasSubstr(" of 200000 pairs of list.txt, a list of files"));
+  EXPECT_THAT(WaitTo(130, ended).out, HasSubstr(" of 200000 pairs of list.txt, a list of files"));
   EXPECT_TRUE(json::parse(ReadFile(work() / "path/vo.json"))["interrupted"]);
 }
 

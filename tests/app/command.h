@@ -11,10 +11,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "app/command_line.h"
+#include "core/says.h"
 #include "core/test_folder.h"
 #include "core/wait_until.h"
 
@@ -36,6 +38,7 @@ inline void WriteFile(const std::filesystem::path& path, const std::string& text
 }
 
 using core::Alive;
+using core::Says;
 using core::WaitForEnd;
 using core::WaitUntil;
 
@@ -71,12 +74,28 @@ class CommandTest : public testing::Test {
 
   CommandResult Run(const std::vector<std::string>& words) const { return Wait(Start(words)); }
 
+  // The same, where it ends with this exit code.
+  CommandResult WaitTo(int exit_code, pid_t process) const {
+    const CommandResult result = Wait(process);
+    EXPECT_EQ(result.exit_code, exit_code) << result.out << result.err;
+    return result;
+  }
+  CommandResult RunTo(int exit_code, const std::vector<std::string>& words) const {
+    SCOPED_TRACE(testing::PrintToString(words));
+    return WaitTo(exit_code, Start(words));
+  }
+
   CommandResult RunInto(int out, const std::vector<std::string>& words) const {
     return Wait(Start(words, out));
   }
   CommandResult RunProgram(const std::vector<std::string>& words) const {
     return Wait(StartProgram(With({ROCKYARD_COMMAND}, words)));
   }
+
+  nlohmann::json Summary(const std::string& run) const {
+    return nlohmann::json::parse(ReadFile(work() / run / "summary.json"));
+  }
+  std::string Hash(const std::string& run) const { return Summary(run)["trial_hash"]; }
 
   std::filesystem::path work() const { return folder_ / "work"; }
   bool NothingWritten() const { return std::filesystem::is_empty(work()); }

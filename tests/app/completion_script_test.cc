@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 
+#include "core/says.h"
+
 namespace rockyard::app {
 namespace {
 
@@ -38,26 +40,25 @@ class Script : public testing::Test {
 
 TEST_F(Script, BashKnowsChoicesNumbersAndFiles) {
   const std::string text = CompletionScript(app_, Shell::kBash);
-  EXPECT_THAT(text, HasSubstr("'fly --mode')\n      COMPREPLY=($(compgen -W 'fast slow'"));
-  EXPECT_THAT(text, HasSubstr("'fly --rank')\n      COMPREPLY=($(compgen -W 'high low'"));
-  EXPECT_THAT(text, HasSubstr("'fly --count' | 'fly -n') return ;;"));
-  EXPECT_THAT(text, HasSubstr("--dry"));
+  EXPECT_THAT(text, core::Says("'fly --mode')\n      COMPREPLY=($(compgen -W 'fast slow'",
+                               "'fly --rank')\n      COMPREPLY=($(compgen -W 'high low'",
+                               "'fly --count' | 'fly -n') return ;;", "--dry"));
   EXPECT_THAT(text, Not(HasSubstr("'fly --out'"))) << "files, as everywhere else";
   EXPECT_THAT(text, HasSubstr("complete -o filenames -F _rockyard rockyard"));
 }
 
 TEST_F(Script, ZshEscapesWhatItReads) {
   const std::string text = CompletionScript(app_, Shell::kZsh);
-  EXPECT_THAT(text, HasSubstr("'fly:It'\\''s a \\[test\\]\\: of quotes'"));
-  EXPECT_THAT(text, HasSubstr("'*--mode[how]:word:(fast slow)'"));
-  EXPECT_THAT(text, HasSubstr("'*--out[the user'\\''s file]:value:_files'"));
+  EXPECT_THAT(text, core::Says("'fly:It'\\''s a \\[test\\]\\: of quotes'",
+                               "'*--mode[how]:word:(fast slow)'",
+                               "'*--out[the user'\\''s file]:value:_files'"));
 }
 
 TEST_F(Script, FishEscapesWhatItReads) {
   const std::string text = CompletionScript(app_, Shell::kFish);
-  EXPECT_THAT(text, HasSubstr("-a fly -d 'It\\'s a [test]: of quotes'"));
-  EXPECT_THAT(text, HasSubstr(" -l mode -x -a 'fast slow' -d 'how'"));
-  EXPECT_THAT(text, HasSubstr(" -l count -s n -x -d 'how many'"));
+  EXPECT_THAT(text,
+              core::Says("-a fly -d 'It\\'s a [test]: of quotes'",
+                         " -l mode -x -a 'fast slow' -d 'how'", " -l count -s n -x -d 'how many'"));
 }
 
 }  // namespace

@@ -1,9 +1,6 @@
 // Campaigns on several ranks with the real mpirun, all on this machine.
 #pragma once
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 

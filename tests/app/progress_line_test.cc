@@ -1,7 +1,6 @@
 #include "app/progress_line.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace rockyard::app {
 namespace {

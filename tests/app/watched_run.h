@@ -5,7 +5,6 @@
 
 #include <iterator>
 #include <span>
-#include <utility>
 
 #include "app/command.h"
 #include "batch/result_store.h"
@@ -50,7 +49,7 @@ class WatchedRunTest : public CommandTest {
   std::string PlainHash(int trials) const {
     const auto count = static_cast<std::size_t>(trials);
     if (plain_.size() < count) {
-      EXPECT_EQ(Run(Drives("plain", trials, {"--no-supervisor", "--force"}, 2)).exit_code, 0);
+      RunTo(0, Drives("plain", trials, {"--no-supervisor", "--force"}, 2));
       plain_ = batch::ResultStore::Read(work() / "plain").Load();
     }
     return batch::TrialHash(std::span(plain_).first(count));
@@ -77,8 +76,7 @@ class WatchedRunTest : public CommandTest {
     const pid_t worker = WorkerOf(process);
     ASSERT_GT(worker, 0) << "the run is long enough to be hit";
     ASSERT_EQ(kill(worker, signal), 0);
-    const CommandResult result = Wait(process);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const CommandResult result = WaitTo(0, process);
     EXPECT_THAT(result.err, testing::HasSubstr(name));
     EXPECT_EQ(Hash("a"), expected);
   }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <string>
 
 #include "core/test_folder.h"
 #include "image_files/mutated_files.h"

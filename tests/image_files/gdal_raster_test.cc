@@ -1,6 +1,5 @@
 // Planetary images through GDAL: tiny files typed from the rules of their formats.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,5 @@
 // JPEG files of known colours: flat ones come back as they are, slopes within a level or two.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cstdlib>

@@ -2,18 +2,15 @@
 #include "image_files/luminance.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <string>
 
 namespace rockyard::image_files {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 
 RawImage Grey(int full_scale, int bits, std::initializer_list<int> samples) {
   RawImage image;

@@ -2,7 +2,6 @@
 #include "image_files/planetary.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <optional>
 #include <string>

@@ -1,9 +1,7 @@
 // PNG files that are put together by hand, read back sample by sample.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <vector>
 

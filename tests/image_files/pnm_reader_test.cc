@@ -1,6 +1,5 @@
 // PGM and PPM files typed from Netpbm's specification.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 

@@ -2,7 +2,6 @@
 #include "image_files/read_image.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
@@ -22,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 class ReadImageTest : public testing::Test {

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "core/error.h"
 
 namespace rockyard::image_files {

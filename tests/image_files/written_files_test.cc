@@ -1,10 +1,8 @@
 // PNG, PFM and PLY files, held against their specifications byte by byte.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <png.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -20,9 +18,7 @@ namespace {
 
 using namespace std::string_literals;
 
-using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::StartsWith;
 
 // As another program reads it, by libpng's own interface for the hasty.
 Picture Decoded(const std::string& file) {
