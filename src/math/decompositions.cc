@@ -2,11 +2,14 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
 namespace rockyard::math {
 
 Vector6 SolveSymmetric(const Matrix6& N, const Vector6& right) { return N.ldlt().solve(right); }
+
+Matrix6 InverseOf(const Matrix6& matrix) { return matrix.inverse(); }
 
 std::optional<Matrix6> InverseOfPositive(const Matrix6& N) {
   const Eigen::LDLT<Matrix6> factors(N);

@@ -12,6 +12,9 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 // Returns x with N x = right, of a symmetric N that is not singular (LDL').
 Vector6 SolveSymmetric(const Matrix6& N, const Vector6& right);
 
+// Returns the inverse of a matrix that is not singular (LU).
+Matrix6 InverseOf(const Matrix6& matrix);
+
 // Returns the inverse of a symmetric N, or nothing where it has a negative eigenvalue (LDL').
 std::optional<Matrix6> InverseOfPositive(const Matrix6& N);
 

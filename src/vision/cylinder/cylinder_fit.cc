@@ -1,6 +1,5 @@
 #include "vision/cylinder/cylinder_fit.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "math/angles.h"
+#include "math/decompositions.h"
 #include "vision/cylinder/fit_descent.h"
 #include "vision/cylinder/fit_problem.h"
 
@@ -141,13 +141,13 @@ CylinderFit FitOf(const FitProblem& problem, const std::vector<FitState>& hypoth
   fit.height_m = problem.height_m();
   fit.blur_px = problem.BlurOf(best.unknowns);
   const double factor = std::max(fit.misfit, 1.0);
-  fit.covariance = factor * best.information.inverse().topLeftCorner<4, 4>();
+  fit.covariance = factor * math::InverseOf(best.information).topLeftCorner<4, 4>();
   fit.covariance(2, 2) += SpreadOf(hypotheses, factor * params.least_margin);
   const FitState free = DescendFrom(problem, best.unknowns, FitRadius::kFree, kMostSteps);
   const CylinderPlace free_place = problem.PlaceOf(free.unknowns);
   fit.free_depth_m = (free_place.p_LT_L - eyes.centre_L).dot(eyes.forward_L);
   fit.radius_ratio = 1.0 + free.unknowns[4];
-  fit.radius_ratio_sd = std::sqrt(factor * free.information.inverse()(4, 4));
+  fit.radius_ratio_sd = std::sqrt(factor * math::InverseOf(free.information)(4, 4));
   return fit;
 }
 

@@ -1,10 +1,10 @@
 // From rendered images to a pair of cameras: what is estimated against what rendered them.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "math/decompositions.h"
 #include "vision/calibration/calibrate.h"
 #include "vision/calibration/calibration_distance.h"
 #include "vision/calibration/find_chessboard.h"
@@ -64,13 +64,13 @@ PixelErrors PixelErrorsOf(const std::vector<Cahvor>& found, const std::vector<Ca
       by_motion.back() << -by_point * cross, by_point;
     }
   }
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
+  math::Matrix6 normal = math::Matrix6::Zero();
+  math::Vector6 right = math::Vector6::Zero();
   for (std::size_t i = 0; i < errors.size(); ++i) {
     normal += by_motion[i].transpose() * by_motion[i];
     right -= by_motion[i].transpose() * errors[i];
   }
-  const Eigen::Matrix<double, 6, 1> motion = normal.ldlt().solve(right);
+  const math::Vector6 motion = math::SolveSymmetric(normal, right);
   PixelErrors result;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double left_px = (errors[i] + by_motion[i] * motion).norm();

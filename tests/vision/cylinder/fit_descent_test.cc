@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/angles.h"
+#include "math/decompositions.h"
 #include "vision/cylinder/colour_classes.h"
 #include "vision/cylinder/colour_model.h"
 #include "vision/cylinder/painted_cylinder.h"
@@ -73,7 +74,7 @@ TEST(FitDescent, OfAFreeRadiusTellsASizeThatIsWrong) {
   const Wall wall(0.96 * 0.192);
   const FitState state = DescendFrom(wall.Problem(), TurnedBy(0.0), FitRadius::kFree, 30);
   EXPECT_NEAR(state.unknowns[4], 1.0 / 0.96 - 1.0, 0.01);
-  EXPECT_LT(std::sqrt(state.information.inverse()(4, 4)), 0.02);
+  EXPECT_LT(std::sqrt(math::InverseOf(state.information)(4, 4)), 0.02);
 }
 
 // A quadrant whose colour may change across it could be two: its edge tells less.

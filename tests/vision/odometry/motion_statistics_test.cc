@@ -1,10 +1,10 @@
 // Errors of estimated motions beside their covariance, and without bias where points are far.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "core/chi_squared.h"
+#include "math/decompositions.h"
 #include "vision/odometry/estimate_motion.h"
 #include "vision/odometry/plain_motion.h"
 #include "vision/odometry/synthetic_points.h"
@@ -12,7 +12,7 @@
 namespace rockyard::vision {
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
+using math::Vector6;
 
 constexpr int kRuns = 400;
 
@@ -31,7 +31,7 @@ double SumOfSquaredErrors(const PointField& field, double scale) {
     EXPECT_TRUE(found.motion) << run;
     if (!found.motion) continue;
     const Vector6 error = ErrorOf(found.motion->X_FS, TestMotion());
-    sum += error.dot((scale * found.motion->covariance).llt().solve(error));
+    sum += error.dot(math::SolveSymmetric(scale * found.motion->covariance, error));
   }
   return sum;
 }
