@@ -1,6 +1,5 @@
 // Campaigns of several cells through the executor: accounting, rules, shards, memory of a plan.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -14,7 +13,7 @@
 #include "core/test_folder.h"
 #include "experiments/experiment.h"
 #include "fake_experiment.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::batch {
 namespace {
@@ -185,9 +184,8 @@ class DriveCampaign : public testing::Test {
   static constexpr std::int64_t kDrives = 8;
 
   DriveCampaign() {
-    const scenario::Scenario scenario = scenario::LoadScenario(
-        std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json",
-        std::vector<std::string>{"rover.fidelity=quasi_static"});
+    const scenario::Scenario scenario = scenario::Shipped(
+        "pathfinder/nominal", std::vector<std::string>{"rover.fidelity=quasi_static"});
     experiment_ = experiments::MakeExperiment(scenario.experiment, scenario.drive);
     identity_ = FakeIdentity();
     identity_.schema = experiment_->schema();

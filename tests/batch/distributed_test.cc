@@ -3,7 +3,6 @@
 #include "batch/distributed.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "batch/executor.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <mutex>
 #include <set>

@@ -1,13 +1,10 @@
 // An experiment without a rover: records that follow from (seed, index) alone.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "batch/result_store.h"

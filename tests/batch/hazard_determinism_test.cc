@@ -9,7 +9,7 @@
 #include "core/test_folder.h"
 #include "experiments/experiment.h"
 #include "fake_experiment.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::batch {
 namespace {
@@ -40,9 +40,9 @@ std::string HashOf(const experiments::Experiment& experiment, const BatchOptions
 
 TEST(HazardDeterminism, SameHashWhateverThreadsAndOrder) {
   for (const char* name : {"detection", "approach", "persistence", "missed", "precision"}) {
-    const scenario::Scenario scenario = scenario::LoadScenario(
-        std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/" + name + ".json",
-        std::vector<std::string>{"hazard_detection.scenes_per_run=5"});
+    const scenario::Scenario scenario =
+        scenario::Shipped(std::string("hazard_detection/") + name,
+                          std::vector<std::string>{"hazard_detection.scenes_per_run=5"});
     const auto experiment = experiments::MakeExperiment(scenario.experiment, scenario.drive);
     const std::string expected = HashOf(*experiment, Options(1, Order::kNatural));
     EXPECT_EQ(HashOf(*experiment, Options(3, Order::kNatural)), expected) << name;

@@ -1,7 +1,6 @@
 #include "batch/merge_shards.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <atomic>
 #include <fstream>

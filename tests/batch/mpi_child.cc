@@ -5,7 +5,6 @@
 // Exit code 0: all arrived whole and in order; 1: not so; ended by SIGALRM: nobody received.
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>

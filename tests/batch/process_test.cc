@@ -1,7 +1,6 @@
 // What a run in a process of its own leaves behind when it is killed or has no space.
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/mount.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,6 +1,5 @@
 #include "batch/result_store.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <bit>

@@ -1,7 +1,6 @@
 #include "batch/scenario_difference.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace rockyard::batch {
 namespace {

@@ -1,6 +1,5 @@
 // Stores that were changed behind the program's back: refused, or the same result.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 #include <optional>
@@ -17,18 +16,18 @@
 #include "batch/store_tables.h"
 #include "batch/stored_ends.h"
 #include "core/hash.h"
+#include "core/says.h"
 #include "core/test_folder.h"
 #include "fake_experiment.h"
 #include "older_store.h"
 #include "scenario/load.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::batch {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AllOf;
 using testing::HasSubstr;
-using truth::Record;
 
 constexpr int kTrials = 20;
 
@@ -170,13 +169,12 @@ TEST_F(StoreDamage, WhatRunsInsideOfAStoreIsRefused) {
 
 TEST_F(StoreDamage, NamesTableRowAndColumn) {
   Change("UPDATE trials SET sim_time_s = sim_time_s + 1 WHERE campaign_cell = 1 AND trial = 17");
-  ExpectRefused(AllOf(HasSubstr("table trials"), HasSubstr("cell 1, trial 17"),
-                      HasSubstr("column row_checksum")));
+  ExpectRefused(core::Says("table trials", "cell 1, trial 17", "column row_checksum"));
 }
 
 TEST_F(StoreDamage, NamesTheRowOfOtherTables) {
   Change("UPDATE cells SET name = 'c' WHERE cell = 1");
-  ExpectRefused(AllOf(HasSubstr("table cells, row 1"), HasSubstr("column row_checksum")));
+  ExpectRefused(core::Says("table cells, row 1", "column row_checksum"));
 }
 
 // Outcomes decide where a stopping rule ends: they are checked before anything runs.
@@ -215,7 +213,7 @@ class ForeignRows : public StoreDamage {
 
 TEST_F(ForeignRows, OfAnotherSeedAreRefused) {
   Swap(TwoCells(5), 0.0);
-  ExpectRefused(AllOf(HasSubstr("cell 0, trial 7"), HasSubstr("outcome_checksum")));
+  ExpectRefused(core::Says("cell 0, trial 7", "outcome_checksum"));
 }
 
 TEST_F(ForeignRows, OfAnotherBuildAreRefused) {
@@ -379,10 +377,10 @@ TEST_F(OlderStore, WhatNoTrialGivesIsRefused) {
     ExpectRefused(message);
   };
   refused("UPDATE trials SET sim_time_s = 9e999 WHERE trial = 17",
-          AllOf(HasSubstr("trial 17"), HasSubstr("sim_time_s"), HasSubstr("infinite")));
+          core::Says("trial 17", "sim_time_s", "infinite"));
   refused("UPDATE trials SET sim_time_s = -9e999 WHERE trial = 17", HasSubstr("infinite"));
   refused("UPDATE trials SET trial = 4000000000 WHERE trial = 17 AND campaign_cell = 1",
-          AllOf(HasSubstr("cell 1, trial 4000000000"), HasSubstr("at most 20")));
+          core::Says("cell 1, trial 4000000000", "at most 20"));
   refused("UPDATE trials SET trial = 9000000000000000000 WHERE trial = 17 AND campaign_cell = 1",
           HasSubstr("trial 9000000000000000000"));
   refused("UPDATE trials SET trial = 20 WHERE trial = 17", HasSubstr("trial 20"));
@@ -392,12 +390,12 @@ TEST_F(OlderStore, WhatNoTrialGivesIsRefused) {
   refused("UPDATE infrastructure_faults SET trial = -1", HasSubstr("infrastructure_faults"));
   refused("UPDATE cells SET planned = 4000000000", HasSubstr("planned"));
   refused("UPDATE cells SET seed = '7' WHERE cell = 1",
-          AllOf(HasSubstr("table cells, row 1"), HasSubstr("column seed")));
+          core::Says("table cells, row 1", "column seed"));
   refused("UPDATE cells SET scenario = 'other'", HasSubstr("column scenario"));
   refused("UPDATE cells SET resolved = replace(resolved, '0.00415', '0.013')",
-          AllOf(HasSubstr("table cells, row 0"), HasSubstr("column fingerprint")));
+          core::Says("table cells, row 0", "column fingerprint"));
   refused("UPDATE cells SET resolved = 'none'", HasSubstr("column fingerprint"));
-  refused("UPDATE cells SET name = 'a'", AllOf(HasSubstr("table cells"), HasSubstr("\"a\" twice")));
+  refused("UPDATE cells SET name = 'a'", core::Says("table cells", "\"a\" twice"));
   refused("DELETE FROM columns WHERE position = 2", HasSubstr("table columns"));
   refused("UPDATE meta SET value = 'sudden' WHERE key = 'rule'", HasSubstr("rule_half_width"));
   refused("UPDATE meta SET value = '7' WHERE key = 'design'", HasSubstr("design"));
@@ -471,8 +469,7 @@ TEST_F(StoreDamage, AMergeRefusesAShardThatIsNotWhole) {
 TEST(ResolvedFingerprint, IsThatOfTheScenario) {
   for (const char* name :
        {"pathfinder/nominal", "hazard_detection/detection", "mars/mfex_vl2", "gestalt/waypoints"}) {
-    const scenario::Scenario scenario =
-        scenario::LoadScenario(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/" + name + ".json");
+    const scenario::Scenario scenario = scenario::Shipped(name);
     EXPECT_EQ(ResolvedFingerprint(core::ParseJson(scenario::ResolvedJson(scenario), name)),
               core::Hex(scenario::Fingerprint(scenario)))
         << name;

@@ -1,7 +1,6 @@
 // Who may read a store, in which state, and what reading leaves behind.
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 

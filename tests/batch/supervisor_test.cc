@@ -3,7 +3,6 @@
 #include "batch/supervisor.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <csignal>
 #include <functional>
-#include <new>
 #include <thread>
 
 #include "batch/child_process.h"

@@ -14,7 +14,7 @@
 #include "core/test_folder.h"
 #include "experiments/experiment.h"
 #include "fake_experiment.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::batch {
 namespace {
@@ -26,8 +26,7 @@ const std::atomic<bool> kNeverStop = false;
 class VisualDeterminism : public testing::Test {
  protected:
   void Use(std::int64_t drives, const std::vector<std::string>& overrides) {
-    const scenario::Scenario scenario = scenario::LoadScenario(
-        std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/visual_odometry/soft_slope.json", overrides);
+    const scenario::Scenario scenario = scenario::Shipped("visual_odometry/soft_slope", overrides);
     drives_ = drives;
     experiment_ = experiments::MakeExperiment(scenario.experiment, scenario.drive);
   }

@@ -1,7 +1,6 @@
 #include "batch/work_plan.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/hash.h"
 #include "terrain/field.h"
 #include "terrain/field_hash.h"

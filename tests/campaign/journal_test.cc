@@ -1,8 +1,6 @@
 // Which end of a piece of work an exception out of it is.
 #include "campaign/journal.h"
 
-#include <gmock/gmock.h>
-
 #include <cerrno>
 #include <filesystem>
 #include <functional>

@@ -2,7 +2,6 @@
 #include "campaign/looks/look_pictures.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

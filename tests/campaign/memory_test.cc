@@ -22,6 +22,7 @@
 #include "core/test_folder.h"
 #include "report/paired_comparison.h"
 #include "scenario/load.h"
+#include "scenario/shipped.h"
 #include "truth/drive_record.h"
 
 namespace {
@@ -72,8 +73,7 @@ truth::RecordSchema DriveSchema() {
 
 // A store as a campaign of that many drives leaves it, with made-up values.
 void MakeStore(const std::filesystem::path& folder, std::int64_t trials) {
-  const scenario::Scenario scenario = scenario::LoadScenario(std::string(ROCKYARD_SOURCE_DIR) +
-                                                             "/scenarios/pathfinder/nominal.json");
+  const scenario::Scenario scenario = scenario::Shipped("pathfinder/nominal");
   batch::CellIdentity cell{.name = "",
                            .scenario = scenario.name,
                            .fingerprint = core::Hex(scenario::Fingerprint(scenario)),

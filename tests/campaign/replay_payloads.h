@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "campaign/replay_page.h"
-#include "scenario/load.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::campaign {
 
@@ -17,8 +17,7 @@ using Json = nlohmann::json;
 inline TrialSource SourceOf(const std::string& scenario,
                             const std::vector<std::string>& overrides = {}) {
   TrialSource source;
-  source.scenario = scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/" + scenario + ".json", overrides);
+  source.scenario = scenario::Shipped(scenario, overrides);
   source.seed = static_cast<std::uint64_t>(source.scenario.seed);
   source.request = scenario;
   return source;

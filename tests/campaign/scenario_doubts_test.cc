@@ -1,7 +1,6 @@
 #include "campaign/scenario_doubts.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <vector>
 
 #include "batch/fake_experiment.h"
 #include "batch/result_store.h"

@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <optional>
 
 #include "experiments/drive/drive_experiment.h"
-#include "scenario/load.h"
 #include "scenario/scenario.h"
+#include "scenario/shipped.h"
 #include "sensing/stereo_view.h"
 
 namespace rockyard::campaign {
@@ -23,8 +22,7 @@ struct Watched {
 };
 
 scenario::Scenario NarrowCourse() {
-  scenario::Scenario scenario = scenario::LoadScenario(std::string(ROCKYARD_SOURCE_DIR) +
-                                                       "/scenarios/gestalt/narrow_course.json");
+  scenario::Scenario scenario = scenario::Shipped("gestalt/narrow_course");
   scenario.drive.referee.time_limit_s = 240.0;
   return scenario;
 }

@@ -8,7 +8,7 @@
 #include "campaign/cylinder/cylinder_json.h"
 #include "campaign/cylinder/cylinder_picture.h"
 #include "campaign/cylinder/painted_files.h"
-#include "core/error.h"
+#include "core/refusals.h"
 #include "core/test_folder.h"
 #include "image_files/png_file.h"
 #include "math/angles.h"
@@ -21,12 +21,7 @@ using testing::HasSubstr;
 class FindCylinderTest : public testing::Test {
  protected:
   std::string Refusal() const {
-    try {
-      FindCylinderInFiles(request_);
-    } catch (const core::UserError& error) {
-      return error.what();
-    }
-    return "nothing was refused";
+    return core::RefusalOf([&] { FindCylinderInFiles(request_); });
   }
 
   void WriteFile(const char* name, const std::string& bytes) const {
@@ -105,10 +100,10 @@ TEST_F(FindCylinderTest, RefusesAnAxisThatDoesNotPointUpwards) {
   request_.settings = {"cylinder.axis=[0,0,0]"};
   EXPECT_THAT(Refusal(), HasSubstr("points nowhere"));
   request_.settings = {"cylinder.axis=[0,0,0.5]"};
-  EXPECT_EQ(Refusal(), "nothing was refused");
+  EXPECT_EQ(Refusal(), "");
   request_.settings = {"cylinder.axis=[1,0,0]"};
   request_.finder = CylinderFinder::kPublished;
-  EXPECT_EQ(Refusal(), "nothing was refused");
+  EXPECT_EQ(Refusal(), "");
 }
 
 TEST_F(FindCylinderTest, RefusesCamerasOfAnotherSize) {

@@ -4,13 +4,13 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "campaign/odometry/kitti_calibration.h"
 #include "core/error.h"
+#include "core/refusals.h"
 #include "core/test_folder.h"
 
 namespace rockyard::campaign {
@@ -40,16 +40,7 @@ class Sequence : public testing::Test {
 
   // All problems of a sequence that is none, one a line.
   std::string Complaints(const fs::path& path) const {
-    try {
-      FindSequence(path);
-    } catch (const core::UserError& error) {
-      std::string text;
-      for (const core::Problem& problem : error.problems()) {
-        text += problem.path + ": " + problem.reason + "\n";
-      }
-      return text;
-    }
-    return "";
+    return core::RefusalOf([&] { FindSequence(path); });
   }
 
  private:
@@ -93,9 +84,8 @@ TEST_F(Sequence, MissingPartnersAreNamedAllAtOnce) {
   EXPECT_THAT(Complaints(top()), AllOf(HasSubstr("left/1.png: has no partner"),
                                        HasSubstr("right/3.png: has no partner")));
   for (int i = 10; i < 60; ++i) Write("left/" + std::to_string(i) + ".png");
-  const std::string many = Complaints(top());
-  EXPECT_EQ(std::count(many.begin(), many.end(), '\n'), 20);
-  EXPECT_THAT(many, HasSubstr("and 32 more like it"));
+  EXPECT_EQ(core::ProblemsIn([&] { FindSequence(top()); }).size(), 20u);
+  EXPECT_THAT(Complaints(top()), HasSubstr("and 32 more like it"));
 }
 
 TEST_F(Sequence, FoldersThatAreNone) {

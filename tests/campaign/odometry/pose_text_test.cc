@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/refusals.h"
 #include "core/test_folder.h"
 
 namespace rockyard::campaign {
@@ -26,12 +27,7 @@ class PoseText : public testing::Test {
   }
 
   std::string Complaint(const std::string& text) const {
-    try {
-      ReadPoses(Write(text));
-    } catch (const core::UserError& error) {
-      return error.problems().front().path + ": " + error.problems().front().reason;
-    }
-    return "";
+    return core::RefusalOf([&] { ReadPoses(Write(text)); });
   }
 
  private:
