@@ -4,7 +4,6 @@
 // the clock and of processors (children that ended included), joined by tabs (scripts/test.sh
 // --times).
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
 #include <chrono>

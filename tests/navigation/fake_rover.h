@@ -2,7 +2,6 @@
 // own encoders and gyro. It carries no terrain: reports come from a function of the test.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>

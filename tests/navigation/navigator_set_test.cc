@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <memory>
 #include <string>
@@ -7,6 +6,7 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/refusals.h"
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/navigator.h"
 #include "navigation/navigator_set_params.h"
@@ -77,12 +77,7 @@ Group Read(const std::string& json) {
 
 std::string ProblemOf(const NavigatorDescription<ToyParams>& description) {
   NavigatorSet set = StandardNavigators();
-  try {
-    set.Add(description);
-  } catch (const core::UserError& error) {
-    return error.problems()[0].path + " " + error.problems()[0].reason;
-  }
-  return "";
+  return core::RefusalOf([&] { set.Add(description); });
 }
 
 NavigatorStatus StatusAt(const NavigatorKind& kind, double time_s, double goal_x_m) {
@@ -107,14 +102,8 @@ TEST(NavigatorSet, ReadsTheChoiceAndTheGroupOfANavigatorThatWasAdded) {
 }
 
 TEST(NavigatorSet, RefusesAnUnknownNameAndNamesTheNearest) {
-  try {
-    Read(R"({"navigator": "toi"})");
-    FAIL() << "was read";
-  } catch (const core::UserError& error) {
-    ASSERT_EQ(error.problems().size(), 1U);
-    EXPECT_EQ(error.problems()[0].path, "navigator");
-    EXPECT_THAT(error.problems()[0].suggestion, HasSubstr("toy"));
-  }
+  EXPECT_THAT(core::ProblemsIn([] { Read(R"({"navigator": "toi"})"); }),
+              core::OneProblem("navigator", "", "toy"));
   NavigatorSet set = StandardNavigators();
   EXPECT_THROW(set.Choose("toy"), core::UserError);
 }
@@ -143,7 +132,8 @@ TEST(NavigatorSet, ACopyHasParametersOfItsOwn) {
 
 TEST(NavigatorSet, RefusesNamesThatAreTakenOrNoKeys) {
   for (const char* taken : {"gestalt", "navigator", "on_board_stuck", "wheel_driver", "extends"}) {
-    EXPECT_EQ(ProblemOf(DescribeToy(taken)), "navigation." + std::string(taken) + " is taken");
+    EXPECT_THAT(ProblemOf(DescribeToy(taken)),
+                testing::StartsWith("navigation." + std::string(taken) + ": is taken"));
   }
   for (const char* odd : {"", "Toy", "a.b", "to y", "toy\n"}) {
     EXPECT_THAT(ProblemOf(DescribeToy(odd)), HasSubstr("cannot be the name")) << odd;

@@ -9,7 +9,6 @@
 namespace rockyard::navigation {
 namespace {
 
-using messages::MotionCommand;
 using messages::MotionKind;
 
 constexpr double kTick_m = 0.01;

@@ -2,7 +2,6 @@
 #include "navigation/waypoint_sequence.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <zip.h>
 
-#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <string>

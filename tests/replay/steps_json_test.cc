@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
 #include "replay/payload_text.h"

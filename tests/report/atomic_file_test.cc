@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/refusals.h"
 #include "core/test_folder.h"
 
 namespace rockyard::report {
@@ -77,12 +78,8 @@ TEST_F(AtomicFileTest, RemovesWhatAKilledOneLeft) {
 
 TEST_F(AtomicFileTest, FailsWithTheNameAndLeavesNothing) {
   fs::create_directories(folder_ / "taken" / "inside");
-  try {
-    WriteFileAtomically(folder_ / "taken", "text");
-    FAIL();
-  } catch (const core::UserError& error) {
-    EXPECT_EQ(error.problems().front().path, (folder_ / "taken").string());
-  }
+  EXPECT_THAT(core::ProblemsIn([&] { WriteFileAtomically(folder_ / "taken", "text"); }),
+              core::OneProblem((folder_ / "taken").string()));
   EXPECT_EQ(Files(), 1);
   EXPECT_THROW(WriteFileAtomically(folder_ / "no" / "such", "text"), core::UserError);
   EXPECT_THROW(WriteFileAtomically("/proc/rockyard", "text"), core::UserError);

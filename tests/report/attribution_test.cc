@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/json_text.h"
+#include "core/says.h"
 #include "report/sweep_files.h"
 #include "report/sweep_summary.h"
 
@@ -158,13 +159,9 @@ TEST(AttributionReportTest, TheTextHasSharesAndFitsTheTerminal) {
   cells[0][0] = truth::MakeFault(1, 0, "made up");
   const std::string text = AttributionText(Attributed(sweep, cells));
   for (const std::string& line : Lines(text)) EXPECT_LE(line.size(), 100u) << line;
-  EXPECT_THAT(text, HasSubstr("true success"));
-  EXPECT_THAT(text, HasSubstr("declared success"));
-  EXPECT_THAT(text, HasSubstr("place=near"));
+  EXPECT_THAT(text, core::Says("true success", "declared success", "place=near"));
   // Shares of declared success at "near", and what they sum to.
-  EXPECT_THAT(text, HasSubstr("  22.5 ("));
-  EXPECT_THAT(text, HasSubstr("  12.5 ("));
-  EXPECT_THAT(text, HasSubstr("30.0: these need not sum"));
+  EXPECT_THAT(text, core::Says("  22.5 (", "  12.5 (", "30.0: these need not sum"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
@@ -188,11 +185,11 @@ TEST(AttributionReportTest, TheCsvHasARowForEverything) {
   for (const std::string& line : lines) {
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), 6) << line;
   }
-  EXPECT_THAT(csv, HasSubstr(",declared success,failure_rate,as flown,0.35,"));
-  EXPECT_THAT(csv, HasSubstr(",declared success,failure_rate,sight + slip,0,0,"));
-  EXPECT_THAT(csv, HasSubstr(",declared success,last,sight,0.25,"));
-  EXPECT_THAT(csv, HasSubstr(",true success,remainder,all,0.1,"));
-  EXPECT_THAT(csv, HasSubstr(",true success,effect,sight x slip,"));
+  EXPECT_THAT(csv,
+              core::Says(",declared success,failure_rate,as flown,0.35,",
+                         ",declared success,failure_rate,sight + slip,0,0,",
+                         ",declared success,last,sight,0.25,", ",true success,remainder,all,0.1,",
+                         ",true success,effect,sight x slip,"));
 }
 
 // Whatever functions are called, files stay what they are.

@@ -1,6 +1,5 @@
 // Reports of experiments that measure.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>

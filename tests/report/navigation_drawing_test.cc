@@ -1,7 +1,6 @@
 #include "report/navigation_drawing.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/says.h"
 #include "report/camera_panel.h"
 #include "report/colour_ramp.h"
 #include "report/course_panel.h"
@@ -16,7 +16,6 @@
 namespace rockyard::report {
 namespace {
 
-using messages::MotionCommand;
 using messages::MotionKind;
 using messages::NavigationView;
 using testing::HasSubstr;
@@ -89,8 +88,8 @@ SceneRock Cube(double x_m, double y_m) {
 
 TEST(NavigationSvg, DrawsMapsVotesAndTheChoice) {
   const std::string svg = NavigationSvg({"trial 3 <b>&", Sample(), {}});
-  EXPECT_THAT(svg, HasSubstr("trial 3 &lt;b&gt;&amp;: forward +2.00 /m (vote 157)"));
-  EXPECT_THAT(svg, HasSubstr("dark -0.10 m, light 0.30 m"));
+  EXPECT_THAT(svg, core::Says("trial 3 &lt;b&gt;&amp;: forward +2.00 /m (vote 157)",
+                              "dark -0.10 m, light 0.30 m"));
   EXPECT_EQ(Count(svg, "<polyline"), 6) << "every arc";
   EXPECT_EQ(Count(svg, "stroke-width=\"4\""), 1) << "the chosen one";
   EXPECT_EQ(Count(svg, "fill=\"#009e73\""), 2) << "two arcs share the best vote";
@@ -120,8 +119,7 @@ TEST(NavigationSvg, DrawsTheCourseWithThePathSoFar) {
   EXPECT_EQ(Count(svg, "<title>waypoint"), 2);
   EXPECT_EQ(Count(svg, "<title>start"), 1);
   EXPECT_EQ(Count(svg, "<title>goal"), 1);
-  EXPECT_THAT(svg, HasSubstr("no camera"));
-  EXPECT_THAT(svg, HasSubstr("true path"));
+  EXPECT_THAT(svg, core::Says("no camera", "true path"));
 }
 
 // From the start to the goal's far side there are 3.5 m, with 0.3 m at each end in a frame of 582
@@ -129,8 +127,7 @@ TEST(NavigationSvg, DrawsTheCourseWithThePathSoFar) {
 TEST(NavigationSvg, TheCourseIsToScale) {
   NavigationView view = Sample();
   const std::string svg = NavigationSvg({"t", view, SampleScene()});
-  EXPECT_THAT(svg, HasSubstr("<circle cx=\"468.4\" cy=\"208.0\""));
-  EXPECT_THAT(svg, HasSubstr("r=\"71.0\""));
+  EXPECT_THAT(svg, core::Says("<circle cx=\"468.4\" cy=\"208.0\"", "r=\"71.0\""));
   // The window of 0.8 m x 0.4 m, 0.1 m further ahead than the map has it: the rover believes itself
   // there. Its left edge is 0.1 m from the start.
   EXPECT_THAT(svg, HasSubstr("<polygon points=\"56.8,"));
@@ -276,20 +273,19 @@ TEST(NavigationSvg, TheLeftmostTurnStandsLeft) {
 TEST(NavigationSvg, NothingSeenYet) {
   NavigationView view;
   const std::string svg = NavigationSvg({"empty", view, {}});
-  EXPECT_THAT(svg, HasSubstr("elevation: no data"));
-  EXPECT_THAT(svg, HasSubstr("empty: nothing"));
+  EXPECT_THAT(svg, core::Says("elevation: no data", "empty: nothing"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(svg, Not(HasSubstr("inf")));
 }
 
 TEST(NavigationCsv, LeavesUnknownFieldsEmpty) {
   const std::string csv = MapCsv(Sample().map);
-  EXPECT_THAT(csv, HasSubstr("x_m,y_m,elevation_m,goodness,certainty\n0.1,0.1,-0.1,255,255\n"));
-  EXPECT_THAT(csv, HasSubstr(",0.1,0.3,0,255\n"));
+  EXPECT_THAT(csv, core::Says("x_m,y_m,elevation_m,goodness,certainty\n0.1,0.1,-0.1,255,255\n",
+                              ",0.1,0.3,0,255\n"));
   EXPECT_EQ(Count(csv, ",,,\n"), 4);
   const std::string votes = VotesCsv(Sample());
-  EXPECT_THAT(votes, HasSubstr("\nforward,2,1,200,255,100,157,1,1\n"));
-  EXPECT_THAT(votes, HasSubstr("\nbackward,-2,-1,0,0,0,0,0,0\n"));
+  EXPECT_THAT(votes,
+              core::Says("\nforward,2,1,200,255,100,157,1,1\n", "\nbackward,-2,-1,0,0,0,0,0,0\n"));
 }
 
 TEST(NavigationCsv, PointsOfACloud) {

@@ -1,8 +1,6 @@
 // Paths on the report page: how they are simplified, and what the page is given.
 #include "report/page_tracks.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>

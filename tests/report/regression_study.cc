@@ -4,7 +4,6 @@
 // baseline and as many for the run. Prints one line of CSV for each case;
 // scripts/studies/regression/regression.py runs it.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>

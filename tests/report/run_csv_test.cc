@@ -1,11 +1,9 @@
 #include "report/run_csv.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cstdlib>
-#include <sstream>
 
 #include "report/csv.h"
 #include "sample_run.h"

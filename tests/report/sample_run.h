@@ -1,7 +1,6 @@
 // A run of six trials whose every number can be checked by hand.
 #pragma once
 
-#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>

@@ -1,6 +1,5 @@
 // What is drawn of one scan.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 #include <vector>

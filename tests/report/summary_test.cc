@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/says.h"
 #include "report/summary_json.h"
 #include "report/summary_text.h"
 #include "sample_run.h"
@@ -143,11 +143,8 @@ TEST(SummaryText, FitsAndColoursOnRequestOnly) {
   const std::string text = SummaryText(run, SampleSummary());
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
-  EXPECT_THAT(text, HasSubstr("3 of 5"));
-  EXPECT_THAT(text, HasSubstr("14.7 .. 94.7 %"));
-  EXPECT_THAT(text, HasSubstr("1 simulator faults"));
-  EXPECT_THAT(text, HasSubstr("1 more finished trials"));
-  EXPECT_THAT(text, HasSubstr("0123456789abcdef"));
+  EXPECT_THAT(text, core::Says("3 of 5", "14.7 .. 94.7 %", "1 simulator faults",
+                               "1 more finished trials", "0123456789abcdef"));
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
   EXPECT_NE(SummaryText(run, SampleSummary(), TextStyle::kColour).find('\x1b'), std::string::npos);
 }
@@ -229,8 +226,8 @@ TEST(SummaryText, WithoutAnEventThereIsAShareAndNoIntervalOfTheMean) {
   std::vector<double> scrapes(40, 0.0);
   const std::string none = TextOf(Summary("scrapes", scrapes));
   EXPECT_THAT(none,
-              HasSubstr("scrapes                       0.00                      -      0.00"));
-  EXPECT_THAT(none, HasSubstr("no interval of the mean: all are 0\n"));
+              core::Says("scrapes                       0.00                      -      0.00",
+                         "no interval of the mean: all are 0\n"));
   // 1 - 0.025^(1/40).
   EXPECT_THAT(none, HasSubstr("0 of 40 trials differ from 0, 0.0 .. 8.8 % (exact)"));
   scrapes[7] = 3.0;

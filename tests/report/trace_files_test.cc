@@ -4,7 +4,6 @@
 #include <cmath>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "report/trace_csv.h"
 #include "report/trace_drawing.h"

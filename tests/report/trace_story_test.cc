@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/says.h"
 #include "report/trace_view.h"
 #include "sample_trace.h"
 
@@ -20,12 +21,10 @@ std::ptrdiff_t LinesOf(const std::string& text) {
 
 TEST(TraceStory, TellsTurnsAndDrivesBetweenFoldedEvents) {
   const std::string story = TraceStory(SampleTrial(), StoryLength::kFolded);
-  EXPECT_THAT(story, HasSubstr("seed 7, trial 12: no_path (nowhere to go)"));
-  EXPECT_THAT(story, HasSubstr("drove 2.00 m"));
-  EXPECT_THAT(story, HasSubstr("start, drove 1.00 m\n"));
-  EXPECT_THAT(story, HasSubstr("3 hazard scans ..#.. to #...., turned right 30 deg\n"));
-  EXPECT_THAT(story, HasSubstr("reflection"));
-  EXPECT_THAT(story, HasSubstr("end nowhere to go\n"));
+  EXPECT_THAT(story, core::Says("seed 7, trial 12: no_path (nowhere to go)", "drove 2.00 m",
+                                "start, drove 1.00 m\n",
+                                "3 hazard scans ..#.. to #...., turned right 30 deg\n",
+                                "reflection", "end nowhere to go\n"));
   // Pose, belief and believed distance to the goal of the first scan.
   EXPECT_THAT(story, HasSubstr("  1.00   0.00     0    1.50   0.00     0    2.00  3 hazard"));
 }
@@ -53,8 +52,8 @@ TEST(TraceStory, AWaypointHasALineOfItsOwnAndTheTrackerSharesOne) {
                         {1.2, {}, "tracker", "goal in view"},
                         {1.3, {}, "tracker", "goal out of view"}};
   const std::string story = TraceStory(trial, StoryLength::kFolded);
-  EXPECT_THAT(story, HasSubstr("  waypoint 1 of 2, 0.31 m from it"));
-  EXPECT_THAT(story, HasSubstr("  2 tracker changes goal in view to goal out of view"));
+  EXPECT_THAT(story, core::Says("  waypoint 1 of 2, 0.31 m from it",
+                                "  2 tracker changes goal in view to goal out of view"));
 }
 
 TEST(TraceStory, EveryEventOnALineOfItsOwn) {

@@ -1,7 +1,6 @@
 // Point clouds on made-up ground, for maps that can be checked by hand.
 #pragma once
 
-#include <cmath>
 #include <functional>
 
 #include "math/pose.h"

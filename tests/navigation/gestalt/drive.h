@@ -182,4 +182,10 @@ inline FakeRoverConfig TrueRover() {
   return rover;
 }
 
+inline GestaltSetup TrueSetup() {
+  GestaltSetup setup;
+  setup.rover = TrueRover();
+  return setup;
+}
+
 }  // namespace rockyard::navigation

@@ -1,7 +1,6 @@
 // What the map keeps, what it forgets, and what it leaves out.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -2,17 +2,9 @@
 #include "navigation/gestalt/map_params.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "core/archive.h"
-#include "core/error.h"
-#include "core/json_text.h"
 #include "core/params_text.h"
+#include "core/refusals.h"
 #include "navigation/gestalt/clouds.h"
 #include "navigation/gestalt/gestalt_params.h"
 
@@ -24,7 +16,7 @@ constexpr auto& Problems = core::ProblemsOf<GestaltMapParams>;
 
 // Goldberg 2002, table 1, but for arcs, waypoints and votes.
 TEST(GestaltMapParamsTest, DefaultsAreThoseOfTable1) {
-  const std::vector<std::pair<std::string, std::string>> table = {
+  core::ExpectPublished<GestaltMapParams>({
       {"grid.x0_m", "0.0"},
       {"grid.y0_m", "0.0"},
       {"grid.xN_m", "10.0"},
@@ -57,24 +49,10 @@ TEST(GestaltMapParamsTest, DefaultsAreThoseOfTable1) {
       {"rover.obst_height_m", "0.2"},
       {"rover.wheel_radius_m", "0.1"},
       {"rover.max_pitch_deg", "25.0"},
-  };
-  const core::FieldTable fields = core::ListParams<GestaltMapParams>();
-  for (const auto& [path, value] : table) {
-    const auto found =
-        std::find_if(fields.parameters().begin(), fields.parameters().end(),
-                     [&path = path](const core::ParameterInfo& p) { return p.path == path; });
-    ASSERT_NE(found, fields.parameters().end()) << path;
-    EXPECT_EQ(core::DumpJson(found->value), value + "\n") << path;
-    EXPECT_EQ(found->origin, core::Origin::kPublished) << path;
-  }
+  });
   const GestaltGridParams grid;
   EXPECT_EQ(grid.nx(), 50);  // xelts
   EXPECT_EQ(grid.ny(), 50);  // yelts
-}
-
-TEST(GestaltMapParamsTest, SurvivesARoundTrip) {
-  const std::string json = core::DumpJson(core::WriteParams(GestaltMapParams{}));
-  EXPECT_EQ(core::DumpJson(core::WriteParams(Read(json))), json);
 }
 
 TEST(GestaltMapParamsTest, RefusesWhatMakesNoMap) {
@@ -105,15 +83,7 @@ TEST(GestaltMapParamsTest, RefusesMapsThatEndAtTheVehicle) {
 }
 
 TEST(GestaltMapParamsTest, PathsBeginWithinTheMap) {
-  const auto problems = [](const std::string& json) -> std::string {
-    GestaltParams params;
-    try {
-      core::ReadParams(core::ParseJson(json, "test"), params);
-    } catch (const core::UserError& error) {
-      return error.what();
-    }
-    return "";
-  };
+  constexpr auto& problems = core::ProblemsOf<GestaltParams>;
   const auto beyond = testing::HasSubstr("where the map ends or beyond");
   EXPECT_THAT(problems(R"({"plan": {"plan_min_dist_m": 3.0, "plan_max_dist_m": 4}})"), beyond);
   EXPECT_EQ(problems(R"({"plan": {"plan_min_dist_m": 2.9, "plan_max_dist_m": 4}})"), "");

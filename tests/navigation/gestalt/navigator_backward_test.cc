@@ -9,7 +9,6 @@ namespace rockyard::navigation {
 namespace {
 
 using messages::HazardSide;
-using messages::LookDirection;
 using messages::VehicleHazard;
 using messages::VehicleHazardKind;
 
@@ -43,8 +42,7 @@ std::function<std::optional<VehicleHazard>(const FakeRover&)> FeltOnceAfter(
 
 // A goal straight behind, to which the rover drives backward on flat ground that it has seen.
 GestaltSetup Backward() {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.goal = {-6.0, 0.0};
   setup.params.drive.backward_arcs = BackwardArcs::kAlways;
   setup.params.votes.min_fwd_threshold = 256.0;  // looks both ways, always
@@ -126,8 +124,7 @@ TEST(GestaltBackward, ATouchAheadEndsABackOffForward) {
 // has to move with the rover, to a far window too.
 TEST(GestaltMovedEstimate, WhatWasFeltStaysWhereTheRoverFeltIt) {
   for (const math::Pose2& to : {math::Pose2{1.2, 0.0, 0.0}, math::Pose2{40.0, -30.0, 2.0}}) {
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     setup.felt = Between(1.2, 1.3, kTouchAhead);
     GestaltDrive drive(setup);
     ASSERT_TRUE(drive.StepUntil(DrivesBackward));
@@ -145,8 +142,7 @@ TEST(GestaltMovedEstimate, WhatWasFeltStaysWhereTheRoverFeltIt) {
 }
 
 TEST(GestaltMovedEstimate, WhatWasFeltBeforeTheLastProgressIsForgotten) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.goal = {8.0, 0.0};
   int felt = 0;
   setup.felt = FeltOnceAfter({2.1}, felt);
@@ -161,8 +157,7 @@ TEST(GestaltMovedEstimate, WhatWasFeltBeforeTheLastProgressIsForgotten) {
 
 // Two hazards with progress between them, where one in a row is allowed.
 TEST(GestaltMovedEstimate, ProgressForgivesWhatWasFelt) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.goal = {10.0, 0.0};
   setup.params.drive.max_felt = 1;
   int felt = 0;
@@ -177,8 +172,7 @@ TEST(GestaltMovedEstimate, ProgressForgivesWhatWasFelt) {
 // What was turned counts in the search, and a wall that is felt when a turn begins does not stop
 // it.
 TEST(GestaltMovedEstimate, TurnsThatAreStoppedCountInASearch) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.range.range_m = 0.2;
   setup.goal = {4.0, 1.0};
   setup.params.drive.max_felt = 1000;

@@ -6,12 +6,9 @@
 namespace rockyard::navigation {
 namespace {
 
-using messages::LookDirection;
-
 // A rover among blocks, after some steps.
 GestaltSetup AmongBlocks() {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.height = Blocks({{1.8, 2.1, -0.4, 0.3}, {3.0, 3.2, 0.3, 1.2}});
   return setup;
 }
@@ -77,8 +74,7 @@ TEST(GestaltCorrection, AMoveByHandClearsTheMap) {
 
 // The rover ends where the goal is in the corrected frame, not where it was before.
 TEST(GestaltCorrection, MovesTheGoal) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   GestaltDrive drive(setup);
   ASSERT_TRUE(drive.StepUntil(
       [](const GestaltTick& tick) { return tick.drives() && tick.estimate.distance_m > 1.0; }));
@@ -96,8 +92,7 @@ TEST(GestaltCorrection, MovesTheGoal) {
 // A turn in place ends after the angle that was measured, corrected or not.
 TEST(GestaltCorrection, ATurnUnderWayEndsAsItWouldHave) {
   const auto turned = [](bool correct) {
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     setup.height = Blocks({{0.7, 1.0, -3.0, 3.0}});
     setup.params.drive.rear_cameras = false;
     setup.params.drive.backward_arcs = BackwardArcs::kLastResort;

@@ -84,8 +84,7 @@ TEST(GestaltEndings, UnknownGroundIsDrivenOnlyAfterAFullTurn) {
 // Four turns of 90 deg overshoot by a tick's share each, 0.017 rad together: a goal 0.005 rad to
 // the left is on the right then. A second search is as long as the first, and turns towards it.
 TEST(GestaltEndings, EveryDriveEndsASearch) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.range.range_m = 0.2;
   setup.goal = {4.0, 0.02};
   GestaltDrive drive(setup);
@@ -156,8 +155,7 @@ TEST(GestaltEndings, ALookThatIsNotAnsweredIsAskedForAgain) {
 // The arena reflects the rover's estimate: what was mapped lies elsewhere now.
 TEST(GestaltEndings, PoseUpdateForgetsTheMapAndLooksAnew) {
   for (const double jump_m : {0.0, 1.0}) {
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     setup.range.half_angle_rad = math::DegToRad(30.0);
     setup.params.drive.rear_cameras = false;
     GestaltDrive drive(setup);
@@ -207,8 +205,7 @@ TEST(GestaltEndings, PoseUpdateStartsASearchAgain) {
 
 TEST(GestaltEndings, PoseUpdateDoesNotChangeTheAngleOfATurnUnderWay) {
   for (const double jump_rad : {0.3, -0.3, 1.5, 3.1}) {
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     setup.height = Spikes();
     GestaltDrive drive(setup);
     ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.turns(); }));

@@ -1,7 +1,6 @@
 // Hazards that the rover feels while GESTALT drives blindly.
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
 
 #include "drive.h"
@@ -81,8 +80,7 @@ TEST(GestaltFelt, BacksOffNoFurtherThanAskedFor) {
 
 TEST(GestaltFelt, DrivesRoundWhatItFeltAndDoesNotSee) {
   for (const double y_m : {-0.15, 0.0, 0.2}) {
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     setup.felt = Unseen({2.0, 2.3, y_m - 0.15, y_m + 0.15});
     GestaltDrive drive(setup);
     EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
@@ -98,8 +96,7 @@ TEST(GestaltFelt, MarksAnObstacleAtTheEndThatLed) {
   const VehicleHazard slip{VehicleHazardKind::kSlip, HazardSide::kAhead};
   for (const VehicleHazard& hazard : {left, ahead, right, slip}) {
     const HazardSide side = hazard.side;
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     setup.felt = [hazard](const FakeRover& rover) -> std::optional<VehicleHazard> {
       if (rover.X_WR().x_m > 1.2 && rover.X_WR().x_m < 1.25) return hazard;
       return std::nullopt;
@@ -144,8 +141,7 @@ TEST(GestaltFelt, GivesUpAfterTooManyWithoutProgress) {
 // Slip is seen from images that come now and then: one tick tells of it. What drove backward slips
 // behind.
 TEST(GestaltFelt, OneTickOfSlipMarksWhereItDrove) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   int told = 0;
   setup.felt = [&told](const FakeRover& rover) -> std::optional<VehicleHazard> {
     if (rover.X_WR().x_m <= 1.2 || told > 0) return std::nullopt;
@@ -181,8 +177,7 @@ TEST(GestaltFelt, AHazardThatLastsCountsAgainOnlyAfterSomeDriving) {
 }
 
 TEST(GestaltFelt, ATouchBehindEndsABackOffAndNothingElse) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
     if (rover.X_WR().x_m > 0.3) return kTouchAhead;
     return std::nullopt;
@@ -232,8 +227,7 @@ TEST(GestaltFelt, DuringASearchTurnsTheOtherWay) {
 // that met it is not taken again from there; without the veto it is.
 TEST(GestaltFelt, TheArcOnWhichItFeltIsNotChosenAgainFromThere) {
   for (const bool veto : {true, false}) {
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     setup.params.drive.veto_felt = veto;
     setup.params.drive.max_felt = 3;
     // The mark lies nearer than paths are judged from.

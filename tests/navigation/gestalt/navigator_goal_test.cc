@@ -11,8 +11,7 @@ namespace {
 using messages::LookDirection;
 
 TEST(GestaltGoal, TheStepUnderWayEndsAsItWouldHave) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   GestaltDrive drive(setup);
   ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.X_WR.x_m > 0.1; }));
   drive.SetGoal({0.0, 4.0}, GoalChange::kNext);
@@ -27,8 +26,7 @@ TEST(GestaltGoal, TheStepUnderWayEndsAsItWouldHave) {
 }
 
 TEST(GestaltGoal, KeepsTheMap) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.height = Blocks({{2.0, 2.4, -2.0, 2.0}});
   GestaltDrive kept(setup);
   GestaltDrive told(setup);
@@ -70,8 +68,7 @@ TEST(GestaltGoal, ProgressTowardsTheNextGoalCountsAnew) {
 // Turns in place before a rover that sees nothing drives into the unknown: four of 90 deg make a
 // search (GestaltEndings), and a next goal after two of them begins another.
 int TurnsBeforeTheFirstDrive(GoalChange change) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.range.range_m = 0.2;
   setup.goal = {4.0, 1.0};
   GestaltDrive drive(setup);
@@ -102,8 +99,7 @@ bool BeginsBackOff(const std::vector<GestaltTick>& log) {
 // and with the next goal as many once more.
 TEST(GestaltGoal, FeltHazardsCountAnewWithTheNextGoal) {
   for (const bool next : {false, true}) {
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     setup.felt = [](const FakeRover& rover) -> std::optional<messages::VehicleHazard> {
       if (rover.X_WR().x_m < 1.0) return std::nullopt;
       return messages::VehicleHazard{messages::VehicleHazardKind::kContact,
@@ -127,8 +123,7 @@ TEST(GestaltGoal, FeltHazardsCountAnewWithTheNextGoal) {
 // What it felt outlives the first cycle to the next goal: after a pose update, which clears the
 // map, the place is an obstacle still, at its distance from the rover.
 TEST(GestaltGoal, FeltPlacesStay) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   bool felt = false;
   setup.felt = [&](const FakeRover& rover) -> std::optional<messages::VehicleHazard> {
     if (felt || rover.X_WR().x_m < 1.2) return std::nullopt;

@@ -1,7 +1,6 @@
 // What holds for every decision of GESTALT, over random parameters, points and poses.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 
 #include "core/random.h"
@@ -190,8 +189,7 @@ TEST(GestaltProperty, RandomBlocksAreNeverDrivenOverAndDrivesEnd) {
   for (std::uint32_t trial = 0; trial < 40; ++trial) {
     SCOPED_TRACE(trial);
     Draws draws(trial, 1);
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     setup.params.drive.max_fruitless_cycles = 40;
     setup.goal = {6.0, draws.Between(-1.0, 1.0)};
     std::vector<Block> blocks;
@@ -229,8 +227,7 @@ TEST(GestaltProperty, EqualInputsGiveEqualDecisions) {
 
 // A mirrored world is driven through in the mirrored way, while no vote is its own mirror image.
 TEST(GestaltProperty, MirroredWorldIsDrivenThroughMirrored) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.goal = {5.0, 0.7};
   setup.height = Blocks({{2.0, 2.6, -0.3, 0.5}});
   GestaltDrive drive(setup);

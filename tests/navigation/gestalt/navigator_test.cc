@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "drive.h"
 #include "navigation/gestalt/choice.h"
@@ -49,8 +48,7 @@ TEST(GestaltNavigator, ArrivesAtGoalsAllAround) {
 // a step: what it costs is a limit of the README.
 TEST(GestaltNavigator, FacingAwayItTurnsInAWideArcUnlessPathsEndWhereTheyTurnBack) {
   const auto driven_m = [](double heading_deg, double max_path_turn_deg) {
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     setup.goal = {7.6, 0.0};
     setup.start.heading_rad = math::DegToRad(heading_deg);
     setup.params.plan.max_path_turn_rad = math::DegToRad(max_path_turn_deg);
@@ -67,8 +65,7 @@ TEST(GestaltNavigator, FacingAwayItTurnsInAWideArcUnlessPathsEndWhereTheyTurnBac
 
 TEST(GestaltNavigator, DrivesRoundABlock) {
   for (const double y_m : {-0.3, 0.0, 0.3}) {
-    GestaltSetup setup;
-    setup.rover = TrueRover();
+    GestaltSetup setup = TrueSetup();
     const Block block{2.0, 2.6, y_m - 0.5, y_m + 0.5};
     setup.height = Blocks({block});
     GestaltDrive drive(setup);
@@ -114,8 +111,7 @@ TEST(GestaltNavigator, MapsWhatItSeesFromTheBelievedAttitude) {
 
 // The best forward vote after each look ahead, from a map and votes of the test's own.
 TEST(GestaltNavigator, LooksBehindExactlyWhereTheBestForwardVoteIsBelowTheThreshold) {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
+  GestaltSetup setup = TrueSetup();
   setup.height = Blocks({{2.0, 2.4, -1.2, 1.2}, {0.5, 2.4, -1.4, -1.2}, {0.5, 2.4, 1.2, 1.4}});
   setup.params.map.max_idles = 3;  // so that a map that ages by looks, not by cycles, shows
   GestaltDrive drive(setup);

@@ -1,8 +1,6 @@
 // Point turns of several angles: which there are, which is chosen, and how far they turn.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "drive.h"
 #include "grids.h"
 #include "navigation/gestalt/arcs.h"

@@ -1,9 +1,6 @@
 // Which spline is chosen, from votes written by hand.
 #include <gtest/gtest.h>
 
-#include <string>
-#include <vector>
-
 #include "navigation/gestalt/splines.h"
 
 namespace rockyard::navigation {

@@ -1,14 +1,6 @@
 // Names and defaults of table 1 for arcs, waypoints and votes, and what a user may not set.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "core/archive.h"
-#include "core/json_text.h"
 #include "core/params_text.h"
 #include "drive.h"
 
@@ -20,7 +12,7 @@ constexpr auto& Problems = core::ProblemsOf<GestaltParams>;
 
 // Goldberg 2002, table 1, but for the map; and the step of section 4.
 TEST(GestaltVoteParams, DefaultsAreThoseOfTable1) {
-  const std::vector<std::pair<std::string, std::string>> table = {
+  core::ExpectPublished<GestaltParams>({
       {"arcs.max_curvature_per_m", "2.0"},
       {"arcs.num_forward_arcs", "23"},
       {"arcs.num_backward_arcs", "23"},
@@ -35,21 +27,7 @@ TEST(GestaltVoteParams, DefaultsAreThoseOfTable1) {
       {"votes.min_vote_goodness", "26.0"},
       {"drive.step_m", "0.35"},
       {"drive.rear_cameras", "true"},
-  };
-  const core::FieldTable fields = core::ListParams<GestaltParams>();
-  for (const auto& [path, value] : table) {
-    const auto found =
-        std::find_if(fields.parameters().begin(), fields.parameters().end(),
-                     [&path = path](const core::ParameterInfo& p) { return p.path == path; });
-    ASSERT_NE(found, fields.parameters().end()) << path;
-    EXPECT_EQ(core::DumpJson(found->value), value + "\n") << path;
-    EXPECT_EQ(found->origin, core::Origin::kPublished) << path;
-  }
-}
-
-TEST(GestaltVoteParams, SurviveARoundTrip) {
-  const std::string json = core::DumpJson(core::WriteParams(GestaltParams{}));
-  EXPECT_EQ(core::DumpJson(core::WriteParams(Read(json))), json);
+  });
 }
 
 TEST(GestaltVoteParams, RefuseWhatCannotBeDriven) {

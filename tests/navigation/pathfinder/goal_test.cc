@@ -1,7 +1,6 @@
 // Another goal for the behaviour controller on its way.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "navigation/fake_rover.h"
