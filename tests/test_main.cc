@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
@@ -61,6 +62,8 @@ class TimesOfTests final : public testing::EmptyTestEventListener {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A shell ignores it in what it starts in the background, and so would the commands under test.
+  std::signal(SIGINT, SIG_DFL);
   testing::InitGoogleMock(&argc, argv);
   if (const char* file = std::getenv("ROCKYARD_TEST_TIMES"); file != nullptr && *file != '\0') {
     const std::string program = argv[0];

@@ -221,6 +221,8 @@ class Runner(unittest.TestCase):
         self.assertEqual((code, self.read("results/one.md")), (2, before), errors)
         (self.root / "build/fails").unlink()
         self.write("build/slow", "")
+        # A shell ignores it in what it starts in the background.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         with subprocess.Popen([sys.executable, self.root / "scripts/studies.py", "run", "one"], text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as process:
             while "# Half" not in self.read("results/one.md"):
