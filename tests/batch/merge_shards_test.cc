@@ -174,7 +174,7 @@ TEST_F(MergeTest, CountsPlannedTrialsAlone) {
   own.shard = {1, 2};
   {
     ResultStore store = ResultStore::Create(begun, own, 8);
-    AppendRecords(store, {FakeRecord(1, 0), FakeRecord(1, 6)});
+    AppendRecords(store, {FakeRecord(1, 0), FakeRecord(1, 4)});
     store.SetPlanned(0, 4);
   }
   EXPECT_THAT(ErrorOf({begun, MakeShard(2, 2, FakeIdentity(), 4)}), HasSubstr("has 1 of 2 trials"));

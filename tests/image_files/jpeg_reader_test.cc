@@ -13,6 +13,7 @@ namespace rockyard::image_files {
 namespace {
 
 using testing::Each;
+using testing::ElementsAreArray;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -64,6 +65,22 @@ TEST(JpegReader, ColoursComeInOrder) {
     for (const int sample : image.planes[c].values()) {
       ASSERT_LE(std::abs(sample - kColour[c]), 1) << "channel " << c;
     }
+  }
+}
+
+// In place of the JFIF marker one of Adobe's; what that does not know is taken for YCbCr.
+TEST(JpegReader, AnUnknownTransformationOfColoursIsRead) {
+  const JpegText text{.width = 8, .height = 8, .sample = Slope, .colour = JCS_RGB, .components = 3};
+  const std::string bytes = JpegBytes(text);
+  ASSERT_EQ(bytes.substr(6, 4), "JFIF");
+  const std::string adobe =
+      std::string("\xff\xee\0\x0e", 4) + "Adobe" + std::string("\0\x64\0\0\0\0\x07", 7);
+  const std::string changed = bytes.substr(0, 2) + adobe + bytes.substr(2 + 18);
+  const RawImage expected = DecodeJpeg(bytes, "a.jpg", {});
+  const RawImage image = DecodeJpeg(changed, "a.jpg", {});
+  ASSERT_EQ(image.planes.size(), 3U);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_THAT(image.planes[c].values(), ElementsAreArray(expected.planes[c].values()));
   }
 }
 

@@ -29,6 +29,22 @@ TEST(TraceStory, TellsTurnsAndDrivesBetweenFoldedEvents) {
   EXPECT_THAT(story, HasSubstr("  1.00   0.00     0    1.50   0.00     0    2.00  3 hazard"));
 }
 
+TEST(TraceStory, LeavesOutATurnOfLessThanATenthOfTheOther) {
+  const auto turned = [](double left_deg, double right_deg) {
+    truth::TracedTrial trial = SampleTrial();
+    const double left_rad = math::DegToRad(left_deg);
+    trial.trace.samples = {SampleOf(0.0, 0.0, 0.0, 0.0, "drive"),
+                           SampleOf(1.0, 0.0, 0.0, left_rad, "turn"),
+                           SampleOf(2.0, 0.0, 0.0, left_rad - math::DegToRad(right_deg), "turn")};
+    trial.trace.events = {{0.0, {}, "hazard", "..#.."}, {2.0, {}, "end", ""}};
+    return TraceStory(trial, StoryLength::kAll);
+  };
+  EXPECT_THAT(turned(20.0, 40.0), HasSubstr("..#.., turned left 20 deg, turned right 40 deg\n"));
+  EXPECT_THAT(turned(40.0, 20.0), HasSubstr("..#.., turned left 40 deg, turned right 20 deg\n"));
+  EXPECT_THAT(turned(3.9, 40.0), HasSubstr("..#.., turned right 40 deg\n"));
+  EXPECT_THAT(turned(40.0, 3.9), HasSubstr("..#.., turned left 40 deg\n"));
+}
+
 TEST(TraceStory, FoldsLooksChoicesAndFeltHazards) {
   truth::TracedTrial trial = SampleTrial();
   trial.trace.events = {{1.0, {}, "look", "ahead, 900 points"},
