@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/refusals.h"
 #include "scenario/sweep.h"
+#include "scenario/sweep_spec.h"
 
 namespace rockyard::scenario {
 namespace {
@@ -65,6 +66,13 @@ INSTANTIATE_TEST_SUITE_P(
                  {"path": "course.goal_x_m", "from": 5, "to": 6, "steps": 200},
                  {"path": "course.goal_radius_m", "from": 0.5, "to": 1, "steps": 200}]})",
                  "axes", "make 40000 cells, more than 10000", "sobol"}));
+
+TEST(SweepCells, AsManyAsAreAllowed) {
+  SweepSpec spec;
+  spec.axes.resize(2);
+  for (AxisSpec& axis : spec.axes) axis.levels.resize(100);
+  EXPECT_EQ(DesignCells(spec).size(), kMaxSweepCells);
+}
 
 INSTANTIATE_TEST_SUITE_P(
     Axes, BadSweepTest,
