@@ -53,6 +53,9 @@ TEST(MeanDifference, NoScatterAndNoValues) {
   const MeanDifference moved = PairedMeans(std::vector<double>(5, 0.2));
   EXPECT_EQ(ChangePValue(moved), 1.0 / 16.0) << "all five of one sign, either sign";
   EXPECT_EQ(EquivalencePValue(moved, 0.1), 1.0);
+  // Of the 10 ways to part five values into three and two, two part these.
+  const MeanDifference apart = WelchMeans(std::vector<double>(3, 0.0), std::vector<double>(2, 1.0));
+  EXPECT_NEAR(ChangePValue(apart), 0.2, 1e-12);
   const MeanDifference unknown = PairedMeans(std::vector<double>{1.0});
   EXPECT_FALSE(unknown.known());
   EXPECT_EQ(ChangePValue(unknown), 1.0);

@@ -51,6 +51,16 @@ TEST(DepressionTest, DitchIsAsDeepAndWideAsListed) {
   EXPECT_LT(ground.Height(2.0, -1.45), 0.0);
 }
 
+TEST(DepressionTest, IsNearADiscThatItReachesInto) {
+  const Ground ground(DitchAndPit(), kKey);
+  for (const double radius_m : {0.0, 0.1, 1.0}) {
+    EXPECT_TRUE(ground.HasDepressionNear(2.0 + 0.24 + radius_m, 0.5, radius_m)) << radius_m;
+    EXPECT_FALSE(ground.HasDepressionNear(2.0 + 0.26 + radius_m, 0.5, radius_m)) << radius_m;
+    EXPECT_TRUE(ground.HasDepressionNear(-1.0, -1.0 - 0.59 - radius_m, radius_m)) << radius_m;
+    EXPECT_FALSE(ground.HasDepressionNear(-1.0, -1.0 - 0.61 - radius_m, radius_m)) << radius_m;
+  }
+}
+
 TEST(DepressionTest, DirectionTurnsFromXTowardsY) {
   GroundParams params = DitchAndPit();
   params.ditches.direction_deg = {30.0};
