@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace rockyard::trial {
 namespace {
@@ -219,6 +221,20 @@ TEST_F(RefereeTest, BellyOnARockMakesItHighCentred) {
   const auto verdict = Run(20.0, [] {});
   ASSERT_TRUE(verdict);
   EXPECT_EQ(verdict->outcome(), TrialOutcome::kHighCentred);
+}
+
+// The belly lifts off for moments while the wheels dig: a fifth of the time tells.
+TEST_F(RefereeTest, TheBellysShareOfTheTimeTellsHighCentredFromJammed) {
+  for (const auto& [ticks_of_20, outcome] :
+       {std::pair(5, TrialOutcome::kHighCentred), std::pair(3, TrialOutcome::kJammed)}) {
+    int tick = 0;
+    const auto verdict = Run(20.0, [&, ticks = ticks_of_20] {
+      state_.contacts.clear();
+      if (tick++ % 20 < ticks) state_.contacts = {{truth::BodyPart::kBelly, 3, 40.0, 0.0, 0.9}};
+    });
+    ASSERT_TRUE(verdict);
+    EXPECT_EQ(verdict->outcome(), outcome) << ticks_of_20 << " of 20 ticks";
+  }
 }
 
 TEST_F(RefereeTest, WheelsDeeperThanTheirAxlesAreEmbedded) {
