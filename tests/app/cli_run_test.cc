@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/command.h"
+#include "app/watched_run.h"
 
 namespace rockyard::app {
 namespace {
@@ -12,7 +12,10 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
 
-using CliRun = CommandTest;
+class CliRun : public WatchedRunTest {
+ protected:
+  CliRun() : WatchedRunTest(2) {}
+};
 
 TEST_F(CliRun, WritesTheWholeFolder) {
   const CommandResult result = RunTo(0, QuickRun("a", 3));
@@ -40,9 +43,7 @@ TEST_F(CliRun, ThreadsAndResumeGiveTheSameHash) {
 
 TEST_F(CliRun, AnInterruptStoresWhatIsFinishedAndSaysHowToGoOn) {
   const pid_t process = Start(With(QuickRun("a", 100000), {"--threads", "2"}));
-  ASSERT_TRUE(core::WaitForHandler(process, SIGINT));
-  ASSERT_TRUE(WaitUntil([&] { return fs::exists(work() / "a" / "results.sqlite"); }));
-  usleep(300000);
+  ASSERT_TRUE(WaitForTrials("a", 1));
   kill(process, SIGINT);
   const CommandResult result = WaitTo(130, process);
   EXPECT_THAT(result.err, HasSubstr("--resume"));

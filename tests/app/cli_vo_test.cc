@@ -135,7 +135,7 @@ TEST_F(CliVo, KilledLeavesNothingInterruptedLeavesAPath) {
   const std::vector<std::string> words{"vo",    "list.txt", "--cameras", "way/cameras.json",
                                        "--out", "path"};
   const pid_t killed = Start(words);
-  usleep(500000);
+  ASSERT_TRUE(core::WaitForHandler(killed, SIGINT));
   kill(killed, SIGKILL);
   EXPECT_EQ(Wait(killed).exit_code, -SIGKILL);
   EXPECT_FALSE(fs::exists(work() / "path"));

@@ -42,19 +42,15 @@ inline bool WaitForEnd(pid_t process) {
   return WaitUntil([&] { return !Alive(process); });
 }
 
-// Until the signal would not end it: it has a handler, or is held back to be waited for. False,
-// too, where the process ends before.
+// Until it has a handler for the signal; false, too, where the process ends before. Not for one
+// that holds signals back and waits for them: while it waits, the kernel shows them as not held.
 inline bool WaitForHandler(pid_t process, int signal) {
-  const auto has = [&](const std::string& status, const std::string& set) {
-    const std::size_t at = status.find(set);
-    if (at == std::string::npos) return false;
-    const auto signals = std::stoull(status.substr(at + set.size()), nullptr, 16);
-    return (signals >> (signal - 1) & 1U) != 0;
-  };
   bool handles = false;
   WaitUntil([&] {
     const std::string status = ProcessFile(process, "status");
-    handles = has(status, "SigCgt:") || has(status, "SigBlk:");
+    const std::size_t at = status.find("SigCgt:");
+    handles = at != std::string::npos &&
+              (std::stoull(status.substr(at + 7), nullptr, 16) >> (signal - 1) & 1U) != 0;
     return handles || !Alive(process);
   });
   return handles;
