@@ -76,6 +76,28 @@ TEST(NpzFile, NumbersLieAsTheyAre) {
   EXPECT_EQ(value, 1.5);
 }
 
+// The first and the last character of each length are kept; one before them, written too long, and
+// one behind the last of all are none.
+TEST(NpzFile, TextsAreCharactersOfTheirShortestForm) {
+  const auto decoded = [](const std::string& text) {
+    NpzFile file;
+    file.AddText("text", text);
+    const std::string npy = Unzip(file.Bytes()).front().second;
+    const auto header = std::string::size_type{10} + static_cast<unsigned char>(npy[8]);
+    std::u32string characters((npy.size() - header) / sizeof(char32_t), U'\0');
+    std::memcpy(characters.data(), npy.data() + header, npy.size() - header);
+    return characters;
+  };
+  EXPECT_EQ(decoded("\x7f\xc2\x80\xdf\xbf"), U"\x7f\x80\x7ff");
+  EXPECT_EQ(decoded("\xe0\xa0\x80\xef\xbf\xbf"), U"\x800\xffff");
+  EXPECT_EQ(decoded("\xf0\x90\x80\x80\xf4\x8f\xbf\xbf"), U"\U00010000\U0010ffff");
+  EXPECT_EQ(decoded("\xed\x9f\xbf\xee\x80\x80"), U"\xd7ff\xe000");
+  for (const char* none : {"\xc1\xbf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80",
+                           "\xed\xa0\x80", "\xed\xbf\xbf", "\xc2", "\xc2z"}) {
+    EXPECT_EQ(decoded(none).front(), U'\xfffd') << testing::PrintToString(none);
+  }
+}
+
 TEST(NpzFile, EqualArraysGiveEqualBytes) { EXPECT_EQ(Sample().Bytes(), Sample().Bytes()); }
 
 #ifdef ROCKYARD_CONTRACTS

@@ -57,6 +57,13 @@ TEST(Simplified, ALineKeepsItsEndsAndAWayThereAndBackItsTurn) {
   EXPECT_EQ(Simplified({{}, {{1.0, 2.0, 0.0}}}, 0.01).size(), 2u);
 }
 
+TEST(Thinned, AsManyPointsAsAllowedAreNotThinnedFurther) {
+  const TracePath path{Wave()};
+  const std::size_t finest = Thinned(path, 100000).front().size();
+  EXPECT_EQ(Thinned(path, finest).front().size(), finest);
+  EXPECT_LT(Thinned(path, finest - 1).front().size(), finest);
+}
+
 TEST(PageTracks, AreWholeCentimetresWithoutRepeats) {
   const PageTrack track{
       7,

@@ -216,6 +216,25 @@ TEST(VisualOdometerTest, AnotherPlaceIsNoMotion) {
       << static_cast<int>(*step.result.reason);
 }
 
+// A share of the points that is large enough, but one point fewer than are asked for.
+TEST(VisualOdometerTest, FewerConsistentPointsThanAskedForAreNoMotion) {
+  const auto result = [](const OdometerParams& params) {
+    VisualOdometer odometer = Odometer(params);
+    odometer.Add(See(Transform::Identity(), 0));
+    return odometer.Add(See(Ahead(0.1), 1)).result;
+  };
+  OdometerParams params;
+  const MotionCounts counts = result(params).counts;
+  ASSERT_GT(counts.points, counts.consistent);
+  params.selection.min_consistent = static_cast<int>(counts.consistent);
+  EXPECT_TRUE(result(params).motion);
+  params.selection.min_consistent = static_cast<int>(counts.consistent) + 1;
+  const MotionResult few = result(params);
+  EXPECT_EQ(few.counts.consistent, counts.consistent);
+  EXPECT_FALSE(few.motion);
+  EXPECT_EQ(few.reason, NoMotion::kNoConsistentSet);
+}
+
 // The lower part of what is seen moved otherwise: one of both motions, or none, and no mixture.
 TEST(VisualOdometerTest, OfTwoMotionsInOneImageOneIsFoundOrNone) {
   const Transform of_upper = Ahead(0.02);
