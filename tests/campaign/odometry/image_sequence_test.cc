@@ -115,8 +115,10 @@ TEST_F(Sequence, EurocsListsAreMatchedByTime) {
   Write("mav0/cam1/data.csv", "1500000000,c.png\n2500000000,d.png\n");
   EXPECT_THAT(Complaints(top()), AllOf(HasSubstr("b.png: has no partner of time 2000000000"),
                                        HasSubstr("d.png: has no partner of time 2500000000")));
-  Write("mav0/cam1/data.csv", "1500000000,c.png\nx,d.png\n");
-  EXPECT_THAT(Complaints(top()), HasSubstr("data.csv: line 2: is no time and name"));
+  for (const char* line : {"x,d.png", "2000000000", "2000000000,d.png,e.png"}) {
+    Write("mav0/cam1/data.csv", std::string("1500000000,c.png\n") + line + "\n");
+    EXPECT_THAT(Complaints(top()), HasSubstr("data.csv: line 2: is no time and name"));
+  }
 }
 
 TEST_F(Sequence, AListNamesFilesBesideIt) {
