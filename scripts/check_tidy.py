@@ -94,6 +94,8 @@ def read_batches(build):
         files = [path for path in files if path.is_relative_to(ROOT / "src")]
         if files:
             batches.append(Batch(name, Path(entry["directory"]), options_of(entry), files))
+    if not batches:
+        raise UseError(f"{database} compiles nothing of {ROOT / 'src'}")
     return batches
 
 
@@ -238,9 +240,10 @@ def batches_of_folders(batches, folders):
 
 def main(arguments):
     changed = arguments[1:2] == ["--changed"]
-    if not arguments or arguments[0] in ("-h", "--help") or (changed and len(arguments) > 3):
+    asked = arguments[:1] in (["-h"], ["--help"])
+    if not arguments or asked or (changed and len(arguments) > 3):
         print(__doc__)
-        return 2
+        return 0 if asked else 2
     build = Path(arguments[0]).resolve()
     try:
         batches = read_batches(build)

@@ -2,9 +2,10 @@
 """Runs what a release needs beside the tests of every change, and notes how each entry ended.
 
 Usage: scripts/long_tests.py [--list] [--again] [NAME]...     (default: all, one after the other)
-tests/long/tests.json names the entries; tests/long/README.md lists them with their last results, and is
-written anew after each. An entry that passed is not run again as long as nothing but that page and the changelog
-differs from the commit of its pass: what was interrupted goes on where it was (--again: run it all the same).
+tests/long/tests.json names the entries, what each builds first (targets by preset) and its command;
+tests/long/README.md lists them with their last results, and is written anew after each. An entry that passed is
+not run again as long as nothing but that page and the changelog differs from the commit of its pass: what was
+interrupted goes on where it was (--again: run it all the same).
 Exit code 0: all pass; 1: some failed; 2: wrong use; 130: interrupted.
 """
 
@@ -19,7 +20,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER = ROOT / "tests" / "long"
-ROW = re.compile(r"^\| (\w+) \|.*\| ([^|]*) \|$", re.M)
+ROW = re.compile(r"^\| (\w+) \|[^|]*\| `(.*)` \| ([^|]*) \|$", re.M)
 RESULT = re.compile(r"(passed|FAILED).*?, \d{4}-\d{2}-\d{2}, commit (\w+)(-dirty)?, ([\d.]+) min")
 NEVER = "not run yet"
 TOLD_APART = ("tests/long/README.md", "CHANGELOG.md")  # what may change after a pass
@@ -30,9 +31,11 @@ def read_tests():
     return json.loads((FOLDER / "tests.json").read_text(encoding="utf-8"))
 
 
-def read_results(table):
-    """The last column of the table, by name."""
-    return dict(ROW.findall(table.read_text(encoding="utf-8"))) if table.is_file() else {}
+def read_results(table, tests):
+    """The last column of the table, by name; what another command gave is no result of this one."""
+    commands = {test["name"]: test["command"] for test in tests}
+    rows = ROW.findall(table.read_text(encoding="utf-8")) if table.is_file() else []
+    return {name: result for name, command, result in rows if commands.get(name) == command}
 
 
 def minutes_of(result):
@@ -49,7 +52,8 @@ def page(tests, results):
     lines += [f"| {test['name']} | {test['what']} | `{test['command']}` | {told[test['name']]} |" for test in tests]
     times = {name: minutes_of(result) for name, result in told.items()}
     over = [name for name, minutes in times.items() if minutes > LIMIT_MIN]
-    lines += ["", f"All of them took {sum(times.values()) / 60:.1f} hours when each was last run."]
+    ran = sum(result != NEVER for result in told.values())
+    lines += ["", f"{ran} of {len(tests)} have run; together they took {sum(times.values()) / 60:.1f} hours."]
     if over:
         lines += [f"Longer than an hour, and so to be divided: {', '.join(over)}."]
     return "\n".join(lines) + "\n"
@@ -82,23 +86,36 @@ def holds_still(result):
     return changed is not None and only_told_apart(changed)
 
 
+def commands_of(test):
+    """What is built first, and the command."""
+    for preset, targets in test.get("builds", {}).items():
+        yield f"cmake --preset {preset} -DROCKYARD_BUILD_TESTS=ON"
+        yield f"cmake --build --preset {preset} --target {' '.join(targets)}"
+    yield test["command"]
+
+
 def run(test):
     """Whether the test passed, and its result in a few words."""
     at = commit()
     start = time.monotonic()
-    code = subprocess.run(test["command"], shell=True, cwd=ROOT, check=False).returncode
+    code = 0
+    for command in commands_of(test):
+        code = code or subprocess.run(command, shell=True, cwd=ROOT, check=False).returncode
     minutes = (time.monotonic() - start) / 60
+    if commit() != at and not at.endswith("-dirty"):
+        at += "-dirty"  # changed meanwhile: nobody knows what was tried
     verdict = "passed" if code == 0 else f"FAILED with exit code {code}"
     today = datetime.datetime.now(datetime.timezone.utc).date()
     return code == 0, f"{verdict}, {today}, commit {at}, {minutes:.1f} min"
 
 
-def run_all(tests, results, again):
-    """Whether all pass; the page is written after each."""
+def run_all(tests, chosen, again):
+    """Whether all that are chosen pass; the page is written after each."""
     table, passed = FOLDER / "README.md", True
-    for number, test in enumerate(tests, start=1):
+    results = read_results(table, tests)
+    for number, test in enumerate(chosen, start=1):
         name = test["name"]
-        before = f"== {name} ({number} of {len(tests)})"
+        before = f"== {name} ({number} of {len(chosen)})"
         if not again and holds_still(results.get(name, NEVER)):
             print(f"{before}: {results[name]}; nothing has changed since", flush=True)
             continue
@@ -106,8 +123,8 @@ def run_all(tests, results, again):
         good, result = run(test)
         print(f"{before}: {result}", flush=True)
         passed = passed and good
-        results = read_results(table) | {name: result}  # others may have ended meanwhile
-        table.write_text(page(read_tests(), results), encoding="utf-8")
+        results = read_results(table, tests) | {name: result}  # others may have ended meanwhile
+        table.write_text(page(tests, results), encoding="utf-8")
     return passed
 
 
@@ -117,18 +134,19 @@ def main(arguments):
     parser.add_argument("--again", action="store_true", help="also what passed and cannot have changed")
     parser.add_argument("names", metavar="NAME", nargs="*")
     options = parser.parse_args(arguments)
-    tests, results = read_tests(), read_results(FOLDER / "README.md")
+    tests = read_tests()
     unknown = set(options.names) - {test["name"] for test in tests}
     if unknown:
         names = ", ".join(test["name"] for test in tests)
         parser.error(f"no long test {', '.join(sorted(unknown))}; there are {names}")
     chosen = [test for test in tests if not options.names or test["name"] in options.names]
     if options.list:
+        results = read_results(FOLDER / "README.md", tests)
         for test in chosen:
             print(f"{test['name']:18} {test['what']}\n{'':18} {results.get(test['name'], NEVER)}")
         return 0
     try:
-        return 0 if run_all(chosen, results, options.again) else 1
+        return 0 if run_all(tests, chosen, options.again) else 1
     except KeyboardInterrupt:
         print("long_tests: interrupted; what had passed is noted, and the next call goes on", file=sys.stderr)
         return 130

@@ -15,7 +15,10 @@ Exit code: 0 done; 1 `stale`, `check`: something is not as its page says; 2 wron
 """
 
 import argparse
+import fcntl
+import os
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -53,15 +56,20 @@ def require_clean(studies):
                          f"{' and more' if len(dirty) > 5 else ''}; commit or set aside first")
 
 
-def version_of(rockyard):
-    """Version and commit of the program; refuses one that is not of the sources of HEAD."""
+def own_words(rockyard):
+    """What the program says of its version."""
     if not rockyard.is_file():
         raise StudyError(f"{rockyard}: there is no such program; build it (cmake --build --preset release) "
                          "or name one with --rockyard")
-    said = subprocess.run([rockyard, "--version"], text=True, capture_output=True, check=False).stdout
+    return subprocess.run([rockyard, "--version"], text=True, capture_output=True, check=False).stdout.strip()
+
+
+def version_of(rockyard):
+    """Version and commit of the program; refuses one that is not of the sources of HEAD."""
+    said = own_words(rockyard)
     found = re.match(r"rockyard (\S+) \(commit ([0-9a-f]+)(-dirty)?", said)
     if not found:
-        raise StudyError(f"{rockyard} --version names no commit: {said.strip()[:80]}")
+        raise StudyError(f"{rockyard} --version names no commit: {said[:80]}")
     if found[3]:
         raise StudyError(f"{rockyard} was built from a dirty tree ({found[2]}-dirty); build it from a commit")
     if git("diff", "--name-only", found[2], "HEAD", "--", *SOURCES).strip():
@@ -85,20 +93,52 @@ def list_studies(options):
 
 
 class Kept:
-    """What the study is going to write, put back where it does not end well."""
+    """What the study is going to write, put back where it does not end well; the rest of a page stays."""
 
     def __init__(self, study):
-        self.before = {path: path.read_bytes() if path.is_file() else None
-                       for path in (ROOT / file for file in written_by([study]))}
+        paths = [ROOT / item for item in study.writes if "#" not in item]
+        self.files = {path: path.read_bytes() if path.is_file() else None for path in paths}
+        self.tables = {}
+        for item in study.writes:
+            if "#" in item:
+                path, name = ROOT / file_of(item), item.split("#")[1]
+                self.tables[path, name] = declarations.has_table(path.read_text(encoding="utf-8"), name)[0]
 
     def put_back(self):
-        for path, content in self.before.items():
+        for path, content in self.files.items():
             if content is None:
                 path.unlink(missing_ok=True)
-            elif path.read_bytes() != content:
-                part = path.with_name(path.name + ".part")
-                part.write_bytes(content)
-                part.replace(path)
+                continue
+            part = path.with_name(path.name + ".part")
+            part.write_bytes(content)
+            part.replace(path)
+        for (path, name), table in self.tables.items():
+            text = path.read_text(encoding="utf-8")
+            now = declarations.has_table(text, name)
+            if now:
+                stamps.write_whole(path, text[:now.start()] + table + text[now.end():])
+
+
+def give(line):
+    """Gives a shell line; its exit code. What ends this ends all that the line has started, before it goes on."""
+    with subprocess.Popen(line, shell=True, cwd=ROOT, stdout=sys.stderr, start_new_session=True) as process:
+        try:
+            return process.wait()
+        except BaseException:
+            os.killpg(process.pid, signal.SIGINT)
+            process.wait()
+            raise
+
+
+def lock():
+    """Held until the program ends: two that make studies would put back each other's pages."""
+    RUNS.mkdir(parents=True, exist_ok=True)
+    file = open(RUNS / "lock", "w", encoding="utf-8")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise StudyError("studies are being made already in this tree; wait for their end") from None
+    return file
 
 
 def make(study, rockyard, threads, commit):
@@ -109,12 +149,15 @@ def make(study, rockyard, threads, commit):
     for command in study.commands:
         line = command.format(rockyard=noting, threads=threads, runs=runs)
         print(f"== {study.name}: {line}", file=sys.stderr, flush=True)
-        code = subprocess.run(line, shell=True, cwd=ROOT, stdout=sys.stderr, check=False).returncode
+        code = give(line)
         if code != 0:
             raise StudyError(f"{study.name}: exit code {code} of {line}\n"
                              "what it writes is as it was; the same command goes on")
     cells = trials.cells_of(runs, study.first, ROOT)
     first = trials.drive_all(rockyard, cells, threads, progress(study.name), ROOT)
+    for found in first:
+        if "error" in found:
+            raise StudyError(f"{study.name}: {found['error']}")
     return [cell | found for cell, found in zip(cells, first)]
 
 
@@ -137,19 +180,26 @@ def run(options):
     if by_hand:
         raise StudyError(f"no script makes {', '.join(by_hand)}")
     require_clean(wanted)
+    faults = declarations.faults_of({study.name: study for study in wanted}, ROOT)
+    if faults:
+        raise StudyError("\n".join(faults))
     rockyard = options.rockyard.resolve()
     version, commit = version_of(rockyard)
+    held = lock()
     for study in wanted:
         kept = Kept(study)
         try:
-            cells = make(study, rockyard, options.threads, git("rev-parse", "HEAD").strip())
+            cells = make(study, rockyard, options.threads, commit)
         except BaseException:
             kept.put_back()
             raise
-        stamps.write({"study": study.name, "version": version, "commit": commit, "changes": stamps.know_all(ROOT),
+        stamps.write({"study": study.name, "version": version, "commit": commit,
+                      "changes": " ".join(stamps.entries(ROOT)),
+                      "written": {item: heads.content_hash(item, ROOT) for item in study.writes},
                       "cells": cells}, ROOT)
         heads.write(studies, stamps.read(ROOT), ROOT, {carrier(item) for item in study.writes})
         print(f"{study.name}: made; {', '.join(study.writes)}")
+    held.close()
     return 0
 
 
@@ -158,10 +208,12 @@ def differences(stamp, found):
     told = []
     for cell, now in zip(stamp["cells"], found):
         name = " ".join([cell.get("file", "a composed scenario"), *cell["set"]])
-        if now["cpu_level"] != cell["cpu_level"]:
-            told.append(f"{name}: made on {cell['cpu_level']}, this is {now['cpu_level']}")
+        if "error" in now:
+            told.append(f"{name}: cannot be driven: {now['error'].splitlines()[-1]}")
         elif now["trial_hash"] != cell["trial_hash"]:
-            told.append(f"{name}: other trials")
+            levels = f"{cell['cpu_level']}, this is {now['cpu_level']}"
+            other = f" (made on {levels})" if now["cpu_level"] != cell["cpu_level"] else ""
+            told.append(f"{name}: other trials{other}")
         elif now["fingerprint"] != cell["fingerprint"]:
             told.append(f"{name}: another scenario")
     return told
@@ -175,7 +227,11 @@ def stale(options):
     wanted = declarations.chosen(studies, options.names) if options.names else list(studies.values())
     stamped = [study for study in wanted if study.name in known]
     cells = [cell for study in stamped for cell in known[study.name]["cells"]]
-    found = trials.drive_all(options.rockyard.resolve(), cells, options.jobs, progress("stale"), ROOT)
+    rockyard = options.rockyard.resolve()
+    if options.mark:
+        version_of(rockyard)
+    print(f"driven by {own_words(rockyard)}")
+    found = trials.drive_all(rockyard, cells, options.jobs, progress("stale"), ROOT)
     wrong = []
     for study in wanted:
         reasons = ["no stamp"]
@@ -197,7 +253,7 @@ def stale(options):
             wrong.append(f"{study.name} is marked as giving other trials, and does not (--mark takes it away)")
     if options.mark:
         heads.write(studies, known, ROOT)
-    wrong += heads.faults(studies, known, ROOT)
+    wrong += heads.edited(studies, known, ROOT) + heads.faults(studies, known, ROOT)
     print("\n".join(wrong) or f"{len(wanted)} studies: pages say what is true of them")
     return 1 if wrong else 0
 
@@ -210,7 +266,7 @@ def check(options):
     if options.mark and not faults:
         for page in heads.write(studies, known, ROOT):
             print(f"{page}: head written")
-    faults += heads.faults(studies, known, ROOT) if not faults else []
+    faults += heads.edited(studies, known, ROOT) + heads.faults(studies, known, ROOT) if not faults else []
     print("\n".join(faults) or f"{len(studies)} studies, {len(known)} with a stamp; pages say what is known of them")
     return 1 if faults else 0
 
@@ -242,6 +298,7 @@ def parser():
 
 def main():
     options = parser().parse_args()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # as an exception, so that pages are put back
     try:
         return options.call(options)
     except (StudyError, OSError) as error:

@@ -26,7 +26,7 @@ preset="test"
 jobs=$(nproc)
 label=""
 tier="full"
-exclude='^long$'
+lint=yes
 folders=""
 usage() {
   echo "test: $1 (try --help)" >&2
@@ -40,14 +40,22 @@ dearest() {
   sort -t "$(printf '\t')" -k 4,4nr "$(record)" | head -n "$1" |
     awk -F '\t' '{ printf "%9.1f %9.1f  %s %s\n", $4, $3, $1 == "ctest" ? "" : $1, $2 }'
 }
+if [ "${1:-}" = --all ]; then
+  shift
+  exec scripts/long_tests.py "$@"
+fi
 while [ $# -gt 0 ]; do
   case "$1" in
     -h | --help) sed -n '2,24s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    --all) shift; exec scripts/long_tests.py "$@" ;;
-    --times) shift; dearest "${1:-50}"; exit 0 ;;
+    --all) usage "--all stands before everything else" ;;
+    --times)
+      [ $# -le 2 ] || usage "--times stands last"
+      dearest "${2:-50}"
+      exit 0
+      ;;
     --fast) tier="fast"; shift ;;
-    --long) tier="long"; exclude="^\$"; shift ;;
-    --no-lint) exclude='^(long|lint)$'; shift ;;
+    --long) tier="long"; shift ;;
+    --no-lint) lint=no; shift ;;
     --label | --preset | --jobs)
       [ $# -ge 2 ] || usage "$1 needs a value"
       case "$1" in
@@ -66,7 +74,14 @@ while [ $# -gt 0 ]; do
   esac
 done
 
-# What ran goes to build/last_test, also where something fails.
+case "$tier,$lint" in
+  long,yes) exclude="^\$" ;;
+  long,no) exclude='^lint$' ;;
+  *,yes) exclude='^long$' ;;
+  *,no) exclude='^(long|lint)$' ;;
+esac
+
+# What ran goes to build/last_test, also where something fails or the run is interrupted.
 start=$(date +%s)
 commit=$(git rev-parse HEAD 2> /dev/null || echo unknown)
 if [ -n "$(git status --porcelain 2> /dev/null)" ]; then commit="$commit with uncommitted changes"; fi
@@ -82,6 +97,8 @@ tell() {
   } > build/last_test
 }
 trap tell EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM HUP
 
 groups="build mpi pages test figures"
 if [ "$preset" = tsan ]; then groups="$groups tsan"; fi

@@ -31,7 +31,6 @@ if(TARGET rockyard)  # the command, with the scenarios that it finds by name, co
                                 ERROR_QUIET COMMAND_ERROR_IS_FATAL ANY)")
   install(DIRECTORY ${man}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
 endif()
-install(FILES ${PROJECT_SOURCE_DIR}/src/web/built/trace_to_mcap.mjs DESTINATION ${CMAKE_INSTALL_DATADIR}/rockyard)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
         FILES_MATCHING PATTERN "*.md")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)

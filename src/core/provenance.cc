@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "core/build_commit.h"
 #include "core/build_info.h"
 
 namespace rockyard::core {

@@ -7,8 +7,8 @@ namespace rockyard::core {
 
 struct Provenance {
   std::string version;     // of rockyard, "0.1.0"
-  std::string commit;      // of the sources when the build was configured, "-dirty" where they had
-                           // changes; "unknown" outside git
+  std::string commit;      // of the sources when they were built, "-dirty" where they had changes;
+                           // "unknown" outside git
   std::string compiler;    // "GNU 12.2.0"
   std::string flags;       // of the build type, with the floating-point options; modules in which
                            // drives spend no time have -O1 (SELDOM_RUN in CMake)

@@ -43,7 +43,7 @@ TEST_F(CliRun, ThreadsAndResumeGiveTheSameHash) {
 
 TEST_F(CliRun, AnInterruptStoresWhatIsFinishedAndSaysHowToGoOn) {
   const pid_t process = Start(With(QuickRun("a", 100000), {"--threads", "2"}));
-  ASSERT_TRUE(WaitForTrials("a", 1));
+  ASSERT_TRUE(WaitForTrials("a", 10));
   kill(process, SIGINT);
   const CommandResult result = WaitTo(130, process);
   EXPECT_THAT(result.err, HasSubstr("--resume"));
@@ -55,6 +55,8 @@ TEST_F(CliRun, AnInterruptStoresWhatIsFinishedAndSaysHowToGoOn) {
   const std::int64_t prefix = Summary("a")["trials"]["completed"];
   EXPECT_LE(prefix, stored);
   EXPECT_GE(prefix, stored - 2) << "two threads leave no more than that open";
+  EXPECT_THAT(RunTo(2, {"baseline", "a", "--reason", "first", "--out", "b.json"}).err,
+              HasSubstr("is unfinished: " + std::to_string(prefix) + " of 100000 trials"));
 }
 
 TEST_F(CliRun, AFolderThatHoldsARunIsRefusedResumedOrSetAside) {

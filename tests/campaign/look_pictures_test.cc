@@ -133,22 +133,30 @@ TEST(PictureLinesTest, ALineIsDrawnWithinThePicture) {
 }
 
 TEST(PictureLinesTest, WhatIsBehindTheCameraIsCutOff) {
-  const vision::Cahv camera = LevelPair().left;
-  const Vector3 ahead(2.0, 0.05, 0.5);
-  const auto whole = ImageOfLine(camera, ahead, Vector3(4.0, 1.05, 0.5));
-  ASSERT_TRUE(whole);
-  EXPECT_NEAR(whole->first.x(), kMiddle_px, 1e-12);
-  EXPECT_NEAR(whole->second.x(), kMiddle_px - kFocal_px / 4.0, 1e-12);
-  // From 2 m ahead to 2 m behind: it is cut 0.05 m ahead, where it is 0.4875 m to the left.
-  const Vector3 behind(-2.0, 1.05, 0.5);
-  for (const auto& cut : {ImageOfLine(camera, ahead, behind), ImageOfLine(camera, behind, ahead)}) {
-    ASSERT_TRUE(cut);
-    EXPECT_NEAR(std::min(cut->first.x(), cut->second.x()), kMiddle_px - kFocal_px * 0.4875 / 0.05,
-                1e-9);
-    EXPECT_NEAR(std::max(cut->first.x(), cut->second.x()), kMiddle_px, 1e-12);
+  for (const double camera_x_m : {0.0, 2.5}) {
+    vision::Cahv camera = LevelPair().left;
+    camera.C.x() = camera_x_m;
+    const auto seen = [&](Vector3 from, Vector3 to) {
+      from.x() += camera_x_m;
+      to.x() += camera_x_m;
+      return ImageOfLine(camera, from, to);
+    };
+    const Vector3 ahead(2.0, 0.05, 0.5);
+    const auto whole = seen(ahead, Vector3(4.0, 1.05, 0.5));
+    ASSERT_TRUE(whole);
+    EXPECT_NEAR(whole->first.x(), kMiddle_px, 1e-12);
+    EXPECT_NEAR(whole->second.x(), kMiddle_px - kFocal_px / 4.0, 1e-12);
+    // From 2 m ahead to 2 m behind: it is cut 0.05 m ahead, where it is 0.4875 m to the left.
+    const Vector3 behind(-2.0, 1.05, 0.5);
+    for (const auto& cut : {seen(ahead, behind), seen(behind, ahead)}) {
+      ASSERT_TRUE(cut);
+      EXPECT_NEAR(std::min(cut->first.x(), cut->second.x()), kMiddle_px - kFocal_px * 0.4875 / 0.05,
+                  1e-9);
+      EXPECT_NEAR(std::max(cut->first.x(), cut->second.x()), kMiddle_px, 1e-12);
+    }
+    EXPECT_FALSE(seen(behind, Vector3(-3.0, 0.0, 0.0)));
+    EXPECT_FALSE(seen(behind, Vector3(0.04, 0.0, 0.0)));
   }
-  EXPECT_FALSE(ImageOfLine(camera, behind, Vector3(-3.0, 0.0, 0.0)));
-  EXPECT_FALSE(ImageOfLine(camera, behind, Vector3(0.04, 0.0, 0.0)));
 }
 
 TEST(PictureLinesTest, EnlargedPixelsAreSquares) {

@@ -144,6 +144,14 @@ TEST_F(JsonFileTest, FilesThatMultiplyAreErrors) {
   }
   Write("8.json", "{}");
   EXPECT_THAT(ProblemOf(folder_ / "0.json").reason, HasSubstr("more than 64 files"));
+
+  const auto with = [&](int files) {
+    std::string list = "\"8.json\"";
+    for (int i = 2; i < files; ++i) list += ", \"8.json\"";
+    return Write("with.json", "{\"extends\": [" + list + "]}");
+  };
+  EXPECT_EQ(ProblemOf(with(64)).reason, "");
+  EXPECT_THAT(ProblemOf(with(65)).reason, HasSubstr("more than 64 files"));
 }
 
 TEST_F(JsonFileTest, MissingAndWrongFilesAreErrors) {

@@ -25,12 +25,10 @@ FILE_COLUMN = {"file", "files"}
 
 def pages_of(root):
     """The pages whose links are checked."""
-    fixed = [root / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md")]
-    found = [page for page in fixed if page.exists()] + sorted((root / "results").glob("*.md"))
-    found += sorted((root / "docs").rglob("*.md"))
-    for folder in ("src", "scenarios", "tests"):
-        found += sorted(page for page in (root / folder).rglob("README.md")
-                        if "node_modules" not in page.parts)
+    found = sorted(root.glob("*.md"))
+    for folder in ("docs", "results", "scenarios", "scripts", "src", "terrain", "tests"):
+        found += sorted(page for page in (root / folder).rglob("*.md")
+                        if "node_modules" not in page.parts and not page.is_relative_to(root / "results/runs"))
     return found
 
 

@@ -121,13 +121,22 @@ class TestScript(ScriptTest):
         self.assertEqual(self.last_test()[1],
                          "ran: preset test, tier fast, label ^unit$, without ^long$, folders navigation")
 
+    def test_an_interrupted_run_did_not_pass(self):
+        for name, code in (("INT", 130), ("TERM", 143)):
+            self.fake("bin/ctest").write_text(f"#!/bin/sh\nkill -{name} $PPID\n", encoding="utf-8")
+            self.assertEqual(self.run_script("test.sh").returncode, code)
+            self.assertTrue(self.last_test()[0].startswith("FAILED: commit "), self.last_test())
+
     def test_tsan_needs_its_own_packages(self):
         self.run_script("test.sh", "--preset", "tsan")
         self.assertEqual(self.called("install_dependencies.sh"), ["build mpi pages test figures tsan"])
 
     def test_the_long_tier_is_what_the_others_leave_out(self):
         self.run_script("test.sh", "--long")
-        self.assertIn("-L ^long$ -LE ^$ ", self.called("ctest")[0])
+        self.run_script("test.sh", "--no-lint", "--long")
+        called = self.called("ctest")
+        self.assertIn("-L ^long$ -LE ^$ ", called[0])
+        self.assertIn("-L ^long$ -LE ^lint$ ", called[1])
 
     def test_the_dearest_tests_of_the_last_run(self):
         self.assertEqual(self.run_script("test.sh", "--times").returncode, 2)
@@ -140,7 +149,8 @@ printf 'a_test\\tA.Cheap\\t1.0\\t0.5\\nctest\\tpages\\t9.0\\t8.0\\nb_test\\tB.De
                          [["cpu_s", "clock_s"], ["20.0", "2.0", "b_test", "B.Dear"], ["8.0", "9.0", "pages"]])
 
     def test_unknown_words_run_nothing(self):
-        for arguments in (["--quick"], ["--label"], ["--times"], ["nowhere"]):
+        for arguments in (["--quick"], ["--label"], ["--times"], ["nowhere"], ["--times", "3", "--fast"],
+                          ["--fast", "--all"]):
             result = self.run_script("test.sh", *arguments)
             self.assertEqual(result.returncode, 2)
             self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
@@ -165,6 +175,19 @@ class LongTests(ScriptTest):
             """[{"name": "good", "what": "passes", "command": "echo good >> $CALLS"},
                 {"name": "bad", "what": "fails", "command": "echo bad >> $CALLS; exit 3"}]""",
             encoding="utf-8")
+
+    def test_what_it_tries_is_configured_and_built_first(self):
+        (self.folder / "tests.json").write_text(
+            """[{"name": "good", "what": "x", "builds": {"asan": ["a", "b"]}, "command": "echo good >> $CALLS"}]""",
+            encoding="utf-8")
+        self.run_script("long_tests.py", "good")
+        self.assertEqual(self.called("cmake"), ["--preset asan -DROCKYARD_BUILD_TESTS=ON",
+                                                "--build --preset asan --target a b"])
+        self.calls.write_text("", encoding="utf-8")
+        self.fake("bin/cmake").write_text("#!/bin/sh\nexit 1\n", encoding="utf-8")
+        self.assertEqual(self.run_script("long_tests.py", "good").returncode, 1)
+        self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
+        self.assertIn("FAILED with exit code 1", self.results()["good"])
 
     def results(self):
         lines = (self.folder / "README.md").read_text(encoding="utf-8").splitlines()
@@ -209,12 +232,27 @@ class LongTests(ScriptTest):
 
     def test_the_page_sums_up_and_names_what_is_too_long(self):
         page = self.folder / "README.md"
-        row = "| {} | x | `y` | passed, 2026-01-01, commit 0123456789ab, {} min |"
-        page.write_text("\n".join([row.format("good", "30.0"), row.format("bad", "90.5")]), encoding="utf-8")
+        bad = "echo bad >> $CALLS; exit 3"
+        row = "| bad | x | `{}` | passed, 2026-01-01, commit 0123456789ab, 90.5 min |\n"
+        page.write_text(row.format(bad), encoding="utf-8")
         self.run_script("long_tests.py", "--again", "good")
         text = page.read_text(encoding="utf-8")
-        self.assertIn("took 1.5 hours", text)
+        self.assertIn("2 of 2 have run; together they took 1.5 hours.", text)
         self.assertIn("Longer than an hour, and so to be divided: bad.", text)
+        page.write_text(row.format("another command"), encoding="utf-8")
+        self.run_script("long_tests.py", "--again", "good")
+        self.assertIn("1 of 2 have run", page.read_text(encoding="utf-8"))
+        self.assertEqual(self.results()["bad"], "not run yet |")
+
+    def test_a_tree_that_changed_meanwhile_is_no_commit(self):
+        self.git("init", "-q")
+        (self.root / ".gitignore").write_text("calls\nbuild\n__pycache__\n", encoding="utf-8")
+        (self.folder / "tests.json").write_text(
+            """[{"name": "good", "what": "x", "command": "echo more >> scripts/test.sh"}]""", encoding="utf-8")
+        self.git("add", "-A")
+        self.git("commit", "-q", "-m", "first")
+        self.run_script("long_tests.py", "good")
+        self.assertIn("-dirty, ", self.results()["good"])
 
     def test_list_and_unknown_names_run_nothing(self):
         listed = self.run_script("long_tests.py", "--list")

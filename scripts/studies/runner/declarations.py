@@ -31,11 +31,28 @@ class Study:
     writes: tuple        # files, or FILE#TABLE for what stands between the marks of a table
     first: int = FIRST   # trials of each cell that `stale` drives again
 
-    def touched_by(self, patterns):
-        """Whether a change of the scenarios that these patterns name may change what the study gives."""
-        files = [cell.get("scenario") or cell["sweep"] for cell in self.cells]
-        return any(pattern == "all" or fnmatch.fnmatch(file, pattern) for pattern in patterns
-                   for file in files or ["(no scenario)"])
+    def touched_by(self, patterns, noted=(), root=ROOT):
+        """Whether a change of the scenarios that these patterns name may change what the study gives.
+
+        noted: files that it was seen to drive. One that names no files may drive any.
+        """
+        files = [cell.get("scenario") or cell["sweep"] for cell in self.cells] + list(noted)
+        if not files or "all" in patterns:
+            return True
+        return any(fnmatch.fnmatch(file, pattern) for pattern in patterns for file in reached(files, root))
+
+
+def reached(files, root=ROOT):
+    """The files of these names and globs, and all files of JSON that they name, and so on."""
+    found, waiting = set(), [path for file in files for path in root.glob(file)]
+    while waiting:
+        path = waiting.pop().resolve()
+        name = str(path.relative_to(root)) if path.is_relative_to(root) else str(path)
+        if name not in found:
+            found.add(name)
+            named = re.findall(r'"([^"\n]+\.json)"', path.read_text(encoding="utf-8"))
+            waiting += [path.parent / file for file in named if (path.parent / file).is_file()]
+    return found
 
 
 def file_of(item):

@@ -1,5 +1,6 @@
 """What stands at the head of pages about the age of what studies wrote there."""
 
+import hashlib
 import re
 
 from . import stamps as stamping
@@ -8,6 +9,26 @@ from .declarations import ROOT, carrier, file_of, has_table
 BEGIN, END = "<!-- begin made -->", "<!-- end made -->"
 HEAD = re.compile(rf"{BEGIN}\n.*?{END}\n\n?", re.S)
 BUILD = re.compile(r"\b(\d+\.\d+\.\d+ [0-9a-f]{7,40}(?:-dirty)?)\b")
+
+
+def content_hash(item, root=ROOT):
+    """Of what a study wrote, without the head of its page; None where it is gone."""
+    path = root / file_of(item)
+    content = path.read_bytes() if path.is_file() else b""
+    if "#" in item:
+        table = has_table(content.decode(), item.split("#")[1])
+        content = table[0].encode() if table else b""
+    elif path.suffix == ".md":
+        content = HEAD.sub("", content.decode()).encode()
+    return hashlib.sha256(content).hexdigest()[:16] if content else None
+
+
+def edited(studies, stamps, root=ROOT):
+    """What stands otherwise than the study that has the stamp wrote it."""
+    return [f"{item} is not as {name} wrote it: make it anew, or take the change back"
+            for name, stamp in stamps.items() if name in studies
+            for item, written in stamp["written"].items()
+            if item in studies[name].writes and content_hash(item, root) != written]
 
 
 def named_builds(item, root=ROOT):
@@ -32,7 +53,7 @@ def build_of(study, items, stamps, root=ROOT):
 
 def names_of(items):
     """Tables and files; a caption goes with its figure."""
-    names = [item.split("#")[-1].rsplit("/", 1)[-1] for item in items]
+    names = [item if item.startswith("README.md") else item.split("#")[-1].rsplit("/", 1)[-1] for item in items]
     return ", ".join(f"`{name}`" for name in names if f"{name}.svg" not in names)
 
 

@@ -4,10 +4,9 @@ import hashlib
 import json
 import re
 
-from .declarations import ROOT
+from .declarations import ROOT, StudyError
 
 STAMPS, CHANGELOG = "results/stamps", "CHANGELOG.md"
-KNOWN = "results/stamps/changes.json"  # ids of entries in the order in which they were first seen
 
 
 def write_whole(path, text):
@@ -21,7 +20,7 @@ def write_whole(path, text):
 def read(root=ROOT):
     """Stamps by the name of the study."""
     return {path.stem: json.loads(path.read_text(encoding="utf-8"))
-            for path in sorted((root / STAMPS).glob("*.json")) if path.name != "changes.json"}
+            for path in sorted((root / STAMPS).glob("*.json"))}
 
 
 def write(stamp, root=ROOT):
@@ -41,27 +40,17 @@ def entries(root=ROOT):
             words = " ".join(entry.split())
             touches = re.search(r"\(touches: ([^)]*)\)", words)
             name = hashlib.sha256(words[:60].encode()).hexdigest()[:12]
+            if name in found:
+                raise StudyError(f"{CHANGELOG}: two changes of results begin with \"{words[:60]}\"")
             found[name] = [part.strip() for part in touches[1].split(",")] if touches else ["all"]
     return found
 
 
-def known(root=ROOT):
-    path = root / KNOWN
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else []
-
-
-def know_all(root=ROOT):
-    """Adds the entries of today to those that are known; how many there are then."""
-    seen = known(root)
-    seen += [name for name in entries(root) if name not in seen]
-    write_whole(root / KNOWN, json.dumps(seen, indent=1) + "\n")
-    return len(seen)
-
-
 def later_changes(study, stamp, root=ROOT):
     """Whether an entry that the stamp does not know touches what the study drives."""
-    old = set(known(root)[:stamp["changes"]])
-    return any(study.touched_by(patterns) for name, patterns in entries(root).items() if name not in old)
+    noted = [cell["file"] for cell in stamp["cells"] if "file" in cell]
+    old = stamp["changes"].split()
+    return any(study.touched_by(patterns, noted, root) for name, patterns in entries(root).items() if name not in old)
 
 
 def is_stale(study, stamps, root=ROOT):

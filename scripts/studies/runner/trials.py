@@ -31,21 +31,29 @@ def wrapped(rockyard, runs):
     return path
 
 
-def parsed(words):
-    """The file of a call and its options that decide what is driven; None where it names no scenario file."""
-    options, files, at = {"--set": []}, [], 1
-    while at < len(words):
-        if words[at].startswith("-"):
-            value = words[at + 1] if words[at] in VALUES and at + 1 < len(words) else None
-            if words[at] == "--set":
-                options["--set"].append(value)
-            elif value is not None:
-                options[words[at]] = value
-            at += 2 if value is not None else 1
-        else:
-            files.append(words[at])
-            at += 1
-    return (files[0], options) if files and files[0].endswith(".json") else None
+def parsed(words, root=ROOT):
+    """The file that a call drives, a scenario's name being one too, and the options that decide what is driven.
+
+    None where it drives no scenario; raises StudyError for a campaign of one that cannot be told.
+    """
+    options, named, left = {"--set": []}, [], list(words[1:])
+    while left:
+        word, equals, value = left.pop(0).partition("=")
+        if not word.startswith("-"):
+            named.append(word + equals + value)
+            continue
+        if word in VALUES and not equals and left:
+            value = left.pop(0)
+        if word == "--set":
+            options["--set"].append(value)
+        elif word in VALUES:
+            options[word] = value
+    files = [word for word in named if word.endswith(".json")]
+    files += [str(file) for word in named if "*" not in word for file in root.glob(f"scenarios/**/{word}.json")]
+    if words[0] in CAMPAIGNS and len(files) != 1:
+        raise StudyError(f"rockyard {' '.join(words)}: names {len(files)} scenarios that can be driven again, not one; "
+                         "the study should name its file")
+    return (files[0], options) if files else None
 
 
 def cells_of(runs, first, root=ROOT):
@@ -53,7 +61,7 @@ def cells_of(runs, first, root=ROOT):
     cells = {}
     for call in (runs / "calls").read_text(encoding="utf-8").splitlines() if (runs / "calls").is_file() else []:
         folder, *words = call.split("\037")[:-1]
-        found = parsed(words) if words and words[0] in DRIVES else None
+        found = parsed(words, root) if words and words[0] in DRIVES else None
         if not found:
             continue
         path, options = (Path(folder) / found[0]).resolve(), found[1]
@@ -103,7 +111,10 @@ def drive(rockyard, cell, root=ROOT, processes=None):
 
 
 def drive_all(rockyard, cells, jobs, told, root=ROOT):
-    """What the cells give, in their order; equal ones are driven once. told(done, all) after each."""
+    """What the cells give, in their order, or {"error": why not}; equal ones are driven once.
+
+    told(done, all) after each.
+    """
     keys = [json.dumps({part: value for part, value in cell.items() if part not in ("fingerprint", "trial_hash")},
                        sort_keys=True) for cell in cells]
     wanted, found, processes = dict(zip(keys, cells)), {}, []
@@ -111,7 +122,10 @@ def drive_all(rockyard, cells, jobs, told, root=ROOT):
     try:
         waiting = {pool.submit(drive, rockyard, cell, root, processes): key for key, cell in wanted.items()}
         for future in as_completed(waiting):
-            found[waiting[future]] = future.result()
+            try:
+                found[waiting[future]] = future.result()
+            except StudyError as error:
+                found[waiting[future]] = {"error": str(error)}
             told(len(found), len(wanted))
     except BaseException:
         pool.shutdown(wait=False, cancel_futures=True)

@@ -1,5 +1,6 @@
 """scripts/studies.py on a small repository: what it refuses, makes, marks and names."""
 
+import fcntl
 import json
 import os
 import shutil
@@ -21,6 +22,7 @@ words = sys.argv[1:]
 if words == ["--version"]:
     print(f"rockyard 0.1.0 (commit {(root / 'build/commit').read_text().strip()}, GNU)")
     sys.exit()
+words[1] = {"one": "scenarios/one.json", "a_run": "scenarios/one.json"}.get(words[1], words[1])
 text = pathlib.Path(words[1]).read_text() + " ".join(w for a, w in zip(words, words[1:]) if a in ("--set", "--seed"))
 made = lambda *parts: hashlib.sha256(" ".join(parts).encode()).hexdigest()[:16]
 bits = json.loads((root / "build/bits").read_text()).get(pathlib.Path(words[1]).stem, "")
@@ -37,7 +39,9 @@ if Path("build/slow").exists():
     time.sleep(600)
 if Path("build/fails").exists():
     sys.exit(3)
-said = subprocess.run([rockyard, "run", f"scenarios/{Path(page).stem}.json", "--trials", "50"], capture_output=True,
+named = Path("build/scenario")
+scenario = named.read_text() if named.exists() else f"scenarios/{Path(page).stem}.json"
+said = subprocess.run([rockyard, "run", scenario, "--trials", "50"], capture_output=True,
                       text=True, check=True).stdout
 Path(page).write_text(f"# Page\\n\\n{said}")
 """
@@ -110,7 +114,8 @@ class Runner(unittest.TestCase):
                 "`scripts/studies.py run one` makes it anew.")
         self.assertIn(line, said)
         self.assertEqual(self.call("check", "--mark")[0], 0)
-        self.assertIn(f"# Page\n\n<!-- begin made -->\n{line}\n<!-- end made -->\n\nMade by", self.read("results/one.md"))
+        self.assertIn(f"# Page\n\n<!-- begin made -->\n{line}\n<!-- end made -->\n\nMade by",
+                      self.read("results/one.md"))
         self.assertEqual(self.call("check")[0], 0)
         self.assertEqual(self.call("stale")[0], 0)
 
@@ -174,6 +179,73 @@ class Runner(unittest.TestCase):
             said = self.call("check")[1]
             self.assertEqual({name for name in ("one", "two") if f"results/{name}.md" in said}, pages, said)
 
+    def test_a_change_touches_what_is_driven_by_way_of_other_files(self):
+        self.write("scenarios/base.json", "{}")
+        self.write("scenarios/two.json", '{"extends": "base.json"}')
+        self.declare("one", cells=[{"scenario": "scenarios/o*.json"}])
+        self.commit()
+        self.build()
+        self.made()
+        for touches, pages in (("scenarios/base.json", {"two"}), ("scenarios/one.json", {"one"})):
+            self.write("CHANGELOG.md", f"### Changes results\n\n- New words (touches: {touches})\n- Old.\n")
+            said = self.call("check")[1]
+            self.assertEqual({name for name in ("one", "two") if f"results/{name}.md" in said}, pages, said)
+        self.write("CHANGELOG.md", "### Changes results\n\n- Old.\n- Old.\n")
+        self.assertIn("two changes of results begin with", self.call("check")[2])
+
+    def test_what_was_edited_by_hand_is_named(self):
+        self.made()
+        self.write("results/one.md", self.read("results/one.md") + "One word more.\n")
+        for command in ("check", "stale"):
+            code, said, _ = self.call(command)
+            self.assertEqual(code, 1)
+            self.assertIn("results/one.md is not as one wrote it", said)
+            self.assertNotIn("two wrote it", said)
+
+    def test_a_scenario_that_is_gone_hides_nothing_else(self):
+        self.made()
+        (self.root / "scenarios/one.json").unlink()
+        self.write("build/bits", json.dumps({"two": "others"}))
+        code, said, _ = self.call("stale")
+        self.assertEqual(code, 1)
+        self.assertIn("one: scenarios/one.json: cannot be driven: ", said)
+        self.assertIn("two: scenarios/two.json: other trials", said)
+
+    def test_scenarios_may_be_named_as_people_do_and_no_campaign_is_missed(self):
+        self.write("build/scenario", "one")
+        self.made()
+        self.assertEqual(json.loads(self.read("results/stamps/one.json"))["cells"][0]["file"], "scenarios/one.json")
+        self.write("build/scenario", "a_run")
+        code, _, errors = self.call("run", "one")
+        self.assertEqual(code, 2)
+        self.assertIn("names 0 scenarios that can be driven again", errors)
+
+    def test_marks_are_set_by_the_program_of_today_only(self):
+        self.made()
+        self.write("build/commit", self.git("rev-parse", "--short=12", "HEAD") + "-dirty")
+        self.assertEqual(self.call("stale")[0], 0)
+        code, _, errors = self.call("stale", "--mark")
+        self.assertEqual(code, 2)
+        self.assertIn("dirty tree", errors)
+
+    def test_only_one_makes_studies_in_a_tree(self):
+        self.write("results/runs/studies/lock", "")
+        with open(self.root / "results/runs/studies/lock", "w", encoding="utf-8") as held:
+            fcntl.flock(held, fcntl.LOCK_EX)
+            code, _, errors = self.call("run", "one")
+        self.assertEqual(code, 2)
+        self.assertIn("being made already", errors)
+
+    def test_of_a_page_of_others_only_the_own_table_is_put_back(self):
+        table = "<!-- begin t -->\n{}\n<!-- end t -->\n"
+        self.write("results/one.md", f"# Page\n\n{table.format('old')}")
+        self.declare("one", writes=["results/one.md#t"], commands=[
+            f"printf '# Other title\\n\\n{table.format('new')}' > results/one.md; exit 3 # {{rockyard}}"])
+        self.commit()
+        self.build()
+        self.assertEqual(self.call("run", "one")[0], 2)
+        self.assertEqual(self.read("results/one.md"), f"# Other title\n\n{table.format('old')}")
+
     def test_what_another_study_came_to_know_does_not_vouch_for_this_one(self):
         self.made()
         self.write("CHANGELOG.md", "### Changes results\n\n- New words.\n- Old.\n")
@@ -223,15 +295,16 @@ class Runner(unittest.TestCase):
         self.write("build/slow", "")
         # A shell ignores it in what it starts in the background.
         signal.signal(signal.SIGINT, signal.default_int_handler)
-        with subprocess.Popen([sys.executable, self.root / "scripts/studies.py", "run", "one"], text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as process:
-            while "# Half" not in self.read("results/one.md"):
-                self.assertIsNone(process.poll(), "it ended before it was interrupted")
-                time.sleep(0.05)
-            os.killpg(process.pid, signal.SIGINT)
-            _, errors = process.communicate()
-        self.assertEqual((process.returncode, self.read("results/one.md")), (130, before), errors)
-        self.assertFalse((self.root / "results/stamps/one.json").exists())
+        for asked, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            with subprocess.Popen([sys.executable, self.root / "scripts/studies.py", "run", "one"], text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+                while "# Half" not in self.read("results/one.md"):
+                    self.assertIsNone(process.poll(), "it ended before it was interrupted")
+                    time.sleep(0.05)
+                os.kill(process.pid, asked)
+                _, errors = process.communicate()
+            self.assertEqual((process.returncode, self.read("results/one.md")), (code, before), errors)
+            self.assertFalse((self.root / "results/stamps/one.json").exists())
         (self.root / "build/slow").unlink()
         self.assertEqual(self.call("run", "one")[0], 0)
 
