@@ -44,8 +44,8 @@ SurfacePoint RockBody::Nearest(const Vector3& p_W) const {
     // start one |u_i| is 1, so F >= 1: it is no larger than the root.
     const Vector3 ap = axes_m_.cwiseProduct(p);
     double t = std::max(0.0, (ap.cwiseAbs() - axes_squared_m2_).maxCoeff());
-    constexpr int kMaxIterations = 20;
-    for (int i = 0; i < kMaxIterations; ++i) {
+    constexpr int kMostSteps = 20;
+    for (int i = 0; i < kMostSteps; ++i) {
       const Vector3 inverse = (axes_squared_m2_.array() + t).inverse().matrix();
       const Vector3 u = ap.cwiseProduct(inverse);
       const double norm2 = u.squaredNorm();
@@ -106,9 +106,9 @@ Vector3 RockBody::CapPointFromOutside(const Vector3& p) const {
   high_m = std::max(high_m, low_m);
   double depth_m = 0.5 * (low_m + high_m);
   Eigen::Array2d x = level;
-  constexpr int kMaxIterations = 50;
-  constexpr double kConverged_m = 1e-9;
-  for (int i = 0; i < kMaxIterations; ++i) {
+  constexpr int kMostSteps = 50;
+  constexpr double kSettled_m = 1e-9;
+  for (int i = 0; i < kMostSteps; ++i) {
     const double slope = slope_per_m_ + bend_per_m2_ * depth_m;
     const double t = (depth_m - depth_p_m) / slope;
     const Eigen::Array2d stretch = axes2 + t;
@@ -125,7 +125,7 @@ Vector3 RockBody::CapPointFromOutside(const Vector3& p) const {
     if (!(next_m >= low_m && next_m <= high_m)) next_m = 0.5 * (low_m + high_m);
     const double step_m = std::abs(next_m - depth_m);
     depth_m = next_m;
-    if (step_m < kConverged_m) break;
+    if (step_m < kSettled_m) break;
   }
   const double t = (depth_m - depth_p_m) / (slope_per_m_ + bend_per_m2_ * depth_m);
   x = level * axes2 / (axes2 + t);
