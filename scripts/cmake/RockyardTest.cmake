@@ -32,12 +32,6 @@ set(ROCKYARD_TEST_BATCH 24 CACHE STRING "Files of tests compiled together; 0: no
 
 set(ROCKYARD_TEST_KINDS UNIT PROPERTY PHYSICS DIFFERENTIAL STATISTICAL DETERMINISM FUZZ CLI)
 
-# main() of all test programs.
-add_library(rockyard_test_main STATIC ${PROJECT_SOURCE_DIR}/tests/test_main.cc)
-target_compile_options(rockyard_test_main PRIVATE ${ROCKYARD_WARNINGS})
-target_compile_features(rockyard_test_main PUBLIC cxx_std_20)
-target_link_libraries(rockyard_test_main PUBLIC GTest::gmock GTest::gtest)
-
 # Sets VARIABLE to "tests/<folder>" of the folder that is being read.
 function(rockyard_folder_label VARIABLE)
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
