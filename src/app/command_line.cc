@@ -22,6 +22,7 @@
 #include "core/error.h"
 #include "core/provenance.h"
 #include "core/spelling.h"
+#include "core/utf8.h"
 
 namespace rockyard::app {
 namespace {
@@ -110,7 +111,15 @@ void LeaveFirstRankTime(ExitCode outcome) {
 // Ranks share the trials of a campaign; anything else is done once.
 bool IsForAllRanks(std::string_view command) { return command == "run" || command == "sweep"; }
 
+// Names of it go into stores, pages and files of JSON, none of which could be read again.
+void CheckText(std::string_view word) {
+  if (core::Utf8Bytes(word) == word.size()) return;
+  throw core::UserError(std::string(word), "is no text of UTF-8",
+                        "set a locale of UTF-8, or rename the file");
+}
+
 ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode& exit_code) {
+  for (int i = 1; i < argc; ++i) CheckText(argv[i]);
   if (argc <= 1) {
     Print(Wrapped(StartText(app)));
     return ExitCode::kDone;

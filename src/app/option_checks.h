@@ -8,9 +8,9 @@ class App;
 namespace rockyard::app {
 
 // Lets every option of the command and of its subcommands refuse, on top of its own checks, an
-// empty value, which the parser would take for none, and where it takes a real number "nan" and
-// "inf": a range lets NaN pass, since NaN lies neither below nor above it. Called when all options
-// have been added.
+// empty value, which the parser would take for none, where it takes a real number "nan" and "inf"
+// (a range lets NaN pass, since NaN lies neither below nor above it), and numbers that are not
+// decimal; leading zeros mean nothing. Called when all options have been added.
 void CheckEveryValue(CLI::App& app);
 
 }  // namespace rockyard::app

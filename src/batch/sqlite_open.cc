@@ -29,9 +29,10 @@ namespace fs = std::filesystem;
 // How long a commit waits for somebody who reads or writes the file with another tool.
 constexpr int kBusyTimeoutMs = 2000;
 
-// A URI of the file; what has a meaning in a URI is percent-encoded.
+// A URI of the file; what has a meaning in a URI is percent-encoded. An absolute path follows an
+// authority that is empty, for which its own "//" would be taken else.
 std::string FileUri(const fs::path& path) {
-  std::string uri = "file:";
+  std::string uri = path.is_absolute() ? "file://" : "file:";
   for (const char c : path.string()) {
     if (c == '?' || c == '#' || c == '%') {
       uri += fmt::format("%{:02x}", static_cast<unsigned>(static_cast<unsigned char>(c)));

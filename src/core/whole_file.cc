@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -11,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/machine_error.h"
+#include "core/utf8.h"
 
 namespace rockyard::core {
 namespace {
@@ -60,6 +62,26 @@ std::string ReadWholeFile(const fs::path& path, std::size_t max_bytes, std::stri
   if (std::fread(text.data(), 1, text.size(), file.get()) != text.size()) {
     throw UserError(path.string(), "ends early", "check the disk and the file");
   }
+  return text;
+}
+
+std::string_view WithoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
+std::string ReadTextFile(const fs::path& path, std::size_t max_bytes, std::string_view kind) {
+  std::string text = ReadWholeFile(path, max_bytes, kind);
+  const std::size_t good = std::min(Utf8Bytes(text), text.find('\0'));
+  if (good < text.size()) {
+    const auto line =
+        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(good), '\n');
+    throw UserError(fmt::format("{}: line {}", path.string(), line),
+                    fmt::format("byte {:#04x} is no text of UTF-8",
+                                static_cast<unsigned>(static_cast<unsigned char>(text[good]))),
+                    fmt::format("name {}; if it is of another encoding, save it as UTF-8", kind));
+  }
+  text.erase(0, text.size() - WithoutByteOrderMark(text).size());
   return text;
 }
 

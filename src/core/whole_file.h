@@ -15,4 +15,12 @@ namespace rockyard::core {
 std::string ReadWholeFile(const std::filesystem::path& path, std::size_t max_bytes,
                           std::string_view kind);
 
+// The same of a file of text: UTF-8, without the byte order mark that editors put before it. Throws
+// UserError, too, with the line, for bytes that are none, of which zero is one.
+std::string ReadTextFile(const std::filesystem::path& path, std::size_t max_bytes,
+                         std::string_view kind);
+
+// A text without the byte order mark before it.
+std::string_view WithoutByteOrderMark(std::string_view text);
+
 }  // namespace rockyard::core

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "core/check.h"
+#include "core/utf8.h"
 
 namespace rockyard::replay {
 namespace {
@@ -48,34 +49,11 @@ std::string Header(std::string_view type, const NpzFile::Shape& shape) {
   return header + dictionary;
 }
 
-// The character at the front of `text`, and how many bytes it takes.
-struct Decoded {
-  char32_t character = kNoCharacter;
-  std::size_t bytes = 1;
-};
-
-Decoded DecodeFront(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return {first, 1};
-  const std::size_t length = first >= 0xf0 ? 4 : (first >= 0xe0 ? 3 : 2);
-  constexpr std::array<char32_t, 5> kMin{0, 0, 0x80, 0x800, 0x10000};
-  if (first < 0xc2 || first > 0xf4 || text.size() < length) return {};
-  char32_t character = first & (0x7fU >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0U) != 0x80) return {};
-    character = character << 6 | (byte(i) & 0x3fU);
-  }
-  const bool surrogate = character >= 0xd800 && character < 0xe000;
-  if (character < kMin[length] || character > 0x10ffff || surrogate) return {};
-  return {character, length};
-}
-
 std::u32string Decode(std::string_view text) {
   std::u32string characters;
   while (!text.empty()) {
-    const Decoded front = DecodeFront(text);
-    characters += front.character;
+    const core::CodePoint front = core::FirstCodePoint(text);
+    characters += front.code == core::CodePoint::kNone ? kNoCharacter : front.code;
     text.remove_prefix(front.bytes);
   }
   return characters;

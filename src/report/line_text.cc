@@ -7,8 +7,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/utf8.h"
+
 namespace rockyard::report {
 namespace {
+
+using core::CodePoint;
 
 constexpr std::size_t kTextWidth = 100;
 
@@ -31,33 +35,10 @@ constexpr std::array<Range, 8> kHidden = {{{0x7f, 0x9f},          // control cha
                                            {0xe0000, 0xe007f}}};  // tags
 
 bool IsShown(char32_t code) {
-  return code >= 0x20 && std::none_of(kHidden.begin(), kHidden.end(), [code](const Range& range) {
+  return code != CodePoint::kNone && code >= 0x20 &&
+         std::none_of(kHidden.begin(), kHidden.end(), [code](const Range& range) {
            return code >= range.first && code <= range.last;
          });
-}
-
-// The code point with which a text begins, and its bytes. What is no UTF-8 (cut off, longer than
-// needed, a surrogate, beyond U+10FFFF) is one byte of no code point.
-struct Letter {
-  static constexpr char32_t kNone = 0;
-  char32_t code = kNone;
-  std::size_t bytes = 1;
-};
-
-Letter FirstLetter(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80) return {byte(0), 1};
-  const std::size_t bytes = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
-  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < bytes) return {};
-  char32_t code = byte(0) & (0x7fU >> bytes);
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if (BeginsCodePoint(text[i])) return {};
-    code = code << 6 | (byte(i) & 0x3fU);
-  }
-  constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xd800 && code <= 0xdfff;
-  if (code < kLeast[bytes] || surrogate || code > 0x10ffff) return {};
-  return {code, bytes};
 }
 
 // `replace` is given what stands where something is not shown, and says what stands there instead.
@@ -66,7 +47,7 @@ std::string Shown(std::string_view text, const Replace& replace) {
   std::string safe;
   safe.reserve(text.size());
   while (!text.empty()) {
-    const Letter letter = FirstLetter(text);
+    const CodePoint letter = core::FirstCodePoint(text);
     if (IsShown(letter.code)) {
       safe += text.substr(0, letter.bytes);
     } else {
@@ -113,21 +94,21 @@ std::string WrappedLine(std::string line) {
 }  // namespace
 
 std::string Printable(std::string_view text) {
-  return Shown(
-      text, [](const Letter& letter, std::string_view) { return letter.code == '\n' ? ' ' : '?'; });
+  return Shown(text, [](const CodePoint& letter, std::string_view) {
+    return letter.code == '\n' ? ' ' : '?';
+  });
 }
 
 std::string PrintableLines(std::string_view text) {
-  return Shown(text, [](const Letter& letter, std::string_view rest) {
+  return Shown(text, [](const CodePoint& letter, std::string_view rest) {
     return letter.code == '\n' || BeginsColour(rest) ? rest.front() : '?';
   });
 }
 
 std::string PrintableJson(std::string_view json) {
-  return Shown(json, [](const Letter& letter, std::string_view rest) {
+  return Shown(json, [](const CodePoint& letter, std::string_view) {
     if (letter.code == '\n') return std::string(1, '\n');
-    return letter.code == Letter::kNone && rest.front() != '\0' ? std::string(1, '?')
-                                                                : JsonEscape(letter.code);
+    return letter.code == CodePoint::kNone ? std::string(1, '?') : JsonEscape(letter.code);
   });
 }
 

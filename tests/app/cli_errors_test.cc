@@ -106,6 +106,26 @@ TEST_F(CliErrors, MalformedFiles) {
   }
 }
 
+TEST_F(CliErrors, NumbersAreDecimalAndWordsAreText) {
+  const auto planned = [&](const std::string& seed) {
+    return RunTo(0, {"run", Scenario("nominal"), "--trials", "010", "--dry-run", "--seed", seed})
+        .out;
+  };
+  for (const char* ten : {"10", "010", "+10", "+0010"}) {
+    EXPECT_THAT(planned(ten), Says("seed 10", "10 trials")) << ten;
+  }
+  EXPECT_THAT(planned("000"), Says("seed 0"));
+  for (const char* other : {"0x10", "1e1", "1'0", "ten", "+", "-"}) {
+    ExpectRefused({"run", Scenario("nominal"), "--out", "a", "--seed", other},
+                  std::string(other) + " is no whole decimal number");
+  }
+  ExpectRefused({"plan", "claim", "--below", "0x1p-4"}, "0x1p-4 is no decimal number");
+  for (const char* words : {"name=caf\xe9", "name=\xed\xa0\x80"}) {
+    ExpectRefused(With(QuickRun("a", 1), {"--set", words}), "is no text of UTF-8");
+  }
+  ExpectRefused(QuickRun("caf\xe9", 1), "is no text of UTF-8");
+}
+
 TEST_F(CliErrors, ControlCharactersDoNotReachTheTerminal) {
   const CommandResult result = RunTo(2, {"run", "evil\x1b[31m\nname.json"});
   EXPECT_EQ(result.err.find('\x1b'), std::string::npos);

@@ -79,6 +79,16 @@ TEST_F(CliRun, AFolderThatHoldsARunIsRefusedResumedOrSetAside) {
   EXPECT_TRUE(fs::exists(work() / "a" / "results.old-2.sqlite"));
 }
 
+// As "$ROOT/$NAME" makes it where ROOT is "/".
+TEST_F(CliRun, TwoSlashesBeginAPathAsOneDoes) {
+  const std::vector<std::string> words = QuickRun("/" + (work() / "a").string(), 2);
+  RunTo(0, words);
+  const std::string hash = Hash("a");
+  RunTo(0, With(words, {"--force"}));
+  EXPECT_EQ(Hash("a"), hash);
+  EXPECT_TRUE(fs::exists(work() / "a/results.old-1.sqlite"));
+}
+
 TEST_F(CliRun, AFolderWithOtherThingsIsLeftAlone) {
   WriteFile(work() / "precious.txt", "mine");
   EXPECT_THAT(RunTo(2, QuickRun(".", 1)).err, HasSubstr("not empty"));

@@ -9,6 +9,7 @@
 
 #include "batch/unprivileged.h"
 #include "core/error.h"
+#include "core/refusals.h"
 #include "core/test_folder.h"
 
 namespace rockyard::core {
@@ -52,6 +53,21 @@ TEST_F(WholeFileTest, WhatIsNoFileOfBytesIsRefused) {
   ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(ReasonOf(folder_ / "pipe"), HasSubstr("is not a regular file"))
       << "and does not wait";
+}
+
+TEST_F(WholeFileTest, TextIsUtf8WithOrWithoutAMark) {
+  EXPECT_EQ(ReadTextFile(Write("a", "\xef\xbb\xbf\xc3\xa9\r\n"), 9, "a toy"), "\xc3\xa9\r\n");
+  EXPECT_EQ(ReadTextFile(Write("a", "\xef\xbb\xbf"), 9, "a toy"), "");
+  EXPECT_EQ(ReadTextFile(Write("a", "x\xef\xbb\xbf"), 9, "a toy"), "x\xef\xbb\xbf");
+  const auto refused = [&](const std::string& bytes) {
+    return RefusalOf([&] { ReadTextFile(Write("a", bytes), 100, "a toy"); });
+  };
+  EXPECT_THAT(refused("one\ntwo\ncaf\xe9\n"),
+              HasSubstr("a: line 3: byte 0xe9 is no text of UTF-8"));
+  EXPECT_THAT(refused("\xff\xfe"
+                      "a"),
+              HasSubstr("line 1: byte 0xff"));
+  EXPECT_THAT(refused(std::string("a\0b", 3)), HasSubstr("line 1: byte 0x00"));
 }
 
 // A file that may not be read, and one in a folder that may not be entered.

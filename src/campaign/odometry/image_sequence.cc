@@ -126,7 +126,7 @@ ImageSequence SequenceOfFolders(const fs::path& folder, const char* left, const 
 // Time in ns to path.
 std::map<std::int64_t, fs::path> ListedImages(const fs::path& camera) {
   const fs::path list = camera / "data.csv";
-  const std::string text = core::ReadWholeFile(list, kLargestText, "EuRoC's list of images");
+  const std::string text = core::ReadTextFile(list, kLargestText, "EuRoC's list of images");
   std::map<std::int64_t, fs::path> images;
   int number = 0;
   for (const std::string_view line : LinesOf(text)) {
@@ -171,7 +171,7 @@ ImageSequence EurocSequence(const fs::path& mav) {
 }
 
 ImageSequence ListedSequence(const fs::path& list) {
-  const std::string text = core::ReadWholeFile(list, kLargestText, "a list of images");
+  const std::string text = core::ReadTextFile(list, kLargestText, "a list of images");
   ImageSequence sequence;
   sequence.layout = "a list of files";
   int number = 0;

@@ -55,7 +55,7 @@ vision::CameraModel CameraOfProjection(const std::filesystem::path& path, const 
 
 vision::CameraPair LoadKittiCalibration(const std::filesystem::path& path,
                                         const vision::ImageSize& size) {
-  const std::string text = core::ReadWholeFile(path, kLargestText, "KITTI's calib.txt");
+  const std::string text = core::ReadTextFile(path, kLargestText, "KITTI's calib.txt");
   std::vector<Projection> found;
   for (const std::string_view line : LinesOf(text)) {
     const auto projection = ProjectionOf(line);

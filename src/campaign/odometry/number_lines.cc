@@ -39,7 +39,7 @@ std::vector<std::string_view> LinesOf(std::string_view text) {
 }
 
 std::vector<NumberLine> ReadNumberLines(const std::filesystem::path& path, std::string_view kind) {
-  const std::string text = core::ReadWholeFile(path, kLargestText, kind);
+  const std::string text = core::ReadTextFile(path, kLargestText, kind);
   std::vector<NumberLine> lines;
   int number = 0;
   for (const std::string_view line : LinesOf(text)) {

@@ -2,16 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/whole_file.h"
 #include "vision/cameras/camera_fields.h"
 
 namespace rockyard::vision {
@@ -21,24 +18,7 @@ using core::Problem;
 using core::UserError;
 
 std::string ContentOf(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw UserError(path.string(), "the file does not exist", "check the name and the folder");
-  }
-  if (!std::filesystem::is_regular_file(status)) {
-    throw UserError(path.string(), "is not a regular file", "name a file of cameras");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw UserError(path.string(), fmt::format("cannot be read: {}", std::strerror(errno)),
-                    "check its permissions");
-  }
-  // One byte more than is allowed, so that the parsers see that there are too many.
-  std::string content(kLargestCameraFile + 1, '\0');
-  file.read(content.data(), static_cast<std::streamsize>(content.size()));
-  content.resize(static_cast<std::size_t>(file.gcount()));
-  return content;
+  return core::ReadTextFile(path, kLargestCameraFile, "a file of cameras");
 }
 
 bool IsJson(std::string_view content) {
