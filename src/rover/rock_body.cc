@@ -107,7 +107,7 @@ Vector3 RockBody::CapPointFromOutside(const Vector3& p) const {
   double depth_m = 0.5 * (low_m + high_m);
   Eigen::Array2d x = level;
   constexpr int kMostSteps = 50;
-  constexpr double kSettled_m = 1e-9;
+  constexpr double kFound_m = 1e-9;
   for (int i = 0; i < kMostSteps; ++i) {
     const double slope = slope_per_m_ + bend_per_m2_ * depth_m;
     const double t = (depth_m - depth_p_m) / slope;
@@ -125,7 +125,7 @@ Vector3 RockBody::CapPointFromOutside(const Vector3& p) const {
     if (!(next_m >= low_m && next_m <= high_m)) next_m = 0.5 * (low_m + high_m);
     const double step_m = std::abs(next_m - depth_m);
     depth_m = next_m;
-    if (step_m < kSettled_m) break;
+    if (step_m < kFound_m) break;
   }
   const double t = (depth_m - depth_p_m) / (slope_per_m_ + bend_per_m2_ * depth_m);
   x = level * axes2 / (axes2 + t);
