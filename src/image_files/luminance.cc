@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "core/check.h"
 
@@ -36,6 +37,15 @@ std::string Describe(const RawImage& image, const GrayOptions& options,
   return text;
 }
 
+std::string Advice(const RawImage& image, std::int64_t brightest, const GrayOptions& options) {
+  constexpr std::int64_t kPart = 8;
+  const bool dark = brightest > 0 && kPart * brightest <= image.full_scale;
+  if (options.white || image.bits <= 8 || !dark) return "";
+  return fmt::format("the brightest sample is {} of {}: --white {} would keep more of the image",
+                     brightest, image.full_scale,
+                     std::bit_ceil(static_cast<std::uint64_t>(brightest) + 1) - 1);
+}
+
 }  // namespace
 
 GrayConversion ToGray(const RawImage& image, const GrayOptions& options) {
@@ -45,15 +55,18 @@ GrayConversion ToGray(const RawImage& image, const GrayOptions& options) {
   EXPECT(done.white >= 1 && done.white <= 65535);
   const std::int64_t white = kUnit * done.white;
   done.image = vision::GrayImage(image.width(), image.height());
+  std::int64_t brightest = 0;
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
       const std::int64_t luminance = Luminance(image, x, y);
+      brightest = std::max(brightest, luminance);
       if (luminance > white) ++done.clipped;
       const std::int64_t gray = (255 * std::min(luminance, white) + white / 2) / white;
       done.image.At(x, y) = static_cast<std::uint8_t>(gray);
     }
   }
   done.what_was_done = Describe(image, options, done);
+  done.advice = Advice(image, brightest / kUnit, options);
   return done;
 }
 

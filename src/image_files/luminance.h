@@ -20,6 +20,9 @@ struct GrayConversion {
   int white = 255;            // the sample that became 255
   std::int64_t clipped = 0;   // pixels of a luminance above white, which became 255 too
   std::string what_was_done;  // in words: "luminance of colour (ITU-R BT.601); ..."
+  // Of samples of more than 8 bits that all lie in the lowest eighth of the file's full scale, of
+  // which 8 bits keep little: in words, the white that would keep more. Else empty.
+  std::string advice;
 };
 
 // grey = round(255 min(Y, white) / white), halves up, with Y the grey sample itself, or of colour

@@ -61,6 +61,19 @@ TEST_F(CliNames, AFileOfThatNameWins) {
   EXPECT_THAT(Run({"validate", "one"}).out, Not(HasSubstr("scenarios")));
 }
 
+TEST_F(CliNames, AFolderOfThatNameDoesNot) {
+  Place("scenarios/a/one.json");
+  const std::vector<std::string> words{"run", "one", "--trials", "1", "--out", "one"};
+  RunTo(0, With(words, {"--set", "referee.time_limit_s=1", "--seed", "5"}));
+  EXPECT_THAT(RunTo(0, {"validate", "one"}).out, HasSubstr("scenarios/a/one.json: valid"));
+  EXPECT_THAT(RunTo(0, {"run", "./one", "--trials", "1", "--dry-run"}).out, HasSubstr("seed 5"))
+      << "the folder of a run, whose settings are taken";
+  EXPECT_THAT(
+      RunTo(0, With(words, {"--set", "referee.time_limit_s=1", "--seed", "5", "--resume"})).out,
+      HasSubstr("1 of 1 trials"))
+      << "the same command goes on";
+}
+
 TEST_F(CliNames, KindsThatAreNotWantedDoNotCount) {
   Place("scenarios/a/both.json");
   WriteFile(work() / "scenarios/both.json",

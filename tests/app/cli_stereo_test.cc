@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr int kWidth = 160;
 constexpr int kHeight = 96;
@@ -240,6 +241,23 @@ TEST_F(CliStereo, TexturelessImagesAreNoErrorButANote) {
   EXPECT_THAT(RunTo(0, {"stereo", "a.pgm", "b.pgm", "--out", "blank"}).out,
               HasSubstr("no pixel has a match: the images show too little texture"));
   EXPECT_EQ(Summary("blank")["pixels"]["matched"], 0);
+}
+
+TEST_F(CliStereo, TenBitsInSixteenAreToldOfWithTheWhiteThatHelps) {
+  const auto in_sixteen = [&](const char* name) {
+    std::string text = "P5\n160 96\n65535\n";
+    for (const char sample : ReadFile(work() / name).substr(14)) {
+      const int ten_bits = 4 * static_cast<unsigned char>(sample);
+      text += {static_cast<char>(ten_bits / 256), static_cast<char>(ten_bits % 256)};
+    }
+    WriteFile(work() / (std::string("16_") + name), text);
+  };
+  in_sixteen("left.pgm");
+  in_sixteen("right.pgm");
+  const std::vector<std::string> words{"stereo", "16_left.pgm", "16_right.pgm", "--out"};
+  EXPECT_THAT(RunTo(0, With(words, {"dark"})).out, HasSubstr("--white 1023 would keep more"));
+  EXPECT_THAT(RunTo(0, With(words, {"right", "--white", "1023"})).out, Not(HasSubstr("--white")));
+  EXPECT_GT(Summary("right")["pixels"]["density"], Summary("dark")["pixels"]["density"]);
 }
 
 // Noise of two grey levels either way is no texture, though the matching's gain makes more of them:

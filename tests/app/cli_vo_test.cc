@@ -63,6 +63,28 @@ TEST_F(CliVo, ARenderedSequenceAndItsErrors) {
   EXPECT_EQ(summary["files"]["tum"], "trajectory_tum.txt");
 }
 
+// As editors of other systems save them.
+TEST_F(CliVo, MarksBeforeTextAndEndsOfLinesMeanNothing) {
+  const auto resaved = [&](const std::string& from, const std::string& to) {
+    std::string text = "\xef\xbb\xbf";
+    for (const char c : ReadFile(work() / from)) text += c == '\n' ? "\r\n" : std::string(1, c);
+    WriteFile(work() / to, text);
+  };
+  resaved("way/poses.txt", "poses.txt");
+  resaved("way/cameras.json", "cameras.json");
+  WriteFile(work() / "plain.txt",
+            "way/left/000000.png way/right/000000.png\n"
+            "way/left/000001.png way/right/000001.png\n");
+  resaved("plain.txt", "list.txt");
+  RunTo(0, VoWords({"--truth", "way/poses.txt"}));
+  RunTo(0, {"vo", "way", "--cameras", "cameras.json", "--truth", "poses.txt", "--out", "same"});
+  EXPECT_EQ(ReadFile(work() / "same/errors.csv"), ReadFile(work() / "path/errors.csv"));
+  RunTo(0, {"vo", "list.txt", "--cameras", "cameras.json", "--out", "two"});
+  WriteFile(work() / "latin.txt", "way/left/caf\xe9.png way/right/000000.png\n");
+  EXPECT_THAT(RunTo(2, {"vo", "latin.txt", "--cameras", "cameras.json", "--out", "none"}).err,
+              HasSubstr("latin.txt: line 1: byte 0xe9 is no text of UTF-8"));
+}
+
 TEST_F(CliVo, JsonIsThatOfItsFileAndQuietSaysNothing) {
   const CommandResult result = Run(VoWords({"--json"}));
   ASSERT_EQ(result.exit_code, 0) << result.err;

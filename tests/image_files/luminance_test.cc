@@ -57,6 +57,18 @@ TEST(Luminance, AGivenWhiteClipsWhatIsBrighter) {
   EXPECT_THAT(done.what_was_done, HasSubstr("2 pixels brighter than white"));
 }
 
+// 10 bits in a file of 16, and the bounds of what is told.
+TEST(Luminance, SamplesThatUseLittleOfTheirScaleGetAdvice) {
+  EXPECT_EQ(ToGray(Grey(65535, 16, {3, 1000})).advice,
+            "the brightest sample is 1000 of 65535: --white 1023 would keep more of the image");
+  EXPECT_THAT(ToGray(Grey(65535, 16, {8191})).advice, HasSubstr("--white 8191 "));
+  EXPECT_EQ(ToGray(Grey(65535, 16, {8192})).advice, "");
+  EXPECT_THAT(ToGray(Grey(65535, 16, {512})).advice, HasSubstr("--white 1023 "));
+  EXPECT_EQ(ToGray(Grey(65535, 16, {0})).advice, "") << "black";
+  EXPECT_EQ(ToGray(Grey(65535, 16, {1000}), {.white = 65535}).advice, "") << "as asked for";
+  EXPECT_EQ(ToGray(Grey(255, 8, {10})).advice, "");
+}
+
 TEST(Luminance, ColoursWeighAsInBt601) {
   const auto of = [](int red, int green, int blue) {
     RawImage image = Grey(255, 8, {red});

@@ -99,6 +99,7 @@ CalibrateResult CalibrateCameras(const CalibrateRequest& request) {
   result.size = input.data.size;
   result.read = input.read;
   result.calibration = vision::Calibrate(input.data, {.lens = request.lens}).OrThrow();
+  if (!input.advice.empty()) result.notes.push_back(input.advice);
   NoteCalibrationDoubts(request, result);
   std::error_code error;
   fs::create_directories(request.out, error);

@@ -68,12 +68,14 @@ class CornerReader {
     const image_files::GrayConversion gray = image_files::ToGray(raw, {.white = request_.white});
     input_.read.back().push_back(
         fmt::format("{}; {}", image_files::DescribeImage(raw), gray.what_was_done));
+    if (input_.advice.empty()) input_.advice = gray.advice;
     CheckSize(path, gray.image);
     core::Result<std::vector<vision::Pixel>> corners =
         vision::FindChessboard(gray.image, input_.data.board);
     if (!corners.ok()) {
       Problem problem = corners.problems().front();
-      throw core::UserError(path.string(), problem.reason, problem.suggestion);
+      throw core::UserError(path.string(), problem.reason,
+                            gray.advice.empty() ? problem.suggestion : gray.advice);
     }
     input_.data.corners.back().push_back(*corners);
   }

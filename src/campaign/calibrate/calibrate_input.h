@@ -12,6 +12,7 @@ namespace rockyard::campaign {
 struct CalibrateInput {
   vision::CalibrationData data;
   std::vector<std::vector<std::string>> read;  // by camera, by image: what was read
+  std::string advice;                          // of image_files::ToGray, on the first that has any
 };
 
 // Throws core::UserError: a target file that is none, another number of right images or of poses

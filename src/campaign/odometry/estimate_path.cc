@@ -86,6 +86,7 @@ class PathEstimation {
         odometer_(result.params, reader_.cameras(), reader_.left_free(), {request.seed, 0},
                   [this](vision::OdometryStage stage) { Count(StageOf(stage)); }) {
     result.read = reader_.description();
+    if (!reader_.advice().empty()) result.notes.push_back(reader_.advice());
     result.cameras = reader_.cameras();
     result.resampled = reader_.resampled();
   }

@@ -79,6 +79,7 @@ PairReader::PairReader(const OdometryRequest& request, const ImageSequence& sequ
   const SequencePair& first = sequence.pairs.front();
   const image_files::RawImage raw = image_files::ReadImage(first.left);
   description_ = image_files::DescribeImage(raw);
+  advice_ = image_files::ToGray(raw, {.white = white_}).advice;
   size_ = {raw.width(), raw.height()};
   const GrayPair images = Read(first);
   if (images.left == images.right) {

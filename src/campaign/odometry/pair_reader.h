@@ -28,6 +28,8 @@ class PairReader {
 
   // What the first image holds, in words.
   const std::string& description() const { return description_; }
+  // Of image_files::ToGray, on that image.
+  const std::string& advice() const { return advice_; }
   const vision::RectifiedPair& cameras() const { return eyes_->pair(); }
   const vision::Image<std::uint8_t>& left_free() const { return eyes_->left_free(); }
   bool resampled() const { return resampled_; }
@@ -35,6 +37,7 @@ class PairReader {
  private:
   std::optional<int> white_;
   std::string description_;
+  std::string advice_;
   vision::ImageSize size_;  // of every image as it is read
   bool resampled_ = false;
   std::optional<perception::AlignedEyes> eyes_;

@@ -54,7 +54,7 @@ vision::StereoScore Scored(const StereoRequest& request, const vision::Disparity
   return vision::ScoreAgainst(known, found);
 }
 
-void NoteDoubts(StereoResult& result) {
+void NoteDoubts(const StereoInput& input, StereoResult& result) {
   const auto all = static_cast<double>(
       std::accumulate(result.counts.begin(), result.counts.end(), std::int64_t{0}));
   const auto at_end =
@@ -65,7 +65,9 @@ void NoteDoubts(StereoResult& result) {
                     "what is nearer or farther than it was not searched",
                     100.0 * at_end / all));
   }
-  if (result.counts[0] == 0) {
+  if (!input.advice.empty()) {
+    result.notes.push_back(input.advice);
+  } else if (result.counts[0] == 0) {
     result.notes.emplace_back("no pixel has a match: the images show too little texture");
   } else if (!result.cameras && !result.alignment && result.Density() < kFew) {
     result.notes.emplace_back(
@@ -111,7 +113,7 @@ StereoResult MatchPair(const StereoRequest& request) {
   CheckThatTheyMatch(request, input, result.params, disparities);
   result.counts = vision::CountDrops(disparities);
   if (!request.reference.empty()) result.score = Scored(request, disparities);
-  NoteDoubts(result);
+  NoteDoubts(input, result);
   OutputFolder folder(request.out);
   const image_files::Picture picture = DisparityPicture(disparities, result.params.correlator);
   folder.Write("disparity", "disparity.pfm", image_files::EncodePfm(DisparityValues(disparities)));

@@ -29,10 +29,11 @@ constexpr int kLeastSide_px = 16;
 
 std::string SizeText(int columns, int rows) { return fmt::format("{} x {}", columns, rows); }
 
-GrayImage ReadGray(const fs::path& path, const StereoRequest& request, std::string& what) {
+GrayImage ReadGray(const fs::path& path, const StereoRequest& request, StereoInput& input) {
   const image_files::RawImage raw = image_files::ReadImage(path);
   image_files::GrayConversion gray = image_files::ToGray(raw, {.white = request.white});
-  what = fmt::format("{}; {}", image_files::DescribeImage(raw), gray.what_was_done);
+  input.read.push_back(fmt::format("{}; {}", image_files::DescribeImage(raw), gray.what_was_done));
+  if (input.advice.empty()) input.advice = gray.advice;
   return std::move(gray.image);
 }
 
@@ -131,9 +132,8 @@ StereoInput ReadStereoInput(const StereoRequest& request, int pyramid_level) {
                           "leave one of --align and --cameras out");
   }
   StereoInput input;
-  input.read.resize(2);
-  GrayImage left = ReadGray(request.left, request, input.read[0]);
-  GrayImage right = ReadGray(request.right, request, input.read[1]);
+  GrayImage left = ReadGray(request.left, request, input);
+  GrayImage right = ReadGray(request.right, request, input);
   CheckPair(request, left, right);
   std::optional<vision::CameraPair> cameras;
   if (!request.cameras.empty()) {

@@ -22,6 +22,7 @@ struct StereoInput {
   std::optional<vision::RectifiedPair> cameras;   // of these images
   std::optional<vision::RowAlignment> alignment;  // that the right image was resampled by
   std::vector<std::string> read;                  // what was read and done, left and right
+  std::string advice;                             // of image_files::ToGray, on either image
 };
 
 // Reads both images and brings them to rows that are epipolar lines, `pyramid_level` reductions
