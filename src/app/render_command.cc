@@ -155,7 +155,7 @@ void AddSequenceOptions(CLI::App& command, RenderOptions& options) {
                   "share of the commanded steps that the ground takes: wheels.txt is longer (0)")
       ->check(CLI::Range(-0.99, 0.99));
   command.add_option("--period-s", options.period_s, "s from pair to pair, for times.txt (1)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-9, 1e9));
 }
 
 }  // namespace

@@ -26,8 +26,9 @@ Pose2 OnCircle(const Pose2& from, double step_m, double turn_rad) {
           from.heading_rad + turn_rad};
 }
 
-std::int64_t PartsOf(double whole, double largest_part) {
-  return static_cast<std::int64_t>(std::ceil(whole / largest_part - kRounding));
+// Of so many parts, which may be more than any integer, those that are wanted.
+std::int64_t PartsOf(double parts, std::int64_t most) {
+  return static_cast<std::int64_t>(std::min(parts, static_cast<double>(most)));
 }
 
 }  // namespace
@@ -46,18 +47,17 @@ std::vector<Pose2> CornerWay(const Pose2& start, std::span<const messages::Goal>
   EXPECT(count >= 1 && step_m > 0.0 && turn_rad > 0.0);
   std::vector<Pose2> way{start};
   for (const messages::Goal& corner : corners) {
+    if (std::ssize(way) >= count) break;
     const Pose2 from = way.back();
     const double distance_m = std::hypot(corner.x_m - from.x_m, corner.y_m - from.y_m);
     if (distance_m < kSamePlace_m) continue;
     const double heading_rad = std::atan2(corner.y_m - from.y_m, corner.x_m - from.x_m);
     const double turn = math::WrapAngle(heading_rad - from.heading_rad);
-    const std::int64_t turns = PartsOf(std::abs(turn), turn_rad);
-    for (std::int64_t i = 1; i <= turns; ++i) {
-      way.push_back(
-          {from.x_m, from.y_m,
-           from.heading_rad + turn * static_cast<double>(i) / static_cast<double>(turns)});
+    const double turns = std::ceil(std::abs(turn) / turn_rad - kRounding);
+    for (std::int64_t i = 1; i <= PartsOf(turns, count); ++i) {
+      way.push_back({from.x_m, from.y_m, from.heading_rad + turn * static_cast<double>(i) / turns});
     }
-    const std::int64_t steps = PartsOf(distance_m, step_m);
+    const std::int64_t steps = PartsOf(std::ceil(distance_m / step_m - kRounding), count);
     for (std::int64_t i = 1; i <= steps; ++i) {
       const double share = std::min(1.0, static_cast<double>(i) * step_m / distance_m);
       way.push_back({from.x_m + share * (corner.x_m - from.x_m),

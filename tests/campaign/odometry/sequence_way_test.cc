@@ -56,6 +56,17 @@ TEST(SequenceWay, CornersAreTurnedAtAndReached) {
   EXPECT_EQ(CornerWay({}, corners, 6, 0.4, 0.4).size(), 6u);
 }
 
+// Of a way of 1e300 steps, and of as many turns, the first ones.
+TEST(SequenceWay, StepsThatAreNotWantedAreNotTaken) {
+  const std::vector<messages::Goal> corners{{1.0, 0.0}, {1.0, 1.0}};
+  const auto way = CornerWay({}, corners, 3, 1e-300, 0.4);
+  ASSERT_EQ(way.size(), 3u);
+  EXPECT_EQ(way[2].x_m, 2e-300);
+  const auto turned = CornerWay({0.0, 0.0, 3.0}, corners, 3, 1.0, 1e-300);
+  ASSERT_EQ(turned.size(), 3u);
+  EXPECT_EQ(turned[2].x_m, 0.0);
+}
+
 TEST(SequenceWay, TurnsTakeTheShorterWayRound) {
   const messages::Goal behind[] = {{-1.0, -0.1}};
   const auto way = CornerWay({0.0, 0.0, 3.0}, behind, 100, 1.0, 0.2);
