@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -48,7 +49,11 @@ class Engine {
  public:
   Engine(std::span<const CellWork> work, WorkSource& source, int threads)
       : source_(source), thread_([=, this] {
-          RunTrials(work, source_, threads);
+          try {
+            RunTrials(work, source_, threads);
+          } catch (...) {
+            failure_ = std::current_exception();
+          }
           done_ = true;
         }) {}
   ~Engine() {
@@ -58,10 +63,15 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  bool done() const { return done_; }
+  // Throws what RunTrials has thrown.
+  bool done() const {
+    if (done_ && failure_) std::rethrow_exception(failure_);
+    return done_;
+  }
 
  private:
   WorkSource& source_;
+  std::exception_ptr failure_;  // before done_
   std::atomic<bool> done_ = false;
   std::thread thread_;
 };

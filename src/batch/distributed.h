@@ -58,6 +58,7 @@ void RunTrialsOnRanks(Communicator& communicator, std::span<const CellWork> work
                       const OverdueTrials& overdue,
                       const std::function<void(const std::vector<TrialId>&)>& give_up);
 
+// Both throw what RunTrials throws.
 // On every other rank: returns when rank 0 has no more trials or `stop` is true, and everything
 // that was begun has been sent. A trial that is overdue is waited for: rank 0 ends the job before.
 void ServeBatch(Communicator& communicator, std::span<const CellWork> work, int threads,

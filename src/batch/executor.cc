@@ -12,6 +12,7 @@
 
 #include "batch/batch_session.h"
 #include "core/check.h"
+#include "core/machine_error.h"
 
 namespace rockyard::batch {
 namespace {
@@ -39,6 +40,7 @@ truth::Record RunOne(const experiments::Experiment& experiment, std::uint64_t se
     record.trial = trial;
     return record;
   } catch (const std::exception& error) {
+    if (core::IsMachineFailure(error)) throw;
     return truth::MakeFault(seed, trial, error.what());
   } catch (...) {
     return truth::MakeFault(seed, trial, "an exception without a message");
@@ -57,8 +59,16 @@ CellRecord RunTrial(std::span<const CellWork> work, TrialId id) {
 }
 
 void RunTrials(std::span<const CellWork> work, WorkSource& source, int threads) {
+  std::exception_ptr failure;
 #pragma omp parallel num_threads(threads)
-  while (const std::optional<TrialId> id = source.Take()) source.Finish(RunTrial(work, *id));
+  try {
+    while (const std::optional<TrialId> id = source.Take()) source.Finish(RunTrial(work, *id));
+  } catch (...) {
+#pragma omp critical(rockyard_failure_of_a_trial)
+    failure = std::current_exception();
+    source.Close();
+  }
+  if (failure) std::rethrow_exception(failure);
 }
 
 BatchResult RunBatch(std::span<const CellWork> work, ResultStore& store,

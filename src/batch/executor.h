@@ -63,16 +63,18 @@ struct BatchResult {
 int ThreadCount(const BatchOptions& options);
 
 // Runs one trial. An exception out of it, or a record that does not fit the schema, comes back as a
-// simulator fault.
+// simulator fault; a failure of the machine (core::IsMachineFailure) is thrown on.
 CellRecord RunTrial(std::span<const CellWork> work, TrialId id);
 
-// Takes trials from the source on that many threads until it has none left.
+// Takes trials from the source on that many threads until it has none left. Where one throws, none
+// is begun any more, those in flight are finished, and it is thrown on.
 void RunTrials(std::span<const CellWork> work, WorkSource& source, int threads);
 
 // Runs the trials that the store lacks of those planned, and stores them. `work`: one for each cell
 // of the store. `report` is called about twice per second and once at the end, by one thread at a
 // time. When `stop` becomes true no further trial starts, those in flight finish and are stored.
 // Where the rule ends a cell early its planned trials become those that it asked for. Throws
+// what RunTrials throws, with the finished trials stored and that one pending;
 // StoreError when the store cannot be written: the message says how many finished trials it lacks
 // (they are run again, to the same bits, by a later session). The records do not depend on threads,
 // order or interruptions. Memory: one byte per trial besides the records that wait to be written.

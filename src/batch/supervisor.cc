@@ -16,6 +16,21 @@ namespace {
 using Task = Mission::Task;
 using Why = LeftOut::Why;
 
+// Code by which a worker says why it ended, to its supervisor alone.
+bool IsForSupervisor(const ProcessEnd& end) {
+  return end.signal == 0 && (end.code == kOverdueExit || end.code == kShortExit);
+}
+
+// No trial is to blame: killed, or short of memory, files or disk.
+bool FailedFromOutside(const ProcessEnd& end) {
+  return end.signal == SIGKILL || (end.signal == 0 && end.code == kShortExit);
+}
+
+std::string WhatFailed(const ProcessEnd& end) {
+  return end.signal == 0 ? "the machine was short of memory, files or disk"
+                         : fmt::format("the process was ended by {}", SignalText(end.signal));
+}
+
 bool AskedToEnd(int signal) {
   return signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGUSR1;
 }
@@ -56,9 +71,9 @@ class Supervisor {
     const ProcessEnd end = held_.Run([&] { return worker_(mission); });
     if (end.interrupted || AskedToEnd(end.signal)) {
       // That a trial hung meanwhile is nothing that the user asked for.
-      const bool own = end.signal == 0 && end.code != kOverdueExit;
+      const bool own = end.signal == 0 && !IsForSupervisor(end);
       exit_code_ = own ? end.code : options_.interrupted_exit;
-    } else if (end.signal == 0 && end.code != kOverdueExit) {
+    } else if (end.signal == 0 && !IsForSupervisor(end)) {
       const bool campaign = mission.task == Task::kBegin || mission.task == Task::kGoOn;
       if (campaign || end.code != 0) exit_code_ = end.code;
     }
@@ -66,22 +81,23 @@ class Supervisor {
   }
 
   void Tell(const ProcessEnd& end, const std::vector<Flight>& flights) const {
-    if (end.signal != 0) {
-      note_(
-          fmt::format("the worker process was ended by {}; {} trials were in flight and are run "
-                      "again one by one",
-                      SignalText(end.signal), flights.size()));
+    if (end.signal != 0 || FailedFromOutside(end)) {
+      const std::string what = end.signal == 0
+                                   ? WhatFailed(end)
+                                   : "the worker process was ended by " + SignalText(end.signal);
+      note_(fmt::format("{}; {} trials were in flight and are run again one by one", what,
+                        flights.size()));
     }
   }
 
   void Resolve(const Flight& flight, const ProcessEnd& end) {
     if (flight.overdue) {
       NoteOverdue(flight.id);
-    } else if (end.signal == 0) {
+    } else if (end.signal == 0 && !FailedFromOutside(end)) {
       return;  // it had no time left to be stored, and is run again with the others
     }
     int hung = flight.overdue ? 1 : 0;
-    int crashed = !flight.overdue && end.signal != SIGKILL ? 1 : 0;
+    int crashed = !flight.overdue && !FailedFromOutside(end) ? 1 : 0;
     int killed = 0;
     for (;;) {
       ProcessEnd last;
@@ -96,7 +112,7 @@ class Supervisor {
           NoteCrashed(flight.id, last);
           break;
         case Alone::kKilled:
-          NoteKilled(flight.id);
+          NoteKilled(flight.id, last);
           if (++killed > options_.killed_retries) return LeaveOut(flight.id, Why::kIsKilled);
           break;
         case Alone::kHung:
@@ -111,7 +127,7 @@ class Supervisor {
   Alone RunAlone(TrialId id, ProcessEnd& end) {
     end = Do({.task = Task::kRunAlone, .trial = id});
     if (exit_code_) return Alone::kEnded;
-    if (end.signal == SIGKILL) return Alone::kKilled;
+    if (FailedFromOutside(end)) return Alone::kKilled;
     if (end.signal != 0) return Alone::kCrashed;
     return end.code == kOverdueExit ? Alone::kHung : Alone::kPassed;
   }
@@ -156,8 +172,8 @@ class Supervisor {
 
   void NoteOverdue(TrialId id) { NoteFault(id, kOverdueKind, kOverdueReason); }
 
-  void NoteKilled(TrialId id) {
-    NoteFault(id, "killed", "the process in which the trial ran alone was ended by SIGKILL");
+  void NoteKilled(TrialId id, const ProcessEnd& end) {
+    NoteFault(id, KindOf(end), WhatFailed(end) + " while the trial ran alone");
   }
 
   void NoteCrashed(TrialId id, const ProcessEnd& end) {
@@ -168,10 +184,12 @@ class Supervisor {
   }
 
   void NotePassed(TrialId id, const ProcessEnd& end) {
-    NoteFault(id, end.signal == SIGKILL ? "killed" : "crashed",
-              fmt::format("the worker process was ended by {} while the trial ran; alone the trial "
-                          "passed",
-                          SignalText(end.signal)));
+    NoteFault(id, KindOf(end), WhatFailed(end) + " while the trial ran; alone the trial passed");
+  }
+
+  static std::string KindOf(const ProcessEnd& end) {
+    if (!FailedFromOutside(end)) return "crashed";
+    return end.signal == 0 ? "short_of_resources" : "killed";
   }
 
   void LeaveOut(TrialId id, Why why) { left_out_.push_back({id, why}); }

@@ -10,6 +10,9 @@
 
 namespace rockyard::batch {
 
+// A worker ends with this code when a trial found the machine short of memory, files or disk.
+inline constexpr int kShortExit = 76;
+
 // A trial that stays pending, as what it needs is not there: no result, in no hash, exit code 5.
 struct LeftOut {
   TrialId id;
@@ -39,7 +42,7 @@ using Worker = std::function<int(const Mission&)>;
 // How often things are tried again.
 struct SupervisorOptions {
   int hung_retries = 2;           // of a trial that used up its CPU time
-  int killed_retries = 2;         // of a trial whose process was ended by SIGKILL, from outside
+  int killed_retries = 2;         // of a trial whose process was ended by SIGKILL, or kShortExit
   int fruitless_restarts = 3;     // of workers that die and store no trial
   int failed_exit = 5;            // exit code when that is too often
   int interrupted_exit = 130;     // exit code when a polite signal ended the worker
@@ -55,6 +58,8 @@ struct SupervisorOptions {
 // again alone, and left out, pending, when it is killed again; no machine decides what is a fault.
 // Work that has no place for faults (faults_are_stored) is given neither of the missions that store
 // one.
+// A worker that ends with kShortExit found the machine short of memory, files or disk in a trial,
+// which is as if it had been killed from outside.
 // A worker that ends with kOverdueExit (watchdog.h) left hanging trials: each is tried again alone,
 // and left out, too, when it hangs again.
 //

@@ -47,6 +47,15 @@ void TellOverdue(const batch::ResultStore& store, const std::vector<batch::Trial
   journal.Fail(problems);
 }
 
+// Without a supervisor that would try again, or on a rank, whose end ends all.
+[[noreturn]] void EndShort(const batch::ResultStore& store, const batch::TrialId& id,
+                           const std::exception& error, Journal& journal) {
+  journal.Fail({{fmt::format("trial {}{}", id.trial, CellPart(store, id.cell)),
+                 fmt::format("is pending: the machine failed ({})", error.what()),
+                 "--resume when it has more memory, files or disk"}});
+  _exit(static_cast<int>(Outcome::kFailed));
+}
+
 std::chrono::milliseconds Milliseconds(double time_s) {
   return std::chrono::milliseconds(std::llround(1e3 * time_s));
 }
@@ -127,8 +136,12 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
                                               batch::BatchOptions options,
                                               const batch::ProgressReport& report) {
   options.threads = options_.threads;
-  const HeededWork logged(work, log_, contact_.stop);
   const bool supervised = options_.supervisor && communicator_ == nullptr;
+  const HeededWork logged(work, log_, contact_.stop,
+                          [&](const batch::TrialId& id, const std::exception& error) {
+                            if (supervised) _exit(batch::kShortExit);
+                            EndShort(store, id, error, contact_.journal);
+                          });
   const batch::Watchdog watchdog(log_, {.cpu_limit_s = options_.trial_cpu_limit_s},
                                  [&](const std::vector<Flight>& overdue) {
                                    if (supervised) _exit(batch::kOverdueExit);
@@ -215,7 +228,8 @@ Outcome CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultSto
     const std::string reason = fmt::format("{}; see `{}`", mission_.reason, ReplayLine(store, id));
     record.record = truth::MakeFault(SeedOf(store, id.cell), id.trial, reason);
   } else {
-    const HeededWork logged(work, log_, contact_.stop);
+    const HeededWork logged(work, log_, contact_.stop,
+                            [](const auto&, const auto&) { _exit(batch::kShortExit); });
     // No other trial is to be stored meanwhile.
     const batch::WatchdogOptions limits{.cpu_limit_s = options_.trial_cpu_limit_s,
                                         .grace = std::chrono::milliseconds(0)};
@@ -235,8 +249,10 @@ bool CampaignProcess::TellLeftOut(const batch::ResultStore& store) const {
     const std::string trial = fmt::format("trial {}{}", id.trial, CellPart(store, id.cell));
     if (why == batch::LeftOut::Why::kIsKilled) {
       problems.push_back(
-          {trial, "is pending: each time it was tried its process was killed",
-           fmt::format("--resume with more memory, or `{}`", ReplayLine(store, id))});
+          {trial,
+           "is pending: each time it was tried its process was killed, or short of memory, files "
+           "or disk",
+           fmt::format("--resume with more of them, or `{}`", ReplayLine(store, id))});
       continue;
     }
     problems.push_back(

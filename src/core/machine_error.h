@@ -1,6 +1,8 @@
 // Failures of the machine, beside those of an input.
 #pragma once
 
+#include <exception>
+
 #include "core/error.h"
 
 namespace rockyard::core {
@@ -10,6 +12,11 @@ class MachineError : public UserError {
  public:
   using UserError::UserError;
 };
+
+// Whether it says that memory, files, processes or disk are short or broken: a MachineError,
+// std::bad_alloc, or a std::system_error with such a code. A size that is no size
+// (std::bad_array_new_length, std::length_error) is a defect of the program.
+bool IsMachineFailure(const std::exception& error);
 
 // What to do where the process or the machine may open no more files.
 inline constexpr const char* kMoreOpenFiles =

@@ -20,6 +20,7 @@ class Experiment {
   // The record of trial `index` of the campaign `seed`: the same bits whatever ran before, on
   // whatever thread. Simulator faults (contract violations, NaN, exceptions of the simulation) come
   // back as an outcome with a detail that names the seed and the index; nothing is thrown for them.
+  // Throws what core::IsMachineFailure: the machine was short of memory, files or disk.
   virtual truth::Record Run(std::uint64_t seed, std::uint64_t index) const = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <mutex>
+#include <new>
 #include <set>
 
 #include "batch/run_folder.h"
@@ -129,6 +130,24 @@ TEST(Executor, CountsFaultsApartAndFailsAboveTheFraction) {
   patient.max_fault_fraction = 0.2;
   EXPECT_FALSE(RunBatch(experiment, store, patient, kNeverStop).too_many_faults)
       << "exactly the fraction is not above it";
+}
+
+// No result of the trial: it stays pending, the others are kept, and a later session runs it.
+TEST(Executor, AFailureOfTheMachineIsThrownAndNoFault) {
+  const core::TestFolder folder;
+  const FakeExperiment experiment([](std::uint64_t index) {
+    if (index == 60) throw std::bad_alloc();
+  });
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
+  EXPECT_THROW(RunBatch(experiment, store, Options(2), kNeverStop), std::bad_alloc);
+  const std::vector<truth::Record> stored = store.Load();
+  EXPECT_GE(stored.size(), 60U);
+  EXPECT_LT(stored.size(), static_cast<std::size_t>(kTrials)) << "none is begun after it";
+  EXPECT_TRUE(std::none_of(stored.begin(), stored.end(), [](const truth::Record& record) {
+    return record.trial == 60 || truth::IsFault(record);
+  }));
+  RunBatch(FakeExperiment(), store, Options(2), kNeverStop);
+  EXPECT_EQ(TrialHash(store.Load()), PlainHash());
 }
 
 class ShortRecords final : public experiments::Experiment {

@@ -180,10 +180,22 @@ TEST_F(SupervisorTest, WithoutAPlaceForFaultsCrashesAreLeftOut) {
   EXPECT_EQ(board_->why[5], LeftOut::Why::kCrashes);
 }
 
+// What no trial is to blame for: it was killed from outside, or found the machine short.
+class EndFromOutside : public SupervisorTest, public testing::WithParamInterface<bool> {
+ protected:
+  static void End() {
+    if (GetParam()) _exit(kShortExit);
+    raise(SIGKILL);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Ends, EndFromOutside, testing::Bool(),
+                         [](const auto& end) { return end.param ? "Short" : "Killed"; });
+
 // A trial that does not fit into this machine may fit into another one.
-TEST_F(SupervisorTest, KilledEachTimeStaysPending) {
+TEST_P(EndFromOutside, EachTimeLeavesItPending) {
   EXPECT_EQ(Supervised([](int trial) {
-              if (trial == 4) raise(SIGKILL);
+              if (trial == 4) End();
             }),
             5);
   EXPECT_EQ(Stored(), kTrials - 1);
@@ -216,9 +228,9 @@ TEST_F(SupervisorTest, HungThenCrashedTwiceIsAFault) {
   EXPECT_EQ(board_->runs[7], 3);
 }
 
-TEST_F(SupervisorTest, KilledThenCrashedOnceIsNoFault) {
+TEST_P(EndFromOutside, ThenCrashedOnceIsNoFault) {
   EXPECT_EQ(Supervised([&](int trial) {
-              if (trial == 4 && board_->runs[4] == 1) raise(SIGKILL);
+              if (trial == 4 && board_->runs[4] == 1) End();
               if (trial == 4 && board_->runs[4] == 2) Crash();
             }),
             0);
@@ -226,21 +238,21 @@ TEST_F(SupervisorTest, KilledThenCrashedOnceIsNoFault) {
   EXPECT_TRUE(board_->stored[4]);
 }
 
-TEST_F(SupervisorTest, KilledFromOutsideLeavesNoSimulatorFault) {
+TEST_P(EndFromOutside, OnceLeavesNoSimulatorFault) {
   EXPECT_EQ(Supervised([&](int trial) {
-              if (trial == 4 && board_->runs[4] == 1) kill(getpid(), SIGKILL);
+              if (trial == 4 && board_->runs[4] == 1) End();
             }),
             0);
   EXPECT_EQ(Stored(), kTrials);
   EXPECT_EQ(Sum(board_->faults), 0);
   EXPECT_GE(board_->machine_faults[4], 1);
-  EXPECT_THAT(notes_, HasSubstr("SIGKILL"));
+  EXPECT_THAT(notes_, HasSubstr(GetParam() ? "short of memory, files or disk" : "SIGKILL"));
 }
 
 // The out-of-memory killer or a person may meet the trial that runs alone, too.
-TEST_F(SupervisorTest, KilledTwiceIsNoFaultEither) {
+TEST_P(EndFromOutside, TwiceIsNoFaultEither) {
   EXPECT_EQ(Supervised([&](int trial) {
-              if (trial == 4 && board_->runs[4] <= 2) kill(getpid(), SIGKILL);
+              if (trial == 4 && board_->runs[4] <= 2) End();
             }),
             0);
   EXPECT_EQ(Sum(board_->faults), 0);

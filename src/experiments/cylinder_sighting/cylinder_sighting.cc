@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +10,7 @@
 #include "core/distributions.h"
 #include "experiments/cylinder_sighting/columns.h"
 #include "experiments/cylinder_sighting/judge_sighting.h"
+#include "experiments/record_of.h"
 #include "experiments/scene_key.h"
 #include "math/angles.h"
 #include "rendering/cylinder/colour_readout.h"
@@ -130,19 +128,14 @@ SightingSums CylinderSightingExperiment::Measure(std::size_t cell, core::TrialKe
 }
 
 truth::Record CylinderSightingExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  try {
-    if (index > std::numeric_limits<std::uint32_t>::max()) {
-      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
-    }
+  return RecordOf(seed, index, [&](const core::TrialKey& key) {
     const std::size_t cell = index % table_.size();
     truth::Record record{index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(cell)}};
     for (const double value : table_.Values(cell)) record.values.push_back(value);
-    const SightingSums sums = Measure(cell, {seed, static_cast<std::uint32_t>(index)});
+    const SightingSums sums = Measure(cell, key);
     ForEachSum(sums, [&](const std::string&, double value) { record.values.push_back(value); });
     return record;
-  } catch (const std::exception& error) {
-    return truth::MakeFault(seed, index, error.what());
-  }
+  });
 }
 
 }  // namespace rockyard::experiments

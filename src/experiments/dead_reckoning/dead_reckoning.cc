@@ -1,14 +1,12 @@
 #include "experiments/dead_reckoning/dead_reckoning.h"
 
 #include <cmath>
-#include <exception>
-#include <limits>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "core/check.h"
 #include "experiments/dead_reckoning/columns.h"
+#include "experiments/record_of.h"
 #include "experiments/scene_key.h"
 #include "math/angles.h"
 #include "trial/onboard_calibration.h"
@@ -79,21 +77,15 @@ WalkSums DeadReckoningExperiment::Measure(const WalkPlan& plan, core::TrialKey k
 }
 
 truth::Record DeadReckoningExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  try {
-    if (index > std::numeric_limits<std::uint32_t>::max()) {
-      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
-    }
+  return RecordOf(seed, index, [&](const core::TrialKey& key) {
     const std::size_t number = index % table_.size();
     const std::vector<double> factors = table_.Values(number);
     truth::Record record{index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(number)}};
     for (const double value : factors) record.values.push_back(value);
-    const WalkSums sums =
-        Measure(PlanOf(params_, factors), {seed, static_cast<std::uint32_t>(index)});
+    const WalkSums sums = Measure(PlanOf(params_, factors), key);
     ForEachSum(sums, [&](const std::string&, double value) { record.values.push_back(value); });
     return record;
-  } catch (const std::exception& error) {
-    return truth::MakeFault(seed, index, error.what());
-  }
+  });
 }
 
 }  // namespace rockyard::experiments

@@ -2,15 +2,13 @@
 
 #include <cmath>
 #include <cstddef>
-#include <exception>
-#include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include "core/distributions.h"
 #include "experiments/designation/columns.h"
+#include "experiments/record_of.h"
 #include "experiments/scene_key.h"
 #include "trial/goal_designation.h"
 #include "truth/measurement_record.h"
@@ -141,20 +139,15 @@ DesignationSums DesignationExperiment::Measure(double range_m, core::TrialKey ke
 }
 
 truth::Record DesignationExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  try {
-    if (index > std::numeric_limits<std::uint32_t>::max()) {
-      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
-    }
+  return RecordOf(seed, index, [&](const core::TrialKey& key) {
     const std::size_t cell = index % table_.size();
     const double range_m = table_.Values(cell).front();
-    const DesignationSums sums = Measure(range_m, {seed, static_cast<std::uint32_t>(index)});
+    const DesignationSums sums = Measure(range_m, key);
     truth::Record record{
         index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(cell), range_m}};
     for (const double sum : sums.values()) record.values.push_back(sum);
     return record;
-  } catch (const std::exception& error) {
-    return truth::MakeFault(seed, index, error.what());
-  }
+  });
 }
 
 }  // namespace rockyard::experiments

@@ -2,12 +2,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <exception>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "experiments/record_of.h"
 #include "trial/run_trial.h"
 
 namespace rockyard::experiments {
@@ -56,16 +55,10 @@ truth::Record DriveExperiment::RunTraced(std::uint64_t seed, std::uint64_t index
 
 truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
                                         truth::Trace* trace) const {
-  try {
-    if (index > std::numeric_limits<std::uint32_t>::max()) {
-      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
-    }
-    const trial::DriveResult drive =
-        trial::RunTrial(params_, {seed, static_cast<std::uint32_t>(index)}, trace, watchers_);
+  return RecordOf(seed, index, [&](const core::TrialKey& key) -> truth::Record {
+    const trial::DriveResult drive = trial::RunTrial(params_, key, trace, watchers_);
     return {index, drive.outcome, drive.detail, Values(drive.record)};
-  } catch (const std::exception& error) {
-    return truth::MakeFault(seed, index, error.what());
-  }
+  });
 }
 
 }  // namespace rockyard::experiments

@@ -1,13 +1,12 @@
 #include "experiments/hazard_detection/hazard_detection.h"
 
 #include <cstdint>
-#include <exception>
-#include <limits>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include "experiments/hazard_detection/columns.h"
+#include "experiments/record_of.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -47,19 +46,13 @@ HazardDetectionExperiment::HazardDetectionExperiment(const HazardDetectionParams
       schema_(MakeSchema(table_, *study_)) {}
 
 truth::Record HazardDetectionExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  try {
-    if (index > std::numeric_limits<std::uint32_t>::max()) {
-      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
-    }
+  return RecordOf(seed, index, [&](const core::TrialKey& key) {
     const std::size_t cell = index % table_.size();
     truth::Record record{index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(cell)}};
     for (const double value : table_.Values(cell)) record.values.push_back(value);
-    const core::TrialKey key{seed, static_cast<std::uint32_t>(index)};
     for (const double value : study_->Measure(cell, key)) record.values.push_back(value);
     return record;
-  } catch (const std::exception& error) {
-    return truth::MakeFault(seed, index, error.what());
-  }
+  });
 }
 
 }  // namespace rockyard::experiments

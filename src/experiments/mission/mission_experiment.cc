@@ -1,7 +1,5 @@
 #include "experiments/mission/mission_experiment.h"
 
-#include <exception>
-#include <limits>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -10,6 +8,7 @@
 #include "experiments/mission/columns.h"
 #include "experiments/mission/mission.h"
 #include "experiments/mission/mission_record.h"
+#include "experiments/record_of.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -36,11 +35,10 @@ MissionExperiment::MissionExperiment(const MissionParams& params, trial::DrivePa
     : params_(params), drive_(std::move(drive)), schema_(SchemaOf(params)) {}
 
 truth::Record MissionExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  try {
+  return RecordOf(seed, index, [&](const core::TrialKey& key) -> truth::Record {
     if (index >= kMissions) {
       throw std::out_of_range("missions end at 2^22 - 1: their sols share the random key's 2^32");
     }
-    const core::TrialKey key{seed, static_cast<std::uint32_t>(index)};
     const MissionRecord mission(params_, Mission(params_, drive_, key).Run());
     std::vector<double> values{0.0};
     const auto keep = [&](const truth::ValueInfo&, double value) { values.push_back(value); };
@@ -53,9 +51,7 @@ truth::Record MissionExperiment::Run(std::uint64_t seed, std::uint64_t index) co
       }
     }
     return {index, truth::TrialOutcome::kMeasured, "", std::move(values)};
-  } catch (const std::exception& error) {
-    return truth::MakeFault(seed, index, error.what());
-  }
+  });
 }
 
 }  // namespace rockyard::experiments

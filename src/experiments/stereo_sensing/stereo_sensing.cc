@@ -1,13 +1,11 @@
 #include "experiments/stereo_sensing/stereo_sensing.h"
 
 #include <cstdint>
-#include <exception>
-#include <limits>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "experiments/look_factors.h"
+#include "experiments/record_of.h"
 #include "experiments/scene_key.h"
 #include "experiments/stereo_sensing/columns.h"
 #include "experiments/stereo_sensing/look_map.h"
@@ -111,21 +109,16 @@ StereoSums StereoSensingExperiment::Measure(const Cell& cell, core::TrialKey key
 }
 
 truth::Record StereoSensingExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  try {
-    if (index > std::numeric_limits<std::uint32_t>::max()) {
-      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
-    }
+  return RecordOf(seed, index, [&](const core::TrialKey& key) {
     const std::size_t number = index % table_.size();
     const Cell& cell = cells_[number];
     truth::Record record{index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(number)}};
     for (const double value : cell.factors) record.values.push_back(value);
     record.values.push_back(cell.bin.farthest_m);
-    const StereoSums sums = Measure(cell, {seed, static_cast<std::uint32_t>(index)});
+    const StereoSums sums = Measure(cell, key);
     ForEachSum(sums, [&](const std::string&, double value) { record.values.push_back(value); });
     return record;
-  } catch (const std::exception& error) {
-    return truth::MakeFault(seed, index, error.what());
-  }
+  });
 }
 
 }  // namespace rockyard::experiments

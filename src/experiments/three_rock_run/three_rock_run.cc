@@ -2,14 +2,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <exception>
-#include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "experiments/record_of.h"
 #include "experiments/three_rock_run/columns.h"
 #include "experiments/three_rock_run/rock_layout_draw.h"
 #include "trial/run_trial.h"
@@ -61,19 +59,14 @@ ThreeRockRunExperiment::ThreeRockRunExperiment(const ThreeRockRunParams& params,
       schema_(ThreeRockSchema()) {}
 
 truth::Record ThreeRockRunExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  try {
-    if (index > std::numeric_limits<std::uint32_t>::max()) {
-      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
-    }
+  return RecordOf(seed, index, [&](const core::TrialKey& key) {
     truth::Record record{index, truth::TrialOutcome::kMeasured, "", {}};
     std::vector<double> values{0.0};
-    ForEachThreeRockColumn(Measure({seed, static_cast<std::uint32_t>(index)}),
+    ForEachThreeRockColumn(Measure(key),
                            [&](const truth::ValueInfo&, double value) { values.push_back(value); });
     record.values = std::move(values);
     return record;
-  } catch (const std::exception& error) {
-    return truth::MakeFault(seed, index, error.what());
-  }
+  });
 }
 
 ThreeRockRunExperiment::Driven ThreeRockRunExperiment::DriveAmong(const Course& course) const {

@@ -1,15 +1,13 @@
 #include "experiments/visual_motion/visual_motion.h"
 
 #include <cmath>
-#include <exception>
-#include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "core/distributions.h"
 #include "experiments/look_factors.h"
+#include "experiments/record_of.h"
 #include "experiments/scene_key.h"
 #include "experiments/stereo_sensing/random_place.h"
 #include "experiments/visual_motion/columns.h"
@@ -118,19 +116,14 @@ VisualSums VisualMotionExperiment::Measure(std::size_t cell, core::TrialKey key)
 }
 
 truth::Record VisualMotionExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  try {
-    if (index > std::numeric_limits<std::uint32_t>::max()) {
-      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
-    }
+  return RecordOf(seed, index, [&](const core::TrialKey& key) {
     const std::size_t cell = index % table_.size();
     truth::Record record{index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(cell)}};
     for (const double value : table_.Values(cell)) record.values.push_back(value);
-    const VisualSums sums = Measure(cell, {seed, static_cast<std::uint32_t>(index)});
+    const VisualSums sums = Measure(cell, key);
     ForEachSum(sums, [&](const std::string&, double value) { record.values.push_back(value); });
     return record;
-  } catch (const std::exception& error) {
-    return truth::MakeFault(seed, index, error.what());
-  }
+  });
 }
 
 }  // namespace rockyard::experiments

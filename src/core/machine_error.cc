@@ -1,0 +1,31 @@
+#include "core/machine_error.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <system_error>
+
+namespace rockyard::core {
+namespace {
+
+constexpr std::array kShort = {std::errc::not_enough_memory,
+                               std::errc::too_many_files_open,
+                               std::errc::too_many_files_open_in_system,
+                               std::errc::no_space_on_device,
+                               std::errc::io_error,
+                               std::errc::resource_unavailable_try_again,
+                               std::errc::read_only_file_system};
+
+}  // namespace
+
+bool IsMachineFailure(const std::exception& error) {
+  if (dynamic_cast<const MachineError*>(&error) != nullptr) return true;
+  if (const auto* system = dynamic_cast<const std::system_error*>(&error)) {
+    return std::any_of(kShort.begin(), kShort.end(),
+                       [&](std::errc code) { return system->code() == code; });
+  }
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr &&
+         dynamic_cast<const std::bad_array_new_length*>(&error) == nullptr;
+}
+
+}  // namespace rockyard::core
