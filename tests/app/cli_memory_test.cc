@@ -35,7 +35,7 @@ TEST_F(CliMemory, WhatATrialLacksIsNoFault) {
   ASSERT_EQ(Wait(StartProgram(Look({"--out", "plain"}))).exit_code, 0);
   for (const std::string how : {"--max-faults=1", "--no-supervisor"}) {
     int pending = 0;
-    CommandResult result{.exit_code = 5};
+    CommandResult result{5, "", ""};
     for (int limit_MiB = 60; result.exit_code != 0 && limit_MiB < 1000; limit_MiB += 12) {
       result = RunWithin(limit_MiB, Look({"--out", "a", "--resume", how}));
       ASSERT_THAT(result.exit_code, testing::AnyOf(0, 5, 127)) << limit_MiB << result.err;
