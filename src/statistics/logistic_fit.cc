@@ -1,6 +1,7 @@
 #include "statistics/logistic_fit.h"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <vector>
@@ -8,11 +9,16 @@
 #include "core/check.h"
 #include "core/distributions.h"
 #include "core/numbers.h"
-#include "statistics/goodness_of_fit.h"
 #include "statistics/logistic_likelihood.h"
 
 namespace rockyard::statistics {
 namespace {
+
+// P(chi-square with that many degrees of freedom > statistic).
+double ChiSquareTail(double statistic, int degrees_of_freedom) {
+  return boost::math::cdf(boost::math::complement(
+      boost::math::chi_squared(static_cast<double>(degrees_of_freedom)), statistic));
+}
 
 using core::kInfinity;
 using core::kNaN;

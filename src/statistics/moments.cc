@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
 #include "core/numbers.h"
 
 namespace rockyard::statistics {
@@ -61,18 +60,6 @@ Moments MomentsOf(std::span<const double> values) {
   Moments moments;
   for (const double value : values) moments.Add(value);
   return moments;
-}
-
-double VarianceGrowthSlope(std::span<const double> distance, std::span<const double> variance) {
-  EXPECT(distance.size() == variance.size());
-  // Slope of v = a L by least squares: a = sum(L v) / sum(L^2).
-  double product = 0.0;
-  double square = 0.0;
-  for (std::size_t i = 0; i < distance.size(); ++i) {
-    product += distance[i] * variance[i];
-    square += distance[i] * distance[i];
-  }
-  return square > 0.0 ? product / square : kNaN;
 }
 
 }  // namespace rockyard::statistics

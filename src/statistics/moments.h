@@ -33,10 +33,4 @@ class Moments {
 
 Moments MomentsOf(std::span<const double> values);
 
-// Returns the least-squares slope through the origin of a variance against distance (Matthies 1995,
-// sec. 5, fig. 5): sum(L v) / sum(L^2), in the variance's unit per unit of distance. The points of
-// one set of runs are correlated, so the plain standard error of a regression does not hold:
-// bootstrap over runs. It is NaN when no distance differs from zero.
-double VarianceGrowthSlope(std::span<const double> distance, std::span<const double> variance);
-
 }  // namespace rockyard::statistics

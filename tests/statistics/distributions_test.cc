@@ -7,7 +7,6 @@
 
 #include "core/random.h"
 #include "oracles.h"
-#include "statistics/goodness_of_fit.h"
 #include "statistics/kolmogorov.h"
 #include "statistics/modes.h"
 #include "statistics/moments.h"
@@ -51,13 +50,6 @@ TEST(Moments, LeaveOutWhatIsNotFiniteAndSurviveNothing) {
   with_fault.Merge(m);
   EXPECT_EQ(with_fault.not_finite(), 3);
   EXPECT_EQ(with_fault.mean(), 2.0);
-}
-
-TEST(VarianceGrowth, SlopeThroughTheOrigin) {
-  const std::vector<double> distance = {1.0, 2.0, 4.0};
-  EXPECT_NEAR(VarianceGrowthSlope(distance, std::vector{0.7, 1.4, 2.8}), 0.7, 1e-15);
-  EXPECT_NEAR(VarianceGrowthSlope(distance, std::vector{1.0, 1.0, 1.0}), 7.0 / 21.0, 1e-15);
-  EXPECT_TRUE(std::isnan(VarianceGrowthSlope({}, {})));
 }
 
 TEST(Quantile, EndsTiesAndNothing) {
@@ -131,26 +123,6 @@ TEST(KolmogorovSmirnov, CriticalValuesAndLimitLaw) {
   EXPECT_EQ(KolmogorovExactPValue(0.001, 40), 1.0);
   EXPECT_EQ(KolmogorovExactPValue(1.0, 40), 0.0);
   EXPECT_EQ(KolmogorovSmirnov(std::span<const double>(), std::span<const double>()).p_value, 1.0);
-}
-
-TEST(ChiSquare, TailEqualsOracles) {
-  for (const core::JsonValue& c : At(Oracles(), "chi2").list()) {
-    const int dof = static_cast<int>(At(c, "df").integer());
-    for (const auto& sf : At(c, "sf").members()) {
-      EXPECT_NEAR(ChiSquareTail(std::stod(sf.key), dof), sf.value.number(),
-                  1e-9 * sf.value.number());
-    }
-    EXPECT_NEAR(ChiSquareTail(At(c, "ppf95").number(), dof), 0.05, 1e-12);
-  }
-}
-
-TEST(ChiSquare, PoolsThinBinsAndCountsFittedParameters) {
-  const std::vector<double> observed = {10.0, 20.0, 30.0, 1.0, 2.0};
-  const std::vector<double> expected = {15.0, 15.0, 29.0, 2.0, 2.0};
-  const ChiSquareResult result = ChiSquareGoodnessOfFit(observed, expected, 1);
-  EXPECT_EQ(result.degrees_of_freedom, 1);
-  EXPECT_NEAR(result.statistic, 25.0 / 15.0 + 25.0 / 15.0 + 0.0, 1e-12);
-  EXPECT_EQ(ChiSquareGoodnessOfFit(std::vector{3.0}, std::vector{3.0}).p_value, 1.0);
 }
 
 TEST(Modes, FindThePeakAndSurviveSmallSamples) {

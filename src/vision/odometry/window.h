@@ -46,9 +46,6 @@ void CopyWindow(const GrayImage& image, const Feature& feature, int side, std::u
 void WarpWindow(const GrayImage& image, const Feature& feature, const Eigen::Matrix2d& by_offset,
                 int side, std::uint8_t* window);
 
-// The largest sum of absolute differences of two windows of 15 x 15 pixels; they fit into 16 bits.
-inline constexpr std::uint16_t kMostDifference = 225 * 255;
-
 // Sums of absolute differences of `window` to those of `others` from `first` on, to as many as
 // `differences` has.
 void WindowDifferences(const std::uint8_t* window, const WindowSet& others, std::size_t first,

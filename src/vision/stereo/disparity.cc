@@ -12,12 +12,4 @@ DropCounts CountDrops(const DisparityImage& disparities) {
   return counts;
 }
 
-Image<std::uint8_t> DropMask(const DisparityImage& disparities) {
-  Image<std::uint8_t> mask(disparities.width(), disparities.height());
-  for (std::size_t i = 0; i < mask.values().size(); ++i) {
-    mask.values()[i] = static_cast<std::uint8_t>(DropOf(disparities.values()[i]));
-  }
-  return mask;
-}
-
 }  // namespace rockyard::vision

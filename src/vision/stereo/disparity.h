@@ -57,7 +57,4 @@ using DropCounts = std::array<std::int64_t, kDropCount>;
 
 DropCounts CountDrops(const DisparityImage& disparities);
 
-// For every pixel the value of Drop: 0 where there is a disparity.
-Image<std::uint8_t> DropMask(const DisparityImage& disparities);
-
 }  // namespace rockyard::vision

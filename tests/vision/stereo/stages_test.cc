@@ -221,10 +221,6 @@ TEST(DisparityTest, CodesOfDroppedPixelsAreNoDisparities) {
   image.At(1, 0) = Dropped(Drop::kBlob);
   image.At(2, 0) = Dropped(Drop::kOutside);
   EXPECT_EQ(CountDrops(image), (DropCounts{1, 1, 0, 0, 0, 0, 1}));
-  const Image<std::uint8_t> mask = DropMask(image);
-  EXPECT_EQ(mask.At(0, 0), 0);
-  EXPECT_EQ(mask.At(1, 0), 6);
-  EXPECT_EQ(mask.At(2, 0), 1);
 }
 
 TEST(StereoTest, ImagesOfDifferentSizesAreRefused) {
