@@ -17,13 +17,4 @@ if(git)
     endif()
   endif()
 endif()
-file(CONFIGURE OUTPUT ${OUT} @ONLY CONTENT [[
-// Made by write_commit.cmake.
-#pragma once
-
-namespace rockyard::core {
-
-inline constexpr char kBuildCommit[] = "@commit@";
-
-}  // namespace rockyard::core
-]])
+configure_file(${SOURCES}/src/core/build_commit.h.in ${OUT} @ONLY)

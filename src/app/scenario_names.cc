@@ -170,12 +170,10 @@ fs::path ScenarioFolder() {
 
 std::string ScenarioFile(const std::string& word, Wanted wanted) {
   std::error_code error;
-  const bool folder_here = IsFolder(word);
-  if (fs::exists(word, error) && !(folder_here && word.find('/') == std::string::npos)) return word;
+  if (fs::exists(word, error)) return word;
   const fs::path folder = ScenarioFolder();
   const std::vector<fs::path> files = FilesIn(folder);
   const std::vector<fs::path> meant = OfKind(Meant(Stem(word), folder, files), wanted);
-  if (folder_here && meant.size() != 1) return word;
   if (meant.empty()) Unknown(word, wanted);
   if (meant.size() == 1) return meant.front().string();
   std::vector<std::string> names;

@@ -17,13 +17,11 @@ std::filesystem::path ScenarioFolder();
 // What a command takes where it asks for a file.
 enum class Wanted { kScenario, kSweep, kEither, kRover };
 
-// The file that a word means. What exists is meant as it stands, but for a folder whose name alone,
-// without a slash, is the name of a file as below: a run in ./nominal does not change what
-// "nominal" is. Else the word is the end of the path of a file in ScenarioFolder(), without its
-// ".json": "nominal", "gestalt/abundance". Only files of the wanted kind count; for kRover
-// scenarios and rovers. A path from the folder itself, "pathfinder/nominal", goes before longer
-// ones that end like it. Throws core::UserError where several files are meant, with all of them,
-// and where none is, with the nearest name.
+// The file that a word means. What exists is meant as it stands. Else the word is the end of the
+// path of a file in ScenarioFolder(), without its ".json": "nominal", "gestalt/abundance". Only
+// files of the wanted kind count; for kRover scenarios and rovers. A path from the folder itself,
+// "pathfinder/nominal", goes before longer ones that end like it. Throws core::UserError where
+// several files are meant, with all of them, and where none is, with the nearest name.
 std::string ScenarioFile(const std::string& word, Wanted wanted = Wanted::kScenario);
 
 // The shortest names by which ScenarioFile finds each file of the kind, in alphabetical order.

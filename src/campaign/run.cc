@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "campaign/run_report.h"
 #include "campaign/run_source.h"
 #include "campaign/scenario_doubts.h"
+#include "campaign/shell_word.h"
 #include "scenario/ablations.h"
 
 namespace rockyard::campaign {
@@ -53,6 +56,14 @@ void RemarkIdleAblations(const RunRequest& request, Journal& journal) {
   }
 }
 
+// Its name may be that of a scenario, which was meant.
+void RemarkFolder(const RunRequest& request, Journal& journal) {
+  std::error_code error;
+  if (!IsFirstRank() || !std::filesystem::is_directory(request.source, error)) return;
+  journal.Remark(fmt::format("{} is the folder of a run, whose settings are taken",
+                             ShellPath(request.source.string())));
+}
+
 // What the scenario has without saying so may not be meant.
 void WarnOfDoubts(const RunRequest& request, Journal& journal) {
   if (!IsFirstRank()) return;
@@ -67,6 +78,7 @@ WorkResult Run(const RunRequest& request, const RunObserver& observer, const Sto
   const CampaignRequest& campaign = request.campaign;
   const ReportSettings settings{.method = campaign.method, .threads = campaign.containment.threads};
   return Recorded(observer, [&](Journal& journal) {
+    RemarkFolder(request, journal);
     WarnOfDoubts(request, journal);
     RemarkIdleAblations(request, journal);
     return RunCampaign(
@@ -79,6 +91,7 @@ WorkResult Run(const RunRequest& request, const RunObserver& observer, const Sto
 core::Result<DryRun> Rehearse(const RunRequest& request, const Observer& observer) {
   return core::Attempt([&] {
     Journal journal(observer);
+    RemarkFolder(request, journal);
     WarnOfDoubts(request, journal);
     RemarkIdleAblations(request, journal);
     return Rehearse(request.campaign, PlanOf(request));
