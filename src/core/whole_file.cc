@@ -66,8 +66,8 @@ std::string ReadWholeFile(const fs::path& path, std::size_t max_bytes, std::stri
 }
 
 std::string_view WithoutByteOrderMark(std::string_view text) {
-  constexpr std::string_view kMark = "\xef\xbb\xbf";
-  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
 }
 
 std::string ReadTextFile(const fs::path& path, std::size_t max_bytes, std::string_view kind) {
