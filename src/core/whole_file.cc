@@ -65,11 +65,6 @@ std::string ReadWholeFile(const fs::path& path, std::size_t max_bytes, std::stri
   return text;
 }
 
-std::string_view WithoutByteOrderMark(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
-}
-
 std::string ReadTextFile(const fs::path& path, std::size_t max_bytes, std::string_view kind) {
   std::string text = ReadWholeFile(path, max_bytes, kind);
   const std::size_t good = std::min(Utf8Bytes(text), text.find('\0'));
@@ -81,7 +76,8 @@ std::string ReadTextFile(const fs::path& path, std::size_t max_bytes, std::strin
                                 static_cast<unsigned>(static_cast<unsigned char>(text[good]))),
                     fmt::format("name {}; if it is of another encoding, save it as UTF-8", kind));
   }
-  text.erase(0, text.size() - WithoutByteOrderMark(text).size());
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
   return text;
 }
 

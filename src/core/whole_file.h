@@ -20,7 +20,4 @@ std::string ReadWholeFile(const std::filesystem::path& path, std::size_t max_byt
 std::string ReadTextFile(const std::filesystem::path& path, std::size_t max_bytes,
                          std::string_view kind);
 
-// A text without the byte order mark before it.
-std::string_view WithoutByteOrderMark(std::string_view text);
-
 }  // namespace rockyard::core

@@ -21,6 +21,14 @@ struct JudgedCase {
   std::string failure;  // what is wrong; empty: nothing
 };
 
+// Of a reader, whose outcomes are kRead, kRefused and kFailed.
+template <typename Verdict>
+JudgedCase OfReader(const std::string& kind, const Verdict& verdict) {
+  using Outcome = decltype(verdict.outcome);
+  if (verdict.outcome == Outcome::kFailed) return {kind, "failed", verdict.what};
+  return {kind, verdict.outcome == Outcome::kRead ? "read" : "refused", ""};
+}
+
 // `judge(seed, number)` makes a case and tries it.
 template <typename Judge>
 int FuzzStudy(int count, char** arguments, const Judge& judge) {

@@ -10,12 +10,6 @@ int main(int count, char** arguments) {
   const std::vector<SeedFile> files = SeedFiles(folder.path());
   return rockyard::core::FuzzStudy(count, arguments, [&](auto seed, auto number) {
     const SeedFile file = MutatedFile(files, seed, number);
-    const Verdict verdict = JudgeFile(file, folder.path());
-    const bool failed = verdict.outcome == Outcome::kFailed;
-    return rockyard::core::JudgedCase{file.name,
-                                      failed                              ? "failed"
-                                      : verdict.outcome == Outcome::kRead ? "read"
-                                                                          : "refused",
-                                      failed ? verdict.what : ""};
+    return rockyard::core::OfReader(file.name, JudgeFile(file, folder.path()));
   });
 }

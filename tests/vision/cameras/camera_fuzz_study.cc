@@ -7,12 +7,6 @@ int main(int count, char** arguments) {
   const std::vector<CameraSeed> seeds = CameraSeeds();
   return rockyard::core::FuzzStudy(count, arguments, [&](auto seed, auto number) {
     const CameraSeed file = MutatedCamera(seeds, seed, number);
-    const CameraVerdict verdict = JudgeCamera(file);
-    const bool failed = verdict.outcome == CameraOutcome::kFailed;
-    return rockyard::core::JudgedCase{file.name,
-                                      failed                                    ? "failed"
-                                      : verdict.outcome == CameraOutcome::kRead ? "read"
-                                                                                : "refused",
-                                      failed ? verdict.what : ""};
+    return rockyard::core::OfReader(file.name, JudgeCamera(file));
   });
 }
