@@ -9,6 +9,7 @@
 #include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_files.h"
 #include "campaign/calibrate/calibrate_cameras.h"
 #include "campaign/calibrate/calibrate_json.h"
 #include "core/error.h"
@@ -71,10 +72,7 @@ std::string CalibrationText(const campaign::CalibrateRequest& request,
                           : "in the frame of the first camera: x right, y down, z ahead\n";
   text += OutliersText(request, result);
   for (const std::string& note : result.notes) text += fmt::format("  note: {}\n", note);
-  for (const campaign::CalibrateResult::File& file : result.files) {
-    text += fmt::format("  {} in {}\n", file.what, report::Printable(file.path.string()));
-  }
-  return text;
+  return text + FilesText(result.files);
 }
 
 void CheckCalibrateRequest(const campaign::CalibrateRequest& request) {
@@ -122,6 +120,7 @@ void AddCalibrateCommand(CLI::App& app) {
                       "images by the right camera, of the same targets in the same order");
   command->add_option("--target", request.target, "file that describes the chessboard");
   command->add_option("--out", request.out, "folder for what comes out; it is made");
+  AddExistingFiles(*command, request.existing);
   command->add_option("--model", options->model, "cahvor, or cahv: without distortion (cahvor)")
       ->check(CLI::IsMember({"cahv", "cahvor"}));
   command

@@ -171,6 +171,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddCompletionCommand(app);
   AddExamples(app);
   CheckEveryValue(app);
+  KeepEveryInput(app);
 }
 
 int RunCommandLine(int argc, const char* const* argv) {

@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_files.h"
 #include "campaign/cylinder/cylinder_json.h"
 #include "campaign/cylinder/find_cylinder.h"
 #include "core/archive.h"
@@ -52,10 +53,7 @@ std::string CylinderText(const campaign::CylinderRequest& request,
                                                 core::EnumNames<vision::CylinderMiss>::kNames.at(
                                                     static_cast<std::size_t>(result.finding.miss)),
                                                 result.finding.reason);
-  for (const campaign::OutputFile& file : result.files) {
-    text += fmt::format("  {} in {}\n", file.what, report::Printable(file.path.string()));
-  }
-  return text;
+  return text + FilesText(result.files);
 }
 
 void CheckCylinderRequest(const campaign::CylinderRequest& request) {
@@ -108,6 +106,7 @@ void AddCylinderCommand(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--out", request.out,
                       "folder for a picture with the regions and a summary; it is made (default: "
                       "nothing is written)");
+  AddExistingFiles(*command, request.existing);
   command->add_option("--param", request.settings, "PATH=VALUE: changes a parameter; repeat")
       ->allow_extra_args(false);
   command->add_flag("--parameters", options->parameters,

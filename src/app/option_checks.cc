@@ -1,16 +1,28 @@
 #include "app/option_checks.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <type_traits>
 
+#include "app/scenario_names.h"
+#include "batch/run_folder.h"
+#include "campaign/derived_files.h"
+#include "core/error.h"
+
 namespace rockyard::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string EmptyProblem(const std::string& text) {
   return text.empty() ? "is empty: give a value, or leave the option out" : "";
@@ -48,7 +60,56 @@ std::string WholeProblem(const std::string& text) {
   return result.ec == std::errc() && result.ptr == end ? "" : text + " is no whole decimal number";
 }
 
+// Options that name a file to be written.
+constexpr std::array<std::string_view, 5> kOutputs = {"--out", "--csv", "--svg", "--data",
+                                                      "--junit"};
+
+bool IsOutput(const CLI::Option& option) {
+  return std::find(kOutputs.begin(), kOutputs.end(), option.get_name()) != kOutputs.end();
+}
+
+// The path that a word of the command line means, a scenario by its name too.
+fs::path MeantBy(const CLI::Option& option, const std::string& word) {
+  if (!option.get_positional() || fs::exists(word)) return word;
+  try {
+    return ScenarioFile(word, Wanted::kRover);
+  } catch (const core::UserError&) {
+    return word;  // it means something else
+  }
+}
+
+void RefuseWriting(const std::string& option, const fs::path& file, const fs::path& input) {
+  std::error_code error;
+  if (fs::is_regular_file(file, error) && fs::equivalent(file, input, error)) {
+    throw core::UserError(option, fmt::format("is {}, which is read", input.string()),
+                          "name another file");
+  }
+  if (campaign::IsRunFile(file.filename()) && batch::HoldsStore(input) &&
+      fs::equivalent(fs::absolute(file).parent_path(), input, error)) {
+    throw core::UserError(option, fmt::format("is a file of the run in {}", input.string()),
+                          "name another file");
+  }
+}
+
+void KeepInputs(const CLI::App& command) {
+  for (const CLI::Option* output : command.get_options()) {
+    if (!IsOutput(*output) || output->count() == 0) continue;
+    for (const CLI::Option* option : command.get_options()) {
+      if (IsOutput(*option)) continue;
+      for (const std::string& word : option->results()) {
+        RefuseWriting(output->get_name(), output->results().front(), MeantBy(*option, word));
+      }
+    }
+  }
+}
+
 }  // namespace
+
+void KeepEveryInput(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands({})) {
+    command->parse_complete_callback([command] { KeepInputs(*command); });
+  }
+}
 
 void CheckEveryValue(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {

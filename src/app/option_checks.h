@@ -1,4 +1,4 @@
-// What no option of any command may be given.
+// What no command may be given.
 #pragma once
 
 namespace CLI {
@@ -12,5 +12,10 @@ namespace rockyard::app {
 // (a range lets NaN pass, since NaN lies neither below nor above it), and numbers that are not
 // decimal; leading zeros mean nothing. Called when all options have been added.
 void CheckEveryValue(CLI::App& app);
+
+// Lets every subcommand refuse, before it does anything, an output file that is one of the files
+// that it is given to read, by whatever name, or that is a file of the run in a folder that it is
+// given. What goes into folders is looked at there (campaign/output_folder.h).
+void KeepEveryInput(CLI::App& app);
 
 }  // namespace rockyard::app

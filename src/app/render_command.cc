@@ -10,6 +10,7 @@
 #include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_files.h"
 #include "app/progress_line.h"
 #include "app/run_display.h"
 #include "app/scenario_names.h"
@@ -40,14 +41,6 @@ struct RenderOptions {
 
 // Of MER's drives by visual odometry, Maimone, Cheng and Matthies 2007.
 constexpr double kRouteTurn_deg = 18.0;
-
-std::string FilesText(const std::vector<campaign::OutputFile>& files) {
-  std::string text;
-  for (const campaign::OutputFile& file : files) {
-    text += fmt::format("  {} in {}\n", file.what, report::Printable(file.path.string()));
-  }
-  return text;
-}
 
 std::string ResultText(const campaign::RenderRequest& request,
                        const campaign::RenderResult& result) {
@@ -124,6 +117,9 @@ ExitCode Render(RenderOptions& options) {
   if (!options.pairs && (options.route || options.turn_deg)) {
     throw core::UserError("--pairs", "is missing", "say how many pairs a sequence has");
   }
+  if (!options.pairs && options.request.existing == campaign::ExistingFiles::kResume) {
+    throw core::UserError("--resume", "needs --pairs", "take the one pair anew with --force");
+  }
   options.request.scenario = ScenarioFile(options.scenario);
   if (options.behind) options.request.direction = messages::LookDirection::kBehind;
   if (options.heading_deg) options.request.heading_rad = math::DegToRad(*options.heading_deg);
@@ -169,6 +165,7 @@ void AddRenderCommand(CLI::App& app, ExitCode& exit_code) {
       "them, or a sequence of pairs on its way");
   command->add_option("SCENARIO", options->scenario, "Scenario file or its name")->required();
   command->add_option("--out", request.out, "folder for what comes out; it is made");
+  AddExistingFiles(*command, request.existing, true);
   command
       ->add_option("--trial", request.trial, "Trial index, from 0: its rocks, textures and noise")
       ->capture_default_str();

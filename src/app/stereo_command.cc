@@ -12,6 +12,7 @@
 #include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_files.h"
 #include "campaign/stereo/match_pair.h"
 #include "campaign/stereo/stereo_json.h"
 #include "core/archive.h"
@@ -98,10 +99,7 @@ std::string ResultText(const campaign::StereoRequest& request,
   text += DropsText(result);
   if (result.score) text += ScoreText(*result.score);
   for (const std::string& note : result.notes) text += fmt::format("  note: {}\n", note);
-  for (const campaign::OutputFile& file : result.files) {
-    text += fmt::format("  {} in {}\n", file.what, report::Printable(file.path.string()));
-  }
-  return text;
+  return text + FilesText(result.files);
 }
 
 void CheckRequest(const StereoOptions& options) {
@@ -179,6 +177,7 @@ void AddStereoCommand(CLI::App& app) {
   command->add_option("LEFT", request.left, "image of the left eye");
   command->add_option("RIGHT", request.right, "image of the right eye, of the same size");
   command->add_option("--out", request.out, "folder for what comes out; it is made");
+  AddExistingFiles(*command, request.existing);
   command->add_option(
       "--cameras", request.cameras,
       "file with the cameras of both images (default: the pair is taken as aligned: "

@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_files.h"
 #include "app/progress_line.h"
 #include "app/run_display.h"
 #include "campaign/odometry/estimate_path.h"
@@ -107,10 +108,7 @@ std::string VoText(const campaign::OdometryRequest& request,
   if (result.errors) text += PathErrorsText(request, *result.errors);
   text += StageTimesText(result);
   for (const std::string& note : result.notes) text += fmt::format("  note: {}\n", note);
-  for (const campaign::OutputFile& file : result.files) {
-    text += fmt::format("  {} in {}\n", file.what, report::Printable(file.path.string()));
-  }
-  return text;
+  return text + FilesText(result.files);
 }
 
 void CheckVoRequest(VoOptions& options) {
@@ -214,6 +212,7 @@ void AddVoCommand(CLI::App& app, ExitCode& exit_code) {
       app.get_footer());
   command->add_option("SEQUENCE", request.sequence, "folder or list of the pairs of images");
   command->add_option("--out", request.out, "folder for what comes out; it is made");
+  AddExistingFiles(*command, request.existing, true);
   command->add_option("--cameras", request.cameras,
                       "file with the cameras of both images (default: KITTI's calib.txt in the "
                       "sequence)");

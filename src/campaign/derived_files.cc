@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "batch/run_folder.h"
-#include "core/error.h"
+#include "core/machine_error.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -39,10 +39,7 @@ void SetAside(const fs::path& folder, const fs::path& name, std::vector<std::str
   if (!fs::exists(fs::symlink_status(folder / name, error))) return;
   const fs::path aside = FreeName(folder, name);
   fs::rename(folder / name, folder / aside, error);
-  if (error) {
-    throw core::UserError((folder / name).string(), "cannot be set aside: " + error.message(),
-                          "check the permissions, or choose another folder with --out");
-  }
+  if (error) core::FailOnDisk(folder / name, "cannot be set aside", error);
   names.push_back(aside.string());
 }
 

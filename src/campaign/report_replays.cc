@@ -16,6 +16,7 @@
 #include "campaign/replay_page.h"
 #include "campaign/trial_source.h"
 #include "core/error.h"
+#include "core/machine_error.h"
 #include "report/worst_trials.h"
 #include "statistics/drive_summary.h"
 #include "truth/measurement_record.h"
@@ -73,8 +74,8 @@ class ReplayWriter {
     std::error_code error;
     fs::create_directories(replays_.folder, error);
     if (error) {
-      throw core::UserError(replays_.folder.string(), "cannot be made: " + error.message(),
-                            "choose another place with --out, or --replays 0");
+      core::FailOnDisk(replays_.folder, "cannot be made", error,
+                       "choose another place with --out, or --replays 0");
     }
     std::atomic<bool> stop{contact_.stop.IsWanted()};
     {

@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_text.h"
+#include "core/machine_error.h"
 #include "report/atomic_file.h"
 #include "report/csv.h"
 #include "scenario/load.h"
@@ -61,10 +62,7 @@ void CheckPlanFolder(const fs::path& folder) {
 void MakeFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder / kCellFolder, error);
-  if (error) {
-    throw core::UserError(folder.string(), "cannot be made: " + error.message(),
-                          "check the path and its permissions");
-  }
+  if (error) core::FailOnDisk(folder, "cannot be made", error);
 }
 
 JsonValue CellPlan(const Sweep& sweep, std::size_t index, std::int64_t trials,

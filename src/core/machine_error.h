@@ -2,6 +2,9 @@
 #pragma once
 
 #include <exception>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
 
 #include "core/error.h"
 
@@ -17,6 +20,12 @@ class MachineError : public UserError {
 // std::bad_alloc, or a std::system_error with such a code. A size that is no size
 // (std::bad_array_new_length, std::length_error) is a defect of the program.
 bool IsMachineFailure(const std::exception& error);
+
+// Throws what it means that a file or folder cannot be made, written or renamed: MachineError where
+// the machine failed, else UserError (no permission). `what`: "cannot be made".
+[[noreturn]] void FailOnDisk(
+    const std::filesystem::path& path, std::string_view what, const std::error_code& error,
+    std::string_view suggestion = "check the free space and the permissions of its folder");
 
 // What to do where the process or the machine may open no more files.
 inline constexpr const char* kMoreOpenFiles =

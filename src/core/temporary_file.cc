@@ -132,8 +132,13 @@ void TemporaryFile::Close() {
   descriptor_ = -1;
 }
 
+void TemporaryFile::Sync() {
+  if (descriptor_ >= 0 && !synced_ && fsync(descriptor_) != 0) Throw(errno, path_);
+  synced_ = true;
+}
+
 void TemporaryFile::Commit() {
-  if (descriptor_ >= 0 && fsync(descriptor_) != 0) Throw(errno, path_);
+  Sync();
   if (rename(path_.c_str(), target_.c_str()) != 0) Throw(errno, target_);
   committed_ = true;
   Close();

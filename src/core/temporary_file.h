@@ -28,14 +28,18 @@ class TemporaryFile {
   // claimed against every other process that could take it for a leftover.
   void Close();
 
-  // Brings the file to the disk, unless it is closed (whoever wrote it has done so then), and gives
-  // it the name of the target. Once.
+  // Brings the file to the disk: what fails does so before Commit.
+  void Sync();
+
+  // Brings the file to the disk, unless Sync has done so or it is closed (whoever wrote it has done
+  // so then), and gives it the name of the target. Once.
   void Commit();
 
  private:
   std::filesystem::path target_;
   std::filesystem::path path_;
   int descriptor_ = -1;  // -1: closed
+  bool synced_ = false;
   bool committed_ = false;
 };
 

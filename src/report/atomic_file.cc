@@ -1,14 +1,12 @@
 #include "report/atomic_file.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
-#include "core/error.h"
+#include "core/machine_error.h"
 #include "core/temporary_file.h"
 
 namespace rockyard::report {
@@ -25,9 +23,8 @@ int WriteAll(int descriptor, std::string_view text) {
   return 0;
 }
 
-[[noreturn]] void Fail(const std::filesystem::path& path, int reason) {
-  throw core::UserError(path.string(), fmt::format("cannot be written: {}", std::strerror(reason)),
-                        "check the free space and the permissions of its folder");
+[[noreturn]] void Fail(const std::filesystem::path& path, const std::error_code& reason) {
+  core::FailOnDisk(path, "cannot be written", reason);
 }
 
 // What killed processes left is removed first: it may be what fills the disk.
@@ -36,7 +33,7 @@ std::unique_ptr<core::TemporaryFile> MakeTemporary(const std::filesystem::path& 
   try {
     return std::make_unique<core::TemporaryFile>(path);
   } catch (const std::system_error& error) {
-    Fail(path, error.code().value());
+    Fail(path, error.code());
   }
 }
 
@@ -54,18 +51,27 @@ void AtomicFile::Write(std::string_view text) {
 
 void AtomicFile::Flush() {
   if (const int reason = WriteAll(temporary_->descriptor(), waiting_); reason != 0) {
-    Fail(path_, reason);
+    Fail(path_, {reason, std::generic_category()});
   }
   waiting_.clear();
 }
 
-void AtomicFile::Commit() {
+template <typename Action>
+void AtomicFile::OnDisk(const Action& action) {
   Flush();
   try {
-    temporary_->Commit();
+    action(*temporary_);
   } catch (const std::system_error& error) {
-    Fail(path_, error.code().value());
+    Fail(path_, error.code());
   }
+}
+
+void AtomicFile::Sync() {
+  OnDisk([](core::TemporaryFile& file) { file.Sync(); });
+}
+
+void AtomicFile::Commit() {
+  OnDisk([](core::TemporaryFile& file) { file.Commit(); });
 }
 
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view text) {

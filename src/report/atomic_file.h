@@ -16,8 +16,8 @@ namespace rockyard::report {
 // A file that is written piece by piece to a temporary one beside `path` (core/temporary_file.h),
 // brought to the disk and renamed by Commit. A reader sees the old text or the new one; a failure,
 // or no Commit, leaves the old file and no temporary one; what a killed process left is removed by
-// the next one that writes the same file. The constructor, Write and Commit throw core::UserError:
-// no permission, no space.
+// the next one that writes the same file. The constructor, Write, Sync and Commit throw
+// core::UserError (no permission) and core::MachineError (no space).
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -26,11 +26,16 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   void Write(std::string_view text);
+  // Once, after the last Write: brings it to the disk, so that Commit, which does so too, has only
+  // to rename.
+  void Sync();
   // Once, after the last Write.
   void Commit();
 
  private:
   void Flush();
+  template <typename Action>
+  void OnDisk(const Action& action);
 
   std::filesystem::path path_;
   std::unique_ptr<core::TemporaryFile> temporary_;

@@ -14,6 +14,10 @@ TEST_F(CliKillLong, ResumeAnywhere) { ExpectOfResumedRuns(1); }
 
 TEST_F(CliKillLong, SweepAnywhere) { ExpectOfSweeps(1); }
 
+TEST_F(CliKillLong, SequenceAnywhere) { ExpectOfSequences(1); }
+
+TEST_F(CliKillLong, DiskFullAnywhere) { ExpectOfFullDisks(1); }
+
 TEST_F(CliKillLong, MergeAnywhere) { ExpectOfMerges(1); }
 
 }  // namespace

@@ -16,6 +16,10 @@ TEST_F(CliKill, ResumeAnywhere) { ExpectOfResumedRuns(kStep); }
 
 TEST_F(CliKill, SweepAnywhere) { ExpectOfSweeps(kStep); }
 
+TEST_F(CliKill, SequenceAnywhere) { ExpectOfSequences(8); }
+
+TEST_F(CliKill, DiskFullAnywhere) { ExpectOfFullDisks(11); }
+
 TEST_F(CliKill, MergeAnywhere) { ExpectOfMerges(kStep); }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Standard output that takes nothing, and one that nobody reads.
+// Standard output that takes nothing, and one that nobody reads; files that may not be written.
 #include <fcntl.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -159,6 +159,34 @@ TEST_F(OutputTest, BeyondALimitOnFilesIsAFailureToo) {
   const CommandResult told = Run({"list", "--ablations"});
   setrlimit(RLIMIT_FSIZE, &former);
   EXPECT_EQ(told.exit_code, 5);
+}
+
+// By their names, by links, by the names of scenarios, and in the folders of runs.
+TEST_F(OutputTest, IsNeverAnInput) {
+  fs::create_directory(work() / "scenarios");
+  fs::copy_file(Scenario("nominal"), work() / "scenarios/mine.json");
+  WriteFile(work() / "scenarios/base.json", "{}");
+  fs::create_symlink("scenarios/mine.json", work() / "link.json");
+  RunTo(0, QuickRun("run", 1));
+  RunTo(0, {"baseline", "run", "--reason", "a test", "--out", "base.json"});
+  const std::vector<Words> commands = {
+      {"terrain", "scenarios/mine.json", "--out", "scenarios/mine.json"},
+      {"terrain", "mine", "--out", "link.json"},
+      {"rover", "mine", "--out", "scenarios/../scenarios/mine.json"},
+      {"trace", "run", "--trial", "0", "--csv", "run/trials.csv"},
+      {"trace", "link.json", "--trial", "0", "--svg", "link.json"},
+      {"replay", "run", "--trial", "0", "--data", "run/results.sqlite"},
+      {"report", "run", "--out", "page.html", "--data", "./run/summary.json"},
+      {"compare", "run", "run", "--csv", "run/trials.csv"},
+      {"check", "run", "--against", "base.json", "--junit", "base.json"}};
+  for (const Words& words : commands) {
+    const std::string before = ReadFile(work() / words.back());
+    EXPECT_THAT(RunTo(2, words).err, testing::ContainsRegex("error: --[a-z]+: is .*, which is read|"
+                                                            "is a file of the run in run"));
+    EXPECT_EQ(ReadFile(work() / words.back()), before) << Joined(words);
+  }
+  RunTo(0, {"terrain", "mine", "--out", "scenarios/base.json"});
+  RunTo(0, {"trace", "run", "--trial", "0", "--csv", "run/trial.csv"});
 }
 
 }  // namespace

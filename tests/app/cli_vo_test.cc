@@ -122,17 +122,26 @@ TEST_F(CliVo, WhatIsMissingIsNamed) {
 }
 
 TEST_F(CliVo, BrokenSequencesAreRefusedBeforeAnythingIsWritten) {
-  const std::string good = ReadFile(work() / "way/left/000003.png");
-  WriteFile(work() / "way/left/000003.png", good.substr(0, good.size() / 2));
-  ExpectRefused(VoWords(), {"way/left/000003.png: "});
-  fs::remove(work() / "way/left/000003.png");
+  fs::rename(work() / "way/left/000003.png", work() / "third.png");
   ExpectRefused(VoWords(), {"way/right/000003.png: has no partner way/left/000003.png"});
-  WriteFile(work() / "way/left/000003.png", "P5\n2 2\n255\n....");
-  ExpectRefused(VoWords(), {"000003.png: has 2 x 2 pixels, the first image of the sequence 160"});
-  WriteFile(work() / "way/left/000003.png", good);
-  fs::copy_file(work() / "way/left/000000.png", work() / "way/right/000000.png",
+  fs::copy_file(work() / "third.png", work() / "way/left/000003.png");
+  const std::string good = ReadFile(work() / "way/left/000000.png");
+  WriteFile(work() / "way/left/000000.png", good.substr(0, good.size() / 2));
+  ExpectRefused(VoWords(), {"way/left/000000.png: "});
+  fs::copy_file(work() / "way/right/000000.png", work() / "way/left/000000.png",
                 fs::copy_options::overwrite_existing);
   ExpectRefused(VoWords(), {"000000.png: shows the same as the left image"});
+}
+
+// Of one image that is cut and one of another size.
+TEST_F(CliVo, ImagesThatCannotBeReadAreGaps) {
+  const std::string good = ReadFile(work() / "way/left/000003.png");
+  WriteFile(work() / "way/left/000003.png", good.substr(0, good.size() / 2));
+  WriteFile(work() / "way/right/000001.png", "P5\n2 2\n255\n....");
+  EXPECT_THAT(RunTo(0, VoWords()).out,
+              Says("2 of 4 pairs have a motion, 2 no_images",
+                   "note: images of 2 pairs cannot be read, the first of pair 1: ",
+                   "000001.png: has 2 x 2 pixels, the first image of the sequence 160"));
 }
 
 TEST_F(CliVo, CamerasOfOtherImagesAreRefused) {
@@ -145,9 +154,9 @@ TEST_F(CliVo, CamerasOfOtherImagesAreRefused) {
   ExpectRefused(VoWords(), {"left_free.png: has 2 x 2 pixels"});
 }
 
-// A list that would take minutes: nothing is there of a process that was killed, and the path as
-// far as it came of one that was asked to end.
-TEST_F(CliVo, KilledLeavesNothingInterruptedLeavesAPath) {
+// A list that would take minutes: the path as far as it came of a process that was asked to end,
+// and of one that was killed what it takes to go on.
+TEST_F(CliVo, InterruptedLeavesAPathAndKilledGoesOn) {
   std::string list;
   for (int i = 0; i < 200000; ++i) {
     const std::string name = i % 2 == 0 ? "000000.png" : "000001.png";
@@ -156,17 +165,27 @@ TEST_F(CliVo, KilledLeavesNothingInterruptedLeavesAPath) {
   WriteFile(work() / "list.txt", list);
   const std::vector<std::string> words{"vo",    "list.txt", "--cameras", "way/cameras.json",
                                        "--out", "path"};
+  const fs::path journal = work() / "path/journal.jsonl";
+  const auto has = [&](std::uintmax_t bytes) {
+    return core::WaitUntil([&] {
+      std::error_code none;
+      return fs::file_size(journal, none) > bytes && !none;
+    });
+  };
   const pid_t killed = Start(words);
-  ASSERT_TRUE(core::WaitForHandler(killed, SIGINT));
+  ASSERT_TRUE(has(1000));
   kill(killed, SIGKILL);
   EXPECT_EQ(Wait(killed).exit_code, -SIGKILL);
-  EXPECT_FALSE(fs::exists(work() / "path"));
+  EXPECT_THAT(RunTo(2, words).err, Says("path: holds what `rockyard vo` began and did not finish",
+                                        "try: go on with it by --resume"));
+  const std::string done = ReadFile(journal);
 
-  const pid_t ended = Start(words);
-  ASSERT_TRUE(core::WaitForHandler(ended, SIGINT));
+  const pid_t ended = Start(With(words, {"--resume"}));
+  ASSERT_TRUE(has(done.size() + 1000));
   kill(ended, SIGINT);
   EXPECT_THAT(WaitTo(130, ended).out, HasSubstr(" of 200000 pairs of list.txt, a list of files"));
   EXPECT_TRUE(json::parse(ReadFile(work() / "path/vo.json"))["interrupted"]);
+  EXPECT_TRUE(ReadFile(journal).starts_with(done.substr(0, done.rfind('\n') + 1)));
 }
 
 TEST_F(CliVo, OptionsOfSequencesThatMakeNoSense) {

@@ -1,5 +1,6 @@
 // A command that is killed before any one of the calls that change the disk can be repeated: it
-// goes on, to the same bytes, and leaves nothing behind.
+// goes on, to the same bytes, and leaves nothing behind. Where the disk is full from such a call
+// on, it says so by exit code 5, and can be repeated as well.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -8,6 +9,7 @@
 #include <map>
 
 #include "app/watched_run.h"
+#include "core/hash.h"
 
 namespace rockyard::app {
 
@@ -33,24 +35,40 @@ class KillRuns : public WatchedRunTest {
     return Drive("s" + number, 4, {"--shard", number + "/2", "--no-supervisor"});
   }
 
-  // Before that call; 0: never.
-  CommandResult RunKilledAt(int call, const std::vector<std::string>& words) const {
+  // Pairs of small images.
+  static std::vector<std::string> Render(const std::string& out,
+                                         const std::vector<std::string>& more) {
+    return With(
+        {"render", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/abundance.json", "--out",
+         out, "--set", "sensors.stereo.columns=128", "--set", "sensors.stereo.rows=96", "--set",
+         "sensors.stereo.images.pyramid_level=0", "--set", "sensors.stereo.max_disparity_px=32"},
+        more);
+  }
+  static std::vector<std::string> Vo(const std::string& out) {
+    return {"vo", "way", "--cameras", "way/cameras.json", "--out", out, "--quiet"};
+  }
+
+  // `what` happens at that call of the shim; 0: never.
+  CommandResult RunShimmed(const char* what, int call,
+                           const std::vector<std::string>& words) const {
     std::filesystem::remove(Mark());
-    setenv("ROCKYARD_KILL_AT", std::to_string(call).c_str(), 1);
+    setenv(what, std::to_string(call).c_str(), 1);
     setenv("LD_PRELOAD", KILL_SHIM, 1);
     const pid_t process = StartProgram(With({ROCKYARD_COMMAND}, words));
     unsetenv("LD_PRELOAD");
+    unsetenv(what);
     return Wait(process);
   }
 
   // Whether the command came to the call. It may have been killed itself, or have replaced a worker
   // that was.
-  bool WasKilled() const { return std::filesystem::exists(Mark()); }
+  bool WasStruck() const { return std::filesystem::exists(Mark()); }
 
   std::filesystem::path Mark() const { return work().parent_path() / "mark"; }
 
   // What the folder holds, by name: the bytes of what follows from the trials alone.
   std::map<std::string, std::string> Contents(const std::string& out) const {
+    if (std::filesystem::exists(work() / out / "made_by.json")) return Bytes(work() / out);
     std::map<std::string, std::string> files;
     for (const std::filesystem::directory_entry& entry :
          std::filesystem::directory_iterator(work() / out)) {
@@ -58,6 +76,19 @@ class KillRuns : public WatchedRunTest {
       files[name] = name.ends_with(".csv") ? ReadFile(entry.path()) : "";
     }
     files["results.sqlite"] = HashOfCells(out);
+    return files;
+  }
+
+  // Hashes of all files below the folder, but of those that hold how long something took.
+  static std::map<std::string, std::string> Bytes(const std::filesystem::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+      const std::string name = entry.path().lexically_relative(folder);
+      const bool timed = name.ends_with("times.csv") || name.ends_with("vo.json") ||
+                         name.ends_with("journal.jsonl");
+      if (!entry.is_regular_file() || timed) continue;
+      files[name] = core::Hex(core::Hasher().RawText(ReadFile(entry.path())).value());
+    }
     return files;
   }
 
@@ -81,18 +112,88 @@ class KillRuns : public WatchedRunTest {
       SCOPED_TRACE("killed before call " + std::to_string(call));
       std::filesystem::remove_all(work() / "a");
       if (prepare) prepare();
-      CommandResult result = RunKilledAt(call, words);
-      if (!WasKilled()) break;
+      CommandResult result = RunShimmed("ROCKYARD_KILL_AT", call, words);
+      if (!WasStruck()) break;
       ++kills;
       if (result.exit_code != 0) {
         ASSERT_EQ(result.exit_code, -SIGKILL) << result.err;
-        result = RunKilledAt(0, again);
+        result = RunShimmed("ROCKYARD_KILL_AT", 0, again);
       }
       ASSERT_EQ(result.exit_code, 0) << result.err;
       EXPECT_EQ(Contents("a"), whole);
       EXPECT_THAT(NamesIn(work()), testing::Each(testing::Not(testing::HasSubstr(".tmp-"))));
     }
     EXPECT_GT(kills, 20 / step) << "the command is not under the shim";
+  }
+
+  // `words` write what begins with "a" and nothing else; `again` is the command once there is room.
+  // `at_once`: all is written or nothing.
+  void ExpectFullDisksAreTold(const std::vector<std::string>& words,
+                              const std::vector<std::string>& again, int step,
+                              bool at_once = false) {
+    SCOPED_TRACE(testing::PrintToString(words));
+    const auto before = Bytes(work());
+    RunTo(0, words);
+    const auto whole = Bytes(work());
+    ASSERT_GT(whole.size(), before.size());
+    int calls = 0;
+    for (int call = 1; !HasFailure(); call += step, ++calls) {
+      SCOPED_TRACE("full from call " + std::to_string(call));
+      RemoveOutput();
+      const CommandResult result = RunShimmed("ROCKYARD_FULL_AT", call, words);
+      if (!WasStruck()) break;
+      EXPECT_EQ(result.exit_code, 5) << result.err;
+      EXPECT_THAT(result.err, testing::HasSubstr("No space left on device"));
+      if (at_once) {
+        EXPECT_EQ(Bytes(work()), before);
+      }
+      RunTo(0, again);
+      EXPECT_EQ(Bytes(work()), whole);
+    }
+    RemoveOutput();
+    EXPECT_GT(calls, 2 / step) << "the command is not under the shim";
+  }
+
+  void ExpectOfFullDisks(int step) {
+    RunTo(0, Render("way", {"--pairs", "3", "--step-m", "0.1"}));
+    RunTo(0, Render("pair", {}));
+    RunTo(0, Drive("run", 2, {}));
+    const std::vector<std::string> sequence = Render("a", {"--pairs", "3", "--step-m", "0.1"});
+    ExpectFullDisksAreTold(sequence, With(sequence, {"--resume"}), step);
+    ExpectFullDisksAreTold(Vo("a"), With(Vo("a"), {"--resume"}), step);
+    const std::vector<std::string> stereo = {"stereo",
+                                             "pair/left.png",
+                                             "pair/right.png",
+                                             "--cameras",
+                                             "pair/cameras.json",
+                                             "--param",
+                                             "correlator.disparities=32"};
+    for (const std::vector<std::string>& words :
+         {With(stereo, {"--out", "a"}),
+          Render("a", {}),
+          {"terrain", Scenario("nominal"), "--out", "a.svg"},
+          {"rover", Scenario("nominal"), "--out", "a.urdf"},
+          {"trace", "run", "--trial", "0", "--csv", "a.csv"},
+          {"compare", "run", "run", "--csv", "a.csv"},
+          {"baseline", "run", "--reason", "full disks", "--out", "a.json"}}) {
+      ExpectFullDisksAreTold(words, words, step, true);
+    }
+    const std::vector<std::string> replay = {"replay", "run", "--trial", "0", "--out", "a.html"};
+    ExpectFullDisksAreTold(replay, replay, step);
+    const std::vector<std::string> report = {"report", "run", "--out", "a.html"};
+    ExpectFullDisksAreTold(report, report, step);
+  }
+
+  // Both are killed and gone on with.
+  void ExpectOfSequences(int step) {
+    const std::vector<std::string> pairs = {"--pairs", "4", "--step-m", "0.1"};
+    RunTo(0, Render("way", pairs));
+    std::filesystem::copy(work() / "way", work() / "whole",
+                          std::filesystem::copy_options::recursive);
+    ExpectEveryKillIsOvercome(Render("a", pairs), With(Render("a", pairs), {"--resume"}), step);
+    std::filesystem::remove_all(work() / "whole");
+    RunTo(0, Vo("whole"));
+    ExpectEveryKillIsOvercome(Vo("a"), With(Vo("a"), {"--resume"}), step);
   }
 
   void ExpectOfRuns(int step) {
@@ -135,6 +236,12 @@ class KillRuns : public WatchedRunTest {
   }
 
  private:
+  void RemoveOutput() const {
+    for (const std::string& name : NamesIn(work())) {
+      if (name.starts_with("a")) std::filesystem::remove_all(work() / name);
+    }
+  }
+
   static std::vector<std::string> NamesIn(const std::filesystem::path& folder) {
     std::vector<std::string> names;
     for (const std::filesystem::directory_entry& entry :

@@ -1,17 +1,21 @@
 // Preloaded into the command: ends the process by SIGKILL before its Nth durable call, one of those
-// that change what a later process finds on the disk. What is to be brought to the disk at once
-// stays in the memory of the machine, which outlives processes: that makes hundreds of runs fast.
+// that change what a later process finds on the disk, or has a full disk from that call on. What is
+// to be brought to the disk at once stays in the memory of the machine, which outlives processes:
+// that makes hundreds of runs fast.
 //
 // ROCKYARD_KILL_AT    N, counted from 1 over the process and those that it forks; 0: none
+// ROCKYARD_FULL_AT    the same: this call and those after it that need room fail with ENOSPC
 // ROCKYARD_KILL_MARK  a file that is made where that many calls came
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdarg>
 #include <cstdio>
@@ -30,17 +34,46 @@ std::atomic<long>* Counter() {
 // Made before main, and so before any fork.
 [[gnu::constructor]] void MakeCounter() { *Counter() = 0; }
 
-void CountCall() {
-  static const char* const at = std::getenv("ROCKYARD_KILL_AT");
+long Wanted(const char* name) {
+  const char* const at = std::getenv(name);
+  return at == nullptr ? 0 : std::atol(at);
+}
+
+void LeaveMark() {
   static const char* const mark = std::getenv("ROCKYARD_KILL_MARK");
-  if (at == nullptr || mark == nullptr || ++*Counter() != std::atol(at)) return;
   syscall(SYS_openat, AT_FDCWD, mark, O_WRONLY | O_CREAT, 0600);
-  syscall(SYS_kill, getpid(), SIGKILL);
+}
+
+// The number of this call.
+long CountCall() {
+  static const long kill_at = Wanted("ROCKYARD_KILL_AT");
+  const long call = ++*Counter();
+  if (call == kill_at) {
+    LeaveMark();
+    syscall(SYS_kill, getpid(), SIGKILL);
+  }
+  return call;
+}
+
+// Counts a call that needs room: whether there is none by now.
+bool IsFull() {
+  static const long full_at = Wanted("ROCKYARD_FULL_AT");
+  const long call = CountCall();
+  if (full_at == 0 || call < full_at) return false;
+  LeaveMark();
+  errno = ENOSPC;
+  return true;
 }
 
 template <typename Function>
 Function* Next(Function* /*of this type*/, const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+// Of files, not of pipes, terminals and what a test has redirected.
+bool IsOnDisk(int file) {
+  struct stat status {};
+  return file > STDERR_FILENO && fstat(file, &status) == 0 && S_ISREG(status.st_mode);
 }
 
 mode_t ModeOf(int flags, va_list& arguments) {
@@ -56,7 +89,7 @@ int open(const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = ModeOf(flags, arguments);
   va_end(arguments);
-  if ((flags & O_CREAT) != 0) CountCall();
+  if ((flags & O_CREAT) != 0 && IsFull()) return -1;
   return Next(&open, "open")(path, flags, mode);
 }
 
@@ -65,35 +98,32 @@ int open64(const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = ModeOf(flags, arguments);
   va_end(arguments);
-  if ((flags & O_CREAT) != 0) CountCall();
+  if ((flags & O_CREAT) != 0 && IsFull()) return -1;
   return Next(&open64, "open64")(path, flags, mode);
 }
 
-int fsync(int file) {
-  CountCall();
-  return file < 0 ? -1 : 0;
-}
+int fsync(int file) { return IsFull() || file < 0 ? -1 : 0; }
 
-int fdatasync(int file) {
-  CountCall();
-  return file < 0 ? -1 : 0;
-}
+int fdatasync(int file) { return IsFull() || file < 0 ? -1 : 0; }
 
 ssize_t pwrite(int file, const void* bytes, size_t size, off_t at) {
-  CountCall();
+  if (IsFull()) return -1;
   return Next(&pwrite, "pwrite")(file, bytes, size, at);
 }
 
 ssize_t pwrite64(int file, const void* bytes, size_t size, off64_t at) {
-  CountCall();
+  if (IsFull()) return -1;
   return Next(&pwrite64, "pwrite64")(file, bytes, size, at);
 }
 
-// Of files, not of pipes and terminals.
 ssize_t write(int file, const void* bytes, size_t size) {
-  struct stat status {};
-  if (fstat(file, &status) == 0 && S_ISREG(status.st_mode)) CountCall();
+  if (IsOnDisk(file) && IsFull()) return -1;
   return Next(&write, "write")(file, bytes, size);
+}
+
+ssize_t writev(int file, const iovec* pieces, int count) {
+  if (IsOnDisk(file) && IsFull()) return -1;
+  return Next(&writev, "writev")(file, pieces, count);
 }
 
 int ftruncate(int file, off_t size) noexcept {
@@ -127,7 +157,7 @@ int rmdir(const char* path) noexcept {
 }
 
 int mkdir(const char* path, mode_t mode) noexcept {
-  CountCall();
+  if (IsFull()) return -1;
   return Next(&mkdir, "mkdir")(path, mode);
 }
 

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Kills campaigns at random moments, goes on with them, and demands the same results.
+"""Kills campaigns and sequences of images at random moments, goes on with them, and demands the same
+results.
 
 Each trial of this study starts a campaign of quick drives in a folder of its own, ends it by SIGKILL
 after a random time within what an undisturbed one takes, repeats the command (with --resume; a merge
 as it was) until it ends by itself, sometimes under another kill, and compares the bytes of the CSV
-files and the hash of the records with those of a campaign that nobody disturbed.
+files and the hash of the records with those of a campaign that nobody disturbed; of 40 pairs of
+images and the path through them the bytes of all files but the times.
 
-    what     run, sweep, shards (both are killed, then merged), merge
+    what     run, sweep, shards (both are killed, then merged), merge, render, vo
     whom     worker: the process that runs the trials; supervisor: the one that was started;
              group: both at once (the worker of a run without a supervisor is the same as the supervisor)
     threads  1 or 2
@@ -38,11 +40,16 @@ from progress import Progress
 os.environ.setdefault("LSAN_OPTIONS", "detect_leaks=0")
 ROOT = Path(__file__).resolve().parents[2]
 SCENARIO = ROOT / "scenarios/pathfinder/nominal.json"
-WHAT = ("run", "sweep", "shards", "merge")
+WHAT = ("run", "sweep", "shards", "merge", "render", "vo")
 WHOM = ("worker", "supervisor", "group")
 THREADS = (1, 2)
 TRIALS = 6
 TIME_LIMIT = "referee.time_limit_s=60"
+IMAGES = ROOT / "scenarios/gestalt/abundance.json"
+SMALL = ("sensors.stereo.columns=128", "sensors.stereo.rows=96", "sensors.stereo.images.pyramid_level=0",
+         "sensors.stereo.max_disparity_px=32")
+PAIRS = 40
+TIMED = ("times.csv", "vo.json", "journal.jsonl")  # hold times or, of a pair that was begun twice, more
 RETRIED = "infrastructure_faults"
 # A command that is killed more often than this in a row does not get on.
 MOST_COMMANDS = 20
@@ -62,7 +69,7 @@ class Study:
         (folder / "sweep.json").write_text(json.dumps(SWEEP), encoding="utf-8")
         self.whole = {}
         self.seconds = {}
-        for what in ("run", "sweep", "shard"):
+        for what in ("run", "sweep", "shard", "render", "vo"):
             out = folder / f"whole-{what}"
             self.undisturbed(what, self.words(what, out, 1, "1/2"))
             self.whole[what] = contents(out)
@@ -81,6 +88,14 @@ class Study:
         self.seconds[what] = time.monotonic() - start
 
     def words(self, what, out, threads, shard):
+        if what == "render":
+            return [str(word) for word in
+                    [self.rockyard, "render", IMAGES, *(word for text in SMALL for word in ("--set", text)),
+                     "--pairs", PAIRS, "--step-m", 0.05, "--out", out]]
+        if what == "vo":
+            sequence = self.folder / "whole-render"
+            return [str(word) for word in
+                    [self.rockyard, "vo", sequence, "--cameras", sequence / "cameras.json", "--out", out, "--quiet"]]
         if what == "sweep":
             words = ["sweep", self.folder / "sweep.json"]
         else:
@@ -172,7 +187,10 @@ def table_of(path):
 
 
 def contents(folder):
-    """Each CSV file, the hash of the records, and the names of the other files."""
+    """Each CSV file, the hash of the records, and the names of the other files; of images all but times."""
+    if (folder / "made_by.json").is_file():
+        return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*")
+                if path.is_file() and path.name not in TIMED}
     files = {path.name: table_of(path) if path.suffix == ".csv" else b""
              for path in folder.iterdir()}
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))

@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <string_view>
-#include <system_error>
+#include <vector>
 
 #include "campaign/calibrate/calibrate_input.h"
 #include "campaign/calibrate/calibrate_json.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/numbers.h"
-#include "report/atomic_file.h"
 #include "vision/cameras/camera_file.h"
 
 namespace rockyard::campaign {
@@ -43,30 +41,28 @@ void NoteCalibrationDoubts(const CalibrateRequest& request, CalibrateResult& res
   }
 }
 
-void WriteFile(const fs::path& folder, std::string_view what, std::string_view name,
-               std::string_view bytes, CalibrateResult& result) {
-  report::WriteFileAtomically(folder / name, bytes);
-  result.files.push_back({std::string(what), folder / name});
-}
-
-void WriteCameras(const CalibrateRequest& request, CalibrateResult& result) {
+void WriteCameras(const CalibrateRequest& request, const CalibrateResult& result,
+                  OutputFolder& folder) {
   const std::string comment = fmt::format("rockyard calibrate: {} corners, rms {:.4f} px",
                                           result.calibration.corners, result.calibration.rms_px);
   const auto model = [&](std::size_t camera) {
     return vision::ModelOf(result.calibration, camera, result.size, request.lens);
   };
   if (result.calibration.cameras.size() == 1) {
-    WriteFile(request.out, "camera", "camera.json", core::DumpJson(vision::CameraJson(model(0))),
-              result);
-    WriteFile(request.out, "camera_text", "camera.txt", vision::CameraText(model(0), comment),
-              result);
+    folder.Write("camera", "camera.json", core::DumpJson(vision::CameraJson(model(0))));
+    folder.Write("camera_text", "camera.txt", vision::CameraText(model(0), comment));
     return;
   }
   const vision::CameraPair pair{model(0), model(1)};
-  WriteFile(request.out, "cameras", "cameras.json", core::DumpJson(vision::CameraPairJson(pair)),
-            result);
-  WriteFile(request.out, "cameras_text", "cameras.txt", vision::CameraPairText(pair, comment),
-            result);
+  folder.Write("cameras", "cameras.json", core::DumpJson(vision::CameraPairJson(pair)));
+  folder.Write("cameras_text", "cameras.txt", vision::CameraPairText(pair, comment));
+}
+
+std::vector<fs::path> InputsOf(const CalibrateRequest& request) {
+  std::vector<fs::path> inputs = request.images;
+  inputs.insert(inputs.end(), request.right.begin(), request.right.end());
+  inputs.push_back(request.target);
+  return inputs;
 }
 
 }  // namespace
@@ -92,6 +88,11 @@ const fs::path& ImageOf(const CalibrateRequest& request, const vision::CornerRes
 }
 
 CalibrateResult CalibrateCameras(const CalibrateRequest& request) {
+  OutputFolder folder(
+      request.out, request.existing,
+      {.command = "calibrate",
+       .names = {"camera.json", "camera.txt", "cameras.json", "cameras.txt", "calibration.json"},
+       .inputs = InputsOf(request)});
   const CalibrateInput input = ReadCalibrateInput(request);
   CalibrateResult result;
   result.board = input.data.board;
@@ -101,15 +102,11 @@ CalibrateResult CalibrateCameras(const CalibrateRequest& request) {
   result.calibration = vision::Calibrate(input.data, {.lens = request.lens}).OrThrow();
   if (!input.advice.empty()) result.notes.push_back(input.advice);
   NoteCalibrationDoubts(request, result);
-  std::error_code error;
-  fs::create_directories(request.out, error);
-  if (error) {
-    throw core::UserError(request.out.string(), "cannot be made: " + error.message(),
-                          "choose another --out");
-  }
-  WriteCameras(request, result);
-  WriteFile(request.out, "report", "calibration.json",
-            core::DumpJson(CalibrateJson(request, result)), result);
+  WriteCameras(request, result, folder);
+  result.files = folder.files();
+  folder.Write("report", "calibration.json", core::DumpJson(CalibrateJson(request, result)));
+  folder.Finish();
+  result.files = folder.files();
   return result;
 }
 

@@ -155,11 +155,7 @@ JsonValue CalibrateJson(const CalibrateRequest& request, const CalibrateResult& 
   json.Set("poses", core::ListOf(result.calibration.X_AT, PoseJson));
   json.Set("outliers", OutliersJson(request, result));
   json.Set("notes", core::ListOf(result.notes));
-  JsonValue files = JsonValue::Object();
-  for (const CalibrateResult::File& file : result.files) {
-    files.Set(file.what, JsonValue(file.path.filename().string()));
-  }
-  json.Set("files", std::move(files));
+  json.Set("files", FilesJson(result.files));
   json.Set("program", JsonValue(core::VersionLine()));
   return json;
 }

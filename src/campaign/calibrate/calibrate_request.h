@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/output_folder.h"
 #include "vision/calibration/calibrate.h"
 #include "vision/cameras/camera_model.h"
 
@@ -16,6 +17,7 @@ struct CalibrateRequest {
   std::vector<std::filesystem::path> right;   // of the right one, in the same order; empty: none
   std::filesystem::path target;               // vision/calibration/target_file.h
   std::filesystem::path out;                  // a folder, which is made
+  ExistingFiles existing = ExistingFiles::kRefuse;
   vision::EstimatedLens lens = vision::EstimatedLens::kCahvor;
   std::optional<int> white;  // the sample that becomes 255 (image_files/luminance.h)
 };
@@ -28,11 +30,7 @@ struct CalibrateResult {
   vision::Calibration calibration;
   std::vector<std::string> notes;  // what a user should know before believing it
 
-  struct File {
-    std::string what;
-    std::filesystem::path path;
-  };
-  std::vector<File> files;
+  std::vector<OutputFile> files;
 
   // Root mean square of the distances in one image, px; of one camera. NaN where all corners are
   // outliers.

@@ -68,11 +68,7 @@ JsonValue CylinderJson(const CylinderRequest& request, const CylinderResult& res
   json.Set("miss", finding.sighting ? JsonValue() : JsonValue(NameIn(finding.miss)));
   json.Set("reason", finding.sighting ? JsonValue() : JsonValue(finding.reason));
   json.Set("sighting", finding.sighting ? SightingJson(*finding.sighting) : JsonValue());
-  JsonValue files = JsonValue::Object();
-  for (const OutputFile& file : result.files) {
-    files.Set(file.what, JsonValue(file.path.filename().string()));
-  }
-  json.Set("files", std::move(files));
+  json.Set("files", FilesJson(result.files));
   json.Set("program", JsonValue(core::VersionLine()));
   return json;
 }

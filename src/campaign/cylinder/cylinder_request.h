@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/stereo/output_folder.h"
+#include "campaign/output_folder.h"
 #include "core/fields.h"
 #include "vision/cylinder/cylinder_sighting.h"
 #include "vision/cylinder/published_finder_params.h"
@@ -32,6 +32,7 @@ struct CylinderRequest {
   std::filesystem::path right;
   std::filesystem::path cameras;
   std::filesystem::path out;  // a folder, which is made; empty: no files
+  ExistingFiles existing = ExistingFiles::kRefuse;
   CylinderFinder finder = CylinderFinder::kRobust;
   std::vector<std::string> settings;  // PATH=VALUE of CylinderParams
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "campaign/cylinder/cylinder_json.h"
@@ -118,6 +119,13 @@ vision::ColourImage ReadColour(const fs::path& path, std::string& what) {
 CylinderResult FindCylinderInFiles(const CylinderRequest& request) {
   CylinderResult result;
   result.params = CylinderParamsOf(request);
+  std::optional<OutputFolder> folder;
+  if (!request.out.empty()) {
+    folder.emplace(request.out, request.existing,
+                   OutputPlan{.command = "cylinder",
+                              .names = {"regions.png", "cylinder.json"},
+                              .inputs = {request.left, request.right, request.cameras}});
+  }
   const vision::ColourImage left = ReadColour(request.left, result.read[0]);
   const vision::ColourImage right = ReadColour(request.right, result.read[1]);
   CheckColourPair(request, left, right);
@@ -131,13 +139,13 @@ CylinderResult FindCylinderInFiles(const CylinderRequest& request) {
       request.finder == CylinderFinder::kPublished
           ? vision::FindCylinderAsPublished(pair, result.params.cylinder, result.params.published)
           : vision::FindCylinder(pair, result.params.cylinder, result.params.robust);
-  if (request.out.empty()) return result;
-  OutputFolder folder(request.out);
-  folder.Write("regions", "regions.png",
-               image_files::EncodePng(CylinderPicture(left, right, result.finding)));
-  result.files = folder.files();
-  folder.Write("summary", "cylinder.json", core::DumpJson(CylinderJson(request, result)));
-  result.files = folder.files();
+  if (!folder) return result;
+  folder->Write("regions", "regions.png",
+                image_files::EncodePng(CylinderPicture(left, right, result.finding)));
+  result.files = folder->files();
+  folder->Write("summary", "cylinder.json", core::DumpJson(CylinderJson(request, result)));
+  folder->Finish();
+  result.files = folder->files();
   return result;
 }
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "campaign/odometry/image_sequence.h"
@@ -12,15 +15,22 @@
 #include "campaign/odometry/odometry_picture.h"
 #include "campaign/odometry/pair_reader.h"
 #include "campaign/odometry/path_errors.h"
+#include "campaign/odometry/path_journal.h"
 #include "campaign/odometry/path_tracker.h"
 #include "campaign/odometry/pose_text.h"
 #include "campaign/odometry/stop_wish.h"
 #include "core/archive.h"
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/json_file.h"
+#include "core/machine_error.h"
+#include "core/whole_file.h"
+#include "image_files/png_file.h"
 
 namespace rockyard::campaign {
 namespace {
+
+namespace fs = std::filesystem;
 
 vision::OdometerParams ParamsOf(const OdometryRequest& request) {
   core::JsonValue document = core::JsonValue::Object();
@@ -74,12 +84,48 @@ std::vector<math::Transform> PredictedPoses(const OdometryRequest& request, std:
   return std::move(file.poses);
 }
 
+// What decides the path and the files, but for the images themselves.
+core::JsonValue PathRequestJson(const OdometryRequest& request, const OdometryResult& result) {
+  const auto bytes_of = [](const fs::path& file) {
+    constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+    if (file.empty()) return std::string("none");
+    return core::Hex(
+        core::Hasher().RawText(core::ReadWholeFile(file, kMaxBytes, "a file")).value());
+  };
+  core::JsonValue json = core::JsonValue::Object({{"sequence", request.sequence.string()},
+                                                  {"pairs", result.pairs_there},
+                                                  {"planned", result.planned},
+                                                  {"first", request.first},
+                                                  {"every", request.every},
+                                                  {"pictured", result.pictured},
+                                                  {"seed", std::to_string(request.seed)},
+                                                  {"white", request.white.value_or(0)},
+                                                  {"cameras", bytes_of(request.cameras)},
+                                                  {"prediction", NameOf(request.prediction)},
+                                                  {"predicted", bytes_of(request.predicted)}});
+  json.Set("parameters", core::WriteParams(result.params));
+  return json;
+}
+
+OutputPlan PathPlan(const OdometryRequest& request, const ImageSequence& sequence,
+                    const OdometryResult& result) {
+  OutputPlan plan{.command = "vo",
+                  .names = OdometryFileNames(),
+                  .inputs = {request.sequence, request.cameras, request.truth, request.predicted},
+                  .request = PathRequestJson(request, result)};
+  for (const SequencePair& pair : sequence.pairs) {
+    plan.inputs.insert(plan.inputs.end(), {pair.left, pair.right});
+  }
+  return plan;
+}
+
 class PathEstimation {
  public:
   PathEstimation(const OdometryRequest& request, const ImageSequence& sequence,
-                 OdometryResult& result)
+                 OutputFolder& folder, OdometryResult& result)
       : request_(request),
         sequence_(sequence),
+        folder_(folder),
         result_(result),
         reader_(request, sequence),
         predicted_(PredictedPoses(request, std::ssize(sequence.pairs))),
@@ -91,37 +137,105 @@ class PathEstimation {
     result.resampled = reader_.resampled();
   }
 
+  // Takes what an earlier call has done of these pairs; the rest is then added.
+  void Resume(std::span<const std::int64_t> wanted) {
+    if (!folder_.resumes()) return;
+    journal_.emplace(folder_.PathOf(kJournalFile));
+    std::int64_t failures = 0;
+    for (const PairEntry& entry : journal_->entries()) {
+      if (std::ssize(result_.steps) == std::ssize(wanted) ||
+          entry.pair != wanted[result_.steps.size()]) {
+        throw core::UserError(folder_.PathOf(kJournalFile).string(), "has other pairs",
+                              "begin anew in another folder");
+      }
+      if (entry.unreadable.empty()) {
+        failures = entry.found.keyframe || entry.found.result.motion ? 0 : failures + 1;
+      }
+      Take(entry);
+    }
+    if (pairs_.empty()) return;
+    const std::int64_t keyframe = NumberOfKeyframe();
+    odometer_.Resume(keyframe, reader_.Align(reader_.Read(FilesOf(PairOfNumber(keyframe)))),
+                     std::ssize(pairs_), failures);
+  }
+
   void Add(std::int64_t pair) {
-    PathStep step;
-    step.pair = pair;
-    const SequencePair& files = sequence_.pairs[static_cast<std::size_t>(pair)];
-    step.time_s = files.time_s.value_or(static_cast<double>(pair));
-    seconds_ = {};
-    clock_.Lap();
-    const GrayPair images = reader_.Read(files);
-    Count(PairStage::kRead);
-    vision::AlignedImages aligned = reader_.Align(images);
-    Count(PairStage::kAligned);
-    const auto predicted = tracker_.Predict(request_.prediction, ExpectedStep(pair));
-    const bool pictured = pair == result_.pictured;
-    const vision::GrayImage left = pictured ? aligned.left : vision::GrayImage();
-    const vision::OdometryStep found = odometer_.Add(std::move(aligned), predicted);
-    step.seconds = seconds_;
-    step.reference = PairOfNumber(found.reference, pair);
-    step.keyframe = found.keyframe;
-    step.result = found.result;
-    tracker_.Place(found, predicted, step);
-    if (pictured) result_.features = FeaturePicture(left, found);
-    result_.steps.push_back(std::move(step));
+    const PairEntry entry = Look(pair);
+    folder_.Begin();
+    if (!journal_) journal_.emplace(folder_.PathOf(kJournalFile));
+    journal_->Add(entry);
+    Take(entry);
   }
 
  private:
   void Count(PairStage stage) { seconds_[static_cast<std::size_t>(stage)] += clock_.Lap(); }
 
+  const SequencePair& FilesOf(std::int64_t pair) const {
+    return sequence_.pairs[static_cast<std::size_t>(pair)];
+  }
+
   // The odometer numbers what it is given.
-  std::int64_t PairOfNumber(std::int64_t number, std::int64_t present) const {
-    if (number == std::ssize(result_.steps)) return present;
-    return result_.steps[static_cast<std::size_t>(number)].pair;
+  std::int64_t PairOfNumber(std::int64_t number) const {
+    return pairs_[static_cast<std::size_t>(number)];
+  }
+  std::int64_t NumberOfKeyframe() const {
+    return std::find(pairs_.begin(), pairs_.end(), keyframe_) - pairs_.begin();
+  }
+
+  // Nothing, with the reason in `entry`, where the images cannot be read: of a path's first pair,
+  // to which all others are told, that is an error.
+  std::optional<GrayPair> Read(PairEntry& entry) const {
+    try {
+      return reader_.Read(FilesOf(entry.pair));
+    } catch (const core::MachineError&) {
+      throw;
+    } catch (const core::UserError& error) {
+      if (result_.steps.empty()) throw;
+      entry.unreadable = error.what();
+      entry.found.result.reason = vision::NoMotion::kNoImages;
+      entry.found.reference = NumberOfKeyframe();
+      entry.found.number = -1;
+      return std::nullopt;
+    }
+  }
+
+  PairEntry Look(std::int64_t pair) {
+    PairEntry entry;
+    entry.pair = pair;
+    seconds_ = {};
+    clock_.Lap();
+    const std::optional<GrayPair> images = Read(entry);
+    Count(PairStage::kRead);
+    if (images) {
+      vision::AlignedImages aligned = reader_.Align(*images);
+      Count(PairStage::kAligned);
+      const bool pictured = pair == result_.pictured;
+      const vision::GrayImage left = pictured ? aligned.left : vision::GrayImage();
+      entry.found = odometer_.Add(std::move(aligned),
+                                  tracker_.Predict(request_.prediction, ExpectedStep(pair)));
+      if (pictured) {
+        folder_.WriteNow(kFeaturesFile, image_files::EncodePng(FeaturePicture(left, entry.found)));
+      }
+    }
+    entry.seconds = seconds_;
+    return entry;
+  }
+
+  void Take(const PairEntry& entry) {
+    const bool seen = entry.unreadable.empty();
+    if (seen) pairs_.push_back(entry.pair);
+    if (entry.found.keyframe) keyframe_ = entry.pair;
+    PathStep step;
+    step.pair = entry.pair;
+    step.time_s = FilesOf(entry.pair).time_s.value_or(static_cast<double>(entry.pair));
+    step.seconds = entry.seconds;
+    step.reference = PairOfNumber(entry.found.reference);
+    step.keyframe = entry.found.keyframe;
+    step.result = entry.found.result;
+    step.unreadable = entry.unreadable;
+    tracker_.Place(entry.found, tracker_.Predict(request_.prediction, ExpectedStep(entry.pair)),
+                   step);
+    result_.steps.push_back(std::move(step));
   }
 
   // What the file of poses says of the way since the pair before.
@@ -133,6 +247,7 @@ class PathEstimation {
 
   const OdometryRequest& request_;
   const ImageSequence& sequence_;
+  OutputFolder& folder_;
   OdometryResult& result_;
   PairReader reader_;
   std::vector<math::Transform> predicted_;
@@ -140,7 +255,19 @@ class PathEstimation {
   StageSeconds seconds_{};
   PathTracker tracker_;
   vision::VisualOdometer odometer_;
+  std::optional<PathJournal> journal_;
+  std::vector<std::int64_t> pairs_;  // that the odometer was given, by its numbers
+  std::int64_t keyframe_ = 0;        // the pair
 };
+
+void NoteUnreadable(OdometryResult& result) {
+  const auto is_unreadable = [](const PathStep& step) { return !step.unreadable.empty(); };
+  const auto first = std::find_if(result.steps.begin(), result.steps.end(), is_unreadable);
+  if (first == result.steps.end()) return;
+  result.notes.push_back(fmt::format("images of {} pairs cannot be read, the first of pair {}: {}",
+                                     std::count_if(first, result.steps.end(), is_unreadable),
+                                     first->pair, first->unreadable));
+}
 
 void NotePath(OdometryResult& result) {
   const std::int64_t motions = std::ssize(result.steps) - 1;
@@ -151,6 +278,7 @@ void NotePath(OdometryResult& result) {
         "has no covariance afterwards",
         gaps, motions));
   }
+  NoteUnreadable(result);
   if (!result.has_times) {
     result.notes.emplace_back("the sequence has no times: the numbers of its pairs stand for them");
   }
@@ -186,9 +314,11 @@ OdometryResult EstimatePath(const OdometryRequest& request, const OdometryProgre
   result.planned = std::ssize(wanted);
   result.pictured = request.pictured.value_or(wanted[wanted.size() / 2]);
   const std::optional<TruePath> truth = ReadTruth(request, sequence);
-  PathEstimation estimation(request, sequence, result);
+  OutputFolder folder(request.out, request.existing, PathPlan(request, sequence, result));
+  PathEstimation estimation(request, sequence, folder, result);
+  estimation.Resume(wanted);
   const StopWish wish(stop);
-  for (const std::int64_t pair : wanted) {
+  for (const std::int64_t pair : std::span(wanted).subspan(result.steps.size())) {
     if (wish.IsThere()) {
       result.outcome = Outcome::kInterrupted;
       break;
@@ -198,7 +328,7 @@ OdometryResult EstimatePath(const OdometryRequest& request, const OdometryProgre
   }
   NotePath(result);
   if (truth) JudgePath(request, *truth, result);
-  WriteOdometryFiles(request, result);
+  WriteOdometryFiles(request, folder, result);
   return result;
 }
 

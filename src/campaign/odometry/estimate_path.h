@@ -18,8 +18,10 @@ using OdometryProgress =
 // trajectory.csv, covariance.csv, times.csv, trajectory_kitti.txt, trajectory_tum.txt,
 // features.png, path.svg and vo.json; with truth errors.csv as well. All of that is written at the
 // end, each file whole or not at all; what was done when somebody asked for an end is written too.
-// Throws core::UserError, before anything is written, for whatever is wrong with the input, an
-// image that cannot be read included.
+// journal.jsonl grows pair by pair: with ExistingFiles::kResume a path that was cut off goes on and
+// ends as if it had not been, but for the times. A pair whose images cannot be read is a gap.
+// Throws core::UserError, before anything is written, for whatever is wrong with the input, the
+// images of the first pair included.
 OdometryResult EstimatePath(const OdometryRequest& request, const OdometryProgress& progress = {},
                             const Stop& stop = {});
 

@@ -8,7 +8,6 @@
 #include "campaign/odometry/odometry_picture.h"
 #include "campaign/odometry/pose_text.h"
 #include "core/json_text.h"
-#include "image_files/png_file.h"
 #include "report/csv.h"
 
 namespace rockyard::campaign {
@@ -124,8 +123,14 @@ std::string ErrorsCsv(const OdometryResult& result) {
   return csv;
 }
 
-void WriteOdometryFiles(const OdometryRequest& request, OdometryResult& result) {
-  OutputFolder folder(request.out);
+std::vector<std::string> OdometryFileNames() {
+  return {"trajectory.csv", "covariance.csv", "times.csv",   "trajectory_kitti.txt",
+          "errors.csv",     "path.svg",       kFeaturesFile, "trajectory_tum.txt",
+          "vo.json",        kJournalFile};
+}
+
+void WriteOdometryFiles(const OdometryRequest& request, OutputFolder& folder,
+                        OdometryResult& result) {
   folder.Write("trajectory", "trajectory.csv", TrajectoryCsv(result));
   folder.Write("covariance", "covariance.csv", CovarianceCsv(result));
   folder.Write("times", "times.csv", TimesCsv(result));
@@ -136,11 +141,12 @@ void WriteOdometryFiles(const OdometryRequest& request, OdometryResult& result) 
   folder.Write("tum", "trajectory_tum.txt", TumPoses(path, times_s));
   if (!result.truth.empty()) folder.Write("errors", "errors.csv", ErrorsCsv(result));
   folder.Write("path", "path.svg", PathDrawing(result));
-  if (!result.features.empty()) {
-    folder.Write("features", "features.png", image_files::EncodePng(result.features));
+  if (std::filesystem::exists(folder.PathOf(kFeaturesFile))) {
+    folder.Tell("features", kFeaturesFile);
   }
   result.files = folder.files();
   folder.Write("summary", "vo.json", core::DumpJson(OdometryJson(request, result)));
+  folder.Finish(result.outcome == Outcome::kDone);
   result.files = folder.files();
 }
 

@@ -2,13 +2,20 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "campaign/odometry/odometry_request.h"
 
 namespace rockyard::campaign {
 
-// Makes the folder, writes all of them and fills result.files. Each is there whole or not at all.
-void WriteOdometryFiles(const OdometryRequest& request, OdometryResult& result);
+// All that WriteOdometryFiles may write, and what is there before (PathJournal, FeaturePicture).
+inline constexpr const char* kJournalFile = "journal.jsonl";
+inline constexpr const char* kFeaturesFile = "features.png";
+std::vector<std::string> OdometryFileNames();
+
+// Writes them, ends with the folder and fills result.files. Each is there whole or not at all.
+void WriteOdometryFiles(const OdometryRequest& request, OutputFolder& folder,
+                        OdometryResult& result);
 
 // A line a pair: its number, time, reference, keyframe, whether there was a motion and why not, the
 // pose (m, unit quaternion), counts, iterations, rms of what is left over.

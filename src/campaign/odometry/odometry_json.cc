@@ -118,11 +118,7 @@ JsonValue OdometryJson(const OdometryRequest& request, const OdometryResult& res
   json.Set("errors", PathErrorsJson(request, result));
   json.Set("times", TimesJson(result));
   json.Set("notes", core::ListOf(result.notes));
-  JsonValue files = JsonValue::Object();
-  for (const OutputFile& file : result.files) {
-    files.Set(file.what, JsonValue(file.path.filename().string()));
-  }
-  json.Set("files", std::move(files));
+  json.Set("files", FilesJson(result.files));
   json.Set("program", JsonValue(core::VersionLine()));
   return json;
 }

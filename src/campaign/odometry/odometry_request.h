@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "campaign/outcome.h"
-#include "campaign/stereo/output_folder.h"
+#include "campaign/output_folder.h"
 #include "core/fields.h"
-#include "image_files/picture.h"
 #include "math/pose.h"
 #include "vision/cameras/rectification.h"
 #include "vision/odometry/motion_estimate.h"
@@ -29,9 +28,10 @@ enum class Prediction {
 };
 
 struct OdometryRequest {
-  std::filesystem::path sequence;     // image_sequence.h
-  std::filesystem::path cameras;      // of both images; empty: the calib.txt of the sequence
-  std::filesystem::path out;          // a folder, which is made
+  std::filesystem::path sequence;  // image_sequence.h
+  std::filesystem::path cameras;   // of both images; empty: the calib.txt of the sequence
+  std::filesystem::path out;       // a folder, which is made
+  ExistingFiles existing = ExistingFiles::kRefuse;
   std::filesystem::path truth;        // poses (pose_text.h); empty: none
   std::vector<std::string> settings;  // PATH=VALUE of vision::OdometerParams
 
@@ -79,6 +79,7 @@ struct PathStep {
   math::Transform X_AB = math::Transform::Identity();
   // Of X_AB as of a motion from the first pair; nothing from the first gap on.
   std::optional<vision::MotionCovariance> covariance;
+  std::string unreadable;  // of NoMotion::kNoImages: why
   StageSeconds seconds{};
 };
 
@@ -112,7 +113,6 @@ struct OdometryResult {
   std::vector<math::Transform> truth;         // of the steps below, in a frame of its own
   std::vector<std::size_t> steps_with_truth;  // indices of `steps`
   std::optional<PathErrors> errors;
-  image_files::Picture features;  // of the pictured pair
   std::int64_t pictured = 0;
   std::vector<std::string> notes;  // what a user should know before believing it
   std::vector<OutputFile> files;

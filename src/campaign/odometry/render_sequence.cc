@@ -12,8 +12,10 @@
 #include "campaign/odometry/stop_wish.h"
 #include "campaign/stereo/render_stage.h"
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/json_text.h"
 #include "image_files/png_file.h"
+#include "scenario/load.h"
 #include "sensing/stereo_imager.h"
 #include "trial/route_planner.h"
 #include "vision/cameras/camera_file.h"
@@ -81,22 +83,55 @@ std::vector<math::Transform> PosesByWheels(const std::vector<math::Pose2>& way,
   return poses;
 }
 
+// All that decides what is rendered.
+core::JsonValue SequenceRequestJson(const SequenceRequest& request, const RenderStage& stage) {
+  const RenderRequest& scene = request.scene;
+  const auto number = [](const std::optional<double>& value) {
+    return value ? core::JsonValue(*value) : core::JsonValue();
+  };
+  core::JsonValue json =
+      core::JsonValue::Object({{"scenario", core::Hex(scenario::Fingerprint(stage.scenario()))},
+                               {"seed", std::to_string(scene.seed.value_or(stage.scenario().seed))},
+                               {"trial", scene.trial},
+                               {"ahead", scene.direction == messages::LookDirection::kAhead},
+                               {"route", request.way == SequenceWay::kRoute},
+                               {"pairs", request.pairs},
+                               {"step_m", request.step_m},
+                               {"turn_rad", request.turn_rad},
+                               {"period_s", request.period_s},
+                               {"slip", request.slip}});
+  json.Set("x_m", number(scene.x_m));
+  json.Set("y_m", number(scene.y_m));
+  json.Set("heading_rad", number(scene.heading_rad));
+  return json;
+}
+
+// The pairs of images go into the folder as they are taken, all else when they are there.
 class SequenceFolder {
  public:
-  explicit SequenceFolder(const std::filesystem::path& path)
-      : top_(path), left_(path / "left"), right_(path / "right") {}
+  SequenceFolder(const SequenceRequest& request, const RenderStage& stage)
+      : top_(request.scene.out, request.scene.existing,
+             {.command = "render",
+              .names = {"left", "right", "cameras.json", "left_free.png", "right_free.png",
+                        "poses.txt", "wheels.txt", "times.txt"},
+              .inputs = {request.scene.scenario},
+              .request = SequenceRequestJson(request, stage)}) {}
+
+  bool HoldsPair(std::int64_t number) const {
+    return top_.resumes() && std::filesystem::exists(top_.PathOf(NameOf("left", number))) &&
+           std::filesystem::exists(top_.PathOf(NameOf("right", number)));
+  }
+
+  void WritePair(std::int64_t number, const sensing::StereoImages& images) {
+    top_.WriteNow(NameOf("left", number), image_files::EncodePng(images.left));
+    top_.WriteNow(NameOf("right", number), image_files::EncodePng(images.right));
+  }
 
   void WriteRig(const vision::StereoRig& rig) {
     top_.Write("cameras", "cameras.json",
                core::DumpJson(vision::CameraPairJson({rig.left, rig.right})) + "\n");
     top_.Write("left_free", "left_free.png", image_files::EncodePng(MaskPicture(rig.left_free)));
     top_.Write("right_free", "right_free.png", image_files::EncodePng(MaskPicture(rig.right_free)));
-  }
-
-  void WritePair(std::int64_t number, const sensing::StereoImages& images) {
-    const std::string name = SequenceImageName(number);
-    left_.Write("left", name, image_files::EncodePng(images.left));
-    right_.Write("right", name, image_files::EncodePng(images.right));
   }
 
   void WriteTruth(const std::vector<math::Transform>& poses,
@@ -110,12 +145,17 @@ class SequenceFolder {
     top_.Write("times", "times.txt", TimesText(times_s));
   }
 
-  const std::vector<OutputFile>& files() const { return top_.files(); }
+  const std::vector<OutputFile>& Finish(bool all) {
+    top_.Finish(all);
+    return top_.files();
+  }
 
  private:
+  static std::string NameOf(std::string_view eye, std::int64_t number) {
+    return fmt::format("{}/{}", eye, SequenceImageName(number));
+  }
+
   OutputFolder top_;
-  OutputFolder left_;
-  OutputFolder right_;
 };
 
 }  // namespace
@@ -131,8 +171,7 @@ SequenceResult RenderSequence(const SequenceRequest& request, const SequenceProg
   SequenceResult result;
   result.planned = std::ssize(way);
   result.size = rig.left.size;
-  SequenceFolder folder(request.scene.out);
-  folder.WriteRig(rig);
+  SequenceFolder folder(request, stage);
   const StopWish wish(stop);
   std::vector<math::Transform> poses;
   for (const math::Pose2& place : way) {
@@ -141,8 +180,10 @@ SequenceResult RenderSequence(const SequenceRequest& request, const SequenceProg
       break;
     }
     const math::Transform& X_WR = stage.Stand(place);
-    folder.WritePair(result.pairs, stage.imager().Expose(stage.terrain(), X_WR, result.pairs,
-                                                         request.scene.direction));
+    if (!folder.HoldsPair(result.pairs)) {
+      folder.WritePair(result.pairs, stage.imager().Expose(stage.terrain(), X_WR, result.pairs,
+                                                           request.scene.direction));
+    }
     if (!poses.empty()) {
       result.distance_m += (X_WR.translation() - poses.back().translation()).norm();
     }
@@ -150,8 +191,9 @@ SequenceResult RenderSequence(const SequenceRequest& request, const SequenceProg
     ++result.pairs;
     if (progress) progress(result.pairs, result.planned);
   }
+  folder.WriteRig(rig);
   folder.WriteTruth(poses, PosesByWheels(way, poses, request.slip), request.period_s);
-  result.files = folder.files();
+  result.files = folder.Finish(result.outcome == Outcome::kDone);
   return result;
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "campaign/outcome.h"
-#include "campaign/stereo/output_folder.h"
+#include "campaign/output_folder.h"
 #include "campaign/stereo/render_pair.h"
 #include "campaign/stop.h"
 #include "math/angles.h"

@@ -103,6 +103,12 @@ double StereoResult::Density() const {
 StereoResult MatchPair(const StereoRequest& request) {
   StereoResult result;
   result.params = StereoParamsOf(request);
+  OutputFolder folder(
+      request.out, request.existing,
+      {.command = "stereo",
+       .names = {"disparity.pfm", "disparity.png", "picture.png", "left.png", "right.png",
+                 "points.ply", "elevation.pfm", "elevation.png", "stereo.json"},
+       .inputs = {request.left, request.right, request.cameras, request.reference}});
   const StereoInput input = ReadStereoInput(request, static_cast<int>(result.params.pyramid_level));
   result.params = WithRange(request, input, result.params);
   result.read = input.read;
@@ -114,7 +120,6 @@ StereoResult MatchPair(const StereoRequest& request) {
   result.counts = vision::CountDrops(disparities);
   if (!request.reference.empty()) result.score = Scored(request, disparities);
   NoteDoubts(input, result);
-  OutputFolder folder(request.out);
   const image_files::Picture picture = DisparityPicture(disparities, result.params.correlator);
   folder.Write("disparity", "disparity.pfm", image_files::EncodePfm(DisparityValues(disparities)));
   folder.Write("disparity_picture", "disparity.png", image_files::EncodePng(picture));
@@ -122,6 +127,7 @@ StereoResult MatchPair(const StereoRequest& request) {
   if (input.cameras) WritePoints(request, input, disparities, folder, result);
   result.files = folder.files();
   folder.Write("summary", "stereo.json", core::DumpJson(StereoJson(request, result)));
+  folder.Finish();
   result.files = folder.files();
   return result;
 }

@@ -49,10 +49,8 @@ Seen Summary(const Image<float>& disparities) {
   return seen;
 }
 
-void Write(const RenderRequest& request, const sensing::StereoImages& images,
-           const vision::StereoRig& rig, const Image<float>& disparities, float most_px,
-           RenderResult& result) {
-  OutputFolder folder(request.out);
+void Write(const sensing::StereoImages& images, const vision::StereoRig& rig,
+           const Image<float>& disparities, float most_px, OutputFolder& folder) {
   folder.Write("left", "left.png", image_files::EncodePng(images.left));
   folder.Write("right", "right.png", image_files::EncodePng(images.right));
   folder.Write("cameras", "cameras.json",
@@ -62,12 +60,17 @@ void Write(const RenderRequest& request, const sensing::StereoImages& images,
   range.disparities = static_cast<std::int64_t>(std::ceil(most_px)) + 1;
   folder.Write("disparity_picture", "disparity.png",
                image_files::EncodePng(DisparityPicture(Stored(disparities), range)));
-  result.files = folder.files();
+  folder.Finish();
 }
 
 }  // namespace
 
 RenderResult RenderPair(const RenderRequest& request) {
+  OutputFolder folder(
+      request.out, request.existing,
+      {.command = "render",
+       .names = {"left.png", "right.png", "cameras.json", "disparity.pfm", "disparity.png"},
+       .inputs = {request.scenario}});
   RenderStage stage(request);
   RenderResult result;
   result.pose = FirstPose(request, stage.scenario().drive.course.Start());
@@ -84,7 +87,8 @@ RenderResult RenderPair(const RenderRequest& request) {
   if (pair && seen.most_px > 0.0F) {
     result.nearest_m = pair->focal_px * pair->baseline_m / static_cast<double>(seen.most_px);
   }
-  Write(request, images, rig, disparities, seen.most_px, result);
+  Write(images, rig, disparities, seen.most_px, folder);
+  result.files = folder.files();
   return result;
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/stereo/output_folder.h"
+#include "campaign/output_folder.h"
 #include "math/pose.h"
 #include "messages/point_cloud.h"
 #include "vision/cameras/camera_types.h"
@@ -21,6 +21,7 @@ struct RenderRequest {
   std::optional<std::uint64_t> seed;   // absent: the scenario's
   std::uint32_t trial = 0;
   std::filesystem::path out;  // a folder, which is made
+  ExistingFiles existing = ExistingFiles::kRefuse;
   messages::LookDirection direction = messages::LookDirection::kAhead;
 
   // Where the rover stands, in W; what is absent is of the trial's start.

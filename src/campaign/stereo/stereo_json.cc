@@ -73,11 +73,7 @@ JsonValue StereoJson(const StereoRequest& request, const StereoResult& result) {
   json.Set("score", result.score ? ScoreJson(*result.score) : JsonValue());
   json.Set("points", JsonValue(result.points));
   json.Set("notes", core::ListOf(result.notes));
-  JsonValue files = JsonValue::Object();
-  for (const OutputFile& file : result.files) {
-    files.Set(file.what, JsonValue(file.path.filename().string()));
-  }
-  json.Set("files", std::move(files));
+  json.Set("files", FilesJson(result.files));
   json.Set("program", JsonValue(core::VersionLine()));
   return json;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/stereo/output_folder.h"
+#include "campaign/output_folder.h"
 #include "vision/cameras/rectification.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/row_alignment.h"
@@ -19,7 +19,8 @@ namespace rockyard::campaign {
 struct StereoRequest {
   std::filesystem::path left;
   std::filesystem::path right;
-  std::filesystem::path out;          // a folder, which is made
+  std::filesystem::path out;  // a folder, which is made
+  ExistingFiles existing = ExistingFiles::kRefuse;
   std::filesystem::path cameras;      // of the images as they are; empty: they are aligned
   bool align = false;                 // rows, by matches of the pair itself; without cameras only
   std::vector<std::string> settings;  // PATH=VALUE of vision::StereoPipelineParams

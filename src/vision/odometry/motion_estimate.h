@@ -30,7 +30,8 @@ enum class NoMotion {
   kNoConsistentSet,  // too few of these moved as one rigid body
   kNotConverged,     // least squares did not end
   kPoorFit,          // what is left over is more than the measurements' noise explains
-  kUncertain         // the covariance is larger than what is asked for
+  kUncertain,        // the covariance is larger than what is asked for
+  kNoImages,         // nobody could read them; for the odometer there is no such pair
 };
 
 struct MotionCounts {
@@ -54,7 +55,7 @@ struct MotionResult {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::vision::NoMotion> {
-  static constexpr std::array<std::string_view, 7> kNames{
+  static constexpr std::array<std::string_view, 8> kNames{
       "few_features",  "few_matches", "few_points", "no_consistent_set",
-      "not_converged", "poor_fit",    "uncertain"};
+      "not_converged", "poor_fit",    "uncertain",  "no_images"};
 };

@@ -72,6 +72,15 @@ OdometryStep VisualOdometer::Add(AlignedImages images, const std::optional<Trans
   return step;
 }
 
+void VisualOdometer::Resume(std::int64_t keyframe, AlignedImages images, std::int64_t next,
+                            std::int64_t failures) {
+  const Features features = detector_.Detect(images.left);
+  if (params_.placement.source == PlaceSource::kDisparityMap) MakeMap(images);
+  MakeKeyframe(keyframe, std::move(images), features);
+  next_ = next;
+  failures_ = failures;
+}
+
 void VisualOdometer::MakeMap(AlignedImages& images) const {
   if (!images.disparities.empty()) {
     EXPECT(images.disparities.width() == images.left.width() &&

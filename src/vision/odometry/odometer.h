@@ -60,6 +60,11 @@ class VisualOdometer {
   OdometryStep Add(AlignedImages images,
                    const std::optional<math::Transform>& predicted = std::nullopt);
 
+  // Goes on with a path that another odometer of the same parameters began: the keyframe's number
+  // and images, the number of the next pair, and how many pairs in a row had no motion up to there.
+  void Resume(std::int64_t keyframe, AlignedImages images, std::int64_t next,
+              std::int64_t failures);
+
   // Begins a new path with the next pair.
   void Renew() {
     keyframe_.reset();

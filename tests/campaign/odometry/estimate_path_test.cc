@@ -299,6 +299,65 @@ TEST_F(EstimatedPath, AnEarlyEndLeavesAShorterPath) {
   EXPECT_EQ(ReadTimes(own() / "short/times.txt").size(), 3u);
 }
 
+// Wherever it is cut off, in the middle of a line too, a path goes on to the same end; a pair that
+// nobody can read is a gap on the way.
+TEST_F(EstimatedPath, WhatWasCutOffEndsAsIfItHadNotBeen) {
+  const fs::path folder = own() / "hurt";
+  fs::copy(Driven(), folder, fs::copy_options::recursive);
+  fs::resize_file(folder / "right" / SequenceImageName(5), 1000);
+  OdometryRequest request = PathOf(folder, out());
+  request.settings = {"keyframe.max_way_m=0.25"};
+  const OdometryResult whole = EstimatePath(request);
+  ASSERT_EQ(whole.steps.size(), 8u);
+  EXPECT_EQ(*whole.steps[5].result.reason, vision::NoMotion::kNoImages);
+  EXPECT_EQ(whole.Gaps(), 1);
+  EXPECT_THAT(whole.notes,
+              testing::Contains(AllOf(HasSubstr("images of 1 pairs"), HasSubstr("000005.png"))));
+  EXPECT_LT(whole.errors->end_error_m, 0.02);
+  const std::string journal = ReadText(out() / "journal.jsonl");
+  const std::string maker = ReadText(out() / "made_by.json");
+  std::size_t line = 0;
+  for (std::size_t pairs = 0; pairs < 8; ++pairs, line = journal.find('\n', line) + 1) {
+    request.out = own() / std::to_string(pairs);
+    request.existing = ExistingFiles::kResume;
+    fs::create_directory(request.out);
+    std::ofstream(request.out / "made_by.json") << maker;
+    std::ofstream(request.out / "journal.jsonl") << journal.substr(0, line + 100);
+    std::vector<std::int64_t> told;
+    const OdometryResult rest = EstimatePath(
+        request, [&](std::int64_t done, std::int64_t, std::int64_t) { told.push_back(done); });
+    EXPECT_EQ(told.size(), 8 - pairs);
+    EXPECT_EQ(rest.notes, whole.notes);
+    for (const char* name : {"trajectory.csv", "covariance.csv", "errors.csv", "path.svg"}) {
+      EXPECT_EQ(ReadText(request.out / name), ReadText(out() / name)) << pairs << " " << name;
+    }
+  }
+  std::ofstream(request.out / "journal.jsonl", std::ios::app) << "{}\n";
+  EXPECT_THROW(EstimatePath(request), core::UserError);
+  request.first = 5;
+  request.out = own() / "first";
+  EXPECT_THROW(EstimatePath(request), core::UserError);  // there is nothing to begin with
+  EXPECT_FALSE(fs::exists(request.out));
+}
+
+TEST_F(EstimatedPath, ASequenceThatWasCutOffIsCompleted) {
+  const fs::path folder = own() / "part";
+  int asked = 0;
+  RenderSequence(SmallSequence(folder), {}, {.wanted = [&] { return ++asked > 3; }});
+  fs::remove(folder / "right" / SequenceImageName(2));
+  SequenceRequest request = SmallSequence(folder);
+  EXPECT_THROW(RenderSequence(request), core::UserError);
+  request.scene.existing = ExistingFiles::kResume;
+  const auto kept = fs::last_write_time(folder / "left" / SequenceImageName(1));
+  RenderSequence(request);
+  EXPECT_EQ(fs::last_write_time(folder / "left" / SequenceImageName(1)), kept);
+  for (const auto& entry : fs::recursive_directory_iterator(Driven())) {
+    const fs::path name = entry.path().lexically_relative(Driven());
+    if (entry.is_directory()) continue;
+    EXPECT_EQ(ReadText(folder / name), ReadText(entry.path())) << name;
+  }
+}
+
 TEST_F(EstimatedPath, RenderedTruthAndWheels) {
   SequenceRequest request = SmallSequence(own() / "slip");
   request.pairs = 3;

@@ -1,0 +1,110 @@
+// A folder that a command fills with files: claimed before the work, whole after it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/json_value.h"
+
+namespace rockyard::batch {
+class EmptyFolders;
+class FolderClaim;
+}  // namespace rockyard::batch
+
+namespace rockyard::report {
+class AtomicFile;
+}  // namespace rockyard::report
+
+namespace rockyard::campaign {
+
+// A file that was written.
+struct OutputFile {
+  std::string what;
+  std::filesystem::path path;
+};
+
+// Their names by what they are.
+core::JsonValue FilesJson(std::span<const OutputFile> files);
+
+// What to do where the folder holds something. What the same command has finished is set aside:
+// what has the names that are needed goes to old-1 (or -2, ...) in the folder.
+enum class ExistingFiles {
+  kRefuse,    // anything else
+  kSetAside,  // whatever there is
+  kResume,    // goes on with what the same request has begun there; begins where nothing is there
+};
+
+// What a command knows of its folder before it works.
+struct OutputPlan {
+  std::string command;                        // "stereo"
+  std::vector<std::string> names;             // of all that it may write, in the folder itself
+  std::vector<std::filesystem::path> inputs;  // files and folders that it reads; "": none
+  // Of one that writes as it works: what has to be the same to go on. Else null.
+  core::JsonValue request = {};
+};
+
+// The file by which a folder says which command of which build made what it holds, and whether that
+// is all: {"command", "program", "finished", "request"}.
+inline constexpr const char* kMadeByFile = "made_by.json";
+
+// Nothing is changed before the first WriteNow, or Finish: a folder that was made for work that
+// throws earlier is gone again. Every failure of the machine is a core::MachineError or a
+// batch::StoreError of that kind.
+class OutputFolder {
+ public:
+  // Makes the folder and claims it (batch::FolderClaim). Throws core::UserError: it holds what is
+  // refused (for kResume what another request or none has begun), an input by one of the names, or
+  // it is an input itself.
+  OutputFolder(std::filesystem::path path, ExistingFiles existing, OutputPlan plan);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  // Stages a file, which Finish brings to its place, and keeps what is where.
+  void Write(std::string_view what, std::string_view name, std::string_view bytes);
+
+  // A file that is in its place at once; `name` may have a folder of its own before it.
+  void WriteNow(std::string_view name, std::string_view bytes);
+
+  // Keeps what WriteNow or the command itself has written among what is where.
+  void Tell(std::string_view what, std::string_view name) {
+    files_.push_back({std::string(what), path_ / name});
+  }
+
+  // Where a file is, or is to be, that the command itself writes; after Begin.
+  std::filesystem::path PathOf(std::string_view name) const { return path_ / name; }
+  // Does what WriteNow does before it writes the first file. More than once: nothing.
+  void Begin();
+
+  // Whether the work of an earlier call is gone on with.
+  bool resumes() const { return resumes_; }
+
+  // Once. `finished`: whether it was all, or somebody asked for an end.
+  void Finish(bool finished = true);
+
+  const std::vector<OutputFile>& files() const { return files_; }
+
+ private:
+  void RefuseInputs() const;
+  void ReadContents(ExistingFiles existing);
+  void RequireSame(const core::JsonValue& maker) const;
+  void SetAside();
+  void Stage(std::string_view name, std::string_view bytes);
+  std::string Maker(bool finished) const;
+
+  std::filesystem::path path_;
+  OutputPlan plan_;
+  std::unique_ptr<batch::FolderClaim> claim_;
+  std::unique_ptr<batch::EmptyFolders> unused_;
+  std::vector<std::unique_ptr<report::AtomicFile>> staged_;
+  std::vector<OutputFile> files_;
+  bool set_aside_ = false;  // before anything is written
+  bool resumes_ = false;
+  bool begun_ = false;
+};
+
+}  // namespace rockyard::campaign
