@@ -2,20 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <string>
 #include <utility>
 
 #include "core/hash.h"
 #include "core/json_text.h"
 #include "scenario/former_keys.h"
+#include "scenario/load.h"
 
 namespace rockyard::batch {
 namespace {
 
 using core::JsonValue;
-
-constexpr std::array<std::string_view, 3> kNoInfluence = {"name", "description", "trials"};
 
 std::string Show(const JsonValue* value) {
   if (value == nullptr) return "absent";
@@ -59,7 +57,7 @@ class Walk {
 
   static bool Skip(const std::string& path, std::string_view key) {
     if (!path.empty()) return false;
-    for (const std::string_view name : kNoInfluence) {
+    for (const std::string_view name : scenario::kNoInfluence) {
       if (key == name) return true;
     }
     return false;
@@ -86,8 +84,7 @@ std::vector<ScenarioDifference> FindScenarioDifferences(std::string_view first,
 }
 
 std::string ResolvedFingerprint(JsonValue resolved) {
-  for (const std::string_view key : kNoInfluence) resolved.Erase(key);
-  return core::Hex(core::Hasher().Text(core::DumpJson(resolved)).value());
+  return core::Hex(scenario::ResolvedFingerprint(std::move(resolved)));
 }
 
 std::vector<core::Problem> ScenarioDifferences(std::string_view stored, std::string_view wanted,

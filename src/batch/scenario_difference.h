@@ -17,9 +17,8 @@ struct ScenarioDifference {
   std::string second;
 };
 
-// In the order of the first document. Name, description and number of trials are left out: no
-// record depends on them. Former keys count as those of today. Both are JSON texts; throws
-// core::UserError on what is none.
+// In the order of the first document, without what no record depends on (scenario::kNoInfluence).
+// Former keys count as those of today. Both are JSON texts; throws core::UserError on what is none.
 std::vector<ScenarioDifference> FindScenarioDifferences(std::string_view first,
                                                         std::string_view second);
 

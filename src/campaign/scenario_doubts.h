@@ -1,4 +1,4 @@
-// Values that a scenario takes from elsewhere, and that hardly suit what it says itself.
+// Values of a scenario that hardly suit each other.
 #pragma once
 
 #include <filesystem>
@@ -6,24 +6,22 @@
 #include <string>
 #include <vector>
 
-#include "campaign/scenario_layers.h"
 #include "core/error.h"
 #include "scenario/scenario.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::campaign {
 
-// Each with the path of the value, what of it is doubtful, and what would be right. Doubted is what
-// lies below that against which it is held (or is a default): whoever stated it did not know the
-// course, or the rover. Rules, each with its threshold in the .cc file: limits of referee and
-// batteries against the length of the course, mass against size, the odometer's scale and
-// the size that GESTALT believes in against the rover,
-// goal radius and the view of the
-// terrain sensor against the rover, gravity and sand of Earth against a name that says
-// Mars.
-std::vector<core::Problem> Doubts(const scenario::Scenario& scenario, const Layers& layers);
+// Each with the path of the value, what of it is doubtful, and what would be right. Only what the
+// scenario comes to counts, not who stated what: equal fingerprints, equal doubts. Rules, each with
+// its threshold in the .cc file: limits of referee and batteries against the length of the course,
+// mass against size, what is a hazard against the clearance, the odometer's scale against the slip
+// of these wheels in this soil, the size that GESTALT believes in, the goal radius and the view of
+// the terrain sensor against the rover, gravity and sand of Earth against a name that says Mars.
+// None that the scenario calls accepted, word by word: of other numbers it is another doubt.
+std::vector<core::Problem> Doubts(const scenario::Scenario& scenario);
 
-// Of a scenario file with overrides; none of the folder of a run. Throws core::UserError.
+// Of a scenario file, or the folder of a run, with overrides. Throws core::UserError.
 std::vector<core::Problem> DoubtsOf(const std::filesystem::path& source,
                                     std::span<const std::string> overrides);
 

@@ -63,9 +63,12 @@ std::string ResolvedJson(const Scenario& scenario) {
 }
 
 std::uint64_t Fingerprint(const Scenario& scenario) {
-  core::JsonValue document = WriteScenario(scenario);
-  for (const char* key : {"name", "description", "trials"}) document.Erase(key);
-  return core::Hasher().Text(core::DumpJson(document)).value();
+  return ResolvedFingerprint(WriteScenario(scenario));
+}
+
+std::uint64_t ResolvedFingerprint(core::JsonValue resolved) {
+  for (const std::string_view key : kNoInfluence) resolved.Erase(key);
+  return core::Hasher().Text(core::DumpJson(resolved)).value();
 }
 
 std::string SchemaJson() {

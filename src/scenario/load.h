@@ -1,6 +1,7 @@
 // Scenario files: loading, overriding, writing, describing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -32,9 +33,14 @@ Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults 
 core::JsonValue WriteScenario(const Scenario& scenario);
 std::string ResolvedJson(const Scenario& scenario);
 
-// Hash of all that decides the record of a trial of given index: every value but the name, the
-// description and the number of trials.
+// Members that do not decide the record of a trial of given index.
+inline constexpr std::array<std::string_view, 4> kNoInfluence = {"name", "description", "accepted",
+                                                                 "trials"};
+
+// Hash of all others.
 std::uint64_t Fingerprint(const Scenario& scenario);
+// The same of ResolvedJson, read.
+std::uint64_t ResolvedFingerprint(core::JsonValue resolved);
 
 // JSON Schema (draft 2020-12) of scenario files; "extends" included in every group.
 std::string SchemaJson();

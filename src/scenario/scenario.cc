@@ -8,6 +8,9 @@ void Scenario::Visit(core::FieldVisitor& v) {
             {.doc = "version of this format", .min = 1, .max = 1, .origin = Origin::kSetting});
   v.Text("name", name, {.doc = "short name, used in reports", .origin = Origin::kSetting});
   v.Text("description", description, {.doc = "what it stands for", .origin = Origin::kSetting});
+  v.Text("accepted", accepted,
+         {.doc = "doubts of `rockyard validate` that are meant so, in its words up to the advice",
+          .origin = Origin::kSetting});
   experiment.VisitKind(v);
   v.Integer("trials", trials,
             {.doc = "number of runs", .min = 1, .max = 1e9, .origin = Origin::kSetting});

@@ -14,6 +14,7 @@ struct Scenario {
   std::int64_t schema_version = 1;
   std::string name = "unnamed";
   std::string description;
+  std::string accepted;  // doubts that are meant so
   experiments::ExperimentParams experiment;
   std::int64_t trials = 300;
   std::int64_t seed = 1;

@@ -79,7 +79,8 @@ class Duplicates {
  public:
   void Check(const std::string& name, const JsonValue& resolved, CellProblems& problems) {
     JsonValue decisive = resolved;
-    for (const char* key : {"name", "description", "trials", "seed"}) decisive.Erase(key);
+    for (const char* key : {"name", "description", "accepted", "trials", "seed"})
+      decisive.Erase(key);
     const std::uint64_t hash = core::Hasher().Text(core::DumpJson(decisive)).value();
     const auto [at, fresh] = cells_.try_emplace(hash, name);
     if (fresh) return;
@@ -99,15 +100,12 @@ SweepCell MakeCell(const SweepSpec& spec, const std::vector<LevelSpec>& levels,
   try {
     ResolvedCell resolved = ResolveCell(spec, levels);
     cell.scenario = std::move(resolved.scenario);
-    cell.settings = std::move(resolved.settings);
-    cell.base = std::move(resolved.base);
     for (const Problem& problem : resolved.problems) problems.Add(cell.name, problem);
     duplicates.Check(cell.name, resolved.document, problems);
   } catch (const core::UserError& error) {
     for (const Problem& problem : error.problems()) problems.Add(cell.name, problem);
   }
   cell.scenario.name = fmt::format("{} {}", spec.params.name, cell.name);
-  cell.settings.Set("name", JsonValue(cell.scenario.name));
   cell.scenario.trials = spec.params.trials;
   cell.scenario.seed = SeedOf(spec, cell.name);
   return cell;

@@ -45,8 +45,6 @@ struct SweepCell {
   std::string name;                // unique: "k_per_m2=0.01,navigator=gestalt"
   std::vector<SweepLevel> levels;  // one per axis
   Scenario scenario;               // with the name, the trials and the seed of the cell
-  core::JsonValue settings;        // what the sweep says of it, its name included
-  std::shared_ptr<const core::JsonValue> base;  // what they lie over; null where that is nothing
 };
 
 struct Sweep {

@@ -101,14 +101,13 @@ const JsonValue* FindPath(const JsonValue& document, std::string_view path) {
 
 ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
   ResolvedCell cell;
-  cell.base = BaseOf(spec, levels);
-  JsonValue document = cell.base == nullptr ? JsonValue::Object() : *cell.base;
+  const std::shared_ptr<const JsonValue> base = BaseOf(spec, levels);
+  JsonValue document = base == nullptr ? JsonValue::Object() : *base;
   RenameFormerKeys(document);
   std::vector<std::pair<std::string, JsonValue>> asked;
   const auto apply = [&](const JsonValue& settings) {
     for (const core::JsonMember& member : settings.members()) {
       core::SetPath(document, CurrentPath(member.key), member.value);
-      core::SetPath(cell.settings, CurrentPath(member.key), member.value);
       asked.emplace_back(member.key, member.value);
     }
   };

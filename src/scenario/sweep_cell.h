@@ -1,7 +1,6 @@
 // From the levels of a cell to its scenario. Internal to scenario's sweep files.
 #pragma once
 
-#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -14,9 +13,7 @@ namespace rockyard::scenario {
 
 struct ResolvedCell {
   Scenario scenario;
-  core::JsonValue document;                              // WriteScenario of it
-  core::JsonValue settings = core::JsonValue::Object();  // of the sweep, laid over the base
-  std::shared_ptr<const core::JsonValue> base;
+  core::JsonValue document;             // WriteScenario of it
   std::vector<core::Problem> problems;  // settings that are not there in the end
 };
 

@@ -21,7 +21,8 @@ TRIAL_CPU_S = 20
 TIMEOUT_S = 600
 SIMULATED_S = 120
 # What says who and how much rather than what is simulated.
-KEPT = {"schema_version", "name", "description", "experiment", "trials", "rover.fidelity", "referee.time_limit_s",
+KEPT = {"schema_version", "name", "description", "accepted", "experiment", "trials", "rover.fidelity",
+        "referee.time_limit_s",
         "hazard_detection.scenes_per_run", "stereo_sensing.looks_per_run",
         "dead_reckoning.walks_per_run"}
 SLOW = "used more CPU time than --trial-cpu-limit"
