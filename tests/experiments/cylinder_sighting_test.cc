@@ -5,12 +5,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
-#include "experiments/cylinder_sighting/columns.h"
 #include "experiments/cylinder_sighting/judge_sighting.h"
-#include "math/angles.h"
-#include "truth/measurement_record.h"
+#include "experiments/scenario_experiment.h"
 
 namespace rockyard::experiments {
 namespace {
@@ -103,23 +100,14 @@ CylinderSightingParams Small() {
   return params;
 }
 
-double ValueOf(const Experiment& experiment, const truth::Record& record, const std::string& name) {
-  for (std::size_t i = 0; i < experiment.schema().size(); ++i) {
-    if (experiment.schema()[i].name == name) return record.values[i];
-  }
-  ADD_FAILURE() << name;
-  return NAN;
-}
-
 TEST(CylinderSighting, ARunIsItsSeedAndIndex) {
   const CylinderSightingExperiment experiment(Small());
-  const truth::Record first = experiment.Run(3, 1);
-  ASSERT_EQ(first.outcome, truth::TrialOutcome::kMeasured) << first.detail;
+  const truth::Record first = Measure(experiment, 3, 1);
   EXPECT_EQ(first.values.size(), experiment.schema().size());
-  EXPECT_EQ(ValueOf(experiment, first, "distance_m"), 5.0);
-  EXPECT_EQ(ValueOf(experiment, first, "measurements"), 2.0);
-  EXPECT_EQ(ValueOf(experiment, first, "published_found"), 2.0);
-  EXPECT_LT(ValueOf(experiment, first, "published_orientation_error_deg") / 2.0, 100.0);
+  EXPECT_EQ(ValueOf(experiment.schema(), first, "distance_m"), 5.0);
+  EXPECT_EQ(ValueOf(experiment.schema(), first, "measurements"), 2.0);
+  EXPECT_EQ(ValueOf(experiment.schema(), first, "published_found"), 2.0);
+  EXPECT_LT(ValueOf(experiment.schema(), first, "published_orientation_error_deg") / 2.0, 100.0);
   EXPECT_EQ(first.values, experiment.Run(3, 1).values);
   EXPECT_NE(first.values, experiment.Run(4, 1).values);
 }
@@ -174,8 +162,8 @@ TEST(CylinderSighting, WithoutACylinderNothingIsRight) {
   params.present = false;
   const CylinderSightingExperiment experiment(params);
   const truth::Record record = experiment.Run(1, 0);
-  EXPECT_EQ(ValueOf(experiment, record, "published_right"), 0.0);
-  EXPECT_EQ(ValueOf(experiment, record, "robust_right"), 0.0);
+  EXPECT_EQ(ValueOf(experiment.schema(), record, "published_right"), 0.0);
+  EXPECT_EQ(ValueOf(experiment.schema(), record, "robust_right"), 0.0);
 }
 
 // A rover before the lander's mast, as in scenarios/cylinder/views.json, at 7 to 15 m.
@@ -205,8 +193,9 @@ TEST(CylinderSighting, TheBestPlaceIsFoundBesideALocalMinimum) {
   const CylinderSightingExperiment experiment(FarViews());
   for (const std::int64_t trial : {281, 2844}) {
     const truth::Record record = experiment.Run(3, trial);
-    EXPECT_EQ(ValueOf(experiment, record, "robust_right"), 1.0) << trial;
-    EXPECT_LT(std::abs(ValueOf(experiment, record, "robust_orientation_bias_deg")), 5.0) << trial;
+    EXPECT_EQ(ValueOf(experiment.schema(), record, "robust_right"), 1.0) << trial;
+    EXPECT_LT(std::abs(ValueOf(experiment.schema(), record, "robust_orientation_bias_deg")), 5.0)
+        << trial;
   }
 }
 
@@ -218,8 +207,8 @@ TEST(CylinderSighting, FarErrorsAreAsStated) {
   double right = 0.0;
   for (std::int64_t trial = 0; trial < 27; ++trial) {
     const truth::Record record = experiment.Run(6, trial);
-    squares += ValueOf(experiment, record, "robust_nees");
-    right += ValueOf(experiment, record, "robust_right");
+    squares += ValueOf(experiment.schema(), record, "robust_nees");
+    right += ValueOf(experiment.schema(), record, "robust_right");
   }
   EXPECT_GE(right, 20.0);
   EXPECT_GT(squares / right, 1.0);

@@ -12,7 +12,6 @@
 
 #include "core/refusals.h"
 #include "experiments/hazard_scenarios.h"
-#include "experiments/scenario_experiment.h"
 #include "scenario/load.h"
 #include "statistics/straight_drift.h"
 #include "truth/measurement_record.h"
@@ -80,8 +79,7 @@ TEST(DeadReckoningTest, RunsGoRoundTheCellsAndNameTheirFactors) {
   const truth::RecordSchema& schema = experiment->schema();
   EXPECT_TRUE(truth::IsMeasurement(schema));
   for (std::uint64_t run = 0; run < 10; ++run) {
-    const truth::Record record = experiment->Run(1, run);
-    ASSERT_EQ(record.outcome, truth::TrialOutcome::kMeasured) << record.detail;
+    const truth::Record record = Measure(*experiment, 1, run);
     ASSERT_EQ(record.values.size(), schema.size());
     const auto cell = static_cast<double>(run % 8);
     EXPECT_EQ(record.values[0], cell);

@@ -13,7 +13,6 @@
 #include "experiments/designation/range_law.h"
 #include "experiments/scenario_experiment.h"
 #include "scenario/shipped.h"
-#include "statistics/drive_summary.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -31,18 +30,15 @@ class Cell {
  public:
   explicit Cell(double range_m, const std::vector<std::string>& overrides = {},
                 std::int64_t count = 40000) {
-    std::vector<std::string> all = {"designation.ranges_m=[" + std::to_string(range_m) + "]",
-                                    "designation.designations_per_run=" + std::to_string(count)};
-    all.insert(all.end(), overrides.begin(), overrides.end());
-    const auto experiment = MakeExperiment(Study(all));
+    const auto experiment =
+        MakeExperiment(Study(With({"designation.ranges_m=[" + std::to_string(range_m) + "]",
+                                   "designation.designations_per_run=" + std::to_string(count)},
+                                  overrides)));
     schema_ = experiment->schema();
-    record_ = experiment->Run(1, 0);
-    EXPECT_EQ(record_.outcome, truth::TrialOutcome::kMeasured) << record_.detail;
+    record_ = Measure(*experiment, 1, 0);
   }
 
-  double operator[](const std::string& column) const {
-    return record_.values.at(statistics::ColumnIndex(schema_, column).value());
-  }
+  double operator[](const std::string& column) const { return ValueOf(schema_, record_, column); }
   double Mean(const std::string& column) const { return (*this)[column] / (*this)["found"]; }
   // Standard deviation from a column of sums and one of squares.
   double Sd(const std::string& sum, const std::string& squares) const {
@@ -252,10 +248,7 @@ TEST(DesignationTest, GoesByCellSeedAndNothingElse) {
   const auto experiment = MakeExperiment(Study({"designation.designations_per_run=50"}));
   const truth::Record a = experiment->Run(3, 14);
   experiment->Run(3, 5);
-  const truth::Record b = experiment->Run(3, 14);
-  for (std::size_t i = 0; i < experiment->schema().size(); ++i) {
-    EXPECT_EQ(a.values.at(i), b.values.at(i));
-  }
+  EXPECT_EQ(a.values, experiment->Run(3, 14).values);
   // 12 cells: run 14 is of the third, 3 m.
   EXPECT_EQ(a.values.at(0), 2.0);
   EXPECT_EQ(a.values.at(1), 3.0);

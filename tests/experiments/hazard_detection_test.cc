@@ -55,36 +55,31 @@ TEST(HazardScenarioTest, BadScenariosSayWhatIsWrong) {
 TEST(HazardScenarioTest, FactorsKeepTheBoundsOfTheirParameters) {
   const std::vector<std::string> images{"hazard_detection.study=false_alarm",
                                         "sensors.light_stripe.fidelity=image"};
-  const auto with = [](std::vector<std::string> all, const std::string& more) {
-    all.push_back(more);
-    return all;
-  };
-  EXPECT_EQ(ProblemsOf(with(images, "hazard_detection.laser_powers_w=[1e-6, 100]")), "");
+  EXPECT_EQ(ProblemsOf(With(images, {"hazard_detection.laser_powers_w=[1e-6, 100]"})), "");
   for (const char* bad :
        {"hazard_detection.laser_powers_w=[0]", "hazard_detection.laser_powers_w=[101]",
         "hazard_detection.sun_elevations_deg=[-1]", "hazard_detection.sun_elevations_deg=[91]"}) {
-    EXPECT_NE(ProblemsOf(with(images, bad)), "") << bad;
+    EXPECT_NE(ProblemsOf(With(images, {bad})), "") << bad;
   }
   for (const char* bad : {"hazard_detection.wrong_place_probabilities=[1.1]",
                           "hazard_detection.outlier_persistences=[1]"}) {
     EXPECT_NE(ProblemsOf({"hazard_detection.study=false_alarm", bad}), "") << bad;
   }
   const std::vector<std::string> fields{"hazard_detection.study=missed"};
-  EXPECT_EQ(ProblemsOf(with(fields, "hazard_detection.rock_k_per_m2=[0.02]")), "");
-  EXPECT_THAT(ProblemsOf(with(fields, "hazard_detection.rock_k_per_m2=[0.03]")),
+  EXPECT_EQ(ProblemsOf(With(fields, {"hazard_detection.rock_k_per_m2=[0.02]"})), "");
+  EXPECT_THAT(ProblemsOf(With(fields, {"hazard_detection.rock_k_per_m2=[0.03]"})),
               HasSubstr("larger than terrain.rocks.k_reference_per_m2"));
   EXPECT_THAT(ProblemsOf({"terrain.rocks.k_reference_per_m2=0.1", "hazard_detection.study=missed",
                           "hazard_detection.rock_k_per_m2=[0.2]"}),
               HasSubstr("hazard_detection.rock_k_per_m2"));
-  EXPECT_THAT(ProblemsOf(with(fields, "terrain.rocks.kind=uniform_count")), HasSubstr("kind"));
+  EXPECT_THAT(ProblemsOf(With(fields, {"terrain.rocks.kind=uniform_count"})), HasSubstr("kind"));
 }
 
 // Everything that would leave cells without a point: emitters whose stripes the other camera sees,
 // emitters that stand off the cameras' axis, layouts that cannot work, planes out of reach.
 TEST(HazardScenarioTest, PrecisionCellsWithoutPointsAreErrors) {
-  const auto problems = [](std::vector<std::string> overrides) {
-    overrides.push_back("hazard_detection.study=precision");
-    return ProblemsOf(overrides);
+  const auto problems = [](const std::vector<std::string>& overrides) {
+    return ProblemsOf(With(overrides, {"hazard_detection.study=precision"}));
   };
   EXPECT_EQ(problems({"hazard_detection.baselines_m=[0.05, 0.12]"}), "");
   EXPECT_THAT(problems({"hazard_detection.baselines_m=[0.049]"}),
@@ -128,8 +123,7 @@ TEST(HazardDetectionTest, RunsGoRoundTheCellsAndNameTheirFactors) {
   EXPECT_TRUE(truth::IsMeasurement(schema));
   std::set<std::pair<double, double>> met;
   for (std::uint64_t run = 0; run < 6; ++run) {
-    const truth::Record record = experiment->Run(1, run);
-    EXPECT_EQ(record.outcome, truth::TrialOutcome::kMeasured) << record.detail;
+    const truth::Record record = Measure(*experiment, 1, run);
     EXPECT_EQ(record.values.front(), static_cast<double>(run));
     EXPECT_EQ(ValueOf(schema, record, "scenes"), 3.0);
     met.insert({ValueOf(schema, record, "height_m"), ValueOf(schema, record, "distance_m")});

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -88,14 +87,8 @@ TEST(HazardDriveTest, NoRockTakesTheCreditForAnotherOne) {
          "hazard_detection.first_scan_m=2", "hazard_detection.rock_k_per_m2=[" + k_per_m2 + "]"});
     const auto experiment = MakeExperiment(scenario);
     const truth::Record record = experiment->Run(1, 0);
-    const auto value = [&](std::string_view name) {
-      const truth::RecordSchema& schema = experiment->schema();
-      const auto at = std::find_if(schema.begin(), schema.end(),
-                                   [&](const truth::ValueInfo& info) { return info.name == name; });
-      return record.values.at(static_cast<std::size_t>(at - schema.begin()));
-    };
-    const double hazards = value("hazards");
-    return std::pair(value("missed") / hazards, hazards);
+    const double hazards = ValueOf(experiment->schema(), record, "hazards");
+    return std::pair(ValueOf(experiment->schema(), record, "missed") / hazards, hazards);
   };
   const auto [few, few_hazards] = missed("0.00415");
   const auto [many, many_hazards] = missed("0.013");

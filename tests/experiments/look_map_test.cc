@@ -67,7 +67,7 @@ TEST(LookMapTest, GestaltMarksAStepWhereItLiesInR) {
 }
 
 TEST(LookMapTest, ANavigatorWithoutAMapIsRefused) {
-  navigation::NavigatorSet set = navigation::StandardNavigators();
+  const navigation::NavigatorSet set = navigation::StandardNavigators();
   EXPECT_THROW(MapOfLook(set.Named("pathfinder"), GroundWithStep(0.3)), std::runtime_error);
 }
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -37,10 +36,9 @@ MissionCourse RunMission(const scenario::Scenario& scenario, core::TrialKey key 
 
 // Empty hard ground, sensors without errors, goals told as they are, nobody who looks.
 Overrides Perfect(const Overrides& more = {}) {
-  Overrides overrides{"mission.goals.x_m=[4.5, 4.5, 1.5]", "mission.goals.y_m=[0, 2, 2]",
-                      "mission.sols=5", "mission.lander_update=none"};
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  return overrides;
+  return With({"mission.goals.x_m=[4.5, 4.5, 1.5]", "mission.goals.y_m=[0, 2, 2]", "mission.sols=5",
+               "mission.lander_update=none"},
+              more);
 }
 
 TEST(SolKeyTest, EverySolOfEveryMissionHasAKeyOfItsOwn) {
@@ -107,26 +105,24 @@ TEST(MissionTest, AnErrorlessRoverReachesEveryGoal) {
 
 // The drive of the second sol, by hand: from the place of the first evening, by what was believed.
 TEST(MissionTest, ANightChangesNeitherPlaceNorBelief) {
-  const scenario::Scenario scenario =
-      Load("tour", {"mission.lander_update=none", "mission.sols=2", "mission.goals.x_m=[4.5, 7]",
-                    "mission.goals.y_m=[0, 2]"});
-  const MissionCourse course = RunMission(scenario);
+  const auto run = [](const Overrides& more) {
+    const Overrides two_goals{"mission.lander_update=none", "mission.goals.x_m=[4.5, 7]",
+                              "mission.goals.y_m=[0, 2]"};
+    return RunMission(Load("tour", With(two_goals, more)));
+  };
+  const MissionCourse course = run({"mission.sols=2"});
   ASSERT_EQ(course.sols.size(), 2U);
   ASSERT_TRUE(course.sols[0].believed_reached);
   const Sol& evening = course.sols[0];
   EXPECT_GT(evening.PositionError_m(), 0.0);
 
   // Goals that come later change nothing of the first drive.
-  const MissionCourse shorter =
-      RunMission(Load("tour", {"mission.lander_update=none", "mission.sols=1",
-                               "mission.goals.x_m=[4.5, 7]", "mission.goals.y_m=[0, 2]"}));
+  const MissionCourse shorter = run({"mission.sols=1"});
   EXPECT_EQ(shorter.sols[0].truth.x_m, evening.truth.x_m);
   EXPECT_EQ(shorter.sols[0].believed.heading_rad, evening.believed.heading_rad);
 
   // Without a command nothing moves: what was, is, to the last bit.
-  const MissionCourse waiting = RunMission(
-      Load("tour", {"mission.lander_update=none", "mission.sols=3", "mission.day.planning_h=24",
-                    "mission.goals.x_m=[4.5, 7]", "mission.goals.y_m=[0, 2]"}));
+  const MissionCourse waiting = run({"mission.sols=3", "mission.day.planning_h=24"});
   ASSERT_EQ(waiting.sols.size(), 3U);
   EXPECT_EQ(waiting.sols[1].end, SolEnd::kNoCommand);
   EXPECT_EQ(waiting.sols[1].distance_m, 0.0);
@@ -194,10 +190,11 @@ TEST(MissionTest, EnergyClosesEverySol) {
 
 TEST(MissionTest, ARoverWithoutBatteriesDrivesWhileTheSunCarriesIt) {
   const Overrides far{"mission.goals.x_m=[40]", "mission.goals.y_m=[0]", "mission.sols=1"};
-  const MissionCourse full = RunMission(Load("level", Perfect(far)));
-  Overrides dead = far;
-  dead.push_back("mission.power.battery_wh=0");
-  const MissionCourse sunlit = RunMission(Load("level", Perfect(dead)));
+  const auto drive = [&](const Overrides& more) {
+    return RunMission(Load("level", Perfect(With(far, more))));
+  };
+  const MissionCourse full = drive({});
+  const MissionCourse sunlit = drive({"mission.power.battery_wh=0"});
   EXPECT_EQ(full.sols[0].end, SolEnd::kTime);
   EXPECT_EQ(sunlit.sols[0].end, SolEnd::kTime);
   EXPECT_NEAR(full.sols[0].drive_time_s, 4.0 * 3600.0, 30.0);
@@ -207,13 +204,11 @@ TEST(MissionTest, ARoverWithoutBatteriesDrivesWhileTheSunCarriesIt) {
   EXPECT_LT(sunlit.sols[0].energy.sleep_wh, 0.9 * full.sols[0].energy.sleep_wh);
 
   // 14 W at noon carry 13.67 W for less than two hours.
-  dead.push_back("mission.power.noon_W=14");
-  const MissionCourse dim = RunMission(Load("level", Perfect(dead)));
+  const MissionCourse dim = drive({"mission.power.battery_wh=0", "mission.power.noon_W=14"});
   EXPECT_EQ(dim.sols[0].end, SolEnd::kTime);
   EXPECT_GT(dim.sols[0].drive_time_s, 3600.0);
   EXPECT_LT(dim.sols[0].drive_time_s, 2.0 * 3600.0);
-  dead.back() = "mission.power.noon_W=13";
-  const MissionCourse none = RunMission(Load("level", Perfect(dead)));
+  const MissionCourse none = drive({"mission.power.battery_wh=0", "mission.power.noon_W=13"});
   EXPECT_EQ(none.end, MissionEnd::kNoPower);
   EXPECT_TRUE(none.sols.empty());
 }
@@ -248,15 +243,14 @@ TEST(MissionTest, DustTakesItsShareOfTheSun) {
 TEST(MissionTest, DaysAreAsLongAsPublished) {
   const Overrides far{"mission.goals.x_m=[110]", "mission.goals.y_m=[0]", "mission.sols=1",
                       "terrain.arena.length_m=150"};
-  const double scans_m = RunMission(Load("level", Perfect(far))).sols[0].distance_m;
+  const auto distance_m = [&](const Overrides& more) {
+    return RunMission(Load("level", Perfect(With(far, more)))).sols[0].distance_m;
+  };
+  const double scans_m = distance_m({});
   EXPECT_GT(scans_m, 28.0);
   EXPECT_LT(scans_m, 40.0);
-  Overrides hour = far;
-  hour.push_back("mission.day.window_h=1");
-  EXPECT_NEAR(RunMission(Load("level", Perfect(hour))).sols[0].distance_m, 7.9, 0.15);
-  Overrides no_stops = far;
-  no_stops.insert(no_stops.end(), {"clock.scan_time_s=0", "clock.scan_fixed_s=0"});
-  const double without_m = RunMission(Load("level", Perfect(no_stops))).sols[0].distance_m;
+  EXPECT_NEAR(distance_m({"mission.day.window_h=1"}), 7.9, 0.15);
+  const double without_m = distance_m({"clock.scan_time_s=0", "clock.scan_fixed_s=0"});
   EXPECT_GT(without_m, 90.0);
   EXPECT_LT(without_m, 0.0067 * 14400.0 + 0.1);
 }
@@ -299,10 +293,9 @@ TEST(MissionStatisticsTest, TheLanderKeepsAnErrorFromGrowing) {
   double with_m = 0.0;
   double without_m = 0.0;
   for (std::uint32_t i = 0; i < 10; ++i) {
-    Overrides overrides = Perfect(wild);
-    const MissionCourse blind = RunMission(Load("level", overrides), {5, i});
-    overrides.push_back("mission.lander_update=evening");
-    const MissionCourse seen = RunMission(Load("level", overrides), {5, i});
+    const MissionCourse blind = RunMission(Load("level", Perfect(wild)), {5, i});
+    const MissionCourse seen =
+        RunMission(Load("level", With(Perfect(wild), {"mission.lander_update=evening"})), {5, i});
     // The same first drive.
     EXPECT_EQ(seen.sols[0].unaided_error_m, blind.sols[0].PositionError_m());
     EXPECT_EQ(seen.sols[0].sight, LanderSight::kFound);
@@ -391,11 +384,7 @@ TEST(MissionExperimentTest, SolsAddUpToTheirMission) {
   const auto experiment = MakeExperiment(scenario);
   const truth::Record record = experiment->Run(2, 7);
   const auto value = [&](const std::string& name) {
-    for (std::size_t i = 0; i < experiment->schema().size(); ++i) {
-      if (experiment->schema()[i].name == name) return record.values[i];
-    }
-    ADD_FAILURE() << name;
-    return std::numeric_limits<double>::quiet_NaN();
+    return ValueOf(experiment->schema(), record, name);
   };
   for (const std::string name : {"distance_m", "sun_wh", "battery_wh", "drive_wh", "scan_wh",
                                  "idle_wh", "transmit_wh", "sleep_wh", "sun_available_wh"}) {

@@ -29,13 +29,9 @@ inline RenderedMotions MeasureMotions(const std::string& source, std::uint64_t r
       MakeExperiment(scenario::Shipped("visual_odometry/steps_hazcam", overrides));
   RenderedMotions motions;
   for (std::uint64_t run = 0; run < runs; ++run) {
-    const truth::Record record = experiment->Run(kSeed, run);
-    EXPECT_EQ(record.outcome, truth::TrialOutcome::kMeasured) << record.detail;
-    for (std::size_t i = 0; i < experiment->schema().size(); ++i) {
-      if (experiment->schema()[i].name == "found")
-        motions.found += static_cast<int>(record.values[i]);
-      if (experiment->schema()[i].name == "nees") motions.nees += record.values[i];
-    }
+    const truth::Record record = Measure(*experiment, kSeed, run);
+    motions.found += static_cast<int>(ValueOf(experiment->schema(), record, "found"));
+    motions.nees += ValueOf(experiment->schema(), record, "nees");
   }
   return motions;
 }

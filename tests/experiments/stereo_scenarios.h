@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/hazard_scenarios.h"
 #include "experiments/scenario_experiment.h"
 #include "scenario/shipped.h"
 #include "truth/record.h"
@@ -32,8 +31,7 @@ class StereoCounts {
     schema_ = experiment->schema();
     sums_.assign(schema_.size(), 0.0);
     for (std::uint64_t run = 0; run < runs; ++run) {
-      const truth::Record record = experiment->Run(seed, run);
-      EXPECT_EQ(record.outcome, truth::TrialOutcome::kMeasured) << record.detail;
+      const truth::Record record = Measure(*experiment, seed, run);
       for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += record.values.at(i);
     }
   }

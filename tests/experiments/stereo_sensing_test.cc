@@ -68,6 +68,11 @@ TEST(StereoSensingParamsTest, ShippedTablesHaveWholeRounds) {
   EXPECT_GE(files, 4U);
 }
 
+// Over the first runs of a sensor that errs in what the overrides say, and in nothing else.
+StereoCounts CountsOf(const std::vector<std::string>& overrides, std::uint64_t runs) {
+  return {StereoScenario("range", With(kWithoutErrors, overrides)), runs};
+}
+
 TEST(StereoSensingTest, RunsGoRoundTheCellsAndNameTheirFactors) {
   const auto experiment = MakeExperiment(StereoScenario(
       "range",
@@ -79,8 +84,7 @@ TEST(StereoSensingTest, RunsGoRoundTheCellsAndNameTheirFactors) {
   EXPECT_TRUE(truth::IsMeasurement(schema));
   std::set<std::vector<double>> met;
   for (std::uint64_t run = 0; run < 16; ++run) {
-    const truth::Record record = experiment->Run(1, run);
-    EXPECT_EQ(record.outcome, truth::TrialOutcome::kMeasured) << record.detail;
+    const truth::Record record = Measure(*experiment, 1, run);
     EXPECT_EQ(record.values.front(), static_cast<double>(run));
     ASSERT_EQ(record.values.size(), schema.size());
     std::vector<double> factors;
@@ -95,7 +99,7 @@ TEST(StereoSensingTest, RunsGoRoundTheCellsAndNameTheirFactors) {
 }
 
 TEST(StereoSensingTest, WithoutErrorsEveryPixelIsMatchedAsItIs) {
-  const StereoCounts counts(StereoScenario("range", kWithoutErrors), 4);
+  const StereoCounts counts = CountsOf({}, 4);
   EXPECT_EQ(counts["looks"], 4.0);
   EXPECT_GT(counts["pixels"], 4.0 * 3000.0);
   EXPECT_EQ(counts["good"], counts["pixels"]);
@@ -124,10 +128,8 @@ TEST(StereoSensingTest, WithoutErrorsEveryPixelIsMatchedAsItIs) {
 // sigma comes back, and r Z sigma / (f B) with it. Errors of neighbours are those of windows of 5:
 // 1 - k / 5.
 TEST(StereoSensingTest, GivesBackTheNoiseOfTheErrorModel) {
-  const StereoCounts counts(
-      StereoScenario("range", With(kWithoutErrors, {"sensors.stereo.disparity_noise_px=0.1",
-                                                    "sensors.stereo.noise_window_px=5"})),
-      12);
+  const StereoCounts counts =
+      CountsOf({"sensors.stereo.disparity_noise_px=0.1", "sensors.stereo.noise_window_px=5"}, 12);
   // 12 looks of some 7000 pixels, of which 25 count as one: the deviation of a variance is
   // sqrt(2 / 3400) = 2.4 %, and more by overlapping windows; alpha = 1e-4 is 3.9 of 3.5 %.
   const double variance = counts["error_px"] / counts["good"];
@@ -146,13 +148,11 @@ TEST(StereoSensingTest, GivesBackTheNoiseOfTheErrorModel) {
 }
 
 TEST(StereoSensingTest, GivesBackDropoutsByTheirPlace) {
-  const StereoCounts counts(
-      StereoScenario("range", With(kWithoutErrors, {"sensors.stereo.dropout_probability=0.1",
-                                                    "sensors.stereo.edge_dropout_probability=0.5",
-                                                    "sensors.stereo.shadow_dropout_probability=0.4",
-                                                    "sensors.stereo.margin_px=3",
-                                                    // The end of the range is a jump to the model.
-                                                    "stereo_sensing.distances_m=[0.5, 3.5]"})),
+  const StereoCounts counts = CountsOf(
+      {"sensors.stereo.dropout_probability=0.1", "sensors.stereo.edge_dropout_probability=0.5",
+       "sensors.stereo.shadow_dropout_probability=0.4", "sensors.stereo.margin_px=3",
+       // The end of the range is a jump to the model.
+       "stereo_sensing.distances_m=[0.5, 3.5]"},
       12);
   const auto lost = [&](const std::string& kind) {
     return 1.0 - counts[kind + "_good"] / counts[kind + "_pixels"];
@@ -177,9 +177,8 @@ TEST(StereoSensingTest, GivesBackDropoutsByTheirPlace) {
 
 // A share of what lies beside an edge takes the disparity across: a jump of 1 px and more.
 TEST(StereoSensingTest, GivesBackHowEdgesAreMixedUp) {
-  const StereoCounts counts(
-      StereoScenario("range", With(kWithoutErrors, {"sensors.stereo.edge_mismatch_probability=0.4",
-                                                    "stereo_sensing.distances_m=[0.5, 3.5]"})),
+  const StereoCounts counts = CountsOf(
+      {"sensors.stereo.edge_mismatch_probability=0.4", "stereo_sensing.distances_m=[0.5, 3.5]"},
       12);
   for (const std::string side : {"front", "behind"}) {
     const double limit = 3.9 * std::sqrt(0.24 / counts[side + "_pixels"]);  // alpha = 1e-4
@@ -194,9 +193,7 @@ TEST(StereoSensingTest, GivesBackHowEdgesAreMixedUp) {
 }
 
 TEST(StereoSensingTest, WrongMatchesAreCountedApart) {
-  const StereoCounts counts(
-      StereoScenario("range", With(kWithoutErrors, {"sensors.stereo.mismatch_probability=0.05"})),
-      6);
+  const StereoCounts counts = CountsOf({"sensors.stereo.mismatch_probability=0.05"}, 6);
   // Uniform over 15.5 px: 2 px of it are within 1 px of the truth, less where its end is near.
   const double share = counts["wrong"] / counts["matched"];
   EXPECT_GT(share, 0.05 * (1.0 - 2.0 / 15.5) - 0.004);
@@ -219,11 +216,9 @@ TEST(StereoSensingTest, ARunIsAFunctionOfSeedAndIndexAlone) {
 
 // Looks of a run are those of as many runs of one look each: terrains and places of their own.
 TEST(StereoSensingTest, EveryLookHasASceneOfItsOwn) {
-  const StereoCounts two(
-      StereoScenario("range", With(kWithoutErrors, {"stereo_sensing.looks_per_run=2"})), 1);
-  const scenario::Scenario single = StereoScenario("range", kWithoutErrors);
-  const StereoCounts first(single, 1);
-  const StereoCounts both(single, 2);
+  const StereoCounts two = CountsOf({"stereo_sensing.looks_per_run=2"}, 1);
+  const StereoCounts first = CountsOf({}, 1);
+  const StereoCounts both = CountsOf({}, 2);
   EXPECT_EQ(two["pixels"], both["pixels"]);
   EXPECT_NE(two["pixels"], 2.0 * first["pixels"]);
 }
@@ -231,11 +226,9 @@ TEST(StereoSensingTest, EveryLookHasASceneOfItsOwn) {
 // On bare ground every look has the same truth; its noise is another one.
 TEST(StereoSensingTest, EveryLookHasNoiseOfItsOwn) {
   const auto looks = [](const std::string& number) {
-    return StereoCounts(
-        StereoScenario("range", With(kWithoutErrors, {"sensors.stereo.disparity_noise_px=0.1",
-                                                      "terrain.rocks.kind=none",
-                                                      "stereo_sensing.looks_per_run=" + number})),
-        1);
+    return CountsOf({"sensors.stereo.disparity_noise_px=0.1", "terrain.rocks.kind=none",
+                     "stereo_sensing.looks_per_run=" + number},
+                    1);
   };
   const StereoCounts one = looks("1");
   const StereoCounts two = looks("2");
@@ -244,20 +237,19 @@ TEST(StereoSensingTest, EveryLookHasNoiseOfItsOwn) {
 }
 
 TEST(StereoSensingTest, FactorsReachTheCameras) {
-  const auto counts = [](const std::vector<std::string>& overrides) {
-    return StereoCounts(StereoScenario("range", With(kWithoutErrors, overrides)), 4);
-  };
   // A pixel stands for r^2 / (f B): of half the baseline twice as much, four times its square. The
   // bins are those that both search.
   const auto step2 = [&](const std::string& baseline_m) {
-    const StereoCounts of = counts(
-        {"stereo_sensing.baselines_m=[" + baseline_m + "]", "stereo_sensing.distances_m=[1, 1.5]"});
+    const StereoCounts of = CountsOf(
+        {"stereo_sensing.baselines_m=[" + baseline_m + "]", "stereo_sensing.distances_m=[1, 1.5]"},
+        4);
     return of["axis_step_m"] / of["good"];
   };
   EXPECT_NEAR(step2("0.06") / step2("0.12"), 4.0, 0.4);
   // Shadows of a low sun are longer.
   const auto shaded = [&](const std::string& elevation_deg) {
-    const StereoCounts of = counts({"stereo_sensing.sun_elevations_deg=[" + elevation_deg + "]"});
+    const StereoCounts of =
+        CountsOf({"stereo_sensing.sun_elevations_deg=[" + elevation_deg + "]"}, 4);
     return of["shadow_pixels"] / of["pixels"];
   };
   EXPECT_GT(shaded("10"), 2.0 * shaded("80"));

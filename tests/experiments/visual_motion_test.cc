@@ -26,8 +26,7 @@ scenario::Scenario Steps(const std::vector<std::string>& overrides) {
 std::map<std::string, double> SumsOf(const Experiment& experiment, std::uint64_t count) {
   std::map<std::string, double> sums;
   for (std::uint64_t run = 0; run < count; ++run) {
-    const truth::Record record = experiment.Run(1, run);
-    EXPECT_EQ(record.outcome, truth::TrialOutcome::kMeasured) << record.detail;
+    const truth::Record record = Measure(experiment, 1, run);
     for (std::size_t i = 0; i < experiment.schema().size(); ++i) {
       sums[experiment.schema()[i].name] += record.values[i];
     }

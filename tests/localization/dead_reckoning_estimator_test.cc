@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "math/pose.h"
 
@@ -33,55 +32,57 @@ messages::VehicleState NoseDown(double pitch_rad) {
   return felt;
 }
 
-TEST(DeadReckoningEstimator, BeginsWhereItWasPutDown) {
-  const DeadReckoningEstimator estimator(StartSetup());
-  EXPECT_EQ(estimator.estimate().pose.x_m, 1.0);
-  EXPECT_EQ(estimator.estimate().odometry.y_m, 2.0);
-  EXPECT_EQ(estimator.estimate().pose.heading_rad, 0.5);
-  EXPECT_FALSE(estimator.estimate().covariance.has_value());
+class DeadReckoningEstimatorTest : public testing::Test {
+ protected:
+  // The believed height after a tick with the nose down.
+  double TickDown(double wheel_turn_rad) {
+    estimator_.Propagate(Rolling(wheel_turn_rad));
+    estimator_.Feel(NoseDown(0.2), kTick_s);
+    return estimator_.estimate().attitude.z_m;
+  }
+
+  DeadReckoningEstimator estimator_{StartSetup()};
+};
+
+TEST_F(DeadReckoningEstimatorTest, BeginsWhereItWasPutDown) {
+  EXPECT_EQ(estimator_.estimate().pose.x_m, 1.0);
+  EXPECT_EQ(estimator_.estimate().odometry.y_m, 2.0);
+  EXPECT_EQ(estimator_.estimate().pose.heading_rad, 0.5);
+  EXPECT_FALSE(estimator_.estimate().covariance.has_value());
 }
 
-TEST(DeadReckoningEstimator, IsTheDeadReckoningOfItsSetup) {
-  DeadReckoningEstimator estimator(StartSetup());
+TEST_F(DeadReckoningEstimatorTest, IsTheDeadReckoningOfItsSetup) {
   DeadReckoning alone({}, {}, {1.0, 2.0, 0.5});
   for (int i = 0; i < 20; ++i) {
     const messages::MotionMeasurement motion = Rolling(0.3, 0.02 * i);
-    estimator.Propagate(motion);
+    estimator_.Propagate(motion);
     alone.Integrate(motion);
   }
-  EXPECT_EQ(estimator.estimate().pose.x_m, alone.estimate().x_m);
-  EXPECT_EQ(estimator.estimate().pose.heading_rad, alone.estimate().heading_rad);
-  EXPECT_EQ(estimator.estimate().pose.distance_m, alone.estimate().distance_m);
-  EXPECT_EQ(estimator.estimate().odometry.x_m, alone.estimate().x_m);
-  EXPECT_EQ(estimator.estimate().odometry.distance_m, alone.estimate().distance_m);
+  EXPECT_EQ(estimator_.estimate().pose.x_m, alone.estimate().x_m);
+  EXPECT_EQ(estimator_.estimate().pose.heading_rad, alone.estimate().heading_rad);
+  EXPECT_EQ(estimator_.estimate().pose.distance_m, alone.estimate().distance_m);
+  EXPECT_EQ(estimator_.estimate().odometry.x_m, alone.estimate().x_m);
+  EXPECT_EQ(estimator_.estimate().odometry.distance_m, alone.estimate().distance_m);
 }
 
-TEST(DeadReckoningEstimator, WithoutAccelerometersTheRoverIsLevel) {
-  DeadReckoningEstimator estimator(StartSetup());
-  estimator.Propagate(Rolling(1.0));
-  estimator.Feel({}, kTick_s);
-  EXPECT_EQ(estimator.estimate().attitude.pitch_rad, 0.0);
-  EXPECT_EQ(estimator.estimate().attitude.z_m, 0.0);
+TEST_F(DeadReckoningEstimatorTest, WithoutAccelerometersTheRoverIsLevel) {
+  estimator_.Propagate(Rolling(1.0));
+  estimator_.Feel({}, kTick_s);
+  EXPECT_EQ(estimator_.estimate().attitude.pitch_rad, 0.0);
+  EXPECT_EQ(estimator_.estimate().attitude.z_m, 0.0);
 }
 
-TEST(DeadReckoningEstimator, AccelerometersLevelTheRover) {
-  DeadReckoningEstimator estimator(StartSetup());
-  estimator.Feel(NoseDown(0.2), kTick_s);
-  EXPECT_NEAR(estimator.estimate().attitude.pitch_rad, 0.2, 1e-12);
-  EXPECT_NEAR(estimator.estimate().attitude.roll_rad, 0.0, 1e-12);
+TEST_F(DeadReckoningEstimatorTest, AccelerometersLevelTheRover) {
+  estimator_.Feel(NoseDown(0.2), kTick_s);
+  EXPECT_NEAR(estimator_.estimate().attitude.pitch_rad, 0.2, 1e-12);
+  EXPECT_NEAR(estimator_.estimate().attitude.roll_rad, 0.0, 1e-12);
 }
 
-TEST(DeadReckoningEstimator, HeightGrowsByWhatWasDrivenSinceTheLastTick) {
-  DeadReckoningEstimator estimator(StartSetup());
-  std::vector<double> heights_m;
-  for (int i = 0; i < 3; ++i) {
-    estimator.Propagate(Rolling(1.0));
-    estimator.Feel(NoseDown(0.2), kTick_s);
-    heights_m.push_back(estimator.estimate().attitude.z_m);
-  }
-  EXPECT_NEAR(heights_m[0], -0.065 * std::sin(0.2), 1e-12);
-  EXPECT_NEAR(heights_m[1], 2.0 * heights_m[0], 1e-12);
-  EXPECT_NEAR(heights_m[2], 3.0 * heights_m[0], 1e-12);
+TEST_F(DeadReckoningEstimatorTest, HeightGrowsByWhatWasDrivenSinceTheLastTick) {
+  const double height_m = TickDown(1.0);
+  EXPECT_NEAR(height_m, -0.065 * std::sin(0.2), 1e-12);
+  EXPECT_NEAR(TickDown(1.0), 2.0 * height_m, 1e-12);
+  EXPECT_NEAR(TickDown(1.0), 3.0 * height_m, 1e-12);
 }
 
 // What the rover felt before says nothing of how it stands now.
@@ -98,32 +99,25 @@ TEST(DeadReckoningEstimator, AttitudeBeginsAnewWhereOperatorsMovedTheRover) {
 }
 
 // Operators set the pose; the rover has not climbed there.
-TEST(DeadReckoningEstimator, APoseUpdateLeavesTheBelievedHeight) {
-  DeadReckoningEstimator estimator(StartSetup());
-  const auto tick = [&](double wheel_turn_rad) {
-    estimator.Propagate(Rolling(wheel_turn_rad));
-    estimator.Feel(NoseDown(0.2), kTick_s);
-    return estimator.estimate().attitude.z_m;
-  };
-  const double before_m = tick(1.0);
+TEST_F(DeadReckoningEstimatorTest, APoseUpdateLeavesTheBelievedHeight) {
+  const double before_m = TickDown(1.0);
   ASSERT_LT(before_m, -0.01);
-  estimator.Place({3.0, -1.0, 0.5});
-  EXPECT_EQ(estimator.estimate().pose.x_m, 3.0);
-  EXPECT_EQ(estimator.estimate().odometry.x_m, 3.0);
-  EXPECT_EQ(estimator.estimate().attitude.z_m, before_m);
-  EXPECT_NEAR(tick(0.0), before_m, 1e-12);
+  estimator_.Place({3.0, -1.0, 0.5});
+  EXPECT_EQ(estimator_.estimate().pose.x_m, 3.0);
+  EXPECT_EQ(estimator_.estimate().odometry.x_m, 3.0);
+  EXPECT_EQ(estimator_.estimate().attitude.z_m, before_m);
+  EXPECT_NEAR(TickDown(0.0), before_m, 1e-12);
   // From here on as before: one roll more is the same step down.
-  EXPECT_NEAR(tick(1.0), 2.0 * before_m, 1e-12);
+  EXPECT_NEAR(TickDown(1.0), 2.0 * before_m, 1e-12);
 }
 
-TEST(DeadReckoningEstimator, TakesNoAids) {
-  DeadReckoningEstimator estimator(StartSetup());
-  estimator.Capture(0);
+TEST_F(DeadReckoningEstimatorTest, TakesNoAids) {
+  estimator_.Capture(0);
   messages::PoseFix fix;
   fix.measured.set();
-  EXPECT_EQ(estimator.Update(fix), AidUse::kNoInterest);
-  EXPECT_EQ(estimator.Update(messages::RelativeMotion{}), AidUse::kNoInterest);
-  EXPECT_EQ(estimator.estimate().pose.x_m, 1.0);
+  EXPECT_EQ(estimator_.Update(fix), AidUse::kNoInterest);
+  EXPECT_EQ(estimator_.Update(messages::RelativeMotion{}), AidUse::kNoInterest);
+  EXPECT_EQ(estimator_.estimate().pose.x_m, 1.0);
 }
 
 }  // namespace

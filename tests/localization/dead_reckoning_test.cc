@@ -5,26 +5,22 @@
 #include <cmath>
 #include <numbers>
 
+#include "localization/filter_rover.h"
+
 namespace rockyard::localization {
 namespace {
 
 using messages::MotionMeasurement;
 
-constexpr double kRadius_m = 0.065;
-
 messages::DriveCalibration Calibration() {
   messages::DriveCalibration calibration;
-  calibration.wheel_radius_m = kRadius_m;
+  calibration.wheel_radius_m = kWheelRadius_m;
   calibration.steered = {true, false, true, true, false, true};
   return calibration;
 }
 
 MotionMeasurement Straight(double distance_m, double turn_rad = 0.0) {
-  MotionMeasurement motion;
-  motion.duration_s = 0.1;
-  motion.wheel_turn_rad.fill(distance_m / kRadius_m);
-  motion.turn_rad = turn_rad;
-  return motion;
+  return Rolled(distance_m, turn_rad, 0.1);
 }
 
 DeadReckoning Make(const DeadReckoningParams& params = {}, const math::Pose2& initial = {}) {
@@ -96,7 +92,7 @@ TEST(DeadReckoningTest, CornerWheelsLengthenArcs) {
   motion.turn_rad = turn;
   motion.wheel_turn_rad = {path(0.25, 0.2),  path(0.0, 0.2),  path(-0.25, 0.2),
                            path(0.25, -0.2), path(0.0, -0.2), path(-0.25, -0.2)};
-  for (double& rad : motion.wheel_turn_rad) rad /= kRadius_m;
+  for (double& rad : motion.wheel_turn_rad) rad /= kWheelRadius_m;
   auto all = Make();
   all.Integrate(motion);
   EXPECT_NEAR(all.estimate().distance_m / (0.75 * turn), 1.038, 0.001);
@@ -118,7 +114,8 @@ MotionMeasurement SteeredWheels(double half_length_m, double half_track_m, doubl
     const double ahead_m = radius_m - y_m;
     const double sign = ahead_m < 0.0 ? -1.0 : 1.0;  // a wheel rolls backwards beyond the centre
     motion.steer_rad[wheel] = std::atan2(sign * x_m[wheel], sign * ahead_m);
-    motion.wheel_turn_rad[wheel] = sign * std::hypot(ahead_m, x_m[wheel]) * turn_rad / kRadius_m;
+    motion.wheel_turn_rad[wheel] =
+        sign * std::hypot(ahead_m, x_m[wheel]) * turn_rad / kWheelRadius_m;
   }
   return motion;
 }

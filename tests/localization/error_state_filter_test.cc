@@ -45,6 +45,16 @@ messages::PoseFix FixOf(int coordinate, messages::CaptureNumber capture, double 
   return fix;
 }
 
+// From the moment 1 to the moment 2.
+messages::RelativeMotion SureMotion(double x_m, double y_m = 0.0, double turn_rad = 0.0) {
+  messages::RelativeMotion motion{.from = 1, .to = 2};
+  motion.motion_F[kX] = x_m;
+  motion.motion_F[kY] = y_m;
+  motion.motion_F[kHeading] = turn_rad;
+  motion.covariance *= 1e-6;
+  return motion;
+}
+
 TEST(ErrorStateFilter, IsDeadReckoningWithoutAids) {
   EstimatorSetup setup = FilterSetup();
   ErrorStateFilter filter({}, setup);
@@ -129,22 +139,14 @@ class MotionAgainstWheels : public testing::Test {
   static void DriveAndJump(ErrorStateFilter& filter) {
     DriveStraight(filter, 0.5);
     filter.Capture(1);
-    messages::MotionMeasurement jump;
-    jump.duration_s = 0.05;
-    jump.turn_rad = 0.5;
-    filter.Propagate(jump);
+    filter.Propagate(Rolled(0.0, 0.5, 0.05));
     DriveStraight(filter, 0.4);
     filter.Capture(2);
     DriveStraight(filter, 0.1);
   }
 
   // It drove straight on, in truth.
-  static messages::RelativeMotion Straight() {
-    messages::RelativeMotion motion{.from = 1, .to = 2};
-    motion.motion_F[kX] = 0.4;
-    motion.covariance *= 1e-6;
-    return motion;
-  }
+  static messages::RelativeMotion Straight() { return SureMotion(0.4); }
 };
 
 TEST_F(MotionAgainstWheels, DoubtsTheWheels) {
@@ -191,11 +193,8 @@ TEST(ErrorStateFilter, LearnsTheHeadingFromWhereAMotionLed) {
   EXPECT_EQ(filter.Update(FixOf(kY, 2, -2.0 + 0.1, 1e-4)), AidUse::kUsed);
   EXPECT_NEAR(filter.estimate().pose.heading_rad, 0.05, 1e-3);
   // In the frame of the first moment it still drove straight ahead, so that this is no news.
-  messages::RelativeMotion motion{.from = 1, .to = 2};
-  motion.motion_F[kX] = 2.0;
-  motion.covariance *= 1e-6;
   const double before = filter.estimate().pose.y_m;
-  EXPECT_EQ(filter.Update(motion), AidUse::kUsed);
+  EXPECT_EQ(filter.Update(SureMotion(2.0)), AidUse::kUsed);
   EXPECT_NEAR(filter.estimate().pose.y_m, before, 1e-3);
 }
 
@@ -206,19 +205,11 @@ TEST(ErrorStateFilter, AMotionSaysNothingOfTheHeadingBeforeIt) {
   params.prior.heading_sd_rad = 0.1;
   ErrorStateFilter filter(params, AlongX());
   filter.Capture(1);
-  messages::MotionMeasurement turn;
-  turn.duration_s = 0.05;
-  turn.turn_rad = math::DegToRad(45.0);
-  filter.Propagate(turn);
+  filter.Propagate(Rolled(0.0, math::DegToRad(45.0), 0.05));
   DriveStraight(filter, 2.0);
   filter.Capture(2);
-  messages::RelativeMotion motion{.from = 1, .to = 2};
   const double aside_m = 2.05 * std::sqrt(0.5);
-  motion.motion_F[kX] = aside_m;
-  motion.motion_F[kY] = aside_m;
-  motion.motion_F[kHeading] = math::DegToRad(45.0);
-  motion.covariance *= 1e-6;
-  EXPECT_EQ(filter.Update(motion), AidUse::kUsed);
+  EXPECT_EQ(filter.Update(SureMotion(aside_m, aside_m, math::DegToRad(45.0))), AidUse::kUsed);
   EXPECT_NEAR(filter.estimate().pose.x_m, 1.0 + aside_m, 1e-3);
   EXPECT_NEAR(filter.estimate().pose.heading_rad, math::DegToRad(45.0), 1e-4);
   EXPECT_NEAR(filter.covariance()(kHeading, kHeading), 0.01, 1e-5);
@@ -268,12 +259,8 @@ class WayBack : public testing::Test {
   WayBack() { DriveStraight(filter_, 1.0); }
 
   AidUse Tell(double x_m, double y_m) {
-    messages::PoseFix fix = FixOf(kX, next_, x_m, 0.02);
-    fix.measured.set(kY);
-    fix.pose_W[kY] = y_m;
-    fix.covariance(kY, kY) = 0.0004;
     filter_.Capture(next_);
-    const AidUse use = filter_.Update(fix);
+    const AidUse use = filter_.Update(PlaceFix(next_, x_m, y_m, 0.02));
     filter_.Forget(next_++);
     return use;
   }

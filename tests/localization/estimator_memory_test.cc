@@ -19,17 +19,6 @@ void DriveInACurve(Estimator& estimator, int ticks) {
   for (int i = 0; i < ticks; ++i) estimator.Propagate(Rolled(0.005, 0.002, 0.05));
 }
 
-messages::PoseFix PlaceFix(double x_m, double y_m, double sd_m) {
-  messages::PoseFix fix;
-  for (const int coordinate : {error::kX, error::kY}) {
-    fix.measured.set(static_cast<std::size_t>(coordinate));
-    fix.covariance(coordinate, coordinate) = sd_m * sd_m;
-  }
-  fix.pose_W[error::kX] = x_m;
-  fix.pose_W[error::kY] = y_m;
-  return fix;
-}
-
 TEST(EstimatorMemoryTest, EstimatorsWithoutAnAccountRememberTheirPose) {
   DeadReckoningEstimator wheels(FilterSetup());
   DriveInACurve(wheels, 100);
@@ -44,52 +33,56 @@ TEST(EstimatorMemoryTest, EstimatorsWithoutAnAccountRememberTheirPose) {
   EXPECT_EQ(vision.Remember().pose.heading_rad, vision.estimate().pose.heading_rad);
 }
 
-TEST(EstimatorMemoryTest, TheFilterGoesOnWhereItWas) {
-  EstimatorSetup setup = FilterSetup();
-  ErrorStateFilter evening(Uncertain(), setup);
-  DriveInACurve(evening, 400);
-  evening.Capture(0);
-  evening.Update(PlaceFix(2.5, -1.2, 0.1));
-  evening.Forget(0);
-  const EstimatorMemory memory = evening.Remember();
-  EXPECT_NE(memory.gyro_scale, 1.0);
-  EXPECT_NE(memory.wheel_scale, 1.0);
+// A filter after a day with one fix, and what it was told at first.
+class FilterMemoryTest : public testing::Test {
+ protected:
+  FilterMemoryTest() {
+    DriveInACurve(evening_, 400);
+    evening_.Capture(0);
+    evening_.Update(PlaceFix(0, 2.5, -1.2, 0.1));
+    evening_.Forget(0);
+    memory_ = evening_.Remember();
+  }
 
-  setup.start = memory.pose;
-  setup.memory = &memory;
-  ErrorStateFilter morning(Uncertain(), setup);
-  EXPECT_EQ(morning.estimate().pose.x_m, evening.estimate().pose.x_m);
-  EXPECT_EQ(morning.estimate().pose.heading_rad, evening.estimate().pose.heading_rad);
-  EXPECT_EQ(morning.gyro_scale(), evening.gyro_scale());
-  EXPECT_EQ(morning.wheel_scale(), evening.wheel_scale());
+  ErrorStateFilter Morning() {
+    EstimatorSetup setup = FilterSetup();
+    setup.start = memory_.pose;
+    setup.memory = &memory_;
+    return {Uncertain(), setup};
+  }
+
+  ErrorStateFilter evening_{Uncertain(), FilterSetup()};
+  const ErrorMatrix first_ = evening_.covariance();
+  EstimatorMemory memory_;
+};
+
+TEST_F(FilterMemoryTest, TheFilterGoesOnWhereItWas) {
+  EXPECT_NE(memory_.gyro_scale, 1.0);
+  EXPECT_NE(memory_.wheel_scale, 1.0);
+  const ErrorStateFilter morning = Morning();
+  EXPECT_EQ(morning.estimate().pose.x_m, evening_.estimate().pose.x_m);
+  EXPECT_EQ(morning.estimate().pose.heading_rad, evening_.estimate().pose.heading_rad);
+  EXPECT_EQ(morning.gyro_scale(), evening_.gyro_scale());
+  EXPECT_EQ(morning.wheel_scale(), evening_.wheel_scale());
   for (const int row :
        {error::kX, error::kY, error::kHeading, error::kGyroScale, error::kWheelScale}) {
     for (const int column :
          {error::kX, error::kY, error::kHeading, error::kGyroScale, error::kWheelScale}) {
-      EXPECT_EQ(morning.covariance()(row, column), evening.covariance()(row, column));
+      EXPECT_EQ(morning.covariance()(row, column), evening_.covariance()(row, column));
     }
   }
 }
 
 // The gyro is switched on anew; tilt and height are of the new day.
-TEST(EstimatorMemoryTest, WhatANightEndsBeginsAsAtFirst) {
-  EstimatorSetup setup = FilterSetup();
-  ErrorStateFilter evening(Uncertain(), setup);
-  const ErrorMatrix first = evening.covariance();
-  DriveInACurve(evening, 400);
-  evening.Capture(0);
-  evening.Update(PlaceFix(2.5, -1.2, 0.1));
-  EXPECT_NE(evening.gyro_bias_rad_s(), 0.0);
-  const EstimatorMemory memory = evening.Remember();
-  setup.memory = &memory;
-  setup.start = memory.pose;
-  const ErrorStateFilter morning(Uncertain(), setup);
+TEST_F(FilterMemoryTest, WhatANightEndsBeginsAsAtFirst) {
+  EXPECT_NE(evening_.gyro_bias_rad_s(), 0.0);
+  const ErrorStateFilter morning = Morning();
   EXPECT_EQ(morning.gyro_bias_rad_s(), 0.0);
   EXPECT_EQ(morning.estimate().pose.distance_m, 0.0);
   for (const int row : {error::kZ, error::kRoll, error::kPitch, error::kGyroBias}) {
     for (int column = 0; column < kErrorCoordinates; ++column) {
-      EXPECT_EQ(morning.covariance()(row, column), first(row, column)) << row << ", " << column;
-      EXPECT_EQ(morning.covariance()(column, row), first(column, row)) << row << ", " << column;
+      EXPECT_EQ(morning.covariance()(row, column), first_(row, column)) << row << ", " << column;
+      EXPECT_EQ(morning.covariance()(column, row), first_(column, row)) << row << ", " << column;
     }
   }
 }

@@ -15,25 +15,25 @@ void Label(benchmark::State& state, const Estimator& estimator) {
   state.SetLabel(core::Hex(hash.value()));
 }
 
-// One tick of 5 mm; every 14th carries the covariance on.
-void BM_Propagate(benchmark::State& state) {
-  ErrorStateFilter filter({}, FilterSetup());
+// One tick of 5 mm.
+template <class AnEstimator>
+void Propagate(benchmark::State& state, AnEstimator estimator) {
+  AnEstimator again = estimator;
   const auto motion = Rolled(0.005, 0.001, 0.05);
-  for (auto _ : state) filter.Propagate(motion);
-  ErrorStateFilter again({}, FilterSetup());
+  for (auto _ : state) estimator.Propagate(motion);
   for (int i = 0; i < 1000; ++i) again.Propagate(motion);
   Label(state, again);
+}
+
+// Every 14th tick carries the covariance on.
+void BM_Propagate(benchmark::State& state) {
+  Propagate(state, ErrorStateFilter({}, FilterSetup()));
 }
 BENCHMARK(BM_Propagate)->Unit(benchmark::kNanosecond);
 
 // As many ticks of the estimator that keeps no account of its error.
 void BM_DeadReckoning(benchmark::State& state) {
-  DeadReckoningEstimator flown(FilterSetup());
-  const auto motion = Rolled(0.005, 0.001, 0.05);
-  for (auto _ : state) flown.Propagate(motion);
-  DeadReckoningEstimator again(FilterSetup());
-  for (int i = 0; i < 1000; ++i) again.Propagate(motion);
-  Label(state, again);
+  Propagate(state, DeadReckoningEstimator(FilterSetup()));
 }
 BENCHMARK(BM_DeadReckoning)->Unit(benchmark::kNanosecond);
 
@@ -41,12 +41,7 @@ BENCHMARK(BM_DeadReckoning)->Unit(benchmark::kNanosecond);
 void BM_EndStretch(benchmark::State& state) {
   ErrorStateFilterParams params;
   params.stretch_m = 0.0;
-  ErrorStateFilter filter(params, FilterSetup());
-  const auto motion = Rolled(0.005, 0.001, 0.05);
-  for (auto _ : state) filter.Propagate(motion);
-  ErrorStateFilter again(params, FilterSetup());
-  for (int i = 0; i < 1000; ++i) again.Propagate(motion);
-  Label(state, again);
+  Propagate(state, ErrorStateFilter(params, FilterSetup()));
 }
 BENCHMARK(BM_EndStretch)->Unit(benchmark::kNanosecond);
 

@@ -38,12 +38,9 @@ Consistency DriveMany(const ErrorStateFilterParams& belief, std::uint64_t seed) 
     for (int i = 0; i < 1200; ++i) {
       filter.Propagate(rover.Drive(0.005, i / 200 % 2 == 0 ? 0.002 : -0.002, 0.05));
       if (i % 400 == 399 && i < 1100) {
-        fix = {};
-        fix.capture = i;
-        fix.measured.set(error::kX).set(error::kY);
-        fix.pose_W[error::kX] = rover.pose().x_m + rover.Normal(kFixSd_m);
-        fix.pose_W[error::kY] = rover.pose().y_m + rover.Normal(kFixSd_m);
-        fix.covariance *= kFixSd_m * kFixSd_m;
+        const double x_m = rover.pose().x_m + rover.Normal(kFixSd_m);
+        const double y_m = rover.pose().y_m + rover.Normal(kFixSd_m);
+        fix = PlaceFix(i, x_m, y_m, kFixSd_m);
         filter.Capture(i);
         const Eigen::Vector2d r(fix.pose_W[0] - filter.estimate().pose.x_m,
                                 fix.pose_W[1] - filter.estimate().pose.y_m);

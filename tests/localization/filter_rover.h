@@ -27,6 +27,18 @@ inline messages::MotionMeasurement Rolled(double forward_m, double turn_rad, dou
   return motion;
 }
 
+// Of x and y, both with that standard deviation.
+inline messages::PoseFix PlaceFix(messages::CaptureNumber capture, double x_m, double y_m,
+                                  double sd_m) {
+  messages::PoseFix fix;
+  fix.capture = capture;
+  fix.measured.set(error::kX).set(error::kY);
+  fix.pose_W[error::kX] = x_m;
+  fix.pose_W[error::kY] = y_m;
+  fix.covariance *= sd_m * sd_m;
+  return fix;
+}
+
 // The truth, and what its wheels and its gyro measure of it.
 class FilterRover {
  public:

@@ -2,7 +2,6 @@
 // aids that are late. Its variance grows by q a metre.
 #pragma once
 
-#include <bitset>
 #include <map>
 #include <memory>
 #include <vector>

@@ -2,14 +2,18 @@
 // own encoders and gyro. It carries no terrain: reports come from a function of the test.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/random.h"
 #include "math/pose.h"
-#include "navigation/pathfinder/logged_drive.h"
+#include "navigation/navigator.h"
 #include "navigation/pathfinder/pathfinder.h"
 
 namespace rockyard::navigation {
@@ -95,6 +99,68 @@ class FakeRover {
   messages::PoseEstimate estimate_;
 };
 
+// What drives share: navigator and rover, a log of ticks, which hold a `decision`, and stepping
+// until something happens.
+template <typename Tick, typename DrivingNavigator>
+class LoggedDrive {
+ public:
+  LoggedDrive(DrivingNavigator navigator, const FakeRover& rover)
+      : navigator_(std::move(navigator)), rover_(rover) {}
+  virtual ~LoggedDrive() = default;
+
+  virtual const Tick& Step() = 0;
+
+  // Steps until a tick satisfies `stop` or the limit is reached; true when it did.
+  bool StepUntil(const std::function<bool(const Tick&)>& stop, int max_ticks = 20000) {
+    for (int i = 0; i < max_ticks; ++i) {
+      if (stop(Step())) return true;
+    }
+    return false;
+  }
+
+  // Steps until the navigator arrives or gives up; kDriving when it does neither.
+  NavigatorStatus Run(int max_ticks = 200000) {
+    StepUntil([](const Tick& t) { return t.decision.status != NavigatorStatus::kDriving; },
+              max_ticks);
+    return log_.back().decision.status;
+  }
+
+  void UpdatePose(const messages::PoseUpdate& update) {
+    const messages::PoseEstimate before = rover_.estimate();
+    rover_.SetEstimate(update);
+    navigator_.OnPoseUpdate(before, rover_.estimate());
+  }
+  void Correct(const messages::PoseUpdate& update) {
+    const messages::PoseEstimate before = rover_.estimate();
+    rover_.SetEstimate(update);
+    navigator_.OnCorrection(before, rover_.estimate());
+  }
+  void SetGoal(const messages::Goal& goal, GoalChange change) { navigator_.SetGoal(goal, change); }
+
+  const std::vector<Tick>& log() const { return log_; }
+  const DrivingNavigator& navigator() const { return navigator_; }
+  const FakeRover& rover() const { return rover_; }
+
+ protected:
+  DrivingNavigator navigator_;
+  FakeRover rover_;
+  std::vector<Tick> log_;
+};
+
+// Random numbers for properties of navigators.
+class Draws {
+ public:
+  Draws(core::TrialKey key, std::uint32_t substream)
+      : stream_(key, core::Purpose::kTest, substream) {}
+
+  double Between(double low, double high) { return low + (high - low) * stream_.Uniform(); }
+  bool Chance(double probability) { return stream_.Uniform() < probability; }
+  int Below(int n) { return static_cast<int>(stream_.Uniform() * n); }
+
+ private:
+  core::RandomStream stream_;
+};
+
 // What the sensor reports to the rover at scan number 0, 1, 2, ...
 using HazardSource = std::function<Stripes(const FakeRover& rover, int scan_number)>;
 
@@ -112,6 +178,21 @@ inline HazardSource Sequence(std::vector<Stripes> reports) {
 
 // What the rover feels at a tick.
 using FeltSource = std::function<std::optional<messages::VehicleHazard>(const FakeRover& rover)>;
+
+inline constexpr messages::VehicleHazard kTouchAhead{messages::VehicleHazardKind::kContact,
+                                                     messages::HazardSide::kAhead};
+
+// Felt while the true x lies in (low, high).
+inline FeltSource FeltBetween(double low_m, double high_m, const messages::VehicleHazard& what) {
+  return [=](const FakeRover& rover) -> std::optional<messages::VehicleHazard> {
+    if (rover.X_WR().x_m > low_m && rover.X_WR().x_m < high_m) return what;
+    return std::nullopt;
+  };
+}
+
+inline FeltSource FeltBeyond(double low_m, const messages::VehicleHazard& what = kTouchAhead) {
+  return FeltBetween(low_m, std::numeric_limits<double>::infinity(), what);
+}
 
 inline FeltSource Nothing() {
   return [](const FakeRover&) { return std::nullopt; };
@@ -150,15 +231,16 @@ struct Tick {
     return moves() && decision.motion.kind == messages::MotionKind::kTurnInPlace;
   }
   bool drives() const { return moves() && decision.motion.kind == messages::MotionKind::kArc; }
+  bool backs() const { return drives() && decision.motion.direction < 0; }
 };
 
 // The closed loop of navigator and fake rover, with a log of every tick.
-class Drive final : public LoggedDrive<Tick> {
+class Drive final : public LoggedDrive<Tick, PathfinderNavigator> {
  public:
   explicit Drive(const DriveSetup& setup)
-      : setup_(setup),
-        navigator_(setup.params, setup.goal, setup.sensor == HazardSensor::kOn),
-        rover_(setup.rover, setup.start) {}
+      : LoggedDrive({setup.params, setup.goal, setup.sensor == HazardSensor::kOn},
+                    {setup.rover, setup.start}),
+        setup_(setup) {}
 
   const Tick& Step() override {
     Tick tick;
@@ -185,28 +267,26 @@ class Drive final : public LoggedDrive<Tick> {
     return log_.back();
   }
 
-  void UpdatePose(const messages::PoseUpdate& update) {
-    const messages::PoseEstimate before = rover_.estimate();
-    rover_.SetEstimate(update);
-    navigator_.OnPoseUpdate(before, rover_.estimate());
-  }
-
-  void SetGoal(const messages::Goal& goal, GoalChange change) { navigator_.SetGoal(goal, change); }
-
   // The brakes hold: time passes, and nothing is measured.
   NavigatorDecision HeldDecision(double time_s) {
     return navigator_.Decide({.time_s = time_s, .estimate = rover_.estimate()});
   }
 
-  const FakeRover& rover() const { return rover_; }
   int scans() const { return scans_; }
 
  private:
   DriveSetup setup_;
-  PathfinderNavigator navigator_;
-  FakeRover rover_;
   int scans_ = 0;
 };
+
+inline constexpr double kRounding = 1e-9;
+
+// A manoeuvre ends at the first tick at which as much was measured as is asked for, so that it
+// exceeds that by less than the motion of a tick.
+inline void ExpectEnds(double measured, double asked, double tick) {
+  EXPECT_GE(measured, asked - kRounding);
+  EXPECT_LE(measured, asked + tick + kRounding);
+}
 
 inline double DistanceToGoal(const messages::PoseEstimate& estimate, const messages::Goal& goal) {
   return std::hypot(goal.x_m - estimate.x_m, goal.y_m - estimate.y_m);

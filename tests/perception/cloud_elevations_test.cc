@@ -19,13 +19,7 @@ using messages::PointCloud;
 
 // Bins of 0.25 x 0.2 m from 0.4 m on; a single point is enough.
 CloudElevationParams Bins() {
-  CloudElevationParams params;
-  params.near_m = 0.4;
-  params.far_m = 1.4;
-  params.half_width_m = 0.5;
-  params.quantile = 1.0;
-  params.min_points = 1;
-  return params;
+  return {.near_m = 0.4, .far_m = 1.4, .half_width_m = 0.5, .quantile = 1.0, .min_points = 1};
 }
 
 // A point every 2 cm, at heights z(x, y).
@@ -166,9 +160,8 @@ messages::StripeCalibration Calibration() {
 
 TEST(StripeCloudTest, PointsAreThoseWhoseElevationsAreKnown) {
   const Triangulator triangulator(Calibration());
-  messages::StripeScan scan;
-  scan.number = 4;
-  scan.pixels = messages::StripeArray<messages::StripePixel>({2, 1});
+  messages::StripeScan scan{.number = 4,
+                            .pixels = messages::StripeArray<messages::StripePixel>({2, 1})};
   scan.pixels[0][0] = {.detected = true, .column_px = 70.0};
   const PointCloud cloud = StripeCloud(scan, triangulator);
   EXPECT_EQ(cloud.number, 4);

@@ -8,15 +8,8 @@
 namespace rockyard::perception {
 namespace {
 
-using Stripes = messages::PerStripe<bool>;
 constexpr Stripes kNone{};
 constexpr Stripes kAll{true, true, true, true, true};
-
-Stripes Only(std::initializer_list<std::size_t> stripes) {
-  Stripes flags{};
-  for (const std::size_t stripe : stripes) flags[stripe] = true;
-  return flags;
-}
 
 TEST(HazardCriteriaTest, FlatGroundIsClear) {
   const auto findings = AssessHazards(FlatScan(), {});
@@ -49,16 +42,13 @@ TEST(HazardCriteriaTest, NeighbourDifferenceMustExceedTheThreshold) {
   EXPECT_EQ(AssessHazards(scan, {}).neighbour, Only({2}));
   scan.points[2][2].elevation_m = -0.0501;
   EXPECT_EQ(AssessHazards(scan, {}).neighbour, Only({2}));
-  HazardParams high;
-  high.neighbour_threshold_m = 0.13;
+  const HazardParams high{.neighbour_threshold_m = 0.13};
   EXPECT_EQ(AssessHazards(scan, high).neighbour, kNone);
 }
 
 // Every pair of points: charged if and only if they are 8-connected.
 TEST(HazardCriteriaTest, NeighboursAreEightConnected) {
-  HazardParams params;
-  params.neighbour_blame = NeighbourBlame::kBoth;
-  params.range_threshold_m = 1.0;
+  const HazardParams params{.range_threshold_m = 1.0, .neighbour_blame = NeighbourBlame::kBoth};
   for (int a = 0; a < 20; ++a) {
     for (int b = 0; b < 20; ++b) {
       if (a == b) continue;
@@ -80,10 +70,8 @@ TEST(HazardCriteriaTest, NeighboursAreEightConnected) {
 // The same on a denser array, whose points at the spacing of the published one are two apart.
 TEST(HazardCriteriaTest, NeighboursReachAsFarAsTheyAreTold) {
   constexpr messages::StripeArraySize kDense{7, 9};
-  HazardParams params;
-  params.neighbour_blame = NeighbourBlame::kBoth;
-  params.range_threshold_m = 1.0;
-  params.neighbour_reach = 2;
+  const HazardParams params{
+      .range_threshold_m = 1.0, .neighbour_reach = 2, .neighbour_blame = NeighbourBlame::kBoth};
   constexpr int kPoints = 7 * 9;
   for (int a = 0; a < kPoints; ++a) {
     for (int b = a + 1; b < kPoints; ++b) {
@@ -103,8 +91,7 @@ TEST(HazardCriteriaTest, NeighboursReachAsFarAsTheyAreTold) {
 
 TEST(HazardCriteriaTest, RangeOfTheWholeArray) {
   // A slope too gentle for neighbours: 3.5 cm per row, 10.5 cm in all.
-  HazardParams params;
-  params.range_threshold_m = 0.10;
+  HazardParams params{.range_threshold_m = 0.10};
   const auto scan = ScanOfRows({0.0, 0.035, 0.07, 0.105});
   EXPECT_EQ(AssessHazards(scan, params).neighbour, kNone);
   EXPECT_TRUE(ReportHazards(scan, params).any());
@@ -124,8 +111,7 @@ TEST(HazardCriteriaTest, BlameOfNeighbours) {
   auto pit = FlatScan();
   pit.points[2][3].elevation_m = -0.08;
   const auto charged = [](const messages::ElevationScan& scan, NeighbourBlame blame) {
-    HazardParams params;
-    params.neighbour_blame = blame;
+    const HazardParams params{.neighbour_blame = blame};
     return AssessHazards(scan, params).neighbour;
   };
   EXPECT_EQ(charged(rock, NeighbourBlame::kFartherFromDatum), Only({3}));
@@ -145,10 +131,8 @@ TEST(HazardCriteriaTest, BlameOfTheRange) {
   scan.points[3][0].elevation_m = 0.08;
   scan.points[0][4].elevation_m = -0.04;
   const auto charged = [&](RangeBlame blame) {
-    HazardParams params;
-    params.neighbour_threshold_m = 1.0;
-    params.range_threshold_m = 0.10;
-    params.range_blame = blame;
+    const HazardParams params{
+        .neighbour_threshold_m = 1.0, .range_threshold_m = 0.10, .range_blame = blame};
     return AssessHazards(scan, params).range;
   };
   EXPECT_EQ(charged(RangeBlame::kFartherFromDatum), Only({0}));

@@ -11,12 +11,12 @@ namespace rockyard::perception {
 namespace {
 
 using messages::ElevationScan;
-using Stripes = messages::PerStripe<bool>;
 
-Stripes Only(std::initializer_list<std::size_t> stripes) {
-  Stripes flags{};
-  for (const std::size_t stripe : stripes) flags[stripe] = true;
-  return flags;
+// That a verdict is the last word, and which stripes it calls hazards.
+void ExpectDecided(const HazardDetector::Verdict& verdict, const Stripes& stripes) {
+  EXPECT_FALSE(verdict.scan_again);
+  EXPECT_EQ(verdict.report.stripe_hazard, stripes);
+  EXPECT_EQ(verdict.report.any(), !(stripes == Only({})));
 }
 
 ElevationScan Numbered(ElevationScan scan, std::int64_t number) {
@@ -29,34 +29,23 @@ const ElevationScan kLeft = RockScan(0, 0.10);
 const ElevationScan kRight = RockScan(4, 0.10);
 
 HazardParams With(ScanAgreement agreement, Disagreement on_disagreement) {
-  HazardParams params;
-  params.agreement = agreement;
-  params.on_disagreement = on_disagreement;
-  return params;
+  return {.agreement = agreement, .on_disagreement = on_disagreement};
 }
 
 TEST(HazardDetectorTest, BlindRoverSeesNothing) {
-  HazardParams params;
-  params.enabled = false;
-  HazardDetector detector(params);
-  const auto verdict = detector.Process(ElevationScan{});
-  EXPECT_FALSE(verdict.scan_again);
-  EXPECT_FALSE(verdict.report.any());
+  HazardDetector detector({.enabled = false});
+  ExpectDecided(detector.Process(ElevationScan{}), Only({}));
 }
 
 TEST(HazardDetectorTest, SingleScanIsBelieved) {
   HazardDetector detector(With(ScanAgreement::kSingleScan, Disagreement::kScanAgain));
   const auto verdict = detector.Process(Numbered(kLeft, 7));
-  EXPECT_FALSE(verdict.scan_again);
-  EXPECT_EQ(verdict.report.stripe_hazard, Only({0}));
+  ExpectDecided(verdict, Only({0}));
   EXPECT_EQ(verdict.report.scan_number, 7);
 }
 
 TEST(HazardDetectorTest, ClearScanNeedsNoSecond) {
-  HazardDetector detector({});
-  const auto verdict = detector.Process(kFlat);
-  EXPECT_FALSE(verdict.scan_again);
-  EXPECT_FALSE(verdict.report.any());
+  ExpectDecided(HazardDetector({}).Process(kFlat), Only({}));
 }
 
 TEST(HazardDetectorTest, DetectionAsksForASecondScanAndIsBelievedIfItAgrees) {
@@ -65,8 +54,7 @@ TEST(HazardDetectorTest, DetectionAsksForASecondScanAndIsBelievedIfItAgrees) {
   EXPECT_TRUE(first.scan_again);
   EXPECT_FALSE(first.report.any());
   const auto second = detector.Process(Numbered(RockScan(0, 0.11), 1));
-  EXPECT_FALSE(second.scan_again);
-  EXPECT_EQ(second.report.stripe_hazard, Only({0}));
+  ExpectDecided(second, Only({0}));
   EXPECT_EQ(second.report.scan_number, 1);
 }
 
@@ -75,9 +63,7 @@ TEST(HazardDetectorTest, SecondScanWithoutAHazardIsClear) {
                           Disagreement::kTreatAsHazard, Disagreement::kTreatAsClear}) {
     HazardDetector detector(With(ScanAgreement::kRescanSamePose, rule));
     EXPECT_TRUE(detector.Process(kLeft).scan_again);
-    const auto verdict = detector.Process(kFlat);
-    EXPECT_FALSE(verdict.scan_again);
-    EXPECT_FALSE(verdict.report.any());
+    ExpectDecided(detector.Process(kFlat), Only({}));
   }
 }
 
@@ -88,39 +74,28 @@ TEST(HazardDetectorTest, DisagreementAtOnePose) {
     return detector.Process(kRight);
   };
   EXPECT_TRUE(second(Disagreement::kScanAgain).scan_again);
-  EXPECT_EQ(second(Disagreement::kTrustLast).report.stripe_hazard, Only({4}));
-  EXPECT_EQ(second(Disagreement::kTreatAsHazard).report.stripe_hazard, Only({0, 4}));
-  EXPECT_EQ(second(Disagreement::kTreatAsClear).report.stripe_hazard, Only({}));
-  for (const auto rule :
-       {Disagreement::kTrustLast, Disagreement::kTreatAsHazard, Disagreement::kTreatAsClear}) {
-    EXPECT_FALSE(second(rule).scan_again);
-  }
+  ExpectDecided(second(Disagreement::kTrustLast), Only({4}));
+  ExpectDecided(second(Disagreement::kTreatAsHazard), Only({0, 4}));
+  ExpectDecided(second(Disagreement::kTreatAsClear), Only({}));
 }
 
 TEST(HazardDetectorTest, ScanningAgainComparesTheNewestTwo) {
   HazardDetector detector({});
   EXPECT_TRUE(detector.Process(kLeft).scan_again);
   EXPECT_TRUE(detector.Process(kRight).scan_again);
-  const auto verdict = detector.Process(kRight);
-  EXPECT_FALSE(verdict.scan_again);
-  EXPECT_EQ(verdict.report.stripe_hazard, Only({4}));
+  ExpectDecided(detector.Process(kRight), Only({4}));
 }
 
 TEST(HazardDetectorTest, ScanningAgainEnds) {
   const auto after_three = [](Disagreement on_exhausted) {
-    HazardParams params;
-    params.max_scans = 3;
-    params.on_exhausted = on_exhausted;
-    HazardDetector detector(params);
+    HazardDetector detector({.max_scans = 3, .on_exhausted = on_exhausted});
     EXPECT_TRUE(detector.Process(kLeft).scan_again);
     EXPECT_TRUE(detector.Process(kRight).scan_again);
-    const auto verdict = detector.Process(kLeft);
-    EXPECT_FALSE(verdict.scan_again);
-    return verdict.report.stripe_hazard;
+    return detector.Process(kLeft);
   };
-  EXPECT_EQ(after_three(Disagreement::kTrustLast), Only({0}));
-  EXPECT_EQ(after_three(Disagreement::kTreatAsHazard), Only({0, 4}));
-  EXPECT_EQ(after_three(Disagreement::kTreatAsClear), Only({}));
+  ExpectDecided(after_three(Disagreement::kTrustLast), Only({0}));
+  ExpectDecided(after_three(Disagreement::kTreatAsHazard), Only({0, 4}));
+  ExpectDecided(after_three(Disagreement::kTreatAsClear), Only({}));
 }
 
 TEST(HazardDetectorTest, ADecisionAndANewPoseBothStartAfresh) {
@@ -136,20 +111,14 @@ TEST(HazardDetectorTest, ConsecutiveScansOfTheMovingRover) {
   for (const auto rule : {Disagreement::kScanAgain, Disagreement::kTrustLast,
                           Disagreement::kTreatAsHazard, Disagreement::kTreatAsClear}) {
     HazardDetector detector(With(ScanAgreement::kConsecutiveMoving, rule));
-    auto verdict = detector.Process(kLeft);
-    EXPECT_FALSE(verdict.scan_again);
-    EXPECT_FALSE(verdict.report.any()) << "nothing to agree with";
+    ExpectDecided(detector.Process(kLeft), Only({}));  // nothing to agree with
     detector.Reset();
-    verdict = detector.Process(kLeft);
-    EXPECT_FALSE(verdict.scan_again);
-    EXPECT_EQ(verdict.report.stripe_hazard, Only({0})) << "agrees with the scan before";
+    ExpectDecided(detector.Process(kLeft), Only({0}));  // agrees with the scan before
     detector.Reset();
-    verdict = detector.Process(kRight);
-    EXPECT_FALSE(verdict.scan_again);
     const auto expected = rule == Disagreement::kTrustLast       ? Only({4})
                           : rule == Disagreement::kTreatAsHazard ? Only({0, 4})
                                                                  : Only({});
-    EXPECT_EQ(verdict.report.stripe_hazard, expected);
+    ExpectDecided(detector.Process(kRight), expected);
     detector.Reset();
     EXPECT_FALSE(detector.Process(kFlat).report.any());
   }

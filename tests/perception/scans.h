@@ -2,10 +2,19 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 
 #include "messages/estimates.h"
 
 namespace rockyard::perception {
+
+using Stripes = messages::PerStripe<bool>;
+
+inline Stripes Only(std::initializer_list<std::size_t> stripes) {
+  Stripes flags{};
+  for (const std::size_t stripe : stripes) flags[stripe] = true;
+  return flags;
+}
 
 // Every point found; each row at one elevation, nearest row first.
 inline messages::ElevationScan ScanOfRows(const std::array<double, messages::kStripeRows>& rows) {

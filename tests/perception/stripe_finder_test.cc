@@ -18,8 +18,7 @@ messages::StripePixel FindOne(const messages::StripeExposure& exposure,
 
 TEST(StripeFinderTest, FindsTheColumnOfAStripe) {
   for (const int column : {-370, -190, -100}) {
-    auto exposure = DarkExposure();
-    AddStripe(exposure, column, 50);
+    auto exposure = WithStripe(column, 50);
     const auto pixel = FindOne(exposure);
     ASSERT_TRUE(pixel.detected) << column;
     EXPECT_EQ(pixel.column_px, column);
@@ -39,15 +38,13 @@ TEST(StripeFinderTest, SearchedColumnsAreThoseOfTheElevations) {
   EXPECT_EQ(finder.searched(0, 0).first, -384);
   EXPECT_EQ(finder.searched(0, 0).last,
             static_cast<int>(std::floor(-1000.0 * std::atan(0.1 / (0.55 / std::sin(0.5))))));
-  auto exposure = DarkExposure();
-  AddStripe(exposure, finder.searched(0, 0).last + 1, 50);
+  auto exposure = WithStripe(finder.searched(0, 0).last + 1, 50);
   EXPECT_FALSE(FindOne(exposure).detected);
 }
 
 TEST(StripeFinderTest, AveragedDifferenceMustExceedTheThreshold) {
   // One column of five holds the stripe: 10 counts average to 2.
-  auto exposure = DarkExposure();
-  AddStripe(exposure, -190, 10);
+  auto exposure = WithStripe(-190, 10);
   StripeFinderParams params{.threshold_counts = 2.0, .noise_multiple = 0.0};
   EXPECT_FALSE(FindOne(exposure, params).detected);
   params.threshold_counts = 1.99;
@@ -72,30 +69,25 @@ TEST(StripeFinderTest, ThresholdFollowsTheNoiseOfTheScanline) {
 
 TEST(StripeFinderTest, NothingToSeeIsMissing) {
   EXPECT_FALSE(FindOne(DarkExposure()).detected);
-  auto gone = DarkExposure();  // darker where the lasers are on
-  AddStripe(gone, -190, -15, 3);
+  auto gone = WithStripe(-190, -15, 3);  // darker where the lasers are on
   EXPECT_FALSE(FindOne(gone).detected);
 }
 
 TEST(StripeFinderTest, ImagesThatAreNotThereLeavePointsMissing) {
   EXPECT_FALSE(StripeFinder({}, OneLaser()).Find({}).pixels[0][0].detected);
-  auto other_rows = DarkExposure();
-  AddStripe(other_rows, -190, 50);
+  auto other_rows = WithStripe(-190, 50);
   other_rows.lit[0].first_row = other_rows.dark[0].first_row = 100;
   EXPECT_FALSE(FindOne(other_rows).detected);
-  auto other_camera = DarkExposure();
-  AddStripe(other_camera, -190, 50);
+  auto other_camera = WithStripe(-190, 50);
   other_camera.camera = 1;
   EXPECT_FALSE(FindOne(other_camera).detected);
-  auto other_group = DarkExposure();
-  AddStripe(other_group, -190, 50);
+  auto other_group = WithStripe(-190, 50);
   other_group.group = 1;
   EXPECT_FALSE(FindOne(other_group).detected);
 }
 
 TEST(StripeFinderTest, SaturatedStripe) {
-  auto exposure = DarkExposure();
-  AddStripe(exposure, -190, 1000, 7, 255);
+  auto exposure = WithStripe(-190, 1000, 7, 255);
   const auto pixel = FindOne(exposure);
   ASSERT_TRUE(pixel.detected);
   EXPECT_EQ(pixel.column_px, -190.0);
@@ -109,16 +101,14 @@ TEST(StripeFinderTest, SunlightThatSaturatesBothImagesHidesTheStripe) {
 
 TEST(StripeFinderTest, BorderColumns) {
   // At the border the average is that of fewer columns: the run reaches two columns inwards.
-  auto exposure = DarkExposure();
-  AddStripe(exposure, -384, 50);
+  auto exposure = WithStripe(-384, 50);
   const auto pixel = FindOne(exposure);
   ASSERT_TRUE(pixel.detected);
   EXPECT_EQ(pixel.column_px, -383.0);
 }
 
 TEST(StripeFinderTest, SeveralPeaks) {
-  auto exposure = DarkExposure();
-  AddStripe(exposure, -180, 40);
+  auto exposure = WithStripe(-180, 40);
   AddStripe(exposure, -250, 60);
   EXPECT_EQ(FindOne(exposure).column_px, -250.0);
   EXPECT_EQ(FindOne(exposure, {.peak = PeakChoice::kNearestToDatum}).column_px, -180.0);
@@ -126,8 +116,7 @@ TEST(StripeFinderTest, SeveralPeaks) {
 
 TEST(StripeFinderTest, CentroidLiesBetweenPixels) {
   // Brightness 3 : 1 on two columns.
-  auto exposure = DarkExposure();
-  AddStripe(exposure, -190, 75);
+  auto exposure = WithStripe(-190, 75);
   AddStripe(exposure, -189, 25);
   EXPECT_NEAR(FindOne(exposure, {.column = PeakColumn::kCentroid}).column_px, -189.75, 1e-9);
   EXPECT_EQ(FindOne(exposure).column_px, std::floor(FindOne(exposure).column_px));
@@ -151,8 +140,7 @@ TEST(StripeFinderTest, LaserOfTheOtherCameraTakesItsOwnPeak) {
   // of the inner laser, to which the columns belong as well.
   messages::StripeCalibration calibration = TwoLasers();
   calibration.lasers[0].camera = 1;
-  auto exposure = DarkExposure();
-  AddStripe(exposure, -190, 40);
+  auto exposure = WithStripe(-190, 40);
   AddStripe(exposure, -360, 90);
   const auto scan = StripeFinder({}, calibration).Find({.exposures = {exposure}});
   EXPECT_FALSE(scan.pixels[0][0].detected);
@@ -160,8 +148,7 @@ TEST(StripeFinderTest, LaserOfTheOtherCameraTakesItsOwnPeak) {
 }
 
 TEST(StripeFinderTest, ColumnsTriangulateToElevations) {
-  auto exposure = DarkExposure();
-  AddStripe(exposure, -190, 50);
+  auto exposure = WithStripe(-190, 50);
   const auto scan = StripeFinder({}, OneLaser()).Find({.exposures = {exposure}});
   // Half a column is 0.5e-3 / (0.1 / (0.1^2 + 0.521^2)) = 1.4 mm along the ray.
   EXPECT_NEAR(Triangulator(OneLaser()).Elevations(scan).points[0][0].elevation_m, 0.0, 0.001);

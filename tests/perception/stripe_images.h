@@ -21,8 +21,7 @@ inline messages::StripeCalibration OneLaser() {
     camera.columns = 768;
     camera.rows = 484;
   }
-  messages::StripeLaser laser;
-  laser.p_RoE_R = math::Vector3(0.0, 0.1, 0.25);
+  const messages::StripeLaser laser{.p_RoE_R = math::Vector3(0.0, 0.1, 0.25)};
   calibration.lasers = {laser};
   calibration.scanline_px = {200};
   return calibration;
@@ -38,13 +37,8 @@ inline messages::StripeCalibration TwoLasers() {
 }
 
 inline messages::ImageBand EvenBand(std::uint16_t counts, int rows = 5, int columns = 768) {
-  messages::ImageBand band;
-  band.first_row = 200 - rows / 2;
-  band.first_column = -columns / 2;
-  band.rows = rows;
-  band.columns = columns;
-  band.counts.assign(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns), counts);
-  return band;
+  const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+  return {200 - rows / 2, -columns / 2, rows, columns, std::vector(pixels, counts)};
 }
 
 // The left camera with all lasers of group 0 on; nothing to see.
@@ -61,6 +55,14 @@ inline void AddStripe(messages::StripeExposure& exposure, int column, int counts
       pixel = static_cast<std::uint16_t>(std::min(pixel + counts, full_scale));
     }
   }
+}
+
+// Such a stripe before darkness.
+inline messages::StripeExposure WithStripe(int column, int counts, int width = 1,
+                                           int full_scale = 65535) {
+  messages::StripeExposure exposure = DarkExposure();
+  AddStripe(exposure, column, counts, width, full_scale);
+  return exposure;
 }
 
 }  // namespace rockyard::perception

@@ -44,10 +44,7 @@ WheelCommand Rolling(double v_m_s, double w_rad_s) {
 }
 
 MotionMeasurement Turned(double rate_rad_s) {
-  MotionMeasurement motion;
-  motion.duration_s = kTick_s;
-  motion.turn_rad = rate_rad_s * kTick_s;
-  return motion;
+  return {.duration_s = kTick_s, .turn_rad = rate_rad_s * kTick_s};
 }
 
 VehicleState Currents(const messages::PerWheel<double>& currents_A) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <string_view>
+
 #include "math/angles.h"
 
 namespace rockyard::perception {
@@ -21,12 +24,14 @@ VehicleHazardParams AtOnce() {
   return params;
 }
 
-std::optional<messages::VehicleHazard> Felt(const VehicleState& state) {
-  return HazardToAvoid(VehicleHazardDetector(AtOnce()).Observe(state, {}));
+std::optional<messages::VehicleHazard> Felt(const VehicleState& state,
+                                            const WheelTurns& turns = {}) {
+  return HazardToAvoid(VehicleHazardDetector(AtOnce()).Observe(state, turns));
 }
 
-void ExpectFelt(const VehicleState& state, VehicleHazardKind kind, HazardSide side) {
-  const auto hazard = Felt(state);
+void ExpectFelt(const VehicleState& state, VehicleHazardKind kind, HazardSide side,
+                const WheelTurns& turns = {}) {
+  const auto hazard = Felt(state, turns);
   ASSERT_TRUE(hazard);
   EXPECT_EQ(hazard->kind, kind);
   EXPECT_EQ(hazard->side, side);
@@ -64,8 +69,8 @@ TEST(TiltTest, IsFeltAboveTheThreshold) {
 
 VehicleState Bent(double left_rocker_deg, double left_bogie_deg, double right_bogie_deg) {
   VehicleState state;
-  state.articulation = messages::Articulation{DegToRad(left_rocker_deg), -DegToRad(left_rocker_deg),
-                                              DegToRad(left_bogie_deg), DegToRad(right_bogie_deg)};
+  state.articulation = {DegToRad(left_rocker_deg), -DegToRad(left_rocker_deg),
+                        DegToRad(left_bogie_deg), DegToRad(right_bogie_deg)};
   return state;
 }
 
@@ -82,8 +87,7 @@ TEST(ArticulationTest, IsFeltAboveTheThreshold) {
 // Currents of all wheels at half of the limit, but for those of one.
 VehicleState Drawing(std::size_t wheel, double current_A) {
   VehicleState state;
-  state.motor_current_A.emplace();
-  state.motor_current_A->fill(0.5 * AtOnce().max_current_A);
+  state.motor_current_A.emplace().fill(0.5 * AtOnce().max_current_A);
   (*state.motor_current_A)[wheel] = current_A;
   return state;
 }
@@ -98,10 +102,6 @@ WheelTurns Turning(std::size_t wheel, double told_rad, double turned_rad) {
   return turns;
 }
 
-bool Stalls(const VehicleState& state, const WheelTurns& turns) {
-  return HazardToAvoid(VehicleHazardDetector(AtOnce()).Observe(state, turns)).has_value();
-}
-
 TEST(StallTest, IsCurrentNearStallOfAWheelThatHardlyTurns) {
   const double limit_A = AtOnce().max_current_A;
   const double share = AtOnce().max_turn_share;
@@ -109,27 +109,21 @@ TEST(StallTest, IsCurrentNearStallOfAWheelThatHardlyTurns) {
     const VehicleState strained = Drawing(wheel, limit_A + 1e-4);
     for (const double told_rad : {0.1, -0.1}) {
       const auto turned = [&](double part) { return Turning(wheel, told_rad, part * told_rad); };
-      const auto hazard =
-          HazardToAvoid(VehicleHazardDetector(AtOnce()).Observe(strained, turned(0.9 * share)));
-      ASSERT_TRUE(hazard);
-      EXPECT_EQ(hazard->kind, VehicleHazardKind::kMotorCurrent);
-      EXPECT_EQ(hazard->side, wheel < 3 ? HazardSide::kLeft : HazardSide::kRight);
-      EXPECT_TRUE(Stalls(strained, turned(-0.5))) << "pushed back";
-      EXPECT_FALSE(Stalls(strained, turned(1.1 * share))) << "climbs";
-      EXPECT_FALSE(Stalls(Drawing(wheel, limit_A - 1e-4), turned(0.0))) << "light";
+      ExpectFelt(strained, VehicleHazardKind::kMotorCurrent,
+                 wheel < 3 ? HazardSide::kLeft : HazardSide::kRight, turned(0.9 * share));
+      EXPECT_TRUE(Felt(strained, turned(-0.5))) << "pushed back";
+      EXPECT_FALSE(Felt(strained, turned(1.1 * share))) << "climbs";
+      EXPECT_FALSE(Felt(Drawing(wheel, limit_A - 1e-4), turned(0.0))) << "light";
     }
-    EXPECT_FALSE(Stalls(strained, Turning(wheel, 0.0, 0.0))) << "at rest";
+    EXPECT_FALSE(Felt(strained, Turning(wheel, 0.0, 0.0))) << "at rest";
   }
 }
 
 TEST(StallTest, OnBothSidesIsAhead) {
   VehicleState state;
-  state.motor_current_A.emplace();
-  state.motor_current_A->fill(1.0);
-  const auto hazard = HazardToAvoid(
-      VehicleHazardDetector(AtOnce()).Observe(state, {.told_rad = {1, 1, 1, 1, 1, 1}}));
-  ASSERT_TRUE(hazard);
-  EXPECT_EQ(hazard->side, HazardSide::kAhead);
+  state.motor_current_A.emplace().fill(1.0);
+  ExpectFelt(state, VehicleHazardKind::kMotorCurrent, HazardSide::kAhead,
+             {.told_rad = {1, 1, 1, 1, 1, 1}});
 }
 
 TEST(StallTest, FromTwoOnTheCurrentAloneDecides) {
@@ -142,9 +136,7 @@ TEST(StallTest, FromTwoOnTheCurrentAloneDecides) {
 
 // Two wheels that stall in turn are not one that does; rests between do not count.
 TEST(StallTest, HoldsAtOneWheelForTicksOfMotion) {
-  VehicleHazardParams params;
-  params.current_ticks = 3;
-  VehicleHazardDetector detector(params);
+  VehicleHazardDetector detector({.current_ticks = 3});
   const auto stalls = [&](std::size_t wheel) {
     return HazardToAvoid(detector.Observe(Drawing(wheel, 1.0), Turning(wheel, 0.1, 0.0)))
         .has_value();
@@ -194,26 +186,22 @@ TEST(ContactTest, TouchBehindHidesNothing) {
   VehicleState state = Leaning(30, 0);
   state.contact = Touched({ContactSwitch::kRearEdge}).contact;
   ExpectFelt(state, VehicleHazardKind::kTilt, HazardSide::kLeft);
-  const FeltHazards felt = VehicleHazardDetector(AtOnce()).Observe(state, {});
+  const auto all_felt = [](const VehicleState& from) {
+    return VehicleHazardDetector(AtOnce()).Observe(from, {});
+  };
+  const FeltHazards felt = all_felt(state);
   EXPECT_TRUE(felt.touches_behind);
   ASSERT_TRUE(felt.by_kind[0]);
   EXPECT_EQ(felt.by_kind[0]->side, HazardSide::kBehind);
-
-  const FeltHazards both = VehicleHazardDetector(AtOnce()).Observe(
-      Touched({ContactSwitch::kRearEdge, ContactSwitch::kFrontLeft}), {});
+  const FeltHazards both = all_felt(Touched({ContactSwitch::kRearEdge, ContactSwitch::kFrontLeft}));
   EXPECT_TRUE(both.touches_behind);
   EXPECT_EQ(both.by_kind[0]->side, HazardSide::kLeft);
-
   EXPECT_FALSE(Felt(Touched({ContactSwitch::kRearEdge})));
-  EXPECT_FALSE(VehicleHazardDetector(AtOnce())
-                   .Observe(Touched({ContactSwitch::kFrontLeft}), {})
-                   .touches_behind);
+  EXPECT_FALSE(all_felt(Touched({ContactSwitch::kFrontLeft})).touches_behind);
 }
 
 TEST(ContactTest, TouchBehindHoldsForTicksInARow) {
-  VehicleHazardParams params;
-  params.contact_ticks = 2;
-  VehicleHazardDetector detector(params);
+  VehicleHazardDetector detector({.contact_ticks = 2});
   const VehicleState behind = Touched({ContactSwitch::kRearEdge});
   EXPECT_FALSE(detector.Observe(behind, {}).touches_behind);
   EXPECT_TRUE(detector.Observe(behind, {}).touches_behind);
@@ -221,33 +209,23 @@ TEST(ContactTest, TouchBehindHoldsForTicksInARow) {
   EXPECT_FALSE(detector.Observe(behind, {}).touches_behind);
 }
 
-TEST(VehicleHazardDetectorTest, HoldsForTicksInARow) {
-  VehicleHazardParams params;
-  params.tilt_ticks = 3;
-  VehicleHazardDetector detector(params);
-  const VehicleState steep = Leaning(30, 0);
-  const VehicleState level = Leaning(0, 0);
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(level, {})));  // counts from the beginning again
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
-  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep, {})));
-  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep, {})));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(level, {})));
-}
-
-TEST(VehicleHazardDetectorTest, ResetForgetsTheTicksCounted) {
-  VehicleHazardParams params;
-  params.tilt_ticks = 3;
-  VehicleHazardDetector detector(params);
-  const VehicleState steep = Leaning(30, 0);
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
-  detector.Reset();
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
-  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep, {})));
+TEST(VehicleHazardDetectorTest, HoldsForTicksInARowAndResetForgetsThem) {
+  VehicleHazardDetector detector({.tilt_ticks = 3});
+  // Ticks on a slope (s) and on the level (l), and resets (r): whether a tick feels the hazard.
+  const auto felt = [&](std::string_view ticks) {
+    std::string answers;
+    for (const char tick : ticks) {
+      if (tick == 'r') {
+        detector.Reset();
+        continue;
+      }
+      const VehicleState state = Leaning(tick == 's' ? 30 : 0, 0);
+      answers += HazardToAvoid(detector.Observe(state, {})) ? 'x' : '.';
+    }
+    return answers;
+  };
+  EXPECT_EQ(felt("sslssssl"), ".....xx.");
+  EXPECT_EQ(felt("ssrsss"), "....x");
 }
 
 TEST(VehicleHazardDetectorTest, TouchComesFirstAndMissingSensorsSayNothing) {

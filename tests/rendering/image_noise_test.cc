@@ -102,8 +102,7 @@ Counts ReadEven(const ImagerParams& imager, double rate_e_s, double exposure_s,
   for (ImageNumber image = 0; image < images; ++image) {
     ReadRow(readout, EvenRow(rate_e_s, 768), exposure_s, kKey, 0, image, {}, counts);
   }
-  Counts result;
-  result.size = static_cast<double>(counts.size());
+  Counts result{.size = static_cast<double>(counts.size())};
   result.mean = std::accumulate(counts.begin(), counts.end(), 0.0) / result.size;
   for (const double count : counts) result.sum_of_squares += std::pow(count - result.mean, 2);
   return result;

@@ -19,9 +19,7 @@ using terrain::FlatWith;
 // The shadow of a ball on level ground is an ellipse with semi-axes r and r / sin(h) around the
 // point h_c / tan(h) behind it.
 TEST(ImageScene, ShadowOfABallIsAnEllipse) {
-  SunParams sun;
-  sun.elevation_rad = math::DegToRad(35.0);
-  sun.azimuth_rad = math::DegToRad(120.0);
+  const SunParams sun{.elevation_rad = math::DegToRad(35.0), .azimuth_rad = math::DegToRad(120.0)};
   const SunLight light = MakeSunLight(sun, 40e-9);
   constexpr double kRadius = 0.1;
   constexpr double kCenter = 0.13;
@@ -54,8 +52,7 @@ TEST(ImageScene, ShadowOfABallIsAnEllipse) {
 }
 
 TEST(ImageScene, FarSideOfARockIsDarkAndWallsCastNoShadow) {
-  SunParams sun;
-  sun.elevation_rad = math::DegToRad(30.0);
+  SunParams sun{.elevation_rad = math::DegToRad(30.0)};
   sun.azimuth_rad = 0.0;  // in front
   const SunLight light = MakeSunLight(sun, 40e-9);
   const RoverBody body = SmallBody();

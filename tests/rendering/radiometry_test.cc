@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -10,6 +11,7 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_text.h"
+#include "rendering/exposure_control.h"
 #include "rendering/image_blur.h"
 #include "rendering/line_kit.h"
 
@@ -21,13 +23,12 @@ using math::Vector3;
 constexpr double kPi = std::numbers::pi;
 
 TEST(SunLight, FollowsBeerAndLambert) {
-  SunParams sun;
-  sun.elevation_rad = math::DegToRad(30.0);
-  sun.azimuth_rad = math::DegToRad(180.0);
-  sun.irradiance_w_m2_nm = 1.2;
-  sun.distance_au = 2.0;
-  sun.optical_depth = 0.4;
-  sun.diffuse_share = 0.5;
+  const SunParams sun{.elevation_rad = math::DegToRad(30.0),
+                      .azimuth_rad = math::DegToRad(180.0),
+                      .irradiance_w_m2_nm = 1.2,
+                      .distance_au = 2.0,
+                      .optical_depth = 0.4,
+                      .diffuse_share = 0.5};
   const SunLight light = MakeSunLight(sun, 20e-9);
   // 1.2 / 4 W/m2/nm over 20 nm; the path is 1 / sin 30 = 2 atmospheres long.
   const double direct = 6.0 * std::exp(-0.8);
@@ -45,8 +46,7 @@ TEST(SunLight, FollowsBeerAndLambert) {
 }
 
 TEST(SunLight, IsNoneAtTheHorizon) {
-  SunParams sun;
-  sun.elevation_rad = 0.0;
+  const SunParams sun{.elevation_rad = 0.0};
   const SunLight light = MakeSunLight(sun, 20e-9);
   EXPECT_EQ(light.direct_w_m2, 0.0);
   EXPECT_EQ(light.sky_w_m2, 0.0);
@@ -63,9 +63,8 @@ TEST(SunParams, BadDescriptionsAreRefused) {
 // Off the axis an equidistant_rows pixel covers cos(a) of the solid angle, and the pupil appears
 // cos(theta) = cos(a) cos(b) as large; a pinhole has cos^4.
 TEST(Radiometry, LightFallsOffTowardsTheEdge) {
-  messages::Camera camera;
-  camera.column_pitch_rad = 0.0089 / 768 / 0.0048;
-  camera.row_pitch_rad = 0.0066 / 484 / 0.0048;
+  messages::Camera camera{.column_pitch_rad = 0.0089 / 768 / 0.0048,
+                          .row_pitch_rad = 0.0066 / 484 / 0.0048};
   const double a = 300.0 * camera.column_pitch_rad;
   const double b = 100.0 * camera.row_pitch_rad;
   EXPECT_NEAR(RelativeIllumination(camera, 300.0, 100.0), std::cos(a) * std::cos(a) * std::cos(b),
@@ -105,6 +104,20 @@ TEST(ImageBlur, SpreadsLightAndKeepsIt) {
   // Near the edge some of it leaves the image.
   const auto edge = LampRates(row, 0);
   EXPECT_LT(std::accumulate(edge.begin(), edge.end(), 0.0), 0.99);
+}
+
+TEST(ExposureControl, BringsTheBrightPixelsToTheTarget) {
+  ImagerParams imager;  // 60000 e full well, target 0.4, 1000 e/s dark current
+  imager.exposure.brightest_share = 0.1;
+  std::vector<double> rates;
+  for (int i = 1; i <= 100; ++i) rates.push_back(1e4 * i);
+  // Ten of the hundred may be brighter than 9e5 e/s.
+  EXPECT_NEAR(ExposureTime(imager, rates), 24000.0 / 901000.0, 1e-12);
+  std::reverse(rates.begin(), rates.end());
+  EXPECT_NEAR(ExposureTime(imager, rates), 24000.0 / 901000.0, 1e-12);
+  EXPECT_EQ(ExposureTime(imager, std::vector<double>(9, 1e12)), imager.exposure.shortest_s);
+  EXPECT_EQ(ExposureTime(imager, std::vector<double>(9, 0.0)), imager.exposure.longest_s);
+  EXPECT_EQ(ExposureTime(imager, {}), imager.exposure.longest_s);
 }
 
 }  // namespace

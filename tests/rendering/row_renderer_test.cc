@@ -34,8 +34,7 @@ class EvenLamp final : public Lamps {
 
 // A pinhole 1 m above the ground, 1 m ahead of the rover, that looks straight down on 1 m of it.
 messages::Camera CameraAbove() {
-  messages::Camera camera;
-  camera.lens = messages::Lens::kPinhole;
+  messages::Camera camera{.lens = messages::Lens::kPinhole};
   camera.X_RC.translation() = Vector3(1.0, 0.0, 1.0);
   camera.X_RC.linear() =
       Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitY()).toRotationMatrix();

@@ -20,8 +20,7 @@ struct Crossing {
 };
 
 Crossing DriveAcross(Fidelity fidelity, double width_m, double depth_m, double flank_m) {
-  RoverParams params;
-  params.fidelity = fidelity;
+  const RoverParams params = WithFidelity(fidelity);
   terrain::GroundParams ground;
   ground.soil = RigidGround(0.8);
   ground.ditches = {.x_m = {1.0},
@@ -31,8 +30,7 @@ Crossing DriveAcross(Fidelity fidelity, double width_m, double depth_m, double f
                     .width_m = {width_m},
                     .depth_m = {depth_m},
                     .flank_m = {flank_m}};
-  const terrain::Terrain terrain(terrain::Ground(ground, {}), {}, {});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(terrain::Terrain(terrain::Ground(ground, {}), {}, {}), params);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   Crossing crossing;
   for (int i = 0; i < 1200; ++i) {  // 20 s

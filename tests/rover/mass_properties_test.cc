@@ -92,8 +92,7 @@ TEST(StaticLoads, RoverFallsOverBeyondTheRange) {
   const ComRange range = StandingComRange(params);
   const auto tilt_rad = [&params](double com_x_m) {
     params.mass.chassis_com_x_m = com_x_m;
-    const terrain::Terrain terrain = FlatTerrain();
-    const auto rover = PlacedRover(params, terrain);
+    const RoverOn rover(FlatTerrain(), params);
     RunFor(*rover, kBraked, 5.0);
     return math::Tilt(rover->state().X_WR);
   };
@@ -112,8 +111,7 @@ TEST(StaticLoads, AgreeWithTheSimulation) {
   smooth.friction_angle_rad = 0.0;
   terrain::GroundParams ground;
   ground.soil = smooth;
-  const terrain::Terrain terrain(terrain::Ground(ground, {}), {}, {});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(terrain::Terrain(terrain::Ground(ground, {}), {}, {}), params);
   RunFor(*rover, kBraked, 3.0);
   const messages::PerWheel<double> load_N = StaticWheelLoads(params);
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {

@@ -1,5 +1,9 @@
-// Climbing, scraping, getting stuck.
+// Steps and rocks that are climbed or not; and what touches besides the wheels: belly, arms, hubs
+// and panel against rocks, panel and wheels against walls. It blocks, scrapes, deflects,
+// high-centres and jams.
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "rover_drive.h"
 
@@ -12,8 +16,7 @@ enum class Climb { kUp, kStuck, kTippedOver };
 Climb TryStep(double height_m, double friction, const RoverParams& rover_params = {}) {
   RoverParams params = rover_params;
   params.contact.wheel_rock_friction = friction;
-  const terrain::Terrain terrain = StepTerrain(height_m, RigidGround(friction));
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(StepTerrain(height_m, RigidGround(friction)), params);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   // The rear wheels stand on the step from x = 0.6 + 0.26 on.
   for (int i = 0; i < 20 * 60; ++i) {
@@ -55,8 +58,7 @@ TEST(Step, FailsWithoutFrictionOrTorque) {
 // One side over a rock: the chassis takes half of that side's pitch.
 TEST(Rock, DifferentialHalvesThePitchOfOneSide) {
   const RoverParams params;
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.2, 0.0, 0.15, 0.15, 0.1)});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.2, 0.0, 0.15, 0.15, 0.1)}), params);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   double max_rad = 0.0;
   for (int i = 0; i < 600; ++i) {
@@ -74,14 +76,192 @@ TEST(Rock, DifferentialHalvesThePitchOfOneSide) {
 
 TEST(Rock, LowerThanTheBellyPassesBetweenTheWheels) {
   const RoverParams params;
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)}), params);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   for (int i = 0; i < 600; ++i) {
     rover->Step(command);
     EXPECT_TRUE(rover->state().contacts.empty());
   }
   EXPECT_GT(rover->state().X_WR.translation().x(), 1.3);
+}
+
+using truth::BodyPart;
+
+// What the rover feels while it drives straight ahead for a while.
+struct Story {
+  truth::RoverState end;
+  std::array<double, 5> largest_force_N{};      // by BodyPart
+  std::array<double, 5> largest_sliding_m_s{};  // where it scrapes
+  double max_turn_rad = 0.0;
+
+  double Force_N(BodyPart part) const { return largest_force_N[static_cast<std::size_t>(part)]; }
+  double Sliding_m_s(BodyPart part) const {
+    return largest_sliding_m_s[static_cast<std::size_t>(part)];
+  }
+};
+
+Story DriveAhead(const terrain::Terrain& terrain, double time_s, const RoverParams& params = {},
+                 const math::Pose2& X_WR = {}) {
+  const auto rover = PlacedRover(params, terrain, X_WR);
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  Story story;
+  for (int i = 0; i < static_cast<int>(60.0 * time_s); ++i) {
+    rover->Step(command);
+    for (const truth::BodyContact& contact : rover->state().contacts) {
+      const auto part = static_cast<std::size_t>(contact.part);
+      story.largest_force_N[part] = std::max(story.largest_force_N[part], contact.normal_force_N);
+      story.largest_sliding_m_s[part] =
+          std::max(story.largest_sliding_m_s[part], contact.sliding_speed_m_s);
+    }
+    const double turn_rad = math::WrapAngle(math::Heading(rover->state().X_WR) - X_WR.heading_rad);
+    story.max_turn_rad = std::max(story.max_turn_rad, std::abs(turn_rad));
+  }
+  story.end = rover->state();
+  return story;
+}
+
+// Beside the belly, in front of the arm of the left rear wheel: lower than the knee of the front
+// arm, as high as the hubs, too narrow for the wheels to meet it.
+TEST(Rock, BetweenBellyAndWheelIsScrapedByHubAndArm) {
+  const RoverGeometryParams size;
+  const Story story =
+      DriveAhead(FlatTerrain({MakeRock(0.7, size.arm_y_m - 0.01, 0.0, 0.03, 0.012, 0.09)}), 8.0);
+  EXPECT_GT(story.Force_N(BodyPart::kHub), 1.0);
+  EXPECT_GT(story.Sliding_m_s(BodyPart::kHub), 0.02);
+}
+
+// Tall, beyond the outer wheels' path but inside the panel's: the panel's front edge meets it.
+TEST(Rock, TallOneStopsThePanelEdge) {
+  // Leans over the wheels: widest at the height of the panel.
+  const Story story = DriveAhead(FlatTerrain({MakeRock(0.75, 0.0, 0.29, 0.2, 0.2, 0.12)}), 8.0);
+  EXPECT_GT(story.Force_N(BodyPart::kPanelEdge), 20.0);
+  EXPECT_LT(story.end.X_WR.translation().x(), 0.35);
+  EXPECT_LT(story.end.v_WR_m_s.norm(), 0.01);
+}
+
+// A wheel that rubs along a steep rock turns the rover away from it.
+TEST(Rock, GlancingBlowDeflects) {
+  const Story story = DriveAhead(FlatTerrain({MakeRock(0.8, 0.35, 0.0, 0.15, 0.15, 0.4)}), 6.0);
+  EXPECT_GT(story.max_turn_rad, math::DegToRad(2.0));
+}
+
+TEST(Rock, TallerThanTheBellyBlocksIt) {
+  const RoverParams params;
+  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)}), params);
+  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
+  const truth::RoverState& state = rover->state();
+  EXPECT_LT(state.X_WR.translation().x(), 0.5);
+  ASSERT_EQ(state.contacts.size(), 1U);
+  EXPECT_EQ(state.contacts[0].part, BodyPart::kBelly);
+  EXPECT_EQ(state.contacts[0].rock, 0);
+  EXPECT_GT(state.contacts[0].normal_force_N, 50.0);
+}
+
+// The same at both levels of fidelity.
+class RockAtEachFidelity : public testing::TestWithParam<Fidelity> {
+ protected:
+  RockAtEachFidelity() { params_.fidelity = GetParam(); }
+  RoverParams params_;
+};
+
+// What contact switches go by: the place on the rover, here the front edge of the belly, wherever
+// in the world the rover is and whichever way it faces.
+TEST_P(RockAtEachFidelity, ContactIsPlacedInTheRoversFrame) {
+  const double heading_rad = 2.0;
+  const math::Vector3 ahead(std::cos(heading_rad), std::sin(heading_rad), 0.0);
+  const math::Vector3 rock = math::Vector3(3.0, -1.0, 0.0) + 0.6 * ahead;
+  const terrain::Terrain terrain =
+      FlatTerrain({MakeRock(rock.x(), rock.y(), 0.0, 0.12, 0.12, 0.2)});
+  const auto rover = PlacedRover(params_, terrain, {3.0, -1.0, heading_rad});
+  RunFor(*rover, Drive(params_, 0.15, 0.0), 6.0);
+  const truth::RoverState& state = rover->state();
+  ASSERT_EQ(state.contacts.size(), 1U);
+  ASSERT_EQ(state.contacts[0].part, BodyPart::kBelly);
+  const math::Vector3& p_R = state.contacts[0].p_RoC_R;
+  EXPECT_NEAR(p_R.x(), 0.5 * params_.geometry.belly_length_m, 0.012);  // its rounding is 0.01
+  EXPECT_NEAR(p_R.y(), 0.0, 0.02);
+  EXPECT_NEAR(p_R.z(), params_.geometry.belly_clearance_m, 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fidelity, RockAtEachFidelity,
+                         testing::Values(Fidelity::kMultibody, Fidelity::kQuasiStatic));
+
+TEST_P(RockAtEachFidelity, UnderTheBellyScrapesAndLiftsIt) {
+  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.08, 0.137)}), params_);
+  const messages::WheelCommand command = Drive(params_, 0.15, 0.0);
+  bool scraped = false;
+  for (double time_s = 0.0; time_s < 7.0; time_s += rover->step_s()) {
+    rover->Step(command);
+    for (const truth::BodyContact& contact : rover->state().contacts) {
+      scraped |= contact.part == BodyPart::kBelly && contact.sliding_speed_m_s > 0.05;
+    }
+  }
+  EXPECT_TRUE(scraped);
+}
+
+// High-centred: the belly rests on a rock, the wheels hang or slip, and it does not get off.
+TEST_P(RockAtEachFidelity, HighCentresTheRoverPlacedOnIt) {
+  const RoverOn rover(FlatTerrain({MakeRock(0.0, 0.0, 0.0, 0.2, 0.16, 0.18)}), params_);
+  RunFor(*rover, Drive(params_, 0.15, 0.0), 10.0);
+  const truth::RoverState& state = rover->state();
+  const auto belly =
+      std::find_if(state.contacts.begin(), state.contacts.end(),
+                   [](const truth::BodyContact& c) { return c.part == BodyPart::kBelly; });
+  ASSERT_NE(belly, state.contacts.end());
+  EXPECT_GT(belly->normal_force_N, 0.5 * Weights(params_).total_N);
+  EXPECT_GT(belly->lift_share, 0.9);
+  EXPECT_LT(state.X_WR.translation().head<2>().norm(), 0.1);
+  EXPECT_GT(state.wheel_angle_rad[1], 20.0);
+}
+
+// Between two steep rocks nearer to each other than the rover is wide. At the default friction the
+// wheels climb the wedge.
+TEST_P(RockAtEachFidelity, TwoOfThemJamTheRover) {
+  params_.contact.wheel_rock_friction = 0.3;
+  const RoverOn rover(FlatTerrain({MakeRock(0.7, 0.33, 0.0, 0.15, 0.15, 0.5),
+                                   MakeRock(0.7, -0.33, 0.0, 0.15, 0.15, 0.5)}),
+                      params_);
+  RunFor(*rover, Drive(params_, 0.15, 0.0), 10.0);
+  EXPECT_LT(rover->state().X_WR.translation().x(), 0.5);
+  EXPECT_LT(rover->state().v_WR_m_s.norm(), 0.01);
+}
+
+// Wheels turned as far as they go stick out beyond the panel.
+TEST(Wall, PushesTurnedWheelsAway) {
+  const RoverParams params;
+  const RoverGeometryParams& size = params.geometry;
+  const double turn = params.drive.max_steer_rad;
+  const double wheel_y_m = 0.5 * (size.width_m - size.wheel_width_m);
+  const double wall_y_m = 0.5 * size.width_m + 0.01;
+  // The rounded edge of the wheel ends somewhat short of its corner.
+  const double corner_y_m =
+      wheel_y_m + size.wheel_radius_m * std::sin(turn) + 0.5 * size.wheel_width_m * std::cos(turn);
+  ASSERT_GT(corner_y_m, wall_y_m + 0.015);
+  messages::WheelCommand command;
+  command.steer_rad.fill(turn);
+  for (const bool walled : {false, true}) {
+    std::vector<terrain::Wall> walls;
+    if (walled) walls.push_back({math::Vector3::UnitY(), wall_y_m});
+    const RoverOn rover(FlatTerrain({}, std::move(walls)), params);
+    RunFor(*rover, command, 3.0);
+    const double y_m = rover->state().X_WR.translation().y();
+    if (walled) {
+      EXPECT_LT(y_m, -0.01);
+      EXPECT_GT(y_m, wall_y_m - corner_y_m - 0.001);
+    } else {
+      EXPECT_NEAR(y_m, 0.0, 1e-4);
+    }
+  }
+}
+
+TEST(Wall, StopsThePanel) {
+  const RoverParams params;
+  const RoverOn rover(FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}}), params);
+  RunFor(*rover, Drive(params, 0.15, 0.0), 6.0);
+  EXPECT_NEAR(rover->state().X_WR.translation().x(), 0.8 - 0.5 * params.geometry.length_m, 0.01);
+  ASSERT_FALSE(rover->state().contacts.empty());
+  EXPECT_EQ(rover->state().contacts[0].part, BodyPart::kPanelEdge);
+  EXPECT_EQ(rover->state().contacts[0].rock, -1);
 }
 
 }  // namespace

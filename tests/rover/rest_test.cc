@@ -146,8 +146,7 @@ TEST(Rest, BrakedRoverDoesNotCreep) {
       terrain::GroundParams ground;
       ground.slope_rad = math::DegToRad(slope_deg);
       ground.slope_direction_rad = 0.7;
-      const terrain::Terrain terrain(terrain::Ground(ground, {}), on, {});
-      const auto rover = PlacedRover({}, terrain);
+      const RoverOn rover(terrain::Terrain(terrain::Ground(ground, {}), on, {}));
       RunFor(*rover, kBraked, 5.0);
       const math::Vector3 from = rover->state().X_WR.translation();
       double fastest_m_s = 0.0;

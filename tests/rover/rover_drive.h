@@ -41,13 +41,36 @@ inline messages::WheelCommand SteerOnly(messages::WheelCommand command) {
   return command;
 }
 
-// A rover that has been placed at the origin.
+inline RoverParams WithFidelity(Fidelity fidelity) {
+  RoverParams params;
+  params.fidelity = fidelity;
+  return params;
+}
+
+// A rover that has been placed, at the origin unless told otherwise.
 inline std::unique_ptr<Rover> PlacedRover(const RoverParams& params,
-                                          const terrain::Terrain& terrain) {
+                                          const terrain::Terrain& terrain,
+                                          const math::Pose2& X_WR = {}) {
   auto rover = MakeRover(params, terrain);
-  rover->Place({});
+  rover->Place(X_WR);
   return rover;
 }
+
+// The same with a terrain of its own.
+class RoverOn {
+ public:
+  explicit RoverOn(terrain::Terrain terrain, const RoverParams& params = {},
+                   const math::Pose2& X_WR = {})
+      : terrain_(std::make_unique<terrain::Terrain>(std::move(terrain))),
+        rover_(PlacedRover(params, *terrain_, X_WR)) {}
+
+  Rover* operator->() const { return rover_.get(); }
+  Rover& operator*() const { return *rover_; }
+
+ private:
+  std::unique_ptr<terrain::Terrain> terrain_;
+  std::unique_ptr<Rover> rover_;
+};
 
 inline terrain::Terrain FlatTerrain(std::vector<terrain::Rock> rocks = {},
                                     std::vector<terrain::Wall> walls = {}) {

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "rover/rover_geometry.h"
-#include "rover/rover_params.h"
 #include "scenario/load.h"
 
 namespace rockyard::rover {

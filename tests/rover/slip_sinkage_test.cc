@@ -152,12 +152,6 @@ TEST(SlipSinkageState, StandsStillWithTheWheelAndWhereItIsOff) {
   EXPECT_EQ(off.dug_slip(0), 0.0);
 }
 
-RoverParams Of(Fidelity fidelity) {
-  RoverParams params;
-  params.fidelity = fidelity;
-  return params;
-}
-
 // Slip, torques and sinkage of a steady climb.
 struct Climb {
   double slip = 0.0;
@@ -168,8 +162,7 @@ struct Climb {
 
 Climb SteadyClimb(const RoverParams& params, double slope_deg, const terrain::SoilParams& soil,
                   double first_s = 12.0) {
-  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(slope_deg), 0.0, soil);
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(SlopeTerrain(math::DegToRad(slope_deg), 0.0, soil), params);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   RunFor(*rover, command, first_s);
   const math::Vector3 from = rover->state().X_WR.translation();
@@ -196,7 +189,7 @@ double ClosedFormSlip(const terrain::SoilParams& soil, double pull_N,
 class SlipSinkageRover : public ::testing::TestWithParam<Fidelity> {};
 
 TEST_P(SlipSinkageRover, ClimbsAtTheSlipOfTheClosedForm) {
-  const RoverParams params = Of(GetParam());
+  const RoverParams params = WithFidelity(GetParam());
   const terrain::SoilParams soil = Digging();
   for (const double slope_deg : {0.0, 5.0, 10.0}) {
     const Climb climb = SteadyClimb(params, slope_deg, soil);
@@ -214,7 +207,7 @@ TEST_P(SlipSinkageRover, ClimbsAtTheSlipOfTheClosedForm) {
 }
 
 TEST_P(SlipSinkageRover, SlipsMoreTheMoreASlipDigs) {
-  const RoverParams params = Of(GetParam());
+  const RoverParams params = WithFidelity(GetParam());
   double last = SteadyClimb(params, 10.0, terrain::SoilParams{}).slip;
   for (const double per_slip : {0.3, 0.6}) {
     const double slip =
@@ -226,7 +219,7 @@ TEST_P(SlipSinkageRover, SlipsMoreTheMoreASlipDigs) {
 
 // A slope on which wheels spin with it, and do not without: 18 deg of sand.
 TEST_P(SlipSinkageRover, IsEmbeddedWhereItWouldClimb) {
-  const RoverParams params = Of(GetParam());
+  const RoverParams params = WithFidelity(GetParam());
   EXPECT_LT(SteadyClimb(params, 18.0, terrain::SoilParams{}).slip, 0.8);
   const Climb climb = SteadyClimb(params, 18.0, Digging());
   EXPECT_GT(climb.slip, 0.95);
@@ -236,12 +229,11 @@ TEST_P(SlipSinkageRover, IsEmbeddedWhereItWouldClimb) {
 // In drift on 20 deg wheels spin on the spot at once, i = 1: they sink with the way s of the rim,
 // by the law at d = 1 - e^(-s / L), but for the damping of the multibody's contacts.
 TEST_P(SlipSinkageRover, SpinningWheelsDigInLittleByLittle) {
-  RoverParams params = Of(GetParam());
+  RoverParams params = WithFidelity(GetParam());
   params.physics.gravity_m_s2 = 3.72;
   params.quasi_static.settle_distance_m = 0.005;
   const terrain::SoilParams soil = Digging(terrain::SoilPreset::kMarsDrift);
-  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(20.0), 0.0, soil);
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(SlopeTerrain(math::DegToRad(20.0), 0.0, soil), params);
   const double load_N = Weights(params).total_N * std::cos(math::DegToRad(20.0)) / 6.0;
   double last_m = 0.0;
   for (const double way_m : {0.03, 0.06, 0.1, 0.2, 0.4}) {
@@ -265,12 +257,11 @@ TEST_P(SlipSinkageRover, SpinningWheelsDigInLittleByLittle) {
 }
 
 TEST_P(SlipSinkageRover, ChangesNoBitWhereItIsOff) {
-  const RoverParams params = Of(GetParam());
+  const RoverParams params = WithFidelity(GetParam());
   terrain::SoilParams off;
   off.slip_sinkage = {.enabled = false, .exponent_per_slip = 0.9, .length_m = 0.01};
   const auto drive = [&](const terrain::SoilParams& soil) {
-    const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(12.0), 0.4, soil);
-    const auto rover = PlacedRover(params, terrain);
+    const RoverOn rover(SlopeTerrain(math::DegToRad(12.0), 0.4, soil), params);
     RunFor(*rover, Drive(params, 0.15, 0.1), 5.0);
     return rover->state().X_WR.matrix();
   };

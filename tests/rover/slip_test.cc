@@ -36,8 +36,7 @@ void ExpectSlipOfTheCurve(const SlipCase& c) {
   params.physics.step_s = 1.0 / c.rate_Hz;
   params.physics.gravity_m_s2 = c.gravity_m_s2;
   const double slope = math::DegToRad(c.slope_deg);
-  const terrain::Terrain terrain = SlopeTerrain(slope, 0.0, c.soil);
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(SlopeTerrain(slope, 0.0, c.soil), params);
   const messages::WheelCommand command = Drive(params, c.speed_m_s, 0.0);
   RunFor(*rover, command, 4.0);
   const truth::RoverState from = rover->state();
@@ -86,8 +85,7 @@ TEST(Slip, WheelsPullSteadilyNearTheLargestTraction) {
   const RoverParams params;
   terrain::SoilParams soil;
   soil.shear_modulus_m = 0.001;
-  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(26.0), 0.0, soil);
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(SlopeTerrain(math::DegToRad(26.0), 0.0, soil), params);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   RunFor(*rover, command, 4.0);
   for (int i = 0; i < 120; ++i) {
@@ -134,8 +132,7 @@ TEST(Slip, SideSlipOnACrossSlope) {
   for (const double slope_deg : {5.0, 10.0, 15.0}) {
     const RoverParams params;
     const double slope = math::DegToRad(slope_deg);
-    const terrain::Terrain terrain = SlopeTerrain(slope, 0.5 * std::numbers::pi);
-    const auto rover = PlacedRover(params, terrain);
+    const RoverOn rover(SlopeTerrain(slope, 0.5 * std::numbers::pi), params);
     RunFor(*rover, Drive(params, 0.15, 0.0), 1.5);
     const truth::RoverState& state = rover->state();
     const math::Vector3 down_R = state.X_WR.linear().transpose() * -math::Vector3::UnitZ();

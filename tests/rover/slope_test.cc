@@ -33,8 +33,7 @@ TEST(Slope, BrakedRoverSlidesBeyondTheFrictionAngle) {
         RoverParams params;
         params.physics.gravity_m_s2 = gravity_m_s2;
         const double slope = std::atan(0.5) + math::DegToRad(excess_deg);
-        const terrain::Terrain terrain = SlopeTerrain(slope, direction, RigidGround(0.5));
-        const auto rover = PlacedRover(params, terrain);
+        const RoverOn rover(SlopeTerrain(slope, direction, RigidGround(0.5)), params);
         const math::Vector3 from = rover->state().X_WR.translation();
         RunFor(*rover, kBraked, 1.5);
         const double expected_m = SlideLength(slope, 0.5, gravity_m_s2, 1.5);
@@ -91,9 +90,8 @@ TEST(Slope, SlidesStraightDownTheFallLine) {
   for (const double heading_deg : {0.0, 20.0, 45.0, 70.0, 90.0, 135.0, 200.0}) {
     const RoverParams params;
     const double slope = math::DegToRad(20.0);
-    const terrain::Terrain terrain = SlopeTerrain(slope, kUphill, RigidGround(0.3));
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({0.0, 0.0, math::DegToRad(heading_deg)});
+    const RoverOn rover(SlopeTerrain(slope, kUphill, RigidGround(0.3)), params,
+                        {0.0, 0.0, math::DegToRad(heading_deg)});
     const math::Transform from = rover->state().X_WR;
     RunFor(*rover, kBraked, 1.0);
     const math::Transform& to = rover->state().X_WR;
@@ -109,8 +107,7 @@ TEST(Slope, SlidesStraightDownTheFallLine) {
 
 // How far the rover leans beyond the slope within three seconds, braked, at most 35 deg.
 double LeanAfter3s(const RoverParams& params, double slope, double direction) {
-  const terrain::Terrain terrain = SlopeTerrain(slope, direction, RigidGround(3.0));
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(SlopeTerrain(slope, direction, RigidGround(3.0)), params);
   double lean = 0.0;
   for (int i = 0; i < 180 && lean < math::DegToRad(35.0); ++i) {
     lean = math::Tilt(rover->state().X_WR) - slope;

@@ -140,8 +140,7 @@ TEST(StaticLoads, LevelWithoutFriction) {
   RoverParams params;
   params.mass.chassis_com_x_m = 0.02;
   const Weights w(params);
-  const terrain::Terrain terrain = SlopeTerrain(0.0, 0.0, RigidGround(0.0));
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(SlopeTerrain(0.0, 0.0, RigidGround(0.0)), params);
   RunFor(*rover, kBraked, 3.0);
   const RoverGeometry g = MakeRoverGeometry(params.geometry);
   const double rocker_wheel_x = g.wheel_R[2].x();

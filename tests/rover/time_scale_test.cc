@@ -136,8 +136,7 @@ TEST(TimeScale, ReportsRealTimesAndVelocities) {
 
 TEST(TimeScale, SteersAtTheRealRate) {
   const RoverParams params = SlowRover(22.0);
-  const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain(), params);
   messages::WheelCommand command;
   command.steer_rad.fill(1.0);
   rover->Step(command);

@@ -2,12 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "core/statistical_checks.h"
 #include "math/angles.h"
 #include "math/sun_position.h"
+#include "noise_laws.h"
 #include "sensing/lander_fix.h"
 #include "sensing/radio_beacon.h"
 #include "sensing/stripe_scene.h"
@@ -20,12 +19,9 @@ using math::DegToRad;
 using math::Vector3;
 using messages::PoseCoordinate;
 
-// Chance of a false alarm of each check if its seed were drawn anew. Seeds are fixed.
-constexpr double kAlpha = 1e-4;
 constexpr core::TrialKey kKey{20261125, 7};
 constexpr int kMany = 4000;
 
-double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 // As high above the ground as it is deep in it.
 terrain::Rock Boulder(double x_m, double y_m, double height_m) {
   return EllipsoidRock(x_m, y_m, 0.0, 0.3, 0.3, height_m);
@@ -40,11 +36,10 @@ math::Transform Rover() { return PoseAt(10.0, 7.0, 0.0, DegToRad(40.0)); }
 // Errors of a fix along and across the line of sight and of its heading, in their deviations.
 std::vector<std::vector<double>> FixErrors(const LanderFixParams& params,
                                            const LanderPlace& lander) {
-  const terrain::Terrain flat = FlatWith({});
   std::vector<std::vector<double>> errors(3);
   const LanderFix camera(params, lander, kKey);
   for (int i = 0; i < kMany; ++i) {
-    const auto fix = camera.Observe(Rover(), flat, i);
+    const auto fix = camera.Observe(Rover(), Flat(), i);
     const Eigen::Vector2d from(fix->pose_W[0] - 2.0, fix->pose_W[1] - 1.0);
     errors[0].push_back((from.norm() / 10.0 - 1.0) / 0.05);
     errors[1].push_back((std::atan2(from.y(), from.x()) - std::atan2(6.0, 8.0)) / 0.001);
@@ -65,7 +60,7 @@ TEST(LanderFixTest, ErrsAsPublished) {
 }
 
 TEST(LanderFixTest, TellsItsCovarianceAboutTheLineOfSight) {
-  const auto fix = LanderFix({}, kLander, kKey).Observe(Rover(), FlatWith({}), 0);
+  const auto fix = LanderFix({}, kLander, kKey).Observe(Rover(), Flat(), 0);
   const Eigen::Vector2d from(fix->pose_W[0] - 2.0, fix->pose_W[1] - 1.0);
   const Eigen::Vector2d along = from.normalized();
   const Eigen::Vector2d across(-along.y(), along.x());
@@ -79,9 +74,8 @@ TEST(LanderFixTest, TellsItsCovarianceAboutTheLineOfSight) {
 TEST(LanderFixTest, IsTurnedByThePanError) {
   LanderPlace turned = kLander;
   turned.pan_error_rad = DegToRad(1.0);
-  const terrain::Terrain flat = FlatWith({});
-  const auto right = LanderFix({}, kLander, kKey).Observe(Rover(), flat, 3);
-  const auto wrong = LanderFix({}, turned, kKey).Observe(Rover(), flat, 3);
+  const auto right = LanderFix({}, kLander, kKey).Observe(Rover(), Flat(), 3);
+  const auto wrong = LanderFix({}, turned, kKey).Observe(Rover(), Flat(), 3);
   const Eigen::Rotation2Dd turn(DegToRad(1.0));
   const Eigen::Vector2d station(2.0, 1.0);
   const Eigen::Vector2d expected = station + turn * (right->pose_W.head<2>() - station);
@@ -91,19 +85,18 @@ TEST(LanderFixTest, IsTurnedByThePanError) {
 
 // What fixes have in common stays from number to number; all of it with a share of 1.
 TEST(LanderFixTest, SharesWhatItIsTold) {
-  const terrain::Terrain flat = FlatWith({});
   LanderFixParams params;
   params.common_share = 1.0;
   const LanderFix same(params, kLander, kKey);
-  EXPECT_EQ(same.Observe(Rover(), flat, 0)->pose_W, same.Observe(Rover(), flat, 1)->pose_W);
+  EXPECT_EQ(same.Observe(Rover(), Flat(), 0)->pose_W, same.Observe(Rover(), Flat(), 1)->pose_W);
   // A half: fixes of one trial correlate by a half over trials.
   params.common_share = 0.5;
   double product = 0.0;
   double square = 0.0;
   for (std::uint32_t trial = 0; trial < kMany; ++trial) {
     const LanderFix camera(params, kLander, {5, trial});
-    const double a = camera.Observe(Rover(), flat, 0)->pose_W[kHeading] - DegToRad(40.0);
-    const double b = camera.Observe(Rover(), flat, 1)->pose_W[kHeading] - DegToRad(40.0);
+    const double a = camera.Observe(Rover(), Flat(), 0)->pose_W[kHeading] - DegToRad(40.0);
+    const double b = camera.Observe(Rover(), Flat(), 1)->pose_W[kHeading] - DegToRad(40.0);
     product += a * b;
     square += a * a;
   }
@@ -114,9 +107,9 @@ TEST(LanderFixTest, SharesWhatItIsTold) {
 TEST(LanderFixTest, EndsAtItsRangeAndBehindRocks) {
   LanderFixParams params;
   params.range_m = 9.99;
-  EXPECT_FALSE(LanderFix(params, kLander, kKey).Observe(Rover(), FlatWith({}), 0));
+  EXPECT_FALSE(LanderFix(params, kLander, kKey).Observe(Rover(), Flat(), 0));
   params.range_m = 10.01;
-  EXPECT_TRUE(LanderFix(params, kLander, kKey).Observe(Rover(), FlatWith({}), 0));
+  EXPECT_TRUE(LanderFix(params, kLander, kKey).Observe(Rover(), Flat(), 0));
   // The line from 1.5 m to 0.3 m over 10 m passes 0.54 m high 2 m before the rover.
   const auto with_rock = [](double height_m) { return FlatWith({Boulder(8.4, 5.8, height_m)}); };
   EXPECT_TRUE(LanderFix(params, kLander, kKey).Observe(Rover(), with_rock(0.5), 0));
@@ -127,11 +120,7 @@ Vector3 SunAt(double heading_rad, double elevation_rad) {
   return math::ToUnitVector({-heading_rad, elevation_rad}, 0.0);
 }
 
-SunSensorParams Reliable() {
-  SunSensorParams params;
-  params.dropout_probability = 0.0;
-  return params;
-}
+SunSensorParams Reliable() { return {.dropout_probability = 0.0}; }
 
 TEST(SunSensorTest, SeesTheSunWhereItStands) {
   SunSensorParams params = Reliable();
@@ -139,7 +128,7 @@ TEST(SunSensorTest, SeesTheSunWhereItStands) {
   const math::Transform X_WR =
       math::MakePose(Vector3(1.0, 2.0, 0.0), DegToRad(100.0), DegToRad(5.0), DegToRad(-7.0));
   const Vector3 sun_W = SunAt(DegToRad(20.0), DegToRad(50.0));
-  const auto sighting = SunSensor(params, kKey).Observe(X_WR, sun_W, FlatWith({}), 0);
+  const auto sighting = SunSensor(params, kKey).Observe(X_WR, sun_W, Flat(), 0);
   ASSERT_TRUE(sighting);
   EXPECT_LT((X_WR.linear() * sighting->sun_R - sun_W).norm(), 1e-12);
   EXPECT_EQ(sighting->direction_sd_rad, 0.0);
@@ -154,11 +143,10 @@ TEST(SunSensorTest, IsNoisierTheLowerTheSun) {
   const double sd_rad = DegToRad(0.5) * std::exp(0.25);
   const Vector3 side = Vector3::UnitZ().cross(sun_W).normalized();
   const Vector3 up = sun_W.cross(side);
-  const terrain::Terrain flat = FlatWith({});
   std::vector<double> sideways;
   std::vector<double> upwards;
   for (int i = 0; i < kMany; ++i) {
-    const auto sighting = sensor.Observe(math::Transform::Identity(), sun_W, flat, i);
+    const auto sighting = sensor.Observe(math::Transform::Identity(), sun_W, Flat(), i);
     sideways.push_back(std::asin(sighting->sun_R.dot(side)) / sd_rad);
     upwards.push_back(std::asin(sighting->sun_R.dot(up)) / sd_rad);
   }
@@ -170,10 +158,9 @@ TEST(SunSensorTest, IsNoisierTheLowerTheSun) {
 
 TEST(SunSensorTest, SeesNothingOutsideOfItsView) {
   const SunSensor sensor(Reliable(), kKey);
-  const terrain::Terrain flat = FlatWith({});
   const auto sees = [&](double elevation_deg, double pitch_deg) {
     const auto X_WR = math::MakePose(Vector3::Zero(), 0.0, DegToRad(pitch_deg), 0.0);
-    return sensor.Observe(X_WR, SunAt(0.0, DegToRad(elevation_deg)), flat, 0).has_value();
+    return sensor.Observe(X_WR, SunAt(0.0, DegToRad(elevation_deg)), Flat(), 0).has_value();
   };
   EXPECT_TRUE(sees(15.1, 0.0));  // 150 deg of view
   EXPECT_FALSE(sees(14.9, 0.0));
@@ -189,12 +176,10 @@ TEST(SunSensorTest, IsShadedByRocksAndDropsOut) {
   const math::Transform X_WR = math::Transform::Identity();
   EXPECT_TRUE(sensor.Observe(X_WR, sun_W, FlatWith({Boulder(2.0, 0.0, 1.4)}), 0));
   EXPECT_FALSE(sensor.Observe(X_WR, sun_W, FlatWith({Boulder(2.0, 0.0, 1.6)}), 0));
-  SunSensorParams params;
-  params.dropout_probability = 0.2;
-  const terrain::Terrain flat = FlatWith({});
+  const SunSensorParams params{.dropout_probability = 0.2};
   int lost = 0;
   for (int i = 0; i < kMany; ++i) {
-    lost += SunSensor(params, kKey).Observe(X_WR, sun_W, flat, i) ? 0 : 1;
+    lost += SunSensor(params, kKey).Observe(X_WR, sun_W, Flat(), i) ? 0 : 1;
   }
   EXPECT_NEAR(lost, 0.2 * kMany, 4.0 * std::sqrt(0.16 * kMany));
 }

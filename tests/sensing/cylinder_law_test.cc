@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
-#include "core/statistical_checks.h"
 #include "math/angles.h"
+#include "noise_laws.h"
 #include "sensing/lander_fix.h"
 #include "sensing/stripe_scene.h"
 
@@ -19,27 +18,21 @@ namespace {
 using math::DegToRad;
 using math::RadToDeg;
 
-// Chance of a false alarm of each check if its seed were drawn anew. Seeds are fixed.
-constexpr double kAlpha = 1e-4;
 constexpr core::TrialKey kCylinderKey{20261126, 3};
 constexpr int kFixes = 4000;
 constexpr int kHeadingRow = messages::Index(messages::PoseCoordinate::kHeading);
 // Distance at which the cylinder is 20 pixels wide: m (d/rho - rho/d) tan(phi/2) = M.
 constexpr double kTwentyPixels_m = 9.393;
 
-double StandardNormal(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
-
 // No coefficient is fitted.
 CylinderLawParams Blank() {
-  CylinderLawParams params;
-  params.found = {};
-  params.wrong = {};
-  params.heading = {};
-  params.range = {};
-  params.bearing = {};
-  params.heading_bias_rad = 0.0;
-  params.range_bias = 0.0;
-  return params;
+  return {.found = {},
+          .wrong = {},
+          .heading = {},
+          .range = {},
+          .bearing = {},
+          .heading_bias_rad = 0.0,
+          .range_bias = 0.0};
 }
 
 CylinderLawParams OnePixel() {
@@ -127,9 +120,7 @@ math::Transform RoverHeading(double heading_deg) {
 }
 
 LanderFixParams Certain() {
-  LanderFixParams params;
-  params.law = LanderFixLaw::kCylinder;
-  params.cylinder = Blank();
+  LanderFixParams params{.law = LanderFixLaw::kCylinder, .cylinder = Blank()};
   params.cylinder.found.intercept = 1000.0;
   params.cylinder.wrong.intercept = -1000.0;
   params.cylinder.heading.least = DegToRad(5.0);
@@ -141,9 +132,16 @@ LanderFixParams Certain() {
 std::optional<messages::PoseFix> FixOf(const LanderFixParams& params, double heading_deg,
                                        int number = 0,
                                        std::optional<double> sun_rad = std::nullopt) {
-  static const terrain::Terrain kFlat = FlatWith({});
   return LanderFix(params, kPlace, kCylinderKey)
-      .Observe(RoverHeading(heading_deg), kFlat, number, sun_rad);
+      .Observe(RoverHeading(heading_deg), Flat(), number, sun_rad);
+}
+
+// What a fix tells of the range over the true one, and its error of the heading.
+double RangeShare(const messages::PoseFix& fix) {
+  return std::hypot(fix.pose_W[0] - kPlace.x_m, fix.pose_W[1] - kPlace.y_m) / 10.0;
+}
+double HeadingError(const messages::PoseFix& fix, double rover_heading_deg) {
+  return math::WrapAngle(fix.pose_W[kHeadingRow] - DegToRad(rover_heading_deg));
 }
 
 // With the constant law's deviations and nothing missed or wrong both laws draw the same.
@@ -201,19 +199,17 @@ TEST(CylinderFixTest, ErrsByItsDeviationsAndBiases) {
   const CylinderDeviations sd = At(params.cylinder, 10.0, theta_deg);
   std::vector<std::vector<double>> errors(3);
   for (int i = 0; i < kFixes; ++i) {
-    const auto fix = FixOf(params, kToLander_deg - theta_deg, i);
-    const Eigen::Vector2d from(fix->pose_W[0] - 2.0, fix->pose_W[1] - 1.0);
-    errors[0].push_back((from.norm() / 10.0 - 0.96) / sd.range);
-    errors[1].push_back((std::atan2(from.y(), from.x()) - std::atan2(6.0, 8.0)) / sd.bearing_rad);
-    errors[2].push_back(
-        (math::WrapAngle(fix->pose_W[kHeadingRow] - DegToRad(kToLander_deg - theta_deg)) -
-         DegToRad(3.0)) /
-        sd.heading_rad);
+    const double heading_deg = kToLander_deg - theta_deg;
+    const auto fix = FixOf(params, heading_deg, i);
+    const double bearing_rad = std::atan2(fix->pose_W[1] - kPlace.y_m, fix->pose_W[0] - kPlace.x_m);
+    errors[0].push_back((RangeShare(*fix) - 0.96) / sd.range);
+    errors[1].push_back((bearing_rad - std::atan2(6.0, 8.0)) / sd.bearing_rad);
+    errors[2].push_back((HeadingError(*fix, heading_deg) - DegToRad(3.0)) / sd.heading_rad);
   }
-  for (const auto& error : errors) EXPECT_GT(core::KolmogorovP(error, StandardNormal), kAlpha);
+  for (const auto& error : errors) EXPECT_GT(core::KolmogorovP(error, NormalCdf), kAlpha);
   // The control: a mean an eighth of a deviation off shows.
   for (double& value : errors[2]) value += 0.125;
-  EXPECT_LT(core::KolmogorovP(errors[2], StandardNormal), kAlpha);
+  EXPECT_LT(core::KolmogorovP(errors[2], NormalCdf), kAlpha);
 }
 
 TEST(CylinderFixTest, IsMissedAndWrongAsOftenAsTold) {
@@ -227,9 +223,7 @@ TEST(CylinderFixTest, IsMissedAndWrongAsOftenAsTold) {
     const auto fix = FixOf(params, 40.0, i);
     if (!fix) continue;
     ++found;
-    if (std::abs(math::WrapAngle(fix->pose_W[kHeadingRow] - DegToRad(40.0))) > DegToRad(0.1)) {
-      ++wrong;
-    }
+    wrong += std::abs(HeadingError(*fix, 40.0)) > DegToRad(0.1) ? 1 : 0;
   }
   // Four standard deviations of a binomial share: a chance of 6e-5.
   EXPECT_NEAR(found / static_cast<double>(kFixes), 0.7, 4.0 * std::sqrt(0.21 / kFixes));
@@ -243,10 +237,9 @@ TEST(CylinderFixTest, IsMissedWhateverItsErrors) {
   std::vector<double> ranges;
   for (int i = 0; i < kFixes; ++i) {
     const auto fix = FixOf(params, 40.0, i);
-    if (!fix) continue;
-    ranges.push_back((std::hypot(fix->pose_W[0] - 2.0, fix->pose_W[1] - 1.0) / 10.0 - 1.0) / 0.05);
+    if (fix) ranges.push_back((RangeShare(*fix) - 1.0) / 0.05);
   }
-  EXPECT_GT(core::KolmogorovP(ranges, StandardNormal), kAlpha);
+  EXPECT_GT(core::KolmogorovP(ranges, NormalCdf), kAlpha);
 }
 
 TEST(CylinderFixTest, DoesNotKnowThatItIsWrong) {
@@ -258,13 +251,13 @@ TEST(CylinderFixTest, DoesNotKnowThatItIsWrong) {
   std::vector<double> ranges;
   for (int i = 0; i < kFixes; ++i) {
     const auto fix = FixOf(params, 40.0, i);
-    turns.push_back(math::WrapAngle(fix->pose_W[kHeadingRow] - DegToRad(40.0)));
-    ranges.push_back(std::log(std::hypot(fix->pose_W[0] - 2.0, fix->pose_W[1] - 1.0) / 10.0) / 0.3);
+    turns.push_back(HeadingError(*fix, 40.0));
+    ranges.push_back(std::log(RangeShare(*fix)) / 0.3);
     EXPECT_NEAR(fix->covariance(kHeadingRow, kHeadingRow), std::pow(DegToRad(5.0), 2), 1e-12);
   }
   const auto uniform = [](double turn) { return 0.5 + turn / DegToRad(240.0); };
   EXPECT_GT(core::KolmogorovP(turns, uniform), kAlpha);
-  EXPECT_GT(core::KolmogorovP(ranges, StandardNormal), kAlpha);
+  EXPECT_GT(core::KolmogorovP(ranges, NormalCdf), kAlpha);
   // The control: a tenth less turn shows.
   for (double& turn : turns) turn *= 0.9;
   EXPECT_LT(core::KolmogorovP(turns, uniform), kAlpha);

@@ -7,15 +7,13 @@
 #include <numbers>
 #include <vector>
 
-#include "core/statistical_checks.h"
 #include "math/angles.h"
+#include "noise_laws.h"
 #include "perception/tracked_feature.h"
 
 namespace rockyard::sensing {
 namespace {
 
-// Chance of a false alarm of each check if its seed were drawn anew. Seeds are fixed.
-constexpr double kAlpha = 1e-4;
 constexpr core::TrialKey kKey{20261123, 4};
 
 FeatureTrackerParams AllRound() {
@@ -25,8 +23,6 @@ FeatureTrackerParams AllRound() {
           .bearing_sd_rad = 0.0,
           .range_sd_fraction = 0.0};
 }
-
-double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 // The sighting, composed with the true pose, is the feature again: on all sides, with headings
 // around the turn.

@@ -57,8 +57,7 @@ void ScanTheField(benchmark::State& state, const SunParams& sun, double roughnes
 }
 
 void BM_Expose(benchmark::State& state) {
-  SunParams sun;
-  sun.elevation_rad = math::DegToRad(static_cast<double>(state.range(1)));
+  const SunParams sun{.elevation_rad = math::DegToRad(static_cast<double>(state.range(1)))};
   ScanTheField(state, sun, 0.0);
 }
 BENCHMARK(BM_Expose)

@@ -27,6 +27,18 @@ Vector3 StripeOnLine(const LineView& line, const messages::StripeLaser& fan, int
   return point;
 }
 
+// Column, counted from the first one, about which a line's light lies.
+double Centroid(const std::vector<double>& rates) {
+  double sum = 0.0;
+  double moment = 0.0;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    sum += rates[i];
+    moment += rates[i] * static_cast<double>(i);
+  }
+  EXPECT_GT(sum, 0.0);
+  return moment / sum;
+}
+
 // Centroid of a stripe on a line of flat ground, against the projection of the point.
 TEST(StripeImage, LiesWhereTheLightPlaneMeetsTheGround) {
   for (const auto lens :
@@ -43,19 +55,12 @@ TEST(StripeImage, LiesWhereTheLightPlaneMeetsTheGround) {
         const auto rates =
             LampRates(line.Render(FlatWith({}), PoseAt(2.0, -1.0, 0.0, 0.7), fan.camera, row_px),
                       static_cast<int>(laser));
-        double sum = 0.0;
-        double moment = 0.0;
-        for (std::size_t i = 0; i < rates.size(); ++i) {
-          sum += rates[i];
-          moment += rates[i] * (static_cast<double>(i) - 384.0);
-        }
-        ASSERT_GT(sum, 0.0);
         const messages::Camera& camera = line.Camera(fan.camera);
         const auto pixel =
             vision::Project(camera, camera.X_RC.inverse() * StripeOnLine(line, fan, row_px));
         ASSERT_TRUE(pixel.has_value());
         // What is left is the perspective across a stripe of some pixels.
-        EXPECT_NEAR(moment / sum, pixel->column_px, 0.02) << laser << " " << row_px;
+        EXPECT_NEAR(Centroid(rates) - 384.0, pixel->column_px, 0.02) << laser << " " << row_px;
       }
     }
   }
@@ -66,14 +71,7 @@ TEST(StripeImage, ShiftsWithElevation) {
   const LineView line{QuietParams(), Darkness()};
   const int row_px = line.calibration.scanline_px[1];
   const auto centre = [&](double drop_m) {
-    const auto rates = LampRates(line.Render(FlatWith({}), PoseAt(0, 0, drop_m), 0, row_px), 2);
-    double sum = 0.0;
-    double moment = 0.0;
-    for (std::size_t i = 0; i < rates.size(); ++i) {
-      sum += rates[i];
-      moment += rates[i] * static_cast<double>(i);
-    }
-    return moment / sum;
+    return Centroid(LampRates(line.Render(FlatWith({}), PoseAt(0, 0, drop_m), 0, row_px), 2));
   };
   // Depth s in the scanline plane, baseline b: the column angle is atan(b / s).
   const messages::Camera& camera = line.Camera(0);
@@ -87,9 +85,7 @@ TEST(StripeImage, ShiftsWithElevation) {
 
 // With the sun behind it, the rover's shadow ends where the front edge of its panel throws it.
 TEST(RoverBody, CastsAShadow) {
-  SunParams sun;
-  sun.elevation_rad = math::DegToRad(60.0);
-  sun.azimuth_rad = math::DegToRad(180.0);
+  const SunParams sun{.elevation_rad = math::DegToRad(60.0), .azimuth_rad = math::DegToRad(180.0)};
   const rendering::SunLight light = rendering::MakeSunLight(sun, 40e-9);
   const rendering::RoverBody body = MakeRoverBody(rover::RoverGeometryParams{});
   const terrain::Terrain terrain = FlatWith({});

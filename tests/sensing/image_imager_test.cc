@@ -39,8 +39,7 @@ std::uint64_t HashOf(const messages::StripeImages& images) {
 
 TEST(StripeImager, ExposesTheDarkImageToTheTarget) {
   for (const double elevation_deg : {15.0, 60.0}) {
-    SunParams sun;
-    sun.elevation_rad = math::DegToRad(elevation_deg);
+    const SunParams sun{.elevation_rad = math::DegToRad(elevation_deg)};
     const auto images = Make(QuietParams(), sun).Expose(FlatWith({}), PoseAt(0, 0, 0), kKey, 0);
     std::vector<std::uint16_t> counts;
     for (const messages::ImageBand& band : images.exposures[0].dark) {

@@ -31,11 +31,7 @@ inline LightStripeParams QuietParams() {
   return params;
 }
 
-inline SunParams Darkness() {
-  SunParams sun;
-  sun.irradiance_w_m2_nm = 0.0;
-  return sun;
-}
+inline SunParams Darkness() { return {.irradiance_w_m2_nm = 0.0}; }
 
 // What one line of a camera receives, without noise.
 struct LineView {

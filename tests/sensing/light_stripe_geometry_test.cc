@@ -2,10 +2,10 @@
 // text.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "core/archive.h"
-#include "core/error.h"
+#include "core/params_text.h"
 #include "sensing/stripe_layout_params.h"
 #include "sensing/stripe_scene.h"
 
@@ -114,35 +114,24 @@ TEST_P(ResolutionTest, OnePixelIsTheClosedForm) {
 
 INSTANTIATE_TEST_SUITE_P(Baselines, ResolutionTest, testing::Values(0.05, 0.10));
 
-// The paths of all problems that reading `key` = `value` reports.
-std::vector<std::string> ProblemsOf(const std::string& key, double value) {
-  core::JsonValue json = core::WriteParams(LightStripeParams{});
-  json.Set(key, core::JsonValue(value));
-  LightStripeParams params;
-  std::vector<std::string> paths;
-  try {
-    core::ReadParams(json, params);
-  } catch (const core::UserError& error) {
-    for (const core::Problem& problem : error.problems()) paths.push_back(problem.path);
-  }
-  return paths;
+std::vector<core::Problem> ProblemsOf(const std::string& json) {
+  return core::ProblemsIn([&] { core::ReadText<LightStripeParams>(json); });
 }
 
 TEST(LightStripeParamsTest, DefaultsAreConsistent) {
-  EXPECT_TRUE(ProblemsOf("fan_rad", 1.0).empty());
+  EXPECT_TRUE(ProblemsOf(R"({"fan_rad": 1.0})").empty());
 }
 
 TEST(LightStripeParamsTest, ImpossibleLayoutsAreErrors) {
-  const auto blames = [](const std::string& key, double value, const std::string& path) {
-    const auto paths = ProblemsOf(key, value);
-    return std::find(paths.begin(), paths.end(), path) != paths.end();
+  const auto blames = [](const std::string& json, const std::string& path) {
+    return std::ranges::count(ProblemsOf(json), path, &core::Problem::path) > 0;
   };
-  EXPECT_TRUE(blames("fan_rad", 0.3, "fan_rad"));
-  EXPECT_TRUE(blames("focal_length_m", 0.012, "outer_stripe_y_m"));
-  EXPECT_TRUE(blames("camera_pitch_deg", 0.0, "camera_pitch_deg"));
-  EXPECT_TRUE(blames("max_range_m", 0.4, "max_range_m"));
-  EXPECT_TRUE(blames("search_high_m", 0.26, "search_high_m"));
-  EXPECT_TRUE(blames("camera_x_m", 0.5, "row_ahead_m"));
+  EXPECT_TRUE(blames(R"({"fan_rad": 0.3})", "fan_rad"));
+  EXPECT_TRUE(blames(R"({"focal_length_m": 0.012})", "outer_stripe_y_m"));
+  EXPECT_TRUE(blames(R"({"camera_pitch_deg": 0.0})", "camera_pitch_deg"));
+  EXPECT_TRUE(blames(R"({"max_range_m": 0.4})", "max_range_m"));
+  EXPECT_TRUE(blames(R"({"search_high_m": 0.26})", "search_high_m"));
+  EXPECT_TRUE(blames(R"({"camera_x_m": 0.5})", "row_ahead_m"));
 }
 
 }  // namespace

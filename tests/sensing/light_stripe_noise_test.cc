@@ -3,9 +3,13 @@
 
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <numeric>
 
-#include "core/statistical_checks.h"
+#include "image_kit.h"
+#include "noise_laws.h"
 #include "perception/hazard_criteria.h"
+#include "rendering/image_readout.h"
+#include "sensing/stripe_image_name.h"
 #include "sensing/stripe_scene.h"
 
 namespace rockyard::sensing {
@@ -14,8 +18,6 @@ namespace {
 using messages::kStripeRows;
 using messages::kStripes;
 
-// Chance of a false alarm of each test if its seed were drawn anew. Seeds are fixed.
-constexpr double kAlpha = 1e-4;
 constexpr int kScans = 20000;
 constexpr core::TrialKey kKey{20260104, 0};
 
@@ -36,14 +38,11 @@ template <typename Counts>
 messages::StripeArray<int> CountPoints(const LightStripeParams& params, const math::Transform& X_WR,
                                        Counts counts) {
   const LightStripe sensor(params);
-  const terrain::Terrain flat = FlatWith({});
   messages::StripeArray<int> result{};
   for (std::int64_t number = 0; number < kScans; ++number) {
-    const auto scan = sensor.Scan(flat, X_WR, kKey, number);
-    for (std::size_t row = 0; row < kStripeRows; ++row) {
-      for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
-        result[row][stripe] += counts(scan.pixels[row][stripe]);
-      }
+    const auto scan = sensor.Scan(Flat(), X_WR, kKey, number);
+    for (std::size_t i = 0; i < result.points().size(); ++i) {
+      result.points()[i] += counts(scan.pixels.points()[i]);
     }
   }
   return result;
@@ -71,10 +70,9 @@ int DisturbedScans(double wrong_place_probability) {
   LightStripeParams params;
   params.wrong_place_probability = wrong_place_probability;
   const LightStripe sensor(params);
-  const terrain::Terrain flat = FlatWith({});
   int disturbed = 0;
   for (std::int64_t number = 0; number < kScans; ++number) {
-    const auto scan = sensor.Scan(flat, kHighUp, kKey, number);
+    const auto scan = sensor.Scan(Flat(), kHighUp, kKey, number);
     bool any = false;
     for (const auto& pixel : scan.pixels.points()) any = any || pixel.detected;
     disturbed += any;
@@ -86,12 +84,8 @@ TEST(LightStripeNoiseTest, OneScanInFiveIsDisturbed) {
   // Section 6: one point in a hundred "gives a false alarm rate of one in every five hazard scans".
   const double expected = 1.0 - std::pow(0.99, 20);
   EXPECT_NEAR(expected, 0.182, 5e-4);
-  const auto p_value = [&](double count) {
-    return core::ChiSquareP({count, kScans - count},
-                            {kScans * expected, kScans * (1.0 - expected)});
-  };
-  EXPECT_GT(p_value(DisturbedScans(0.01)), kAlpha);
-  EXPECT_LT(p_value(DisturbedScans(0.012)), kAlpha);  // negative control
+  EXPECT_GT(CountP(DisturbedScans(0.01), kScans, expected), kAlpha);
+  EXPECT_LT(CountP(DisturbedScans(0.012), kScans, expected), kAlpha);  // negative control
 }
 
 // Columns at which points are misplaced, as shares of each scanline's searched part, in ten bins.
@@ -100,10 +94,9 @@ std::vector<double> ColumnBins(WrongPlace model, double& total) {
   params.wrong_place_probability = 0.2;
   params.wrong_place = model;
   const LightStripe sensor(params);
-  const terrain::Terrain flat = FlatWith({});
   std::vector<double> bins(10, 0.0);
   for (std::int64_t number = 0; number < kScans; ++number) {
-    const auto scan = sensor.Scan(flat, kHighUp, kKey, number);
+    const auto scan = sensor.Scan(Flat(), kHighUp, kKey, number);
     for (std::size_t row = 0; row < kStripeRows; ++row) {
       for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
         const auto& pixel = scan.pixels[row][stripe];
@@ -142,7 +135,7 @@ TEST(LightStripeNoiseTest, WholeScanlineReachesBeyondTheSearchedPart) {
   const LightStripe sensor(params);
   int outside = 0;
   for (std::int64_t number = 0; number < 200; ++number) {
-    const auto scan = sensor.Scan(FlatWith({}), kHighUp, kKey, number);
+    const auto scan = sensor.Scan(Flat(), kHighUp, kKey, number);
     const auto [first, last] = sensor.searched(3, 2);
     const double column = scan.pixels[3][2].column_px;
     EXPECT_LE(std::abs(column), 384.0);
@@ -155,16 +148,51 @@ TEST(LightStripeNoiseTest, WholeScanlineReachesBeyondTheSearchedPart) {
 TEST(LightStripeNoiseTest, MostMisplacedPointsRaiseAFalseAlarmOnFlatGround) {
   const LightStripe sensor{LightStripeParams{}};
   const perception::Triangulator triangulator(sensor.calibration());
-  const terrain::Terrain flat = FlatWith({});
   int alarms = 0;
   for (std::int64_t number = 0; number < kScans; ++number) {
-    const auto scan = sensor.Scan(flat, PoseAt(0, 0, 0), kKey, number);
+    const auto scan = sensor.Scan(Flat(), PoseAt(0, 0, 0), kKey, number);
     alarms += perception::ReportHazards(triangulator.Elevations(scan), {}).any();
   }
   const double rate = static_cast<double>(alarms) / kScans;
   EXPECT_GT(rate, 0.10);
   EXPECT_LT(rate, 0.19);  // cannot exceed the share of disturbed scans
   RecordProperty("false_alarm_rate", std::to_string(rate));
+}
+
+constexpr core::TrialKey kImageKey{11, 5};
+// z for which a standard normal number exceeds it in size with probability 1e-4.
+constexpr double kNormalBound = 3.8906;
+
+// Lit and dark images of one pair, and neighbouring scans, share no temporal noise; what they share
+// is the light.
+TEST(StripeImageName, ImagesAreIndependent) {
+  const rendering::ImageReadout readout(QuietParams().imager, 0.0);
+  constexpr int kColumns = 768;
+  constexpr int kFirst = -384;
+  const RenderedRow row{3, std::vector<double>(kColumns, 20000.0), {}};
+  const auto departures = [&](const StripeImageName& name) {
+    std::vector<std::uint16_t> counts;
+    readout.Read(row, readout.Pattern(name.camera, row.row, kFirst, kColumns, kImageKey), kFirst,
+                 1.0, kImageKey, name.number(), {}, counts);
+    std::vector<double> z;
+    for (const double count : counts) {
+      z.push_back(((count - 0.02 * 65535.0) * readout.electrons_per_count() - 20000.0) /
+                  std::sqrt(20000.0));
+    }
+    return z;
+  };
+  const auto correlation = [&](const StripeImageName& a, const StripeImageName& b) {
+    const auto za = departures(a);
+    const auto zb = departures(b);
+    return std::inner_product(za.begin(), za.end(), zb.begin(), 0.0) / kColumns;
+  };
+  const StripeImageName name{5, 0, 1, true};
+  const double bound = kNormalBound / std::sqrt(double{kColumns});
+  EXPECT_LT(std::abs(correlation(name, {5, 0, 1, false})), bound);
+  EXPECT_LT(std::abs(correlation(name, {5, 0, 2, true})), bound);
+  EXPECT_LT(std::abs(correlation(name, {5, 1, 1, true})), bound);
+  EXPECT_LT(std::abs(correlation(name, {6, 0, 1, true})), bound);
+  EXPECT_GT(correlation(name, name), bound);
 }
 
 }  // namespace

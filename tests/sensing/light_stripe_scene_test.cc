@@ -26,6 +26,19 @@ double HalfPixel_m(std::size_t row, double elevation_m = 0.0) {
   return 0.5 * sine * depth_m * depth_m * 0.0024143 / (0.05 * 0.92);
 }
 
+// From the origin.
+ElevationScan Seen(const terrain::Terrain& terrain,
+                   const LightStripeParams& params = NoiselessParams()) {
+  return Elevations(params, terrain, PoseAt(0, 0, 0));
+}
+
+// Which points of the centre stripe are detected, nearest first.
+std::array<bool, kStripeRows> CentreDetected(const ElevationScan& scan) {
+  std::array<bool, kStripeRows> detected{};
+  for (std::size_t row = 0; row < kStripeRows; ++row) detected[row] = scan.points[row][2].detected;
+  return detected;
+}
+
 void ExpectRows(const ElevationScan& scan, const RowValues& expected) {
   for (std::size_t row = 0; row < kStripeRows; ++row) {
     for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
@@ -43,9 +56,7 @@ int CountDetected(const ElevationScan& scan) {
   return count;
 }
 
-TEST(LightStripeSceneTest, FlatGround) {
-  ExpectRows(Elevations(NoiselessParams(), FlatWith({}), PoseAt(0, 0, 0)), {0, 0, 0, 0});
-}
+TEST(LightStripeSceneTest, FlatGround) { ExpectRows(Seen(FlatWith({})), {0, 0, 0, 0}); }
 
 TEST(LightStripeSceneTest, FlatGroundBelowARaisedRover) {
   ExpectRows(Elevations(NoiselessParams(), FlatWith({}), PoseAt(3, -2, 0.1, 1.2)),
@@ -55,7 +66,7 @@ TEST(LightStripeSceneTest, FlatGroundBelowARaisedRover) {
 TEST(LightStripeSceneTest, ElevationsCountFromTheDatumPlane) {
   LightStripeParams params = NoiselessParams();
   params.datum_z_m = 0.02;
-  ExpectRows(Elevations(params, FlatWith({}), PoseAt(0, 0, 0)), {-0.02, -0.02, -0.02, -0.02});
+  ExpectRows(Seen(FlatWith({}), params), {-0.02, -0.02, -0.02, -0.02});
 }
 
 TEST(LightStripeSceneTest, PitchedRoverSeesTheGroundRise) {
@@ -76,8 +87,7 @@ TEST(LightStripeSceneTest, PitchedRoverSeesTheGroundRise) {
 TEST(LightStripeSceneTest, StepUp) {
   // A vertical face at x = 0.48: rows beyond it land on it at z = 0.25 - 0.21 tan(depression).
   const terrain::Wall face{math::Vector3::UnitX(), 0.48};
-  ExpectRows(Elevations(NoiselessParams(), FlatWith({}, {face}), PoseAt(0, 0, 0)),
-             {0.0, 0.01332, 0.06790, 0.10168});
+  ExpectRows(Seen(FlatWith({}, {face})), {0.0, 0.01332, 0.06790, 0.10168});
 }
 
 TEST(LightStripeSceneTest, PitBehindARoundedEdge) {
@@ -96,16 +106,16 @@ TEST(LightStripeSceneTest, DeepPitIsMissed) {
 TEST(LightStripeSceneTest, TallRockBetweenStripesIsNotSeen) {
   // 20 cm high and 10 cm wide between the centre and the left inner stripe.
   const auto rock = EllipsoidRock(0.60, 0.09, 0, 0.05, 0.05, 0.2);
-  ExpectRows(Elevations(NoiselessParams(), FlatWith({rock}), PoseAt(0, 0, 0)), {0, 0, 0, 0});
+  ExpectRows(Seen(FlatWith({rock})), {0, 0, 0, 0});
 }
 
 TEST(LightStripeSceneTest, TallRockOnAStripeIsSeenBelowItsTop) {
   const auto far = EllipsoidRock(0.625, 0, 0, 0.05, 0.05, 0.2);
-  auto scan = Elevations(NoiselessParams(), FlatWith({far}), PoseAt(0, 0, 0));
+  auto scan = Seen(FlatWith({far}));
   EXPECT_NEAR(scan.points[2][2].elevation_m, 0.0, HalfPixel_m(2));
   EXPECT_NEAR(scan.points[3][2].elevation_m, 0.03406, HalfPixel_m(3));
   const auto near = EllipsoidRock(0.50, 0, 0, 0.05, 0.05, 0.2);
-  scan = Elevations(NoiselessParams(), FlatWith({near}), PoseAt(0, 0, 0));
+  scan = Seen(FlatWith({near}));
   const RowValues expected{0.0, 0.04564, 0.08934, 0.11628};
   for (std::size_t row = 0; row < kStripeRows; ++row) {
     EXPECT_NEAR(scan.points[row][2].elevation_m, expected[row], HalfPixel_m(row));
@@ -118,12 +128,12 @@ TEST(LightStripeSceneTest, RockThatHidesAPointFromTheCamera) {
   // The left camera (y = 0.06) sees the farthest point of stripe 1 (0.624, 0.185) across
   // (0.40, 0.106, 0.158). A thin rock stands there, clear of the light plane (y = 0.137).
   const auto rock = EllipsoidRock(0.40, 0.10, 0, 0.02, 0.02, 0.2);
-  const auto hidden = Elevations(NoiselessParams(), FlatWith({rock}), PoseAt(0, 0, 0));
+  const auto hidden = Seen(FlatWith({rock}));
   EXPECT_FALSE(hidden.points[3][1].detected);
   EXPECT_TRUE(hidden.points[3][0].detected);
   // Too low to reach the line of sight.
   const auto low = EllipsoidRock(0.40, 0.10, 0, 0.02, 0.02, 0.12);
-  const auto seen = Elevations(NoiselessParams(), FlatWith({low}), PoseAt(0, 0, 0));
+  const auto seen = Seen(FlatWith({low}));
   ASSERT_TRUE(seen.points[3][1].detected);
   EXPECT_NEAR(seen.points[3][1].elevation_m, 0.0, HalfPixel_m(3));
 }
@@ -136,7 +146,7 @@ TEST(LightStripeSceneTest, RockThatHidesAPointFromTheLaser) {
   params.search_high_m = 0.15;
   const auto scan_with_top = [&](double top_m) {
     const auto rock = EllipsoidRock(0.45, 0, top_m - 0.5, 0.02, 0.02, 0.5);
-    return Elevations(params, FlatWith({rock}), PoseAt(0, 0, 0));
+    return Seen(FlatWith({rock}), params);
   };
   EXPECT_FALSE(scan_with_top(0.11).points[3][2].detected);
   const auto clear = scan_with_top(0.09);
@@ -148,36 +158,28 @@ TEST(LightStripeSceneTest, LoweredEmittersMeasureFlatGround) {
   LightStripeParams params = NoiselessParams();
   params.emitter_height_m = 0.20;
   params.emitter_x_m = 0.25;
-  ExpectRows(Elevations(params, FlatWith({}), PoseAt(0, 0, 0)), {0, 0, 0, 0});
+  ExpectRows(Seen(FlatWith({}), params), {0, 0, 0, 0});
 }
 
 TEST(LightStripeSceneTest, FanLimits) {
   // A fan of 0.3 rad about the mean of 58.2 and 35.2 degrees lights 38.1 to 55.3 degrees.
   LightStripeParams params = NoiselessParams();
   params.fan_rad = 0.3;
-  const auto scan = Elevations(params, FlatWith({}), PoseAt(0, 0, 0));
-  EXPECT_FALSE(scan.points[0][2].detected);
-  EXPECT_TRUE(scan.points[1][2].detected);
-  EXPECT_TRUE(scan.points[2][2].detected);
-  EXPECT_FALSE(scan.points[3][2].detected);
+  EXPECT_EQ(CentreDetected(Seen(FlatWith({}), params)), (std::array{false, true, true, false}));
 }
 
 TEST(LightStripeSceneTest, MaximumRange) {
   // Central points lie 0.300, 0.339, 0.386 and 0.437 m from the camera 6 cm aside.
   LightStripeParams params = NoiselessParams();
   params.max_range_m = 0.36;
-  const auto scan = Elevations(params, FlatWith({}), PoseAt(0, 0, 0));
-  EXPECT_TRUE(scan.points[0][2].detected);
-  EXPECT_TRUE(scan.points[1][2].detected);
-  EXPECT_FALSE(scan.points[2][2].detected);
-  EXPECT_FALSE(scan.points[3][2].detected);
+  EXPECT_EQ(CentreDetected(Seen(FlatWith({}), params)), (std::array{true, true, false, false}));
 }
 
 TEST(LightStripeSceneTest, FieldOfViewLimits) {
   // A lens of 12 mm sees 0.37 rad to each side; the farthest outer point lies at 0.62 rad.
   LightStripeParams params = NoiselessParams();
   params.focal_length_m = 0.012;
-  const auto scan = Elevations(params, FlatWith({}), PoseAt(0, 0, 0));
+  const auto scan = Seen(FlatWith({}), params);
   EXPECT_FALSE(scan.points[3][0].detected);
   EXPECT_FALSE(scan.points[3][4].detected);
   EXPECT_TRUE(scan.points[3][2].detected);
@@ -185,7 +187,7 @@ TEST(LightStripeSceneTest, FieldOfViewLimits) {
 
 TEST(LightStripeSceneTest, SensorInsideARockSeesNothing) {
   const auto rock = EllipsoidRock(0.3, 0, 0, 0.3, 0.5, 0.4);
-  EXPECT_EQ(CountDetected(Elevations(NoiselessParams(), FlatWith({rock}), PoseAt(0, 0, 0))), 0);
+  EXPECT_EQ(CountDetected(Seen(FlatWith({rock}))), 0);
 }
 
 }  // namespace

@@ -2,24 +2,20 @@
 // with wheels that roll without slip. Each test has a wrong model that it rejects.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "core/json_file.h"
-#include "core/statistical_checks.h"
 #include "localization/dead_reckoning.h"
+#include "noise_laws.h"
 #include "sensing/motion_sensors.h"
 #include "sensing/tracker.h"
 
 namespace rockyard::sensing {
 namespace {
 
-// Chance of a false alarm of each check if its seed were drawn anew. Seeds are fixed.
-constexpr double kAlpha = 1e-4;
 constexpr double kRadius_m = 0.065;
 constexpr double kSpeed_m_s = 0.15;
 
@@ -30,10 +26,8 @@ struct Errors {
 // Straight drives in steps, dead-reckoned with the state equations of section 5.
 Errors DriveStraight(std::uint32_t runs, int steps, double step_m, const GyroParams& gyro,
                      const EncoderParams& encoders) {
-  localization::DeadReckoningParams params;
-  params.step_heading = localization::StepHeading::kStart;
-  messages::DriveCalibration calibration;
-  calibration.wheel_radius_m = kRadius_m;
+  const localization::DeadReckoningParams params{.step_heading = localization::StepHeading::kStart};
+  const messages::DriveCalibration calibration{.wheel_radius_m = kRadius_m};
   Errors errors;
   for (std::uint32_t run = 0; run < runs; ++run) {
     truth::RoverState state;
@@ -66,11 +60,9 @@ double Variance(const std::vector<double>& sample) {
 }
 
 // Two-sided p-value of the variance of a normal sample.
-double VarianceP(const std::vector<double>& sample, double variance) {
+double SampleVarianceP(const std::vector<double>& sample, double variance) {
   const double degrees = static_cast<double>(sample.size()) - 1.0;
-  const boost::math::chi_squared distribution(degrees);
-  const double statistic = degrees * Variance(sample) / variance;
-  return 2.0 * std::min(cdf(distribution, statistic), cdf(complement(distribution, statistic)));
+  return SumOfSquaresP(degrees * Variance(sample), degrees, variance);
 }
 
 // Two-sided p-value of the mean of a sample.
@@ -84,16 +76,16 @@ constexpr double kDistanceVariance_m2 = 0.0039 * 7.0;
 
 TEST(StraightSevenMetresTest, VariancesAreThePublishedOnes) {
   const Errors errors = DriveStraight(20000, 20, 0.35, {}, {});
-  EXPECT_GT(VarianceP(errors.heading_deg, kHeadingVariance_deg2), kAlpha);
-  EXPECT_GT(VarianceP(errors.distance_m, kDistanceVariance_m2), kAlpha);
+  EXPECT_GT(SampleVarianceP(errors.heading_deg, kHeadingVariance_deg2), kAlpha);
+  EXPECT_GT(SampleVarianceP(errors.distance_m, kDistanceVariance_m2), kAlpha);
   EXPECT_GT(ZeroMeanP(errors.heading_deg), kAlpha);
   EXPECT_GT(ZeroMeanP(errors.distance_m), kAlpha);
 }
 
 TEST(StraightSevenMetresTest, TickLengthDoesNotMatter) {
   const Errors errors = DriveStraight(2000, 467, 7.0 / 467, {}, {});  // 0.1 s
-  EXPECT_GT(VarianceP(errors.heading_deg, kHeadingVariance_deg2), kAlpha);
-  EXPECT_GT(VarianceP(errors.distance_m, kDistanceVariance_m2), kAlpha);
+  EXPECT_GT(SampleVarianceP(errors.heading_deg, kHeadingVariance_deg2), kAlpha);
+  EXPECT_GT(SampleVarianceP(errors.distance_m, kDistanceVariance_m2), kAlpha);
   EXPECT_GT(ZeroMeanP(errors.distance_m), kAlpha);
 }
 
@@ -103,25 +95,24 @@ TEST(StraightSevenMetresTest, NegativeControlTwentyPercentMoreVariance) {
   EncoderParams encoders;
   encoders.distance_variance_m2_per_m *= 1.2;
   const Errors errors = DriveStraight(5000, 20, 0.35, gyro, encoders);
-  EXPECT_LT(VarianceP(errors.heading_deg, kHeadingVariance_deg2), kAlpha);
-  EXPECT_LT(VarianceP(errors.distance_m, kDistanceVariance_m2), kAlpha);
+  EXPECT_LT(SampleVarianceP(errors.heading_deg, kHeadingVariance_deg2), kAlpha);
+  EXPECT_LT(SampleVarianceP(errors.distance_m, kDistanceVariance_m2), kAlpha);
 }
 
 TEST(StraightSevenMetresTest, EncodersAddOnlyWhatPhysicsLeaves) {
-  EncoderParams encoders;
-  encoders.physics_variance_m2_per_m = 0.0019;
+  const EncoderParams encoders{.physics_variance_m2_per_m = 0.0019};
   const Errors errors = DriveStraight(5000, 20, 0.35, {}, encoders);
-  EXPECT_GT(VarianceP(errors.distance_m, 0.0020 * 7.0), kAlpha);
-  EXPECT_LT(VarianceP(errors.distance_m, kDistanceVariance_m2), kAlpha);
+  EXPECT_GT(SampleVarianceP(errors.distance_m, 0.0020 * 7.0), kAlpha);
+  EXPECT_LT(SampleVarianceP(errors.distance_m, kDistanceVariance_m2), kAlpha);
 }
 
 TEST(StraightSevenMetresTest, GrowthIsLinear) {
   const Errors half = DriveStraight(5000, 10, 0.35, {}, {});
-  EXPECT_GT(VarianceP(half.heading_deg, 0.5 * kHeadingVariance_deg2), kAlpha);
-  EXPECT_GT(VarianceP(half.distance_m, 0.5 * kDistanceVariance_m2), kAlpha);
+  EXPECT_GT(SampleVarianceP(half.heading_deg, 0.5 * kHeadingVariance_deg2), kAlpha);
+  EXPECT_GT(SampleVarianceP(half.distance_m, 0.5 * kDistanceVariance_m2), kAlpha);
   // Negative control: growth with the square.
-  EXPECT_LT(VarianceP(half.heading_deg, 0.25 * kHeadingVariance_deg2), kAlpha);
-  EXPECT_LT(VarianceP(half.distance_m, 0.25 * kDistanceVariance_m2), kAlpha);
+  EXPECT_LT(SampleVarianceP(half.heading_deg, 0.25 * kHeadingVariance_deg2), kAlpha);
+  EXPECT_LT(SampleVarianceP(half.distance_m, 0.25 * kDistanceVariance_m2), kAlpha);
 }
 
 // Difference of a sample standard deviation from `exact` in units of its own standard error, from
@@ -168,19 +159,14 @@ TEST(MotionNoiseTest, ScrapeJumpsGoEitherWayEquallyOften) {
   constexpr int kTrials = 20000;
   for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
     ScrapeDetector detector({}, {20260106, trial});
-    truth::RoverState state;
-    state.contacts = {{.part = truth::BodyPart::kHub,
-                       .rock = 0,
-                       .normal_force_N = 5.0,
-                       .sliding_speed_m_s = 0.1}};
+    const truth::RoverState state{.contacts = {{.part = truth::BodyPart::kHub,
+                                                .rock = 0,
+                                                .normal_force_N = 5.0,
+                                                .sliding_speed_m_s = 0.1}}};
     left += detector.Observe(state, 0.0) > 0.0;
   }
-  const auto p_value = [&](double share) {
-    return core::ChiSquareP({1.0 * left, 1.0 * (kTrials - left)},
-                            {kTrials * share, kTrials * (1.0 - share)});
-  };
-  EXPECT_GT(p_value(0.5), kAlpha);
-  EXPECT_LT(p_value(0.52), kAlpha);  // negative control
+  EXPECT_GT(CountP(left, kTrials, 0.5), kAlpha);
+  EXPECT_LT(CountP(left, kTrials, 0.52), kAlpha);  // negative control
 }
 
 TEST(MotionNoiseTest, TrackerRepeatability) {
@@ -193,10 +179,10 @@ TEST(MotionNoiseTest, TrackerRepeatability) {
     heading_deg.push_back(math::RadToDeg(seen.heading_rad));
   }
   // 0.3 mm RMS in the plane is 0.3 / sqrt 2 per axis.
-  EXPECT_GT(VarianceP(x_m, 0.5 * 0.0003 * 0.0003), kAlpha);
-  EXPECT_GT(VarianceP(y_m, 0.5 * 0.0003 * 0.0003), kAlpha);
-  EXPECT_GT(VarianceP(heading_deg, 0.2 * 0.2), kAlpha);
-  EXPECT_LT(VarianceP(heading_deg, 1.2 * 0.2 * 0.2), kAlpha);  // negative control
+  EXPECT_GT(SampleVarianceP(x_m, 0.5 * 0.0003 * 0.0003), kAlpha);
+  EXPECT_GT(SampleVarianceP(y_m, 0.5 * 0.0003 * 0.0003), kAlpha);
+  EXPECT_GT(SampleVarianceP(heading_deg, 0.2 * 0.2), kAlpha);
+  EXPECT_LT(SampleVarianceP(heading_deg, 1.2 * 0.2 * 0.2), kAlpha);  // negative control
 }
 
 }  // namespace

@@ -22,11 +22,7 @@ GyroParams QuietGyro() {
   return params;
 }
 
-EncoderParams QuietEncoders() {
-  EncoderParams params;
-  params.distance_variance_m2_per_m = 0.0;
-  return params;
-}
+EncoderParams QuietEncoders() { return {.distance_variance_m2_per_m = 0.0}; }
 
 math::Transform Turned(double heading_rad, double pitch_rad = 0.0) {
   math::Transform X_WR = math::Transform::Identity();
@@ -118,8 +114,7 @@ TEST(EncodersTest, BackwardTravelIsScaledAsForwardTravel) {
 }
 
 TEST(EncodersTest, PhysicsTakesItsShareOfTheVariance) {
-  EncoderParams params;
-  params.physics_variance_m2_per_m = 0.0009;
+  EncoderParams params{.physics_variance_m2_per_m = 0.0009};
   EXPECT_NEAR(params.noise_variance_m2_per_m(), 0.0030, 1e-15);
   core::JsonValue json = core::WriteParams(params);
   json.Set("physics_variance_m2_per_m", core::JsonValue(0.005));
@@ -129,9 +124,7 @@ TEST(EncodersTest, PhysicsTakesItsShareOfTheVariance) {
 // An odometer of scale s, on a rover that gets 1 m on for 1 / s rolled: of noise v / s a metre
 // rolled it shows s^2 (v / s) / s = v a metre driven.
 TEST(EncodersTest, TheGainOfLevelSandIsTheScaleOfTheOdometer) {
-  EncoderParams params;
-  params.physics_variance_m2_per_m = 0.0009;
-  params.level_sand_gain = 0.92;
+  const EncoderParams params{.physics_variance_m2_per_m = 0.0009, .level_sand_gain = 0.92};
   const double scale = 0.92;
   EXPECT_NEAR(scale * scale * params.noise_variance_m2_per_m() / scale, 0.0030, 1e-15);
 }
@@ -174,8 +167,7 @@ TEST(ScrapeDetectorTest, OnlySlidingBodyContactsWithRocksCount) {
 }
 
 TEST(ScrapeDetectorTest, SignsAndSwitch) {
-  ScrapeParams params;
-  params.sign = ScrapeSign::kLeft;
+  ScrapeParams params{.sign = ScrapeSign::kLeft};
   EXPECT_DOUBLE_EQ(ScrapeDetector(params, {1, 0}).Observe(Scraping(1, 0), 0), DegToRad(5.0));
   params.sign = ScrapeSign::kRight;
   EXPECT_DOUBLE_EQ(ScrapeDetector(params, {1, 0}).Observe(Scraping(1, 0), 0), -DegToRad(5.0));
@@ -226,9 +218,7 @@ TEST(MotionSensorsTest, NoiseOfATickDoesNotDependOnWhatWentBefore) {
 }
 
 TEST(TrackerTest, SystematicErrorsKeepTheirBounds) {
-  TrackerParams params;
-  params.random_position_m = 0.0;
-  params.random_heading_rad = 0.0;
+  const TrackerParams params{.random_position_m = 0.0, .random_heading_rad = 0.0};
   double largest_m = 0.0;
   for (std::uint32_t trial = 0; trial < 1000; ++trial) {
     const Tracker tracker(params, {1, trial});

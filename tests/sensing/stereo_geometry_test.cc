@@ -40,10 +40,9 @@ TEST(StereoGeometryTest, RaysAreThoseOfAPinhole) {
   const StereoParams params;
   for (const LookDirection direction : {LookDirection::kAhead, LookDirection::kBehind}) {
     const StereoView view = MakeStereoView(params, direction);
-    messages::Camera camera;
-    camera.lens = messages::Lens::kPinhole;
-    camera.column_pitch_rad = 1.0 / params.focal_columns_px();
-    camera.row_pitch_rad = 1.0 / params.focal_rows_px();
+    messages::Camera camera{.lens = messages::Lens::kPinhole,
+                            .column_pitch_rad = 1.0 / params.focal_columns_px(),
+                            .row_pitch_rad = 1.0 / params.focal_rows_px()};
     const auto& mount = direction == LookDirection::kAhead ? params.front : params.rear;
     const double heading = direction == LookDirection::kAhead ? 0.0 : std::numbers::pi;
     camera.X_RC = Eigen::AngleAxisd(heading, Vector3::UnitZ()) *

@@ -14,10 +14,8 @@ using math::Vector3;
 using messages::LookDirection;
 
 rendering::SunParams SunAt(double elevation_deg, double azimuth_deg) {
-  rendering::SunParams sun;
-  sun.elevation_rad = math::DegToRad(elevation_deg);
-  sun.azimuth_rad = math::DegToRad(azimuth_deg);
-  return sun;
+  return {.elevation_rad = math::DegToRad(elevation_deg),
+          .azimuth_rad = math::DegToRad(azimuth_deg)};
 }
 
 StereoTruth TruthOf(const StereoParams& params, const terrain::Terrain& terrain,
@@ -121,15 +119,11 @@ TEST(StereoGroundTruthTest, TheRoversOwnPartsAreMargins) {
 
 // A rock of height h shades level ground for h / tan(elevation) behind it, and no farther.
 TEST(StereoGroundTruthTest, ARockShadesTheGroundBehindIt) {
-  StereoParams params;
-  params.max_range_m = 20.0;
   const terrain::Terrain terrain = FlatWith({EllipsoidRock(2.0, 0.0, 0.0, 0.02, 0.02, 0.5)});
   // The sun stands to the right (-y), 45 degrees high: the shadow falls to the left, 0.5 m long.
   const SunShade shade(SunAt(45, -90), {});
   const auto shaded = [&](double x_m, double y_m) {
-    terrain::RayHit hit;
-    hit.point_W = {x_m, y_m, 0.0};
-    hit.normal_W = Vector3::UnitZ();
+    const terrain::RayHit hit{.point_W = {x_m, y_m, 0.0}, .normal_W = Vector3::UnitZ()};
     return shade.IsShaded(terrain, PoseAt(0, 0, 0), hit);
   };
   EXPECT_TRUE(shaded(2.0, 0.1));
@@ -141,9 +135,7 @@ TEST(StereoGroundTruthTest, ARockShadesTheGroundBehindIt) {
   EXPECT_TRUE(shaded(0.0, 0.3));
   EXPECT_FALSE(shaded(0.0, 1.0));
   // Surfaces that turn away have no sun.
-  terrain::RayHit away;
-  away.point_W = {4.0, 0.0, 0.3};
-  away.normal_W = Vector3::UnitY();
+  terrain::RayHit away{.point_W = {4.0, 0.0, 0.3}, .normal_W = Vector3::UnitY()};
   EXPECT_TRUE(shade.IsShaded(terrain, PoseAt(0, 0, 0), away));
   away.normal_W = -Vector3::UnitY();
   EXPECT_FALSE(shade.IsShaded(terrain, PoseAt(0, 0, 0), away));

@@ -11,6 +11,7 @@
 #include "rendering/picture/terrain_look.h"
 #include "sensing/rover_parts.h"
 #include "sensing/stereo_view.h"
+#include "stripe_scene.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -31,8 +32,6 @@ StereoParams Images(std::int64_t level) {
 StereoImager ImagerOf(const StereoParams& params, const rover::RoverGeometryParams& rover = {}) {
   return {params, {}, {}, rover, kKey};
 }
-
-terrain::Terrain Flat() { return {terrain::Ground(), {}, {}}; }
 
 // The point at depth Z on the ray of a pixel of the view, told by another formula, lands on that
 // pixel of the reduced left image and f b / Z columns further left in the right one.
@@ -69,7 +68,7 @@ TEST(StereoImagerTest, TheMaskIsWhereAPictureShowsTheRover) {
   const StereoImager imager = ImagerOf(params, rover);
   const vision::StereoRig& rig = imager.rig(LookDirection::kAhead);
   const rendering::RoverBody body = MakeRoverBody(rover);
-  const terrain::Terrain terrain = Flat();
+  const terrain::Terrain& terrain = Flat();
   // High above the ground: nothing stands between the camera and the rover's parts.
   const math::Transform X_WR = math::MakePose({0.0, 0.0, 1.0}, 0.0, 0.0, 0.0);
   const rendering::PictureScene scene(terrain, {}, {}, 200e-9, {&body, X_WR});
@@ -100,29 +99,28 @@ double MeanDifference(const vision::GrayImage& a, const vision::GrayImage& b) {
 
 TEST(StereoImagerTest, LooksRepeatBitForBitAndDifferInNoiseFromLookToLook) {
   const StereoImager imager = ImagerOf(Images(1));
-  const terrain::Terrain terrain = Flat();
-  const math::Transform X_WR = math::MakePose({0.0, 0.0, 0.0}, 0.3, 0.0, 0.0);
-  const StereoImages first = imager.Expose(terrain, X_WR, 5, LookDirection::kAhead);
-  const StereoImages again = imager.Expose(terrain, X_WR, 5, LookDirection::kAhead);
+  const auto see = [](const StereoImager& by, std::int64_t look,
+                      LookDirection direction = LookDirection::kAhead) {
+    return by.Expose(Flat(), PoseAt(0.0, 0.0, 0.0, 0.3), look, direction);
+  };
+  const StereoImages first = see(imager, 5);
+  const StereoImages again = see(imager, 5);
   EXPECT_EQ(first.left, again.left);
   EXPECT_EQ(first.right, again.right);
   EXPECT_DOUBLE_EQ(first.exposure_s, again.exposure_s);
-  const StereoImages next = imager.Expose(terrain, X_WR, 6, LookDirection::kAhead);
+  const StereoImages next = see(imager, 6);
   const double noise = MeanDifference(first.left, next.left);
   EXPECT_GT(noise, 0.05);
   EXPECT_LT(noise, 3.0);  // the ground itself is the same
   // The two eyes and the two pairs see other ground.
   EXPECT_GT(MeanDifference(first.left, first.right), noise);
-  const StereoImages behind = imager.Expose(terrain, X_WR, 5, LookDirection::kBehind);
-  EXPECT_GT(MeanDifference(first.left, behind.left), noise);
+  EXPECT_GT(MeanDifference(first.left, see(imager, 5, LookDirection::kBehind).left), noise);
   // A camera that is noiseless shows the same in both looks, so that it was noise.
   StereoParams quiet = Images(1);
   quiet.images.camera.imager.ccd.full_well_e = 1e7;
   quiet.images.camera.imager.ccd.read_noise_e = 0.0;
   const StereoImager silent = ImagerOf(quiet);
-  EXPECT_LT(MeanDifference(silent.Expose(terrain, X_WR, 5, LookDirection::kAhead).left,
-                           silent.Expose(terrain, X_WR, 6, LookDirection::kAhead).left),
-            0.5 * noise);
+  EXPECT_LT(MeanDifference(see(silent, 5).left, see(silent, 6).left), 0.5 * noise);
 }
 
 // A right camera that has turned by e shows what its axis looks at f e columns away: the pair is

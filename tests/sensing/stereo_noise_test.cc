@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "core/statistical_checks.h"
+#include "noise_laws.h"
 #include "stereo_scene.h"
 
 namespace rockyard::sensing {
@@ -16,8 +15,6 @@ namespace {
 
 using math::Vector3;
 using messages::LookDirection;
-
-constexpr double kAlpha = 1e-4;  // chance of a false alarm of each check, were its seed drawn anew
 
 // Cameras that look straight at a wall at this depth.
 constexpr double kDepth_m = 2.0;
@@ -40,14 +37,15 @@ std::vector<double> Depths(const StereoParams& params, std::int64_t look) {
   return depths;
 }
 
-// Two-sided p-value of the variance of a normal sample about a known mean.
-double VarianceP(const std::vector<double>& sample, double mean, double deviation) {
-  double sum = 0.0;
-  for (const double value : sample) sum += (value - mean) * (value - mean);
-  const boost::math::chi_squared law(static_cast<double>(sample.size()));
-  const double statistic = sum / (deviation * deviation);
-  return 2.0 * std::min(cdf(law, statistic), cdf(complement(law, statistic)));
+// What matching leaves of an image of disparities.
+DepthImage Matched(const StereoParams& params, core::TrialKey key, std::uint32_t look,
+                   const DepthImage& all_px, const PixelFlags& shaded = {}) {
+  DepthImage seen_px = all_px;
+  StereoMatcher(params).Match(key, look, all_px, seen_px, shaded);
+  return seen_px;
 }
+
+DepthImage Even(double disparity_px) { return DepthImage::Constant(128, 128, disparity_px); }
 
 double BinomialP(double count, double chances, double probability) {
   const boost::math::binomial law(chances, probability);
@@ -94,13 +92,9 @@ TEST(StereoNoiseTest, ErrorsOfTwoLooksAreIndependent) {
 
 // Mean product of the disparity errors of pixels so far apart, over their mean square.
 double Correlation(const StereoParams& params, int columns_apart, int rows_apart) {
-  const StereoMatcher matcher(params);
-  const DepthImage true_px = DepthImage::Constant(128, 128, 8.0);
   double product = 0.0, square = 0.0;
   for (std::uint32_t look = 0; look < 40; ++look) {
-    DepthImage seen_px = true_px;
-    matcher.Match({9, 0}, look, true_px, seen_px);
-    const DepthImage error = seen_px - true_px;
+    const DepthImage error = Matched(params, {9, 0}, look, Even(8.0)) - 8.0;
     const Eigen::Index rows = 128 - rows_apart;
     const Eigen::Index columns = 128 - columns_apart;
     product += (error.topLeftCorner(rows, columns) * error.bottomRightCorner(rows, columns)).mean();
@@ -130,12 +124,9 @@ TEST(StereoNoiseTest, WindowsKeepTheDeviation) {
   StereoParams params = LevelCameras();
   params.disparity_noise_px = 0.3;
   params.noise_window_px = 7;
-  const StereoMatcher matcher(params);
   double square = 0.0;
   for (std::uint32_t look = 0; look < 80; ++look) {
-    DepthImage seen_px = DepthImage::Constant(128, 128, 8.0);
-    matcher.Match({9, 0}, look, seen_px, seen_px);
-    square += (seen_px - 8.0).square().mean() / 80.0;
+    square += (Matched(params, {9, 0}, look, Even(8.0)) - 8.0).square().mean() / 80.0;
   }
   EXPECT_NEAR(square / (0.3 * 0.3), 1.0, 0.035);
 }
@@ -143,11 +134,9 @@ TEST(StereoNoiseTest, WindowsKeepTheDeviation) {
 TEST(StereoNoiseTest, WrongMatchesAreUniformOverTheSearchedDisparities) {
   StereoParams params = LevelCameras();
   params.mismatch_probability = 0.02;
-  const StereoMatcher matcher(params);
   std::vector<double> wrong;
   for (std::uint32_t look = 0; look < 20; ++look) {
-    DepthImage seen_px = DepthImage::Constant(128, 128, 8.0);
-    matcher.Match({9, 1}, look, seen_px, seen_px);
+    const DepthImage seen_px = Matched(params, {9, 1}, look, Even(8.0));
     for (const double disparity_px : seen_px.reshaped()) {
       if (disparity_px != 8.0) wrong.push_back(disparity_px);
     }
@@ -181,9 +170,7 @@ TEST(StereoNoiseTest, MoreDropsOutInShadow) {
   shaded.rightCols(64).setConstant(true);
   double lit = 0.0, dark = 0.0;
   for (std::uint32_t look = 0; look < 20; ++look) {
-    const DepthImage all_px = DepthImage::Constant(128, 128, 8.0);
-    DepthImage seen_px = all_px;
-    StereoMatcher(params).Match({3, 0}, look, all_px, seen_px, shaded);
+    const DepthImage seen_px = Matched(params, {3, 0}, look, Even(8.0), shaded);
     lit += static_cast<double>((seen_px.leftCols(64) == 0.0).count());
     dark += static_cast<double>((seen_px.rightCols(64) == 0.0).count());
   }
@@ -196,18 +183,15 @@ TEST(StereoNoiseTest, MoreDropsOutInShadow) {
 TEST(StereoNoiseTest, ShadowDropsOutWhereNothingElseDoes) {
   StereoParams params = LevelCameras();
   params.shadow_dropout_probability = 0.3;
-  const DepthImage all_px = DepthImage::Constant(128, 128, 8.0);
-  DepthImage seen_px = all_px;
   const PixelFlags shaded = PixelFlags::Constant(128, 128, true);
-  StereoMatcher(params).Match({3, 0}, 0, all_px, seen_px, shaded);
+  const DepthImage seen_px = Matched(params, {3, 0}, 0, Even(8.0), shaded);
   EXPECT_GT(BinomialP(static_cast<double>((seen_px == 0.0).count()), 128.0 * 128.0, 0.3), kAlpha);
 }
 
 // From the sensor itself: the shadow of a rock, and none where the scenario says nothing of it.
 TEST(StereoNoiseTest, TheSensorDropsWhatTheSunDoesNotReach) {
   StereoParams params = NoiselessStereo();
-  rendering::SunParams sun;
-  sun.elevation_rad = math::DegToRad(20.0);
+  const rendering::SunParams sun{.elevation_rad = math::DegToRad(20.0)};
   const terrain::Terrain terrain = FlatWith({EllipsoidRock(1.0, -0.3, 0.0, 0.1, 0.1, 0.3)});
   const auto points = [&] {
     return StereoSensor(params, SunShade(sun, {}))
@@ -229,12 +213,11 @@ TEST(StereoNoiseTest, SurfacesAreMixedUpBesideAJumpInDepth) {
   StereoParams params = LevelCameras();
   params.edge_mismatch_probability = 0.4;
   params.mismatch_probability = 0.1;
-  DepthImage all_px = DepthImage::Constant(128, 128, 4.0);
+  DepthImage all_px = Even(4.0);
   all_px.middleCols(60, 20).setConstant(9.0);
   double crossed = 0.0, elsewhere = 0.0, wrong = 0.0;
   for (std::uint32_t look = 0; look < 20; ++look) {
-    DepthImage seen_px = all_px;
-    StereoMatcher(params).Match({5, 0}, look, all_px, seen_px);
+    const DepthImage seen_px = Matched(params, {5, 0}, look, all_px);
     for (const auto& [first, across_px] : {std::pair{57, 9.0}, {60, 4.0}, {77, 4.0}, {80, 9.0}}) {
       const auto side_px = seen_px.middleCols(first, 3);
       crossed += static_cast<double>((side_px == across_px).count());
@@ -254,24 +237,20 @@ TEST(StereoNoiseTest, SurfacesAreMixedUpBesideAJumpInDepth) {
 TEST(StereoNoiseTest, TheSkyIsNoSurface) {
   StereoParams params = LevelCameras();
   params.edge_mismatch_probability = 0.999;
-  DepthImage all_px = DepthImage::Constant(128, 128, 4.0);
+  DepthImage all_px = Even(4.0);
   all_px.rightCols(64).setZero();
-  DepthImage seen_px = all_px;
-  StereoMatcher(params).Match({5, 0}, 0, all_px, seen_px);
-  EXPECT_TRUE((seen_px == all_px).all());
+  EXPECT_TRUE((Matched(params, {5, 0}, 0, all_px) == all_px).all());
 }
 
 TEST(StereoNoiseTest, PointsAcrossAJumpKeepTheirNoise) {
   StereoParams params = LevelCameras();
   params.edge_mismatch_probability = 0.999;
   params.disparity_noise_px = 0.1;
-  DepthImage all_px = DepthImage::Constant(128, 128, 4.0);
+  DepthImage all_px = Even(4.0);
   all_px.rightCols(64).setConstant(9.0);
-  DepthImage seen_px = all_px;
-  StereoMatcher(params).Match({5, 0}, 0, all_px, seen_px);
+  const DepthImage seen_px = Matched(params, {5, 0}, 0, all_px);
   params.edge_mismatch_probability = 0.0;
-  DepthImage without_px = all_px;
-  StereoMatcher(params).Match({5, 0}, 0, all_px, without_px);
+  const DepthImage without_px = Matched(params, {5, 0}, 0, all_px);
   EXPECT_GT((seen_px != without_px).count(), 700);
   EXPECT_LE((seen_px != without_px).count(), 6 * 128);
   for (int row = 0; row < 128; ++row) {
@@ -287,9 +266,7 @@ TEST(StereoNoiseTest, PointsAcrossAJumpKeepTheirNoise) {
 TEST(StereoNoiseTest, MarginsOfBothImagesHaveNoMatch) {
   StereoParams params = LevelCameras();
   params.margin_px = 3;
-  const DepthImage all_px = DepthImage::Constant(128, 128, 8.25);
-  DepthImage seen_px = all_px;
-  StereoMatcher(params).Match({3, 0}, 0, all_px, seen_px);
+  const DepthImage seen_px = Matched(params, {3, 0}, 0, Even(8.25));
   for (int row = 0; row < 128; ++row) {
     for (int column = 0; column < 128; ++column) {
       // Column c is c - 8.25 in the right image, whose margin ends at 2.5.
@@ -310,8 +287,7 @@ TEST(StereoNoiseTest, MoreDropsOutBesideAJumpInDepth) {
   const DepthImage all_px = depths * view.focal_px * view.baseline_m;
   double beside = 0.0, lost = 0.0, lost_elsewhere = 0.0;
   for (std::uint32_t look = 0; look < 20; ++look) {
-    DepthImage seen_px = all_px;
-    StereoMatcher(params).Match({1, 0}, look, all_px, seen_px);
+    const DepthImage seen_px = Matched(params, {1, 0}, look, all_px);
     for (int row = 0; row < view.rows; ++row) {
       for (int column = 0; column < view.columns; ++column) {
         bool edge = false;

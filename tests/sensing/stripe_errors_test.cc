@@ -5,15 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
-#include "core/statistical_checks.h"
+#include "noise_laws.h"
+#include "stripe_scene.h"
 
 namespace rockyard::sensing {
 namespace {
 
-// Chance of a false alarm of each check if its seed were drawn anew. Seeds are fixed.
-constexpr double kAlpha = 1e-4;
 constexpr double kShare = 0.05;
 constexpr int kColumns = 101;
 
@@ -39,10 +37,14 @@ messages::StripeScan Outliers(const LightStripeParams& params, core::TrialKey ke
   return scan;
 }
 
-// Two-sided p-value of a binomial count against a probability.
-double BinomialP(double count, double trials, double probability) {
-  return core::ChiSquareP({count, trials - count},
-                          {trials * probability, trials * (1.0 - probability)});
+// What they make of one in which every point is seen at column 10.
+messages::StripeScan Disturbed(const LightStripeParams& params, core::TrialKey key,
+                               std::int64_t number) {
+  messages::StripeScan scan;
+  scan.number = number;
+  for (auto& pixel : scan.pixels.points()) pixel = {.detected = true, .column_px = 10.0};
+  StripeErrors(params).Disturb(key, Searched(), scan);
+  return scan;
 }
 
 struct Persistence {
@@ -81,16 +83,16 @@ class OutlierPersistenceTest : public testing::TestWithParam<double> {};
 TEST_P(OutlierPersistenceTest, ShareStaysAndOutliersLast) {
   const double r = GetParam();
   const Persistence counts = Count(r);
-  EXPECT_GT(BinomialP(counts.misplaced, counts.points, kShare), kAlpha);
-  EXPECT_LT(BinomialP(counts.misplaced, counts.points, 1.2 * kShare), kAlpha);  // negative control
+  EXPECT_GT(CountP(counts.misplaced, counts.points, kShare), kAlpha);
+  EXPECT_LT(CountP(counts.misplaced, counts.points, 1.2 * kShare), kAlpha);  // negative control
   // Kept with r, or drawn anew at the same column; over three scans with r^3.
   const double by_chance = kShare / kColumns;
   const auto kept = [&](double share) { return share + (1.0 - share) * by_chance; };
-  EXPECT_GT(BinomialP(counts.kept, counts.before, kept(r)), kAlpha);
-  EXPECT_GT(BinomialP(counts.kept_three_later, counts.before, kept(r * r * r)), kAlpha);
+  EXPECT_GT(CountP(counts.kept, counts.before, kept(r)), kAlpha);
+  EXPECT_GT(CountP(counts.kept_three_later, counts.before, kept(r * r * r)), kAlpha);
   // Negative controls: a persistence that differs by 0.1, and one that does not fade.
-  EXPECT_LT(BinomialP(counts.kept, counts.before, kept(r - 0.1)), kAlpha);
-  EXPECT_LT(BinomialP(counts.kept_three_later, counts.before, kept(r)), kAlpha);
+  EXPECT_LT(CountP(counts.kept, counts.before, kept(r - 0.1)), kAlpha);
+  EXPECT_LT(CountP(counts.kept_three_later, counts.before, kept(r)), kAlpha);
 }
 
 INSTANTIATE_TEST_SUITE_P(Persistences, OutlierPersistenceTest, testing::Values(0.3, 0.8));
@@ -130,21 +132,16 @@ TEST(OutlierPersistenceTest, FirstScanIsTheSameWithAndWithout) {
 
 // Chance of a normal variable with deviation `sigma` to be rounded to `k`.
 double RoundedNormal(int k, double sigma) {
-  const auto cdf = [sigma](double x) { return 0.5 * std::erfc(-x / sigma / std::numbers::sqrt2); };
-  return cdf(k + 0.5) - cdf(k - 0.5);
+  return NormalCdf((k + 0.5) / sigma) - NormalCdf((k - 0.5) / sigma);
 }
 
 TEST(ColumnNoiseTest, IsARoundedNormalVariable) {
-  LightStripeParams params;
-  params.wrong_place_probability = 0.0;
+  LightStripeParams params = NoiselessParams();
   params.column_noise_px = 0.6;
   std::vector<double> counts(5, 0.0);
   double total = 0.0;
   for (std::int64_t number = 0; number < 2000; ++number) {
-    messages::StripeScan scan;
-    scan.number = number;
-    for (auto& pixel : scan.pixels.points()) pixel = {.detected = true, .column_px = 10.0};
-    StripeErrors(params).Disturb({20260406, 0}, Searched(), scan);
+    const auto scan = Disturbed(params, {20260406, 0}, number);
     for (const auto& pixel : scan.pixels.points()) {
       const double off = pixel.column_px - 10.0;
       if (std::abs(off) <= 2.0) counts[static_cast<std::size_t>(off + 2.0)] += 1.0;
@@ -161,8 +158,7 @@ TEST(ColumnNoiseTest, IsARoundedNormalVariable) {
 }
 
 TEST(ColumnNoiseTest, StaysInTheSearchedPartAndLeavesMissingPoints) {
-  LightStripeParams params;
-  params.wrong_place_probability = 0.0;
+  LightStripeParams params = NoiselessParams();
   params.column_noise_px = 20.0;
   messages::StripeScan scan;
   for (auto& pixel : scan.pixels[0]) pixel = {.detected = true, .column_px = 50.0};
@@ -172,16 +168,12 @@ TEST(ColumnNoiseTest, StaysInTheSearchedPartAndLeavesMissingPoints) {
 }
 
 TEST(MissedAtTest, EachPointHasItsOwnProbability) {
-  LightStripeParams params;
-  params.wrong_place_probability = 0.0;
+  LightStripeParams params = NoiselessParams();
   for (int point = 0; point < 20; ++point) params.missed_at.push_back(0.05 * point);
   messages::StripeArray<double> missed;
   constexpr int kScans = 5000;
   for (std::int64_t number = 0; number < kScans; ++number) {
-    messages::StripeScan scan;
-    scan.number = number;
-    for (auto& pixel : scan.pixels.points()) pixel = {.detected = true, .column_px = 10.0};
-    StripeErrors(params).Disturb({20260407, 0}, Searched(), scan);
+    const auto scan = Disturbed(params, {20260407, 0}, number);
     for (std::size_t point = 0; point < 20; ++point) {
       missed.points()[point] += !scan.pixels.points()[point].detected;
     }
@@ -189,9 +181,9 @@ TEST(MissedAtTest, EachPointHasItsOwnProbability) {
   EXPECT_EQ(missed.points()[0], 0.0);
   for (std::size_t point = 1; point < 20; ++point) {
     const double count = missed.points()[point];
-    EXPECT_GT(BinomialP(count, kScans, params.missed_at[point]), kAlpha / 19) << point;
+    EXPECT_GT(CountP(count, kScans, params.missed_at[point]), kAlpha / 19) << point;
   }
-  EXPECT_LT(BinomialP(missed.points()[10], kScans, params.missed_at[10] + 0.05), kAlpha / 19);
+  EXPECT_LT(CountP(missed.points()[10], kScans, params.missed_at[10] + 0.05), kAlpha / 19);
 }
 
 TEST(StripeErrorsTest, NowhereToSearchIsNowhereToMisplace) {

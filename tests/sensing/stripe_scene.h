@@ -16,6 +16,12 @@ inline LightStripeParams NoiselessParams() {
 using terrain::EllipsoidRock;
 using terrain::FlatWith;
 
+// Level ground, bare.
+inline const terrain::Terrain& Flat() {
+  static const terrain::Terrain flat = FlatWith({});
+  return flat;
+}
+
 inline math::Transform PoseAt(double x_m, double y_m, double z_m, double heading_rad = 0.0) {
   math::Transform X_WR = math::Transform::Identity();
   X_WR.translation() = math::Vector3(x_m, y_m, z_m);

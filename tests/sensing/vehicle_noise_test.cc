@@ -1,27 +1,15 @@
 // Spread of what the vehicle sensors report, against what their parameters say.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <vector>
 
-#include "core/statistical_checks.h"
+#include "noise_laws.h"
 #include "sensing/vehicle_sensors.h"
 
 namespace rockyard::sensing {
 namespace {
 
-constexpr double kAlpha = 1e-4;  // chance of a false alarm of each check, were its seed drawn anew
 constexpr int kTicks = 20000;
-
-// Two-sided p-value of the variance of a normal sample about a known mean.
-double VarianceP(const std::vector<double>& sample, double mean, double deviation) {
-  double sum = 0.0;
-  for (const double value : sample) sum += (value - mean) * (value - mean);
-  const boost::math::chi_squared distribution(static_cast<double>(sample.size()));
-  const double statistic = sum / (deviation * deviation);
-  return 2.0 * std::min(cdf(distribution, statistic), cdf(complement(distribution, statistic)));
-}
 
 TEST(VehicleNoiseTest, DeviationsAreThoseOfTheParameters) {
   VehicleSensorParams params;
@@ -59,12 +47,8 @@ TEST(VehicleNoiseTest, FalseTouchesComeAsOftenAsTheyShould) {
     for (const bool closed : *state.contact) touches += closed;
   }
   const double chances = kTicks * static_cast<double>(messages::kContactSwitchCount);
-  const auto p_value = [&](double probability) {
-    return core::ChiSquareP({touches, chances - touches},
-                            {chances * probability, chances * (1.0 - probability)});
-  };
-  EXPECT_GT(p_value(0.01), kAlpha);
-  EXPECT_LT(p_value(0.0115), kAlpha);  // negative control
+  EXPECT_GT(CountP(touches, chances, 0.01), kAlpha);
+  EXPECT_LT(CountP(touches, chances, 0.0115), kAlpha);  // negative control
 }
 
 }  // namespace

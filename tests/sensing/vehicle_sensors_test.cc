@@ -24,12 +24,10 @@ constexpr double kTick_s = 0.1;
 
 // All sensors on, exact and at once.
 VehicleSensorParams Exact() {
-  VehicleSensorParams params;
-  params.articulation = {true, 0.0, 0.0, 0};
-  params.accelerometers = {true, 0.0, 0.0, 0};
-  params.motor_current = {true, 0.0, 0.0, 0, 20.0, 0.02};
-  params.contact = {.enabled = true, .latency_ticks = 0};
-  return params;
+  return {.articulation = {true, 0.0, 0.0, 0},
+          .accelerometers = {true, 0.0, 0.0, 0},
+          .motor_current = {true, 0.0, 0.0, 0, 20.0, 0.02},
+          .contact = {.enabled = true, .latency_ticks = 0}};
 }
 
 messages::WheelCommand Rolling() {
@@ -45,9 +43,7 @@ rover::RoverParams OnMars() {
 }
 
 truth::RoverState Touching(BodyPart part, const Vector3& p_RoC_R, double force_N = 5.0) {
-  truth::RoverState state;
-  state.contacts = {{.part = part, .rock = 0, .normal_force_N = force_N, .p_RoC_R = p_RoC_R}};
-  return state;
+  return {.contacts = {{.part = part, .rock = 0, .normal_force_N = force_N, .p_RoC_R = p_RoC_R}}};
 }
 
 TEST(VehicleSensorsTest, WhatIsOffReportsNothing) {

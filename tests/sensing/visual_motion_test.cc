@@ -14,14 +14,12 @@ using math::Transform;
 using math::Vector3;
 
 VisualErrorModelParams Params() {
-  VisualErrorModelParams params;
-  params.failure = {.intercept = -1000.0, .per_m = 0.0, .per_rad = 0.0};
-  params.along = {{.still = 0.001, .per_m = 0.01, .per_rad = 0.003}};
-  params.across = {{.still = 0.002, .per_m = 0.02, .per_rad = 0.004}};
-  params.up = {{.still = 0.003, .per_m = 0.03, .per_rad = 0.005}};
-  params.tilt = {{.still = 0.004, .per_m = 0.04, .per_rad = 0.006}};
-  params.heading = {{.still = 0.005, .per_m = 0.05, .per_rad = 0.007}};
-  return params;
+  return {.failure = {.intercept = -1000.0, .per_m = 0.0, .per_rad = 0.0},
+          .along = {{.still = 0.001, .per_m = 0.01, .per_rad = 0.003}},
+          .across = {{.still = 0.002, .per_m = 0.02, .per_rad = 0.004}},
+          .up = {{.still = 0.003, .per_m = 0.03, .per_rad = 0.005}},
+          .tilt = {{.still = 0.004, .per_m = 0.04, .per_rad = 0.006}},
+          .heading = {{.still = 0.005, .per_m = 0.05, .per_rad = 0.007}}};
 }
 
 // 0.5 m and 0.2 rad about a slanted axis.

@@ -16,15 +16,21 @@ constexpr int kCampaigns = 2000;
 
 // A trial fails where u < 0.25 unless a is perfect, or where w < 0.10 unless both are perfect; u
 // and w are independent and the same in all four combinations.
+void AddTrial(double u, double w, FactorialFailures& failures) {
+  for (Combination c = 0; c < 4; ++c) {
+    const bool fails = (u < 0.25 && (c & 1U) == 0) || (w < 0.10 && c != 3U);
+    failures.failed[c].push_back(fails ? 1 : 0);
+  }
+}
+
+FactorialFailures NoTrials() { return {{"a", "b"}, std::vector<std::vector<std::uint8_t>>(4)}; }
+
 FactorialFailures Draw(std::uint32_t campaign) {
-  FactorialFailures failures{{"a", "b"}, std::vector<std::vector<std::uint8_t>>(4)};
+  FactorialFailures failures = NoTrials();
   core::RandomStream stream({11, campaign}, core::Purpose::kTest);
   for (std::size_t t = 0; t < kTrials; ++t) {
-    const bool first = stream.Uniform() < 0.25;
-    const bool second = stream.Uniform() < 0.10;
-    for (Combination c = 0; c < 4; ++c) {
-      failures.failed[c].push_back((first && (c & 1U) == 0) || (second && c != 3U) ? 1 : 0);
-    }
+    const double u = stream.Uniform();
+    AddTrial(u, stream.Uniform(), failures);
   }
   return failures;
 }
@@ -35,18 +41,14 @@ constexpr std::array<double, 4> kTruth{0.25 + 0.10 - 0.025, 0.10, 0.25 + 0.10 - 
 // The same, but 3 of 5 trials of a layout, on average, draw what the layout draws: 50 layouts of 3.
 constexpr std::size_t kPerLayout = 3;
 FactorialFailures DrawOnLayouts(std::uint32_t campaign) {
-  FactorialFailures failures{{"a", "b"}, std::vector<std::vector<std::uint8_t>>(4)};
+  FactorialFailures failures = NoTrials();
   core::RandomStream stream({12, campaign}, core::Purpose::kTest);
   std::array<double, 2> layout{};
   for (std::size_t t = 0; t < kTrials; ++t) {
     if (t % kPerLayout == 0) layout = {stream.Uniform(), stream.Uniform()};
     const std::array<double, 2> own{stream.Uniform(), stream.Uniform()};
     const std::array<double, 2>& drawn = stream.Uniform() < 0.8 ? layout : own;
-    const bool first = drawn[0] < 0.25;
-    const bool second = drawn[1] < 0.10;
-    for (Combination c = 0; c < 4; ++c) {
-      failures.failed[c].push_back((first && (c & 1U) == 0) || (second && c != 3U) ? 1 : 0);
-    }
+    AddTrial(drawn[0], drawn[1], failures);
     failures.clusters.push_back(t / kPerLayout);
   }
   return failures;

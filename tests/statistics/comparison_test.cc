@@ -92,12 +92,18 @@ TEST(Verdicts, AWrongSimulationIsFound) {
   EXPECT_GE(minimum_found, 0.9 * kFamilies);
 }
 
+ComparedValue CompareOneValue(const PublishedValue& value, const std::vector<ScenarioRun>& runs,
+                              std::size_t replicates = 2000) {
+  PublishedReference reference;
+  reference.values = {value};
+  return Compare(reference, runs, {.seed = 1, .replicates = replicates}).values[0];
+}
+
 Verdict SuccessVerdict(std::int64_t n, double value, double rate, std::uint32_t pool = 2000) {
   const auto trials = SyntheticTrials({.success_rate = rate}, 5, pool);
-  const std::vector<ScenarioRun> runs = {RunOf("nominal", trials)};
-  PublishedReference reference;
-  reference.values = {Value("success", StatisticKind::kOutcomeCount, n, value)};
-  return Compare(reference, runs, {.seed = 1, .replicates = 100}).values[0].verdict;
+  return CompareOneValue(Value("success", StatisticKind::kOutcomeCount, n, value),
+                         {RunOf("nominal", trials)}, 100)
+      .verdict;
 }
 
 TEST(Verdicts, SixRunsAreUnderpoweredFortyAreNot) {
@@ -106,12 +112,6 @@ TEST(Verdicts, SixRunsAreUnderpoweredFortyAreNot) {
   EXPECT_EQ(SuccessVerdict(40, 39, 0.97), Verdict::kAgrees);
   EXPECT_EQ(SuccessVerdict(40, 30, 0.97), Verdict::kDiffers);
   EXPECT_EQ(SuccessVerdict(6, 1, 0.97), Verdict::kDiffers);
-}
-
-ComparedValue CompareOneValue(const PublishedValue& value, const std::vector<ScenarioRun>& runs) {
-  PublishedReference reference;
-  reference.values = {value};
-  return Compare(reference, runs, {.seed = 1, .replicates = 2000}).values[0];
 }
 
 // A mode far from any simulated one is shown, and in no family.

@@ -88,19 +88,26 @@ TEST(UnpairedRates, EndIsZeroWhereThePooledScoreIsCritical) {
   EXPECT_NEAR(DifferenceInterval(table, std::erf(score / std::sqrt(2.0))).low, 0.0, 1e-9);
 }
 
-// Exact size of TOST at the margin: the chance to call two groups equivalent that differ by it.
-double ExactSize(std::int64_t n, double first, double margin) {
-  const CountLaw a = BinomialLaw(n, first);
-  const CountLaw b = BinomialLaw(n, first + margin);
-  double size = 0.0;
+// Of the tables of two groups of n that have the property, but for impossible ones.
+template <typename Property>
+double ChanceOf(std::int64_t n, const RatePair& rates, const Property& holds) {
+  const CountLaw a = BinomialLaw(n, rates.first);
+  const CountLaw b = BinomialLaw(n, rates.second);
+  double chance = 0.0;
   for (std::int64_t i = 0; i <= n; ++i) {
     for (std::int64_t j = 0; j <= n; ++j) {
       const double weight = a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)];
-      if (weight < 1e-12) continue;
-      if (EquivalencePValue(ContingencyTable{i, n - i, j, n - j}, margin) <= 0.05) size += weight;
+      if (weight > 1e-12 && holds(ContingencyTable{i, n - i, j, n - j})) chance += weight;
     }
   }
-  return size;
+  return chance;
+}
+
+// Exact size of TOST at the margin: the chance to call two groups equivalent that differ by it.
+double ExactSize(std::int64_t n, double first, double margin) {
+  return ChanceOf(n, {first, first + margin}, [margin](const ContingencyTable& table) {
+    return EquivalencePValue(table, margin) <= 0.05;
+  });
 }
 
 TEST(UnpairedRates, EquivalenceKeepsItsLevel) {
@@ -208,16 +215,8 @@ TEST(SparseEquivalence, IsABinomialTail) {
 
 // Negative control: "not significant" calls the same groups equal far more often.
 TEST(UnpairedRates, NotSignificantIsNotEquivalent) {
-  const CountLaw a = BinomialLaw(120, 0.5);
-  const CountLaw b = BinomialLaw(120, 0.65);
-  double called_equal = 0.0;
-  for (std::int64_t i = 0; i <= 120; ++i) {
-    for (std::int64_t j = 0; j <= 120; ++j) {
-      const double weight = a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)];
-      if (weight < 1e-9) continue;
-      if (FisherExactPValue({i, 120 - i, j, 120 - j}) > 0.05) called_equal += weight;
-    }
-  }
+  const double called_equal =
+      ChanceOf(120, {0.5, 0.65}, [](const auto& table) { return FisherExactPValue(table) > 0.05; });
   EXPECT_GT(called_equal, 0.25);
 }
 
@@ -276,15 +275,8 @@ TEST(SampleSize, PowersAreReached) {
 // The power is the chance to reject, summed by hand over a small design.
 TEST(SampleSize, FisherPowerIsTheSumOverTables) {
   const RatePair rates{0.3, 0.8};
-  const CountLaw a = BinomialLaw(15, 0.3);
-  const CountLaw b = BinomialLaw(15, 0.8);
-  double power = 0.0;
-  for (std::int64_t i = 0; i <= 15; ++i) {
-    for (std::int64_t j = 0; j <= 15; ++j) {
-      if (FisherExactPValue({i, 15 - i, j, 15 - j}) > 0.05) continue;
-      power += a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)];
-    }
-  }
+  const double power =
+      ChanceOf(15, rates, [](const auto& table) { return FisherExactPValue(table) <= 0.05; });
   EXPECT_NEAR(FisherPower(15, rates, 0.05), power, 1e-9);
 }
 

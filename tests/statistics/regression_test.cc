@@ -4,16 +4,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/distributions.h"
 #include "core/random.h"
-#include "regression_data.h"
 #include "statistics/equivalence.h"
+#include "statistics/sample_size.h"
 
 namespace rockyard::statistics {
 namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> Normals(std::uint32_t set, std::size_t n, double mean) {
+  core::RandomStream stream({.seed = 81, .trial = set}, core::Purpose::kTest);
+  std::vector<double> values(n);
+  for (double& x : values) x = core::SampleNormal(stream, mean, 1.0);
+  return values;
+}
+
+std::vector<double> Coins(std::uint32_t set, std::size_t n, double rate, std::uint64_t seed = 82) {
+  core::RandomStream stream({.seed = seed, .trial = set}, core::Purpose::kTest);
+  std::vector<double> values(n);
+  for (double& x : values) x = core::SampleBernoulli(stream, rate) ? 1.0 : 0.0;
+  return values;
+}
+
+// One metric with a mean and one rate.
+RegressionResult Check(bool paired, const std::vector<BaselineMetric>& baseline,
+                       std::vector<std::vector<double>> run) {
+  const RegressionCell cell{
+      .name = "cell", .paired = paired, .baseline = baseline, .run = std::move(run)};
+  return CheckRegression(std::span(&cell, 1));
+}
+
+std::vector<double> Ones(int ones, int n) {
+  std::vector<double> values(static_cast<std::size_t>(n), 0.0);
+  std::fill_n(values.begin(), ones, 1.0);
+  return values;
+}
 
 std::vector<BaselineMetric> Baseline(std::uint32_t set) {
   return {{"max_tilt_deg", 0.8, Normals(set, 100, 5.0)},
@@ -71,12 +105,7 @@ TEST(Regression, AFamilyOfMetricsRaisesNoMoreAlarmsThanOne) {
 // Skewed counts, most of them 0, in a run of another size than the baseline: nominal level of one
 // of 34 metrics. Welch's test of 400 against 50 raises an alarm in 8 % of these.
 TEST(Regression, RunsOfAnotherSizeKeepTheLevelWhereValuesAreSkewed) {
-  const auto counts = [](std::uint32_t set, std::size_t n) {
-    core::RandomStream stream({.seed = 83, .trial = set}, core::Purpose::kTest);
-    std::vector<double> values(n);
-    for (double& x : values) x = core::SampleBernoulli(stream, 0.05) ? 1.0 : 0.0;
-    return values;
-  };
+  const auto counts = [](std::uint32_t set, std::size_t n) { return Coins(set, n, 0.05, 83); };
   constexpr double kLevel = 0.01 / 34;
   int alarms = 0;
   int welch_alarms = 0;
@@ -91,10 +120,8 @@ TEST(Regression, RunsOfAnotherSizeKeepTheLevelWhereValuesAreSkewed) {
 }
 
 TEST(Regression, BothSidesEnterWithEquallyManyValues) {
-  const std::vector<BaselineMetric> baseline = {{"max_tilt_deg", 0.8, Normals(1, 100, 5.0)},
-                                                {"declared_success", 0.2, Coins(1, 100, 0.8)}};
   const RegressionResult result =
-      Check(false, baseline, {Normals(2, 300, 5.0), Coins(2, 300, 0.8)});
+      Check(false, Baseline(1), {Normals(2, 300, 5.0), Coins(2, 300, 0.8)});
   for (const RegressionRow& row : result.rows) {
     EXPECT_EQ(row.baseline_count, 100);
     EXPECT_EQ(row.run_count, 100);
@@ -295,6 +322,76 @@ TEST(Regression, RoundingKeepsFiveDigits) {
   EXPECT_EQ(RoundForBaseline(1.2345678), 1.2346);
   EXPECT_EQ(RoundForBaseline(-123456.0), -123460.0);
   EXPECT_TRUE(std::isnan(RoundForBaseline(kNaN)));
+}
+
+// A shift of what the report says is seen with 80 % is seen so often, give or take four standard
+// errors of 400 builds.
+TEST(Regression, DeclaredPowerIsTheRealOne) {
+  int caught = 0;
+  for (std::uint32_t i = 0; i < 400; ++i) {
+    const std::vector<BaselineMetric> baseline = {{"max_tilt_deg", 0.8, Normals(2 * i, 100, 5.0)}};
+    const double shift = Check(false, baseline, {Normals(2 * i + 1, 100, 5.0)}).rows[0].seen_80;
+    const RegressionResult moved = Check(false, baseline, {Normals(2 * i + 1, 100, 5.0 + shift)});
+    caught += moved.rows[0].verdict == RegressionVerdict::kChanged ? 1 : 0;
+  }
+  EXPECT_NEAR(caught / 400.0, 0.8, 0.09);
+}
+
+// A rate alone, as a family of 34 would hold it (m - 1 others that do not move).
+RegressionRow RateRow(bool paired, const std::vector<double>& baseline,
+                      const std::vector<double>& run) {
+  const std::vector<BaselineMetric> metrics = {{"declared_success", 0.1, baseline}};
+  const RegressionCell cell{.name = "", .paired = paired, .baseline = metrics, .run = {run}};
+  return CheckRegression(std::span(&cell, 1), {.alpha = 0.01 / 34, .primary_share = 1.0}).rows[0];
+}
+
+// Builds of which a share of the trials, of `seen_80`, flips: caught 80 times of 100, give or take
+// four standard errors of 400. Without a discordant pair a shift of 13 of 100, the least that the
+// test rejects, is caught 54 times.
+TEST(Regression, DeclaredPowerOfPairedRatesIsTheRealOne) {
+  const double shift = RateRow(true, Ones(0, 100), Ones(0, 100)).seen_80;
+  const auto caught = [](double share) {
+    int count = 0;
+    for (std::uint32_t i = 0; i < 400; ++i) {
+      const std::vector<double> flips = Coins(900 + i, 100, share);
+      const auto flipped = std::count(flips.begin(), flips.end(), 1.0);
+      count += McNemarExactPValue(0, flipped) <= 0.01 / 34 ? 1 : 0;
+    }
+    return count / 400.0;
+  };
+  EXPECT_NEAR(caught(shift), 0.8, 0.09);
+  EXPECT_LT(caught(0.13), 0.65) << "the control";
+}
+
+// Background of 5 % either way: the shift adds discordant pairs of its own, so that it is seen
+// where fewer of them would not be.
+TEST(Regression, DeclaredPowerOfDiscordantPairsIsExact) {
+  std::vector<double> run = Ones(50, 100);
+  for (std::size_t k = 45; k < 55; ++k) run[k] = 1.0 - run[k];
+  const double shift = RateRow(true, Ones(50, 100), run).seen_80;
+  EXPECT_NEAR(McNemarPower(100, {0.05, 0.05 + shift}, 0.01 / 34), 0.8, 0.005);
+  EXPECT_LT(McNemarPower(100, {0.05, 0.05 + 0.141}, 0.01 / 34), 0.3) << "the control";
+}
+
+TEST(Regression, DeclaredPowerOfUnpairedRatesIsExact) {
+  for (const int ones : {0, 5, 80, 100}) {
+    const double rate = ones / 100.0;
+    const RegressionRow row = RateRow(false, Ones(ones, 100), Ones(ones, 100));
+    const double to = rate > 0.5 ? rate - row.seen_80 : rate + row.seen_80;
+    EXPECT_NEAR(FisherPower(100, {rate, to}, 0.01 / 34), 0.8, 0.005) << ones;
+    EXPECT_GT(row.seen_90, row.seen_80);
+  }
+  EXPECT_TRUE(std::isnan(RateRow(false, Ones(3, 5), Ones(3, 5)).seen_80)) << "five see nothing";
+}
+
+// Where an unchanged run of 20 pairs asks for this many, so many see a shift of the margin.
+TEST(Regression, TrialsForTheMarginAreEnough) {
+  const std::vector<double> few = Ones(10, 20);
+  const RegressionRow paired = RateRow(true, few, few);
+  EXPECT_NEAR(McNemarPower(paired.trials_for_margin, {0.0, 0.1}, 0.01 / 34), 0.8, 0.03);
+  EXPECT_LT(paired.trials_for_margin, 200);
+  const RegressionRow unpaired = RateRow(false, few, few);
+  EXPECT_NEAR(FisherPower(unpaired.trials_for_margin, {0.5, 0.6}, 0.01 / 34), 0.8, 0.03);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "statistics/modes.h"
 #include "statistics/moments.h"
 #include "statistics/predictive.h"
-#include "statistics/quantiles.h"
 
 namespace rockyard::statistics {
 namespace {
@@ -33,6 +32,9 @@ std::vector<double> Normals(std::uint32_t set, std::size_t n, double mean) {
 }
 
 double MeanOf(std::span<const double> x) { return MomentsOf(x).mean(); }
+double FrontOf(std::span<const double> x) { return x.front(); }
+
+double UniformLaw(double x) { return std::clamp(x, 0.0, 1.0); }
 
 // Uniform p-values under the null: Kolmogorov test at alpha = 0.01 over the p-values.
 TEST(ExponentialTail, PValuesAreUniformForShiftedExponentialsOfAnyScale) {
@@ -44,8 +46,7 @@ TEST(ExponentialTail, PValuesAreUniformForShiftedExponentialsOfAnyScale) {
     std::sort(sample.begin(), sample.end());
     p_values.push_back(BootstrapPValue(null, ExponentialStatistic(sample)));
   }
-  const auto uniform = [](double x) { return std::clamp(x, 0.0, 1.0); };
-  EXPECT_GT(KolmogorovSmirnov(p_values, uniform).p_value, 0.01);
+  EXPECT_GT(KolmogorovSmirnov(p_values, UniformLaw).p_value, 0.01);
 }
 
 // Negative control: a plain Kolmogorov-Smirnov p-value with fitted parameters is far from uniform.
@@ -56,8 +57,7 @@ TEST(ExponentialTail, PlainKolmogorovWithFittedParametersIsNotUniform) {
     std::sort(sample.begin(), sample.end());
     p_values.push_back(KolmogorovExactPValue(ExponentialStatistic(sample), 39));
   }
-  const auto uniform = [](double x) { return std::clamp(x, 0.0, 1.0); };
-  EXPECT_LT(KolmogorovSmirnov(p_values, uniform).p_value, 1e-6);
+  EXPECT_LT(KolmogorovSmirnov(p_values, UniformLaw).p_value, 1e-6);
 }
 
 TEST(ExponentialTail, RejectsWhatIsNotExponential) {
@@ -74,9 +74,7 @@ TEST(ExponentialTail, RejectsWhatIsNotExponential) {
 TEST(Predictive, SmallestOfTheNewSampleLiesBelowThePoolAsOftenAsItMust) {
   // n / (N + n), whatever the law: 40 beside 60 fall below the pool's minimum in 40 % of cases.
   const PredictiveSampler sampler(Exponentials(3, 60, 1.0));
-  const auto smallest =
-      PredictiveStatistics(sampler, 40, [](std::span<const double> x) { return x.front(); }, 4000,
-                           {.seed = 1, .trial = 0});
+  const auto smallest = PredictiveStatistics(sampler, 40, FrontOf, 4000, {.seed = 1, .trial = 0});
   const auto below = std::count_if(smallest.begin(), smallest.end(),
                                    [&](double x) { return x < sampler.pool().front(); });
   EXPECT_NEAR(static_cast<double>(below) / 4000.0, 0.4, 4.0 * std::sqrt(0.24 / 4000.0));
@@ -84,9 +82,7 @@ TEST(Predictive, SmallestOfTheNewSampleLiesBelowThePoolAsOftenAsItMust) {
 
 TEST(Predictive, RespectsALowerLimit) {
   const PredictiveSampler sampler(Exponentials(4, 20, 1.0), 0.0);
-  const auto smallest =
-      PredictiveStatistics(sampler, 40, [](std::span<const double> x) { return x.front(); }, 2000,
-                           {.seed = 1, .trial = 0});
+  const auto smallest = PredictiveStatistics(sampler, 40, FrontOf, 2000, {.seed = 1, .trial = 0});
   EXPECT_GE(*std::min_element(smallest.begin(), smallest.end()), 0.0);
 }
 
@@ -110,8 +106,7 @@ double RejectionRate(const SampleStatistic& statistic, Law law, double pool_para
 
 TEST(Predictive, FalseAlarmRateIsNominalForEveryStatistic) {
   // 0.05 give or take 3.5 sigma of 200 pairs: 0.104 at most.
-  const SampleStatistic statistics[] = {[](std::span<const double> x) { return x.front(); },
-                                        [](std::span<const double> x) { return x.back(); },
+  const SampleStatistic statistics[] = {FrontOf, [](std::span<const double> x) { return x.back(); },
                                         HalfSampleMode, MeanOf};
   for (const SampleStatistic& statistic : statistics) {
     EXPECT_LE(RejectionRate(statistic, Normals, 0.0, 0.0), 0.104);
@@ -121,8 +116,7 @@ TEST(Predictive, FalseAlarmRateIsNominalForEveryStatistic) {
 
 TEST(Predictive, WrongPoolIsFound) {
   EXPECT_GT(RejectionRate(MeanOf, Normals, 0.0, 0.7), 0.9);
-  EXPECT_GT(RejectionRate([](std::span<const double> x) { return x.front(); }, Normals, 0.0, 2.0),
-            0.8);
+  EXPECT_GT(RejectionRate(FrontOf, Normals, 0.0, 2.0), 0.8);
 }
 
 // Negative control: without the pool's own uncertainty a small pool gives false alarms.

@@ -106,28 +106,33 @@ std::vector<Record> Runs(const std::vector<double>& rates, double scenes, std::u
   return records;
 }
 
-ComparedValue CompareOne(const PublishedValue& value, const std::vector<Record>& records) {
+ComparedValue CompareOne(const PublishedValue& value, const std::vector<Record>& records,
+                         const truth::RecordSchema& schema = Schema()) {
   PublishedReference reference;
   reference.values.push_back(value);
-  const ScenarioRun run{"run", Schema(), records};
+  const ScenarioRun run{"run", schema, records};
   return Compare(reference, {&run, 1}).values.front();
+}
+
+// Of a rate that is to lie within the tolerance.
+Verdict VerdictOf(double low, double high, const std::vector<Record>& records) {
+  return CompareOne(Value(StatisticKind::kRate, low, high), records).verdict;
 }
 
 TEST(Tolerances, InsideAgreesApartDiffersAcrossIsUnderpowered) {
   const std::vector<Record> records = Runs({0.3}, 10000, 1);
-  EXPECT_EQ(CompareOne(Value(StatisticKind::kRate, 0.25, 0.35), records).verdict, Verdict::kAgrees);
-  EXPECT_EQ(CompareOne(Value(StatisticKind::kRate, 0.0, 0.25), records).verdict, Verdict::kDiffers);
-  EXPECT_EQ(CompareOne(Value(StatisticKind::kRate, 0.35, 1.0), records).verdict, Verdict::kDiffers);
-  EXPECT_EQ(CompareOne(Value(StatisticKind::kRate, 0.301, 1.0), records).verdict,
-            Verdict::kUnderpowered);
+  EXPECT_EQ(VerdictOf(0.25, 0.35, records), Verdict::kAgrees);
+  EXPECT_EQ(VerdictOf(0.0, 0.25, records), Verdict::kDiffers);
+  EXPECT_EQ(VerdictOf(0.35, 1.0, records), Verdict::kDiffers);
+  EXPECT_EQ(VerdictOf(0.301, 1.0, records), Verdict::kUnderpowered);
 }
 
 // What no simulation can miss is not agreement.
 TEST(Tolerances, OneThatHoldsEveryRateHolds) {
   const std::vector<Record> records = Runs({0.3}, 10000, 1);
-  EXPECT_EQ(CompareOne(Value(StatisticKind::kRate, 0.0, 1.0), records).verdict, Verdict::kHolds);
-  EXPECT_EQ(CompareOne(Value(StatisticKind::kRate, 0.0, 0.99), records).verdict, Verdict::kAgrees);
-  EXPECT_EQ(CompareOne(Value(StatisticKind::kRate, 0.01, 1.0), records).verdict, Verdict::kAgrees);
+  EXPECT_EQ(VerdictOf(0.0, 1.0, records), Verdict::kHolds);
+  EXPECT_EQ(VerdictOf(0.0, 0.99, records), Verdict::kAgrees);
+  EXPECT_EQ(VerdictOf(0.01, 1.0, records), Verdict::kAgrees);
 }
 
 TEST(Tolerances, IntervalsCoverTheTruthAsOftenAsTheySay) {
@@ -163,12 +168,10 @@ std::vector<Record> Drives(bool clustered, double rate, std::uint32_t seed) {
 
 ComparedValue Missed(const std::vector<Record>& records) {
   constexpr std::string_view kNames[] = {"hazards", "missed"};
-  PublishedReference reference;
-  reference.values.push_back(Value(StatisticKind::kRate, 0.0, 1.0));
-  reference.values.front().column = "missed";
-  reference.values.front().of = "hazards";
-  const ScenarioRun run{"run", truth::MeasuredSchema(kNames), records};
-  return Compare(reference, {&run, 1}).values.front();
+  PublishedValue value = Value(StatisticKind::kRate, 0.0, 1.0);
+  value.column = "missed";
+  value.of = "hazards";
+  return CompareOne(value, records, truth::MeasuredSchema(kNames));
 }
 
 TEST(Tolerances, HazardsOfOneDriveAreNotIndependent) {
@@ -225,15 +228,15 @@ TEST(Tolerances, ManyNumbersShareTheLevel) {
 }
 
 TEST(Tolerances, OnlyRecordsInRangeCount) {
-  PublishedValue value = Value(StatisticKind::kRate, 0.8, 1.0);
-  value.where = {{"height_m", 0.009, 0.011}};
-  EXPECT_EQ(CompareOne(value, Runs({0.1, 0.9}, 1000, 1)).verdict, Verdict::kAgrees);
-  value.where = {{"height_m", -0.001, 0.001}};
-  EXPECT_EQ(CompareOne(value, Runs({0.1, 0.9}, 1000, 1)).verdict, Verdict::kDiffers);
-  value.where = {{"height_m", 5.0, 6.0}};
-  EXPECT_EQ(CompareOne(value, Runs({0.1, 0.9}, 1000, 1)).verdict, Verdict::kNotJudged);
-  value.where = {{"no_such_column", 5.0, 6.0}};
-  EXPECT_EQ(CompareOne(value, Runs({0.1, 0.9}, 1000, 1)).verdict, Verdict::kNotJudged);
+  const auto where = [](const char* column, double low, double high) {
+    PublishedValue value = Value(StatisticKind::kRate, 0.8, 1.0);
+    value.where = {{column, low, high}};
+    return CompareOne(value, Runs({0.1, 0.9}, 1000, 1)).verdict;
+  };
+  EXPECT_EQ(where("height_m", 0.009, 0.011), Verdict::kAgrees);
+  EXPECT_EQ(where("height_m", -0.001, 0.001), Verdict::kDiffers);
+  EXPECT_EQ(where("height_m", 5.0, 6.0), Verdict::kNotJudged);
+  EXPECT_EQ(where("no_such_column", 5.0, 6.0), Verdict::kNotJudged);
 }
 
 TEST(Tolerances, ACrossingLiesWhereTheCurvePassesTheLevel) {
@@ -281,21 +284,25 @@ truth::RecordSchema Named(std::initializer_list<const char*> names) {
   return schema;
 }
 
+PublishedValue SumOf(const decltype(PublishedValue::terms)& terms, double low, double high) {
+  PublishedValue value;
+  value.id = "sum";
+  value.scenario = "run";
+  value.statistic = StatisticKind::kRatioSum;
+  value.terms = terms;
+  value.low = low;
+  value.high = high;
+  return value;
+}
+
 // Two terms, by hand: (10 + 20 + 5 + 15) / (2 + 3) + (7 + 2) / (1 + 2) = 10 + 3, times 2.
 TEST(Tolerances, RatiosOfSumsAddUp) {
   const std::vector<Record> records{{0, TrialOutcome::kMeasured, "", {10.0, 20.0, 2.0, 7.0, 1.0}},
                                     {1, TrialOutcome::kMeasured, "", {5.0, 15.0, 3.0, 2.0, 2.0}}};
-  PublishedReference reference;
-  PublishedValue& value = reference.values.emplace_back();
-  value.id = "sum";
-  value.scenario = "run";
-  value.statistic = StatisticKind::kRatioSum;
-  value.terms = {{{"a", "b"}, "looks"}, {{"c"}, "moves"}};
+  PublishedValue value = SumOf({{{"a", "b"}, "looks"}, {{"c"}, "moves"}}, 25.0, 27.0);
   value.factor = 2.0;
-  value.low = 25.0;
-  value.high = 27.0;
-  const ScenarioRun run{"run", Named({"a", "b", "looks", "c", "moves"}), records};
-  const ComparedValue sum = Compare(reference, {&run, 1}).values.front();
+  const truth::RecordSchema schema = Named({"a", "b", "looks", "c", "moves"});
+  const ComparedValue sum = CompareOne(value, records, schema);
   EXPECT_NEAR(sum.pool_value, 26.0, 1e-12);
   // Residuals of both runs: (30 - 10 x 2) / 2.5 + (7 - 3 x 1) / 1.5 = 20/3, and -20/3. Their
   // standard deviation is 20/3 sqrt(2), t of one degree of freedom at 0.975 is 12.7062.
@@ -303,7 +310,7 @@ TEST(Tolerances, RatiosOfSumsAddUp) {
   EXPECT_EQ(sum.verdict, Verdict::kUnderpowered);
 
   value.terms[1].of = "no_such_column";
-  EXPECT_EQ(Compare(reference, {&run, 1}).values.front().verdict, Verdict::kNotJudged);
+  EXPECT_EQ(CompareOne(value, records, schema).verdict, Verdict::kNotJudged);
 }
 
 // A run that looks longer and drives shorter scatters in each term, not in their sum.
@@ -313,20 +320,11 @@ TEST(Tolerances, TermsThatGoTogetherInARunAreTakenTogether) {
     const double shift = i % 2 == 0 ? 3.0 : -3.0;
     records.push_back({i, TrialOutcome::kMeasured, "", {20.0 + shift, 1.0, 15.0 - shift, 1.0}});
   }
-  PublishedReference reference;
-  PublishedValue& value = reference.values.emplace_back();
-  value.id = "sum";
-  value.scenario = "run";
-  value.statistic = StatisticKind::kRatioSum;
-  value.terms = {{{"a"}, "looks"}, {{"c"}, "moves"}};
-  value.low = 34.9;
-  value.high = 35.1;
-  const ScenarioRun run{"run", Named({"a", "looks", "c", "moves"}), records};
-  EXPECT_EQ(Compare(reference, {&run, 1}).values.front().verdict, Verdict::kAgrees);
-  value.terms.pop_back();
-  value.low = 19.9;
-  value.high = 20.1;
-  EXPECT_EQ(Compare(reference, {&run, 1}).values.front().verdict, Verdict::kUnderpowered);
+  const auto verdict = [&](const PublishedValue& value) {
+    return CompareOne(value, records, Named({"a", "looks", "c", "moves"})).verdict;
+  };
+  EXPECT_EQ(verdict(SumOf({{{"a"}, "looks"}, {{"c"}, "moves"}}, 34.9, 35.1)), Verdict::kAgrees);
+  EXPECT_EQ(verdict(SumOf({{{"a"}, "looks"}}, 19.9, 20.1)), Verdict::kUnderpowered);
 }
 
 TEST(Tolerances, WhatIsComputedNeedsNoRun) {

@@ -1,4 +1,5 @@
-// The blind swath: kinematic first contacts in Poisson fields against the closed form.
+// The blind swath: kinematic first contacts in Poisson fields against the closed form, and the path
+// swept by a straight front up to a rock, by hand and against walks around outlines.
 #include "terrain/blind_swath.h"
 
 #include <gtest/gtest.h>
@@ -8,14 +9,18 @@
 #include <numbers>
 #include <vector>
 
+#include "core/random.h"
 #include "core/statistical_checks.h"
 #include "terrain/field.h"
+#include "terrain/placed_rocks.h"
+#include "terrain/swept_path.h"
 
 namespace rockyard::terrain {
 namespace {
 
 constexpr double kRoverWidth_m = 0.48;
 constexpr double kBig_m = 0.2;
+constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 // Long enough that one swath in 10^4 meets nothing.
 TerrainParams PoissonField() {
@@ -60,12 +65,23 @@ double ByQuadrature(const RockFieldParams& rocks, const BlindSwath& swath) {
 }
 
 Rock Ellipse(double x_m, double y_m, double a_m, double b_m, double yaw_rad) {
-  Rock rock;
-  rock.center_W = {x_m, y_m, 0.0};
-  rock.semi_axes_m = {a_m, b_m, 0.1};
-  rock.yaw_rad = yaw_rad;
-  rock.diameter_m = 2.0 * a_m;
-  return rock;
+  return EllipsoidRock(x_m, y_m, 0.0, a_m, b_m, 0.1, yaw_rad);
+}
+
+// The least x of points of the outline with |y| up to 0.2 m; infinity where there are none.
+double LeastX_m(const Rock& rock) {
+  constexpr int kPoints = 40000;
+  double least_m = kNothing;
+  for (int i = 0; i < kPoints; ++i) {
+    const double t = 2.0 * std::numbers::pi * i / kPoints;
+    const double u = rock.semi_axes_m.x() * std::cos(t);
+    const double v = rock.semi_axes_m.y() * std::sin(t);
+    const double y = rock.center_W.y() + u * std::sin(rock.yaw_rad) + v * std::cos(rock.yaw_rad);
+    if (std::abs(y) > 0.2) continue;
+    const double x = rock.center_W.x() + u * std::cos(rock.yaw_rad) - v * std::sin(rock.yaw_rad);
+    least_m = std::min(least_m, x);
+  }
+  return least_m;
 }
 
 TEST(BlindSwathTest, ClosedFormEqualsQuadrature) {
@@ -112,14 +128,12 @@ TEST(BlindSwathTest, ContactsOfKnownRocks) {
   EXPECT_NEAR(FirstContact_m({Ellipse(2.0, 0.1, 0.3, 0.3, 0.0)}, swath, 0.0, 0.0), 1.7, 1e-12);
   // Beside the front's end by 0.18 of a radius of 0.3: touched at the end, 0.24 before the centre.
   EXPECT_NEAR(FirstContact_m({Ellipse(2.0, 0.38, 0.3, 0.3, 0.0)}, swath, 0.0, 0.0), 1.76, 1e-12);
-  EXPECT_EQ(FirstContact_m({Ellipse(2.0, 0.51, 0.3, 0.3, 0.0)}, swath, 0.0, 0.0),
-            std::numeric_limits<double>::infinity());
+  EXPECT_EQ(FirstContact_m({Ellipse(2.0, 0.51, 0.3, 0.3, 0.0)}, swath, 0.0, 0.0), kNothing);
   // Behind the start, and below the smallest obstacle.
   EXPECT_NEAR(FirstContact_m({Ellipse(0.1, 0.0, 0.3, 0.3, 0.0), Ellipse(3.0, 0.0, 0.3, 0.2, 0.0)},
                              swath, 0.0, 0.0),
               2.7, 1e-12);
-  EXPECT_EQ(FirstContact_m({Ellipse(2.0, 0.0, 0.3, 0.3, 0.0)}, {0.4, 0.7}, 0.0, 0.0),
-            std::numeric_limits<double>::infinity());
+  EXPECT_EQ(FirstContact_m({Ellipse(2.0, 0.0, 0.3, 0.3, 0.0)}, {0.4, 0.7}, 0.0, 0.0), kNothing);
   // Across, an ellipse is met by its short axis; turned by 90 deg a wide swath meets its end.
   EXPECT_NEAR(
       FirstContact_m({Ellipse(2.0, 0.0, 0.3, 0.1, 0.5 * std::numbers::pi)}, {1.0, 0.0}, 0.0, 0.0),
@@ -132,15 +146,7 @@ TEST(BlindSwathTest, ContactsAgreeWithSampledOutlines) {
   for (double yaw = -1.5; yaw < 1.6; yaw += 0.25) {
     for (double y_m = -0.45; y_m < 0.46; y_m += 0.15) {
       const Rock rock = Ellipse(2.0, y_m, 0.35, 0.2, yaw);
-      double expected_m = std::numeric_limits<double>::infinity();
-      for (int i = 0; i < 40000; ++i) {
-        const double t = 2.0 * std::numbers::pi * i / 40000.0;
-        const double u = 0.35 * std::cos(t);
-        const double v = 0.2 * std::sin(t);
-        const double y = y_m + u * std::sin(yaw) + v * std::cos(yaw);
-        if (std::abs(y) > 0.2) continue;
-        expected_m = std::min(expected_m, 2.0 + u * std::cos(yaw) - v * std::sin(yaw));
-      }
+      const double expected_m = LeastX_m(rock);
       const double found_m = FirstContact_m({rock}, swath, 0.0, 0.0);
       if (std::isinf(expected_m)) continue;  // the outline's points may just miss the swath
       EXPECT_NEAR(found_m, expected_m, 1e-3) << yaw << " " << y_m;
@@ -157,6 +163,33 @@ TEST(BlindSwathTest, DistancesInAPoissonFieldAreExponential) {
   // Negative controls: another width, another smallest obstacle.
   EXPECT_LT(ExponentialP(distances, BlindContactsPerM(params.rocks, {0.40, kBig_m})), 0.001);
   EXPECT_LT(ExponentialP(distances, BlindContactsPerM(params.rocks, {kRoverWidth_m, 0.15})), 1e-6);
+}
+
+TEST(SweptPathTest, FirstContactIsTheLeastXOfTheOutlineInThePath) {
+  // A circle of 0.2 m ahead; beside the path but for its flank; out of reach.
+  EXPECT_NEAR(FirstContact(Ellipse(1.0, 0.0, 0.2, 0.2, 0.3), 0.0, 0.24).value(), 0.8, 1e-12);
+  // At y = 0.24 the circle around y = 0.34 begins at 1 - sqrt(0.2^2 - 0.1^2).
+  EXPECT_NEAR(FirstContact(Ellipse(1.0, 0.34, 0.2, 0.2, 0.0), 0.0, 0.24).value(),
+              1.0 - std::sqrt(0.03), 1e-12);
+  EXPECT_FALSE(FirstContact(Ellipse(1.0, 0.45, 0.2, 0.2, 0.0), 0.0, 0.24).has_value());
+}
+
+// Any ellipse against a fine walk around its outline.
+TEST(SweptPathTest, AgreesWithAWalkAroundTheOutline) {
+  core::RandomStream stream({7, 0}, core::Purpose::kTest);
+  int met = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double a = 0.05 + 0.4 * stream.Uniform();
+    const double b = a * (0.3 + 0.7 * stream.Uniform());
+    const Rock rock = Ellipse(2.0, stream.Uniform() - 0.5, a, b, 3.0 * stream.Uniform());
+    const double least_m = LeastX_m(rock);
+    const auto contact = FirstContact(rock, 0.0, 0.2);
+    ASSERT_EQ(contact.has_value(), std::isfinite(least_m)) << i;
+    if (!contact) continue;
+    ++met;
+    EXPECT_NEAR(*contact, least_m, 2e-3) << i;
+  }
+  EXPECT_GT(met, 100);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// Rocks in the corridor of the course against the law, by placement rule. Fixed seeds; alpha 1e-3,
-// negative controls below 1e-6.
+// Rocks in the corridor of the course against the law, by placement rule. Fixed seeds.
 #include "terrain/corridor.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +16,6 @@
 namespace rockyard::terrain {
 namespace {
 
-constexpr double kAlpha = 1e-3;
-constexpr double kRejects = 1e-6;
 constexpr std::array<double, 4> kClasses{0.2, 0.3, 0.5, 1.0};
 
 // Two-sided p-value of a Poisson number.
@@ -28,13 +25,8 @@ double PoissonP(double observed, double mean) {
   return std::min(1.0, 2.0 * std::min(lower, upper));
 }
 
-TerrainParams Moore(double k_per_m2, OverlapRule overlap, LineRule line) {
-  TerrainParams params;
-  params.arena.kind = ArenaKind::kVirtualReflected;
-  params.rocks.k_per_m2 = k_per_m2;
-  params.rocks.overlap = overlap;
-  params.rocks.mirror_line = line;
-  return params;
+TerrainParams Nominal(OverlapRule overlap, LineRule line = LineRule::kMerge) {
+  return MooreIn(ArenaKind::kVirtualReflected, kNominalK, overlap, line);
 }
 
 // Expected and observed over all fields.
@@ -90,7 +82,7 @@ TEST(ExpectedInCorridorTest, IsTheClosedFormForOneSize) {
 }
 
 TEST(ExpectedInCorridorTest, MooreClassesAddUpToTheLaw) {
-  TerrainParams params = Moore(kNominalK, OverlapRule::kAllow, LineRule::kMerge);
+  TerrainParams params = Nominal(OverlapRule::kAllow);
   params.rocks.clear_radius_m = 0.0;
   // Rocks of .1 m and more without zones would fill the corridor's 7.6 m2; zones of D/2 are left.
   double sum = 0.0;
@@ -105,7 +97,7 @@ TEST(ExpectedInCorridorTest, MooreClassesAddUpToTheLaw) {
 }
 
 TEST(ExpectedInCorridorTest, IsEmptyWhereThereIsNoLawOrNoCorridor) {
-  TerrainParams params = Moore(kNominalK, OverlapRule::kAllow, LineRule::kMerge);
+  TerrainParams params = Nominal(OverlapRule::kAllow);
   EXPECT_EQ(ExpectedInCorridor(params, {}).size(), 4u);
   EXPECT_TRUE(ExpectedInCorridor(params, {0.0, 0.0, 7.6, 0.4}).empty());  // not along x
   EXPECT_TRUE(ExpectedInCorridor(params, {0.0, 0.0, 7.6, 0.0, {{3.0, 0.0}}}).empty());
@@ -118,8 +110,7 @@ TEST(ExpectedInCorridorTest, IsEmptyWhereThereIsNoLawOrNoCorridor) {
 
 // Poisson positions: every class holds what the law says.
 TEST(CorridorTest, MergedFieldsWithoutOverlapRuleFollowTheLaw) {
-  const std::vector<CorridorClass> classes =
-      Count(Moore(kNominalK, OverlapRule::kAllow, LineRule::kMerge), 92, 4000);
+  const std::vector<CorridorClass> classes = Count(Nominal(OverlapRule::kAllow), 92, 4000);
   ASSERT_EQ(classes.size(), kClasses.size());
   for (std::size_t i = 0; i < classes.size(); ++i) {
     EXPECT_EQ(classes[i].to_m, kClasses[i]);
@@ -131,8 +122,7 @@ TEST(CorridorTest, MergedFieldsWithoutOverlapRuleFollowTheLaw) {
 // chance shows in the larger classes (1.4 % and more for one deviation), a few tenths of a percent
 // in the smallest.
 TEST(CorridorTest, MergedAndRelocatedFieldsStayNearTheLaw) {
-  for (const CorridorClass& c :
-       Count(Moore(kNominalK, OverlapRule::kRelocate, LineRule::kMerge), 93, 4000)) {
+  for (const CorridorClass& c : Count(Nominal(OverlapRule::kRelocate), 93, 4000)) {
     EXPECT_GT(PoissonP(c.observed, c.expected), kAlpha) << c.from_m;
     if (c.to_m <= 0.2) {
       EXPECT_NEAR(c.observed / c.expected, 1.0, 0.02);
@@ -144,7 +134,7 @@ TEST(CorridorTest, MergedAndRelocatedFieldsStayNearTheLaw) {
 // denser by h / (h - D/2).
 TEST(CorridorTest, KeepingOffTheLinesFillsTheCorridor) {
   const std::vector<CorridorClass> classes =
-      Count(Moore(kNominalK, OverlapRule::kRelocate, LineRule::kKeepOff), 93, 4000);
+      Count(Nominal(OverlapRule::kRelocate, LineRule::kKeepOff), 93, 4000);
   ASSERT_EQ(classes.size(), 4u);
   for (const CorridorClass& c : classes) {
     EXPECT_LT(PoissonP(c.observed, c.expected), kRejects) << c.from_m;
@@ -164,8 +154,7 @@ TEST(CorridorTest, KeepingOffTheLinesFillsTheCorridor) {
 // Rocks that are left out where they would overlap are missing, the more the larger.
 TEST(CorridorTest, RejectedRocksAreMissing) {
   double last = 1.0;
-  for (const CorridorClass& c :
-       Count(Moore(kNominalK, OverlapRule::kReject, LineRule::kMerge), 94, 2000)) {
+  for (const CorridorClass& c : Count(Nominal(OverlapRule::kReject), 94, 2000)) {
     EXPECT_LT(c.observed / c.expected, last);
     last = c.observed / c.expected;
   }

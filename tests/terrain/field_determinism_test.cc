@@ -1,13 +1,24 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <set>
 
+#include "core/hash.h"
 #include "terrain/field.h"
-#include "terrain/field_hash.h"
-#include "terrain/test_fields.h"
 
 namespace rockyard::terrain {
 namespace {
+
+// Over every number of a field's rocks.
+std::uint64_t HashRocks(const Terrain& terrain) {
+  core::Hasher hasher;
+  for (const Rock& rock : terrain.rocks()) {
+    for (int i = 0; i < 3; ++i) hasher.Real(rock.center_W[i]).Real(rock.semi_axes_m[i]);
+    hasher.Real(rock.yaw_rad).Real(rock.diameter_m).Real(rock.height_m);
+  }
+  return hasher.value();
+}
 
 TEST(FieldDeterminismTest, SameKeySameFieldWhateverWasBuiltBefore) {
   const TerrainParams params;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/json_text.h"
-#include "terrain/arena.h"
 
 namespace rockyard::terrain {
 namespace {

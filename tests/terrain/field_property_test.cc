@@ -145,10 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Rules, MirrorTest,
 
 // Heights are equal at points mirrored about either line, as far as the layout reaches.
 TEST_P(MirrorTest, SurfaceIsSymmetricAboutBothLines) {
-  TerrainParams params;
-  params.rocks.k_per_m2 = kVikingLander2K;
-  params.rocks.overlap = GetParam();
-  params.arena.kind = ArenaKind::kVirtualUnfolded;
+  const TerrainParams params = MooreIn(ArenaKind::kVirtualUnfolded, kVikingLander2K, GetParam());
   const Terrain terrain = BuildField(params, {33, 0}, {}).terrain;
   int on_rock = 0;
   for (double x = -1.97; x < 10.0; x += 0.0731) {

@@ -1,5 +1,4 @@
-// Where rocks lie, and what the overlap rules and clear zones do to the counts. Fixed seeds; alpha
-// 1e-3, negative controls below 1e-6.
+// Where rocks lie, and what the overlap rules and clear zones do to the counts. Fixed seeds.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,9 +11,6 @@
 
 namespace rockyard::terrain {
 namespace {
-
-constexpr double kAlpha = 1e-3;
-constexpr double kRejects = 1e-6;
 
 struct Totals {
   double drawn = 0.0;
@@ -96,11 +92,7 @@ TEST(PlacementTest, PositionsAreUniformUpToTheMirrorLines) {
 // Without an overlap rule, clear zones thin the field by exactly what their area says.
 TEST(PlacementTest, ClearZonesRemoveTheirShare) {
   for (const ArenaKind kind : {ArenaKind::kVirtualReflected, ArenaKind::kOpen}) {
-    TerrainParams params;
-    params.rocks.k_per_m2 = kVikingLander2K;
-    params.rocks.overlap = OverlapRule::kAllow;
-    params.arena.kind = kind;
-    const Totals totals = Sum(params, 72, 150);
+    const Totals totals = Sum(MooreIn(kind, kVikingLander2K, OverlapRule::kAllow), 72, 150);
     const double sigma = std::sqrt(totals.expected_placed);
     EXPECT_NEAR(totals.placed, totals.expected_placed, 3.3 * sigma);
     EXPECT_GT(std::abs(totals.placed - totals.expected_drawn), 5.0 * sigma);  // negative control

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <vector>
 
 #include "core/distributions.h"
@@ -56,6 +58,10 @@ bool Solid(const Terrain& terrain, const std::vector<Rock>& rocks, const Vector3
   return false;
 }
 
+double DistanceOf(const std::optional<RayHit>& hit) {
+  return hit ? hit->distance_m : std::numeric_limits<double>::infinity();
+}
+
 // Distance to the first solid point in steps of `step_m`; infinity where there is none.
 double MarchedDistance(const Terrain& terrain, const Ray& ray, double step_m) {
   const std::vector<Rock> rocks = RocksInReach(terrain, ray);
@@ -79,10 +85,10 @@ Ray RandomRay(core::RandomStream& stream) {
 constexpr std::array kPointedness = {0.0, 0.3, 0.62, 0.63, 0.87, 0.99};
 
 Terrain DenseTerrain(std::uint32_t trial, double pointedness = 0.0) {
-  TerrainParams params;
-  params.rocks.k_per_m2 = kVikingLander2K;
-  params.rocks.overlap = trial % 2 == 0 ? OverlapRule::kAllow : OverlapRule::kRelocate;
-  params.arena.kind = trial % 2 == 0 ? ArenaKind::kWalled : ArenaKind::kVirtualUnfolded;
+  TerrainParams params =
+      trial % 2 == 0
+          ? MooreIn(ArenaKind::kWalled, kVikingLander2K, OverlapRule::kAllow)
+          : MooreIn(ArenaKind::kVirtualUnfolded, kVikingLander2K, OverlapRule::kRelocate);
   params.ground.slope_rad = 0.1 * trial;
   params.ground.slope_direction_rad = 1.0;
   params.rocks.pointedness = pointedness;
@@ -92,9 +98,8 @@ Terrain DenseTerrain(std::uint32_t trial, double pointedness = 0.0) {
 // The hit that testing every rock gives.
 double PlainDistance(const Terrain& terrain, const Ray& ray) {
   std::vector<int> all(terrain.rocks().size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  const auto hit = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m, all);
-  return hit ? hit->distance_m : std::numeric_limits<double>::infinity();
+  std::iota(all.begin(), all.end(), 0);
+  return DistanceOf(terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m, all));
 }
 
 TEST(RayDifferentialTest, GridAgreesWithTestingEveryRock) {
@@ -106,7 +111,7 @@ TEST(RayDifferentialTest, GridAgreesWithTestingEveryRock) {
       const Ray ray = RandomRay(stream);
       const auto hit = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m);
       const double plain = PlainDistance(terrain, ray);
-      ASSERT_EQ(hit ? hit->distance_m : std::numeric_limits<double>::infinity(), plain) << i;
+      ASSERT_EQ(DistanceOf(hit), plain) << i;
       const Vector3 end = ray.origin_W + ray.max_distance_m * ray.direction_W;
       const double shortened = ray.max_distance_m - 1e-9;
       if (std::abs(plain - shortened) > 1e-6) {
@@ -187,7 +192,7 @@ TEST(RayDifferentialTest, RoughGroundAgreesWithMarching) {
     ray.origin_W.z() += terrain.ground().Height(ray.origin_W.x(), ray.origin_W.y());
     const auto hit = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m);
     const double marched = MarchedDistance(terrain, ray, kStep_m);
-    const double distance = hit ? hit->distance_m : std::numeric_limits<double>::infinity();
+    const double distance = DistanceOf(hit);
     hits += hit.has_value();
     if (std::isinf(distance) && std::isinf(marched)) continue;
     grazing += std::abs(marched - distance) > kStep_m + 1e-9 ? 1 : 0;

@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+#include "terrain/placed_rocks.h"
+
 namespace rockyard::terrain {
 namespace {
 
@@ -12,11 +14,7 @@ constexpr double kEarth_m_s2 = 9.81;
 
 // An ellipsoid of 2 a x 2 b x 2 c, buried to a depth of depth_m.
 Rock MakeRock(double a_m, double b_m, double c_m, double depth_m) {
-  Rock rock;
-  rock.semi_axes_m = math::Vector3(a_m, b_m, c_m);
-  rock.diameter_m = 2.0 * a_m;
-  rock.height_m = 2.0 * c_m - depth_m;
-  return rock;
+  return EllipsoidRock(0.0, 0.0, c_m - depth_m, a_m, b_m, c_m);
 }
 
 TEST(RockHolding, MassIsThatOfTheEllipsoid) {

@@ -24,6 +24,9 @@ using math::Vector3;
 // Every member of the family: dome, cap of an ellipsoid, about a paraboloid, hyperboloids.
 constexpr std::array kPointedness = {0.05, 0.2, 0.3, 0.5, 0.62, 0.63, 0.75, 0.87, 0.95, 0.99};
 
+constexpr RockOutline kOutline{
+    .diameter_m = 0.3, .width_ratio = 0.8, .half_height_m = 0.15, .height_m = 0.2};
+
 struct Sample {
   RockOutline outline;
   double growth = 0.0;  // A of the definition
@@ -204,9 +207,7 @@ TEST(RockProfileTest, TopIsWhereTheSurfaceBegins) {
 // Above 2 in A the widest part is in the air, below it is the ground's: it is D wide in any case.
 TEST(RockProfileTest, KeepsItsOutline) {
   for (const double pointedness : kPointedness) {
-    const RockOutline outline{
-        .diameter_m = 0.3, .width_ratio = 0.8, .half_height_m = 0.15, .height_m = 0.2};
-    const RockShape shape(ShapeRock(outline, pointedness));
+    const RockShape shape(ShapeRock(kOutline, pointedness));
     EXPECT_GE(shape.Top(0.15 - 1e-9, 0.0), 0.0) << pointedness;
     EXPECT_GE(shape.Top(0.0, 0.12 - 1e-9), 0.0) << pointedness;
     EXPECT_LT(shape.Top(0.15 + 1e-9, 0.0), 0.0) << pointedness;
@@ -244,14 +245,12 @@ TEST(RockProfileTest, NormalsAreTheGradient) {
 
 // From the ellipsoid on, where a dome becomes a cap (A = 2) and where that is a paraboloid (A = 1).
 TEST(RockProfileTest, ShapesAreContinuousInPointedness) {
-  const RockOutline outline{
-      .diameter_m = 0.3, .width_ratio = 0.8, .half_height_m = 0.15, .height_m = 0.2};
-  const double growth_of_0 = 2.0 * outline.height_m / outline.half_height_m;
+  const double growth_of_0 = 2.0 * kOutline.height_m / kOutline.half_height_m;
   core::RandomStream stream({54, 0}, core::Purpose::kTest);
   for (const double growth : {growth_of_0 - 1e-9, 2.0, 1.0}) {
     const double pointedness = 1.0 - growth / growth_of_0;
-    const Rock before = ShapeRock(outline, std::max(0.0, pointedness - 1e-9));
-    const Rock after = ShapeRock(outline, pointedness + 1e-9);
+    const Rock before = ShapeRock(kOutline, std::max(0.0, pointedness - 1e-9));
+    const Rock after = ShapeRock(kOutline, pointedness + 1e-9);
     for (int i = 0; i < 200; ++i) {
       const Vector3 aim_W(0.0, 0.0, SampleUniform(stream, 0.02, 0.19));
       Vector3 origin_W = RandomDirection(stream);

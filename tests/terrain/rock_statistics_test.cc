@@ -1,5 +1,5 @@
 // Sizes, counts and shapes of rocks against their laws. Fixed seeds; every test rejects a wrong
-// law. Alpha: a p-value below 1e-3 fails a true law; the wrong laws must fall below 1e-6.
+// law.
 #include <gtest/gtest.h>
 
 #include <boost/math/special_functions/gamma.hpp>
@@ -15,9 +15,6 @@
 
 namespace rockyard::terrain {
 namespace {
-
-constexpr double kAlpha = 1e-3;
-constexpr double kRejects = 1e-6;
 
 std::vector<Rock> RocksOfManyFields(const TerrainParams& params, std::uint64_t seed, int fields) {
   std::vector<Rock> rocks;

@@ -4,7 +4,7 @@
 #include "core/refusals.h"
 #include "localization/toy_estimator.h"
 #include "scenario/shipped.h"
-#include "trial/gestalt_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
@@ -14,10 +14,8 @@ using testing::HasSubstr;
 DriveParams WithToy(const Overrides& overrides) {
   scenario::Scenario defaults;
   defaults.drive.localization.estimators.Add(localization::DescribeToy());
-  Overrides all = kShortAndEmpty;
-  all.insert(all.end(), {"rover.fidelity=quasi_static", "navigation.navigator=gestalt"});
-  all.insert(all.end(), kTrueEncoders.begin(), kTrueEncoders.end());
-  all.insert(all.end(), overrides.begin(), overrides.end());
+  const Overrides gestalt = {"rover.fidelity=quasi_static", "navigation.navigator=gestalt"};
+  const Overrides all = kShortAndEmpty + gestalt + kTrueEncoders + overrides;
   return scenario::Shipped("gestalt/abundance", all, defaults).drive;
 }
 

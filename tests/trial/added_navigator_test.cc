@@ -6,11 +6,11 @@
 #include <string>
 
 #include "core/archive.h"
-#include "core/error.h"
+#include "core/refusals.h"
 #include "navigation/navigator.h"
 #include "scenario/shipped.h"
-#include "trial/gestalt_trials.h"
 #include "trial/look_time.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
@@ -82,20 +82,15 @@ DriveParams WithToy(const ToyParams& params, const Overrides& overrides = {}) {
        .make = [](const ToyParams& p, const navigation::NavigatorSetup& setup)
            -> std::unique_ptr<navigation::Navigator> { return std::make_unique<Toy>(p, setup); }},
       params);
-  Overrides all = {"navigation.navigator=toy", "rover.fidelity=quasi_static"};
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  return scenario::Shipped("pathfinder/nominal", all, defaults).drive;
+  const Overrides toy = {"navigation.navigator=toy", "rover.fidelity=quasi_static"};
+  return scenario::Shipped("pathfinder/nominal", toy + overrides, defaults).drive;
 }
 
 // "PATH REASON" of the only thing that is wrong.
 std::string ProblemOf(const ToyParams& params, const Overrides& overrides = {}) {
-  try {
-    WithToy(params, overrides);
-  } catch (const core::UserError& error) {
-    EXPECT_EQ(error.problems().size(), 1U);
-    return error.problems()[0].path + " " + error.problems()[0].reason;
-  }
-  return "";
+  const auto problems = core::ProblemsIn([&] { WithToy(params, overrides); });
+  EXPECT_LE(problems.size(), 1U);
+  return problems.empty() ? "" : problems[0].path + " " + problems[0].reason;
 }
 
 // A rock of 40 cm that a rover at the start has in its array.

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/refusals.h"
 #include "scenario/shipped.h"
-#include "trial/gestalt_trials.h"
+#include "trial/shipped_trials.h"
 #include "trial/toy_terrain_sensor.h"
 
 namespace rockyard::trial {

@@ -8,7 +8,7 @@
 #include "core/refusals.h"
 #include "trial/aid_schedule.h"
 #include "trial/lander_place.h"
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
@@ -52,13 +52,10 @@ TEST(LanderPlaceOf, StandsAboutTheLineToTheGoal) {
   EXPECT_NE(drawn, LanderPlaceOf(course, {1, 1}).pan_error_rad);
 }
 
-const Overrides kFilter{"localization.estimator=error_state", "terrain.arena.kind=open",
-                        "rover.fidelity=quasi_static"};
-
 DriveParams WithAids(const Overrides& more) {
-  Overrides all = kFilter;
-  all.insert(all.end(), more.begin(), more.end());
-  return Pathfinder("nominal", all);
+  const Overrides filter{"localization.estimator=error_state", "terrain.arena.kind=open",
+                         "rover.fidelity=quasi_static"};
+  return Pathfinder("nominal", filter + more);
 }
 
 // A lander without errors, every metre: the rover ends where it believes to be.
@@ -99,16 +96,15 @@ TEST(AidSuite, FilterAloneDrivesAsDeadReckoningDoes) {
 // one soon after sunrise, and one has no sun of its own and reckons with 60 deg.
 TEST(AidSuite, TellsTheLanderOfTheSun) {
   const auto aids_used = [](const Overrides& sun) {
-    Overrides all{"sensors.aids.lander_fix.enabled=true",
-                  "sensors.aids.lander_fix.every_m=1",
-                  "sensors.aids.lander_fix.law=cylinder",
-                  "sensors.aids.lander_fix.cylinder.found.intercept=-500",
-                  "sensors.aids.lander_fix.cylinder.found.width=0",
-                  "sensors.aids.lander_fix.cylinder.found.light=1000",
-                  "sensors.aids.lander_fix.cylinder.wrong.intercept=-1000",
-                  "sensors.aids.sun.every_m=10000"};
-    all.insert(all.end(), sun.begin(), sun.end());
-    return RunTrial(WithAids(all), {1, 0}).record.aids_used;
+    const Overrides lander{"sensors.aids.lander_fix.enabled=true",
+                           "sensors.aids.lander_fix.every_m=1",
+                           "sensors.aids.lander_fix.law=cylinder",
+                           "sensors.aids.lander_fix.cylinder.found.intercept=-500",
+                           "sensors.aids.lander_fix.cylinder.found.width=0",
+                           "sensors.aids.lander_fix.cylinder.found.light=1000",
+                           "sensors.aids.lander_fix.cylinder.wrong.intercept=-1000",
+                           "sensors.aids.sun.every_m=10000"};
+    return RunTrial(WithAids(lander + sun), {1, 0}).record.aids_used;
   };
   EXPECT_GT(aids_used({"sensors.aids.sun.enabled=true", "sensors.aids.sun.start_solar_time_h=12"}),
             0.0);
@@ -155,10 +151,9 @@ TEST(AidSuite, SharesThePanErrorOfDesignatedGoals) {
                          "sensors.aids.lander_fix.range_sd_fraction=0.001",
                          "terrain.rocks.kind=none",
                          "course.goal_radius_m=2"};
-  Overrides apart = common;
-  apart.emplace_back("sensors.aids.lander_fix.shares_pan_error=false");
+  const Overrides apart{"sensors.aids.lander_fix.shares_pan_error=false"};
   const auto shared = RunTrial(WithAids(common), {1, 0});
-  const auto own = RunTrial(WithAids(apart), {1, 0});
+  const auto own = RunTrial(WithAids(common + apart), {1, 0});
   // 4 deg at 7.6 m are 0.53 m.
   EXPECT_LT(shared.record.true_goal_distance_m, 0.25);
   EXPECT_GT(own.record.true_goal_distance_m, 0.35);
@@ -166,11 +161,11 @@ TEST(AidSuite, SharesThePanErrorOfDesignatedGoals) {
 
 // In the mirrored arena nobody measures where the rover is turned: its belief stays as wide.
 TEST(AidSuite, ReflectionsTellTheFilterNothing) {
-  Overrides narrow{"localization.estimator=error_state", "rover.fidelity=quasi_static",
-                   "course.start_heading_deg=50", "terrain.rocks.kind=none"};
+  const Overrides narrow{"localization.estimator=error_state", "rover.fidelity=quasi_static",
+                         "course.start_heading_deg=50", "terrain.rocks.kind=none"};
   const DriveResult drive = RunTrial(Pathfinder("nominal", narrow), {1, 0});
-  narrow.emplace_back("terrain.arena.kind=open");
-  const DriveResult open = RunTrial(Pathfinder("nominal", narrow), {1, 0});
+  const DriveResult open =
+      RunTrial(Pathfinder("nominal", narrow + Overrides{"terrain.arena.kind=open"}), {1, 0});
   EXPECT_NEAR(drive.record.believed_heading_sd_deg, open.record.believed_heading_sd_deg, 0.6);
 }
 

@@ -7,7 +7,7 @@
 
 #include "navigation/pathfinder/pathfinder_params.h"
 #include "trial/drive_monitor.h"
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
@@ -15,9 +15,9 @@ namespace {
 TEST(ClosedLoopTest, PerfectLocalizationNeverArrivesBeforeTheGoal) {
   const DriveParams drive = Pathfinder("nominal_perfect_localization");
   const double tick_m = drive.rover.drive.speed_m_s / drive.clock.control_rate_hz;
-  const double shortest_m =
-      drive.course.goal_x_m - drive.course.start_x_m -
-      drive.navigation.navigators.params<navigation::PathfinderParams>().goal_tolerance_m - tick_m;
+  const double tolerance_m =
+      drive.navigation.navigators.params<navigation::PathfinderParams>().goal_tolerance_m;
+  const double shortest_m = drive.course.goal_x_m - drive.course.start_x_m - tolerance_m - tick_m;
   int arrived = 0;
   for (const DriveResult& result : RunTrials(drive, 20)) {
     const truth::DriveRecord& record = result.record;
@@ -28,8 +28,7 @@ TEST(ClosedLoopTest, PerfectLocalizationNeverArrivesBeforeTheGoal) {
     ++arrived;
     // A chord that a reflection cuts off is not counted.
     EXPECT_GE(record.true_distance_m, shortest_m - record.reflections * DriveMonitor::kChord_m);
-    EXPECT_LE(record.true_goal_distance_m,
-              drive.navigation.navigators.params<navigation::PathfinderParams>().goal_tolerance_m);
+    EXPECT_LE(record.true_goal_distance_m, tolerance_m);
   }
   EXPECT_GT(arrived, 10);
 }
@@ -234,10 +233,8 @@ TEST(ClosedLoopTest, RecordAgreesWithTheTrace) {
   EXPECT_EQ(record.final_y_m, last.pose.y_m);
   EXPECT_EQ(record.believed_x_m, last.estimate.x_m);
   EXPECT_EQ(record.dead_reckoned_distance_m, last.estimate.distance_m);
-  const auto events = [&](const std::string& kind) {
-    return static_cast<double>(
-        std::count_if(trial.trace.events.begin(), trial.trace.events.end(),
-                      [&](const truth::TraceEvent& event) { return event.kind == kind; }));
+  const auto events = [&](const char* kind) {
+    return static_cast<double>(EventsOf(trial.trace, kind).size());
   };
   EXPECT_EQ(record.hazards_believed, events("hazard"));
   EXPECT_EQ(record.scrapes, events("scrape"));
@@ -257,11 +254,9 @@ TEST(ReflectionTest, TurnsTheRoverAndItsEstimateAtTheLine) {
   const TracedTrial trial = DriveAtTheMirrorLine();
   ASSERT_GE(trial.result.record.reflections, 1.0);
   const std::vector<truth::TraceSample>& samples = trial.trace.samples;
-  const auto event =
-      std::find_if(trial.trace.events.begin(), trial.trace.events.end(),
-                   [](const truth::TraceEvent& e) { return e.kind == "reflection"; });
+  const double reflected_s = EventsOf(trial.trace, "reflection").at(0).time_s;
   const auto before = std::find_if(samples.begin(), samples.end(), [&](const auto& sample) {
-    return sample.time_s >= event->time_s;
+    return sample.time_s >= reflected_s;
   });
   ASSERT_LT(before + 1, samples.end());
   const auto after = before + 1;  // one tick after the rover was turned
@@ -318,8 +313,7 @@ TEST(MirrorLine, OnlyADrivingRoverIsReflected) {
   int reflections = 0;
   for (std::uint32_t index = 0; index < 12; ++index) {
     const TracedTrial trial = RunTraced(drive, index);
-    for (const truth::TraceEvent& event : trial.trace.events) {
-      if (event.kind != "reflection") continue;
+    for (const truth::TraceEvent& event : EventsOf(trial.trace, "reflection")) {
       ++reflections;
       const auto sample =
           std::find_if(trial.trace.samples.begin(), trial.trace.samples.end(),
@@ -341,8 +335,7 @@ TEST(MirrorLine, ARoverThatWasTurnedDrivesBeforeItIsTurnedAgain) {
   EXPECT_EQ(result.outcome, truth::TrialOutcome::kNoPath);
   std::optional<double> last_s;
   int pairs = 0;
-  for (const truth::TraceEvent& event : trace.events) {
-    if (event.kind != "reflection") continue;
+  for (const truth::TraceEvent& event : EventsOf(trace, "reflection")) {
     if (last_s) {
       ++pairs;
       EXPECT_TRUE(std::any_of(trace.samples.begin(), trace.samples.end(),

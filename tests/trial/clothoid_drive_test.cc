@@ -12,7 +12,7 @@
 #include "navigation/navigator.h"
 #include "rover/rover_geometry.h"
 #include "scenario/shipped.h"
-#include "trial/gestalt_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

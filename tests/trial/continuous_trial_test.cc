@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/space_filling.h"
-#include "trial/gestalt_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

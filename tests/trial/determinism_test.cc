@@ -3,7 +3,7 @@
 
 #include <future>
 
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

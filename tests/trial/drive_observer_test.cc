@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

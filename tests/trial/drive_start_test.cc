@@ -5,8 +5,8 @@
 
 #include <numeric>
 
-#include "pathfinder_trials.h"
 #include "trial/layout.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
@@ -14,37 +14,35 @@ namespace {
 constexpr core::TrialKey kKey{1, 4};
 
 DriveParams Open(const Overrides& more = {}) {
-  Overrides overrides{"terrain.arena.kind=open", "rover.fidelity=quasi_static",
-                      "localization.estimator=error_state"};
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  return Pathfinder("nominal", overrides);
+  const Overrides open{"terrain.arena.kind=open", "rover.fidelity=quasi_static",
+                       "localization.estimator=error_state"};
+  return Pathfinder("nominal", open + more);
 }
 
-terrain::Field FieldOf(const DriveParams& drive) {
-  return terrain::BuildField(drive.terrain, LayoutKey(drive, kKey), TerrainCourse(drive.course));
+// A drive in the field of its own course that believes to begin at `pose`.
+DriveResult RunFrom(const DriveParams& drive, const math::Pose2& pose,
+                    const std::optional<SolarSupply>& sun = {}) {
+  const terrain::Field field =
+      terrain::BuildField(drive.terrain, LayoutKey(drive, kKey), TerrainCourse(drive.course));
+  return RunTrial(drive, kKey,
+                  {.memory = {.pose = pose, .covariance = {}}, .field = field, .sun = sun});
 }
 
 // A rover that knows where it stands, in the field of its own course, is a plain drive to the bit.
 TEST(DriveStartTest, OneThatKnowsItsPlaceIsAPlainDrive) {
   const DriveParams drive = Open();
-  const terrain::Field field = FieldOf(drive);
   const DriveResult plain = RunTrial(drive, kKey);
-  const DriveResult from = RunTrial(
-      drive, kKey,
-      {.memory = {.pose = drive.course.Start(), .covariance = {}}, .field = field, .sun = {}});
+  const DriveResult from = RunFrom(drive, drive.course.Start());
   EXPECT_TRUE(Differences(plain, from).empty());
   EXPECT_GT(plain.record.true_distance_m, 1.0);
 }
 
 TEST(DriveStartTest, OneThatIsWrongEndsWrongByAsMuch) {
   const DriveParams drive = Open({"terrain.rocks.kind=none", "sensors.gyro.scale=1"});
-  const terrain::Field field = FieldOf(drive);
   const math::Pose2 start = drive.course.Start();
-  const DriveResult right = RunTrial(
-      drive, kKey, {.memory = {.pose = start, .covariance = {}}, .field = field, .sun = {}});
+  const DriveResult right = RunFrom(drive, start);
   const math::Pose2 beside{start.x_m, start.y_m + 0.5, start.heading_rad};
-  const DriveResult wrong = RunTrial(
-      drive, kKey, {.memory = {.pose = beside, .covariance = {}}, .field = field, .sun = {}});
+  const DriveResult wrong = RunFrom(drive, beside);
   EXPECT_NEAR(right.record.believed_y_m, wrong.record.believed_y_m, 0.1);
   EXPECT_NEAR(right.record.final_y_m - wrong.record.final_y_m, 0.5, 0.2);
   EXPECT_EQ(wrong.outcome == truth::TrialOutcome::kGoalReached,
@@ -66,12 +64,10 @@ TEST(DriveStartTest, TheEndIsWhatTheRecordSays) {
 
 TEST(DriveStartTest, TheSunSparesTheBatteries) {
   const DriveParams drive = Open({"energy.battery_wh=50"});
-  const terrain::Field field = FieldOf(drive);
-  const localization::EstimatorMemory memory{.pose = drive.course.Start(), .covariance = {}};
   const SolarSupply bright(100.0, 0.0, 0.0, 12.0);
   const SolarSupply dim(5.0, 0.0, 0.0, 12.0);
-  const DriveResult sunny = RunTrial(drive, kKey, {memory, field, bright});
-  const DriveResult dull = RunTrial(drive, kKey, {memory, field, dim});
+  const DriveResult sunny = RunFrom(drive, drive.course.Start(), bright);
+  const DriveResult dull = RunFrom(drive, drive.course.Start(), dim);
   EXPECT_EQ(sunny.end.battery_wh, 0.0);
   EXPECT_EQ(sunny.record.energy_wh, dull.record.energy_wh);
   EXPECT_GT(dull.end.battery_wh, 0.0);

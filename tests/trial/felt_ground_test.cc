@@ -4,8 +4,8 @@
 
 #include <sstream>
 
-#include "gestalt_trials.h"
 #include "navigation/gestalt/gestalt_params.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

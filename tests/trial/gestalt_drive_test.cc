@@ -1,14 +1,17 @@
-// Whole drives of the map-based navigator: arrival, what ends a step, time and energy, watchers.
+// Whole drives of the map-based navigator: arrival, what ends a step, time and energy, watchers;
+// how they end where they cannot succeed; and the four pairs of navigator and sensor.
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "navigation/gestalt/gestalt_params.h"
 #include "trial/compute_profile.h"
-#include "trial/gestalt_trials.h"
 #include "trial/look_time.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
@@ -23,13 +26,11 @@ TEST(GestaltDriveTest, ArrivesOnEmptySandWithEitherRover) {
     EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached) << name << ": " << result.detail;
     EXPECT_EQ(result.record.rear_image_sets, 0.0) << name;
     EXPECT_EQ(result.record.point_turns, 0.0) << name;
-    const double tolerance_m =
-        drive.navigation.navigators.params<navigation::GestaltParams>().waypoints.goal_tolerance_m;
+    const auto& gestalt = drive.navigation.navigators.params<navigation::GestaltParams>();
+    const double tolerance_m = gestalt.waypoints.goal_tolerance_m;
     EXPECT_NEAR(result.record.true_distance_m, 3.0 - tolerance_m, tolerance_m) << name;
     // Straight ahead: one image set for each step.
-    const double steps =
-        std::ceil((3.0 - tolerance_m) /
-                  drive.navigation.navigators.params<navigation::GestaltParams>().drive.step_m);
+    const double steps = std::ceil((3.0 - tolerance_m) / gestalt.drive.step_m);
     EXPECT_NEAR(result.record.moves, steps, 1.0) << name;
     EXPECT_EQ(result.record.image_sets, result.record.moves) << name;
   }
@@ -118,9 +119,7 @@ TEST(GestaltDriveTest, TracesAndWatchersChangeNothing) {
     EXPECT_THAT(Differences(plain, watched), testing::IsEmpty());
     EXPECT_EQ(static_cast<double>(steps),
               watched.record.image_sets - watched.record.rear_image_sets);
-    const auto looks = std::count_if(trace.events.begin(), trace.events.end(),
-                                     [](const auto& event) { return event.kind == "look"; });
-    EXPECT_EQ(static_cast<double>(looks), watched.record.image_sets);
+    EXPECT_EQ(static_cast<double>(EventsOf(trace, "look").size()), watched.record.image_sets);
   }
 }
 
@@ -142,6 +141,136 @@ TEST(GestaltDriveTest, DrivesOnInTheVirtualArena) {
     reflections += result.record.reflections;
   }
   EXPECT_GT(reflections, 0.0);
+}
+
+// High rocks side by side on a circle about the start, but for a gap of that half angle ahead.
+DriveParams InARing(double gap_rad) {
+  DriveParams drive = Gestalt("abundance", {"localization.estimator=oracle"});
+  drive.terrain.rocks.kind = terrain::RockFieldKind::kListed;
+  terrain::ListedRocksParams& ring = drive.terrain.rocks.listed;
+  constexpr int kRocks = 24;
+  constexpr double kRadius_m = 1.7;
+  for (int i = 0; i < kRocks; ++i) {
+    const double angle_rad = std::numbers::pi * (2.0 * i / kRocks - 1.0);
+    if (std::abs(angle_rad) < gap_rad) continue;
+    ring.x_m.push_back(kRadius_m * std::cos(angle_rad));
+    ring.y_m.push_back(kRadius_m * std::sin(angle_rad));
+    ring.diameter_m.push_back(0.5);
+    ring.height_m.push_back(0.5);
+  }
+  return drive;
+}
+
+TEST(GestaltEndingsTest, FindsNoPathOutOfARing) {
+  const DriveResult result = RunTrial(InARing(0.0), {1, 0});
+  EXPECT_EQ(result.outcome, TrialOutcome::kNoPath) << result.detail;
+  EXPECT_LT(std::hypot(result.record.final_x_m, result.record.final_y_m), 1.2);
+  EXPECT_GT(result.record.rear_image_sets, 0.0);
+  EXPECT_GT(result.record.point_turns, 0.0);
+}
+
+// Negative control of the ring.
+TEST(GestaltEndingsTest, LeavesARingWithAGap) {
+  const DriveResult result = RunTrial(InARing(std::numbers::pi / 3.0), {1, 0});
+  EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached) << result.detail;
+}
+
+TEST(GestaltEndingsTest, ARoverWithoutTorqueIsJammed) {
+  const DriveResult result = RunTrial(
+      Gestalt("abundance", kShortAndEmpty + Overrides{"rover.drive.stall_torque_Nm=0.05",
+                                                      "sensors.vehicle.motor_current.enabled="
+                                                      "false"}),
+      {1, 0});
+  EXPECT_EQ(result.outcome, TrialOutcome::kJammed) << result.detail;
+  EXPECT_LT(result.record.true_distance_m, 0.1);
+  const truth::DriveRecord& record = result.record;
+  EXPECT_GT(record.stall_time_s, 3600.0);
+  EXPECT_LT(record.sim_time_s, 600.0);
+  const double stall_W = 3.77 + 0.80 + 0.82 + 8.28;  // Matthies 1995, table 1
+  EXPECT_NEAR(record.stall_time_s * stall_W / 3600.0, record.stall_energy_wh, 1e-6);
+}
+
+TEST(GestaltEndingsTest, TheTiltGuardStopsTheRoverOnASlope) {
+  const Overrides slope = kShortAndEmpty + Overrides{"terrain.ground.slope_deg=8"};
+  const DriveResult free = RunTrial(Gestalt("abundance", slope), {1, 0});
+  const DriveResult guarded = RunTrial(
+      Gestalt("abundance", slope + Overrides{"perception.vehicle_hazard.max_tilt_deg=4"}), {1, 0});
+  EXPECT_EQ(free.outcome, TrialOutcome::kGoalReached) << free.detail;
+  EXPECT_EQ(free.record.safeguard_stops, 0.0);
+  EXPECT_EQ(guarded.outcome, TrialOutcome::kNoPath) << guarded.detail;
+  EXPECT_GE(guarded.record.tilt_hazards, 1.0);
+  EXPECT_GE(guarded.record.safeguard_stops, guarded.record.tilt_hazards);
+}
+
+struct Pair {
+  std::string navigator;
+  std::string sensor;
+};
+
+// On nearly empty ground and with the true pose: a pair that does not arrive here cannot use its
+// sensor. A map of the light stripe's twenty points loses its way in one field of twelve (55 of 60
+// arrive), so one of five may.
+class PairTest : public testing::TestWithParam<Pair> {
+ protected:
+  static std::vector<DriveResult> Run(const Pair& pair) {
+    return RunTrials(Gestalt("abundance_rocky_3_2",
+                             {"terrain.rocks.k_per_m2=0.0002", "localization.estimator=oracle",
+                              "navigation.navigator=" + pair.navigator,
+                              "sensors.terrain_sensor=" + pair.sensor}),
+                     5);
+  }
+};
+
+TEST_P(PairTest, ArrivesAmongTheSameFewRocks) {
+  const bool map = GetParam().navigator == "gestalt";
+  const bool stereo = GetParam().sensor == "stereo";
+  const std::vector<DriveResult> results = Run(GetParam());
+  const std::vector<DriveResult> published = Run({"pathfinder", "light_stripe"});
+  int arrived = 0;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const truth::DriveRecord& record = results[i].record;
+    arrived += results[i].outcome == TrialOutcome::kGoalReached ? 1 : 0;
+    EXPECT_EQ(record.scans > 0.0, !stereo);
+    EXPECT_EQ(record.scan_time_s > 0.0, !stereo);
+    EXPECT_EQ(record.image_sets > 0.0, stereo);
+    EXPECT_EQ(record.imaging_time_s > 0.0, stereo);
+    EXPECT_EQ(record.compute_time_s > 0.0, stereo || map);
+    if (!map || !stereo) {
+      EXPECT_EQ(record.rear_image_sets, 0.0);
+    }
+    if (map) {
+      EXPECT_EQ(record.hazards_believed, 0.0);
+    }
+    EXPECT_GT(record.rocks, 0.0);
+    EXPECT_EQ(record.rocks, published[i].record.rocks);
+    EXPECT_EQ(record.rock_cover, published[i].record.rock_cover);
+  }
+  EXPECT_GE(arrived, map && !stereo ? 4 : 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    TwoByTwo, PairTest,
+    testing::Values(Pair{"pathfinder", "light_stripe"}, Pair{"pathfinder", "stereo"},
+                    Pair{"gestalt", "light_stripe"}, Pair{"gestalt", "stereo"}),
+    [](const auto& pair) { return pair.param.navigator + "_" + pair.param.sensor; });
+
+// What a look takes with each pair; table 2 on the grid of table 1.
+TEST(LookTimeTest, EachPairTakesItsPartsOfALook) {
+  const auto time = [](const std::string& navigator, const std::string& sensor) {
+    return MakeLookTime(Gestalt(
+        "abundance", {"navigation.navigator=" + navigator, "sensors.terrain_sensor=" + sensor,
+                      "clock.compute.behaviour_s=0.5"}));
+  };
+  const auto expect = [](const LookTime& look, double scanning_s, double imaging_s,
+                         double computing_s) {
+    EXPECT_NEAR(look.scanning_s, scanning_s, 1e-9);
+    EXPECT_NEAR(look.imaging_s, imaging_s, 1e-9);
+    EXPECT_NEAR(look.computing_s, computing_s, 1e-9);
+  };
+  expect(time("pathfinder", "light_stripe"), 20.0, 0.0, 0.0);
+  expect(time("gestalt", "light_stripe"), 20.0, 0.0, 13.154);
+  expect(time("gestalt", "stereo"), 0.0, 8.974, 4.634 + 13.154);
+  expect(time("pathfinder", "stereo"), 0.0, 8.974, 4.634 + 0.5);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include "math/angles.h"
 #include "trial/compute_tables.h"
-#include "trial/gestalt_trials.h"
 #include "trial/look_time.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

@@ -12,7 +12,7 @@
 #include "scenario/shipped.h"
 #include "terrain/field.h"
 #include "trial/layout.h"
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 #include "truth/end_cause.h"
 
 namespace rockyard::trial {
@@ -22,26 +22,28 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using truth::TrialOutcome;
 
-scenario::Scenario Outdoor(const Overrides& overrides = {}) {
-  Overrides all = {"rover.fidelity=quasi_static"};
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  return scenario::Shipped("localization/outdoor_5m", all);
+DriveParams Outdoor(const Overrides& overrides = {}) {
+  const Overrides quasi_static = {"rover.fidelity=quasi_static"};
+  return scenario::Shipped("localization/outdoor_5m", quasi_static + overrides).drive;
+}
+
+DriveResult DriveOutdoor(const Overrides& overrides) {
+  return RunTrial(Outdoor(overrides), {1, 0});
 }
 
 // 3 m of empty sand to the rock.
 const Overrides kBare = {"terrain.rocks.kind=none", "course.goal_x_m=3",
                          "localization.estimator=oracle"};
 
-Overrides And(Overrides a, const Overrides& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
+const Overrides kSearchTooSmall = {"course.goal_rock.search.squares=1",
+                                   "course.goal_rock.search.spacing_m=0.1"};
 
 // Told a place that lies so far to the left of the rock: the pan error of a lander 3 m away.
 Overrides Beside(double left_m) {
-  return And(kBare,
-             {"course.designation.pixel_sd_px=0", "course.designation.disparity_sd_px=0",
-              "course.designation.pan_error_deg=" + std::to_string(math::RadToDeg(left_m / 3.0))});
+  return kBare +
+         Overrides{
+             "course.designation.pixel_sd_px=0", "course.designation.disparity_sd_px=0",
+             "course.designation.pan_error_deg=" + std::to_string(math::RadToDeg(left_m / 3.0))};
 }
 
 math::Transform At(double x_m, double y_m, double heading_rad = 0.0) {
@@ -127,8 +129,8 @@ TEST(LocalSearchTest, DrivesAroundGrowingSquares) {
 // The rock stands at the goal, of the size that was asked for, the last of the field; the others
 // are those of the field without it.
 TEST(GoalRockFieldTest, IsAddedToTheField) {
-  const DriveParams with = Outdoor().drive;
-  const DriveParams without = Outdoor({"course.goal_rock.enabled=false"}).drive;
+  const DriveParams with = Outdoor();
+  const DriveParams without = Outdoor({"course.goal_rock.enabled=false"});
   const terrain::Field a = terrain::BuildField(with.terrain, {1, 3}, TerrainCourse(with.course));
   const terrain::Field b =
       terrain::BuildField(without.terrain, {1, 3}, TerrainCourse(without.course));
@@ -147,7 +149,7 @@ TEST(GoalRockFieldTest, IsAddedToTheField) {
 }
 
 TEST(GoalRockDriveTest, ARockStraightAheadIsFound) {
-  const DriveResult result = RunTrial(Outdoor(Beside(0.0)).drive, {1, 0});
+  const DriveResult result = DriveOutdoor(Beside(0.0));
   EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached) << result.detail;
   EXPECT_EQ(result.detail, truth::Info(truth::EndCause::kFoundRock).sentence);
   EXPECT_EQ(result.record.goal_rock_found, 1.0);
@@ -161,10 +163,8 @@ TEST(GoalRockDriveTest, ARockStraightAheadIsFound) {
 
 // Without hazard detection nothing is believed, and the rover drives into it.
 TEST(GoalRockDriveTest, ABlindRoverTouchesIt) {
-  const DriveResult result = RunTrial(
-      Outdoor(And(Beside(0.0), {"perception.hazard.enabled=false", "rover.fidelity=multibody"}))
-          .drive,
-      {1, 0});
+  const Overrides blind = {"perception.hazard.enabled=false", "rover.fidelity=multibody"};
+  const DriveResult result = DriveOutdoor(Beside(0.0) + blind);
   EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached) << result.detail;
   EXPECT_EQ(result.record.goal_rock_sign, 2.0);
   EXPECT_LT(result.record.goal_rock_distance_m, 0.05);
@@ -172,7 +172,7 @@ TEST(GoalRockDriveTest, ABlindRoverTouchesIt) {
 
 // 1.2 m beside the rock, beyond the array's 0.13 m and the rover's own width.
 TEST(GoalRockDriveTest, ARockThatWasPassedByIsNotFound) {
-  const DriveResult result = RunTrial(Outdoor(Beside(1.2)).drive, {1, 0});
+  const DriveResult result = DriveOutdoor(Beside(1.2));
   EXPECT_EQ(result.outcome, TrialOutcome::kFalseGoal);
   EXPECT_EQ(result.detail, truth::Info(truth::EndCause::kRockNotFound).sentence);
   EXPECT_EQ(result.record.goal_rock_found, 0.0);
@@ -183,9 +183,9 @@ TEST(GoalRockDriveTest, ARockThatWasPassedByIsNotFound) {
 
 // It would be at the goal by distance alone, were the rock not asked for.
 TEST(GoalRockDriveTest, NearnessAloneIsNoFind) {
-  const DriveResult with = RunTrial(Outdoor(Beside(0.6)).drive, {1, 0});
+  const DriveResult with = DriveOutdoor(Beside(0.6));
   const DriveResult without =
-      RunTrial(Outdoor(And(Beside(0.6), {"course.goal_rock.enabled=false"})).drive, {1, 0});
+      DriveOutdoor(Beside(0.6) + Overrides{"course.goal_rock.enabled=false"});
   EXPECT_EQ(with.outcome, TrialOutcome::kFalseGoal) << with.detail;
   EXPECT_LT(with.record.true_goal_distance_m, 0.65);
   EXPECT_EQ(without.outcome, TrialOutcome::kGoalReached) << without.detail;
@@ -195,45 +195,33 @@ TEST(GoalRockDriveTest, NearnessAloneIsNoFind) {
 
 // A search has places that nobody named: the trace counts them and knows no distance.
 TEST(GoalRockDriveTest, ASearchIsTracedByItsPlaces) {
-  const TracedTrial trial = RunTraced(
-      Outdoor(And(Beside(1.2),
-                  {"course.goal_rock.search.squares=1", "course.goal_rock.search.spacing_m=0.1"}))
-          .drive,
-      0);
+  const TracedTrial trial = RunTraced(Outdoor(Beside(1.2) + kSearchTooSmall), 0);
   std::vector<std::string> places;
-  for (const truth::TraceEvent& event : trial.trace.events) {
-    if (event.kind == "waypoint") places.push_back(event.detail);
+  for (const truth::TraceEvent& event : EventsOf(trial.trace, "waypoint")) {
+    places.push_back(event.detail);
   }
   EXPECT_THAT(places, testing::ElementsAre("place 1 of the search", "place 2 of the search",
                                            "place 3 of the search", "place 4 of the search"));
 }
 
 TEST(GoalRockDriveTest, ASearchFindsWhatWasPassedBy) {
-  const DriveResult result = RunTrial(
-      Outdoor(And(Beside(1.2),
-                  {"course.goal_rock.search.squares=4", "course.goal_rock.search.spacing_m=0.5"}))
-          .drive,
-      {1, 0});
+  const Overrides search = {"course.goal_rock.search.squares=4",
+                            "course.goal_rock.search.spacing_m=0.5"};
+  const DriveResult result = DriveOutdoor(Beside(1.2) + search);
   EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached) << result.detail;
   EXPECT_EQ(result.record.goal_rock_found, 1.0);
   EXPECT_GE(result.record.search_places_reached, 1.0);
   EXPECT_EQ(result.record.waypoints_reached, 0.0);
   // A search that ends too soon.
-  const DriveResult brief = RunTrial(
-      Outdoor(And(Beside(1.2),
-                  {"course.goal_rock.search.squares=1", "course.goal_rock.search.spacing_m=0.1"}))
-          .drive,
-      {1, 0});
+  const DriveResult brief = DriveOutdoor(Beside(1.2) + kSearchTooSmall);
   EXPECT_EQ(brief.outcome, TrialOutcome::kFalseGoal) << brief.detail;
   EXPECT_EQ(brief.record.search_places_reached, 4.0);
 }
 
 TEST(GoalRockDriveTest, ARockThatIsRecognizedIsDrivenTo) {
   const auto with = [](double recognition_m) {
-    return RunTrial(Outdoor(And(Beside(0.7), {"course.goal_rock.recognition_m=" +
-                                              std::to_string(recognition_m)}))
-                        .drive,
-                    {1, 0});
+    return DriveOutdoor(
+        Beside(0.7) + Overrides{"course.goal_rock.recognition_m=" + std::to_string(recognition_m)});
   };
   const DriveResult far = with(1.0);
   EXPECT_EQ(far.outcome, TrialOutcome::kGoalReached) << far.detail;
@@ -246,12 +234,9 @@ TEST(GoalRockDriveTest, ARockThatIsRecognizedIsDrivenTo) {
 
 // The field of view of course.tracking holds for recognition, too.
 TEST(GoalRockDriveTest, RecognitionLooksAhead) {
-  const DriveResult result = RunTrial(
-      Outdoor(And(Beside(0.7),
-                  {"course.goal_rock.recognition_m=1", "course.tracking.half_field_of_view_deg=5"}))
-          .drive,
-      {1, 0});
-  EXPECT_EQ(result.record.goal_rock_recognized, 0.0);
+  const Overrides narrow = {"course.goal_rock.recognition_m=1",
+                            "course.tracking.half_field_of_view_deg=5"};
+  EXPECT_EQ(DriveOutdoor(Beside(0.7) + narrow).record.goal_rock_recognized, 0.0);
 }
 
 std::string ProblemsWith(const Overrides& overrides) {

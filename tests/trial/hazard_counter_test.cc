@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
@@ -47,8 +47,8 @@ TracedTrial DriveAtRocks(std::uint32_t index) {
 // Whether each look of a trace believed in a hazard. A look ends with the last of its scans.
 std::vector<bool> LooksOf(const truth::Trace& trace) {
   std::set<double> hazard_times_s;
-  for (const truth::TraceEvent& event : trace.events) {
-    if (event.kind == "hazard") hazard_times_s.insert(event.time_s);
+  for (const truth::TraceEvent& event : EventsOf(trace, "hazard")) {
+    hazard_times_s.insert(event.time_s);
   }
   std::map<std::size_t, double> looks_s;  // end of each look, by the ticks before it
   for (const truth::TraceRest& rest : trace.rests) {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pathfinder_trials.h"
 #include "trial/scan_time.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

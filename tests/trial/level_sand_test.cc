@@ -15,7 +15,7 @@
 #include <cmath>
 
 #include "math/angles.h"
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
@@ -132,11 +132,14 @@ TEST(LevelSandTest, NoiseHalfAsStrongAgainIsRejected) {
 constexpr std::uint32_t kSlopeRuns = 600;
 constexpr double kStandardErrors = 4.0;
 
+constexpr auto kHeadingGrowth = &truth::DriveRecord::heading_growth_deg2_per_m;
+constexpr auto kDistanceGrowth = &truth::DriveRecord::distance_growth_m2_per_m;
+
 std::vector<double> SlopesOf(double truth::DriveRecord::*column, const Overrides& overrides) {
-  Overrides all{"rover.fidelity=quasi_static"};
-  all.insert(all.end(), overrides.begin(), overrides.end());
+  const Overrides quasi_static{"rover.fidelity=quasi_static"};
+  const DriveParams drive = Pathfinder("level_sand", quasi_static + overrides);
   std::vector<double> slopes;
-  for (const DriveResult& result : RunTrials(Pathfinder("level_sand", all), kSlopeRuns)) {
+  for (const DriveResult& result : RunTrials(drive, kSlopeRuns)) {
     slopes.push_back(result.record.*column);
   }
   return slopes;
@@ -152,31 +155,27 @@ testing::AssertionResult MeanIs(double published, const std::vector<double>& slo
 }
 
 TEST(LevelSandSlopeTest, OfHeadingErrorsIsThePublishedOne) {
-  EXPECT_TRUE(MeanIs(kHeadingVariance_deg2_per_m,
-                     SlopesOf(&truth::DriveRecord::heading_growth_deg2_per_m, {})));
+  EXPECT_TRUE(MeanIs(kHeadingVariance_deg2_per_m, SlopesOf(kHeadingGrowth, {})));
 }
 
 TEST(LevelSandSlopeTest, OfDistanceErrorsIsThePublishedOne) {
-  EXPECT_TRUE(MeanIs(kDistanceVariance_m2_per_m,
-                     SlopesOf(&truth::DriveRecord::distance_growth_m2_per_m, {})));
+  EXPECT_TRUE(MeanIs(kDistanceVariance_m2_per_m, SlopesOf(kDistanceGrowth, {})));
 }
 
 // Negative controls: the published value taken for the noise alone, and a gain as far off the
 // other way.
 TEST(LevelSandSlopeTest, OtherGainsOfTheGyroAreRejected) {
   for (const std::string gain : {"1", "1.69"}) {
-    EXPECT_FALSE(
-        MeanIs(kHeadingVariance_deg2_per_m, SlopesOf(&truth::DriveRecord::heading_growth_deg2_per_m,
-                                                     {"sensors.gyro.level_sand_gain=" + gain})))
+    EXPECT_FALSE(MeanIs(kHeadingVariance_deg2_per_m,
+                        SlopesOf(kHeadingGrowth, {"sensors.gyro.level_sand_gain=" + gain})))
         << gain;
   }
 }
 
 TEST(LevelSandSlopeTest, OtherGainsOfTheEncodersAreRejected) {
   for (const std::string gain : {"0.6", "1.4"}) {
-    EXPECT_FALSE(
-        MeanIs(kDistanceVariance_m2_per_m, SlopesOf(&truth::DriveRecord::distance_growth_m2_per_m,
-                                                    {"sensors.encoders.level_sand_gain=" + gain})))
+    EXPECT_FALSE(MeanIs(kDistanceVariance_m2_per_m,
+                        SlopesOf(kDistanceGrowth, {"sensors.encoders.level_sand_gain=" + gain})))
         << gain;
   }
 }

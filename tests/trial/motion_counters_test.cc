@@ -1,9 +1,10 @@
-// Counts of stops, turns on the spot and turns of the steering motors.
+// Counts of stops, turns on the spot, moves and turns of the steering motors.
 #include <gtest/gtest.h>
 
 #include <initializer_list>
 
 #include "core/check.h"
+#include "trial/move_counter.h"
 #include "trial/steer_counter.h"
 #include "trial/stop_counter.h"
 #include "trial/turn_counter.h"
@@ -51,6 +52,79 @@ TEST(TurnCounterTest, DrivingEndsATurn) {
 
 TEST(TurnCounterTest, TheOtherWayIsAnotherTurn) {
   EXPECT_EQ(Turns({kLeft, kLeft, kRight, kRight, kLeft}), 3);
+}
+
+constexpr MotionCommand kArc{MotionKind::kArc, 0.5, 1};
+
+TEST(MoveCounterTest, AMoveIsOneCommandUntilAnotherOneOrALook) {
+  constexpr MotionCommand kBackAlongIt{MotionKind::kArc, 0.5, -1};
+  MoveCounter counter;
+  EXPECT_EQ(counter.moves(), 0);
+  counter.Observe(kArc);
+  counter.Observe(kArc);
+  EXPECT_EQ(counter.moves(), 1);
+  counter.OnLook();
+  counter.Observe(kArc);  // the same arc again
+  EXPECT_EQ(counter.moves(), 2);
+  counter.Observe(kBackAlongIt);  // backs off without a look
+  EXPECT_EQ(counter.moves(), 3);
+  counter.Observe(MotionCommand{});  // stands: no move
+  EXPECT_EQ(counter.moves(), 3);
+  counter.Observe(kLeft);
+  counter.Observe(kLeft);
+  EXPECT_EQ(counter.moves(), 4);
+  EXPECT_EQ(counter.point_turns(), 1);
+}
+
+TEST(MoveCounterTest, AMoveWithANumberIsWhateverHasTheNumber) {
+  MoveCounter counter;
+  MotionCommand command{.kind = MotionKind::kArc, .move = 3};
+  for (int tick = 0; tick < 200; ++tick) {
+    command.curvature_per_m = 0.001 * tick;
+    EXPECT_EQ(counter.Observe(command), tick == 0);
+  }
+  counter.OnLook();
+  EXPECT_FALSE(counter.Observe(command));
+  EXPECT_EQ(counter.moves(), 1);
+  command.move = 4;
+  EXPECT_TRUE(counter.Observe(command));
+  // Without one, each command that differs is a move, in its end and speed too.
+  command.move = 0;
+  EXPECT_TRUE(counter.Observe(command));
+  command.speed_share = 0.5;
+  EXPECT_TRUE(counter.Observe(command));
+  command.end_m = 1.0;
+  EXPECT_TRUE(counter.Observe(command));
+  EXPECT_FALSE(counter.Observe(command));
+  EXPECT_EQ(counter.moves(), 5);
+}
+
+TEST(MoveCounterTest, SaysWhereAMoveBegins) {
+  MoveCounter counter;
+  EXPECT_TRUE(counter.Observe(kArc));
+  EXPECT_FALSE(counter.Observe(kArc));
+  counter.OnLook();
+  EXPECT_TRUE(counter.Observe(kArc));
+  EXPECT_FALSE(counter.Observe(MotionCommand{}));
+}
+
+TEST(MoveCounterTest, ReversalsAreArcsTheOtherWayThanTheLastOne) {
+  constexpr MotionCommand kOtherBack{MotionKind::kArc, -0.2, -1};
+  MoveCounter counter;
+  counter.Observe(kOtherBack);  // the first has nothing before it
+  counter.OnLook();
+  counter.Observe(kOtherBack);
+  EXPECT_EQ(counter.reversals(), 0);
+  counter.Observe(kArc);
+  EXPECT_EQ(counter.reversals(), 1);
+  counter.Observe(kRight);  // to the right: no way of driving
+  EXPECT_EQ(counter.reversals(), 1);
+  counter.OnLook();
+  counter.Observe(kArc);
+  EXPECT_EQ(counter.reversals(), 1);
+  counter.Observe(kRight);
+  counter.Observe(kOtherBack);
+  EXPECT_EQ(counter.reversals(), 2);
 }
 
 constexpr messages::PerWheel<bool> kCorners = {true, false, true, true, false, true};

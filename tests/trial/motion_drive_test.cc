@@ -6,7 +6,7 @@
 
 #include "navigation/navigator.h"
 #include "scenario/shipped.h"
-#include "trial/gestalt_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "navigation/pathfinder/pathfinder_params.h"
-#include "pathfinder_trials.h"
 #include "scenario/shipped.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

@@ -1,9 +1,11 @@
 // Every way in which a drive can end, provoked by a small scenario.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
+#include <string>
 
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 #include "truth/end_cause.h"
 
 namespace rockyard::trial {
@@ -26,13 +28,11 @@ std::map<TrialOutcome, int> Count(const std::vector<DriveResult>& results) {
 TEST(OutcomesTest, GoalReached) { EXPECT_EQ(LevelSand({}), TrialOutcome::kGoalReached); }
 
 TEST(OutcomesTest, FalseGoalWhereTheGyroIsWrong) {
-  const Overrides turn_at_the_start = {"course.start_heading_deg=90"};
-  Overrides wrong_gyro = turn_at_the_start;
-  wrong_gyro.push_back("sensors.gyro.scale=0.5");
-  Overrides right_gyro = turn_at_the_start;
-  right_gyro.push_back("sensors.gyro.scale=1");
-  EXPECT_EQ(LevelSand(wrong_gyro), TrialOutcome::kFalseGoal);
-  EXPECT_EQ(LevelSand(right_gyro), TrialOutcome::kGoalReached);
+  const auto turned_at_the_start = [](const std::string& scale) {
+    return LevelSand({"course.start_heading_deg=90", "sensors.gyro.scale=" + scale});
+  };
+  EXPECT_EQ(turned_at_the_start("0.5"), TrialOutcome::kFalseGoal);
+  EXPECT_EQ(turned_at_the_start("1"), TrialOutcome::kGoalReached);
 }
 
 TEST(OutcomesTest, TipOverOnSlopes) {
@@ -96,10 +96,10 @@ TEST(OutcomesTest, TimeLimit) {
 // Scans of an hour each, and batteries that seven of them empty.
 TEST(OutcomesTest, ClocksThatAreOffEndNothing) {
   const auto drive = [](const Overrides& more) {
-    Overrides all{"perception.hazard.enabled=true", "clock.scan_time_s=3600",
-                  "referee.no_path_time_s=0", "referee.time_limit_s=0", "energy.battery_wh=0"};
-    all.insert(all.end(), more.begin(), more.end());
-    return RunTrial(Pathfinder("level_sand", all), {1, 0});
+    const Overrides off{"perception.hazard.enabled=true", "clock.scan_time_s=3600",
+                        "referee.no_path_time_s=0", "referee.time_limit_s=0",
+                        "energy.battery_wh=0"};
+    return RunTrial(Pathfinder("level_sand", off + more), {1, 0});
   };
   const DriveResult off = drive({});
   EXPECT_TRUE(truth::DeclaredSuccess(off.outcome));
@@ -111,10 +111,36 @@ TEST(OutcomesTest, ClocksThatAreOffEndNothing) {
 
 TEST(OutcomesTest, LeftArenaWhereTheOdometerIsBehind) {
   const Overrides overshoot = {"perception.dead_reckoning.distance_scale=0.6"};
-  Overrides with_ends = overshoot;
-  with_ends.emplace_back("terrain.arena.kind=virtual_reflected");
-  EXPECT_EQ(LevelSand(with_ends), TrialOutcome::kLeftArena);
+  const Overrides ends = {"terrain.arena.kind=virtual_reflected"};
+  EXPECT_EQ(LevelSand(overshoot + ends), TrialOutcome::kLeftArena);
   EXPECT_EQ(LevelSand(overshoot), TrialOutcome::kFalseGoal);  // open arenas have no ends
+}
+
+// Whether a drive ends since soil in which a wheel of 6.5 cm under a sixth of the rover sinks by
+// `sinkage_m` has swallowed the wheels. For n = 1, N = 2/3 b k sqrt(D) z^1.5.
+bool IsSwallowed(double sinkage_m, double wheel_radius_m, const std::string& fidelity) {
+  constexpr double kLoad_N = 20.0 * 9.81 / 6.0;
+  const double modulus = 1.5 * kLoad_N / (0.08 * std::sqrt(2.0 * 0.065) * std::pow(sinkage_m, 1.5));
+  const DriveResult result = RunTrial(
+      Pathfinder("level_sand",
+                 {"rover.fidelity=" + fidelity, "terrain.ground.soil.sinkage_exponent=1",
+                  "terrain.ground.soil.cohesive_modulus_N_per_mn1=0",
+                  "terrain.ground.soil.frictional_modulus_N_per_mn2=" + std::to_string(modulus),
+                  "rover.geometry.wheel_radius_m=" + std::to_string(wheel_radius_m),
+                  "referee.time_limit_s=30"}),
+      {1, 0});
+  return result.detail.find("sank into the soil") != std::string::npos;
+}
+
+// The limit is the radius of the wheels that the rover has. Smaller ones sink a little deeper in
+// the same soil, as z grows with D^(-1/3), and reach their axles where those of 6.5 cm do not.
+TEST(Embedded, FollowsTheRadiusOfTheRoversWheels) {
+  for (const std::string fidelity : {"multibody", "quasi_static"}) {
+    EXPECT_FALSE(IsSwallowed(0.059, 0.065, fidelity)) << fidelity;
+    EXPECT_TRUE(IsSwallowed(0.071, 0.065, fidelity)) << fidelity;
+    EXPECT_FALSE(IsSwallowed(0.047, 0.055, fidelity)) << fidelity;
+    EXPECT_TRUE(IsSwallowed(0.059, 0.055, fidelity)) << fidelity;
+  }
 }
 
 }  // namespace

@@ -15,8 +15,8 @@
 #include "messages/look.h"
 #include "navigation/navigator.h"
 #include "scenario/shipped.h"
-#include "trial/gestalt_trials.h"
 #include "trial/onboard_calibration.h"
+#include "trial/shipped_trials.h"
 #include "trial/toy_terrain_sensor.h"
 
 namespace rockyard::trial {
@@ -166,6 +166,7 @@ DriveParams WeaverDrive(const WeaverParams& weaver, const ToySensorParams& senso
 
 const Overrides kOverlap = {"clock.overlap.imaging=true", "clock.overlap.computing=true",
                             "clock.overlap.steering=true"};
+const ToySensorParams kSlowSensor{.computing_s = 1.5};
 
 // Images take 0.12 s, computing 0.2 s, a tick 0.05 s. Cameras and computer:
 //   look 0: images from 0 s, computed from 0.12 to 0.32 s, told at 0.35 s;
@@ -215,12 +216,8 @@ TEST(OverlapDrive, EachDeliveryIsShownWithThePlaceWhereItWasTaken) {
   for (std::size_t n = 0; n < shown.size(); ++n) {
     EXPECT_EQ(shown[n], sensor.poses->at(n).translation()) << n;
   }
-  const auto count = [&](const char* kind) {
-    return std::count_if(trace.events.begin(), trace.events.end(),
-                         [&](const truth::TraceEvent& event) { return event.kind == kind; });
-  };
-  EXPECT_EQ(count("chosen"), 9);
-  EXPECT_EQ(count("look"), 11);
+  EXPECT_EQ(EventsOf(trace, "chosen").size(), 9U);
+  EXPECT_EQ(EventsOf(trace, "look").size(), 11U);
 }
 
 // Until 2 s: the rover drives all the time. The computer is at work from 0.12 s on; eleven looks
@@ -269,9 +266,7 @@ TEST(OverlapDrive, WhatMayNotOverlapDoesNot) {
   for (const bool imaging : {false, true}) {
     for (const bool computing : {false, true}) {
       const auto text = [](bool value) { return std::string(value ? "true" : "false"); };
-      WeaverParams weaver;
-      weaver.drive_s = 4.0;
-      weaver.pause_s = 0.3;
+      const WeaverParams weaver{.drive_s = 4.0, .pause_s = 0.3};
       const TracedTrial trial =
           RunTraced(WeaverDrive(weaver, {},
                                 {"clock.overlap.imaging=" + text(imaging),
@@ -296,8 +291,8 @@ TEST(OverlapDrive, WhatMayNotOverlapDoesNot) {
 // A report may ask for a second look from one pose, and a light stripe scan takes its time: the
 // rover stops, whatever may overlap.
 TEST(OverlapDrive, ReportsAndScansStopTheRover) {
-  WeaverParams weaver{.drive_s = 4.0, .reads = navigation::LookReading::kHazardReport};
-  weaver.pause_s = 0.3;
+  WeaverParams weaver{
+      .drive_s = 4.0, .reads = navigation::LookReading::kHazardReport, .pause_s = 0.3};
   const auto reports = RunTrial(WeaverDrive(weaver, {}, kOverlap), {1, 0}).record;
   EXPECT_GT(weaver.seen->deliveries.size(), 3U);
   EXPECT_NEAR(reports.sim_time_s,
@@ -317,37 +312,28 @@ TEST(OverlapDrive, ReportsAndScansStopTheRover) {
 // Operators turn the rover at a mirror line: what it saw before is not told any more, although with
 // 1.5 s to compute some of it was under way.
 TEST(OverlapDrive, WhatWasSeenBeforeTheRoverWasTurnedIsNotTold) {
-  WeaverParams weaver;
-  weaver.drive_s = 30.0;
-  ToySensorParams slow;
-  slow.computing_s = 1.5;
+  const WeaverParams weaver{.drive_s = 30.0};
   const TracedTrial trial = RunTraced(
-      WeaverDrive(weaver, slow,
+      WeaverDrive(weaver, kSlowSensor,
                   kOverlap + Overrides{"terrain.arena.kind=virtual_reflected",
                                        "course.start_y_m=0.6", "course.start_heading_deg=90"}),
       0);
-  int reflections = 0;
-  for (const truth::TraceEvent& event : trial.trace.events) {
-    if (event.kind != "reflection") continue;
-    ++reflections;
+  const std::vector<truth::TraceEvent> reflections = EventsOf(trial.trace, "reflection");
+  for (const truth::TraceEvent& event : reflections) {
     for (const WeaverParams::Delivery& delivery : weaver.seen->deliveries) {
       EXPECT_EQ(delivery.time_s > event.time_s, delivery.look.time_s >= event.time_s)
           << event.time_s;
     }
   }
-  EXPECT_GT(reflections, 0);
+  EXPECT_FALSE(reflections.empty());
   EXPECT_GT(weaver.seen->deliveries.size(), 10U);
 }
 
 // With 1.5 s to compute, the look of 0.15 s is under way when the navigator stops for one at 1 s,
 // which is told next; what was seen from farther back is not told after it.
 TEST(OverlapDrive, WhatWasSeenBeforeTheRoverStoppedForALookIsNotTold) {
-  WeaverParams weaver;
-  weaver.drive_s = 10.0;
-  weaver.halts_s = 1.0;
-  ToySensorParams slow;
-  slow.computing_s = 1.5;
-  RunTrial(WeaverDrive(weaver, slow, kOverlap), {1, 0});
+  const WeaverParams weaver{.drive_s = 10.0, .halts_s = 1.0};
+  RunTrial(WeaverDrive(weaver, kSlowSensor, kOverlap), {1, 0});
   const auto& deliveries = weaver.seen->deliveries;
   ASSERT_GT(deliveries.size(), 3U);
   EXPECT_EQ(deliveries[0].look.number, 2);
@@ -360,9 +346,7 @@ TEST(OverlapDrive, WhatWasSeenBeforeTheRoverStoppedForALookIsNotTold) {
 
 // Images that may not be taken on the move are of the place where the rover stands for them.
 TEST(OverlapDrive, ImagesThatMayNotOverlapAreTakenWhereTheRoverStands) {
-  WeaverParams weaver;
-  weaver.drive_s = 4.0;
-  weaver.pause_s = 0.3;
+  const WeaverParams weaver{.drive_s = 4.0, .pause_s = 0.3};
   const ToySensorParams sensor;
   const TracedTrial trial =
       RunTraced(WeaverDrive(weaver, sensor, {"clock.overlap.computing=true"}), 0);
@@ -457,12 +441,8 @@ TEST(OverlapDrive, SteersAtRestWhereItMayNotSteerOnTheMove) {
 // 10 cm beyond the pose of each look are judged. With images that take 1.5 s to compute the rover
 // is at their end before it hears of the next: it stops in time, waits, and goes on.
 TEST(OverlapDrive, APlanThatIsLateStopsTheRoverInTime) {
-  WeaverParams weaver;
-  weaver.drive_s = 20.0;
-  weaver.judged_m = 0.1;
-  ToySensorParams slow;
-  slow.computing_s = 1.5;
-  const auto late = RunTrial(WeaverDrive(weaver, slow, kOverlap), {1, 0}).record;
+  const WeaverParams weaver{.drive_s = 20.0, .judged_m = 0.1};
+  const auto late = RunTrial(WeaverDrive(weaver, kSlowSensor, kOverlap), {1, 0}).record;
   const WeaverParams::Seen& seen = *weaver.seen;
   EXPECT_GT(seen.deliveries.size(), 8U);
   for (std::size_t tick = 0; tick < seen.odometer_m.size(); ++tick) {
@@ -472,8 +452,7 @@ TEST(OverlapDrive, APlanThatIsLateStopsTheRoverInTime) {
   EXPECT_GT(late.move_overhead_time_s, 5.0);  // waiting
   EXPECT_GT(late.true_distance_m, 0.3);
   // The control: computed in time, it never stops.
-  WeaverParams ahead;
-  ahead.judged_m = 0.1;
+  const WeaverParams ahead{.judged_m = 0.1};
   const auto in_time = RunTrial(WeaverDrive(ahead, {}, kOverlap), {1, 0}).record;
   EXPECT_EQ(in_time.stops, 1.0);  // the end
   EXPECT_EQ(in_time.moves, 1.0);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

@@ -17,7 +17,13 @@ using truth::TrialOutcome;
 constexpr PowerBudget kPower{.base_W = 4.57, .driving_W = 8.28};
 constexpr messages::Goal kGoal{7.6, 0.0};  // as in CourseParams
 
+constexpr ArenaBounds kArenaEnds{-2.0, 10.0};
 constexpr double kWheelRadius_m = 0.065;
+
+// Nothing where there is no verdict.
+std::optional<TrialOutcome> OutcomeOf(const std::optional<Verdict>& verdict) {
+  return verdict ? std::optional(verdict->outcome()) : std::nullopt;
+}
 
 class RefereeTest : public testing::Test {
  protected:
@@ -39,6 +45,13 @@ class RefereeTest : public testing::Test {
     return std::nullopt;
   }
 
+  // With the parameters of now.
+  void Restart(const messages::Goal& goal = kGoal,
+               const std::optional<ArenaBounds>& arena = kArenaEnds) {
+    referee_ = Referee(params_, course_, goal, arena, kWheelRadius_m);
+    ledger_ = Ledger(kPower, energy_.battery_wh);
+  }
+
   void TurnTo(double heading_rad) {
     state_.X_WR.linear() = Eigen::AngleAxisd(heading_rad, math::Vector3::UnitZ()).matrix();
   }
@@ -54,7 +67,7 @@ class RefereeTest : public testing::Test {
   double turned_rad_ = 0.0;
   int direction_ = 1;
   Ledger ledger_{kPower, energy_.battery_wh};
-  Referee referee_{params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m};
+  Referee referee_{params_, course_, kGoal, kArenaEnds, kWheelRadius_m};
 };
 
 TEST_F(RefereeTest, SteadyDriveHasNoVerdict) {
@@ -69,23 +82,17 @@ TEST_F(RefereeTest, SteadyDriveHasNoVerdict) {
 
 TEST_F(RefereeTest, TipOver) {
   state_.X_WR.linear() = Eigen::AngleAxisd(math::DegToRad(61.0), math::Vector3::UnitX()).matrix();
-  const auto verdict = Tick();
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kTipOver);
+  EXPECT_EQ(OutcomeOf(Tick()), TrialOutcome::kTipOver);
 }
 
 TEST_F(RefereeTest, LeavingTheArena) {
   MoveTo(-2.01, 0.0);
-  const auto verdict = Tick();
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kLeftArena);
+  EXPECT_EQ(OutcomeOf(Tick()), TrialOutcome::kLeftArena);
 }
 
 TEST_F(RefereeTest, StandingWheelsAreAJamAfterTheWindow) {
   EXPECT_FALSE(Run(params_.stall_window_s - 0.2, [] {}));
-  const auto verdict = Run(1.0, [] {});
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
+  EXPECT_EQ(OutcomeOf(Run(1.0, [] {})), TrialOutcome::kJammed);
 }
 
 TEST_F(RefereeTest, RockingToAndFroIsNoMotion) {
@@ -96,9 +103,7 @@ TEST_F(RefereeTest, RockingToAndFroIsNoMotion) {
     TurnTo(heading_rad);
     MoveTo(3.0 + 0.02 * std::sin(4.0 * t), 0.0);
   };
-  const auto verdict = Run(10.0 * params_.stall_window_s, rock);
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
+  EXPECT_EQ(OutcomeOf(Run(10.0 * params_.stall_window_s, rock)), TrialOutcome::kJammed);
 }
 
 // Told to turn 10 deg to and fro for ever; the rover turns by `share` of what it is told.
@@ -121,16 +126,12 @@ class DitherTest : public RefereeTest {
 };
 
 TEST_F(DitherTest, ThatObeysFindsNoPath) {
-  const auto verdict = Dither(1.0);
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
+  EXPECT_EQ(OutcomeOf(Dither(1.0)), TrialOutcome::kNoPath);
   EXPECT_NEAR(turned_rad_, params_.no_path_turn_rad, 0.03);
 }
 
 TEST_F(DitherTest, ThatTheRoverDoesNotFollowIsAJam) {
-  const auto verdict = Dither(0.01);
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
+  EXPECT_EQ(OutcomeOf(Dither(0.01)), TrialOutcome::kJammed);
 }
 
 TEST_F(RefereeTest, DrivingToAndFroAsToldIsNoPath) {
@@ -141,8 +142,7 @@ TEST_F(RefereeTest, DrivingToAndFroAsToldIsNoPath) {
     MoveTo(x_m, 0.0);
     if (std::abs(x_m - 3.0) > 0.05) direction_ = x_m > 3.0 ? -1 : 1;
   });
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
+  EXPECT_EQ(OutcomeOf(verdict), TrialOutcome::kNoPath);
   EXPECT_NEAR(distance_m_, params_.no_path_distance_m, 0.02);
 }
 
@@ -153,8 +153,7 @@ TEST_F(RefereeTest, DrivenAgainstTheCommandIsAJam) {
     t += kTick_s;
     MoveTo(3.0 + 0.01 * std::sin(5.0 * t), 0.0);
   });
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
+  EXPECT_EQ(OutcomeOf(verdict), TrialOutcome::kJammed);
 }
 
 // Within goal_tolerance_m + no_path_progress_m no progress is left to be seen, and the patience is
@@ -173,8 +172,7 @@ TEST_F(RefereeTest, PatienceNearTheGoalIsThatOfAnyPlace) {
     distance_m_ += 0.15 * kTick_s;
     MoveTo(x_m + 0.1 * std::sin(distance_m_), 0.1 * std::cos(distance_m_));
   });
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
+  EXPECT_EQ(OutcomeOf(verdict), TrialOutcome::kNoPath);
   EXPECT_GT(distance_m_ - before_m, params_.no_path_distance_m - params_.no_path_progress_m - 0.01);
 }
 
@@ -184,7 +182,7 @@ class TurnedByHandTest : public RefereeTest {
   std::optional<Verdict> Stand(bool tells) {
     constexpr double kLine_m = 1.1;
     params_.spinning_wheels = SpinningWheels::kDriveOn;
-    referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
+    Restart();
     MoveTo(3.0, kLine_m + 0.01);
     estimate_ = {3.2, 1.4, 0.6};
     double heading_rad = 0.5;
@@ -202,9 +200,7 @@ class TurnedByHandTest : public RefereeTest {
 };
 
 TEST_F(TurnedByHandTest, HasNotMovedByItself) {
-  const auto verdict = Stand(true);
-  ASSERT_TRUE(verdict.has_value());
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
+  EXPECT_EQ(OutcomeOf(Stand(true)), TrialOutcome::kJammed);
 }
 
 TEST_F(TurnedByHandTest, AndLooksMovedToARefereeWhoIsNotTold) {
@@ -218,9 +214,7 @@ TEST_F(RefereeTest, ScanningIsNotStandingStill) {
 
 TEST_F(RefereeTest, BellyOnARockMakesItHighCentred) {
   state_.contacts = {{truth::BodyPart::kBelly, 3, 40.0, 0.0, 0.9}};
-  const auto verdict = Run(20.0, [] {});
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kHighCentred);
+  EXPECT_EQ(OutcomeOf(Run(20.0, [] {})), TrialOutcome::kHighCentred);
 }
 
 // The belly lifts off for moments while the wheels dig: a fifth of the time tells.
@@ -232,8 +226,7 @@ TEST_F(RefereeTest, TheBellysShareOfTheTimeTellsHighCentredFromJammed) {
       state_.contacts.clear();
       if (tick++ % 20 < ticks) state_.contacts = {{truth::BodyPart::kBelly, 3, 40.0, 0.0, 0.9}};
     });
-    ASSERT_TRUE(verdict);
-    EXPECT_EQ(verdict->outcome(), outcome) << ticks_of_20 << " of 20 ticks";
+    EXPECT_EQ(OutcomeOf(verdict), outcome) << ticks_of_20 << " of 20 ticks";
   }
 }
 
@@ -246,8 +239,7 @@ TEST_F(RefereeTest, WheelsDeeperThanTheirAxlesAreEmbedded) {
   EXPECT_FALSE(Run(1.0, [] {}));
   state_.wheel_sinkage_m.fill(1.01 * kWheelRadius_m);
   const auto verdict = Run(1.0, [] {});
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
+  ASSERT_EQ(OutcomeOf(verdict), TrialOutcome::kJammed);
   EXPECT_EQ(verdict->cause, EndCause::kSankIn);
 }
 
@@ -255,22 +247,18 @@ TEST_F(RefereeTest, ARockOrWallBeforeTheChassisJamsIt) {
   for (const truth::BodyContact& contact :
        {truth::BodyContact{truth::BodyPart::kBelly, 3, 40.0, 0.0, 0.1},
         truth::BodyContact{truth::BodyPart::kBelly, -1, 40.0, 0.0, 0.0}}) {
-    referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
+    Restart();
     state_.contacts = {contact};
-    const auto verdict = Run(20.0, [] {});
-    ASSERT_TRUE(verdict);
-    EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
+    EXPECT_EQ(OutcomeOf(Run(20.0, [] {})), TrialOutcome::kJammed);
   }
 }
 
 TEST_F(RefereeTest, SpinningWheelsAreStuckByDefaultAndDriveOnByChoice) {
   const auto spin = [&] { estimate_.x_m += 0.15 * kTick_s; };
-  const auto verdict = Run(20.0, spin);
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
+  EXPECT_EQ(OutcomeOf(Run(20.0, spin)), TrialOutcome::kJammed);
 
   params_.spinning_wheels = SpinningWheels::kDriveOn;
-  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
+  Restart();
   estimate_ = {};
   EXPECT_FALSE(Run(40.0, spin));
 }
@@ -285,8 +273,7 @@ TEST_F(RefereeTest, TurningWithoutComingNearerIsNoPath) {
         TurnTo(heading);
       },
       Activity::kTurning);
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
+  EXPECT_EQ(OutcomeOf(verdict), TrialOutcome::kNoPath);
   EXPECT_NEAR(turned_rad_, params_.no_path_turn_rad, 0.03);
 }
 
@@ -297,8 +284,7 @@ TEST_F(RefereeTest, DrivingInCirclesIsNoPath) {
     distance_m_ += 0.15 * kTick_s;
     MoveTo(0.5 * std::sin(0.3 * t), 0.5 * std::cos(0.3 * t));
   });
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
+  EXPECT_EQ(OutcomeOf(verdict), TrialOutcome::kNoPath);
   EXPECT_NEAR(distance_m_, params_.no_path_distance_m, 0.02);
 }
 
@@ -351,9 +337,7 @@ TEST_F(RefereeTest, KeepsTheMostWithoutProgress) {
 // been with some.
 TEST_F(RefereeTest, TheTickOfNoPathIsKept) {
   distance_m_ = params_.no_path_distance_m + 0.01;
-  const auto verdict = Tick();
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
+  EXPECT_EQ(OutcomeOf(Tick()), TrialOutcome::kNoPath);
   EXPECT_GT(referee_.no_progress_distance_m(), params_.no_path_distance_m);
 }
 
@@ -362,24 +346,21 @@ TEST_F(RefereeTest, TheTickOfNoPathIsKept) {
 TEST_F(RefereeTest, SpinningWheelsAreNoProgress) {
   params_.spinning_wheels = SpinningWheels::kDriveOn;
   params_.no_path_time_s = 60.0;
-  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
-  const auto verdict = Run(300.0, [&] { estimate_.x_m += 0.02 * kTick_s; });
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
+  Restart();
+  EXPECT_EQ(OutcomeOf(Run(300.0, [&] { estimate_.x_m += 0.02 * kTick_s; })), TrialOutcome::kNoPath);
   EXPECT_NEAR(ledger_.time_s(), params_.no_path_time_s, 2.0 * kTick_s);
 }
 
 // Nor does true motion alone count: the operator sees what the rover believes.
 TEST_F(RefereeTest, MotionThatIsNotBelievedIsNoProgress) {
   params_.no_path_time_s = 60.0;
-  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
+  Restart();
   double x_m = 0.0;
   const auto verdict = Run(300.0, [&] {
     x_m += 0.02 * kTick_s;
     MoveTo(x_m, 0.0);
   });
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
+  EXPECT_EQ(OutcomeOf(verdict), TrialOutcome::kNoPath);
   EXPECT_NEAR(ledger_.time_s(), params_.no_path_time_s, 2.0 * kTick_s);
 }
 
@@ -403,12 +384,12 @@ TEST_F(RefereeTest, ArrivalIsTrueOnlyNearTheTrueGoal) {
 // However near it is, a rover that has not found the rock has not reached its goal.
 TEST_F(RefereeTest, ArrivalWithoutTheGoalRockIsFalse) {
   course_.goal_rock.enabled = true;
-  const Referee referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
+  Restart();
   MoveTo(7.6, 0.0);
-  const Verdict verdict = referee.OnNavigatorStop(NavigatorStatus::kArrived, state_, 0.0);
+  const Verdict verdict = referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_, 0.0);
   EXPECT_EQ(verdict.cause, EndCause::kRockNotFound);
   EXPECT_EQ(verdict.outcome(), TrialOutcome::kFalseGoal);
-  EXPECT_EQ(referee.OnNavigatorStop(NavigatorStatus::kGaveUp, state_, 0.0).cause,
+  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kGaveUp, state_, 0.0).cause,
             EndCause::kGaveUp);
 }
 
@@ -416,10 +397,10 @@ TEST_F(RefereeTest, ArrivalWithoutTheGoalRockIsFalse) {
 TEST_F(RefereeTest, ArrivalIsAtTheGoalOfThatTime) {
   course_.target_speed_m_s = 0.1;
   course_.target_heading_rad = math::DegToRad(90.0);
-  const Referee referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
+  Restart();
   MoveTo(7.6, 0.0);
   const auto outcome = [&](double time_s) {
-    return referee.OnNavigatorStop(NavigatorStatus::kArrived, state_, time_s).outcome();
+    return referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_, time_s).outcome();
   };
   EXPECT_EQ(outcome(0.0), TrialOutcome::kGoalReached);
   EXPECT_EQ(outcome(20.0), TrialOutcome::kFalseGoal);
@@ -435,7 +416,7 @@ class RefereeGoalTest : public RefereeTest {
   void SetUp() override {
     params_.no_path_time_s = 30.0;
     params_.no_path_distance_m = 1e6;
-    referee_ = Referee(params_, course_, {2.0, 0.0}, std::nullopt, kWheelRadius_m);
+    Restart({2.0, 0.0}, std::nullopt);
   }
 
   template <typename Change>
@@ -454,33 +435,29 @@ class RefereeGoalTest : public RefereeTest {
     return ledger_.time_s();
   }
 
-  Observation Now() {
-    return {Activity::kDriving, 1, 0.0, state_, estimate_, distance_m_, turned_rad_};
+  void TellNext(const messages::Goal& goal) {
+    referee_.OnNextGoal(goal,
+                        {Activity::kDriving, 1, 0.0, state_, estimate_, distance_m_, turned_rad_},
+                        ledger_.time_s());
   }
+  // Within which progress is seen.
+  double Step_s() const { return params_.no_path_progress_m / 0.1 + 0.1; }
 };
 
 // The goal at 2 m is passed at 20 s: 30 s later nobody waits any longer.
 TEST_F(RefereeGoalTest, PatienceEndsBeyondAGoalThatStays) {
-  EXPECT_NEAR(SecondsUntilNoPath(40.0, [] {}), 50.0, params_.no_path_progress_m / 0.1 + 0.1);
+  EXPECT_NEAR(SecondsUntilNoPath(40.0, [] {}), 50.0, Step_s());
 }
 
 // A next goal behind: no progress is made towards it, and patience begins where it was told.
 TEST_F(RefereeGoalTest, PatienceBeginsAnewWithTheNextGoal) {
-  EXPECT_NEAR(SecondsUntilNoPath(40.0,
-                                 [&] {
-                                   referee_.OnNextGoal({0.0, 0.0}, Now(), ledger_.time_s());
-                                 }),
-              70.0, 0.1);
+  EXPECT_NEAR(SecondsUntilNoPath(40.0, [&] { TellNext({0.0, 0.0}); }), 70.0, 0.1);
 }
 
 // A next goal ahead, at 10 m after 40 s: what brings the rover nearer to it is progress, though the
 // first goal had been nearer than it ever gets to this one by 100 s.
 TEST_F(RefereeGoalTest, ProgressIsTowardsTheNextGoal) {
-  EXPECT_NEAR(SecondsUntilNoPath(40.0,
-                                 [&] {
-                                   referee_.OnNextGoal({10.0, 0.0}, Now(), ledger_.time_s());
-                                 }),
-              130.0, params_.no_path_progress_m / 0.1 + 0.1);
+  EXPECT_NEAR(SecondsUntilNoPath(40.0, [&] { TellNext({10.0, 0.0}); }), 130.0, Step_s());
   EXPECT_LE(referee_.no_progress_distance_m(), 3.0 + params_.no_path_progress_m + 0.1);
 }
 
@@ -489,54 +466,41 @@ TEST_F(RefereeGoalTest, WayAndTurnsBeginAnewWithTheNextGoal) {
   params_.no_path_time_s = 0.0;
   params_.no_path_distance_m = 4.0;
   params_.no_path_turn_rad = 1.0;
-  referee_ = Referee(params_, course_, {0.0, 9.0}, std::nullopt, kWheelRadius_m);
+  Restart({0.0, 9.0}, std::nullopt);
   turned_rad_ = 0.9;
-  EXPECT_NEAR(SecondsUntilNoPath(30.0,
-                                 [&] {
-                                   referee_.OnNextGoal({0.0, 5.0}, Now(), ledger_.time_s());
-                                   turned_rad_ += 0.9;
-                                 }),
-              70.0, 0.2);
+  const auto next = [&] {
+    TellNext({0.0, 5.0});
+    turned_rad_ += 0.9;
+  };
+  EXPECT_NEAR(SecondsUntilNoPath(30.0, next), 70.0, 0.2);
 }
 
 // After 10 s the goal is 1 m away and is seen to lie 2 m farther on, at 4 m: nearer than 1 m the
 // rover is from 30 s on, and passes it at 40 s.
 TEST_F(RefereeGoalTest, AGoalThatMovedKeepsTheProgressMade) {
-  const double step_s = params_.no_path_progress_m / 0.1 + 0.1;
   const auto move = [&] { referee_.OnGoalMoved({4.0, 0.0}); };
-  EXPECT_NEAR(SecondsUntilNoPath(10.0, move), 70.0, step_s) << "30 s of patience";
+  EXPECT_NEAR(SecondsUntilNoPath(10.0, move), 70.0, Step_s()) << "30 s of patience";
 }
 
 TEST_F(RefereeGoalTest, AGoalThatMovedGivesNoNewPatience) {
   params_.no_path_time_s = 15.0;
-  referee_ = Referee(params_, course_, {2.0, 0.0}, std::nullopt, kWheelRadius_m);
-  const double step_s = params_.no_path_progress_m / 0.1 + 0.1;
+  Restart({2.0, 0.0}, std::nullopt);
   const auto move = [&] { referee_.OnGoalMoved({4.0, 0.0}); };
-  EXPECT_NEAR(SecondsUntilNoPath(10.0, move), 25.0, step_s);
+  EXPECT_NEAR(SecondsUntilNoPath(10.0, move), 25.0, Step_s());
 }
 
 TEST_F(RefereeTest, EmptyBatteriesAndTimeLimit) {
   ledger_.Spend(Activity::kDriving, 1e6);
-  auto verdict = Tick();
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kEnergyDepleted);
+  EXPECT_EQ(OutcomeOf(Tick()), TrialOutcome::kEnergyDepleted);
 
   energy_.battery_wh = 1e5;
   ledger_ = Ledger(kPower, energy_.battery_wh);
   ledger_.Spend(Activity::kScanning, params_.time_limit_s);
-  verdict = Tick();
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome(), TrialOutcome::kTimeLimit);
+  EXPECT_EQ(OutcomeOf(Tick()), TrialOutcome::kTimeLimit);
 }
 
 // What each rule would end at a limit of any size, it leaves alone where the limit is 0.
-class NoLimitTest : public RefereeTest {
- protected:
-  void Restart() {
-    referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
-    ledger_ = Ledger(kPower, energy_.battery_wh);
-  }
-};
+class NoLimitTest : public RefereeTest {};
 
 TEST_F(NoLimitTest, TimeWithoutProgress) {
   params_.no_path_time_s = params_.time_limit_s = energy_.battery_wh = 0.0;

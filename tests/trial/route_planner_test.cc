@@ -8,10 +8,10 @@
 #include <numbers>
 #include <vector>
 
-#include "pathfinder_trials.h"
 #include "terrain/field.h"
 #include "trial/free_grid.h"
 #include "trial/layout.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

@@ -5,34 +5,41 @@
 #include <string>
 
 #include "math/angles.h"
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 #include "trial/slip_onset.h"
 #include "truth/end_cause.h"
 
 namespace rockyard::trial {
 namespace {
 
+using truth::TrialOutcome;
+
+constexpr std::string_view kEndedBySlip = truth::Info(truth::EndCause::kExcessiveSlip).sentence;
+
 // Up a bare slope, straight to the goal; images every 10 cm.
 DriveParams UpSlope(double slope_deg, const Overrides& more = {}) {
-  Overrides all{"sensors.visual_odometry.enabled=true",
-                "localization.estimator=visual_odometry",
-                "sensors.visual_odometry.schedule.every_m=0.1",
-                "perception.visual_odometry.slip_check.enabled=true",
-                "rover.fidelity=quasi_static",
-                "terrain.arena.kind=open",
-                "terrain.rocks.kind=none",
-                "perception.hazard.enabled=false",
-                "referee.no_path_distance_m=null",
-                "course.goal_x_m=3",
-                "terrain.ground.slope_deg=" + std::to_string(slope_deg)};
-  all.insert(all.end(), more.begin(), more.end());
-  return Pathfinder("nominal", all);
+  const Overrides slope{"sensors.visual_odometry.enabled=true",
+                        "localization.estimator=visual_odometry",
+                        "sensors.visual_odometry.schedule.every_m=0.1",
+                        "perception.visual_odometry.slip_check.enabled=true",
+                        "rover.fidelity=quasi_static",
+                        "terrain.arena.kind=open",
+                        "terrain.rocks.kind=none",
+                        "perception.hazard.enabled=false",
+                        "referee.no_path_distance_m=null",
+                        "course.goal_x_m=3",
+                        "terrain.ground.slope_deg=" + std::to_string(slope_deg)};
+  return Pathfinder("nominal", slope + more);
+}
+
+DriveResult DriveUp(double slope_deg, const Overrides& more = {}) {
+  return RunTrial(UpSlope(slope_deg, more), {1, 0});
 }
 
 TEST(SlipDrive, EndsWhereItSlipsTooMuch) {
-  const DriveResult steep = RunTrial(UpSlope(17.0), {1, 0});
-  EXPECT_EQ(steep.detail, truth::Info(truth::EndCause::kExcessiveSlip).sentence);
-  EXPECT_EQ(steep.outcome, truth::TrialOutcome::kExcessiveSlip);
+  const DriveResult steep = DriveUp(17.0);
+  EXPECT_EQ(steep.detail, kEndedBySlip);
+  EXPECT_EQ(steep.outcome, TrialOutcome::kExcessiveSlip);
   EXPECT_EQ(steep.record.slip_alarms, 1.0);
   EXPECT_EQ(steep.record.false_slip_alarms, 0.0);
   EXPECT_GT(steep.record.largest_slip, 0.5);
@@ -42,8 +49,8 @@ TEST(SlipDrive, EndsWhereItSlipsTooMuch) {
 }
 
 TEST(SlipDrive, GoesOnWhereItDoesNot) {
-  const DriveResult level = RunTrial(UpSlope(0.0), {1, 0});
-  EXPECT_EQ(level.outcome, truth::TrialOutcome::kGoalReached);
+  const DriveResult level = DriveUp(0.0);
+  EXPECT_EQ(level.outcome, TrialOutcome::kGoalReached);
   EXPECT_EQ(level.record.slip_alarms, 0.0);
   EXPECT_LT(level.record.largest_slip, 0.3);
   EXPECT_TRUE(std::isnan(level.record.first_slip_alarm_m));
@@ -53,21 +60,19 @@ TEST(SlipDrive, GoesOnWhereItDoesNot) {
 // A limit below what every wheel on sand slips stops it on level ground, too; and without the check
 // nobody knows.
 TEST(SlipDrive, GoesByItsLimit) {
-  const DriveResult strict =
-      RunTrial(UpSlope(10.0, {"perception.visual_odometry.slip_check.limit=0.02"}), {1, 0});
-  EXPECT_EQ(strict.detail, truth::Info(truth::EndCause::kExcessiveSlip).sentence);
+  const DriveResult strict = DriveUp(10.0, {"perception.visual_odometry.slip_check.limit=0.02"});
+  EXPECT_EQ(strict.detail, kEndedBySlip);
   const DriveResult unchecked =
-      RunTrial(UpSlope(17.0, {"perception.visual_odometry.slip_check.enabled=false"}), {1, 0});
-  EXPECT_NE(unchecked.detail, truth::Info(truth::EndCause::kExcessiveSlip).sentence);
+      DriveUp(17.0, {"perception.visual_odometry.slip_check.enabled=false"});
+  EXPECT_NE(unchecked.detail, kEndedBySlip);
   EXPECT_TRUE(std::isnan(unchecked.record.largest_slip));
 }
 
 // Once in a drive, up a slope that is as steep everywhere.
 TEST(SlipDrive, BacksOffWhereThatIsTheReaction) {
-  const DriveResult backs = RunTrial(UpSlope(17.0, {"navigation.on_board_stuck.reaction=back_off",
-                                                    "navigation.on_slip.reaction=as_stuck"}),
-                                     {1, 0});
-  EXPECT_EQ(backs.outcome, truth::TrialOutcome::kExcessiveSlip);
+  const DriveResult backs = DriveUp(17.0, {"navigation.on_board_stuck.reaction=back_off",
+                                           "navigation.on_slip.reaction=as_stuck"});
+  EXPECT_EQ(backs.outcome, TrialOutcome::kExcessiveSlip);
   EXPECT_EQ(backs.record.slip_alarms, 2.0);
   EXPECT_EQ(backs.record.reversals, 2.0);  // back, and forward again
   EXPECT_EQ(backs.record.false_slip_alarms, 0.0);
@@ -75,31 +80,28 @@ TEST(SlipDrive, BacksOffWhereThatIsTheReaction) {
 
 // Who gives up by an alarm does so for the slip, whatever else makes it give up.
 TEST(SlipDrive, GivesUpForTheSlip) {
-  const DriveResult stop = RunTrial(UpSlope(17.0), {1, 0});
-  const DriveResult as_stuck = RunTrial(UpSlope(17.0, {"navigation.on_board_stuck.reaction=give_up",
-                                                       "navigation.on_slip.reaction=as_stuck"}),
-                                        {1, 0});
-  EXPECT_EQ(as_stuck.outcome, truth::TrialOutcome::kExcessiveSlip);
+  const DriveResult stop = DriveUp(17.0);
+  const DriveResult as_stuck = DriveUp(
+      17.0, {"navigation.on_board_stuck.reaction=give_up", "navigation.on_slip.reaction=as_stuck"});
+  EXPECT_EQ(as_stuck.outcome, TrialOutcome::kExcessiveSlip);
   EXPECT_EQ(as_stuck.record.slip_alarms, 1.0);
   EXPECT_NEAR(as_stuck.record.true_distance_m, stop.record.true_distance_m, 0.03);
-  const DriveResult exhausted = RunTrial(
-      UpSlope(17.0, {"navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=100",
+  const DriveResult exhausted =
+      DriveUp(17.0, {"navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=100",
                      "navigation.pathfinder.vehicle_reaction.progress_m=10",
-                     "navigation.pathfinder.vehicle_reaction.max_repeats=1"}),
-      {1, 0});
-  EXPECT_EQ(exhausted.outcome, truth::TrialOutcome::kExcessiveSlip);
+                     "navigation.pathfinder.vehicle_reaction.max_repeats=1"});
+  EXPECT_EQ(exhausted.outcome, TrialOutcome::kExcessiveSlip);
   EXPECT_EQ(exhausted.record.slip_alarms, 2.0);
 }
 
 TEST(SlipDrive, PlansAnewAsOftenAsItMay) {
   const auto replans = [](int most) {
-    return RunTrial(UpSlope(17.0, {"navigation.on_slip.reaction=replan",
-                                   "navigation.on_slip.max_alarms=" + std::to_string(most)}),
-                    {1, 0});
+    return DriveUp(17.0, {"navigation.on_slip.reaction=replan",
+                          "navigation.on_slip.max_alarms=" + std::to_string(most)});
   };
-  EXPECT_THAT(Differences(replans(0), RunTrial(UpSlope(17.0), {1, 0})), testing::IsEmpty());
+  EXPECT_THAT(Differences(replans(0), DriveUp(17.0)), testing::IsEmpty());
   const DriveResult twice = replans(2);
-  EXPECT_EQ(twice.outcome, truth::TrialOutcome::kExcessiveSlip);
+  EXPECT_EQ(twice.outcome, TrialOutcome::kExcessiveSlip);
   EXPECT_EQ(twice.record.slip_alarms, 3.0);
   EXPECT_GE(twice.record.reversals, 2.0);
   EXPECT_GE(twice.record.turns_in_place, 2.0);
@@ -108,10 +110,9 @@ TEST(SlipDrive, PlansAnewAsOftenAsItMay) {
 // Every alarm but the last, which ends the drive, begins a path of images anew: its first pair is
 // taken and compared with nothing.
 TEST(SlipDrive, ComparesNothingWithImagesFromBeforeAnAlarm) {
-  const DriveResult drive = RunTrial(
-      UpSlope(17.0, {"navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=2",
-                     "clock.compute.computer=mer_rad6000", "clock.compute.acquisition_s=10"}),
-      {1, 0});
+  const DriveResult drive =
+      DriveUp(17.0, {"navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=2",
+                     "clock.compute.computer=mer_rad6000", "clock.compute.acquisition_s=10"});
   ASSERT_EQ(drive.record.slip_alarms, 3.0);
   EXPECT_NEAR(drive.record.imaging_time_s, 10.0 * (drive.record.visual_steps + 1.0 + 2.0), 1e-6);
 }
@@ -136,7 +137,7 @@ TEST(SlipDrive, OperatorsWhoTurnTheRoverDropItsAlarm) {
   int ended = 0;
   for (int i = 0; i <= 16; ++i) {
     const DriveResult drive = RunTrial(BesideMirrorLine(0.05 + 0.0025 * i), {1, 0});
-    EXPECT_EQ(drive.outcome, truth::TrialOutcome::kExcessiveSlip);
+    EXPECT_EQ(drive.outcome, TrialOutcome::kExcessiveSlip);
     if (drive.record.slip_alarms > 4.0) {
       EXPECT_GE(drive.record.reflections, 1.0);
       ++dropped;

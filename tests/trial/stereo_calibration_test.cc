@@ -6,7 +6,7 @@
 
 #include "math/angles.h"
 #include "sensing/stereo_sensor.h"
-#include "trial/gestalt_trials.h"
+#include "trial/shipped_trials.h"
 #include "trial/terrain_sensing.h"
 
 namespace rockyard::trial {

@@ -8,8 +8,8 @@
 
 #include "core/json_file.h"
 #include "trial/compute_profile.h"
-#include "trial/gestalt_trials.h"
 #include "trial/look_time.h"
+#include "trial/shipped_trials.h"
 #include "trial/stereo_tables.h"
 
 namespace rockyard::trial {

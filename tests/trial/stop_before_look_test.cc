@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pathfinder_trials.h"
 #include "scenario/shipped.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 #include "truth/end_cause.h"
 
 namespace rockyard::trial {
@@ -18,10 +18,9 @@ constexpr const char* kBatteries = "energy.battery_wh=50";
 
 // Drives against a wall, on ground that is too hard for its steered wheels to push it off.
 DriveParams AtAWall(const Overrides& overrides) {
-  Overrides all{"terrain.arena.kind=walled", "terrain.ground.soil.preset=hard_ground",
-                "course.start_y_m=1.2", "course.start_heading_deg=90", kBatteries};
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  return Pathfinder("level_sand", all);
+  const Overrides wall{"terrain.arena.kind=walled", "terrain.ground.soil.preset=hard_ground",
+                       "course.start_y_m=1.2", "course.start_heading_deg=90", kBatteries};
+  return Pathfinder("level_sand", wall + overrides);
 }
 
 TracedTrial DriveAtAWall(const std::string& stuck_rover) {
@@ -104,10 +103,10 @@ constexpr std::string_view kNoticed = truth::Info(truth::EndCause::kNoticedStuck
 class NoticingRoverTest : public testing::TestWithParam<const char*> {
  protected:
   static DriveResult Drive(const std::string& reaction, const Overrides& overrides) {
-    Overrides all{"course.start_heading_deg=90", std::string("navigation.navigator=") + GetParam(),
-                  "navigation.on_board_stuck.reaction=" + reaction};
-    all.insert(all.end(), overrides.begin(), overrides.end());
-    return RunTrial(Pathfinder("level_sand", all), {1, 0});
+    const Overrides across{"course.start_heading_deg=90",
+                           std::string("navigation.navigator=") + GetParam(),
+                           "navigation.on_board_stuck.reaction=" + reaction};
+    return RunTrial(Pathfinder("level_sand", across + overrides), {1, 0});
   }
 };
 
@@ -145,10 +144,10 @@ TEST(StuckReactionTest, BacksOffOnceAndThenGivesUp) {
   EXPECT_EQ(trial.result.detail, kNoticed);
   EXPECT_EQ(trial.result.record.stuck_noticed, 2.0);
   EXPECT_GE(trial.result.record.reversals, 1.0);
-  const auto noticed = [](const truth::TraceEvent& event) {
-    return event.kind == "felt" && event.detail == "stuck: no turn";
-  };
-  EXPECT_EQ(std::count_if(trial.trace.events.begin(), trial.trace.events.end(), noticed), 2);
+  const std::vector<truth::TraceEvent> felt = EventsOf(trial.trace, "felt");
+  EXPECT_EQ(std::count_if(felt.begin(), felt.end(),
+                          [](const auto& event) { return event.detail == "stuck: no turn"; }),
+            2);
 }
 
 // Operators who turn it at a mirror line end the window: a rover that always takes itself for
@@ -160,11 +159,9 @@ TEST(StuckReactionTest, AMoveByHandBeginsAWindow) {
                      "sensors.vehicle.motor_current.enabled=true",
                      "perception.stuck_detector.strain_current_A=0.01"});
   const TracedTrial trial = RunTraced(drive, 0);
-  const auto time_s = [&](const std::string& kind) {
-    const auto found =
-        std::find_if(trial.trace.events.begin(), trial.trace.events.end(),
-                     [&](const truth::TraceEvent& event) { return event.kind == kind; });
-    return found == trial.trace.events.end() ? -1.0 : found->time_s;
+  const auto time_s = [&](const char* kind) {
+    const std::vector<truth::TraceEvent> events = EventsOf(trial.trace, kind);
+    return events.empty() ? -1.0 : events.front().time_s;
   };
   const double window_s = drive.perception.stuck_detector.window_s;
   ASSERT_GT(time_s("reflection"), 0.5);

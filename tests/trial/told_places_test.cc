@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "gestalt_trials.h"
 #include "terrain/field.h"
 #include "trial/goal_designation.h"
 #include "trial/lander_map.h"
 #include "trial/layout.h"
 #include "trial/route_planner.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
@@ -137,14 +137,6 @@ TEST(LanderMapDriveTest, TheMapLeadsABlindRoverRoundARock) {
   EXPECT_NE(without.outcome, truth::TrialOutcome::kGoalReached);
 }
 
-std::vector<truth::TraceEvent> WaypointsOf(const truth::Trace& trace) {
-  std::vector<truth::TraceEvent> events;
-  for (const truth::TraceEvent& event : trace.events) {
-    if (event.kind == "waypoint") events.push_back(event);
-  }
-  return events;
-}
-
 // The corners are passed, not arrived at: near each, or across the line through it.
 TEST(LanderMapDriveTest, ARoverThatLooksItselfPassesTheCorners) {
   const DriveParams drive =
@@ -154,7 +146,7 @@ TEST(LanderMapDriveTest, ARoverThatLooksItselfPassesTheCorners) {
   for (std::uint32_t trial = 0; trial < 12; ++trial) {
     const TracedTrial run = RunTraced(drive, trial);
     const auto places = ToldPlaces(drive, FieldOf(drive, {1, trial}), {1, trial});
-    const auto events = WaypointsOf(run.trace);
+    const auto events = EventsOf(run.trace, "waypoint");
     EXPECT_EQ(run.result.record.waypoints_reached, static_cast<double>(events.size()));
     if (run.result.outcome != truth::TrialOutcome::kGoalReached) continue;
     ASSERT_EQ(events.size(), places.size() - 1);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "math/angles.h"
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "core/hash.h"
 #include "navigation/pathfinder/pathfinder_params.h"
-#include "pathfinder_trials.h"
 #include "sensing/light_stripe.h"
 #include "terrain/field.h"
 #include "trial/layout.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

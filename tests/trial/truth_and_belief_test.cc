@@ -9,7 +9,7 @@
 
 #include "math/angles.h"
 #include "sensing/gyro.h"
-#include "trial/pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {

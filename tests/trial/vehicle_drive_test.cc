@@ -5,17 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pathfinder_trials.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
 
 using truth::TrialOutcome;
-
-Overrides operator+(Overrides a, const Overrides& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 const Overrides kQuasiStatic = {"rover.fidelity=quasi_static"};
 const Overrides kContact = {"sensors.vehicle.contact.enabled=true"};
@@ -24,8 +19,6 @@ const Overrides kBlind = {"perception.hazard.enabled=false"};
 const Overrides kAll = kContact + kTilt +
                        Overrides{"sensors.vehicle.articulation.enabled=true",
                                  "sensors.vehicle.motor_current.enabled=true"};
-
-bool Felt(const truth::TraceEvent& event) { return event.kind == "felt"; }
 
 // A rover that sees nothing among rocks of 25 to 35 cm.
 class BlindRover : public testing::TestWithParam<const char*> {
@@ -39,8 +32,9 @@ class BlindRover : public testing::TestWithParam<const char*> {
 
 // The first turn in place after the touch begins a back-off behind it.
 void ExpectBacksOff(const truth::Trace& trace) {
-  const auto felt = std::find_if(trace.events.begin(), trace.events.end(), Felt);
-  ASSERT_NE(felt, trace.events.end());
+  const std::vector<truth::TraceEvent> all_felt = EventsOf(trace, "felt");
+  ASSERT_FALSE(all_felt.empty());
+  const auto felt = all_felt.begin();
   EXPECT_THAT(felt->detail, testing::StartsWith("contact"));
   const auto turn =
       std::find_if(trace.samples.begin(), trace.samples.end(), [&](const auto& sample) {

@@ -15,11 +15,7 @@ using messages::Lens;
 constexpr std::array kLenses{Lens::kEquidistantRows, Lens::kEquidistant, Lens::kPinhole};
 
 messages::Camera Camera(Lens lens) {
-  messages::Camera camera;
-  camera.lens = lens;
-  camera.column_pitch_rad = 0.0029;
-  camera.row_pitch_rad = 0.0034;
-  return camera;
+  return {.lens = lens, .column_pitch_rad = 0.0029, .row_pitch_rad = 0.0034};
 }
 
 TEST(Lens, AxisIsPixelZeroAndRightAndDownArePositive) {

@@ -1,5 +1,7 @@
-// Known answers for clothoids, tests/data/clothoids.
+// Known answers for clothoids, tests/data/clothoids, and how near to them is near.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <string>
@@ -7,6 +9,7 @@
 
 #include "core/json_file.h"
 #include "core/json_value.h"
+#include "navigation/gestalt/clothoid.h"
 
 namespace rockyard::navigation {
 
@@ -14,6 +17,12 @@ inline double Number(const core::JsonValue& known, std::string_view key) {
   const core::JsonValue* found = known.Find(key);
   if (found == nullptr) throw std::out_of_range(std::string(key));
   return found->number();
+}
+
+inline void ExpectNear(const ClothoidPoint& found, const ClothoidPoint& known, double error) {
+  EXPECT_NEAR(found.x_m, known.x_m, error);
+  EXPECT_NEAR(found.y_m, known.y_m, error);
+  EXPECT_NEAR(found.heading_rad, known.heading_rad, error);
 }
 
 // One of the lists "fresnel", "clothoid" and "two_segment".

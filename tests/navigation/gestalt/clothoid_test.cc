@@ -15,12 +15,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-void ExpectNear(const ClothoidPoint& found, const ClothoidPoint& known, double error) {
-  EXPECT_NEAR(found.x_m, known.x_m, error);
-  EXPECT_NEAR(found.y_m, known.y_m, error);
-  EXPECT_NEAR(found.heading_rad, known.heading_rad, error);
-}
-
 // By Simpson's rule with n = 4000 intervals, whose error is L h^4 max |f''''| / 180: below 1e-13 m
 // for what the tests ask.
 ClothoidPoint BySimpson(double curvature, double rate, double length) {

@@ -11,31 +11,33 @@
 namespace rockyard::navigation {
 namespace {
 
-TEST(ContinuousDrive, StandsOnceToLookOnEmptyGroundAndDrivesOn) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    for (const int latency_ticks : {0, 10, 60}) {
-      MovingSetup setup = SetupOf(cycle);
-      setup.latency_ticks = latency_ticks;
-      MovingDrive drive(setup);
-      EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-      EXPECT_EQ(drive.StopsToLook(), 1) << "at the start";
-      const auto& log = drive.log();
-      EXPECT_TRUE(std::none_of(log.begin() + 1, log.end() - 1,
-                               [](const MovingTick& tick) { return tick.stands(); }));
-      const PlanCounts counts = drive.navigator().plan_counts();
-      EXPECT_EQ(counts.plans, drive.Answers() - 1);
-      EXPECT_EQ(counts.started, counts.plans);
-      // Each plan is a move of its own, whatever its curvatures.
-      std::set<std::int64_t> moves;
-      for (std::size_t i = 1; i + 1 < log.size(); ++i) moves.insert(log[i].motion.move);
-      EXPECT_EQ(static_cast<std::int64_t>(moves.size()), counts.plans + 1);
-      EXPECT_EQ(moves.count(0), 0u);
-      EXPECT_EQ(counts.late, 0);
-      EXPECT_EQ(counts.unsafe, 0);
-      // One each half metre and what the rover drives until it is ready.
-      const double cycle_m = 0.5 + (latency_ticks + 1) * setup.rover.tick_distance_m();
-      EXPECT_NEAR(static_cast<double>(counts.plans), 7.5 / cycle_m, 1.0) << latency_ticks;
-    }
+class DriveOnTheMove : public OnTheMove {};
+
+INSTANTIATE_TEST_SUITE_P(Cycles, DriveOnTheMove, testing::ValuesIn(kOnTheMove));
+
+TEST_P(DriveOnTheMove, StandsOnceToLookOnEmptyGroundAndDrivesOn) {
+  for (const int latency_ticks : {0, 10, 60}) {
+    MovingSetup setup = setup_;
+    setup.latency_ticks = latency_ticks;
+    MovingDrive drive(setup);
+    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    EXPECT_EQ(drive.StopsToLook(), 1) << "at the start";
+    const auto& log = drive.log();
+    EXPECT_TRUE(std::none_of(log.begin() + 1, log.end() - 1,
+                             [](const MovingTick& tick) { return tick.stands(); }));
+    const PlanCounts counts = drive.navigator().plan_counts();
+    EXPECT_EQ(counts.plans, drive.Answers() - 1);
+    EXPECT_EQ(counts.started, counts.plans);
+    // Each plan is a move of its own, whatever its curvatures.
+    std::set<std::int64_t> moves;
+    for (std::size_t i = 1; i + 1 < log.size(); ++i) moves.insert(log[i].motion.move);
+    EXPECT_EQ(static_cast<std::int64_t>(moves.size()), counts.plans + 1);
+    EXPECT_EQ(moves.count(0), 0u);
+    EXPECT_EQ(counts.late, 0);
+    EXPECT_EQ(counts.unsafe, 0);
+    // One each half metre and what the rover drives until it is ready.
+    const double cycle_m = 0.5 + (latency_ticks + 1) * setup.rover.tick_distance_m();
+    EXPECT_NEAR(static_cast<double>(counts.plans), 7.5 / cycle_m, 1.0) << latency_ticks;
   }
 }
 
@@ -111,182 +113,161 @@ TEST(ContinuousDrive, CurvatureOfArcsJumps) {
   EXPECT_GT(largest, 0.15);
 }
 
-TEST(ContinuousDrive, WaitsAtTheEndOfItsMotionForALatePlan) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    for (const LatePlan late : {LatePlan::kWait, LatePlan::kStopAndLook}) {
-      MovingSetup setup = SetupOf(cycle);
-      setup.params.continuous.late_plan = late;
-      // Half a metre takes 143 ticks.
-      setup.latency_ticks = 400;
-      MovingDrive drive(setup);
-      EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-      const PlanCounts counts = drive.navigator().plan_counts();
-      EXPECT_NEAR(static_cast<double>(counts.late), 7.5, 1.0);
-      if (late == LatePlan::kWait) {
-        EXPECT_EQ(drive.StopsToLook(), 1);
-        EXPECT_EQ(counts.started, counts.plans);
-      } else {
-        EXPECT_EQ(drive.StopsToLook(), 1 + counts.late);
-        EXPECT_EQ(counts.plans, 0);
-      }
-      // It never drives beyond the motion that was judged.
-      double begun_m = 0.0;
-      for (const MovingTick& tick : drive.log()) {
-        if (tick.answered) begun_m = tick.estimate.distance_m;
-        ASSERT_LE(tick.estimate.distance_m - begun_m,
-                  setup.params.continuous.motion_m + setup.rover.tick_distance_m() + kRounding);
-      }
+TEST_P(DriveOnTheMove, WaitsAtTheEndOfItsMotionForALatePlan) {
+  for (const LatePlan late : {LatePlan::kWait, LatePlan::kStopAndLook}) {
+    MovingSetup setup = setup_;
+    setup.params.continuous.late_plan = late;
+    // Half a metre takes 143 ticks.
+    setup.latency_ticks = 400;
+    MovingDrive drive(setup);
+    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    const PlanCounts counts = drive.navigator().plan_counts();
+    EXPECT_NEAR(static_cast<double>(counts.late), 7.5, 1.0);
+    if (late == LatePlan::kWait) {
+      EXPECT_EQ(drive.StopsToLook(), 1);
+      EXPECT_EQ(counts.started, counts.plans);
+    } else {
+      EXPECT_EQ(drive.StopsToLook(), 1 + counts.late);
+      EXPECT_EQ(counts.plans, 0);
+    }
+    // It never drives beyond the motion that was judged.
+    double begun_m = 0.0;
+    for (const MovingTick& tick : drive.log()) {
+      if (tick.answered) begun_m = tick.estimate.distance_m;
+      ASSERT_LE(tick.estimate.distance_m - begun_m,
+                setup.params.continuous.motion_m + setup.rover.tick_distance_m() + kRounding);
     }
   }
 }
 
 // An answer that never comes ends in a look at rest, not in a wait for ever.
-TEST(ContinuousDrive, ALostAnswerIsWaitedForUpToTheTimeOut) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.goal = {2.4, 0.0};
-    setup.loses_answers = true;
-    setup.params.drive.step_time_out_s = 40.0;
-    MovingDrive drive(setup);
-    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-    EXPECT_EQ(drive.StopsToLook(), 2);
-    EXPECT_NEAR(drive.log().back().time_s, 40.0 + 0.9 / 0.07, 1.0);
-  }
+TEST_P(DriveOnTheMove, ALostAnswerIsWaitedForUpToTheTimeOut) {
+  setup_.goal = {2.4, 0.0};
+  setup_.loses_answers = true;
+  setup_.params.drive.step_time_out_s = 40.0;
+  MovingDrive drive(setup_);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  EXPECT_EQ(drive.StopsToLook(), 2);
+  EXPECT_NEAR(drive.log().back().time_s, 40.0 + 0.9 / 0.07, 1.0);
 }
 
 // Operators who move the rover while it awaits a look make it ask again, at once: what it saw from
 // elsewhere is told no more.
-TEST(ContinuousDrive, OperatorsWhoMoveItMakeItLookAgain) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.latency_ticks = 40;
-    MovingDrive drive(setup);
-    while (drive.log().empty() || !drive.log().back().decision.looks_on_the_move) drive.Step();
-    drive.Step();
-    ASSERT_FALSE(drive.log().back().decision.looks()) << "it waits for the answer";
-    drive.MoveByHand({drive.rover().estimate().x_m, 0.2, 0.0});
-    drive.Step();
-    EXPECT_TRUE(drive.log().back().decision.looks_on_the_move);
-    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-    EXPECT_EQ(drive.navigator().plan_counts().late, 0);
-  }
+TEST_P(DriveOnTheMove, OperatorsWhoMoveItMakeItLookAgain) {
+  setup_.latency_ticks = 40;
+  MovingDrive drive(setup_);
+  while (drive.log().empty() || !drive.log().back().decision.looks_on_the_move) drive.Step();
+  drive.Step();
+  ASSERT_FALSE(drive.log().back().decision.looks()) << "it waits for the answer";
+  drive.MoveByHand({drive.rover().estimate().x_m, 0.2, 0.0});
+  drive.Step();
+  EXPECT_TRUE(drive.log().back().decision.looks_on_the_move);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  EXPECT_EQ(drive.navigator().plan_counts().late, 0);
 }
 
 // A blind alley, too narrow to turn round in: no plan is safe. It stops at once, or at the end of
 // what was judged.
-TEST(ContinuousDrive, StopsOrFinishesWhereNoPlanIsSafe) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    const auto stops_at = [&](NoSafePlan choice) {
-      MovingSetup setup = SetupOf(cycle);
-      // Seen late: the rover is 1.2 m from it when its looks reach it.
-      setup.range.range_m = 1.2;
-      setup.params.plan.plan_max_dist_m = 1.1;
-      setup.params.splines.length_m = 1.1;
-      setup.params.drive.search_turn_rad = math::DegToRad(90.0);
-      const Block end{3.0, 3.4, -1.0, 1.0};
-      setup.height = Blocks({end, {-1.0, 3.4, 1.0, 1.4}, {-1.0, 3.4, -1.4, -1.0}});
-      setup.params.continuous.no_safe_plan = choice;
-      MovingDrive drive(setup);
-      drive.Run();
-      EXPECT_GE(drive.navigator().plan_counts().unsafe, 1);
-      ExpectClearOf(drive, end);
-      const auto& log = drive.log();
-      // Where it first stops to look after it has begun.
-      const auto stop = std::find_if(log.begin() + 2, log.end(), [](const MovingTick& tick) {
-        return tick.decision.stops_to_look();
-      });
-      return stop == log.end() ? std::numeric_limits<double>::infinity()
-                               : stop->estimate.distance_m;
-    };
-    EXPECT_LT(stops_at(NoSafePlan::kStop) + 0.3, stops_at(NoSafePlan::kFinish));
-  }
-}
-
-TEST(ContinuousDrive, BacksOffFromAHazardThatItFeelsAndLooksAtRest) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.latency_ticks = 40;
-    // While a look is under way: it is asked for at 0.5 m, which takes 143 ticks.
-    setup.feels = [](int tick) { return tick == 160; };
+TEST_P(DriveOnTheMove, StopsOrFinishesWhereNoPlanIsSafe) {
+  const auto stops_at = [&](NoSafePlan choice) {
+    MovingSetup setup = setup_;
+    // Seen late: the rover is 1.2 m from it when its looks reach it.
+    SeeNearGroundOnly(setup);
+    setup.params.drive.search_turn_rad = math::DegToRad(90.0);
+    const Block end{3.0, 3.4, -1.0, 1.0};
+    setup.height = Blocks({end, {-1.0, 3.4, 1.0, 1.4}, {-1.0, 3.4, -1.4, -1.0}});
+    setup.params.continuous.no_safe_plan = choice;
     MovingDrive drive(setup);
-    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    drive.Run();
+    EXPECT_GE(drive.navigator().plan_counts().unsafe, 1);
+    ExpectClearOf(drive, end);
     const auto& log = drive.log();
-    EXPECT_LT(log[161].motion.direction, 0);
-    // The answer that comes while it backs off leads to nothing.
-    const auto stop = std::find_if(log.begin() + 162, log.end(), [](const MovingTick& tick) {
+    // Where it first stops to look after it has begun.
+    const auto stop = std::find_if(log.begin() + 2, log.end(), [](const MovingTick& tick) {
       return tick.decision.stops_to_look();
     });
-    ASSERT_NE(stop, log.end());
-    EXPECT_TRUE(std::all_of(log.begin() + 161, stop,
-                            [](const MovingTick& tick) { return tick.motion.direction < 0; }));
-  }
+    return stop == log.end() ? std::numeric_limits<double>::infinity() : stop->estimate.distance_m;
+  };
+  EXPECT_LT(stops_at(NoSafePlan::kStop) + 0.3, stops_at(NoSafePlan::kFinish));
+}
+
+TEST_P(DriveOnTheMove, BacksOffFromAHazardThatItFeelsAndLooksAtRest) {
+  setup_.latency_ticks = 40;
+  // While a look is under way: it is asked for at 0.5 m, which takes 143 ticks.
+  setup_.feels = [](int tick) { return tick == 160; };
+  MovingDrive drive(setup_);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  const auto& log = drive.log();
+  EXPECT_LT(log[161].motion.direction, 0);
+  // The answer that comes while it backs off leads to nothing.
+  const auto stop = std::find_if(log.begin() + 162, log.end(), [](const MovingTick& tick) {
+    return tick.decision.stops_to_look();
+  });
+  ASSERT_NE(stop, log.end());
+  EXPECT_TRUE(std::all_of(log.begin() + 161, stop,
+                          [](const MovingTick& tick) { return tick.motion.direction < 0; }));
 }
 
 // What is seen on the move lies where it was seen from, however late it is told.
-TEST(ContinuousDrive, PointsLieWhereTheyWereSeenFrom) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    const auto map_of = [&](int latency_ticks) {
-      MovingSetup setup = SetupOf(cycle);
-      setup.height = Blocks({{3.0, 3.4, 1.4, 1.8}, {3.0, 3.4, -1.8, -1.4}});
-      setup.latency_ticks = latency_ticks;
-      MovingDrive drive(setup);
-      while (drive.navigator().plan_counts().plans < 2) drive.Step();
-      return drive.navigator().view()->map;
-    };
-    const messages::MapView soon = map_of(0);
-    const messages::MapView late = map_of(120);
-    // Cells hold the mean heights of what lies in them: blocks of half a metre on the ground.
-    for (const messages::MapView* map : {&soon, &late}) {
-      int high = 0;
-      for (int iy = 0; iy < map->ny; ++iy) {
-        for (int ix = 0; ix < map->nx; ++ix) {
-          const messages::MapCellView& cell = map->Cell(ix, iy);
-          if (!cell.has_data || cell.elevation_m < 0.25) continue;
-          ++high;
-          const double x_m = map->x0_m + (ix + 0.5) * map->xstep_m;
-          const double y_m = map->y0_m + (iy + 0.5) * map->ystep_m;
-          EXPECT_TRUE(x_m > 3.0 && x_m < 3.4 && std::abs(y_m) > 1.4 && std::abs(y_m) < 1.8)
-              << x_m << ", " << y_m;
-        }
+TEST_P(DriveOnTheMove, PointsLieWhereTheyWereSeenFrom) {
+  const auto map_of = [&](int latency_ticks) {
+    MovingSetup setup = setup_;
+    setup.height = Blocks({{3.0, 3.4, 1.4, 1.8}, {3.0, 3.4, -1.8, -1.4}});
+    setup.latency_ticks = latency_ticks;
+    MovingDrive drive(setup);
+    while (drive.navigator().plan_counts().plans < 2) drive.Step();
+    return drive.navigator().view()->map;
+  };
+  const messages::MapView soon = map_of(0);
+  const messages::MapView late = map_of(120);
+  // Cells hold the mean heights of what lies in them: blocks of half a metre on the ground.
+  for (const messages::MapView* map : {&soon, &late}) {
+    int high = 0;
+    for (int iy = 0; iy < map->ny; ++iy) {
+      for (int ix = 0; ix < map->nx; ++ix) {
+        const messages::MapCellView& cell = map->Cell(ix, iy);
+        if (!cell.has_data || cell.elevation_m < 0.25) continue;
+        ++high;
+        const double x_m = map->x0_m + (ix + 0.5) * map->xstep_m;
+        const double y_m = map->y0_m + (iy + 0.5) * map->ystep_m;
+        EXPECT_TRUE(x_m > 3.0 && x_m < 3.4 && std::abs(y_m) > 1.4 && std::abs(y_m) < 1.8)
+            << x_m << ", " << y_m;
       }
-      EXPECT_GE(high, 4);
     }
+    EXPECT_GE(high, 4);
   }
 }
 
 // A correction while a look is under way moves the goal around the rover, and nothing else: with a
 // goal that jumps along the rover is told the same.
-TEST(ContinuousDrive, ACorrectionOnTheMoveMovesTheGoalAlone) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.height = Blocks({{3.0, 3.6, -0.2, 0.8}});
-    setup.latency_ticks = 60;
-    MovingDrive plain(setup);
-    MovingDrive corrected(setup);
-    const int ticks = 1000;
-    for (int i = 0; i < ticks; ++i) {
-      plain.Step();
-      corrected.Step();
-      if (i != 170) continue;
-      // By (0.3, -0.2) m and 0.1 rad about the origin: p' = t + R p.
-      const messages::PoseEstimate before = corrected.rover().estimate();
-      const double c = std::cos(0.1);
-      const double s = std::sin(0.1);
-      const auto moved = [&](double x_m, double y_m) {
-        return messages::Goal{0.3 + c * x_m - s * y_m, -0.2 + s * x_m + c * y_m};
-      };
-      const messages::Goal place = moved(before.x_m, before.y_m);
-      corrected.Correct({place.x_m, place.y_m, before.heading_rad + 0.1});
-      corrected.navigator().SetGoal(moved(setup.goal.x_m, setup.goal.y_m), GoalChange::kMoved);
-    }
-    for (int i = 0; i < ticks; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      ASSERT_NEAR(plain.log()[at].motion.curvature_per_m,
-                  corrected.log()[at].motion.curvature_per_m, 1e-6)
-          << i;
-    }
-    EXPECT_GE(plain.navigator().plan_counts().plans, 3);
+TEST_P(DriveOnTheMove, ACorrectionOnTheMoveMovesTheGoalAlone) {
+  setup_.height = Blocks({{3.0, 3.6, -0.2, 0.8}});
+  setup_.latency_ticks = 60;
+  MovingDrive plain(setup_);
+  MovingDrive corrected(setup_);
+  const int ticks = 1000;
+  for (int i = 0; i < ticks; ++i) {
+    plain.Step();
+    corrected.Step();
+    if (i != 170) continue;
+    // By (0.3, -0.2) m and 0.1 rad about the origin: p' = t + R p.
+    const messages::PoseEstimate before = corrected.rover().estimate();
+    const double c = std::cos(0.1);
+    const double s = std::sin(0.1);
+    const auto moved = [&](double x_m, double y_m) {
+      return messages::Goal{0.3 + c * x_m - s * y_m, -0.2 + s * x_m + c * y_m};
+    };
+    const messages::Goal place = moved(before.x_m, before.y_m);
+    corrected.Correct({place.x_m, place.y_m, before.heading_rad + 0.1});
+    corrected.SetGoal(moved(setup_.goal.x_m, setup_.goal.y_m), GoalChange::kMoved);
   }
+  for (int i = 0; i < ticks; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    ASSERT_NEAR(plain.log()[at].motion.curvature_per_m, corrected.log()[at].motion.curvature_per_m,
+                1e-6)
+        << i;
+  }
+  EXPECT_GE(plain.navigator().plan_counts().plans, 3);
 }
 
 // On a curved way, corrected and moved by hand, so that odometry and the map's frame differ by a

@@ -41,76 +41,68 @@ void DriveToDecision(MovingDrive& drive) {
   StepUntil(drive, [&] { return decisions() != before; });
 }
 
+bool Turns(const MovingTick& tick) { return tick.motion.kind == MotionKind::kTurnInPlace; }
+
 bool AnyVetoed(const messages::NavigationView& view) {
   const auto vetoed = [](const messages::MotionVote& vote) { return vote.vetoed; };
   return std::any_of(view.forward.begin(), view.forward.end(), vetoed);
 }
 
+class PlansOnTheMove : public OnTheMove {};
+
+INSTANTIATE_TEST_SUITE_P(Cycles, PlansOnTheMove, testing::ValuesIn(kOnTheMove));
+
 // After half of what is driven of a plan: of a metre, and of the way to a goal that is nearer.
-TEST(ContinuousPlans, AreAskedForAfterAShareOfTheMotion) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    for (const double goal_m : {0.6, 8.0}) {
-      MovingSetup setup = SetupOf(cycle);
-      setup.goal = {goal_m, 0.0};
-      setup.params.waypoints.goal_tolerance_m = 0.05;
-      MovingDrive drive(setup);
-      DriveToALook(drive);
-      EXPECT_NEAR(drive.rover().estimate().distance_m, 0.5 * std::min(goal_m, 1.0),
-                  2.0 * setup.rover.tick_distance_m());
-    }
+TEST_P(PlansOnTheMove, AreAskedForAfterAShareOfTheMotion) {
+  for (const double goal_m : {0.6, 8.0}) {
+    MovingSetup setup = setup_;
+    setup.goal = {goal_m, 0.0};
+    setup.params.waypoints.goal_tolerance_m = 0.05;
+    MovingDrive drive(setup);
+    DriveToALook(drive);
+    EXPECT_NEAR(drive.rover().estimate().distance_m, 0.5 * std::min(goal_m, 1.0),
+                2.0 * setup.rover.tick_distance_m());
   }
 }
 
 // A metre of 256 ticks.
-TEST(ContinuousPlans, MotionsEndWhereTheirLengthIsDriven) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.rover.tick_s = setup.rover.speed_m_s = 1.0 / 16.0;
-    setup.loses_answers = true;
-    MovingDrive drive(setup);
-    DriveToALook(drive);
-    StepUntil(drive, [&drive] { return drive.log().back().stands(); });
-    EXPECT_EQ(drive.rover().estimate().distance_m, 1.0);
-  }
+TEST_P(PlansOnTheMove, MotionsEndWhereTheirLengthIsDriven) {
+  setup_.rover.tick_s = setup_.rover.speed_m_s = 1.0 / 16.0;
+  setup_.loses_answers = true;
+  MovingDrive drive(setup_);
+  DriveToALook(drive);
+  StepUntil(drive, [&drive] { return drive.log().back().stands(); });
+  EXPECT_EQ(drive.rover().estimate().distance_m, 1.0);
 }
 
 // A rover that drops a late look asks for another one in its next motion.
-TEST(ContinuousPlans, AreAskedForAgainAfterALateOne) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.params.continuous.late_plan = LatePlan::kStopAndLook;
-    setup.latency_ticks = 400;
-    MovingDrive drive(setup);
-    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-    const auto looks =
-        std::count_if(drive.log().begin(), drive.log().end(),
-                      [](const MovingTick& tick) { return tick.decision.looks_on_the_move; });
-    EXPECT_GT(looks, 5);
-    EXPECT_LE(std::abs(looks - drive.navigator().plan_counts().late), 1) << "the last motion";
-  }
+TEST_P(PlansOnTheMove, AreAskedForAgainAfterALateOne) {
+  setup_.params.continuous.late_plan = LatePlan::kStopAndLook;
+  setup_.latency_ticks = 400;
+  MovingDrive drive(setup_);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  const auto looks =
+      std::count_if(drive.log().begin(), drive.log().end(),
+                    [](const MovingTick& tick) { return tick.decision.looks_on_the_move; });
+  EXPECT_GT(looks, 5);
+  EXPECT_LE(std::abs(looks - drive.navigator().plan_counts().late), 1) << "the last motion";
 }
 
 // A rover that felt something while a look was under way asks for another one in its next motion.
-TEST(ContinuousPlans, AreAskedForAgainAfterAHazardThatWasFelt) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.latency_ticks = 40;
-    setup.feels = [](int tick) { return tick == 160; };
-    MovingDrive drive(setup);
-    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-    EXPECT_EQ(drive.navigator().plan_counts().late, 0);
-  }
+TEST_P(PlansOnTheMove, AreAskedForAgainAfterAHazardThatWasFelt) {
+  setup_.latency_ticks = 40;
+  setup_.feels = [](int tick) { return tick == 160; };
+  MovingDrive drive(setup_);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  EXPECT_EQ(drive.navigator().plan_counts().late, 0);
 }
 
 // Between steps the goal is asked for where a plan is made, before the motion ends.
-TEST(ContinuousPlans, AreNotMadeAtTheGoal) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.params.drive.arrival_check = ArrivalCheck::kBetweenSteps;
-    MovingDrive drive(setup);
-    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-    EXPECT_TRUE(drive.log().back().answered);
-  }
+TEST_P(PlansOnTheMove, AreNotMadeAtTheGoal) {
+  setup_.params.drive.arrival_check = ArrivalCheck::kBetweenSteps;
+  MovingDrive drive(setup_);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  EXPECT_TRUE(drive.log().back().answered);
 }
 
 // A goal within the tightest circle is driven round: plans that lead no nearer come to an end.
@@ -125,85 +117,76 @@ TEST(ContinuousPlans, WithoutProgressEndTheDrive) {
 }
 
 // A vote of just min_vote_goodness is safe: on open ground the straight way has all that there is.
-TEST(ContinuousPlans, OfTheLeastVoteAllowedAreSafe) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.params.plan.plan_max_dist_m = 2.0;
-    setup.params.votes.min_vote_goodness = 255.0;
-    MovingDrive drive(setup);
-    DriveToPlan(drive, 4);
-    EXPECT_EQ(drive.StopsToLook(), 1);
-    EXPECT_EQ(drive.navigator().plan_counts().unsafe, 0);
-  }
+TEST_P(PlansOnTheMove, OfTheLeastVoteAllowedAreSafe) {
+  setup_.params.plan.plan_max_dist_m = 2.0;
+  setup_.params.votes.min_vote_goodness = 255.0;
+  MovingDrive drive(setup_);
+  DriveToPlan(drive, 4);
+  EXPECT_EQ(drive.StopsToLook(), 1);
+  EXPECT_EQ(drive.navigator().plan_counts().unsafe, 0);
 }
 
 // The view of a plan: where it begins, in a map around the rover of now, and what is driven of it.
-TEST(ContinuousPlans, AreShownAsTheyAreDriven) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.height = Blocks({{3.0, 3.4, -0.3, 0.7}});
-    setup.latency_ticks = 120;
-    // No vote is good enough not to look behind at the start.
-    setup.params.votes.min_fwd_threshold = 256.0;
-    MovingDrive drive(setup);
-    DriveToDecision(drive);
-    EXPECT_EQ(drive.navigator().view()->looked_behind, cycle == DriveCycle::kCsod);
-    for (std::int64_t plan = 1; plan <= 3; ++plan) {
-      DriveToPlan(drive, plan);
-      const messages::NavigationView& view = *drive.navigator().view();
-      const MovingTick& now = drive.log().back();
-      EXPECT_FALSE(view.looked_behind);
-      EXPECT_NEAR(view.estimate.x_m, now.estimate.x_m, 1e-4);
-      EXPECT_NEAR(view.estimate.y_m, now.estimate.y_m, 1e-4);
-      EXPECT_NEAR(view.estimate.distance_m, now.estimate.distance_m, kRounding);
-      EXPECT_EQ(view.spline_start.x_m, view.estimate.x_m);
-      EXPECT_EQ(view.spline_start.y_m, view.estimate.y_m);
-      EXPECT_NEAR(view.map.x0_m + 0.5 * view.map.nx * view.map.xstep_m, now.estimate.x_m, 0.2);
-      if (cycle == DriveCycle::kCsad) {
-        std::vector<messages::SplineVote> chosen;
-        std::copy_if(view.splines.begin(), view.splines.end(), std::back_inserter(chosen),
-                     [](const messages::SplineVote& vote) { return vote.chosen; });
-        ASSERT_EQ(chosen.size(), 1u);
-        EXPECT_EQ(chosen.front().spline.start_per_m, now.decision.motion.curvature_per_m);
-      } else {
-        std::vector<messages::MotionVote> chosen;
-        std::copy_if(view.forward.begin(), view.forward.end(), std::back_inserter(chosen),
-                     [](const messages::MotionVote& vote) { return vote.chosen; });
-        ASSERT_EQ(chosen.size(), 1u);
-        EXPECT_EQ(chosen.front().motion.curvature_per_m, now.decision.motion.curvature_per_m);
-      }
+TEST_P(PlansOnTheMove, AreShownAsTheyAreDriven) {
+  setup_.height = Blocks({{3.0, 3.4, -0.3, 0.7}});
+  setup_.latency_ticks = 120;
+  // No vote is good enough not to look behind at the start.
+  setup_.params.votes.min_fwd_threshold = 256.0;
+  MovingDrive drive(setup_);
+  DriveToDecision(drive);
+  EXPECT_EQ(drive.navigator().view()->looked_behind, GetParam() == DriveCycle::kCsod);
+  for (std::int64_t plan = 1; plan <= 3; ++plan) {
+    DriveToPlan(drive, plan);
+    const messages::NavigationView& view = *drive.navigator().view();
+    const MovingTick& now = drive.log().back();
+    EXPECT_FALSE(view.looked_behind);
+    EXPECT_NEAR(view.estimate.x_m, now.estimate.x_m, 1e-4);
+    EXPECT_NEAR(view.estimate.y_m, now.estimate.y_m, 1e-4);
+    EXPECT_NEAR(view.estimate.distance_m, now.estimate.distance_m, kRounding);
+    EXPECT_EQ(view.spline_start.x_m, view.estimate.x_m);
+    EXPECT_EQ(view.spline_start.y_m, view.estimate.y_m);
+    EXPECT_NEAR(view.map.x0_m + 0.5 * view.map.nx * view.map.xstep_m, now.estimate.x_m, 0.2);
+    if (GetParam() == DriveCycle::kCsad) {
+      std::vector<messages::SplineVote> chosen;
+      std::copy_if(view.splines.begin(), view.splines.end(), std::back_inserter(chosen),
+                   [](const messages::SplineVote& vote) { return vote.chosen; });
+      ASSERT_EQ(chosen.size(), 1u);
+      EXPECT_EQ(chosen.front().spline.start_per_m, now.decision.motion.curvature_per_m);
+    } else {
+      std::vector<messages::MotionVote> chosen;
+      std::copy_if(view.forward.begin(), view.forward.end(), std::back_inserter(chosen),
+                   [](const messages::MotionVote& vote) { return vote.chosen; });
+      ASSERT_EQ(chosen.size(), 1u);
+      EXPECT_EQ(chosen.front().motion.curvature_per_m, now.decision.motion.curvature_per_m);
     }
   }
 }
 
 // A motion is told with the speed of its curvature and, along a spline, with how that changes.
-TEST(ContinuousPlans, AreToldWithSpeedAndRateOfTheMoment) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.height = Blocks({{3.0, 3.4, -0.3, 0.7}});
-    setup.params.speed = {
-        .full_speed_curvature_per_m = 0.05, .min_speed_share = 0.5, .slow_curvature_per_m = 0.5};
-    MovingDrive drive(setup);
-    ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
-    double slowest = 1.0;
-    int bends = 0;
-    const auto& log = drive.log();
-    for (std::size_t i = 1; i + 2 < log.size(); ++i) {
-      const messages::MotionCommand& motion = log[i].decision.motion;
-      const messages::MotionCommand& next = log[i + 1].decision.motion;
-      ASSERT_EQ(motion.speed_share, SpeedShare(setup.params.speed, motion.curvature_per_m));
-      slowest = std::min(slowest, motion.speed_share);
-      const bool goes_on =
-          motion.move == next.move && motion.curvature_rate_per_m2 == next.curvature_rate_per_m2;
-      if (!goes_on) continue;
-      const double way_m = log[i + 1].estimate.distance_m - log[i].estimate.distance_m;
-      ASSERT_NEAR(next.curvature_per_m - motion.curvature_per_m,
-                  way_m * motion.curvature_rate_per_m2, kRounding);
-      bends += next.curvature_per_m != motion.curvature_per_m ? 1 : 0;
-    }
-    EXPECT_LT(slowest, 0.9);
-    EXPECT_EQ(bends > 100, cycle == DriveCycle::kCsad);
+TEST_P(PlansOnTheMove, AreToldWithSpeedAndRateOfTheMoment) {
+  setup_.height = Blocks({{3.0, 3.4, -0.3, 0.7}});
+  setup_.params.speed = {
+      .full_speed_curvature_per_m = 0.05, .min_speed_share = 0.5, .slow_curvature_per_m = 0.5};
+  MovingDrive drive(setup_);
+  ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  double slowest = 1.0;
+  int bends = 0;
+  const auto& log = drive.log();
+  for (std::size_t i = 1; i + 2 < log.size(); ++i) {
+    const messages::MotionCommand& motion = log[i].decision.motion;
+    const messages::MotionCommand& next = log[i + 1].decision.motion;
+    ASSERT_EQ(motion.speed_share, SpeedShare(setup_.params.speed, motion.curvature_per_m));
+    slowest = std::min(slowest, motion.speed_share);
+    const bool goes_on =
+        motion.move == next.move && motion.curvature_rate_per_m2 == next.curvature_rate_per_m2;
+    if (!goes_on) continue;
+    const double way_m = log[i + 1].estimate.distance_m - log[i].estimate.distance_m;
+    ASSERT_NEAR(next.curvature_per_m - motion.curvature_per_m, way_m * motion.curvature_rate_per_m2,
+                kRounding);
+    bends += next.curvature_per_m != motion.curvature_per_m ? 1 : 0;
   }
+  EXPECT_LT(slowest, 0.9);
+  EXPECT_EQ(bends > 100, GetParam() == DriveCycle::kCsad);
 }
 
 // A rover that has stopped to look drives on with the curvature for which its wheels stand.
@@ -238,28 +221,25 @@ TEST(ContinuousPlans, AreStartedAsPredictedWhenAskedForAtOnce) {
 }
 
 // A rover that rocks sees level ground where it knows how it stood when it looked.
-TEST(ContinuousPlans, TakePointsByTheAttitudeOfTheLook) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    setup.latency_ticks = 50;
-    // At the start it stands still.
-    setup.attitude = [](int tick) {
-      const double phase = 0.02 * std::max(0, tick - 10);
-      return messages::AttitudeEstimate{.roll_rad = 0.05 * std::sin(1.5 * phase),
-                                        .pitch_rad = 0.1 * std::sin(phase),
-                                        .z_m = 0.05 * phase};
-    };
-    MovingDrive drive(setup);
-    DriveToALook(drive);
-    const auto looked = static_cast<int>(drive.log().size()) - 1;
-    DriveToPlan(drive, 1);
-    const messages::NavigationView& view = *drive.navigator().view();
-    for (const messages::MapCellView& cell : view.map.cells) {
-      if (!cell.has_data) continue;
-      ASSERT_NEAR(cell.elevation_m, 0.0, kRounding);
-    }
-    EXPECT_EQ(view.attitude.pitch_rad, setup.attitude(looked).pitch_rad);
+TEST_P(PlansOnTheMove, TakePointsByTheAttitudeOfTheLook) {
+  setup_.latency_ticks = 50;
+  // At the start it stands still.
+  setup_.attitude = [](int tick) {
+    const double phase = 0.02 * std::max(0, tick - 10);
+    return messages::AttitudeEstimate{.roll_rad = 0.05 * std::sin(1.5 * phase),
+                                      .pitch_rad = 0.1 * std::sin(phase),
+                                      .z_m = 0.05 * phase};
+  };
+  MovingDrive drive(setup_);
+  DriveToALook(drive);
+  const auto looked = static_cast<int>(drive.log().size()) - 1;
+  DriveToPlan(drive, 1);
+  const messages::NavigationView& view = *drive.navigator().view();
+  for (const messages::MapCellView& cell : view.map.cells) {
+    if (!cell.has_data) continue;
+    ASSERT_NEAR(cell.elevation_m, 0.0, kRounding);
   }
+  EXPECT_EQ(view.attitude.pitch_rad, setup_.attitude(looked).pitch_rad);
 }
 
 // Howard 2012, section 2: "turn-in-place of different angles followed by a straight drive". The
@@ -271,10 +251,8 @@ TEST(ContinuousPlans, OfCsodTurnInPlaceAndDriveStraightOn) {
   setup.latency_ticks = 10;
   MovingDrive drive(setup);
   DriveToPlan(drive, 1);
-  drive.navigator().SetGoal({drive.rover().estimate().x_m + 0.5, 6.0}, GoalChange::kMoved);
-  const auto turns = [&drive] {
-    return drive.log().back().motion.kind == MotionKind::kTurnInPlace;
-  };
+  drive.SetGoal({drive.rover().estimate().x_m + 0.5, 6.0}, GoalChange::kMoved);
+  const auto turns = [&drive] { return Turns(drive.log().back()); };
   StepUntil(drive, turns);
   EXPECT_TRUE(drive.log().back().answered);
   const std::vector<messages::MotionVote>& votes = drive.navigator().view()->point_turns;
@@ -304,9 +282,7 @@ TEST(ContinuousPlans, OfCsodLookAfterATurnTowardsAWall) {
   setup.params.drive.point_turns = PointTurns::kCandidates;
   setup.params.drive.point_turn_margin = -300.0;
   MovingDrive drive(setup);
-  const auto turns = [&drive] {
-    return drive.log().back().motion.kind == MotionKind::kTurnInPlace;
-  };
+  const auto turns = [&drive] { return Turns(drive.log().back()); };
   StepUntil(drive, turns);
   StepUntil(drive, [&] { return !turns(); });
   EXPECT_TRUE(drive.log().back().decision.stops_to_look());
@@ -320,7 +296,7 @@ TEST(ContinuousPlans, OfCsadLeaveNothingToAnArcAfterThem) {
   setup.feels = [&feels](int) { return feels; };
   MovingDrive drive(setup);
   DriveToPlan(drive, 1);
-  drive.navigator().SetGoal({drive.rover().estimate().x_m - 1.0, 0.7}, GoalChange::kMoved);
+  drive.SetGoal({drive.rover().estimate().x_m - 1.0, 0.7}, GoalChange::kMoved);
   const auto curvature = [&drive] { return drive.log().back().motion.curvature_per_m; };
   StepUntil(drive, [&] { return std::abs(curvature()) > 1.1; });
   const double arc_per_m = curvature();
@@ -392,7 +368,7 @@ TEST(ContinuousPlans, ForgetVetoesWithTheNextMotion) {
     DriveToDecision(drive);
     EXPECT_TRUE(AnyVetoed(*drive.navigator().view())) << "it has backed off";
     if (end == End::kUnsafe) {
-      drive.navigator().SetGoal({drive.rover().estimate().x_m, 6.0}, GoalChange::kMoved);
+      drive.SetGoal({drive.rover().estimate().x_m, 6.0}, GoalChange::kMoved);
     }
     DriveToDecision(drive);
     EXPECT_EQ(AnyVetoed(*drive.navigator().view()), end != End::kLate);
@@ -418,31 +394,23 @@ TEST(ContinuousPlans, AreBackedOffFromAlongTheirCurvature) {
 }
 
 // A rover that waits at the end of its motion does not go on where the late plan is not safe.
-TEST(ContinuousPlans, ThatAreLateAndUnsafeFinishNothing) {
-  for (const DriveCycle cycle : kOnTheMove) {
-    MovingSetup setup = SetupOf(cycle);
-    // A blind alley that is seen late.
-    setup.range.range_m = 1.2;
-    setup.params.plan.plan_max_dist_m = 1.1;
-    setup.params.splines.length_m = 1.1;
-    setup.height = Blocks({{3.0, 3.4, -1.0, 1.0}, {-1.0, 3.4, 1.0, 1.4}, {-1.0, 3.4, -1.4, -1.0}});
-    setup.params.continuous.no_safe_plan = NoSafePlan::kFinish;
-    setup.params.continuous.motion_m = 0.5;
-    setup.latency_ticks = 120;
-    MovingDrive drive(setup);
-    StepUntil(drive, [&drive] { return drive.navigator().plan_counts().unsafe > 0; });
-    const auto& log = drive.log();
-    EXPECT_TRUE(log[log.size() - 2].stands()) << "it waits";
-    EXPECT_TRUE(log.back().decision.stops_to_look());
-  }
+TEST_P(PlansOnTheMove, ThatAreLateAndUnsafeFinishNothing) {
+  SeeNearGroundOnly(setup_);  // a blind alley that is seen late
+  setup_.height = Blocks({{3.0, 3.4, -1.0, 1.0}, {-1.0, 3.4, 1.0, 1.4}, {-1.0, 3.4, -1.4, -1.0}});
+  setup_.params.continuous.no_safe_plan = NoSafePlan::kFinish;
+  setup_.params.continuous.motion_m = 0.5;
+  setup_.latency_ticks = 120;
+  MovingDrive drive(setup_);
+  StepUntil(drive, [&drive] { return drive.navigator().plan_counts().unsafe > 0; });
+  const auto& log = drive.log();
+  EXPECT_TRUE(log[log.size() - 2].stands()) << "it waits";
+  EXPECT_TRUE(log.back().decision.stops_to_look());
 }
 
 // A way that was found ends a search: the next one may turn as far again.
 TEST(ContinuousPlans, EndASearch) {
   MovingSetup setup = SetupOf(DriveCycle::kCsad);
-  setup.range.range_m = 1.2;
-  setup.params.plan.plan_max_dist_m = 1.1;
-  setup.params.splines.length_m = 1.1;
+  SeeNearGroundOnly(setup);
   setup.params.drive.search_turn_rad = math::DegToRad(90.0);
   // No arc leads round it, and none is driven backward.
   setup.params.arcs.max_curvature_per_m = 0.3;
@@ -454,9 +422,8 @@ TEST(ContinuousPlans, EndASearch) {
   int turns = 0;
   bool turned = false;
   for (const MovingTick& tick : drive.log()) {
-    const bool now = tick.motion.kind == MotionKind::kTurnInPlace;
-    turns += now && !turned ? 1 : 0;
-    turned = now;
+    turns += Turns(tick) && !turned ? 1 : 0;
+    turned = Turns(tick);
   }
   EXPECT_GE(turns, 2);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "clothoid_known.h"
 #include "core/check.h"
 #include "core/random.h"
 #include "navigation/gestalt/speed_law.h"
@@ -128,9 +129,7 @@ TEST(CurvatureLaw, TimeIsDistanceAtConstantSpeed) {
     for (const CurvatureLaw* law : {&steady, &tight}) {
       EXPECT_NEAR(law->Between(from, to, 0.4), distance.Between(from, to, 0.4), 1e-14);
       const ClothoidPoint other = law->Along({}, from, to, kHalf_m);
-      EXPECT_NEAR(other.x_m, end.x_m, 1e-13);
-      EXPECT_NEAR(other.y_m, end.y_m, 1e-13);
-      EXPECT_NEAR(other.heading_rad, end.heading_rad, 1e-13);
+      ExpectNear(other, end, 1e-13);
     }
   }
   const CurvatureLaw time(SplineLaw::kTime, kSlow);
@@ -201,9 +200,7 @@ void ExpectPathsAgree(const SpeedLawParams& speed, double from, double to, doubl
   const ClothoidPoint known = PathOverCurvature(speed).End(from, to, length);
   // The comparison divides by a: 1e-16 / (to - from).
   const double error = length * (1e-12 + 1e-14 / std::abs(to - from));
-  EXPECT_NEAR(found.x_m, known.x_m, error);
-  EXPECT_NEAR(found.y_m, known.y_m, error);
-  EXPECT_NEAR(found.heading_rad, known.heading_rad, error);
+  ExpectNear(found, known, error);
 }
 
 TEST(CurvatureLaw, PathsInTimeAgreeWithAnotherIntegral) {
@@ -236,9 +233,7 @@ TEST(CurvatureLaw, PathsInTimeOfOneCurvatureAreArcs) {
     const ClothoidPoint arc = OnClothoid(c, 0.0, kHalf_m);
     for (const double to : {c, c + 1e-15, c + 1e-13}) {
       const ClothoidPoint end = law.Along({}, c, to, kHalf_m);
-      EXPECT_NEAR(end.x_m, arc.x_m, 1e-12);
-      EXPECT_NEAR(end.y_m, arc.y_m, 1e-12);
-      EXPECT_NEAR(end.heading_rad, arc.heading_rad, 1e-12);
+      ExpectNear(end, arc, 1e-12);
     }
   }
 }

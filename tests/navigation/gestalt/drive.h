@@ -40,6 +40,14 @@ inline HeightAt Blocks(std::vector<Block> blocks) {
   };
 }
 
+// Walls 0.4 m thick that leave a square of 2.4 m inside.
+inline std::vector<Block> Pit() {
+  return {{1.2, 1.6, -1.6, 1.6},
+          {-1.6, -1.2, -1.6, 1.6},
+          {-1.6, 1.6, 1.2, 1.6},
+          {-1.6, 1.6, -1.6, -1.2}};
+}
+
 // Points every 8 cm of what lies up to `range_m` within `half_angle_rad` of where the rover looks,
 // with no occlusion. Two points a cell and axis at least, at 20 cm cells.
 struct FakeRange {
@@ -95,15 +103,17 @@ struct GestaltTick {
     return moves() && decision.motion.kind == messages::MotionKind::kTurnInPlace;
   }
   bool drives() const { return moves() && decision.motion.kind == messages::MotionKind::kArc; }
+  bool backs() const { return drives() && decision.motion.direction < 0; }
+  bool chooses() const { return has_cloud && moves(); }
   bool looks(messages::LookDirection direction) const {
     return decision.looks() && *decision.look == direction;
   }
 };
 
-class GestaltDrive final : public LoggedDrive<GestaltTick> {
+class GestaltDrive final : public LoggedDrive<GestaltTick, GestaltNavigator> {
  public:
   explicit GestaltDrive(const GestaltSetup& setup)
-      : setup_(setup), navigator_(setup.params, setup.goal), rover_(setup.rover, setup.start) {}
+      : LoggedDrive({setup.params, setup.goal}, {setup.rover, setup.start}), setup_(setup) {}
 
   const GestaltTick& Step() override {
     GestaltTick tick;
@@ -129,27 +139,11 @@ class GestaltDrive final : public LoggedDrive<GestaltTick> {
     return log_.back();
   }
 
-  void UpdatePose(const messages::PoseUpdate& update) {
-    const messages::PoseEstimate before = rover_.estimate();
-    rover_.SetEstimate(update);
-    navigator_.OnPoseUpdate(before, rover_.estimate());
-  }
-
-  void Correct(const messages::PoseUpdate& update) {
-    const messages::PoseEstimate before = rover_.estimate();
-    rover_.SetEstimate(update);
-    navigator_.OnCorrection(before, rover_.estimate());
-  }
-  void SetGoal(const messages::Goal& goal, GoalChange change) { navigator_.SetGoal(goal, change); }
-
   int Looks(messages::LookDirection direction) const {
     int looks = 0;
     for (const GestaltTick& tick : log_) looks += tick.looks(direction) ? 1 : 0;
     return looks;
   }
-
-  const FakeRover& rover() const { return rover_; }
-  const GestaltNavigator& navigator() const { return navigator_; }
 
  private:
   // From the levelled frame of the rover to its own.
@@ -160,9 +154,18 @@ class GestaltDrive final : public LoggedDrive<GestaltTick> {
   }
 
   GestaltSetup setup_;
-  GestaltNavigator navigator_;
-  FakeRover rover_;
 };
+
+// Of the map of the last decision.
+inline const messages::MapCellView& CellAt(const GestaltDrive& drive, double x_m, double y_m) {
+  const messages::MapView& map = drive.navigator().view()->map;
+  return map.Cell(static_cast<int>(std::floor((x_m - map.x0_m) / map.xstep_m)),
+                  static_cast<int>(std::floor((y_m - map.y0_m) / map.ystep_m)));
+}
+
+inline int GoodnessAt(const GestaltDrive& drive, double x_m, double y_m) {
+  return CellAt(drive, x_m, y_m).goodness;
+}
 
 // Whether two maps hold the same heights in the same cells.
 inline bool HoldSameData(const messages::MapView& a, const messages::MapView& b) {

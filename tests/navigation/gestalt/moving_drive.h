@@ -8,7 +8,6 @@
 #include <deque>
 #include <functional>
 #include <optional>
-#include <vector>
 
 #include "drive.h"
 #include "navigation/motion_follower.h"
@@ -17,8 +16,6 @@ namespace rockyard::navigation {
 
 using messages::LookDirection;
 using messages::MotionKind;
-
-inline constexpr double kRounding = 1e-9;
 
 struct MovingSetup {
   GestaltParams params;
@@ -48,23 +45,19 @@ struct MovingTick {
 };
 
 // One tick of the rover as the loop of a trial makes it.
-class MovingDrive {
+class MovingDrive final : public LoggedDrive<MovingTick, GestaltNavigator> {
  public:
   explicit MovingDrive(const MovingSetup& setup)
-      : setup_(setup),
-        navigator_(setup.params, setup.goal, setup.rover.speed_m_s),
-        follower_(setup.rover.speed_m_s, 0.0),
-        rover_(setup.rover, {}) {}
+      : LoggedDrive({setup.params, setup.goal, setup.rover.speed_m_s}, {setup.rover, {}}),
+        setup_(setup),
+        follower_(setup.rover.speed_m_s, 0.0) {}
 
+  // Until there are so many ticks in the log.
   NavigatorStatus Run(int most_ticks = 40000) {
-    while (static_cast<int>(log_.size()) < most_ticks) {
-      Step();
-      if (log_.back().decision.status != NavigatorStatus::kDriving) break;
-    }
-    return log_.back().decision.status;
+    return LoggedDrive::Run(most_ticks - static_cast<int>(log_.size()));
   }
 
-  void Step() {
+  const MovingTick& Step() override {
     const int number = static_cast<int>(log_.size());
     MovingTick tick;
     tick.time_s = number * setup_.rover.tick_s;
@@ -87,28 +80,15 @@ class MovingDrive {
     tick.decision = navigator_.Decide(input);
     if (tick.decision.status == NavigatorStatus::kDriving) Act(tick, number);
     log_.push_back(tick);
-  }
-
-  // The estimate jumps, the odometry does not.
-  void Correct(const messages::PoseUpdate& update) {
-    const messages::PoseEstimate before = rover_.estimate();
-    rover_.SetEstimate(update);
-    navigator_.OnCorrection(before, rover_.estimate());
+    return log_.back();
   }
 
   // As operators do; looks under way are dropped, as a trial drops them.
   void MoveByHand(const messages::PoseUpdate& update) {
-    const messages::PoseEstimate before = rover_.estimate();
-    rover_.SetEstimate(update);
+    UpdatePose(update);
     odometry_ = rover_.estimate();
     under_way_.clear();
-    navigator_.OnPoseUpdate(before, rover_.estimate());
   }
-
-  const std::vector<MovingTick>& log() const { return log_; }
-  const GestaltNavigator& navigator() const { return navigator_; }
-  GestaltNavigator& navigator() { return navigator_; }
-  const FakeRover& rover() const { return rover_; }
 
   int StopsToLook() const {
     return static_cast<int>(std::count_if(log_.begin(), log_.end(), [](const MovingTick& tick) {
@@ -169,13 +149,10 @@ class MovingDrive {
   }
 
   MovingSetup setup_;
-  GestaltNavigator navigator_;
   MotionFollower follower_;
-  FakeRover rover_;
   messages::PoseEstimate odometry_;
   std::deque<Answer> under_way_;
   std::int64_t looks_ = 0;
-  std::vector<MovingTick> log_;
 };
 
 inline MovingSetup SetupOf(DriveCycle cycle) {
@@ -188,6 +165,17 @@ inline MovingSetup SetupOf(DriveCycle cycle) {
 }
 
 inline constexpr DriveCycle kOnTheMove[] = {DriveCycle::kCsod, DriveCycle::kCsad};
+
+inline void SeeNearGroundOnly(MovingSetup& setup) {
+  setup.range.range_m = 1.2;
+  setup.params.plan.plan_max_dist_m = setup.params.splines.length_m = 1.1;
+}
+
+// What holds for either cycle that looks on the move.
+class OnTheMove : public testing::TestWithParam<DriveCycle> {
+ protected:
+  MovingSetup setup_ = SetupOf(GetParam());
+};
 
 // Blocks hold no place of the vehicle's centre: obstacles grow by half its width, 0.42 m, in the
 // map; a cell of 0.2 m may be half covered.

@@ -12,24 +12,12 @@ using messages::HazardSide;
 using messages::VehicleHazard;
 using messages::VehicleHazardKind;
 
-constexpr double kRounding = 1e-9;
-constexpr VehicleHazard kTouchAhead{VehicleHazardKind::kContact, HazardSide::kAhead};
 constexpr VehicleHazard kTiltLeft{VehicleHazardKind::kTilt, HazardSide::kLeft};
 constexpr double kHalfLength_m = 0.52;
 constexpr double kHalfWidth_m = 0.42;
 
-// Felt where the true x lies in (low, high).
-std::function<std::optional<VehicleHazard>(const FakeRover&)> Between(double low_m, double high_m,
-                                                                      const VehicleHazard& what) {
-  return [=](const FakeRover& rover) -> std::optional<VehicleHazard> {
-    if (rover.X_WR().x_m > low_m && rover.X_WR().x_m < high_m) return what;
-    return std::nullopt;
-  };
-}
-
 // A touch ahead for a tick, as soon as each of these distances is measured; counts them.
-std::function<std::optional<VehicleHazard>(const FakeRover&)> FeltOnceAfter(
-    const std::vector<double>& driven_m, int& count) {
+FeltSource FeltOnceAfter(const std::vector<double>& driven_m, int& count) {
   return [driven_m, &count](const FakeRover& rover) -> std::optional<VehicleHazard> {
     const auto next = static_cast<std::size_t>(count);
     if (next >= driven_m.size() || rover.estimate().distance_m < driven_m[next]) {
@@ -49,16 +37,7 @@ GestaltSetup Backward() {
   return setup;
 }
 
-int GoodnessAt(const GestaltDrive& drive, double x_m, double y_m) {
-  const messages::MapView& map = drive.navigator().view()->map;
-  const int ix = static_cast<int>(std::floor((x_m - map.x0_m) / map.xstep_m));
-  const int iy = static_cast<int>(std::floor((y_m - map.y0_m) / map.ystep_m));
-  return map.Cell(ix, iy).goodness;
-}
-
-bool DrivesBackward(const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }
 bool DrivesForward(const GestaltTick& t) { return t.drives() && t.decision.motion.direction > 0; }
-bool Chooses(const GestaltTick& t) { return t.has_cloud && t.moves(); }
 bool Looks(const GestaltTick& t) { return t.decision.looks(); }
 
 TEST(GestaltBackward, ATouchBehindIsMarkedBehindAndBackedOffFromForward) {
@@ -67,7 +46,7 @@ TEST(GestaltBackward, ATouchBehindIsMarkedBehindAndBackedOffFromForward) {
     return rover.X_WR().x_m < -0.2 && rover.X_WR().x_m > -0.25;
   };
   GestaltDrive drive(setup);
-  ASSERT_TRUE(drive.StepUntil(DrivesBackward));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   ASSERT_TRUE(drive.StepUntil(DrivesForward));
   const double felt_m = drive.rover().estimate().distance_m;
   EXPECT_NEAR(drive.log().back().X_WR.x_m, -0.2, setup.rover.tick_distance_m() + kRounding);
@@ -75,18 +54,18 @@ TEST(GestaltBackward, ATouchBehindIsMarkedBehindAndBackedOffFromForward) {
   EXPECT_NEAR(drive.rover().X_WR().x_m, 0.0, 2.0 * setup.rover.tick_distance_m() + kRounding)
       << "where it came from";
   EXPECT_GT(drive.rover().estimate().distance_m, felt_m + 0.19);
-  ASSERT_TRUE(drive.StepUntil(Chooses));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::chooses));
   EXPECT_EQ(GoodnessAt(drive, -0.2 - kHalfLength_m, 0.0), 0);
   EXPECT_GT(GoodnessAt(drive, -0.2 + kHalfLength_m + 0.3, 0.0), 200);
 }
 
 TEST(GestaltBackward, ATiltIsMarkedAtTheEndThatLed) {
   GestaltSetup setup = Backward();
-  setup.felt = Between(-0.25, -0.2, kTiltLeft);
+  setup.felt = FeltBetween(-0.25, -0.2, kTiltLeft);
   GestaltDrive drive(setup);
-  ASSERT_TRUE(drive.StepUntil(DrivesBackward));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   ASSERT_TRUE(drive.StepUntil(DrivesForward));
-  ASSERT_TRUE(drive.StepUntil(Chooses));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::chooses));
   EXPECT_EQ(GoodnessAt(drive, -0.2 - kHalfLength_m, kHalfWidth_m), 0);
   EXPECT_GT(GoodnessAt(drive, -0.2 - kHalfLength_m, -kHalfWidth_m - 0.3), 200);
   EXPECT_GT(GoodnessAt(drive, -0.2 + kHalfLength_m + 0.3, kHalfWidth_m), 200);
@@ -95,20 +74,20 @@ TEST(GestaltBackward, ATiltIsMarkedAtTheEndThatLed) {
 // Its front swings out, or it stands at a rock: the front is no place to back off to.
 TEST(GestaltBackward, ATouchAheadIsMarkedAheadAndNotDrivenInto) {
   GestaltSetup setup = Backward();
-  setup.felt = Between(-0.25, -0.2, kTouchAhead);
+  setup.felt = FeltBetween(-0.25, -0.2, kTouchAhead);
   GestaltDrive drive(setup);
-  ASSERT_TRUE(drive.StepUntil(DrivesBackward));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   ASSERT_TRUE(drive.StepUntil(Looks));
   EXPECT_NEAR(drive.log().back().X_WR.x_m, -0.2, setup.rover.tick_distance_m() + kRounding);
-  ASSERT_TRUE(drive.StepUntil(Chooses));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::chooses));
   EXPECT_EQ(GoodnessAt(drive, -0.2 + kHalfLength_m, 0.0), 0);
   EXPECT_GT(GoodnessAt(drive, -0.2 - kHalfLength_m - 0.3, 0.0), 200);
 }
 
 TEST(GestaltBackward, ATouchAheadEndsABackOffForward) {
   GestaltSetup setup = Backward();
-  const auto touch = Between(-0.1, 1.0, kTouchAhead);
-  const auto tilt = Between(-0.25, -0.2, kTiltLeft);
+  const auto touch = FeltBetween(-0.1, 1.0, kTouchAhead);
+  const auto tilt = FeltBetween(-0.25, -0.2, kTiltLeft);
   setup.felt = [=](const FakeRover& rover) {
     // On the way there the front is free.
     const bool back = rover.estimate().distance_m > 0.2;
@@ -125,12 +104,12 @@ TEST(GestaltBackward, ATouchAheadEndsABackOffForward) {
 TEST(GestaltMovedEstimate, WhatWasFeltStaysWhereTheRoverFeltIt) {
   for (const math::Pose2& to : {math::Pose2{1.2, 0.0, 0.0}, math::Pose2{40.0, -30.0, 2.0}}) {
     GestaltSetup setup = TrueSetup();
-    setup.felt = Between(1.2, 1.3, kTouchAhead);
+    setup.felt = FeltBetween(1.2, 1.3, kTouchAhead);
     GestaltDrive drive(setup);
-    ASSERT_TRUE(drive.StepUntil(DrivesBackward));
+    ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
     const double ahead_m = 1.2 + kHalfLength_m - drive.rover().X_WR().x_m;
     drive.UpdatePose({to.x_m, to.y_m, to.heading_rad});
-    ASSERT_TRUE(drive.StepUntil(Chooses));
+    ASSERT_TRUE(drive.StepUntil(&GestaltTick::chooses));
     const auto goodness = [&](double further_m) {
       const double x_m = ahead_m + further_m;
       return GoodnessAt(drive, to.x_m + x_m * std::cos(to.heading_rad),
@@ -147,11 +126,11 @@ TEST(GestaltMovedEstimate, WhatWasFeltBeforeTheLastProgressIsForgotten) {
   int felt = 0;
   setup.felt = FeltOnceAfter({2.1}, felt);
   GestaltDrive drive(setup);
-  ASSERT_TRUE(drive.StepUntil(DrivesBackward));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.X_WR.x_m > 5.0; }));
   const math::Pose2& at = drive.rover().X_WR();
   drive.UpdatePose({at.x_m, at.y_m, at.heading_rad});
-  ASSERT_TRUE(drive.StepUntil(Chooses));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::chooses));
   for (const auto& cell : drive.navigator().view()->map.cells) ASSERT_GT(cell.goodness, 0);
 }
 
@@ -165,7 +144,8 @@ TEST(GestaltMovedEstimate, ProgressForgivesWhatWasFelt) {
   GestaltDrive drive(setup);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
   EXPECT_EQ(felt, 2);
-  EXPECT_GT(std::count_if(drive.log().begin(), drive.log().end(), DrivesBackward), 0);
+  EXPECT_GT(std::count_if(drive.log().begin(), drive.log().end(), std::mem_fn(&GestaltTick::backs)),
+            0);
 }
 
 // Walls 0.5 rad to either side, felt until 0.4 rad, stop each turn: half a radian, then one each.

@@ -8,8 +8,6 @@ namespace {
 
 using messages::LookDirection;
 
-constexpr double kRounding = 1e-9;
-
 // Ground that is an obstacle wherever the rover looks from.
 HeightAt Spikes() {
   return [](double x_m, double y_m) {
@@ -45,8 +43,7 @@ TEST(GestaltEndings, GivesUpAfterAFullTurnWithoutASafeArc) {
     const auto turns = Turns(drive.log());
     ASSERT_EQ(turns.size(), 4u) << "four of 90 deg";
     for (const auto& [turned_rad, direction] : turns) {
-      EXPECT_GE(turned_rad, math::DegToRad(90.0) - kRounding);
-      EXPECT_LE(turned_rad, math::DegToRad(90.0) + setup.rover.tick_turn_rad() + kRounding);
+      ExpectEnds(turned_rad, math::DegToRad(90.0), setup.rover.tick_turn_rad());
       EXPECT_EQ(direction, turns[0].second) << "one way";
     }
     EXPECT_EQ(drive.Looks(LookDirection::kAhead), 5);
@@ -102,10 +99,7 @@ TEST(GestaltEndings, EveryDriveEndsASearch) {
 
 TEST(GestaltEndings, GivesUpInAPitAfterFruitlessCycles) {
   GestaltSetup setup;
-  setup.height = Blocks({{1.2, 1.6, -1.6, 1.6},
-                         {-1.6, -1.2, -1.6, 1.6},
-                         {-1.6, 1.6, 1.2, 1.6},
-                         {-1.6, 1.6, -1.6, -1.2}});
+  setup.height = Blocks(Pit());
   setup.params.drive.max_fruitless_cycles = 20;
   GestaltDrive drive(setup);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kGaveUp);
@@ -214,8 +208,7 @@ TEST(GestaltEndings, PoseUpdateDoesNotChangeTheAngleOfATurnUnderWay) {
     drive.UpdatePose({e.x_m + 0.4, e.y_m - 0.7, math::WrapAngle(e.heading_rad + jump_rad)});
     ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
     const double turned_rad = std::abs(drive.rover().X_WR().heading_rad);
-    EXPECT_GE(turned_rad, math::DegToRad(90.0) - kRounding);
-    EXPECT_LE(turned_rad, math::DegToRad(90.0) + setup.rover.tick_turn_rad() + kRounding);
+    ExpectEnds(turned_rad, math::DegToRad(90.0), setup.rover.tick_turn_rad());
   }
 }
 

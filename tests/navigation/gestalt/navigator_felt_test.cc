@@ -13,11 +13,8 @@ using messages::LookDirection;
 using messages::VehicleHazard;
 using messages::VehicleHazardKind;
 
-constexpr double kRounding = 1e-9;
-constexpr VehicleHazard kTouchAhead{VehicleHazardKind::kContact, HazardSide::kAhead};
-
 // The rover's front, half its length ahead, touches a block that no camera sees.
-std::function<std::optional<VehicleHazard>(const FakeRover&)> Unseen(const Block& block) {
+FeltSource Unseen(const Block& block) {
   return [block](const FakeRover& rover) -> std::optional<VehicleHazard> {
     const math::Pose2& X_WR = rover.X_WR();
     for (const double y_m : {-0.42, -0.21, 0.0, 0.21, 0.42}) {
@@ -31,24 +28,12 @@ std::function<std::optional<VehicleHazard>(const FakeRover&)> Unseen(const Block
   };
 }
 
-// First tick at which the motion is a backward arc.
-std::size_t FirstBackward(const std::vector<GestaltTick>& log) {
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    if (log[i].drives() && log[i].decision.motion.direction < 0) return i;
-  }
-  return log.size();
-}
-
 TEST(GestaltFelt, BacksOffAlongTheArcByWhatWasDriven) {
   GestaltSetup setup;
   setup.goal = {5.0, 0.9};  // on an arc to the left
-  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
-    if (rover.X_WR().x_m > 0.2) return kTouchAhead;
-    return std::nullopt;
-  };
+  setup.felt = FeltBeyond(0.2);
   GestaltDrive drive(setup);
-  ASSERT_TRUE(drive.StepUntil(
-      [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   const std::size_t back = drive.log().size() - 1;
   const double driven_m = drive.log()[back].estimate.distance_m;
   EXPECT_GT(drive.log()[back - 1].decision.motion.curvature_per_m, 0.0);
@@ -56,8 +41,7 @@ TEST(GestaltFelt, BacksOffAlongTheArcByWhatWasDriven) {
             drive.log()[back - 1].decision.motion.curvature_per_m);
   ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
   const messages::PoseEstimate& end = drive.log().back().estimate;
-  EXPECT_GE(end.distance_m - driven_m, driven_m - kRounding);
-  EXPECT_LE(end.distance_m - driven_m, driven_m + setup.rover.tick_distance_m() + kRounding);
+  ExpectEnds(end.distance_m - driven_m, driven_m, setup.rover.tick_distance_m());
   EXPECT_NEAR(end.x_m, 0.0, 2.0 * setup.rover.tick_distance_m()) << "where it came from";
   EXPECT_NEAR(end.y_m, 0.0, 2.0 * setup.rover.tick_distance_m());
 }
@@ -65,13 +49,9 @@ TEST(GestaltFelt, BacksOffAlongTheArcByWhatWasDriven) {
 TEST(GestaltFelt, BacksOffNoFurtherThanAskedFor) {
   GestaltSetup setup;
   setup.params.drive.back_off_m = 0.10;
-  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
-    if (rover.X_WR().x_m > 0.25) return kTouchAhead;
-    return std::nullopt;
-  };
+  setup.felt = FeltBeyond(0.25);
   GestaltDrive drive(setup);
-  ASSERT_TRUE(drive.StepUntil(
-      [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   const double felt_m = drive.log().back().estimate.distance_m;
   ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
   EXPECT_NEAR(drive.log().back().estimate.distance_m - felt_m, 0.10,
@@ -84,7 +64,9 @@ TEST(GestaltFelt, DrivesRoundWhatItFeltAndDoesNotSee) {
     setup.felt = Unseen({2.0, 2.3, y_m - 0.15, y_m + 0.15});
     GestaltDrive drive(setup);
     EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-    EXPECT_LT(FirstBackward(drive.log()), drive.log().size()) << "it did meet the block";
+    EXPECT_TRUE(std::any_of(drive.log().begin(), drive.log().end(), [](const GestaltTick& tick) {
+      return tick.backs();
+    })) << "it did meet the block";
     EXPECT_LT(drive.rover().estimate().distance_m, 15.0);
   }
 }
@@ -97,26 +79,17 @@ TEST(GestaltFelt, MarksAnObstacleAtTheEndThatLed) {
   for (const VehicleHazard& hazard : {left, ahead, right, slip}) {
     const HazardSide side = hazard.side;
     GestaltSetup setup = TrueSetup();
-    setup.felt = [hazard](const FakeRover& rover) -> std::optional<VehicleHazard> {
-      if (rover.X_WR().x_m > 1.2 && rover.X_WR().x_m < 1.25) return hazard;
-      return std::nullopt;
-    };
+    setup.felt = FeltBetween(1.2, 1.25, hazard);
     GestaltDrive drive(setup);
-    ASSERT_TRUE(drive.StepUntil(
-        [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
-    ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.has_cloud && t.moves(); }));
+    ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
+    ASSERT_TRUE(drive.StepUntil(&GestaltTick::chooses));
     // Half the length ahead of x = 1.2, half the width aside; the ground is flat otherwise.
     const double y_m =
         side == HazardSide::kAhead ? 0.0 : (side == HazardSide::kLeft ? 0.42 : -0.42);
-    const messages::MapView& map = drive.navigator().view()->map;
-    const auto goodness = [&map](double x, double y) {
-      const int ix = static_cast<int>(std::floor((x - map.x0_m) / map.xstep_m));
-      const int iy = static_cast<int>(std::floor((y - map.y0_m) / map.ystep_m));
-      return static_cast<int>(map.cells[static_cast<std::size_t>(iy * map.nx + ix)].goodness);
-    };
-    EXPECT_EQ(goodness(1.72, y_m), 0);
-    EXPECT_GT(goodness(1.72 + 1.2, y_m), 200);
-    EXPECT_GT(goodness(1.72, side == HazardSide::kLeft ? -0.5 : 0.9), 200) << "the other side";
+    EXPECT_EQ(GoodnessAt(drive, 1.72, y_m), 0);
+    EXPECT_GT(GoodnessAt(drive, 1.72 + 1.2, y_m), 200);
+    EXPECT_GT(GoodnessAt(drive, 1.72, side == HazardSide::kLeft ? -0.5 : 0.9), 200)
+        << "the other side";
   }
 }
 
@@ -149,8 +122,7 @@ TEST(GestaltFelt, OneTickOfSlipMarksWhereItDrove) {
     return VehicleHazard{VehicleHazardKind::kSlip, HazardSide::kAhead};
   };
   GestaltDrive drive(setup);
-  ASSERT_TRUE(drive.StepUntil(
-      [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   const double felt_m = drive.log().back().estimate.distance_m;
   ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
   EXPECT_GT(drive.log().back().estimate.distance_m - felt_m, 0.1) << "it backed off";
@@ -170,22 +142,17 @@ TEST(GestaltFelt, AHazardThatLastsCountsAgainOnlyAfterSomeDriving) {
     return VehicleHazard{VehicleHazardKind::kTilt, HazardSide::kAhead};
   };
   GestaltDrive drive(setup);  // stands tilted from the start
-  ASSERT_TRUE(drive.StepUntil(
-      [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   EXPECT_NEAR(drive.log().back().estimate.distance_m, 0.2,
               setup.rover.tick_distance_m() + kRounding);
 }
 
 TEST(GestaltFelt, ATouchBehindEndsABackOffAndNothingElse) {
   GestaltSetup setup = TrueSetup();
-  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
-    if (rover.X_WR().x_m > 0.3) return kTouchAhead;
-    return std::nullopt;
-  };
+  setup.felt = FeltBeyond(0.3);
   setup.touches_behind = [](const FakeRover& rover) { return rover.X_WR().x_m < 0.28; };
   GestaltDrive drive(setup);
-  ASSERT_TRUE(drive.StepUntil(
-      [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   const double felt_m = drive.log().back().estimate.distance_m;
   EXPECT_GT(felt_m, 0.3) << "driving forward it does not matter";
   ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
@@ -196,10 +163,7 @@ TEST(GestaltFelt, ATouchBehindEndsABackOffAndNothingElse) {
 
 TEST(GestaltFelt, TouchedAtBothEndsDoesNotBackOff) {
   GestaltSetup setup;
-  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
-    if (rover.X_WR().x_m > 0.2) return kTouchAhead;
-    return std::nullopt;
-  };
+  setup.felt = FeltBeyond(0.2);
   setup.touches_behind = [](const FakeRover&) { return true; };
   GestaltDrive drive(setup);
   ASSERT_TRUE(drive.StepUntil([&setup](const GestaltTick& t) { return t.X_WR.x_m > 0.2; }));
@@ -248,11 +212,7 @@ TEST(GestaltFelt, TheArcOnWhichItFeltIsNotChosenAgainFromThere) {
     }
     ASSERT_GE(forward_per_m.size(), 3U);
     EXPECT_EQ(forward_per_m[0], 0.0);
-    if (veto) {
-      EXPECT_NE(forward_per_m[1], 0.0);
-    } else {
-      EXPECT_EQ(forward_per_m[1], 0.0);
-    }
+    EXPECT_EQ(forward_per_m[1] != 0.0, veto);
   }
 }
 

@@ -3,26 +3,12 @@
 
 #include <limits>
 
-#include "core/random.h"
 #include "drive.h"
 
 namespace rockyard::navigation {
 namespace {
 
 constexpr std::uint64_t kSeed = 20020309;
-
-class Draws {
- public:
-  Draws(std::uint32_t trial, std::uint32_t substream)
-      : stream_({kSeed, trial}, core::Purpose::kTest, substream) {}
-
-  double Between(double low, double high) { return low + (high - low) * stream_.Uniform(); }
-  bool Chance(double probability) { return stream_.Uniform() < probability; }
-  int Below(int n) { return static_cast<int>(stream_.Uniform() * n); }
-
- private:
-  core::RandomStream stream_;
-};
 
 // Parameters over the ranges that validation accepts.
 GestaltParams RandomParams(Draws& draws) {
@@ -135,7 +121,7 @@ TEST(GestaltProperty, RandomWorldsNeverHangAndAlwaysDriveACandidate) {
   int turns = 0;
   for (std::uint32_t trial = 0; trial < 150; ++trial) {
     SCOPED_TRACE(trial);
-    Draws draws(trial, 0);
+    Draws draws({kSeed, trial}, 0);
     const GestaltParams params = RandomParams(draws);
     const double goal_x_m = draws.Between(-5, 5);
     GestaltNavigator navigator(params, {goal_x_m, draws.Between(-5, 5)});
@@ -188,7 +174,7 @@ TEST(GestaltProperty, RandomBlocksAreNeverDrivenOverAndDrivesEnd) {
   int arrived = 0;
   for (std::uint32_t trial = 0; trial < 40; ++trial) {
     SCOPED_TRACE(trial);
-    Draws draws(trial, 1);
+    Draws draws({kSeed, trial}, 1);
     GestaltSetup setup = TrueSetup();
     setup.params.drive.max_fruitless_cycles = 40;
     setup.goal = {6.0, draws.Between(-1.0, 1.0)};

@@ -11,16 +11,6 @@ namespace {
 
 using messages::LookDirection;
 
-constexpr double kRounding = 1e-9;
-
-// Walls 0.4 m thick that leave a square of 2.4 m inside.
-std::vector<Block> Pit() {
-  return {{1.2, 1.6, -1.6, 1.6},
-          {-1.6, -1.2, -1.6, 1.6},
-          {-1.6, 1.6, 1.2, 1.6},
-          {-1.6, 1.6, -1.6, -1.2}};
-}
-
 TEST(GestaltNavigator, ArrivesOnEmptyGround) {
   GestaltSetup setup;
   GestaltDrive drive(setup);
@@ -167,8 +157,7 @@ TEST(GestaltNavigator, StepsEndAsMeasured) {
     if (!tick.drives() && drove) {
       const double step_m = tick.estimate.distance_m - begin_m;
       const double asked_m = std::min(0.5, left_m);
-      EXPECT_GE(step_m, asked_m - kRounding);
-      EXPECT_LE(step_m, asked_m + setup.rover.tick_distance_m() + kRounding);
+      ExpectEnds(step_m, asked_m, setup.rover.tick_distance_m());
       ++steps;
     }
     if (!tick.drives()) begin_m = tick.estimate.distance_m;

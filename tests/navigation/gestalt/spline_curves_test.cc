@@ -73,9 +73,7 @@ TEST(SplineCurves, AgreeWithKnownAnswers) {
     const Spline spline{Number(known, "kappa0"), Number(known, "kappa_mid"),
                         Number(known, "kappa1"), Number(known, "L")};
     const ClothoidPoint end = OnSpline(spline, spline.length_m, InDistance());
-    EXPECT_NEAR(end.x_m, Number(known, "x"), 3e-12);
-    EXPECT_NEAR(end.y_m, Number(known, "y"), 3e-12);
-    EXPECT_NEAR(end.heading_rad, Number(known, "theta"), 3e-12);
+    ExpectNear(end, {Number(known, "x"), Number(known, "y"), Number(known, "theta")}, 3e-12);
   }
 }
 
@@ -88,9 +86,7 @@ TEST(SplineCurves, PlacesFollowTheCurvature) {
     for (int i = 0; i < 80000; ++i) {
       if (i % 4000 == 0) {
         const ClothoidPoint place = OnSpline(kSpline, i * step_m, law);
-        EXPECT_NEAR(place.x_m, sum.x_m, 2e-9);
-        EXPECT_NEAR(place.y_m, sum.y_m, 2e-9);
-        EXPECT_NEAR(place.heading_rad, sum.heading_rad, 2e-9);
+        ExpectNear(place, sum, 2e-9);
       }
       const double turn_rad = CurvatureAt(kSpline, (i + 0.5) * step_m, law) * step_m;
       sum.x_m += step_m * std::cos(sum.heading_rad + 0.5 * turn_rad);
@@ -109,9 +105,7 @@ TEST(SplineCurves, GoOnFromAnyPlace) {
       for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
         place = AlongSpline(place, kSpline, stops[i], stops[i + 1], law);
       }
-      EXPECT_NEAR(place.x_m, end.x_m, 4e-12);
-      EXPECT_NEAR(place.y_m, end.y_m, 4e-12);
-      EXPECT_NEAR(place.heading_rad, end.heading_rad, 4e-12);
+      ExpectNear(place, end, 4e-12);
     }
   }
   EXPECT_THROW(OnSpline(kSpline, -0.1, InDistance()), core::ContractViolation);

@@ -6,8 +6,6 @@
 namespace rockyard::navigation {
 namespace {
 
-constexpr double kRounding = 1e-9;
-
 // Direction of each turn that answered a hazardous report, in order.
 std::vector<int> AvoidanceTurns(const std::vector<Tick>& log) {
   std::vector<int> directions;
@@ -41,9 +39,7 @@ TEST(Avoidance, TurnBetweenScansIsTheIncrementAsTheGyroMeasuresIt) {
   ASSERT_EQ(scans.size(), 5u);
   for (std::size_t i = 1; i < scans.size(); ++i) {
     const double turned_rad = MotionBetween(drive.log(), scans[i - 1], scans[i]).turned_rad;
-    EXPECT_GE(turned_rad, setup.params.turn_increment_rad - kRounding);
-    EXPECT_LE(turned_rad,
-              setup.params.turn_increment_rad + setup.rover.tick_turn_rad() + kRounding);
+    ExpectEnds(turned_rad, setup.params.turn_increment_rad, setup.rover.tick_turn_rad());
   }
   const Tick& end = drive.log().back();
   EXPECT_NEAR(end.estimate.heading_rad, 0.94 * end.X_WR.heading_rad, kRounding);
@@ -80,9 +76,8 @@ TEST(Avoidance, GivesUpAfterTheMeasuredTurnOfAWallOfHazards) {
         Drive drive(setup);
         ASSERT_EQ(drive.Run(), NavigatorStatus::kGaveUp);
         const double turned_rad = MotionBetween(drive.log(), 0, drive.log().size() - 1).turned_rad;
-        EXPECT_GE(turned_rad, setup.params.turn_give_up_rad - kRounding);
-        EXPECT_LE(turned_rad, setup.params.turn_give_up_rad + setup.params.turn_increment_rad +
-                                  setup.rover.tick_turn_rad() + kRounding);
+        ExpectEnds(turned_rad, setup.params.turn_give_up_rad,
+                   setup.params.turn_increment_rad + setup.rover.tick_turn_rad());
         EXPECT_EQ(drive.rover().estimate().distance_m, 0.0);
       }
     }

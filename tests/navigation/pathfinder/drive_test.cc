@@ -6,8 +6,6 @@
 namespace rockyard::navigation {
 namespace {
 
-constexpr double kRounding = 1e-9;
-
 double Bearing(const Tick& tick, const messages::Goal& goal) {
   return math::WrapAngle(std::atan2(goal.y_m - tick.estimate.y_m, goal.x_m - tick.estimate.x_m) -
                          tick.estimate.heading_rad);
@@ -45,8 +43,7 @@ TEST(Drive, ScansAfterEveryWheelRadiusOfMeasuredDriving) {
   ASSERT_GT(scans.size(), 100u);
   for (std::size_t i = 1; i < scans.size(); ++i) {
     const double driven_m = MotionBetween(drive.log(), scans[i - 1], scans[i]).driven_m;
-    EXPECT_GE(driven_m, 0.065 - kRounding);
-    EXPECT_LE(driven_m, 0.065 + setup.rover.tick_distance_m() + kRounding);
+    ExpectEnds(driven_m, 0.065, setup.rover.tick_distance_m());
   }
 }
 

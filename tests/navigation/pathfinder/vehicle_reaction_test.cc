@@ -35,7 +35,7 @@ std::size_t Find(const std::vector<Tick>& log, std::size_t first, bool (*holds)(
   return static_cast<std::size_t>(found - log.begin());
 }
 
-bool Backs(const Tick& tick) { return tick.drives() && tick.decision.motion.direction < 0; }
+bool Backs(const Tick& tick) { return tick.backs(); }
 bool Turns(const Tick& tick) { return tick.turns(); }
 bool Scans(const Tick& tick) { return tick.decision.looks(); }
 

@@ -19,20 +19,14 @@ ColourPlanes Even(const Colour& light, int columns = 64, int rows = 64) {
   return planes;
 }
 
-ColourCameraParams Quiet() {
-  ColourCameraParams camera;
-  camera.read_noise_counts = 0.0;
-  camera.full_well_e = 1e12;
-  return camera;
-}
+ColourCameraParams Quiet() { return {.full_well_e = 1e12, .read_noise_counts = 0.0}; }
 
 // Without dust all light comes from the sun and, by the ground, from below.
 TEST(ColourLight, SunSkyAndGroundAreThoseOfClosedForms) {
-  CylinderLightParams clear;
-  clear.elevation_rad = math::DegToRad(30.0);
-  clear.azimuth_rad = math::DegToRad(90.0);
-  clear.optical_depth = 0.0;
-  clear.sun = {1.0, 0.5, 0.25};
+  const CylinderLightParams clear{.elevation_rad = math::DegToRad(30.0),
+                                  .azimuth_rad = math::DegToRad(90.0),
+                                  .optical_depth = 0.0,
+                                  .sun = {1.0, 0.5, 0.25}};
   const ColourLight light(clear, kGround);
   const math::Vector3 up = math::Vector3::UnitZ();
   EXPECT_NEAR((light.toward_sun_L() - math::Vector3(0.0, std::sqrt(0.75), 0.5)).norm(), 0.0, 1e-12);
@@ -52,8 +46,7 @@ TEST(ColourLight, SunSkyAndGroundAreThoseOfClosedForms) {
 
 TEST(ColourReadout, WhiteIsGreyAtTheElevationOfTheBalanceAlone) {
   ColourCameraParams camera = Quiet();
-  CylinderLightParams light;
-  light.elevation_rad = camera.balance_elevation_rad;
+  CylinderLightParams light{.elevation_rad = camera.balance_elevation_rad};
   const ColourReadout readout(camera, light, kGround);
   const Colour white = readout.CountsOf(ColourLight(light, kGround).On(math::Vector3::UnitZ()));
   EXPECT_NEAR(white[0], white[1], 1e-9 * white[0]);
@@ -67,8 +60,7 @@ TEST(ColourReadout, WhiteIsGreyAtTheElevationOfTheBalanceAlone) {
 TEST(ColourReadout, LevelGroundHasTheCountOfTheExposure) {
   const ColourCameraParams camera = Quiet();
   for (const double elevation_deg : {10.0, 60.0}) {
-    CylinderLightParams light;
-    light.elevation_rad = math::DegToRad(elevation_deg);
+    const CylinderLightParams light{.elevation_rad = math::DegToRad(elevation_deg)};
     const ColourReadout readout(camera, light, kGround);
     const Colour up = ColourLight(light, kGround).On(math::Vector3::UnitZ());
     EXPECT_NEAR(readout.CountsOf(kGround * up).maxCoeff(), 0.35 * 255.0, 1e-9);
@@ -135,9 +127,7 @@ TEST(ColourReadout, ColoursAreBlurredMoreThanBrightness) {
 }
 
 TEST(ColourReadout, NoiseHasTheVarianceOfReadAndShotNoise) {
-  ColourCameraParams camera;
-  camera.read_noise_counts = 2.0;
-  camera.full_well_e = 5000.0;
+  const ColourCameraParams camera{.full_well_e = 5000.0, .read_noise_counts = 2.0};
   const ColourReadout readout(camera, {}, kGround);
   const ColourPlanes counts = Even({100.25, 50.25, 150.25}, 256, 256);
   const vision::ColourImage first = readout.Read(counts, kKey, 0);

@@ -75,8 +75,7 @@ void BM_Pair(benchmark::State& state) {
 BENCHMARK(BM_Pair)->ArgName("vl2")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 void BM_PairWithJaggedEdges(benchmark::State& state) {
-  LookParams look;
-  look.edge_samples = 1;
+  const LookParams look{.edge_samples = 1};
   RenderPairs(state, MarsWith(0.013, 0.0), look);
 }
 BENCHMARK(BM_PairWithJaggedEdges)->Unit(benchmark::kMillisecond);
@@ -103,9 +102,7 @@ std::vector<double> Reduced(const terrain::Terrain& terrain, const LookParams& l
 // root mean square over the mean, as rendered and reduced to a quarter each way.
 void BM_PairOfFewSamples(benchmark::State& state) {
   const terrain::Terrain terrain = MarsWith(0.013, 0.0);
-  LookParams look;
-  look.edge_samples = state.range(0);
-  look.texture_taps = state.range(1);
+  LookParams look{.edge_samples = state.range(0), .texture_taps = state.range(1)};
   LookParams finest;
   finest.edge_samples = finest.texture_taps = 16;
   Pair pair(terrain);

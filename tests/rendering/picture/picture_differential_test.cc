@@ -24,8 +24,7 @@ terrain::Terrain Field(double roughness_m, double pointedness, terrain::ArenaKin
 }
 
 void ExpectRaysOfTheTerrain(const terrain::Terrain& terrain, const vision::CameraModel& camera) {
-  SunParams sun;
-  sun.elevation_rad = 0.4;
+  const SunParams sun{.elevation_rad = 0.4};
   const PictureKit kit(terrain, sun, {}, camera);
   const Picture picture = kit.Render();
   const std::vector<terrain::RockShape> shapes(terrain.rocks().begin(), terrain.rocks().end());

@@ -53,9 +53,7 @@ TEST(PictureNoise, VarianceIsThatOfShotDarkAndReadNoise) {
 }
 
 TEST(PictureNoise, StuckPixelsAreAsManyAsStated) {
-  PictureCameraParams params;
-  params.stuck_share = 0.01;
-  params.vignetting = Vignetting::kNone;
+  const PictureCameraParams params{.vignetting = Vignetting::kNone, .stuck_share = 0.01};
   const PictureReadout readout(params, Rays(), 0, {4, 0});
   const vision::Image<float> rates(kSide, kSide, 5e6F);
   const RawImage raw = readout.Read(rates, 0.01, 0);

@@ -68,8 +68,7 @@ TEST(PictureParams, ConditionsAcrossFieldsHold) {
 }
 
 TEST(TextureParams, FamilyGoesFromDriftToGravel) {
-  LookParams look;
-  look.soil_graininess = 0.0;
+  LookParams look{.soil_graininess = 0.0};
   EXPECT_EQ(look.Soil(), DriftTexture());
   look.soil_graininess = 1.0;
   const TextureParams gravel = look.Soil();

@@ -138,8 +138,7 @@ TEST(PictureReadout, CorrectedImagesAreFlat) {
 }
 
 TEST(PictureReadout, ImagesDifferAndPatternsStay) {
-  PictureCameraParams params;
-  params.stuck_share = 0.01;
+  const PictureCameraParams params{.stuck_share = 0.01};
   const PixelRays rays = Wide();
   const PictureReadout readout(params, rays, 1, kKey);
   const auto rates = readout.Rates(Even(10.0F));

@@ -21,10 +21,8 @@ using terrain::EllipsoidRock;
 using terrain::FlatWith;
 
 SunParams SunAt(double elevation_deg, double azimuth_deg) {
-  SunParams sun;
-  sun.elevation_rad = math::DegToRad(elevation_deg);
-  sun.azimuth_rad = math::DegToRad(azimuth_deg);
-  return sun;
+  return {.elevation_rad = math::DegToRad(elevation_deg),
+          .azimuth_rad = math::DegToRad(azimuth_deg)};
 }
 
 TEST(PictureRenderer, PlaneHasItsRangeAndRadiance) {

@@ -48,9 +48,8 @@ void Run(const std::string& out, const std::array<double, 8>& numbers) {
   terrain_params.arena.kind = terrain::ArenaKind::kOpen;
   const terrain::Terrain terrain =
       terrain::BuildField(terrain_params, kKey, terrain::Course{}).terrain;
-  SunParams sun;
-  sun.elevation_rad = math::DegToRad(sun_deg);
-  sun.azimuth_rad = math::DegToRad(100.0);
+  const SunParams sun{.elevation_rad = math::DegToRad(sun_deg),
+                      .azimuth_rad = math::DegToRad(100.0)};
   PictureParams params;
   params.look.soil_graininess = graininess;
   const PictureScene scene(terrain, sun, params.look, params.camera.imager.filter_width_m, {});

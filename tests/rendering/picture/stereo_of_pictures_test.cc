@@ -102,11 +102,7 @@ double Share(const Outcome& outcome, Drop drop) {
   return static_cast<double>(outcome.drops[static_cast<std::size_t>(drop)]) / (kColumns * kRows);
 }
 
-LookParams Soil(double graininess) {
-  LookParams look;
-  look.soil_graininess = graininess;
-  return look;
-}
+LookParams Soil(double graininess) { return {.soil_graininess = graininess}; }
 
 TEST(StereoOfPictures, SoilAndRocksAreMatched) {
   for (const double graininess : {0.0, 0.5, 1.0}) {

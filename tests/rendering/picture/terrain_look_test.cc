@@ -19,11 +19,7 @@ const Vector3 kTinyX(1e-6, 0.0, 0.0);
 const Vector3 kTinyY(0.0, 1e-6, 0.0);
 
 SurfacePoint PointAt(const Vector3& p_W, const Vector3& normal_W, int surface) {
-  SurfacePoint point;
-  point.p_W = p_W;
-  point.normal_W = normal_W.normalized();
-  point.surface = surface;
-  return point;
+  return {.p_W = p_W, .normal_W = normal_W.normalized(), .surface = surface};
 }
 
 TEST(TerrainLook, WithoutTextureSurfacesAreAsTheSunSays) {
@@ -46,9 +42,7 @@ TEST(TerrainLook, WithoutTextureSurfacesAreAsTheSunSays) {
 
 // The normal on soil is that of the surface z = relief * v, by differences of the albedo.
 TEST(TerrainLook, ReliefGoesWithTheAlbedo) {
-  LookParams params;
-  params.soil_graininess = 0.0;
-  params.drift = {0.1, 3.0, 0.4, 0.1, 0.2};
+  const LookParams params{.soil_graininess = 0.0, .drift = {0.1, 3.0, 0.4, 0.1, 0.2}};
   const SunParams sun;
   const terrain::Terrain terrain = terrain::FlatWith({});
   TerrainLook look(terrain, sun, params, kKey);
@@ -133,10 +127,8 @@ TEST(TerrainLook, RocksDifferAsMuchAsStated) {
 TEST(TerrainLook, TapsKeepTheTextureOfStrips) {
   const terrain::Terrain terrain = terrain::FlatWith({});
   const auto deviation = [&](std::int64_t taps) {
-    LookParams params;
-    params.soil_graininess = 0.0;
-    params.drift = {0.1, 2.0, 0.05, 0.003125, 0.0};
-    params.texture_taps = taps;
+    const LookParams params{
+        .soil_graininess = 0.0, .drift = {0.1, 2.0, 0.05, 0.003125, 0.0}, .texture_taps = taps};
     TerrainLook look(terrain, {}, params, kKey);
     double sum = 0.0;
     double square = 0.0;

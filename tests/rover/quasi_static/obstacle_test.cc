@@ -12,19 +12,14 @@ namespace {
 
 using truth::BodyPart;
 
-RoverParams QuasiStatic() {
-  RoverParams params;
-  params.fidelity = Fidelity::kQuasiStatic;
-  return params;
-}
+RoverParams QuasiStatic() { return WithFidelity(Fidelity::kQuasiStatic); }
 
 // Wheels over a low rock on one side: the wheel centre rises to the rock's top plus the radius less
 // the sinkage, and the bogie's angle follows from its length.
 TEST(QuasiStaticRock, BogieAngleFromGeometry) {
   const RoverParams params = QuasiStatic();
   const double top_m = 0.05;
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.26, 0.2, 0.0, 0.1, 0.1, top_m)});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain({MakeRock(0.26, 0.2, 0.0, 0.1, 0.1, top_m)}), params);
   const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
   const double length_m = geometry.wheel_R[0].x() - geometry.wheel_R[1].x();
   const truth::RoverState& state = rover->state();
@@ -36,8 +31,7 @@ TEST(QuasiStaticRock, BogieAngleFromGeometry) {
 
 TEST(QuasiStaticRock, LowerThanTheBellyPassesBetweenTheWheels) {
   const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)}), params);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   for (int i = 0; i < 200; ++i) {
     rover->Step(command);
@@ -48,8 +42,7 @@ TEST(QuasiStaticRock, LowerThanTheBellyPassesBetweenTheWheels) {
 
 TEST(QuasiStaticRock, TallerThanTheBellyBlocksItUntilItBacksOff) {
   const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)}), params);
   RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
   const truth::RoverState& state = rover->state();
   EXPECT_LT(state.X_WR.translation().x(), 0.5);
@@ -64,8 +57,7 @@ TEST(QuasiStaticRock, TallerThanTheBellyBlocksItUntilItBacksOff) {
 
 TEST(QuasiStaticWall, StopsTheRover) {
   const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}}), params);
   RunFor(*rover, Drive(params, 0.15, 0.0), 6.0);
   EXPECT_NEAR(rover->state().X_WR.translation().x(), 0.8 - 0.5 * params.geometry.length_m, 0.01);
 }
@@ -73,8 +65,7 @@ TEST(QuasiStaticWall, StopsTheRover) {
 // A wheel that is steered into a rock while the rover stands pushes the rover away.
 TEST(QuasiStaticRock, SteeringAtRestLeavesNoWheelInsideARock) {
   const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.30, -0.345, 0.1, 0.1, 0.1, 0.3)});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain({MakeRock(0.30, -0.345, 0.1, 0.1, 0.1, 0.3)}), params);
   const math::Vector3 before = rover->state().X_WR.translation();
   RunFor(*rover, SteerOnly(Drive(params, 0.0, -0.4)), 1.0);
   EXPECT_GT((rover->state().X_WR.translation() - before).norm(), 0.001);
@@ -83,11 +74,9 @@ TEST(QuasiStaticRock, SteeringAtRestLeavesNoWheelInsideARock) {
 // How far each wheel turns in a second of what it is told, of a rover that has driven against a
 // rock as wide as itself and higher than its wheels.
 messages::PerWheel<double> TurnSharesAtAWall(Fidelity fidelity, double stall_torque_Nm) {
-  RoverParams params;
-  params.fidelity = fidelity;
+  RoverParams params = WithFidelity(fidelity);
   params.drive.stall_torque_Nm = stall_torque_Nm;
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.7, 0.0, 0.0, 0.2, 2.0, 0.6)});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain({MakeRock(0.7, 0.0, 0.0, 0.2, 2.0, 0.6)}), params);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   RunFor(*rover, command, 6.0);
   const messages::PerWheel<double> before = rover->state().wheel_angle_rad;
@@ -125,8 +114,7 @@ struct Stalled {
 
 Stalled StalledWheels(Fidelity fidelity, const terrain::Terrain& terrain, double time_s,
                       double stall_torque_Nm) {
-  RoverParams params;
-  params.fidelity = fidelity;
+  RoverParams params = WithFidelity(fidelity);
   params.drive.stall_torque_Nm = stall_torque_Nm;
   const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);

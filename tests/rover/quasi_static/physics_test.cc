@@ -14,11 +14,7 @@ namespace {
 constexpr double kUphill = 0.0;
 constexpr double kLeftUp = std::numbers::pi / 2;
 
-RoverParams QuasiStatic() {
-  RoverParams params;
-  params.fidelity = Fidelity::kQuasiStatic;
-  return params;
-}
+RoverParams QuasiStatic() { return WithFidelity(Fidelity::kQuasiStatic); }
 
 double Sum(const messages::PerWheel<double>& values) {
   double sum = 0.0;
@@ -29,8 +25,7 @@ double Sum(const messages::PerWheel<double>& values) {
 TEST(QuasiStaticLevel, WheelsBearTheWeightAndSinkAsTheSoilSays) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({1.0, 2.0, 0.5});
+  const auto rover = PlacedRover(params, terrain, {1.0, 2.0, 0.5});
   const truth::RoverState& state = rover->state();
   EXPECT_NEAR(Sum(state.wheel_load_N), Weights(params).total_N, 0.01);
   EXPECT_NEAR(math::Heading(state.X_WR), 0.5, 1e-6);
@@ -46,8 +41,7 @@ TEST(QuasiStaticLevel, WheelsBearTheWeightAndSinkAsTheSoilSays) {
 
 TEST(QuasiStaticLevel, SteeringIsLimitedInRateAndAngle) {
   const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain(), params);
   messages::WheelCommand command;
   command.steer_rad.fill(2.0);
   rover->Step(command);
@@ -100,8 +94,7 @@ TEST(QuasiStaticLevel, WayIsThatOfTheSlipLawHoweverFineTheStretches) {
 // Levers about the bogie pivots: equal arms share a bogie's load equally.
 TEST(QuasiStaticLevel, BogieSharesItsLoadByLevers) {
   const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain(), params);
   const messages::PerWheel<double>& load_N = rover->state().wheel_load_N;
   EXPECT_NEAR(load_N[0], load_N[1], 0.1);
   EXPECT_NEAR(load_N[0], load_N[3], 1e-3);
@@ -156,8 +149,7 @@ TEST(QuasiStaticSlope, WayIsThatOfTheClosedFormOnEverySoil) {
       const terrain::Terrain terrain =
           SlopeTerrain(slope, slope_deg < 0.0 ? std::numbers::pi : kUphill, soil);
       for (const Fidelity fidelity : {Fidelity::kMultibody, Fidelity::kQuasiStatic}) {
-        RoverParams params;
-        params.fidelity = fidelity;
+        const RoverParams params = WithFidelity(fidelity);
         const auto rover = PlacedRover(params, terrain);
         const messages::WheelCommand command = Drive(params, 0.15, 0.0);
         RunFor(*rover, command, 2.0);
@@ -189,8 +181,7 @@ TEST(QuasiStaticSlope, WheelsCarryTheNormalPartOfTheWeight) {
     for (const double direction : {kUphill, kLeftUp, 0.7}) {
       const RoverParams params = QuasiStatic();
       const double slope = math::DegToRad(slope_deg);
-      const terrain::Terrain terrain = SlopeTerrain(slope, direction);
-      const auto rover = PlacedRover(params, terrain);
+      const RoverOn rover(SlopeTerrain(slope, direction), params);
       EXPECT_NEAR(Sum(rover->state().wheel_load_N), Weights(params).total_N * std::cos(slope),
                   1e-3 * Weights(params).total_N)
           << slope_deg;
@@ -203,8 +194,7 @@ TEST(QuasiStaticSlope, BrakedRoverSlidesBeyondTheFrictionAngle) {
   for (const double excess_deg : {-1.0, 1.0}) {
     const RoverParams params = QuasiStatic();
     const double slope = std::atan(0.5) + math::DegToRad(excess_deg);
-    const terrain::Terrain terrain = SlopeTerrain(slope, kLeftUp, RigidGround(0.5));
-    const auto rover = PlacedRover(params, terrain);
+    const RoverOn rover(SlopeTerrain(slope, kLeftUp, RigidGround(0.5)), params);
     const math::Vector3 from = rover->state().X_WR.translation();
     RunFor(*rover, kBraked, 2.0);
     const math::Vector3 moved = rover->state().X_WR.translation() - from;
@@ -224,8 +214,7 @@ TEST(QuasiStaticSlope, NothingCreepsWhereNothingCanMove) {
   soil.cohesion_Pa = 0.0;
   const RoverParams params = QuasiStatic();
   for (const double slope_deg : {0.0, 5.0}) {
-    const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(slope_deg), kUphill, soil);
-    const auto rover = PlacedRover(params, terrain);
+    const RoverOn rover(SlopeTerrain(math::DegToRad(slope_deg), kUphill, soil), params);
     const math::Vector3 from = rover->state().X_WR.translation();
     RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
     // The referee calls a rover stuck that moved less than 2 cm in ten seconds.
@@ -236,8 +225,7 @@ TEST(QuasiStaticSlope, NothingCreepsWhereNothingCanMove) {
 // Beyond what a slip of 1 mobilizes the wheels turn on the spot or the rover slides back.
 TEST(QuasiStaticSlope, SteepSandIsNotClimbed) {
   const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(28.0), kUphill);
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(SlopeTerrain(math::DegToRad(28.0), kUphill), params);
   RunFor(*rover, Drive(params, 0.15, 0.0), 5.0);
   EXPECT_LT(rover->state().X_WR.translation().x(), 0.05);
   EXPECT_NEAR(rover->state().wheel_angle_rad[0] * params.geometry.wheel_radius_m, 0.75, 0.01);
@@ -254,8 +242,7 @@ TEST(QuasiStaticSlope, TipsOverSidewaysAtTheStaticAngle) {
     ground.slope_direction_rad = kLeftUp;
     ground.soil = terrain::MakeSoil(terrain::SoilPreset::kHardGround);
     ground.soil.friction_angle_rad = math::DegToRad(60.0);  // holds until it tips
-    const terrain::Terrain terrain(terrain::Ground(ground, {}), {}, {});
-    const auto rover = PlacedRover(params, terrain);
+    const RoverOn rover(terrain::Terrain(terrain::Ground(ground, {}), {}, {}), params);
     RunFor(*rover, Drive(params, 0.15, 0.0), 2.0);
     return math::Tilt(rover->state().X_WR) - slope;
   };
@@ -285,8 +272,7 @@ TEST(QuasiStaticDrive, TurnsInPlaceAboutItsCentre) {
 
 TEST(QuasiStaticDrive, FollowsTheArcOfItsSteering) {
   const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain(), params);
   const messages::WheelCommand command = Drive(params, 0.1, 0.1);  // radius 1 m
   RunFor(*rover, SteerOnly(command), 1.0);
   RunFor(*rover, command, 10.0);
@@ -300,8 +286,7 @@ TEST(QuasiStaticDrive, FollowsTheArcOfItsSteering) {
 // Put down anew while it drives, the rover stands with straight wheels and motors at rest.
 TEST(QuasiStaticDrive, StandsWhereItIsPutWhileItDrives) {
   const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain(), params);
   RunFor(*rover, Drive(params, 0.15, 0.0), 2.0);
   rover->Place({3.0, 0.0, 0.0});
   RunFor(*rover, kBraked, 1.0);
@@ -313,8 +298,7 @@ TEST(QuasiStaticDrive, StandsWhereItIsPutWhileItDrives) {
 // is the same place.
 TEST(QuasiStaticDrive, StatesTheSinkageOfItsWheels) {
   for (const Fidelity fidelity : {Fidelity::kMultibody, Fidelity::kQuasiStatic}) {
-    RoverParams params;
-    params.fidelity = fidelity;
+    const RoverParams params = WithFidelity(fidelity);
     const terrain::Terrain terrain = FlatTerrain();
     const auto rover = PlacedRover(params, terrain);
     RunFor(*rover, Drive(params, 0.15, 0.0), 2.0);
@@ -331,8 +315,7 @@ TEST(QuasiStaticDrive, StatesTheSinkageOfItsWheels) {
 // leaves finite rates and no jump.
 TEST(QuasiStaticDrive, ChangesOfMindGiveNoJumps) {
   const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.5, 0.2, 0.0, 0.1, 0.08, 0.07)});
-  const auto rover = PlacedRover(params, terrain);
+  const RoverOn rover(FlatTerrain({MakeRock(0.5, 0.2, 0.0, 0.1, 0.08, 0.07)}), params);
   const messages::WheelCommand commands[] = {
       Drive(params, 0.15, 0.0), SteerOnly(Drive(params, 0.0, 0.4)), Drive(params, -0.15, 0.0),
       Drive(params, 0.15, 0.0), Drive(params, 0.0, -0.4),           Drive(params, 0.1, 0.3)};
@@ -350,8 +333,7 @@ TEST(QuasiStatic, EqualCallsGiveEqualBits) {
   const RoverParams params = QuasiStatic();
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.5, 0.2, 0.0, 0.1, 0.08, 0.07)});
   const auto drive = [&] {
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({0.0, 0.01, 0.1});
+    const auto rover = PlacedRover(params, terrain, {0.0, 0.01, 0.1});
     RunFor(*rover, Drive(params, 0.15, 0.05), 8.0);
     return rover->state();
   };

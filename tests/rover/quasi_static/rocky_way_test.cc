@@ -63,8 +63,7 @@ std::vector<RockyDrive> DriveOverFields(const RoverParams& params) {
 }
 
 RoverParams QuasiStatic(double rock_settle_share) {
-  RoverParams params;
-  params.fidelity = Fidelity::kQuasiStatic;
+  RoverParams params = WithFidelity(Fidelity::kQuasiStatic);
   params.quasi_static.rock_settle_share = rock_settle_share;
   return params;
 }

@@ -12,8 +12,7 @@ namespace rockyard::rover {
 namespace {
 
 RoverParams QuasiStatic(double ramp_s) {
-  RoverParams params;
-  params.fidelity = Fidelity::kQuasiStatic;
+  RoverParams params = WithFidelity(Fidelity::kQuasiStatic);
   params.drive.ramp_s = ramp_s;
   return params;
 }
@@ -46,8 +45,7 @@ TEST(QuasiStaticStanding, HangsNowhereWhenItBrakesOverAnEdge) {
   const terrain::Terrain terrain = StepTerrain(0.2);
   const double weight_N = Weights(params).total_N;
   for (int steps = 85; steps < 105; ++steps) {
-    const auto rover = MakeRover(params, terrain);
-    rover->Place({1.2, 0.0, 0.0});
+    const auto rover = PlacedRover(params, terrain, {1.2, 0.0, 0.0});
     for (int i = 0; i < steps; ++i) rover->Step(Drive(params, 0.15, 0.0));
     RunFor(*rover, kBraked, 1.0);
     double borne_N = 0.0;

@@ -13,8 +13,7 @@ constexpr double kUphill = 0.0;
 constexpr double kDownhill = std::numbers::pi;
 
 RoverParams With(Fidelity fidelity, double ramp_s) {
-  RoverParams params;
-  params.fidelity = fidelity;
+  RoverParams params = WithFidelity(fidelity);
   params.drive.ramp_s = ramp_s;
   return params;
 }

@@ -3,7 +3,7 @@
 
 #include "core/check.h"
 #include "vision/cameras/test_cameras.h"
-#include "vision/image.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::vision {
 namespace {
@@ -13,15 +13,13 @@ using math::Vector3;
 // The mean over factor x factor pixels.
 Image<double> BoxReduced(const Image<double>& image, int factor) {
   Image<double> reduced(image.width() / factor, image.height() / factor);
-  for (int y = 0; y < reduced.height(); ++y) {
-    for (int x = 0; x < reduced.width(); ++x) {
-      for (int dy = 0; dy < factor; ++dy) {
-        for (int dx = 0; dx < factor; ++dx) {
-          reduced.At(x, y) += image.At(factor * x + dx, factor * y + dy) / (factor * factor);
-        }
+  ForEachPixel(reduced.width(), reduced.height(), [&](int x, int y) {
+    for (int dy = 0; dy < factor; ++dy) {
+      for (int dx = 0; dx < factor; ++dx) {
+        reduced.At(x, y) += image.At(factor * x + dx, factor * y + dy) / (factor * factor);
       }
     }
-  }
+  });
   return reduced;
 }
 
@@ -30,14 +28,8 @@ Image<double> BoxReduced(const Image<double>& image, int factor) {
 TEST(CameraModelTest, AReducedCameraSeesWhereTheBoxFiltersPixelsComeFrom) {
   for (const NamedCamera& named : ModelCameras()) {
     const ImageSize& size = named.camera.size;
-    Image<double> columns(size.columns, size.rows);
-    Image<double> rows(size.columns, size.rows);
-    for (int y = 0; y < size.rows; ++y) {
-      for (int x = 0; x < size.columns; ++x) {
-        columns.At(x, y) = x;
-        rows.At(x, y) = y;
-      }
-    }
+    const auto columns = ImageOf<double>(size.columns, size.rows, [](int x, int) { return x; });
+    const auto rows = ImageOf<double>(size.columns, size.rows, [](int, int y) { return y; });
     for (const int factor : {2, 3, 4}) {
       const Image<double> from_columns = BoxReduced(columns, factor);
       const Image<double> from_rows = BoxReduced(rows, factor);

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "core/error.h"
+#include "core/refusals.h"
 #include "vision/cameras/test_cameras.h"
 
 namespace rockyard::vision {
@@ -41,18 +41,16 @@ S internal =
 )";
 
 std::string ProblemsOf(const std::string& text, bool as_pair = false) {
-  try {
+  const auto problems = core::ProblemsIn([&] {
     as_pair ? void(ParseCameraPairText(text, "eye.cahv")) : void(ParseCameraText(text, "eye.cahv"));
-  } catch (const core::UserError& error) {
-    std::string all;
-    for (const core::Problem& problem : error.problems()) {
-      EXPECT_EQ(problem.path, "eye.cahv");
-      EXPECT_FALSE(problem.suggestion.empty());
-      all += problem.reason + "; ";
-    }
-    return all;
+  });
+  std::string all;
+  for (const core::Problem& problem : problems) {
+    EXPECT_EQ(problem.path, "eye.cahv");
+    EXPECT_FALSE(problem.suggestion.empty());
+    all += problem.reason + "; ";
   }
-  return "none";
+  return problems.empty() ? "none" : all;
 }
 
 std::string Linear(const std::string& model = "CAHV") {
@@ -140,43 +138,39 @@ TEST(CameraTextTest, APairIsTwoBlocksInEitherOrder) {
 }
 
 TEST(CameraTextTest, ProblemsAreToldByTheirLines) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    return ProblemsOf(Replaced(Linear(), from, to));
+  };
+  const auto with_more = [](const std::string& lines) { return ProblemsOf(Linear() + lines); };
   EXPECT_EQ(ProblemsOf(Linear()), "none");
   EXPECT_EQ(ProblemsOf(""), "line 1 ff.: model is missing; ");
   EXPECT_EQ(ProblemsOf("\nModel = CAHV\nA = 0 0 1\n"),
             "line 1 ff.: columns is missing, as well as rows, C, H, V; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "Model = CAHV", "Model = CAHVX")),
+  EXPECT_EQ(with("Model = CAHV", "Model = CAHVX"),
             "line 1 has the model \"CAHVX\", which is not known; ");
   EXPECT_EQ(ProblemsOf(Linear("CAHVORE4")), "line 1 has the type \"4\" of a CAHVORE; ");
   EXPECT_EQ(ProblemsOf(Linear("CAHVORE3,x")), "line 1 has the linearity \"x\"; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "C = 0 0 0", "C = 0 0")),
-            "line 3 gives 2 numbers for C, not 3; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "C = 0 0 0", "C = 0 0 0 0")),
-            "line 3 gives more than 3 numbers for C, not 3; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "C = 0 0 0", "C = 0 nan 0")),
-            "line 3 has \"nan\" in C; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "C = 0 0 0", "C = 0 1e999 0")),
-            "line 3 has \"1e999\" in C; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "640 480", "640.5 480")),
-            "line 2 has \"640.5\" in Dimensions; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "640 480", "640 -480")),
+  EXPECT_EQ(with("C = 0 0 0", "C = 0 0"), "line 3 gives 2 numbers for C, not 3; ");
+  EXPECT_EQ(with("C = 0 0 0", "C = 0 0 0 0"), "line 3 gives more than 3 numbers for C, not 3; ");
+  EXPECT_EQ(with("C = 0 0 0", "C = 0 nan 0"), "line 3 has \"nan\" in C; ");
+  EXPECT_EQ(with("C = 0 0 0", "C = 0 1e999 0"), "line 3 has \"1e999\" in C; ");
+  EXPECT_EQ(with("640 480", "640.5 480"), "line 2 has \"640.5\" in Dimensions; ");
+  EXPECT_EQ(with("640 480", "640 -480"),
             "line 2: rows is -480, below the smallest allowed value 1; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "640 480", "65537 480")),
+  EXPECT_EQ(with("640 480", "65537 480"),
             "line 2: columns is 65537, above the largest allowed value 65536; ");
-  EXPECT_EQ(ProblemsOf(Linear() + "C = 1 1 1\n"), "line 7 gives C again, after line 3; ");
-  EXPECT_EQ(ProblemsOf(Linear() + "Dimension = 1 1\n"),
+  EXPECT_EQ(with_more("C = 1 1 1\n"), "line 7 gives C again, after line 3; ");
+  EXPECT_EQ(with_more("Dimension = 1 1\n"),
             "line 7 has the key \"Dimension\", which is not known; ");
-  EXPECT_EQ(ProblemsOf(Linear() + "1 2 3\n"), "line 7 is \"1 2 3\", without a \"=\"; ");
-  EXPECT_EQ(ProblemsOf(Linear() + "S =\n1 2\nC\n"), "line 9 is \"C\", without a \"=\"; ");
-  EXPECT_EQ(ProblemsOf(Linear() + "S =\n1 2\nHs = 1\n3 4\n"),
-            "line 10 is \"3 4\", without a \"=\"; ");
-  EXPECT_EQ(ProblemsOf(Linear() + "O = 0 0 1\n"), "line 7: O is not a known key; ");
+  EXPECT_EQ(with_more("1 2 3\n"), "line 7 is \"1 2 3\", without a \"=\"; ");
+  EXPECT_EQ(with_more("S =\n1 2\nC\n"), "line 9 is \"C\", without a \"=\"; ");
+  EXPECT_EQ(with_more("S =\n1 2\nHs = 1\n3 4\n"), "line 10 is \"3 4\", without a \"=\"; ");
+  EXPECT_EQ(with_more("O = 0 0 1\n"), "line 7: O is not a known key; ");
   EXPECT_EQ(ProblemsOf(Linear("CAHVOR")), "line 1 ff.: O is missing, as well as R; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "A = 0 0 1", "A = 0 0 0.9")),
-            "line 4: A is not of length 1; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "A = 0 0 1", "A = 0 0 1.5")),
+  EXPECT_EQ(with("A = 0 0 1", "A = 0 0 0.9"), "line 4: A is not of length 1; ");
+  EXPECT_EQ(with("A = 0 0 1", "A = 0 0 1.5"),
             "line 4: A[2] is 1.5, above the largest allowed value 1.001; ");
-  EXPECT_EQ(ProblemsOf(Replaced(Linear(), "V = 0 300 240", "V = 300 1 240")),
-            "line 5: H lies in one plane with V and A; ");
+  EXPECT_EQ(with("V = 0 300 240", "V = 300 1 240"), "line 5: H lies in one plane with V and A; ");
   EXPECT_EQ(ProblemsOf(Linear("CAHVOR") + "O = 0 0 1\nR = -1 0 0\n"),
             "line 8: R has a first number of -1 or less: no image is left; ");
   EXPECT_EQ(ProblemsOf(Linear("CAHVORE3,1.5") + "O = 0 0 1\nR = 0 0 0\nE = 0 0 0\n"),
@@ -213,12 +207,7 @@ TEST(CameraTextTest, LongTextsAreRefusedUnread) {
 TEST(CameraTextTest, ManyProblemsAreToldUpToTwenty) {
   std::string text;
   for (int i = 0; i < 500; ++i) text += "nonsense\n";
-  try {
-    ParseCameraText(text, "x");
-    FAIL();
-  } catch (const core::UserError& error) {
-    EXPECT_EQ(error.problems().size(), 20);
-  }
+  EXPECT_EQ(core::ProblemsIn([&] { ParseCameraText(text, "x"); }).size(), 20U);
 }
 
 }  // namespace

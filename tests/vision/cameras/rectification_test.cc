@@ -15,6 +15,8 @@ namespace {
 using math::Transform;
 using math::Vector3;
 
+const Cahv kPlainLens{{0, 0, 0}, {0, 0, 1}, {300, 0, 160}, {0, 300, 90}};
+
 // A pair of cameras of one kind, the right one 0.2 m along the rows of the left one, somewhat ahead
 // of it, and turned.
 CameraModel RightOf(const CameraModel& left, bool lens_frame) {
@@ -39,6 +41,18 @@ std::optional<Pixel> AlignedPixel(const CameraModel& real, const Cahv& aligned,
   const auto ray = BackProject(real, *raw);
   if (!ray) return std::nullopt;
   return Project(aligned, aligned.C + ray->direction);
+}
+
+// Two cameras of a lens that look along z, 0.1 m apart.
+template <typename Lens>
+std::pair<CameraModel, CameraModel> ParallelPair(const Lens& lens, const ImageSize& size) {
+  const Transform X_LR(Eigen::Translation3d(0.1, 0.0, 0.0));
+  return {CameraModel{lens, size}, CameraModel{Moved(X_LR, lens), size}};
+}
+
+Cahvore Fisheye(double focal_px, double middle_px) {
+  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {focal_px, 0, middle_px}, {0, focal_px, middle_px}};
+  return {lens, Vector3::UnitZ(), Vector3::Zero(), Vector3::Zero(), CahvoreType::kFisheye, 1.0};
 }
 
 struct Residual {
@@ -163,11 +177,7 @@ TEST(RectificationTest, TheCamerasShareAllButTheirCentres) {
 
 // Two parallel linear cameras are aligned as they are: nothing but the origin of pixels changes.
 TEST(RectificationTest, AnAlignedPairStaysAsItIs) {
-  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {300, 0, 160}, {0, 300, 90}};
-  Cahv other = lens;
-  other.C = Vector3(0.1, 0, 0);
-  const CameraModel left{lens, {321, 181}};
-  const CameraModel right{other, {321, 181}};
+  const auto [left, right] = ParallelPair(kPlainLens, {321, 181});
   const auto pair = Rectify(left, right);
   ASSERT_TRUE(pair.ok());
   EXPECT_NEAR(pair->focal_px, 300.0, 1e-9);
@@ -227,13 +237,7 @@ TEST(RectificationTest, ASizeHoldsTheWholeFieldInItsMiddle) {
 }
 
 TEST(RectificationTest, AFisheyesFieldEndsAtTheLargestAngle) {
-  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {100, 0, 160}, {0, 100, 160}};
-  const Cahvore fisheye{
-      lens, Vector3::UnitZ(), Vector3::Zero(), Vector3::Zero(), CahvoreType::kFisheye, 1.0};
-  Cahvore other = fisheye;
-  other.linear.C = Vector3(0.1, 0, 0);
-  const CameraModel left{fisheye, {321, 321}};
-  const CameraModel right{other, {321, 321}};
+  const auto [left, right] = ParallelPair(Fisheye(100, 160), {321, 321});
   const auto pair = Rectify(left, right, {.largest_angle_rad = 1.0});
   ASSERT_TRUE(pair.ok());
   EXPECT_NEAR(pair->size.columns, 2.0 * 100.0 * std::tan(1.0), 2.0);
@@ -242,13 +246,7 @@ TEST(RectificationTest, AFisheyesFieldEndsAtTheLargestAngle) {
 
 // Of a lens that sees around itself few rays lie before the plane at all.
 TEST(RectificationTest, AFieldBeyondARightAngleIsKeptToTheLargestAngleToo) {
-  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {45, 0, 157}, {0, 45, 157}};
-  const Cahvore fisheye{
-      lens, Vector3::UnitZ(), Vector3::Zero(), Vector3::Zero(), CahvoreType::kFisheye, 1.0};
-  Cahvore other = fisheye;
-  other.linear.C = Vector3(0.1, 0, 0);
-  const CameraModel left{fisheye, {315, 315}};
-  const CameraModel right{other, {315, 315}};
+  const auto [left, right] = ParallelPair(Fisheye(45, 157), {315, 315});
   const auto pair = Rectify(left, right, {.largest_angle_rad = 1.2});
   ASSERT_TRUE(pair.ok());
   EXPECT_NEAR(pair->size.columns, 2.0 * 45.0 * std::tan(1.2), 2.0);
@@ -277,19 +275,17 @@ TEST(RectificationTest, SourcesAreInsideOfTheImageOrNowhere) {
 
 TEST(RectificationTest, NoTableHoldsBehindTheCamera) {
   // A fisheye that sees what is behind it, too.
-  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {300, 0, 1000}, {0, 300, 1000}};
-  const Cahvore fisheye{
-      lens, Vector3::UnitZ(), Vector3::Zero(), Vector3::Zero(), CahvoreType::kFisheye, 1.0};
+  const Cahvore fisheye = Fisheye(300, 1000);
   const CameraModel real{fisheye, {2001, 2001}};
-  EXPECT_TRUE(SourceOf(real, lens, {1300, 1000}, 2.0));
-  EXPECT_FALSE(SourceOf(real, lens, {1300, 1000}, -2.0));
+  EXPECT_TRUE(SourceOf(real, fisheye.linear, {1300, 1000}, 2.0));
+  EXPECT_FALSE(SourceOf(real, fisheye.linear, {1300, 1000}, -2.0));
 }
 
 // A moving pupil: points elsewhere than at the range of the table are off as the header says.
 TEST(RectificationTest, ATableOfAMovingPupilHoldsAtItsRange) {
-  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {300, 0, 320}, {0, 300, 320}};
-  const Cahvore moving{
-      lens, Vector3::UnitZ(), Vector3::Zero(), {0.01, 0.0, 0.0}, CahvoreType::kFisheye, 1.0};
+  Cahvore moving = Fisheye(300, 320);
+  moving.E = Vector3(0.01, 0.0, 0.0);
+  const Cahv& lens = moving.linear;
   const CameraModel real{moving, {641, 641}};
   const double theta = 0.9;
   const Vector3 direction(std::sin(theta), 0, std::cos(theta));
@@ -312,8 +308,7 @@ std::string RefusalOf(const CameraModel& left, const CameraModel& right,
 }
 
 TEST(RectificationTest, SingularPairsAreRefusedWithTheReason) {
-  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {300, 0, 160}, {0, 300, 90}};
-  const CameraModel left{lens, {321, 181}};
+  const CameraModel left{kPlainLens, {321, 181}};
   const auto moved = [&](const Vector3& shift, const Eigen::AngleAxisd& turn) {
     Transform X_LR = Transform::Identity();
     X_LR.linear() = turn.toRotationMatrix();
@@ -342,27 +337,23 @@ TEST(RectificationTest, SingularPairsAreRefusedWithTheReason) {
   EXPECT_EQ(RefusalOf(left, moved({0.1, 0, 0}, Eigen::AngleAxisd(edge_rad, Vector3::UnitY()))),
             "field is less than 2 pixels wide or high");
 
-  Cahv bad = lens;
+  Cahv bad = kPlainLens;
   bad.C.x() = core::kNaN;
   EXPECT_EQ(RefusalOf({bad, left.size}, left), "left sees nothing in the middle of its image");
-  bad = lens;
+  bad = kPlainLens;
   bad.V.y() = core::kInfinity;
   EXPECT_EQ(RefusalOf(left, {bad, left.size}), "right sees nothing in the middle of its image");
-  bad = lens;
+  bad = kPlainLens;
   bad.H = bad.V;
   EXPECT_EQ(RefusalOf(left, {bad, left.size}), "right sees nothing in the middle of its image");
-  bad = lens;
+  bad = kPlainLens;
   bad.H.x() = -bad.H.x();
   EXPECT_EQ(RefusalOf({bad, left.size}, left), "left shows a mirror image");
-  EXPECT_EQ(RefusalOf(left, {lens, {0, 5}}), "right has no pixels");
+  EXPECT_EQ(RefusalOf(left, {kPlainLens, {0, 5}}), "right has no pixels");
 }
 
 TEST(RectificationTest, OptionsBeyondReasonAreRefused) {
-  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {300, 0, 160}, {0, 300, 90}};
-  Cahv other = lens;
-  other.C = Vector3(0.1, 0, 0);
-  const CameraModel left{lens, {321, 181}};
-  const CameraModel right{other, {321, 181}};
+  const auto [left, right] = ParallelPair(kPlainLens, {321, 181});
   EXPECT_EQ(RefusalOf(left, right, {.focal_px = 20000.0}), "size would be 21333 x 12000 pixels");
   EXPECT_EQ(RefusalOf(left, right, {.focal_px = -1.0}), "focal_px is -1");
   EXPECT_EQ(RefusalOf(left, right, {.focal_px = core::kNaN}), "focal_px is nan");

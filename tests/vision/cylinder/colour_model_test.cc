@@ -101,8 +101,7 @@ TEST(ColourModel, WhiteningIsTheInverseRoot) {
 }
 
 TEST(ColourModel, DirectionsAreThoseOfTheSurfaces) {
-  ColourModelParams plain;
-  plain.saturation = 1.0;
+  ColourModelParams plain{.saturation = 1.0};
   const SurfaceColourParams surfaces;
   const Eigen::Vector3d blue(surfaces.blue[0], surfaces.blue[1], surfaces.blue[2]);
   const Eigen::Vector3d light(1.5, 1.0, 0.8);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::vision {
 namespace {
@@ -18,16 +19,12 @@ using enum CylinderColour;
 
 // b, m, r: the classes; anything else: background.
 ClassImage Classes(const std::vector<std::string_view>& rows) {
-  ClassImage classes(static_cast<int>(rows.front().size()), static_cast<int>(rows.size()));
-  for (int y = 0; y < classes.height(); ++y) {
-    for (int x = 0; x < classes.width(); ++x) {
-      const char letter = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
-      const std::size_t place = std::string_view("bmr").find(letter);
-      classes.At(x, y) =
-          place == std::string_view::npos ? kBackground : static_cast<std::uint8_t>(1 + place);
-    }
-  }
-  return classes;
+  const auto width = static_cast<int>(rows.front().size());
+  return ImageOf(width, static_cast<int>(rows.size()), [&](int x, int y) {
+    const char letter = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+    const std::size_t place = std::string_view("bmr").find(letter);
+    return place == std::string_view::npos ? kBackground : 1 + place;
+  });
 }
 
 std::string Letters(const ClassImage& classes, int row) {
@@ -57,15 +54,13 @@ TEST(ColourClassTest, SurfacesAreOfTheirClassesAndGroundIsOfNone) {
     EXPECT_EQ(ClassOf(scaled(0.45, 0.27, 0.16, exposure), params), kBackground);
     EXPECT_EQ(ClassOf(scaled(0.15, 0.80, 0.25, exposure), params), kBackground);
   }
-  ColourClassParams green;
-  green.red = GreenRatios();
+  const ColourClassParams green{.red = GreenRatios()};
   EXPECT_EQ(ClassOf(scaled(0.15, 0.80, 0.25, 240.0), green), LabelOf(kRed));
 }
 
 TEST(ColourClassTest, RangesHoldTheirEndsAndDarkPixelsHaveNoClass) {
-  ColourClassParams params;
-  params.magenta = {PrimaryColour::kRed, 0.2, 0.4, 0.5, 0.8};
-  params.red = {PrimaryColour::kRed, 0.2, 0.4, 0.1, 0.2};
+  ColourClassParams params{.magenta = {PrimaryColour::kRed, 0.2, 0.4, 0.5, 0.8},
+                           .red = {PrimaryColour::kRed, 0.2, 0.4, 0.1, 0.2}};
   EXPECT_EQ(ClassOf({100, 20, 50}, params), LabelOf(kMagenta));
   EXPECT_EQ(ClassOf({100, 40, 80}, params), LabelOf(kMagenta));
   EXPECT_EQ(ClassOf({100, 19, 50}, params), kBackground);

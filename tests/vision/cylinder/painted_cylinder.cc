@@ -22,9 +22,8 @@ constexpr int kPatch_px = 3;
 
 CameraModel CameraAt(double left_m, double focal_px, double pitch_rad) {
   // Rows run to -y, columns to -z where the camera is level.
-  Cahv lens;
-  lens.C = Vector3(0.0, left_m, 0.0);
-  lens.A = Vector3(std::cos(pitch_rad), 0.0, -std::sin(pitch_rad));
+  Cahv lens{.C = Vector3(0.0, left_m, 0.0),
+            .A = Vector3(std::cos(pitch_rad), 0.0, -std::sin(pitch_rad))};
   const Vector3 up(std::sin(pitch_rad), 0.0, std::cos(pitch_rad));
   lens.H = -focal_px * Vector3::UnitY() + 0.5 * (kColumns - 1) * lens.A;
   lens.V = -focal_px * up + 0.5 * (kRows - 1) * lens.A;

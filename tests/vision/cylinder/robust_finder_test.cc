@@ -129,8 +129,8 @@ TEST(RobustFinderTest, CylindersSeenFromAboveAndBelowAreFound) {
 TEST(RobustFinderTest, TheAxisIsWhereTheCylinderPoints) {
   const double pitch_rad = DegToRad(25.0);
   const PaintedScene scene = SceneFromAbove(2.2, 0.5, pitch_rad);
-  ColourCylinder tilted;
-  tilted.axis_L = {3.0 * std::sin(pitch_rad), 0.0, 3.0 * std::cos(pitch_rad)};
+  const ColourCylinder tilted{
+      .axis_L = {3.0 * std::sin(pitch_rad), 0.0, 3.0 * std::cos(pitch_rad)}};
   const CylinderFinding finding = FindCylinder(Paint(scene).Pair(), tilted, {});
   ASSERT_TRUE(finding.sighting) << finding.reason;
   EXPECT_GT((finding.sighting->p_LT_L - scene.cylinders.front().p_LT_L).norm(), 0.03);
@@ -157,8 +157,7 @@ TEST(RobustFinderTest, SolarCellsAreGreyRatherThanBlue) {
   EXPECT_EQ(label_of(cells, colours), kBackground);
   EXPECT_EQ(label_of(blue, colours), LabelOf(CylinderColour::kBlue));
   // Control: to a finder that knows of nothing grey they are blue.
-  ColourModelParams no_grey;
-  no_grey.neutral_sd = 0.05;
+  const ColourModelParams no_grey{.neutral_sd = 0.05};
   EXPECT_EQ(label_of(cells, no_grey), LabelOf(CylinderColour::kBlue));
 }
 
@@ -307,9 +306,7 @@ TEST(RobustFinderTest, RegionsAreThoseOfTheQuadrants) {
 TEST(RobustFinderTest, NothingInViewIsNothing) {
   PaintedScene scene = OutdoorsAt(2.0, 0.0, 3);
   scene.cylinders.clear();
-  const CylinderFinding finding = Find(Paint(scene));
-  EXPECT_FALSE(finding.sighting);
-  EXPECT_EQ(finding.miss, CylinderMiss::kNothing) << finding.reason;
+  ExpectMiss(Find(Paint(scene)), CylinderMiss::kNothing, "");
 }
 
 TEST(RobustFinderTest, AClippedCylinderIsClipped) {
@@ -337,9 +334,7 @@ TEST(RobustFinderTest, TwoCylindersAreTold) {
 TEST(RobustFinderTest, OneInEachEyeIsUnlike) {
   PaintedPair pair = Paint(SceneAt(2.0, 0.5));
   pair.right = Paint(SceneAt(5.0, 0.5)).right;
-  const CylinderFinding finding = Find(pair);
-  EXPECT_FALSE(finding.sighting);
-  EXPECT_EQ(finding.miss, CylinderMiss::kUnlikeEyes) << finding.reason;
+  ExpectMiss(Find(pair), CylinderMiss::kUnlikeEyes, "");
 }
 
 // A quadrant that is yellower to one eye than to the other: each is as orange as orange may be.

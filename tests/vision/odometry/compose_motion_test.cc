@@ -71,8 +71,7 @@ TEST(ComposeMotion, TheCovarianceIsThatOfDrawnErrors) {
 }
 
 TEST(ComposeMotion, NothingIsKnownBetterAfterwards) {
-  Motion first;
-  first.covariance = MotionCovariance::Identity();
+  const Motion first{.covariance = MotionCovariance::Identity()};
   Motion exact;
   exact.X_FS = MakePose({3.0, 0.0, 0.0}, 0.5, 0.0, 0.0);
   // A lever of 3 m adds 9 times the variance of heading and pitch to the position.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "vision/odometry/motion_of_set.h"
 #include "vision/odometry/synthetic_points.h"
 
 namespace rockyard::vision {
@@ -18,17 +19,12 @@ core::RandomStream Stream(std::uint32_t substream) {
 
 // What the second moment saw of other points: wrong matches.
 void Mismatch(PointsSeenTwice& points, std::size_t first, core::RandomStream& stream) {
-  PointField field;
-  field.points = points.size() - first;
-  const PointsSeenTwice others = SeeTwice(OdometryPair(), Transform::Identity(), field, stream);
+  const PointField field{.points = points.size() - first};
+  const PointsSeenTwice others = SeeTwice(kOdometryPair, Transform::Identity(), field, stream);
   for (std::size_t i = first; i < points.size(); ++i) points[i].second = others[i - first].second;
 }
 
-SelectionParams By(SelectionMethod method) {
-  SelectionParams params;
-  params.method = method;
-  return params;
-}
+SelectionParams By(SelectionMethod method) { return {.method = method}; }
 
 std::size_t MembersBelow(const ConsistentSet& set, std::size_t limit) {
   return static_cast<std::size_t>(std::count_if(set.members.begin(), set.members.end(),
@@ -49,12 +45,11 @@ PointField Exact(std::size_t points) {
 class ConsistentSetTest : public testing::TestWithParam<SelectionMethod> {};
 
 TEST_P(ConsistentSetTest, FindsThePointsThatMovedAmongSixtyPercentWrongMatches) {
-  const RectifiedPair pair = OdometryPair();
   for (std::uint32_t run = 0; run < 20; ++run) {
     core::RandomStream stream = Stream(run);
-    PointsSeenTwice points = SeeTwice(pair, TestMotion(), {.points = 200}, stream);
+    PointsSeenTwice points = SeeTwice(kOdometryPair, TestMotion(), {.points = 200}, stream);
     Mismatch(points, 80, stream);
-    const auto set = FindConsistentSet(points, pair, By(GetParam()), stream);
+    const auto set = FindConsistentSet(points, kOdometryPair, By(GetParam()), stream);
     ASSERT_TRUE(set);
     EXPECT_TRUE(std::is_sorted(set->members.begin(), set->members.end()));
     EXPECT_GE(MembersBelow(*set, 80), 68u) << run;
@@ -65,16 +60,15 @@ TEST_P(ConsistentSetTest, FindsThePointsThatMovedAmongSixtyPercentWrongMatches) 
 
 // Sixty points stood, forty and then fifty moved on by themselves: never a mixture.
 TEST_P(ConsistentSetTest, OfTwoGroupsTheLargerIsTakenWhole) {
-  const RectifiedPair pair = OdometryPair();
   Transform other = TestMotion();
   other.translation() += math::Vector3(-0.4, 0.3, 0.0);
   for (const std::size_t moving : {40u, 50u}) {
     core::RandomStream stream = Stream(100 + static_cast<std::uint32_t>(moving));
-    PointsSeenTwice points = SeeTwice(pair, TestMotion(), Exact(60), stream);
-    const PointsSeenTwice group = SeeTwice(pair, other, Exact(moving), stream);
+    PointsSeenTwice points = SeeTwice(kOdometryPair, TestMotion(), Exact(60), stream);
+    const PointsSeenTwice group = SeeTwice(kOdometryPair, other, Exact(moving), stream);
     points.insert(points.end(), group.begin(), group.end());
     SelectionParams params = By(GetParam());
-    const auto set = FindConsistentSet(points, pair, params, stream);
+    const auto set = FindConsistentSet(points, kOdometryPair, params, stream);
     ASSERT_TRUE(set);
     EXPECT_EQ(MembersBelow(*set, 60), 60u);
     EXPECT_LE(set->members.size(), 60u + moving / 10);
@@ -83,27 +77,27 @@ TEST_P(ConsistentSetTest, OfTwoGroupsTheLargerIsTakenWhole) {
 }
 
 TEST_P(ConsistentSetTest, PointsOnALineAndTooFewHaveNoMotion) {
-  const RectifiedPair pair = OdometryPair();
   const Transform X_FS = TestMotion();
   PointsSeenTwice line;
-  const auto from = Triangulate(pair.left, pair.right, {100, 150}, 40.0)->p_A;
-  const auto to = Triangulate(pair.left, pair.right, {400, 220}, 15.0)->p_A;
+  const auto from = Triangulate(kOdometryPair.left, kOdometryPair.right, {100, 150}, 40.0)->p_A;
+  const auto to = Triangulate(kOdometryPair.left, kOdometryPair.right, {400, 220}, 15.0)->p_A;
   for (int i = 0; i <= 20; ++i) {
     const math::Vector3 p_F = from + i / 20.0 * (to - from);
-    const auto first = SeenExactly(pair, p_F, Eigen::Matrix3d::Identity());
-    const auto second = SeenExactly(pair, X_FS.inverse() * p_F, Eigen::Matrix3d::Identity());
+    const auto first = SeenExactly(kOdometryPair, p_F, Eigen::Matrix3d::Identity());
+    const auto second =
+        SeenExactly(kOdometryPair, X_FS.inverse() * p_F, Eigen::Matrix3d::Identity());
     if (first && second) line.push_back({*first, *second});
   }
   ASSERT_GE(line.size(), 15u);
   core::RandomStream stream = Stream(200);
   // Rounding leaves a line's triples a motion now and then; rigidity takes all of them at once.
-  const auto set = FindConsistentSet(line, pair, By(GetParam()), stream);
+  const auto set = FindConsistentSet(line, kOdometryPair, By(GetParam()), stream);
   if (GetParam() == SelectionMethod::kRigidity) {
     EXPECT_FALSE(set);
   }
   line.resize(2);
-  EXPECT_FALSE(FindConsistentSet(line, pair, By(GetParam()), stream));
-  EXPECT_FALSE(FindConsistentSet({}, pair, By(GetParam()), stream));
+  EXPECT_FALSE(FindConsistentSet(line, kOdometryPair, By(GetParam()), stream));
+  EXPECT_FALSE(FindConsistentSet({}, kOdometryPair, By(GetParam()), stream));
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, ConsistentSetTest,
@@ -111,15 +105,14 @@ INSTANTIATE_TEST_SUITE_P(Methods, ConsistentSetTest,
 
 // A point counts as far as inlier_px in either eye and no further.
 TEST(RansacTest, LooksAtBothEyes) {
-  const RectifiedPair pair = OdometryPair();
   core::RandomStream stream = Stream(300);
   const PointsSeenTwice exact =
-      SeeTwice(pair, TestMotion(), {.points = 40, .with_errors = false}, stream);
+      SeeTwice(kOdometryPair, TestMotion(), {.points = 40, .with_errors = false}, stream);
   const auto counts = [&](double column, double row, double disparity) {
     PointsSeenTwice points = exact;
     points[7].second.left += Pixel(column, row);
     points[7].second.disparity_px += disparity;
-    const auto set = FindConsistentSet(points, pair, {}, stream);
+    const auto set = FindConsistentSet(points, kOdometryPair, {}, stream);
     return set && MembersBelow(*set, 8) == 8;
   };
   EXPECT_TRUE(counts(1.4, 0.0, 0.0));
@@ -143,11 +136,10 @@ TEST(RansacTest, DrawsAreThoseOfTheStatedChance) {
 // How often, of many runs, the larger of two groups was not found.
 int Misses(const PointsSeenTwice& points, std::size_t larger, const SelectionParams& params,
            int runs) {
-  const RectifiedPair pair = OdometryPair();
   int misses = 0;
   for (int run = 0; run < runs; ++run) {
     core::RandomStream stream = Stream(1000 + static_cast<std::uint32_t>(run));
-    const auto set = FindConsistentSet(points, pair, params, stream);
+    const auto set = FindConsistentSet(points, kOdometryPair, params, stream);
     misses += !set || MembersBelow(*set, larger) < larger ? 1 : 0;
   }
   return misses;
@@ -156,24 +148,45 @@ int Misses(const PointsSeenTwice& points, std::size_t larger, const SelectionPar
 // Of 20 points 9 moved one way and 8 another. Once the 8 are found, draws go on until the 9 are
 // missed with a chance of 0.1 at most. One-sided alpha 0.001: binomial, 2000 runs.
 TEST(RansacTest, TheLargerGroupIsMissedNoOftenerThanStated) {
-  const RectifiedPair pair = OdometryPair();
   core::RandomStream stream = Stream(400);
   Transform other = TestMotion();
   other.translation() += math::Vector3(-0.4, 0.3, 0.2);
   PointsSeenTwice points =
-      SeeTwice(pair, TestMotion(), {.points = 9, .with_errors = false}, stream);
-  const PointsSeenTwice group = SeeTwice(pair, other, {.points = 11, .with_errors = false}, stream);
+      SeeTwice(kOdometryPair, TestMotion(), {.points = 9, .with_errors = false}, stream);
+  const PointsSeenTwice group =
+      SeeTwice(kOdometryPair, other, {.points = 11, .with_errors = false}, stream);
   points.insert(points.end(), group.begin(), group.end());
   Mismatch(points, 17, stream);
-  SelectionParams params;
-  params.miss_probability = 0.1;
-  params.inlier_px = 0.05;
+  SelectionParams params{.inlier_px = 0.05, .miss_probability = 0.1};
   constexpr int kRuns = 2000;
   constexpr double kSd = 13.4;  // sqrt(2000 0.1 0.9)
   EXPECT_LE(Misses(points, 9, params, kRuns), 200 + 3.09 * kSd);
   // Negative control: half the draws.
   params.max_draws = DrawsNeeded(8, 20, params.miss_probability, 1000) / 2;
   EXPECT_GT(Misses(points, 9, params, kRuns), 200 + 3.09 * kSd);
+}
+
+// From ten points of a hundred, of which the last ten were seen elsewhere.
+TEST(MotionOfSetTest, TakesAllPointsThatMovedWithTheSet) {
+  core::RandomStream stream({259, 0}, core::Purpose::kTest, 0);
+  PointsSeenTwice points = SeeTwice(kOdometryPair, TestMotion(), PointField(), stream);
+  for (std::size_t i = 90; i < 100; ++i) points[i].second.left += Pixel(8.0, -6.0);
+  ConsistentSet set;
+  for (std::size_t i = 0; i < 10; ++i) set.members.push_back(i);
+  set.X_FS = TestMotion();
+  const SelectionParams selection;
+  EstimationParams estimation;
+  estimation.max_fit = 1.0e-9;  // no motion, and yet a set
+  const EstimatedMotion once = EstimateMotion(PointsSeenTwice(points.begin(), points.begin() + 10),
+                                              kOdometryPair, estimation, set.X_FS);
+  const SetMotion found = MotionOfSet(points, kOdometryPair, set, selection, estimation);
+  EXPECT_GE(found.members.size(), 85u);
+  EXPECT_LT(found.members.back(), 90u);
+  EXPECT_EQ(found.members,
+            PointsWith(points, kOdometryPair, found.estimated.X_FS, selection.inlier_px));
+  EXPECT_GT(found.estimated.iterations, once.iterations);
+  EXPECT_FALSE(found.estimated.motion);
+  EXPECT_EQ(found.estimated.reason, NoMotion::kPoorFit);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "plain_features.h"
 #include "textured_image.h"
+#include "vision/each_pixel.h"
 #include "vision/odometry/best_matches.h"
 #include "vision/odometry/detect_features.h"
 #include "vision/odometry/harris.h"
@@ -24,14 +25,12 @@ namespace {
 
 // Few features a region, weak corners too: small images have some.
 FeatureDetectorParams SmallParams(Adapted adapted) {
-  FeatureDetectorParams params;
-  params.regions_across = 2;
-  params.regions_down = 2;
-  params.min_features = 3;
-  params.max_features = 9;
-  params.adapted = adapted;
-  params.border_px = 4;
-  return params;
+  return {.regions_across = 2,
+          .regions_down = 2,
+          .min_features = 3,
+          .max_features = 9,
+          .adapted = adapted,
+          .border_px = 4};
 }
 
 void ExpectSameFeatures(const GrayImage& image, const FeatureDetectorParams& params,
@@ -103,18 +102,15 @@ TEST(FastFeaturesTest, ResponsesOfImagesOfEverySize) {
 // Two columns of black and white, or two rows, or four squares: the largest sums of every kind.
 TEST(FastFeaturesTest, TheSteepestSlopesFit) {
   for (int kind = 0; kind < 4; ++kind) {
-    GrayImage image(24, 24);
-    for (int y = 0; y < 24; ++y) {
-      for (int x = 0; x < 24; ++x) {
-        const bool on_x = x % 4 < 2;
-        const bool on_y = y % 4 < 2;
-        const bool on = kind == 0   ? on_x
-                        : kind == 1 ? on_y
-                        : kind == 2 ? on_x != on_y
-                                    : (x + y) % 4 < 2;
-        image.At(x, y) = on ? 255 : 0;
-      }
-    }
+    const GrayImage image = ImageOf(24, 24, [&](int x, int y) {
+      const bool on_x = x % 4 < 2;
+      const bool on_y = y % 4 < 2;
+      const bool on = kind == 0   ? on_x
+                      : kind == 1 ? on_y
+                      : kind == 2 ? on_x != on_y
+                                  : (x + y) % 4 < 2;
+      return on ? 255 : 0;
+    });
     for (const double weight : {0.0, 0.25}) ExpectSameResponse(image, {0, 24, 0, 24}, weight);
   }
 }
@@ -161,10 +157,7 @@ TEST(FastFeaturesTest, FeaturesOfEveryReachAndThreshold) {
 // A picture repeated has equal corners.
 TEST(FastFeaturesTest, FeaturesThatAreEqualKeepTheirOrder) {
   const GrayImage tile = RandomImage(9, 9, 256, 71U);
-  GrayImage image(99, 72);
-  for (int y = 0; y < 72; ++y) {
-    for (int x = 0; x < 99; ++x) image.At(x, y) = tile.At(x % 9, y % 9);
-  }
+  const GrayImage image = ImageOf(99, 72, [&](int x, int y) { return tile.At(x % 9, y % 9); });
   for (const int reach : {1, 4, 8, 9, 10}) {
     FeatureDetectorParams params = SmallParams(Adapted::kThreshold);
     params.suppression_px = reach;
@@ -191,14 +184,14 @@ TEST(FastFeaturesTest, FeaturesOfEveryRegionAndCount) {
   for (const CountedIn counted_in : {CountedIn::kRegion, CountedIn::kImage}) {
     for (const int regions : {1, 2, 3, 5, 7}) {
       for (const int most : {1, 4, 40}) {
-        FeatureDetectorParams params;
-        params.regions_across = regions;
-        params.regions_down = 1 + regions % 3;
-        params.min_features = most / 2;
-        params.max_features = most;
-        params.counted_in = counted_in;
-        params.border_px = 5;
-        params.adapted = regions == 3 ? Adapted::kWeight : Adapted::kThreshold;
+        const FeatureDetectorParams params{
+            .regions_across = regions,
+            .regions_down = 1 + regions % 3,
+            .min_features = most / 2,
+            .max_features = most,
+            .counted_in = counted_in,
+            .adapted = regions == 3 ? Adapted::kWeight : Adapted::kThreshold,
+            .border_px = 5};
         ExpectSameFeatures(image, params);
       }
     }
@@ -412,15 +405,14 @@ TEST(FastFeaturesTest, MatchesOfEveryChoice) {
       for (const MatchSearch search : {MatchSearch::kAll, MatchSearch::kPredicted}) {
         for (const MatchWarp warp : {MatchWarp::kNone, MatchWarp::kPredicted}) {
           for (const int side : {3, 9, 15}) {
-            FeatureMatcherParams params;
-            params.window_px = side;
-            params.mutual = mutual;
-            params.ratio = ratio;
-            params.search = search;
-            params.warp = warp;
-            params.search_columns_px = 9.0;
-            params.search_rows_px = 6.0;
-            params.max_difference = side == 9 ? 12.0 : 200.0;
+            const FeatureMatcherParams params{.window_px = side,
+                                              .mutual = mutual,
+                                              .ratio = ratio,
+                                              .max_difference = side == 9 ? 12.0 : 200.0,
+                                              .search = search,
+                                              .search_columns_px = 9.0,
+                                              .search_rows_px = 6.0,
+                                              .warp = warp};
             ExpectSameMatches(first, first_features, second, second_features, params, predicted);
             ExpectSameMatches(first, first_features, second, second_features, params, {});
           }
@@ -434,9 +426,7 @@ TEST(FastFeaturesTest, MatchesOfEveryChoice) {
 TEST(FastFeaturesTest, MatchesOfEveryNumber) {
   const GrayImage first = RandomImage(60, 40, 2, 93U);
   const GrayImage second = RandomImage(60, 40, 2, 94U);
-  FeatureMatcherParams params;
-  params.window_px = 3;
-  params.max_difference = 255.0;
+  FeatureMatcherParams params{.window_px = 3, .max_difference = 255.0};
   for (int count = 0; count <= 75; ++count) {
     params.mutual = count % 2 == 0;
     ExpectSameMatches(first, RandomFeatures(count, 60, 40, 8, 5), second,
@@ -446,8 +436,7 @@ TEST(FastFeaturesTest, MatchesOfEveryNumber) {
 
 TEST(FastFeaturesTest, MatchesOfMoreFeaturesThanAreComparedAtOnce) {
   const GrayImage first = RandomImage(160, 120, 256, 95U);
-  FeatureMatcherParams params;
-  params.max_difference = 255.0;
+  const FeatureMatcherParams params{.max_difference = 255.0};
   ExpectSameMatches(first, RandomFeatures(300, 160, 120, 8, 7), first,
                     RandomFeatures(290, 160, 120, 8, 8), params, {});
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "textured_image.h"
+#include "vision/each_pixel.h"
 #include "vision/odometry/detect_features.h"
 #include "vision/odometry/match_features.h"
 
@@ -33,12 +34,7 @@ Features Detect(const GrayImage& image, const FeatureDetectorParams& params,
 
 // Every corner of the whole image.
 FeatureDetectorParams AllCorners() {
-  FeatureDetectorParams params;
-  params.regions_across = 1;
-  params.regions_down = 1;
-  params.min_features = 0;
-  params.max_features = 100000;
-  return params;
+  return {.regions_across = 1, .regions_down = 1, .min_features = 0, .max_features = 100000};
 }
 
 using Place = std::tuple<int, int, int>;
@@ -68,10 +64,8 @@ TEST(FeaturesTest, AMovedImageHasMovedFeatures) {
 // column, so that a strength changes by what rounding leaves.
 TEST(FeaturesTest, ATransposedImageHasTransposedFeatures) {
   const GrayImage image = Texture(0, 0, 25.0, 0.0, 0);
-  GrayImage transposed(kHeight, kWidth);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) transposed.At(y, x) = image.At(x, y);
-  }
+  const GrayImage transposed =
+      ImageOf(kHeight, kWidth, [&](int x, int y) { return image.At(y, x); });
   std::set<std::pair<int, int>> expected;
   for (const Feature& f : Detect(image, AllCorners())) expected.insert({f.row, f.column});
   const Features found = Detect(transposed, AllCorners());
@@ -104,8 +98,7 @@ TEST(FeaturesTest, HalfTheContrastIsASixteenthOfTheStrength) {
 
 TEST(FeaturesTest, NothingInBlankImagesOrOnStraightEdges) {
   for (const Adapted adapted : {Adapted::kThreshold, Adapted::kWeight}) {
-    FeatureDetectorParams params;
-    params.adapted = adapted;
+    const FeatureDetectorParams params{.adapted = adapted};
     EXPECT_TRUE(Detect(GrayImage(kWidth, kHeight, 0), params).empty());
     EXPECT_TRUE(Detect(GrayImage(kWidth, kHeight, 255), params).empty());
   }
@@ -145,10 +138,7 @@ Counted CountIn(const Features& features, const FeatureDetectorParams& params) {
 TEST(FeaturesTest, EveryRegionHasFromItsLeastToItsMost) {
   for (const double contrast : {3.0, 25.0}) {
     for (const Adapted adapted : {Adapted::kThreshold, Adapted::kWeight}) {
-      FeatureDetectorParams params;
-      params.min_features = 6;
-      params.max_features = 14;
-      params.adapted = adapted;
+      const FeatureDetectorParams params{.min_features = 6, .max_features = 14, .adapted = adapted};
       const Counted counted = CountIn(Detect(Texture(0, 0, contrast, 0.5, 0), params), params);
       for (const int count : counted.of_region) {
         EXPECT_GE(count, 6) << contrast;
@@ -176,10 +166,8 @@ TEST(FeaturesTest, ARegionWithoutTextureStaysEmpty) {
 }
 
 TEST(FeaturesTest, CountsOfTheImageAreSharedByItsRegions) {
-  FeatureDetectorParams params;
-  params.counted_in = CountedIn::kImage;
-  params.min_features = 32;
-  params.max_features = 80;
+  const FeatureDetectorParams params{
+      .min_features = 32, .max_features = 80, .counted_in = CountedIn::kImage};
   const Features features = Detect(Texture(0, 0, 25.0, 0.5, 0), params);
   EXPECT_EQ(features.size(), 80U);
   for (const int count : CountIn(features, params).of_region) EXPECT_EQ(count, 5);
@@ -290,9 +278,7 @@ TEST(FeaturesTest, APredictionKeepsWhatLiesNear) {
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     predicted[i].pixel = {seen.first_features[i].column - 6.0, seen.first_features[i].row + 4.0};
   }
-  FeatureMatcherParams params;
-  params.search_columns_px = 5.0;
-  params.search_rows_px = 3.0;
+  const FeatureMatcherParams params{.search_columns_px = 5.0, .search_rows_px = 3.0};
   const FeatureMatches near = MatchOf(seen, params, predicted);
   EXPECT_GT(near.size(), 150U);
   std::set<Place> found;
@@ -313,15 +299,11 @@ TEST(FeaturesTest, TurnedWindowsFindWhatATurnedCameraSees) {
   Eigen::Matrix2d turn;
   turn << std::cos(roll), -std::sin(roll), std::sin(roll), std::cos(roll);
   const Pixel middle(128.0, 96.0);
-  Seen seen{
-      texture.Render(kWidth, kHeight, 0.0, 0.0, 25.0, 1.0, 0), GrayImage(kWidth, kHeight), {}, {}};
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const Pixel from = middle + turn * (Pixel(x, y) - middle);
-      seen.second.At(x, y) =
-          static_cast<std::uint8_t>(std::lround(110.0 + 25.0 * texture.At(from.x(), from.y())));
-    }
-  }
+  Seen seen{texture.Render(kWidth, kHeight, 0.0, 0.0, 25.0, 1.0, 0), {}, {}, {}};
+  seen.second = ImageOf(kWidth, kHeight, [&](int x, int y) {
+    const Pixel from = middle + turn * (Pixel(x, y) - middle);
+    return std::lround(110.0 + 25.0 * texture.At(from.x(), from.y()));
+  });
   seen.first_features = Detect(seen.first, {});
   seen.second_features = Detect(seen.second, {});
   PredictedFeatures predicted(seen.first_features.size());
@@ -330,9 +312,7 @@ TEST(FeaturesTest, TurnedWindowsFindWhatATurnedCameraSees) {
     predicted[i] = {middle + turn.transpose() * (first - middle), turn};
   }
   const auto right = [&](MatchWarp warp) {
-    FeatureMatcherParams params;
-    params.warp = warp;
-    params.search = MatchSearch::kAll;
+    const FeatureMatcherParams params{.search = MatchSearch::kAll, .warp = warp};
     const FeatureMatches matches = MatchOf(seen, params, predicted);
     return std::count_if(matches.begin(), matches.end(), [&](const FeatureMatch& m) {
       const Feature& b = seen.second_features[static_cast<std::size_t>(m.second)];
@@ -356,8 +336,7 @@ TEST(FeaturesTest, TheLargestDifferenceIsInclusive) {
   const GrayImage dark(15, 15, 100);
   const GrayImage bright(15, 15, 130);
   const Features middle{{7, 7, 1}};
-  FeatureMatcherParams params;
-  params.max_difference = 30.0;
+  FeatureMatcherParams params{.max_difference = 30.0};
   EXPECT_EQ(MatchFeatures(dark, middle, bright, middle, params).size(), 1U);
   params.max_difference = 29.99;
   EXPECT_TRUE(MatchFeatures(dark, middle, bright, middle, params).empty());

@@ -37,10 +37,9 @@ std::vector<Tracks> ReadTracks(const RectifiedPair& pair) {
   double row = 0.0;
   while (file >> number >> point >> left >> right >> row) {
     tracks.resize(std::max(tracks.size(), static_cast<std::size_t>(number)));
-    StereoMeasurement seen;
-    seen.left = {left, row};
-    seen.disparity_px = left - right;
-    seen.covariance_px2 = Eigen::Vector3d(0.25, 0.25, 0.25).asDiagonal();
+    StereoMeasurement seen{.left = {left, row},
+                           .disparity_px = left - right,
+                           .covariance_px2 = Eigen::Vector3d(0.25, 0.25, 0.25).asDiagonal()};
     const auto place = Triangulate(pair.left, pair.right, seen.left, seen.disparity_px);
     if (!place) continue;
     seen.p_A = place->p_A;
@@ -83,8 +82,7 @@ TEST_P(GtsamTracksTest, EveryStepIsThatOfTheOtherProgram) {
   const std::vector<math::Transform> poses = ReadPoses();
   ASSERT_EQ(tracks.size(), 26u);
   ASSERT_EQ(poses.size(), 26u);
-  SelectionParams selection;
-  selection.method = GetParam();
+  const SelectionParams selection{.method = GetParam()};
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     const PointsSeenTwice points = Common(tracks[i], tracks[i + 1]);
     core::RandomStream stream({25, 0}, core::Purpose::kRansac, static_cast<std::uint32_t>(i));

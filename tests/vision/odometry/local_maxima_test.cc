@@ -8,6 +8,7 @@
 #include "core/distributions.h"
 #include "core/random.h"
 #include "plain_features.h"
+#include "vision/each_pixel.h"
 #include "vision/stereo/correlator.h"
 #include "vision/stereo/instruction_sets.h"
 
@@ -18,13 +19,8 @@ namespace {
 Image<std::int64_t> RandomResponses(int width, int height, int least, int most) {
   core::RandomStream stream({2017, 0}, core::Purpose::kTest,
                             static_cast<std::uint32_t>(100 * width + height));
-  Image<std::int64_t> responses(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      responses.At(x, y) = static_cast<std::int64_t>(core::SampleUniform(stream, least, most + 1));
-    }
-  }
-  return responses;
+  return ImageOf<std::int64_t>(
+      width, height, [&](int, int) { return core::SampleUniform(stream, least, most + 1); });
 }
 
 // Of an area by what `all` has, which is at (0, 0).

@@ -9,6 +9,7 @@
 
 #include "core/check.h"
 #include "vision/cameras/triangulation.h"
+#include "vision/each_pixel.h"
 #include "vision/odometry/synthetic_sequence.h"
 
 namespace rockyard::vision {
@@ -19,12 +20,8 @@ constexpr ImageSize kSize{256, 192};
 // 10 px + 3/32 px a column + 2/32 px a row.
 double Slanted_px(double x, double y) { return 10.0 + (3.0 * x + 2.0 * y) / 32.0; }
 
-DisparityImage SlantedMap() {
-  DisparityImage map(8, 6);
-  for (int y = 0; y < 6; ++y) {
-    for (int x = 0; x < 8; ++x) map.At(x, y) = static_cast<std::int16_t>(32 * Slanted_px(x, y));
-  }
-  return map;
+DisparityImage SlantedMap(int width = 8, int height = 6) {
+  return ImageOf<std::int16_t>(width, height, [](int x, int y) { return 32 * Slanted_px(x, y); });
 }
 
 TEST(DisparityAtTest, InterpolatesASlantExactly) {
@@ -73,10 +70,7 @@ TEST(DisparityAtTest, NeighboursHaveToBeOfOneSurface) {
 
 // 3/32 and 2/32 px a pixel, and none along a direction in which the surface ends or bends.
 TEST(SlopeAtTest, IsThatOfTheSurface) {
-  DisparityImage map(40, 40);
-  for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 40; ++x) map.At(x, y) = static_cast<std::int16_t>(32 * Slanted_px(x, y));
-  }
+  DisparityImage map = SlantedMap(40, 40);
   const auto expect = [&](const Pixel& place, double across, double down) {
     EXPECT_TRUE(SlopeAt(map, place, 1.0).isApprox(DisparitySlope(across, down) / 32.0, 1e-12))
         << place.transpose() << ": " << SlopeAt(map, place, 1.0).transpose();
@@ -97,7 +91,7 @@ TEST(SlopeAtTest, IsThatOfTheSurface) {
 // What a pair measures is the closed form's, whichever part of the parameters it has from where.
 TEST(PlaceInMapTest, HasTheCovarianceOfAStereoPoint) {
   const RectifiedPair pair = PlanePair(kSize);
-  DisparityImage map(kSize.columns, kSize.rows, 32 * 20);
+  const DisparityImage map(kSize.columns, kSize.rows, 32 * 20);
   PlacementParams params;
   params.map.noise_px = 0.3;
   Eigen::Matrix2d covariance;
@@ -121,12 +115,8 @@ TEST(PlaceInMapTest, HasTheCovarianceOfAStereoPoint) {
 }
 
 TEST(PlaceInMapTest, HasTheSlopeOfTheMap) {
-  DisparityImage map(40, 40);
-  for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 40; ++x) map.At(x, y) = static_cast<std::int16_t>(32 * Slanted_px(x, y));
-  }
-  const auto place =
-      PlaceInMap(PlanePair(kSize), {}, map, {20.5, 20.5}, Eigen::Matrix2d::Identity());
+  const auto place = PlaceInMap(PlanePair(kSize), {}, SlantedMap(40, 40), {20.5, 20.5},
+                                Eigen::Matrix2d::Identity());
   ASSERT_TRUE(place);
   EXPECT_TRUE(place->slope.isApprox(DisparitySlope(3, 2) / 32.0, 1e-12));
 }

@@ -22,12 +22,11 @@ core::RandomStream Stream(std::uint32_t substream) {
 
 // Sum over the runs of e' P^-1 e, P times `scale`.
 double SumOfSquaredErrors(const PointField& field, double scale) {
-  const RectifiedPair pair = OdometryPair();
   double sum = 0.0;
   for (std::uint32_t run = 0; run < kRuns; ++run) {
     core::RandomStream stream = Stream(run);
-    const PointsSeenTwice points = SeeTwice(pair, TestMotion(), field, stream);
-    const EstimatedMotion found = EstimateMotion(points, pair, {}, TestMotion());
+    const PointsSeenTwice points = SeeTwice(kOdometryPair, TestMotion(), field, stream);
+    const EstimatedMotion found = EstimateMotion(points, kOdometryPair, {}, TestMotion());
     EXPECT_TRUE(found.motion) << run;
     if (!found.motion) continue;
     const Vector6 error = ErrorOf(found.motion->X_FS, TestMotion());
@@ -51,9 +50,7 @@ TEST(MotionStatisticsTest, ErrorsAreAsTheirCovarianceSays) {
 }
 
 TEST(MotionStatisticsTest, SoTheyAreWithNearAndFarPoints) {
-  PointField field;
-  field.nearest_m = 1.5;
-  field.farthest_m = 60.0;
+  const PointField field{.nearest_m = 1.5, .farthest_m = 60.0};
   const double sum = SumOfSquaredErrors(field, 1.0);
   EXPECT_TRUE(IsWithin(sum)) << sum / kRuns << " instead of 6";
 }
@@ -63,17 +60,15 @@ TEST(MotionStatisticsTest, SoTheyAreWithNearAndFarPoints) {
 // (alpha 0.001 for the six together: 3.76 sd each); in space (Matthies 1989, to first order) it is
 // not, the negative control.
 TEST(MotionStatisticsTest, FarPointsBiasErrorsInSpaceAndNotErrorsInImages) {
-  const RectifiedPair pair = OdometryPair();
   PointField field{.points = 60, .nearest_m = 20.0, .farthest_m = 60.0};
   field.covariance_px2 = Eigen::Vector3d(0.04, 0.04, 0.25).asDiagonal();
-  EstimationParams params;
-  params.max_position_sd_m = 100.0;
+  const EstimationParams params{.max_position_sd_m = 100.0};
   const auto largest_bias_sd = [&](const auto& estimate) {
     Vector6 sum = Vector6::Zero();
     Vector6 squares = Vector6::Zero();
     for (std::uint32_t run = 0; run < kRuns; ++run) {
       core::RandomStream stream = Stream(10000 + run);
-      const PointsSeenTwice points = SeeTwice(pair, TestMotion(), field, stream);
+      const PointsSeenTwice points = SeeTwice(kOdometryPair, TestMotion(), field, stream);
       const Vector6 error = ErrorOf(estimate(points), TestMotion());
       sum += error;
       squares += error.cwiseAbs2();
@@ -83,7 +78,7 @@ TEST(MotionStatisticsTest, FarPointsBiasErrorsInSpaceAndNotErrorsInImages) {
     return (mean.array() / sd_of_mean.array()).abs().maxCoeff();
   };
   EXPECT_LT(largest_bias_sd([&](const PointsSeenTwice& points) {
-              return EstimateMotion(points, pair, params, TestMotion()).X_FS;
+              return EstimateMotion(points, kOdometryPair, params, TestMotion()).X_FS;
             }),
             3.76);
   EXPECT_GT(largest_bias_sd([&](const PointsSeenTwice& points) {

@@ -34,6 +34,13 @@ VisualOdometer Odometer(const OdometerParams& params = {}) {
   return VisualOdometer(params, Cameras(), {}, {25, 1});
 }
 
+// One that has seen its first pair.
+VisualOdometer Started(const OdometerParams& params = {}) {
+  VisualOdometer odometer = Odometer(params);
+  odometer.Add(See(Transform::Identity(), 0));
+  return odometer;
+}
+
 void ExpectNear(const OdometryStep& step, const Transform& truth, double limit_m,
                 double limit_rad) {
   ASSERT_TRUE(step.result.motion) << static_cast<int>(*step.result.reason);
@@ -65,17 +72,14 @@ TEST(VisualOdometerTest, FindsHowTheCamerasMoved) {
 // 40 cm and 12 deg are more than windows bear unless they are warped by a motion.
 TEST(VisualOdometerTest, LargeStepsAreFoundInTwoRoundsAndByPrediction) {
   const Transform moved = Ahead(0.4, 0.2);
-  VisualOdometer odometer = Odometer();
-  odometer.Add(See(Transform::Identity(), 0));
+  VisualOdometer odometer = Started();
   const OdometryStep twice = odometer.Add(See(moved, 1));
   ExpectNear(twice, moved, 0.015, 0.006);
   OdometerParams once;
   once.rounds = 1;
-  VisualOdometer plain = Odometer(once);
-  plain.Add(See(Transform::Identity(), 0));
+  VisualOdometer plain = Started(once);
   EXPECT_LT(plain.Add(See(moved, 1)).result.counts.consistent, twice.result.counts.consistent);
-  VisualOdometer predicted = Odometer(once);
-  predicted.Add(See(Transform::Identity(), 0));
+  VisualOdometer predicted = Started(once);
   const OdometryStep step = predicted.Add(See(moved, 1), Ahead(0.36, 0.17));
   ExpectNear(step, moved, 0.015, 0.006);
 }
@@ -113,8 +117,7 @@ TEST(VisualOdometerTest, SmallWindowsKnowLess) {
     OdometerParams params;
     params.placement.window_px = window_px;
     params.placement.noise_px = 0.001;
-    VisualOdometer odometer = Odometer(params);
-    odometer.Add(See(Transform::Identity(), 0));
+    VisualOdometer odometer = Started(params);
     const OdometryStep step = odometer.Add(See(Ahead(0.1), 1), Ahead(0.1));
     EXPECT_TRUE(step.result.motion);
     return step.result.motion.value_or(Motion{}).covariance;
@@ -123,8 +126,7 @@ TEST(VisualOdometerTest, SmallWindowsKnowLess) {
 }
 
 TEST(VisualOdometerTest, AStillCameraStaysWhereItIs) {
-  VisualOdometer odometer = Odometer();
-  odometer.Add(See(Transform::Identity(), 0));
+  VisualOdometer odometer = Started();
   for (std::uint32_t moment = 1; moment < 8; ++moment) {
     const OdometryStep step = odometer.Add(See(Transform::Identity(), moment));
     ExpectNear(step, Transform::Identity(), 0.003, 0.0015);
@@ -171,8 +173,7 @@ TEST(VisualOdometerTest, KeyframesAreRenewedByWayByTurnAndByShare) {
 TEST(VisualOdometerTest, AFailedPairTakesTheKeyframesPlaceAfterSoMany) {
   const AlignedImages dark{GrayImage(kSize.columns, kSize.rows, 3),
                            GrayImage(kSize.columns, kSize.rows, 3)};
-  VisualOdometer odometer = Odometer();
-  odometer.Add(See(Transform::Identity(), 0));
+  VisualOdometer odometer = Started();
   const OdometryStep failed = odometer.Add(dark);
   EXPECT_EQ(failed.result.reason, NoMotion::kFewFeatures);
   EXPECT_TRUE(failed.keyframe);
@@ -182,8 +183,7 @@ TEST(VisualOdometerTest, AFailedPairTakesTheKeyframesPlaceAfterSoMany) {
 
   OdometerParams params;
   params.keyframe.failures = 2;
-  VisualOdometer patient = Odometer(params);
-  patient.Add(See(Transform::Identity(), 0));
+  VisualOdometer patient = Started(params);
   EXPECT_FALSE(patient.Add(dark).keyframe);
   const OdometryStep found = patient.Add(See(Ahead(0.05), 2));
   EXPECT_EQ(found.reference, 0);
@@ -193,8 +193,7 @@ TEST(VisualOdometerTest, AFailedPairTakesTheKeyframesPlaceAfterSoMany) {
 }
 
 TEST(VisualOdometerTest, RenewBeginsANewPath) {
-  VisualOdometer odometer = Odometer();
-  odometer.Add(See(Transform::Identity(), 0));
+  VisualOdometer odometer = Started();
   odometer.Renew();
   const OdometryStep first = odometer.Add(See(Ahead(2.0), 1));
   EXPECT_EQ(first.number, 1);
@@ -206,8 +205,7 @@ TEST(VisualOdometerTest, RenewBeginsANewPath) {
 
 // Another place altogether: nothing looks alike, or nothing moved as one.
 TEST(VisualOdometerTest, AnotherPlaceIsNoMotion) {
-  VisualOdometer odometer = Odometer();
-  odometer.Add(See(Transform::Identity(), 0));
+  VisualOdometer odometer = Started();
   const OdometryStep step = odometer.Add(See(Ahead(40.0), 1));
   EXPECT_FALSE(step.result.motion);
   EXPECT_TRUE(step.result.reason == NoMotion::kFewMatches ||
@@ -219,8 +217,7 @@ TEST(VisualOdometerTest, AnotherPlaceIsNoMotion) {
 // A share of the points that is large enough, but one point fewer than are asked for.
 TEST(VisualOdometerTest, FewerConsistentPointsThanAskedForAreNoMotion) {
   const auto result = [](const OdometerParams& params) {
-    VisualOdometer odometer = Odometer(params);
-    odometer.Add(See(Transform::Identity(), 0));
+    VisualOdometer odometer = Started(params);
     return odometer.Add(See(Ahead(0.1), 1)).result;
   };
   OdometerParams params;

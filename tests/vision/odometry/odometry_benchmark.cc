@@ -47,18 +47,11 @@ const ImagePair& Pair() {
   return pair;
 }
 
-FeatureDetectorParams DetectorOf(Adapted adapted) {
-  FeatureDetectorParams params;
-  params.adapted = adapted;
-  return params;
-}
+FeatureDetectorParams DetectorOf(Adapted adapted) { return {.adapted = adapted}; }
 
 // Every feature with every one.
 FeatureMatcherParams MatcherOfAll() {
-  FeatureMatcherParams params;
-  params.search = MatchSearch::kAll;
-  params.warp = MatchWarp::kNone;
-  return params;
+  return {.search = MatchSearch::kAll, .warp = MatchWarp::kNone};
 }
 
 std::string HashOf(const Features& first, const Features& second, const FeatureMatches& matches) {
@@ -136,9 +129,7 @@ void Match(benchmark::State& state, MatchSearch search, MatchWarp warp) {
   const FeatureDetector detector(DetectorOf(Adapted::kThreshold), {kWidth, kHeight});
   const Features first = detector.Detect(Pair().first);
   const Features second = detector.Detect(Pair().second);
-  FeatureMatcherParams params;
-  params.search = search;
-  params.warp = warp;
+  const FeatureMatcherParams params{.search = search, .warp = warp};
   PredictedFeatures predicted;
   for (const Feature& feature : first) {
     PredictedFeature place{{feature.column - 3.3, feature.row + 2.6}, {}};

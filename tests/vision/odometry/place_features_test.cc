@@ -13,6 +13,7 @@
 
 #include "core/distributions.h"
 #include "vision/cameras/triangulation.h"
+#include "vision/each_pixel.h"
 #include "vision/odometry/refine_match.h"
 #include "vision/odometry/row_difference.h"
 #include "vision/odometry/synthetic_sequence.h"
@@ -26,11 +27,7 @@ constexpr ImageSize kSize{256, 192};
 
 GrayImage Noise(int width, int height, std::uint32_t number) {
   core::RandomStream stream({256, 0}, core::Purpose::kTest, number);
-  GrayImage image(width, height);
-  for (std::uint8_t& value : image.values()) {
-    value = static_cast<std::uint8_t>(stream.NextU32() & 0xFF);
-  }
-  return image;
+  return ImageOf(width, height, [&](int, int) { return stream.NextU32() & 0xFF; });
 }
 
 std::uint32_t PlainDifference(const GrayImage& left, const GrayImage& right, int column, int row,
@@ -178,17 +175,12 @@ TEST(FeaturePlacerTest, PlacesFeaturesOnThePlaneThatTheyAreOf) {
 // under other light: the place is that of the pattern, whatever the light adds.
 TEST(WindowTemplateTest, FindsFractionsOfPixelsUnderOtherLight) {
   const auto pattern = [](double x, double y, double brighter) {
-    GrayImage image(60, 60);
-    for (int row = 0; row < 60; ++row) {
-      for (int column = 0; column < 60; ++column) {
-        const double u = column - x;
-        const double v = row - y;
-        image.At(column, row) = static_cast<std::uint8_t>(
-            std::lround(40.0 + brighter + 1.2 * u + 0.8 * v + 25.0 * std::sin(0.45 * u) +
-                        20.0 * std::cos(0.5 * v + 0.1 * u)));
-      }
-    }
-    return image;
+    return ImageOf(60, 60, [&](int column, int row) {
+      const double u = column - x;
+      const double v = row - y;
+      return std::lround(40.0 + brighter + 1.2 * u + 0.8 * v + 25.0 * std::sin(0.45 * u) +
+                         20.0 * std::cos(0.5 * v + 0.1 * u));
+    });
   };
   const GrayImage first = pattern(0.0, 0.0, 0.0);
   for (const std::size_t side : {9U, 15U}) {
@@ -278,16 +270,12 @@ TEST(FeaturePlacerTest, HasNoPlaceWhereItCannotBeSure) {
   const AlignedImages blank{GrayImage(kSize.columns, kSize.rows, 90),
                             GrayImage(kSize.columns, kSize.rows, 90)};
   EXPECT_FALSE(placed({}, blank, middle));
-  AlignedImages repeated = blank;
-  for (int y = 0; y < kSize.rows; ++y) {
-    for (int x = 0; x < kSize.columns; ++x) {
-      const double phase = 2.0 * std::numbers::pi * x / 12.0;
-      repeated.left.At(x, y) = static_cast<std::uint8_t>(std::lround(110 + 50 * std::cos(phase)));
-      repeated.right.At(x, y) =
-          static_cast<std::uint8_t>(std::lround(110 + 50 * std::cos(phase + 2.0)));
-    }
-  }
-  EXPECT_FALSE(placed({}, repeated, middle));
+  const auto waves = [](double phase) {
+    return ImageOf(kSize.columns, kSize.rows, [&](int x, int) {
+      return std::lround(110 + 50 * std::cos(2.0 * std::numbers::pi * x / 12.0 + phase));
+    });
+  };
+  EXPECT_FALSE(placed({}, {waves(0.0), waves(2.0)}, middle));
 }
 
 }  // namespace

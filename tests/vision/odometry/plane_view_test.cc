@@ -24,9 +24,8 @@ const RectifiedPair& Cameras() {
 StereoMeasurement SeeAt(const Pixel& pixel, const Vector3& normal, double height) {
   const Vector3 C = Cameras().left.C;
   const Vector3 ray = Triangulate(Cameras().left, Cameras().right, pixel, 1.0)->p_A - C;
-  StereoMeasurement seen;
-  seen.left = pixel;
-  seen.p_A = C + (height - normal.dot(C)) / normal.dot(ray) * ray;
+  StereoMeasurement seen{.left = pixel,
+                         .p_A = C + (height - normal.dot(C)) / normal.dot(ray) * ray};
   seen.disparity_px = PairProjection(Cameras())(seen.p_A)->z();
   return seen;
 }

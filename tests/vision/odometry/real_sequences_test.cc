@@ -8,6 +8,7 @@
 
 #include "core/json_file.h"
 #include "vision/cameras/camera_model.h"
+#include "vision/each_pixel.h"
 #include "vision/odometry/kitti_excerpt.h"
 #include "vision/odometry/plain_motion.h"
 #include "vision/odometry/refine_match.h"
@@ -119,12 +120,10 @@ CameraModel EurocCamera(const core::JsonValue& json) {
 GrayImage Align(const GrayImage& image, const CameraModel& real, const Cahv& aligned,
                 const ImageSize& size) {
   Image<SourcePosition> positions(size.columns, size.rows, {-10.0, -10.0});
-  for (int y = 0; y < size.rows; ++y) {
-    for (int x = 0; x < size.columns; ++x) {
-      const auto source = SourceOf(real, aligned, Pixel(x, y));
-      if (source) positions.At(x, y) = {source->x(), source->y()};
-    }
-  }
+  ForEachPixel(size.columns, size.rows, [&](int x, int y) {
+    const auto source = SourceOf(real, aligned, Pixel(x, y));
+    if (source) positions.At(x, y) = {source->x(), source->y()};
+  });
   return RectificationTable(positions, image.width(), image.height()).Rectify(image);
 }
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "vision/cameras/triangulation.h"
+#include "vision/each_pixel.h"
 #include "vision/odometry/detect_features.h"
 #include "vision/odometry/keep_clean.h"
 #include "vision/odometry/place_features.h"
@@ -20,12 +20,6 @@ namespace {
 
 constexpr ImageSize kSize{256, 192};
 
-// Of the plane z = 0, in closed form: the ray of a pixel meets it at a share of its length.
-double TrueDisparity_px(const RectifiedPair& pair, const Pixel& pixel) {
-  const auto unit = Triangulate(pair.left, pair.right, pixel, 1.0);
-  return (pair.left.C.z() - unit->p_A.z()) / pair.left.C.z();
-}
-
 struct Errors {
   double disparity_px = 0.0;  // root mean square
   double slope = 0.0;         // mean, down the rows
@@ -35,8 +29,7 @@ struct Errors {
 
 Errors ErrorsOf(bool slanted) {
   const RectifiedPair pair = PlanePair(kSize);
-  PlacementParams params;
-  params.slanted = slanted;
+  const PlacementParams params{.slanted = slanted};
   Errors errors;
   double squares_px2 = 0.0;
   for (std::uint32_t number = 0; number < 3; ++number) {
@@ -45,9 +38,9 @@ Errors ErrorsOf(bool slanted) {
     for (const Feature& feature : FeatureDetector({}, kSize).Detect(images.left)) {
       const Pixel pixel(feature.column, feature.row);
       const auto place = placer.Place(pixel, 1e-4 * Eigen::Matrix2d::Identity());
-      const double truth_px = TrueDisparity_px(pair, pixel);
+      const double truth_px = PlaneDisparity_px(pair, pixel);
       if (!place || std::abs(place->disparity_px - truth_px) > 0.5) continue;
-      const double slope = TrueDisparity_px(pair, pixel + Pixel(0.0, 1.0)) - truth_px;
+      const double slope = PlaneDisparity_px(pair, pixel + Pixel(0.0, 1.0)) - truth_px;
       squares_px2 += std::pow(place->disparity_px - truth_px, 2);
       errors.slope += place->slope.y() - slope;
       errors.residual += place->residual;
@@ -79,7 +72,7 @@ TEST(SlantedMatchTest, FindsNothingOutsideOrWithoutTexture) {
   const AlignedImages images = SeePlane(pair, math::Transform::Identity(), {}, 0);
   const RefineLimits limits{.along_row = true};
   const Pixel pixel(150.0, 110.0);
-  const double column = 150.0 - TrueDisparity_px(pair, pixel);
+  const double column = 150.0 - PlaneDisparity_px(pair, pixel);
   ASSERT_TRUE(FindSlanted(images.left, images.right, pixel, column, limits));
   EXPECT_FALSE(FindSlanted(images.left, images.right, pixel, 5.0, limits));
   EXPECT_FALSE(FindSlanted(images.left, images.right, pixel, 249.0, limits));
@@ -96,14 +89,9 @@ TEST(SlantedMatchTest, FindsNothingOutsideOrWithoutTexture) {
 // A pattern about the middle of an image of 60 x 60 pixels, by offset.
 template <typename Pattern>
 GrayImage PatternImage(const Pattern& grey) {
-  GrayImage image(60, 60);
-  for (int row = 0; row < 60; ++row) {
-    for (int column = 0; column < 60; ++column) {
-      image.At(column, row) = static_cast<std::uint8_t>(
-          std::lround(std::clamp(grey(column - 30.0, row - 30), 0.0, 255.0)));
-    }
-  }
-  return image;
+  return ImageOf(60, 60, [&](int column, int row) {
+    return std::lround(std::clamp(grey(column - 30.0, row - 30), 0.0, 255.0));
+  });
 }
 
 const Pixel kMiddle(30.0, 30.0);
@@ -215,9 +203,7 @@ using Numbers = std::vector<int>;
 
 // Lower quartiles are 1.5, 1 and 2.
 TEST(KeepCleanTest, LeavesOutWhatIsWorseThanTwiceTheLowerQuartile) {
-  PlacementParams params;
-  params.max_residual_ratio = 2.0;
-  params.min_kept = 0;
+  PlacementParams params{.max_residual_ratio = 2.0, .min_kept = 0};
   const PointsSeenTwice points = PointsWith({3.1, 1.0, 2.0, 1.5, 3.0}, {1.0, 1.0, 2.1, 1.0, 1.0});
   const std::vector<double> in_time{2.0, 2.0, 2.0, 2.0, 4.1};
   EXPECT_EQ(Kept(points, in_time, params), (Numbers{1, 3}));
@@ -227,8 +213,7 @@ TEST(KeepCleanTest, LeavesOutWhatIsWorseThanTwiceTheLowerQuartile) {
 }
 
 TEST(KeepCleanTest, KeepsTheBestOfFew) {
-  PlacementParams params;
-  params.max_residual_ratio = 2.0;
+  PlacementParams params{.max_residual_ratio = 2.0};
   const PointsSeenTwice points = PointsWith({9.0, 1.0, 4.0, 1.0, 1.0}, {1.0, 1.0, 1.0, 8.0, 1.0});
   params.min_kept = 2;
   EXPECT_EQ(Kept(points, {}, params), (Numbers{1, 4}));
@@ -243,9 +228,7 @@ TEST(KeepCleanTest, KeepsTheBestOfFew) {
 
 // Rounded pixels differ by a quarter of a grey level whatever they show.
 TEST(KeepCleanTest, DoesNotJudgeLessThanRounding) {
-  PlacementParams params;
-  params.max_residual_ratio = 2.0;
-  params.min_kept = 0;
+  const PlacementParams params{.max_residual_ratio = 2.0, .min_kept = 0};
   const PointsSeenTwice points = PointsWith({0.0, 0.0, 0.9, 1.1}, {0.0, 0.0, 0.0, 0.0});
   EXPECT_EQ(Kept(points, {}, params), (Numbers{0, 1, 2}));
 }

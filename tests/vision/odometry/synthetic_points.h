@@ -25,6 +25,8 @@ inline RectifiedPair OdometryPair() {
   return {left, right, {512, 384}, kFocal_px, 0.2};
 }
 
+inline const RectifiedPair kOdometryPair = OdometryPair();
+
 // What the pair sees of a point, without errors. Nothing outside of the left image.
 inline std::optional<StereoMeasurement> SeenExactly(const RectifiedPair& pair,
                                                     const math::Vector3& p_A,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/distributions.h"
+#include "vision/each_pixel.h"
 #include "vision/stereo/instruction_sets.h"
 
 namespace rockyard::vision {
@@ -15,11 +16,7 @@ namespace {
 
 GrayImage Noise(int width, int height) {
   core::RandomStream stream({260, 0}, core::Purpose::kTest, 0);
-  GrayImage image(width, height);
-  for (std::uint8_t& value : image.values()) {
-    value = static_cast<std::uint8_t>(stream.NextU32() & 0xFF);
-  }
-  return image;
+  return ImageOf(width, height, [&](int, int) { return stream.NextU32() & 0xFF; });
 }
 
 float PlainGrey(const GrayImage& image, const Pixel& middle, const ViewChange& view, float across,
@@ -125,24 +122,19 @@ TEST(WindowSamplesTest, HaveTheBitsOfAPlainLoop) {
 
 // Grey levels that rise by 2 a column and 3 a row show where each pixel of the window was taken.
 TEST(WindowSamplesTest, ShowWhatLiesWhereTheViewPutsIt) {
-  GrayImage image(60, 40);
-  for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 60; ++x) image.At(x, y) = static_cast<std::uint8_t>(2 * x + 3 * y);
-  }
+  const GrayImage image = ImageOf(60, 40, [](int x, int y) { return 2 * x + 3 * y; });
   ViewChange view;
   view.by_offset << 0.9, 0.2, 0.1, 0.7;
   view.by_distance << 0.01, -0.015;
   const Pixel middle(28.25, 19.5);
   const WindowSamples samples = SampleWindow(image, middle, view);
-  for (int row = 0; row < 15; ++row) {
-    for (int column = 0; column < 15; ++column) {
-      const Pixel offset(column - 7, row - 7);
-      const Pixel place = middle + view.by_offset * offset / (1.0 + view.by_distance.dot(offset));
-      const auto at =
-          static_cast<std::size_t>(row) * kTemplateLanes + static_cast<std::size_t>(column);
-      EXPECT_NEAR(samples.values[at], 2.0 * place.x() + 3.0 * place.y(), 1e-4);
-    }
-  }
+  ForEachPixel(15, 15, [&](int column, int row) {
+    const Pixel offset(column - 7, row - 7);
+    const Pixel place = middle + view.by_offset * offset / (1.0 + view.by_distance.dot(offset));
+    const auto at =
+        static_cast<std::size_t>(row) * kTemplateLanes + static_cast<std::size_t>(column);
+    EXPECT_NEAR(samples.values[at], 2.0 * place.x() + 3.0 * place.y(), 1e-4);
+  });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "instruction_sets.h"
 #include "plain_stereo.h"
+#include "vision/each_pixel.h"
 #include "vision/stereo/blob.h"
 #include "vision/stereo/correlator.h"
 #include "vision/stereo/dog.h"
@@ -19,25 +20,20 @@ namespace {
 
 GrayImage RandomImage(int width, int height, int levels, std::uint32_t number) {
   core::RandomStream stream({23, 0}, core::Purpose::kTest, number);
-  GrayImage image(width, height);
-  for (std::uint8_t& value : image.values()) {
-    value = static_cast<std::uint8_t>(stream.NextU32() % static_cast<std::uint32_t>(levels));
-  }
-  return image;
+  return ImageOf(width, height,
+                 [&](int, int) { return stream.NextU32() % static_cast<std::uint32_t>(levels); });
 }
 
 // The left image moved by `shift` pixels, with some pixels of its own.
 GrayImage Moved(const GrayImage& left, int shift, int levels, std::uint32_t number) {
   GrayImage right = RandomImage(left.width(), left.height(), levels, number);
   core::RandomStream stream({24, 0}, core::Purpose::kTest, number);
-  for (int y = 0; y < left.height(); ++y) {
-    for (int x = 0; x < left.width(); ++x) {
-      const int from = x + shift + (y > left.height() / 2 ? 1 : 0);
-      if (from >= 0 && from < left.width() && stream.Uniform() < 0.9) {
-        right.At(x, y) = left.At(from, y);
-      }
+  ForEachPixel(left.width(), left.height(), [&](int x, int y) {
+    const int from = x + shift + (y > left.height() / 2 ? 1 : 0);
+    if (from >= 0 && from < left.width() && stream.Uniform() < 0.9) {
+      right.At(x, y) = left.At(from, y);
     }
-  }
+  });
   return right;
 }
 
@@ -134,11 +130,9 @@ TEST(FastStagesTest, MatchesOfAnOrdinaryPair) {
 TEST(FastStagesTest, LargestScoresFit) {
   StereoPipelineParams params = ParamsOf({120, 14, 8, -2, 9});
   params.dog.limit = 127;
-  GrayImage left(120, 14);
-  GrayImage right(120, 14);
-  for (int y = 0; y < 14; ++y) {
-    for (int x = 0; x < 120; ++x) left.At(x, y) = x < 60 || x % 7 == y % 5 ? 254 : 0;
-  }
+  const GrayImage left =
+      ImageOf(120, 14, [](int x, int y) { return x < 60 || x % 7 == y % 5 ? 254 : 0; });
+  const GrayImage right(120, 14);
   const DisparityImage expected = PlainCorrelate(left, right, params);
   for (const std::int64_t set : InstructionSets()) {
     const UseInstructionSet use(set);
@@ -208,10 +202,8 @@ TEST(FastStagesTest, DifferenceOfGaussiansOfEverySize) {
 }
 
 TEST(FastStagesTest, DifferenceOfGaussiansOfExtremes) {
-  GrayImage steps(70, 30);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 70; ++x) steps.At(x, y) = (x / 9 + y / 7) % 2 == 0 ? 255 : 0;
-  }
+  const GrayImage steps =
+      ImageOf(70, 30, [](int x, int y) { return (x / 9 + y / 7) % 2 == 0 ? 255 : 0; });
   ExpectSameFilter(steps, {DogKind::kLaplacian, 1, 15, 4.0, 127});
   ExpectSameFilter(steps, {DogKind::kRowGradient, 1, 11, 4.0, 127});
   ExpectSameFilter(GrayImage(70, 30, 255), {DogKind::kLaplacian, 3, 15, 4.0, 127});
@@ -220,13 +212,10 @@ TEST(FastStagesTest, DifferenceOfGaussiansOfExtremes) {
 DisparityImage RandomDisparities(int width, int height, int spread, double valid,
                                  std::uint32_t number) {
   core::RandomStream stream({25, 0}, core::Purpose::kTest, number);
-  DisparityImage image(width, height);
-  for (std::int16_t& value : image.values()) {
+  return ImageOf<std::int16_t>(width, height, [&](int, int) {
     const auto one = static_cast<int>(stream.NextU32() % static_cast<std::uint32_t>(spread));
-    value = stream.Uniform() < valid ? static_cast<std::int16_t>(one - spread / 2)
-                                     : Dropped(Drop::kLineOfSight);
-  }
-  return image;
+    return stream.Uniform() < valid ? one - spread / 2 : Dropped(Drop::kLineOfSight);
+  });
 }
 
 void ExpectSameBlobs(const DisparityImage& image, const StereoFilterParams& filters) {
@@ -255,18 +244,14 @@ TEST(FastStagesTest, BlobsOfEverySize) {
 }
 
 TEST(FastStagesTest, BlobsOfEveryWidth) {
-  StereoFilterParams filters;
-  filters.blob_min_px = 7;
-  filters.blob_max_step_px = 0.75;
+  const StereoFilterParams filters{.blob_min_px = 7, .blob_max_step_px = 0.75};
   for (int width = 1; width <= 140; ++width) {
     ExpectSameBlobs(RandomDisparities(width, 7, 50, 0.7, 1000 + width), filters);
   }
 }
 
 TEST(FastStagesTest, BlobsOfTheLargestDisparities) {
-  StereoFilterParams filters;
-  filters.blob_min_px = 3;
-  filters.blob_max_step_px = 100.0;
+  const StereoFilterParams filters{.blob_min_px = 3, .blob_max_step_px = 100.0};
   ExpectSameBlobs(RandomDisparities(90, 12, 63999, 0.9, 1200), filters);
 }
 

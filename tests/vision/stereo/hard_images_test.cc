@@ -26,11 +26,7 @@ std::int64_t Count(const DropCounts& counts, Drop drop) {
 }
 
 Scene SmallScene(std::uint32_t number) {
-  Scene scene;
-  scene.width = kWidth;
-  scene.height = kHeight;
-  scene.number = number;
-  return scene;
+  return {.width = kWidth, .height = kHeight, .number = number};
 }
 
 // All scores are 0: the smallest disparity wins in the left image, and in the right one.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "vision/each_pixel.h"
+
 namespace rockyard::vision {
 namespace {
 
@@ -33,14 +35,12 @@ TEST(DropOutside, DropsWhatItsWindowOrThatOfItsMatchReachesOutOf) {
       const auto stored = static_cast<std::int16_t>(disparity_px * kDisparityOne);
       DisparityImage disparities(kWidth, kHeight, stored);
       DropOutside(left, right, side, disparities);
-      for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
-          const bool dropped = WindowHasOutside(left, x, y, side) ||
-                               WindowHasOutside(right, x - disparity_px, y, side);
-          EXPECT_EQ(disparities.At(x, y), dropped ? Dropped(Drop::kOutside) : stored)
-              << x << ", " << y << ", window " << side << ", disparity " << disparity_px;
-        }
-      }
+      ForEachPixel(kWidth, kHeight, [&](int x, int y) {
+        const bool dropped = WindowHasOutside(left, x, y, side) ||
+                             WindowHasOutside(right, x - disparity_px, y, side);
+        EXPECT_EQ(disparities.At(x, y), dropped ? Dropped(Drop::kOutside) : stored)
+            << x << ", " << y << ", window " << side << ", disparity " << disparity_px;
+      });
     }
   }
 }

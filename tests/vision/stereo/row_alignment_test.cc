@@ -10,6 +10,7 @@
 #include <string>
 
 #include "synthetic_pair.h"
+#include "vision/each_pixel.h"
 #include "vision/stereo/outside.h"
 #include "vision/stereo/score.h"
 #include "vision/stereo/stereo.h"
@@ -32,10 +33,7 @@ double LeftRow(const RowCorrection& moved, double x, double right_row) {
 
 // Ground that rises towards the lower edge: disparities from 14 to 31 px.
 Scene MovedScene(std::uint32_t number, const RowCorrection& moved) {
-  Scene scene;
-  scene.width = kWidth;
-  scene.height = kHeight;
-  scene.number = number;
+  Scene scene{.width = kWidth, .height = kHeight, .number = number};
   scene.disparity = [](double, double y) { return 14.0 + 0.15 * y; };
   scene.left_row = [moved](double x, double y) { return LeftRow(moved, x, y); };
   return scene;
@@ -194,10 +192,7 @@ TEST(RowTable, MakesAMovedPairAsGoodAsAnAlignedOne) {
 
 // 3 rows down: the last three output rows have no source; other places are exact.
 TEST(RowTable, TakesWholeRowsAsTheyAre) {
-  GrayImage image(kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) image.At(x, y) = static_cast<std::uint8_t>(7 * x + 31 * y);
-  }
+  const GrayImage image = ImageOf(kWidth, kHeight, [](int x, int y) { return 7 * x + 31 * y; });
   const RectificationTable table = MakeRowTable({3.0, 0.0, 0.0}, kWidth, kHeight);
   const GrayImage moved = table.Rectify(image);
   const Image<std::uint8_t> inside = table.Inside();

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "synthetic_pair.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::vision {
 namespace {
@@ -15,10 +16,7 @@ constexpr int kHeight = 80;
 constexpr int kDisparity_px = 10;
 
 Scene MovedScene(double rows) {
-  Scene scene;
-  scene.width = kWidth;
-  scene.height = kHeight;
-  scene.number = 300;
+  Scene scene{.width = kWidth, .height = kHeight, .number = 300};
   scene.disparity = [](double, double) { return double{kDisparity_px}; };
   scene.left_row = [rows](double, double y) { return y - rows; };
   return scene;
@@ -71,13 +69,11 @@ TEST(RowMatches, AreOneACell) {
 // A cell is flat but for a few columns of texture: the point lies among them.
 TEST(RowMatches, AreWhereTheTextureIs) {
   SyntheticPair pair = MakePair(MovedScene(0.0));
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      if (x >= 60 && x < 84) continue;
-      pair.left.At(x, y) = 110;
-      if (x >= kDisparity_px) pair.right.At(x - kDisparity_px, y) = 110;
-    }
-  }
+  ForEachPixel(kWidth, kHeight, [&](int x, int y) {
+    if (x >= 60 && x < 84) return;
+    pair.left.At(x, y) = 110;
+    if (x >= kDisparity_px) pair.right.At(x - kDisparity_px, y) = 110;
+  });
   RowMatchOptions options;
   options.grid_columns = 1;
   options.grid_rows = 4;
@@ -106,14 +102,10 @@ TEST(RowMatches, EndWithinWhatIsSearched) {
 // Waves of 16 px in both directions repeat within the columns that are searched. (Near the edges of
 // the image the difference of Gaussians does not.)
 TEST(RowMatches, AreUnique) {
-  GrayImage waves(kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const double phase = 2.0 * std::numbers::pi / 16.0;
-      waves.At(x, y) = static_cast<std::uint8_t>(
-          std::lround(110.0 + 40.0 * std::sin(phase * x) * std::sin(phase * y)));
-    }
-  }
+  const GrayImage waves = ImageOf(kWidth, kHeight, [](int x, int y) {
+    const double phase = 2.0 * std::numbers::pi / 16.0;
+    return std::lround(110.0 + 40.0 * std::sin(phase * x) * std::sin(phase * y));
+  });
   RowMatchOptions one_wave = SmallGrid();
   one_wave.min_disparity_px = -20;
   one_wave.max_disparity_px = 20;

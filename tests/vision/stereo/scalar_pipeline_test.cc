@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "plain_stereo.h"
+#include "vision/each_pixel.h"
 #include "vision/stereo/pyramid.h"
 
 namespace rockyard::vision {
@@ -16,22 +17,16 @@ namespace {
 
 GrayImage RandomImage(int width, int height, std::uint32_t levels, std::uint32_t number) {
   core::RandomStream stream({25, 0}, core::Purpose::kTest, number);
-  GrayImage image(width, height);
-  for (std::uint8_t& value : image.values()) {
-    value = static_cast<std::uint8_t>(stream.NextU32() % levels);
-  }
-  return image;
+  return ImageOf(width, height, [&](int, int) { return stream.NextU32() % levels; });
 }
 
 // Every other pixel is the left one's at this disparity.
 GrayImage Seen(const GrayImage& left, int disparity, std::uint32_t levels) {
   GrayImage right = RandomImage(left.width(), left.height(), levels, 99);
-  for (int y = 0; y < left.height(); ++y) {
-    for (int x = 0; x < left.width(); ++x) {
-      const int from = x + disparity;
-      if (from >= 0 && from < left.width() && (x + y) % 5 != 0) right.At(x, y) = left.At(from, y);
-    }
-  }
+  ForEachPixel(left.width(), left.height(), [&](int x, int y) {
+    const int from = x + disparity;
+    if (from >= 0 && from < left.width() && (x + y) % 5 != 0) right.At(x, y) = left.At(from, y);
+  });
   return right;
 }
 

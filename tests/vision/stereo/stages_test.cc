@@ -5,10 +5,9 @@
 #include <limits>
 #include <string>
 
-#include "core/archive.h"
-#include "core/error.h"
-#include "core/json_text.h"
+#include "core/params_text.h"
 #include "core/random.h"
+#include "vision/each_pixel.h"
 #include "vision/stereo/depth_range.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/dog.h"
@@ -22,9 +21,7 @@ namespace {
 
 GrayImage RandomImage(int width, int height, std::uint32_t number) {
   core::RandomStream stream({26, 0}, core::Purpose::kTest, number);
-  GrayImage image(width, height);
-  for (std::uint8_t& value : image.values()) value = static_cast<std::uint8_t>(stream.NextU32());
-  return image;
+  return ImageOf(width, height, [&](int, int) { return stream.NextU32(); });
 }
 
 TEST(PyramidTest, PixelsAreRoundedMeansOfSquares) {
@@ -49,18 +46,11 @@ TEST(PyramidTest, PixelsAreRoundedMeansOfSquares) {
 }
 
 Image<SourcePosition> Positions(int width, int height, auto position) {
-  Image<SourcePosition> positions(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) positions.At(x, y) = position(x, y);
-  }
-  return positions;
+  return ImageOf<SourcePosition>(width, height, position);
 }
 
 TEST(RectificationTest, APlaneOfGreyIsSampledExactly) {
-  GrayImage plane(40, 30);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x) plane.At(x, y) = static_cast<std::uint8_t>(3 * x + 4 * y + 5);
-  }
+  const GrayImage plane = ImageOf(40, 30, [](int x, int y) { return 3 * x + 4 * y + 5; });
   const auto source = [](int x, int y) {
     return SourcePosition{0.9 * x + 0.05 * y + 0.123, 0.8 * y - 0.03 * x + 3.7};
   };
@@ -76,18 +66,11 @@ TEST(RectificationTest, APlaneOfGreyIsSampledExactly) {
 }
 
 TEST(RectificationTest, FourPixelsWeighAsTheirAreas) {
-  GrayImage source(2, 2);
-  source.At(0, 0) = 10;
-  source.At(1, 0) = 250;
-  source.At(0, 1) = 100;
-  source.At(1, 1) = 0;
+  const GrayImage source =
+      ImageOf(2, 2, [](int x, int y) { return y == 0 ? 10 + 240 * x : 100 - 100 * x; });
   for (const double fx : {0.0, 0.25, 0.5, 1.0}) {
     for (const double fy : {0.0, 0.125, 0.75, 1.0}) {
-      const RectificationTable table(Positions(1, 1,
-                                               [&](int, int) {
-                                                 return SourcePosition{fx, fy};
-                                               }),
-                                     2, 2);
+      const RectificationTable table(Image<SourcePosition>(1, 1, {fx, fy}), 2, 2);
       const double mean = (1 - fy) * ((1 - fx) * 10 + fx * 250) + fy * (1 - fx) * 100;
       EXPECT_EQ(table.Rectify(source).At(0, 0), std::floor(mean + 0.5)) << fx << " " << fy;
     }
@@ -96,11 +79,8 @@ TEST(RectificationTest, FourPixelsWeighAsTheirAreas) {
 
 TEST(RectificationTest, TheIdentityGivesTheImageToItsLastPixel) {
   const GrayImage image = RandomImage(17, 11, 3);
-  const RectificationTable table(Positions(17, 11,
-                                           [](int x, int y) {
-                                             return SourcePosition{double(x), double(y)};
-                                           }),
-                                 17, 11);
+  const auto source = [](int x, int y) { return SourcePosition{double(x), double(y)}; };
+  const RectificationTable table(Positions(17, 11, source), 17, 11);
   EXPECT_EQ(table.Rectify(image), image);
   EXPECT_EQ(table.Inside(), Image<std::uint8_t>(17, 11, 1));
 }
@@ -109,24 +89,15 @@ TEST(RectificationTest, WhatTheSourceDoesNotReachIsOutside) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const GrayImage white(9, 7, 200);
-  for (const SourcePosition& position : {SourcePosition{-0.01, 3},
-                                         {8.01, 3},
-                                         {3, -0.01},
-                                         {3, 6.01},
-                                         {nan, 3},
-                                         {3, nan},
-                                         {infinity, 3},
-                                         {3, -infinity},
-                                         {1e300, 3}}) {
-    const RectificationTable table(Positions(1, 1, [&](int, int) { return position; }), 9, 7);
+  const std::vector<SourcePosition> beyond{{-0.01, 3},    {8.01, 3},      {3, -0.01},
+                                           {3, 6.01},     {nan, 3},       {3, nan},
+                                           {infinity, 3}, {3, -infinity}, {1e300, 3}};
+  for (const SourcePosition& position : beyond) {
+    const RectificationTable table(Image<SourcePosition>(1, 1, position), 9, 7);
     EXPECT_EQ(table.Inside().At(0, 0), 0) << position.x_px << " " << position.y_px;
     EXPECT_EQ(table.Rectify(white).At(0, 0), 0);
   }
-  const RectificationTable corner(Positions(1, 1,
-                                            [](int, int) {
-                                              return SourcePosition{8.0, 6.0};
-                                            }),
-                                  9, 7);
+  const RectificationTable corner(Image<SourcePosition>(1, 1, {8.0, 6.0}), 9, 7);
   EXPECT_EQ(corner.Inside().At(0, 0), 1);
   EXPECT_EQ(corner.Rectify(white).At(0, 0), 200);
 }
@@ -147,10 +118,7 @@ TEST(DifferenceOfGaussiansTest, ASpotIsABrightSquareInADarkOne) {
 // A spot of 120 shows a quarter of it above, half of it beside, on either side with its sign; what
 // only changes from row to row shows nothing.
 TEST(DifferenceOfGaussiansTest, ARowGradientSeesWhatChangesAlongTheRow) {
-  GrayImage image(9, 7);
-  for (int y = 0; y < 7; ++y) {
-    for (int x = 0; x < 9; ++x) image.At(x, y) = static_cast<std::uint8_t>(10 * y + 20);
-  }
+  GrayImage image = ImageOf(9, 7, [](int, int y) { return 10 * y + 20; });
   const DogParams params{.kind = DogKind::kRowGradient, .gain = 0.5, .limit = 40};
   EXPECT_EQ(DifferenceOfGaussians(image, params), GrayImage(9, 7, 40));
   image.At(4, 3) = 170;
@@ -224,22 +192,12 @@ TEST(DisparityTest, CodesOfDroppedPixelsAreNoDisparities) {
 }
 
 TEST(StereoTest, ImagesOfDifferentSizesAreRefused) {
-  try {
-    MatchStereo(GrayImage(30, 20), GrayImage(30, 21), {});
-    FAIL();
-  } catch (const core::UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("30 x 21"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(core::RefusalOf([] { MatchStereo(GrayImage(30, 20), GrayImage(30, 21), {}); }),
+              testing::HasSubstr("30 x 21"));
 }
 
 void ExpectRefused(const std::string& json, const std::string& field) {
-  StereoPipelineParams params;
-  try {
-    core::ReadParams(core::ParseJson(json, "test"), params);
-    FAIL() << "accepted " << json;
-  } catch (const core::UserError& error) {
-    EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(core::ProblemsOf<StereoPipelineParams>(json), testing::HasSubstr(field)) << json;
 }
 
 TEST(StereoPipelineParamsTest, WhatCannotWorkIsRefused) {
@@ -263,7 +221,7 @@ TEST(StereoPipelineParamsTest, ExtremesThatAreAcceptedFitTheirBits) {
                            R"({"correlator": {"window_side_px": 21}, "dog": {"limit": 18}})",
                            R"({"correlator": {"min_disparity_px": 480, "disparities": 512}})"}) {
     StereoPipelineParams params;
-    ASSERT_NO_THROW(core::ReadParams(core::ParseJson(json, "test"), params)) << json;
+    ASSERT_NO_THROW(params = core::ReadText<StereoPipelineParams>(json)) << json;
     const auto side = params.correlator.window_side_px;
     // The largest key is no mask, and the largest disparity no code of a dropped pixel.
     EXPECT_LT(4 * side * side * 2 * params.dog.limit + 3, 0xFFFF) << json;

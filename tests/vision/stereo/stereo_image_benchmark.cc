@@ -41,9 +41,7 @@ const SyntheticPair& PairOf(const Size& size) {
   const auto key = std::tuple(size.width, size.height, size.disparities);
   const auto found = pairs.find(key);
   if (found != pairs.end()) return found->second;
-  Scene scene;
-  scene.width = size.width;
-  scene.height = size.height;
+  Scene scene{.width = size.width, .height = size.height};
   scene.disparity = [size](double x, double y) {
     const bool rock = x > 0.4 * size.width && x < 0.6 * size.width && y > 0.5 * size.height;
     return size.disparities * (0.25 + 0.4 * y / size.height + (rock ? 0.1 : 0.0));

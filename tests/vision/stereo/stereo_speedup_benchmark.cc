@@ -72,11 +72,10 @@ struct Images {
 };
 
 Images MakeImages(const Case& c) {
-  Scene scene;
-  scene.width = c.width;
-  scene.height = c.height;
-  scene.shortest_wave_px = 2.5 * (1 << c.level);
-  scene.longest_wave_px = 24.0 * (1 << c.level);
+  Scene scene{.width = c.width,
+              .height = c.height,
+              .shortest_wave_px = 2.5 * (1 << c.level),
+              .longest_wave_px = 24.0 * (1 << c.level)};
   const double range_px = c.disparities * (1 << c.level);
   scene.disparity = [c, range_px](double x, double y) {
     const bool rock = x > 0.4 * c.width && x < 0.6 * c.width && y > 0.5 * c.height;

@@ -1,9 +1,10 @@
-// Trials of the committed Pathfinder scenarios for the tests of the closed loop.
+// Trials of the scenarios of Pathfinder and GESTALT for the tests of the closed loop.
 #pragma once
 
 #include <bit>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenario/shipped.h"
@@ -13,9 +14,24 @@ namespace rockyard::trial {
 
 using Overrides = std::vector<std::string>;  // "PATH=VALUE"
 
+inline Overrides operator+(Overrides a, const Overrides& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 inline DriveParams Pathfinder(const std::string& name, const Overrides& overrides = {}) {
   return scenario::Shipped("pathfinder/" + name, overrides).drive;
 }
+
+inline DriveParams Gestalt(const std::string& name, const Overrides& overrides = {}) {
+  return scenario::Shipped("gestalt/" + name, overrides).drive;
+}
+
+// 3 m of empty sand, without errors of sensors.
+inline const Overrides kShortAndEmpty = {"terrain.rocks.kind=none", "course.goal_x_m=3"};
+inline const Overrides kTrueEncoders = {"sensors.encoders.distance_variance_m2_per_m=0",
+                                        "sensors.encoders.physics_variance_m2_per_m=0",
+                                        "sensors.gyro.heading_variance_deg2_per_m=0"};
 
 // A trial with its course over time.
 struct TracedTrial {
@@ -35,6 +51,15 @@ inline std::vector<DriveResult> RunTrials(const DriveParams& drive, std::uint32_
   std::vector<DriveResult> results;
   for (std::uint32_t i = 0; i < count; ++i) results.push_back(RunTrial(drive, {1, i}));
   return results;
+}
+
+// In the order of time.
+inline std::vector<truth::TraceEvent> EventsOf(const truth::Trace& trace, std::string_view kind) {
+  std::vector<truth::TraceEvent> events;
+  for (const truth::TraceEvent& event : trace.events) {
+    if (event.kind == kind) events.push_back(event);
+  }
+  return events;
 }
 
 // Names of the columns whose bits differ, and "outcome" and "detail" where these do.
