@@ -15,8 +15,6 @@
 #include <type_traits>
 
 #include "app/scenario_names.h"
-#include "batch/run_folder.h"
-#include "campaign/derived_files.h"
 #include "core/error.h"
 
 namespace rockyard::app {
@@ -82,11 +80,6 @@ void RefuseWriting(const std::string& option, const fs::path& file, const fs::pa
   std::error_code error;
   if (fs::is_regular_file(file, error) && fs::equivalent(file, input, error)) {
     throw core::UserError(option, fmt::format("is {}, which is read", input.string()),
-                          "name another file");
-  }
-  if (campaign::IsRunFile(file.filename()) && batch::HoldsStore(input) &&
-      fs::equivalent(fs::absolute(file).parent_path(), input, error)) {
-    throw core::UserError(option, fmt::format("is a file of the run in {}", input.string()),
                           "name another file");
   }
 }

@@ -14,8 +14,8 @@ namespace rockyard::app {
 void CheckEveryValue(CLI::App& app);
 
 // Lets every subcommand refuse, before it does anything, an output file that is one of the files
-// that it is given to read, by whatever name, or that is a file of the run in a folder that it is
-// given. What goes into folders is looked at there (campaign/output_folder.h).
+// that it is given to read, by whatever name. More is refused by campaign/output_file.h, and of
+// folders by campaign/output_folder.h.
 void KeepEveryInput(CLI::App& app);
 
 }  // namespace rockyard::app

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "batch/run_folder.h"
+#include "campaign/derived_files.h"
 #include "core/error.h"
 #include "core/temporary_file.h"
 
@@ -27,6 +29,11 @@ void CheckOutputFile(std::string_view option, const std::string& file) {
   if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
     throw core::UserError(std::string(option), "is there and is no regular file: " + file,
                           "name a file");
+  }
+  if (IsRunFile(fs::path(file).filename()) &&
+      batch::HoldsStore(fs::absolute(file, error).parent_path())) {
+    throw core::UserError(std::string(option), "is a file of the run itself: " + file,
+                          "choose another name");
   }
   if (!core::HasRoomForTemporary(file)) {
     throw core::UserError(std::string(option), "has too long a name: " + file, "shorten it");

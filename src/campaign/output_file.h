@@ -7,9 +7,10 @@
 
 namespace rockyard::campaign {
 
-// Throws core::UserError where `file` cannot be meant: it is a folder, a device or a pipe, or in a
-// folder that does not exist or cannot be written to. Called before long work rather than after it;
-// an empty name passes. `option` is the one to blame, such as "--out".
+// Throws core::UserError where `file` cannot be meant: it is a folder, a device or a pipe, a file
+// of the run that lies in its folder, or in a folder that does not exist or cannot be written to.
+// Called before long work rather than after it; an empty name passes. `option` is the one to blame,
+// such as "--out".
 void CheckOutputFile(std::string_view option, const std::string& file);
 
 // Throws core::UserError where the name of `file` does not end in `extension` (".html"), by which

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 
-#include "batch/run_folder.h"
 #include "campaign/campaign_process.h"
-#include "campaign/derived_files.h"
 #include "campaign/output_file.h"
 #include "campaign/report_build.h"
 #include "campaign/report_inputs.h"
@@ -36,14 +34,10 @@ std::string Title(const ReportRequest& request, const std::vector<ReportInput>& 
   return title;
 }
 
-// Before the work: what cannot be meant, or would lay a page over what a run holds.
+// Before the work: what cannot be meant.
 void CheckFile(const char* option, const std::string& file, const char* extension) {
   CheckOutputFile(option, file);
   CheckExtension(option, file, extension);
-  const fs::path folder = fs::absolute(file).parent_path();
-  if (batch::HoldsStore(folder) && IsRunFile(fs::path(file).filename())) {
-    throw core::UserError(option, "is a file of the run itself: " + file, "choose another name");
-  }
 }
 
 void CheckFiles(const ReportRequest& request) {

@@ -38,18 +38,22 @@ struct LimitRule {
 void DoubtLimits(const trial::DriveParams& drive, std::vector<Problem>& doubts) {
   const double course_m = trial::CourseLength_m(drive.course);
   const trial::RefereeParams& referee = drive.referee;
+  constexpr std::string_view kTimeLimit = "referee.time_limit_s";
   const std::string follow = "state it, or null to have it follow the course";
   // Less than half of what is given where the value is left open; of batteries a drive of Rocky 3.2
   // takes 2 Wh and more a metre among rocks.
   const LimitRule rules[] = {
       {"referee.no_path_distance_m", referee.no_path_distance_m, 0.25 * course_m, "m", follow},
       {"referee.no_path_time_s", referee.no_path_time_s, 200.0 * course_m, "s", follow},
-      {"referee.time_limit_s", referee.time_limit_s, 800.0 * course_m, "s", follow},
+      {kTimeLimit, referee.time_limit_s, 800.0 * course_m, "s", follow},
       {"energy.battery_wh", drive.energy.battery_wh, 2.0 * course_m, "Wh",
        "state what the rover carries, or 0 for no limit"},
   };
+  // Too short to arrive at full speed: meant as a duration.
+  const double fastest_s = course_m / drive.rover.drive.speed_m_s;
   for (const LimitRule& rule : rules) {
-    if (rule.value <= 0.0 || rule.value >= rule.least) continue;
+    const bool is_duration = rule.path == kTimeLimit && rule.value < fastest_s;
+    if (rule.value <= 0.0 || rule.value >= rule.least || is_duration) continue;
     doubts.push_back({std::string(rule.path),
                       fmt::format("{:g} {} are little for a course of {:.3g} m", rule.value,
                                   rule.unit, course_m),

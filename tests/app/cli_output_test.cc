@@ -182,7 +182,7 @@ TEST_F(OutputTest, IsNeverAnInput) {
   for (const Words& words : commands) {
     const std::string before = ReadFile(work() / words.back());
     EXPECT_THAT(RunTo(2, words).err, testing::ContainsRegex("error: --[a-z]+: is .*, which is read|"
-                                                            "is a file of the run in run"));
+                                                            "is a file of the run itself"));
     EXPECT_EQ(ReadFile(work() / words.back()), before) << Joined(words);
   }
   RunTo(0, {"terrain", "mine", "--out", "scenarios/base.json"});

@@ -108,7 +108,8 @@ TEST_F(CliReportPages, OutThatCannotBeMeantIsRefused) {
   const auto refused = [&](const std::vector<std::string>& words, const char* why) {
     EXPECT_THAT(RunTo(2, With({"report", "a"}, words)).err, HasSubstr(why));
   };
-  refused({"--out", "a/results.sqlite"}, "does not end in .html");
+  refused({"--out", "a/results.sqlite"}, "is a file of the run itself");
+  refused({"--out", "a/page.svg"}, "does not end in .html");
   refused({"--out", "no/where/page.html"}, "--out");
   fs::create_directories(work() / "folder.html");
   refused({"--out", "folder.html"}, "is a folder");

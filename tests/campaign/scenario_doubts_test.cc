@@ -46,6 +46,8 @@ TEST(ScenarioDoubts, LimitsOfAShorterCourse) {
                                            "time_limit_s": 0}, "energy": {"battery_wh": 0})")),
               IsEmpty())
       << "none is a limit";
+  EXPECT_THAT(PathsOf(R"({"referee": {"time_limit_s": 40}})"), IsEmpty()) << "40 s of it are meant";
+  EXPECT_THAT(PathsOf(R"({"referee": {"time_limit_s": 60}})"), SizeIs(1));
   // Left open they follow the course; batteries do not.
   EXPECT_THAT(PathsOf(Far()), ElementsAre("energy.battery_wh"));
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <string_view>
 #include <system_error>
@@ -38,8 +39,8 @@ JsonValue MotionJson(const std::optional<vision::Motion>& motion) {
 
 JsonValue EntryJson(const PairEntry& entry) {
   const vision::MotionResult& result = entry.found.result;
-  std::vector<std::int64_t> counts;
-  for (const auto count : kCounts) counts.push_back(result.counts.*count);
+  std::array<std::int64_t, kCounts.size()> counts{};
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = result.counts.*kCounts[i];
   JsonValue json = JsonValue::Object({{"pair", entry.pair},
                                       {"number", entry.found.number},
                                       {"reference", entry.found.reference},
