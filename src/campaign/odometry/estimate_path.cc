@@ -85,24 +85,26 @@ std::vector<math::Transform> PredictedPoses(const OdometryRequest& request, std:
 }
 
 // What decides the path and the files, but for the images themselves.
-core::JsonValue PathRequestJson(const OdometryRequest& request, const OdometryResult& result) {
+core::JsonValue PathRequestJson(const OdometryRequest& request, const ImageSequence& sequence,
+                                const OdometryResult& result) {
   const auto bytes_of = [](const fs::path& file) {
     constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
     if (file.empty()) return std::string("none");
     return core::Hex(
         core::Hasher().RawText(core::ReadWholeFile(file, kMaxBytes, "a file")).value());
   };
-  core::JsonValue json = core::JsonValue::Object({{"sequence", request.sequence.string()},
-                                                  {"pairs", result.pairs_there},
-                                                  {"planned", result.planned},
-                                                  {"first", request.first},
-                                                  {"every", request.every},
-                                                  {"pictured", result.pictured},
-                                                  {"seed", std::to_string(request.seed)},
-                                                  {"white", request.white.value_or(0)},
-                                                  {"cameras", bytes_of(request.cameras)},
-                                                  {"prediction", NameOf(request.prediction)},
-                                                  {"predicted", bytes_of(request.predicted)}});
+  core::JsonValue json = core::JsonValue::Object(
+      {{"sequence", request.sequence.string()},
+       {"pairs", result.pairs_there},
+       {"planned", result.planned},
+       {"first", request.first},
+       {"every", request.every},
+       {"pictured", result.pictured},
+       {"seed", std::to_string(request.seed)},
+       {"white", request.white.value_or(0)},
+       {"cameras", bytes_of(request.cameras.empty() ? sequence.calibration : request.cameras)},
+       {"prediction", NameOf(request.prediction)},
+       {"predicted", bytes_of(request.predicted)}});
   json.Set("parameters", core::WriteParams(result.params));
   return json;
 }
@@ -112,7 +114,7 @@ OutputPlan PathPlan(const OdometryRequest& request, const ImageSequence& sequenc
   OutputPlan plan{.command = "vo",
                   .names = OdometryFileNames(),
                   .inputs = {request.sequence, request.cameras, request.truth, request.predicted},
-                  .request = PathRequestJson(request, result)};
+                  .request = PathRequestJson(request, sequence, result)};
   for (const SequencePair& pair : sequence.pairs) {
     plan.inputs.insert(plan.inputs.end(), {pair.left, pair.right});
   }
@@ -143,8 +145,10 @@ class PathEstimation {
     journal_.emplace(folder_.PathOf(kJournalFile));
     std::int64_t failures = 0;
     for (const PairEntry& entry : journal_->entries()) {
+      const std::int64_t given = std::ssize(pairs_) + (entry.unreadable.empty() ? 1 : 0);
       if (std::ssize(result_.steps) == std::ssize(wanted) ||
-          entry.pair != wanted[result_.steps.size()]) {
+          entry.pair != wanted[result_.steps.size()] || entry.found.reference < 0 ||
+          entry.found.reference >= given) {
         throw core::UserError(folder_.PathOf(kJournalFile).string(), "has other pairs",
                               "begin anew in another folder");
       }

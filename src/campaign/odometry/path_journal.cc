@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -69,7 +70,7 @@ class EntryReader {
     vision::MotionResult& result = entry.found.result;
     result.rms_px = At("rms_px").number();
     if (!IsNull("motion")) result.motion = ReadMotion();
-    if (!IsNull("reason")) result.reason = static_cast<vision::NoMotion>(At("reason").integer());
+    if (!IsNull("reason")) result.reason = ReadReason();
     const std::vector<double> counts = Numbers("counts", kCounts.size());
     for (std::size_t i = 0; i < counts.size(); ++i) {
       result.counts.*kCounts[i] = static_cast<std::int64_t>(counts[i]);
@@ -92,6 +93,14 @@ class EntryReader {
     for (const JsonValue& number : At(key).list()) numbers.push_back(number.number());
     if (numbers.size() != count) throw std::out_of_range("other " + std::string(key));
     return numbers;
+  }
+
+  vision::NoMotion ReadReason() const {
+    const auto reason = static_cast<std::size_t>(At("reason").integer());
+    if (reason >= core::EnumNames<vision::NoMotion>::kNames.size()) {
+      throw std::out_of_range("no such reason");
+    }
+    return static_cast<vision::NoMotion>(reason);
   }
 
   vision::Motion ReadMotion() const {
@@ -129,11 +138,15 @@ PathJournal::PathJournal(fs::path file) : path_(std::move(file)) {
     if (at < text.size()) fs::resize_file(path_, at);
   }
   file_.open(path_, std::ios::app | std::ios::binary);
+  if (!file_) FailToWrite();
 }
 
 void PathJournal::Add(const PairEntry& entry) {
   file_ << core::CompactJson(EntryJson(entry)) << '\n' << std::flush;
-  if (file_) return;
+  if (!file_) FailToWrite();
+}
+
+void PathJournal::FailToWrite() const {
   core::FailOnDisk(path_, "cannot be written", {errno, std::generic_category()});
 }
 

@@ -25,15 +25,17 @@ struct PairEntry {
 class PathJournal {
  public:
   // Entries that the file holds, where there is one; a last line that was cut off is removed from
-  // it. Throws core::UserError for what no journal holds.
+  // it. Throws core::UserError for what no journal holds, and as Add does.
   explicit PathJournal(std::filesystem::path file);
 
   const std::vector<PairEntry>& entries() const { return entries_; }
 
-  // Throws core::MachineError where it cannot be written.
+  // Throws core::FailOnDisk's errors where it cannot be written.
   void Add(const PairEntry& entry);
 
  private:
+  [[noreturn]] void FailToWrite() const;
+
   std::filesystem::path path_;
   std::vector<PairEntry> entries_;
   std::ofstream file_;

@@ -332,8 +332,20 @@ TEST_F(EstimatedPath, WhatWasCutOffEndsAsIfItHadNotBeen) {
       EXPECT_EQ(ReadText(request.out / name), ReadText(out() / name)) << pairs << " " << name;
     }
   }
-  std::ofstream(request.out / "journal.jsonl", std::ios::app) << "{}\n";
-  EXPECT_THROW(EstimatePath(request), core::UserError);
+  // What no path has: another pair, a reference that was not seen, a reason that there is not.
+  const std::string line_0 = journal.substr(0, journal.find('\n') + 1);
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = line_0.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return std::string(line_0).replace(at, from.size(), to);
+  };
+  for (const std::string& text :
+       {std::string("{}\n"), line_0 + line_0, changed("\"reference\":0", "\"reference\":1"),
+        changed("\"reference\":0", "\"reference\":-1"),
+        changed("\"reason\":null", "\"reason\":8")}) {
+    std::ofstream(request.out / "journal.jsonl") << text;
+    EXPECT_THROW(EstimatePath(request), core::UserError) << text;
+  }
   request.first = 5;
   request.out = own() / "first";
   EXPECT_THROW(EstimatePath(request), core::UserError);  // there is nothing to begin with
