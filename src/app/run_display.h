@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/campaign_options.h"
+#include "app/exit_code.h"
 #include "app/shared_flag.h"
 #include "campaign/observer.h"
 #include "campaign/run_campaign.h"
