@@ -33,6 +33,9 @@ function replayed() {
 }
 
 const open = (name, options) => openReport(browser, at(name), options);
+/** One page for the tests that leave it as it is. */
+let shared;
+const look = () => (shared ??= open("one.html"));
 
 test("opens from disk, asks for nothing else and complains of nothing", async () => {
   const { page, requests, problems, url } = await open("one.html");
@@ -45,7 +48,7 @@ test("opens from disk, asks for nothing else and complains of nothing", async ()
 });
 
 test("the headline is that of summary.json", async () => {
-  const { page } = await open("one.html");
+  const { page } = await look();
   const { declared_success: declared, true_success: truly, distance_m: distance } = json("nominal", "summary.json");
   const [row] = await values(page.locator("#headline .headline-table"));
   assert.equal(Number(row[1]), TRIALS);
@@ -57,11 +60,10 @@ test("the headline is that of summary.json", async () => {
   assert.deepEqual(ends, [declared.ci95, truly.ci95]);
   const method = { wilson: /Wilson/, clopper_pearson: /Clopper-Pearson/ }[declared.ci_method];
   assert.match(await page.locator("#headline").innerText(), method);
-  await page.close();
 });
 
 test("the distance curve has the steps of distance_cdf.csv, in its drawing too", async () => {
-  const { page } = await open("one.html");
+  const { page } = await look();
   const steps = csv(at("nominal", "distance_cdf.csv"));
   const rows = await values((await numbersOf(page, "distance-cdf")).first());
   assert.equal(rows.length, steps.length);
@@ -80,11 +82,10 @@ test("the distance curve has the steps of distance_cdf.csv, in its drawing too",
   const expected = [0, ...steps.map((step) => Number(step.ecdf))];
   assert.equal(drawn.length, expected.length);
   drawn.forEach((share, i) => assert.ok(Math.abs(share - expected[i]) < 1e-3, `step ${i} is drawn at ${share}`));
-  await page.close();
 });
 
 test("distributions count the trials of trials.csv and state summary.json", async () => {
-  const { page } = await open("one.html");
+  const { page } = await look();
   const trials = csv(at("nominal", "trials.csv"));
   const { dead_reckoning: errors, sim_time_s, energy_wh } = json("nominal", "summary.json");
   for (const [column, summary] of Object.entries({ ...errors, sim_time_s, energy_wh })) {
@@ -100,7 +101,6 @@ test("distributions count the trials of trials.csv and state summary.json", asyn
     }
     assert.equal(counted, TRIALS);
   }
-  await page.close();
 });
 
 test("outcomes are counted as in summary.json, and a count shows its trials", async () => {
@@ -159,7 +159,7 @@ test("columns are chosen, and a chosen one shows what trials.csv holds", async (
 });
 
 test("every trial has its replay: a page that is there, or the command", async () => {
-  const { page } = await open("one.html");
+  const { page } = await look();
   await openTrials(page);
   const links = page.locator("#trials .tabulator-row a");
   const targets = await links.evaluateAll((all) => all.map((link) => link.getAttribute("href")));
@@ -172,11 +172,10 @@ test("every trial has its replay: a page that is there, or the command", async (
   await button.click();
   const command = await page.locator(".replay-command code").innerText();
   assert.match(command, new RegExp(`^rockyard replay .*nominal.* --trial ${trial}$`));
-  await page.close();
 });
 
 test("published values stand with their verdicts", async () => {
-  const { page } = await open("one.html");
+  const { page } = await look();
   const { rows } = payloadOf(at("one.html")).runs[0].published;
   const shown = await values(page.locator("#published table"));
   assert.equal(shown.length, rows.length);
@@ -186,7 +185,6 @@ test("published values stand with their verdicts", async () => {
   });
   const verdicts = new Set(rows.map((row) => row.verdict));
   assert.equal(await page.locator("#published .meanings dd").count(), verdicts.size);
-  await page.close();
 });
 
 test("parameters are counted by origin and filtered", async () => {

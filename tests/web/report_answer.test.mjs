@@ -29,6 +29,9 @@ before(async () => {
 after(() => browser?.close());
 
 const open = (name, options) => openReport(browser, at(name), options);
+/** One page for the tests that leave it as it is. */
+let shared;
+const look = () => (shared ??= open("one.html"));
 const numbers = (locator) => locator.evaluateAll((all) => all.map(({ dataset }) => Number(dataset.value)));
 
 /** Trials of each outcome, or of each detail, of the failed ones. */
@@ -39,7 +42,7 @@ function counts(of, rows = trials()) {
 }
 
 test("the page begins with both rates and their intervals, as summary.json has them", async () => {
-  const { page } = await open("one.html");
+  const { page } = await look();
   const { declared_success: declared, true_success: truly } = summary();
   assert.equal(await page.locator("section").first().getAttribute("id"), "answer");
   assert.deepEqual(await numbers(page.locator(".answer [data-value]")), [declared.rate, declared.trials, truly.rate]);
@@ -50,7 +53,6 @@ test("the page begins with both rates and their intervals, as summary.json has t
   assert.match(text, /^Rocky 3\.2 declared arrival in \d+\s% of 60 drives \(95 % interval \d+ to \d+\), and truly was at the goal in \d+\s% \(\d+ to \d+\)\.$/);
   assert.equal(text.match(/95 %/g).length, 1);
   assert.match(await page.locator("#answer .note").innerText(), /Scenario nominal, navigator pathfinder, terrain sensor light stripe, localization by dead reckoning/);
-  await page.close();
 });
 
 test("a rover of another shape is not called by a name", async () => {
@@ -63,7 +65,7 @@ test("a rover of another shape is not called by a name", async () => {
 });
 
 test("causes of failed drives are those of trials.csv, the largest first", async () => {
-  const { page } = await open("one.html");
+  const { page } = await look();
   const failed = trials().filter(({ outcome }) => outcome !== "goal_reached");
   const expected = [...counts("detail", failed).values()].sort((a, b) => b - a);
   const [total, ...shown] = await numbers(page.locator(".answer-causes [data-value]"));
@@ -74,11 +76,10 @@ test("causes of failed drives are those of trials.csv, the largest first", async
   assert.deepEqual(shown, [...expected.slice(0, named), ...(rest > 0 ? [rest] : [])]);
   const bars = await page.locator("#outcomes [data-cause-count]").evaluateAll((all) => all.map(({ dataset }) => Number(dataset.causeCount)));
   assert.deepEqual(bars.sort((a, b) => b - a), [...counts("detail").values()].sort((a, b) => b - a));
-  await page.close();
 });
 
 test("the map has the end of every trial, and the true paths of those that were driven again", async () => {
-  const { page, problems } = await open("one.html");
+  const { page, problems } = await look();
   const { tracks, first_tracks: first } = run();
   assert.equal(first, TRACKS);
   const outcomes = counts("outcome");
@@ -100,7 +101,6 @@ test("the map has the end of every trial, and the true paths of those that were 
     assert.ok(length <= Number(row.true_distance_m) * 1.02 + 0.02 && length > 0.8 * row.true_distance_m, `trial ${trial} is ${length} m long`);
   }
   assert.deepEqual(problems, []);
-  await page.close();
 });
 
 function lengthOf(piece) {
@@ -134,7 +134,7 @@ test("without tracks the map has the ends alone, and says so", async () => {
 });
 
 test("each outcome has an example, the trial of median distance, with plan and replay", async () => {
-  const { page } = await open("one.html");
+  const { page } = await look();
   const medians = [...counts("outcome").keys()].map((outcome) => {
     const rows = trials().filter((row) => row.outcome === outcome).sort((a, b) => a.true_distance_m - b.true_distance_m);
     return [outcome, Number(rows[Math.floor((rows.length - 1) / 2)].trial)];
@@ -149,7 +149,6 @@ test("each outcome has an example, the trial of median distance, with plan and r
     assert.ok((await card.locator("svg.plan .plan-rock").count()) > 10);
     assert.ok(existsSync(at(await card.locator("a").getAttribute("href"))), `trial ${trial}`);
   }
-  await page.close();
 });
 
 test("on a phone answer, map and the commonest cause are on the first two screens", async () => {

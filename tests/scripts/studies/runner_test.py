@@ -15,7 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 
 # Gives a hash by the scenario's text and the file `bits`, which stands for what the program computes.
-ROCKYARD = rf"#!{sys.executable}" + r"""
+ROCKYARD = rf"#!{sys.executable} -IS" + r"""
 import hashlib, json, pathlib, sys
 root = pathlib.Path(__file__).resolve().parents[3]
 words = sys.argv[1:]
@@ -30,7 +30,7 @@ trials = words[words.index("--trials") + 1]
 print(json.dumps({"fingerprint": made(text), "trial_hash": made(text, bits, trials),
                   "provenance": {"cpu_level": "v4"}}))
 """
-SCRIPT = f"#!{sys.executable}" + """
+SCRIPT = f"#!{sys.executable} -IS" + """
 import subprocess, sys, time
 from pathlib import Path
 page, rockyard = sys.argv[1:3]
@@ -50,10 +50,25 @@ Path(page).write_text(f"# Page\\n\\n{said}")
 class Runner(unittest.TestCase):
     """Two studies, each with a scenario and a page."""
 
+    prepared = None  # the tree of a new test, with ".made" beside it where both studies were made
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.prepared = Path(folder.name).resolve() / "tree"
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name).resolve()
+        self.root = Path(folder.name).resolve() / "tree"
+        if self.prepared.exists():
+            shutil.copytree(self.prepared, self.root)
+        else:
+            self.plant()
+            shutil.copytree(self.root, self.prepared)
+
+    def plant(self):
         shutil.copytree(ROOT / "scripts/studies/runner", self.root / "scripts/studies/runner",
                         ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copy(ROOT / "scripts/studies.py", self.root / "scripts/studies.py")
@@ -102,10 +117,17 @@ class Runner(unittest.TestCase):
                                 capture_output=True, check=False)
         return result.returncode, result.stdout, result.stderr
 
-    def made(self):
-        """Both studies made and committed."""
-        self.assertEqual(self.call("run", "one", "two")[0], 0)
-        self.commit()
+    def made(self, anew=False):
+        """Both studies made and committed; `anew` where the test has declared other ones."""
+        made = self.prepared.with_name("tree.made")
+        if anew or not made.exists():
+            self.assertEqual(self.call("run", "one", "two")[0], 0)
+            self.commit()
+            if not anew:
+                shutil.copytree(self.root, made, ignore=shutil.ignore_patterns("runs"))  # whose paths are absolute
+        else:
+            shutil.rmtree(self.root)
+            shutil.copytree(made, self.root)
 
     def test_a_page_without_a_stamp_must_say_so_with_the_build_that_it_names(self):
         code, said, _ = self.call("check")
@@ -185,7 +207,7 @@ class Runner(unittest.TestCase):
         self.declare("one", cells=[{"scenario": "scenarios/o*.json"}])
         self.commit()
         self.build()
-        self.made()
+        self.made(anew=True)
         for touches, pages in (("scenarios/base.json", {"two"}), ("scenarios/one.json", {"one"})):
             self.write("CHANGELOG.md", f"### Changes results\n\n- New words (touches: {touches})\n- Old.\n")
             said = self.call("check")[1]
@@ -213,7 +235,7 @@ class Runner(unittest.TestCase):
 
     def test_scenarios_may_be_named_as_people_do_and_no_campaign_is_missed(self):
         self.write("build/scenario", "one")
-        self.made()
+        self.made(anew=True)
         self.assertEqual(json.loads(self.read("results/stamps/one.json"))["cells"][0]["file"], "scenarios/one.json")
         self.write("build/scenario", "a_run")
         code, _, errors = self.call("run", "one")
