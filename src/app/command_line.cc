@@ -179,10 +179,12 @@ int RunCommandLine(int argc, const char* const* argv) {
   if (!campaign::IsFirstRank() && !(argc > 1 && IsForAllRanks(argv[1]))) {
     return static_cast<int>(ExitCode::kDone);
   }
-  CLI::App app("Monte Carlo performance evaluation of planetary rovers", "rockyard");
-  ExitCode exit_code = ExitCode::kDone;
-  AddCommands(app, exit_code);
-  const ExitCode outcome = Guarded([&] { return Parse(app, argc, argv, exit_code); });
+  const ExitCode outcome = Guarded([&] {
+    CLI::App app("Monte Carlo performance evaluation of planetary rovers", "rockyard");
+    ExitCode exit_code = ExitCode::kDone;
+    AddCommands(app, exit_code);
+    return Parse(app, argc, argv, exit_code);
+  });
   LeaveFirstRankTime(outcome);
   return static_cast<int>(OutputFailed() ? AfterFailedOutput(outcome) : outcome);
 }

@@ -14,7 +14,10 @@ namespace rockyard::batch {
 namespace {
 
 StoreProblem Kind(int code, int reason) {
+  if (code == SQLITE_IOERR_NOMEM) return StoreProblem::kMemory;
   switch (code & 0xff) {
+    case SQLITE_NOMEM:
+      return StoreProblem::kMemory;
     case SQLITE_FULL:
       return StoreProblem::kFull;
     case SQLITE_IOERR:
@@ -42,6 +45,8 @@ const char* Reason(StoreProblem problem) {
       return "is locked by another program";
     case StoreProblem::kOpenFiles:
       return "cannot be opened: too many files are open";
+    case StoreProblem::kMemory:
+      return "cannot be used for want of memory";
     case StoreProblem::kUnwritable:
       return "cannot be opened or written";
     default:
@@ -57,6 +62,8 @@ const char* Suggestion(StoreProblem problem) {
       return "wait for the other program or end it, then go on with --resume";
     case StoreProblem::kOpenFiles:
       return core::kMoreOpenFiles;
+    case StoreProblem::kMemory:
+      return "end other programs or allow more memory (ulimit -v), then go on with --resume";
     case StoreProblem::kUnwritable:
       return "check the permissions, or choose another folder with --out";
     default:

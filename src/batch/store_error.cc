@@ -33,7 +33,8 @@ StoreError::StoreError(StoreProblem problem, std::string path, std::string reaso
       problem_(problem) {}
 
 bool IsOfTheMachine(StoreProblem problem) {
-  return problem == StoreProblem::kFull || problem == StoreProblem::kOpenFiles;
+  return problem == StoreProblem::kFull || problem == StoreProblem::kOpenFiles ||
+         problem == StoreProblem::kMemory;
 }
 
 StoreProblem ProblemOf(int reason) {

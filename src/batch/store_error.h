@@ -16,6 +16,7 @@ enum class StoreProblem {
   kUnwritable,  // the folder or a file in it cannot be made or written
   kFull,        // no space left, or a limit on file sizes or quotas
   kOpenFiles,   // the process or the machine may open no more files
+  kMemory,      // the process could get no more memory
   kInUse,       // another process runs in this folder
   kDamaged,     // no database, cut off, or with contents that no version of this program wrote
   kMismatch,    // made by another scenario, seed or build
