@@ -46,10 +46,10 @@ struct JsonOf {
   std::string operator()(const RunReport& run) const {
     const report::RunDescription& description = run.description;
     if (const auto* drives = std::get_if<statistics::DriveSummary>(&run.summary)) {
-      return report::SummaryJson(description, *drives, run.method);
+      return report::SummaryJson(description, *drives);
     }
     if (const auto* cells = std::get_if<statistics::MeasurementSummary>(&run.summary)) {
-      return report::MeasurementJson(description, *cells, run.method);
+      return report::MeasurementJson(description, *cells);
     }
     return report::ShardJson(description);
   }

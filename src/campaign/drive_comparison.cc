@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "campaign/run_views.h"
+#include "statistics/clustered_rate.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::campaign {
@@ -15,7 +16,12 @@ namespace {
 class Side {
  public:
   explicit Side(const StoredRun& run)
-      : run_(run), store_(batch::ResultStore::Read(run.folder)), view_(ComparedView(run)) {}
+      : run_(run), store_(batch::ResultStore::Read(run.folder)), view_(ComparedView(run)) {
+    const truth::ValueInfo* const layout = truth::FindColumn(run.schema, "layout");
+    if (layout == nullptr) return;
+    Read({*layout});
+    view_.groups = statistics::DependentGroups(view_.schema, view_.records);
+  }
 
   std::size_t trials() const { return run_.records.size(); }
 

@@ -1,5 +1,8 @@
 #include "report/distance_steps.h"
 
+#include <algorithm>
+
+#include "statistics/clustered_rate.h"
 #include "statistics/drive_summary.h"
 
 namespace rockyard::report {
@@ -11,14 +14,22 @@ std::vector<DistanceStep> DistanceSteps(const truth::RecordSchema& schema,
   if (!column) return distances;
   const std::vector<double> values = statistics::ColumnValues(records, *column);
   const auto durations = statistics::GoalDurations(records, *column);
-  const auto steps = statistics::CumulativeIncidence(durations);
+  // Of trials that share layouts each layout says as much as one trial, whatever their dependence.
+  const std::vector<std::size_t> groups = statistics::DependentGroups(schema, records);
+  const auto layouts =
+      groups.empty() ? static_cast<double>(records.size())
+                     : 1.0 + static_cast<double>(*std::max_element(groups.begin(), groups.end()));
+  const double share = records.empty() ? 1.0 : layouts / static_cast<double>(records.size());
+  const auto steps = statistics::CumulativeIncidence(durations, statistics::kConfidence, share);
 
   // Before the first step nothing has happened.
   statistics::IncidenceStep now;
   std::size_t next = 0;
   std::size_t passed = 0;
   const std::vector<double> sorted = statistics::SortedFinite(values);
-  for (const statistics::EcdfPoint& point : statistics::Ecdf(values)) {
+  for (const statistics::EcdfPoint& point :
+       statistics::Ecdf(values, statistics::kConfidence, statistics::BandMethod::kSimultaneous,
+                        share * static_cast<double>(sorted.size()))) {
     while (next < steps.size() && steps[next].at <= point.value) now = steps[next++];
     distances.push_back({.all = point, .goal = now, .at_risk = sorted.size() - passed});
     while (passed < sorted.size() && sorted[passed] <= point.value) ++passed;

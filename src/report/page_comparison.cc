@@ -54,8 +54,7 @@ std::string Notes(const RunComparison& comparison, bool adjusted) {
   }
   if (comparison.shared_layouts) {
     notes.emplace_back(
-        "Trials share layouts of rocks: they are not independent, and every interval and p-value "
-        "is too narrow.");
+        "Trials share layouts of rocks: intervals allow for it, and there are no p-values.");
   }
   notes.emplace_back(adjusted ? "p-values of all pairs of runs are adjusted together by Holm."
                               : "p-values are not adjusted: one for each kind of success.");

@@ -9,6 +9,7 @@
 #include "report/parameter_table.h"
 #include "report/summary_json.h"
 #include "statistics/cell_summary.h"
+#include "statistics/clustered_rate.h"
 #include "statistics/drive_summary.h"
 #include "truth/measurement_record.h"
 
@@ -24,11 +25,10 @@ core::JsonValue Summary(const PageRun& run, statistics::IntervalMethod method) {
   const std::int64_t planned = run.description.planned;
   if (truth::IsMeasurement(run.schema)) {
     return MeasurementValue(run.description,
-                            statistics::SummarizeCells(run.schema, run.prefix, planned, method),
-                            method);
+                            statistics::SummarizeCells(run.schema, run.prefix, planned, method));
   }
   return SummaryValue(run.description,
-                      statistics::Summarize(run.schema, run.prefix, planned, method), method);
+                      statistics::Summarize(run.schema, run.prefix, planned, method));
 }
 
 std::string Index(const std::optional<std::size_t>& index) {
@@ -138,7 +138,7 @@ JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method)
       .Add("trials", PageTrialsJson(run.schema, run.records, places))
       .AddInteger("stored_trials", static_cast<std::int64_t>(run.records.size()))
       .AddInteger("prefix_trials", static_cast<std::int64_t>(run.prefix.size()))
-      .AddFlag("shared_layouts", SharesLayouts(run.schema, run.prefix))
+      .AddFlag("shared_layouts", !statistics::DependentGroups(run.schema, run.prefix).empty())
       .Add("endings", PageEndingsJson(run.prefix))
       .Add("course", run.course ? PageCourseJson(*run.course) : "null")
       .Add("cdf", PageCdfJson(steps))

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
+#include "core/numbers.h"
+#include "statistics/clustered_rate.h"
 #include "statistics/drive_summary.h"
 #include "statistics/equivalence.h"
 #include "statistics/mean_interval.h"
@@ -20,61 +21,96 @@ using statistics::Proportion;
 using truth::Record;
 using truth::TrialOutcome;
 
-using Pair = std::pair<const Record*, const Record*>;
-using Succeeded = std::function<bool(TrialOutcome)>;
+using Succeeded = bool (*)(TrialOutcome);
 
-bool TrulyThere(TrialOutcome outcome) { return outcome == TrialOutcome::kGoalReached; }
+// A trial of both runs. Pairs of one group hang together.
+struct Pair {
+  const Record* first;
+  const Record* second;
+  std::size_t group;
+};
+
+std::vector<std::size_t> GroupsOf(const ComparedRun& run) {
+  return run.groups.empty() ? statistics::DependentGroups(run.schema, run.records) : run.groups;
+}
 
 std::vector<Pair> Pairs(const ComparedRun& first, const ComparedRun& second) {
+  const std::vector<std::size_t> of_first = GroupsOf(first);
+  const std::vector<std::size_t> of_second = GroupsOf(second);
+  // Trials of a layout follow one another.
+  const auto goes_on = [](const std::vector<std::size_t>& groups, std::size_t i) {
+    return !groups.empty() && groups[i] == groups[i - 1];
+  };
   std::vector<Pair> pairs;
+  std::size_t group = 0;
   const std::size_t common = std::min(first.records.size(), second.records.size());
   for (std::size_t i = 0; i < common; ++i) {
     const Record& a = first.records[i];
     const Record& b = second.records[i];
-    if (!IsFault(a) && !IsFault(b)) pairs.emplace_back(&a, &b);
+    if (i > 0 && !goes_on(of_first, i) && !goes_on(of_second, i)) ++group;
+    if (!IsFault(a) && !IsFault(b)) pairs.push_back({&a, &b, group});
   }
   return pairs;
 }
 
+bool ShareGroups(const std::vector<Pair>& pairs) {
+  return std::adjacent_find(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+           return a.group == b.group;
+         }) != pairs.end();
+}
+
 SuccessComparison ComparePaired(const std::vector<Pair>& pairs, std::string what,
-                                const Succeeded& succeeded) {
+                                Succeeded succeeded) {
   SuccessComparison result;
   result.what = std::move(what);
-  for (const auto& [a, b] : pairs) {
-    result.counts.Add(succeeded(a->outcome), succeeded(b->outcome));
+  std::vector<double> first;
+  std::vector<double> second;
+  std::vector<std::size_t> groups;
+  statistics::ClusteredValues differences;
+  for (const Pair& pair : pairs) {
+    const bool before = succeeded(pair.first->outcome);
+    const bool after = succeeded(pair.second->outcome);
+    result.counts.Add(before, after);
+    first.push_back(before ? 1.0 : 0.0);
+    second.push_back(after ? 1.0 : 0.0);
+    groups.push_back(pair.group);
+    differences.Add(pair.group, second.back() - first.back());
   }
-  const auto n = static_cast<std::int64_t>(pairs.size());
-  result.first = statistics::MakeProportion(result.counts.both + result.counts.only_first, n);
-  result.second = statistics::MakeProportion(result.counts.both + result.counts.only_second, n);
+  const bool shared = ShareGroups(pairs);
+  if (!shared) groups.clear();
+  result.first = statistics::RateOfTrials(first, groups);
+  result.second = statistics::RateOfTrials(second, groups);
   result.difference = result.second.rate - result.first.rate;
+  if (shared) {
+    result.interval =
+        AgrestiMinInterval(differences.Effective(statistics::kConfidence), statistics::kConfidence);
+    result.p_value = core::kNaN;
+    return result;
+  }
   result.interval = statistics::DifferenceInterval(result.counts);
   result.p_value =
       statistics::McNemarExactPValue(result.counts.only_first, result.counts.only_second);
   return result;
 }
 
-Proportion RateOf(std::span<const Record> records, const Succeeded& succeeded) {
-  std::int64_t count = 0;
-  std::int64_t trials = 0;
-  for (const Record& record : records) {
-    if (IsFault(record)) continue;
-    ++trials;
-    if (succeeded(record.outcome)) ++count;
-  }
-  return statistics::MakeProportion(count, trials);
+Proportion RateOf(const ComparedRun& run, Succeeded succeeded) {
+  return statistics::RateOfTrials(statistics::OnesWhere(run.records, succeeded), GroupsOf(run));
 }
 
 SuccessComparison CompareUnpaired(const ComparedRun& first, const ComparedRun& second,
-                                  std::string what, const Succeeded& succeeded) {
+                                  std::string what, Succeeded succeeded) {
   SuccessComparison result;
   result.what = std::move(what);
-  result.first = RateOf(first.records, succeeded);
-  result.second = RateOf(second.records, succeeded);
+  result.first = RateOf(first, succeeded);
+  result.second = RateOf(second, succeeded);
   result.difference = result.second.rate - result.first.rate;
   result.interval = statistics::DifferenceInterval(result.first, result.second);
-  result.p_value = statistics::FisherExactPValue(
-      {result.first.count, result.first.trials - result.first.count, result.second.count,
-       result.second.trials - result.second.count});
+  const bool shared = result.first.method == statistics::IntervalMethod::kClustered ||
+                      result.second.method == statistics::IntervalMethod::kClustered;
+  result.p_value = shared ? core::kNaN
+                          : statistics::FisherExactPValue(
+                                {result.first.count, result.first.trials - result.first.count,
+                                 result.second.count, result.second.trials - result.second.count});
   return result;
 }
 
@@ -86,38 +122,51 @@ void ComparePairedColumn(const std::vector<Pair>& pairs, std::size_t in_first,
   std::vector<double> first;
   std::vector<double> second;
   std::vector<double> differences;
-  for (const auto& [a, b] : pairs) {
-    const double before = a->values[in_first];
-    const double after = b->values[in_second];
+  std::vector<std::size_t> groups;
+  for (const Pair& pair : pairs) {
+    const double before = pair.first->values[in_first];
+    const double after = pair.second->values[in_second];
     if (!std::isfinite(before) || !std::isfinite(after)) continue;
     first.push_back(before);
     second.push_back(after);
     differences.push_back(after - before);
+    groups.push_back(pair.group);
   }
   result.count = static_cast<std::int64_t>(differences.size());
   result.second_count = result.count;
   result.first_mean = Mean(first);
   result.second_mean = Mean(second);
   result.difference = Mean(differences);
-  result.interval = statistics::EstimateMean(statistics::SortedFinite(differences),
-                                             statistics::FewestForMean(result.name))
-                        .interval;
+  if (!ShareGroups(pairs)) groups.clear();
+  result.interval =
+      statistics::MeanOfTrials(differences, groups, statistics::FewestForMean(result.name))
+          .interval;
 }
 
-// Unknown where the mean of either side has no interval.
-void CompareUnpairedColumn(const std::vector<double>& first, const std::vector<double>& second,
-                           ColumnComparison& result) {
-  const std::vector<double> a = statistics::SortedFinite(first);
-  const std::vector<double> b = statistics::SortedFinite(second);
-  const std::int64_t fewest = statistics::FewestForMean(result.name);
-  result.count = static_cast<std::int64_t>(a.size());
-  result.second_count = static_cast<std::int64_t>(b.size());
-  result.first_mean = Mean(a);
-  result.second_mean = Mean(b);
-  result.difference = result.second_mean - result.first_mean;
-  result.interval = statistics::MeanDifferenceInterval(
-      result.first_mean, statistics::EstimateMean(a, fewest).interval, result.second_mean,
-      statistics::EstimateMean(b, fewest).interval);
+// Of every trial that counts; NaN of the others.
+std::vector<double> ValuesOf(const ComparedRun& run, std::size_t column, bool arrived) {
+  std::vector<double> values;
+  values.reserve(run.records.size());
+  for (const Record& record : run.records) {
+    const bool counts = !IsFault(record) && column < record.values.size() &&
+                        (!arrived || truth::DeclaredSuccess(record.outcome));
+    values.push_back(counts ? record.values[column] : core::kNaN);
+  }
+  return values;
+}
+
+// What one side says of a column.
+struct SideMean {
+  std::int64_t count = 0;
+  double mean = 0.0;
+  statistics::Interval interval;
+};
+
+SideMean MeanOf(const ComparedRun& run, std::size_t column, bool arrived, std::int64_t fewest) {
+  const std::vector<double> values = ValuesOf(run, column, arrived);
+  const std::vector<double> sorted = statistics::SortedFinite(values);
+  return {static_cast<std::int64_t>(sorted.size()), Mean(sorted),
+          statistics::MeanOfTrials(values, GroupsOf(run), fewest).interval};
 }
 
 // Every column that both schemas have; `compare` gets its index in each and fills the rest.
@@ -142,10 +191,20 @@ std::vector<ColumnComparison> PairedColumns(const ComparedRun& first, const Comp
   });
 }
 
-std::vector<ColumnComparison> UnpairedColumns(const ComparedRun& first, const ComparedRun& second) {
+// The interval is unknown where the mean of either side has none.
+std::vector<ColumnComparison> UnpairedColumns(const ComparedRun& first, const ComparedRun& second,
+                                              bool arrived) {
   return CommonColumns(first, second, [&](std::size_t a, std::size_t b, ColumnComparison& column) {
-    CompareUnpairedColumn(statistics::ColumnValues(first.records, a),
-                          statistics::ColumnValues(second.records, b), column);
+    const std::int64_t fewest = statistics::FewestForMean(column.name);
+    const SideMean one = MeanOf(first, a, arrived, fewest);
+    const SideMean other = MeanOf(second, b, arrived, fewest);
+    column.count = one.count;
+    column.second_count = other.count;
+    column.first_mean = one.mean;
+    column.second_mean = other.mean;
+    column.difference = other.mean - one.mean;
+    column.interval =
+        statistics::MeanDifferenceInterval(one.mean, one.interval, other.mean, other.interval);
   });
 }
 
@@ -157,13 +216,6 @@ std::vector<Pair> BothArrived(std::vector<Pair> pairs) {
   return pairs;
 }
 
-std::vector<Record> Arrived(std::span<const Record> records) {
-  std::vector<Record> arrived(records.begin(), records.end());
-  std::erase_if(arrived,
-                [](const Record& record) { return !truth::DeclaredSuccess(record.outcome); });
-  return arrived;
-}
-
 void CompareInPairs(const ComparedRun& first, const ComparedRun& second, bool drives,
                     RunComparison& result) {
   const std::vector<Pair> pairs = Pairs(first, second);
@@ -171,42 +223,27 @@ void CompareInPairs(const ComparedRun& first, const ComparedRun& second, bool dr
   result.columns = PairedColumns(first, second, pairs);
   if (!drives) return;
   result.successes = {ComparePaired(pairs, "declared success", truth::DeclaredSuccess),
-                      ComparePaired(pairs, "true success", TrulyThere)};
+                      ComparePaired(pairs, "true success", truth::TrueSuccess)};
   result.arrived_columns = PairedColumns(first, second, BothArrived(pairs));
 }
 
 void CompareAsSamples(const ComparedRun& first, const ComparedRun& second, bool drives,
                       RunComparison& result) {
-  result.columns = UnpairedColumns(first, second);
+  result.columns = UnpairedColumns(first, second, false);
   if (!drives) return;
   result.successes = {CompareUnpaired(first, second, "declared success", truth::DeclaredSuccess),
-                      CompareUnpaired(first, second, "true success", TrulyThere)};
-  const std::vector<Record> a = Arrived(first.records);
-  const std::vector<Record> b = Arrived(second.records);
-  ComparedRun first_arrived = first;
-  ComparedRun second_arrived = second;
-  first_arrived.records = a;
-  second_arrived.records = b;
-  result.arrived_columns = UnpairedColumns(first_arrived, second_arrived);
+                      CompareUnpaired(first, second, "true success", truth::TrueSuccess)};
+  result.arrived_columns = UnpairedColumns(first, second, true);
 }
 
 }  // namespace
-
-bool SharesLayouts(const truth::RecordSchema& schema, std::span<const Record> records) {
-  const auto column = statistics::ColumnIndex(schema, "layout");
-  if (!column) return false;
-  const std::vector<double> layouts =
-      statistics::SortedFinite(statistics::ColumnValues(records, *column));
-  return std::adjacent_find(layouts.begin(), layouts.end()) != layouts.end();
-}
 
 RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second) {
   const bool drives = !truth::IsMeasurement(first.schema) && !truth::IsMeasurement(second.schema);
   RunComparison result;
   result.paired = first.seed == second.seed;
   result.same_terrain = first.fields == second.fields;
-  result.shared_layouts =
-      SharesLayouts(first.schema, first.records) || SharesLayouts(second.schema, second.records);
+  result.shared_layouts = !GroupsOf(first).empty() || !GroupsOf(second).empty();
   if (result.paired) {
     CompareInPairs(first, second, drives, result);
   } else {

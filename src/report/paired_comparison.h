@@ -18,6 +18,8 @@ struct ComparedRun {
   truth::RecordSchema schema;
   std::span<const truth::Record> records;  // contiguous prefix
   std::string fields = {};  // what decides rocks, start and goal; equal texts mean equal fields
+  // Which trials hang together (statistics::DependentGroups), where the records do not tell it.
+  std::vector<std::size_t> groups = {};
 };
 
 struct SuccessComparison {
@@ -26,7 +28,7 @@ struct SuccessComparison {
   statistics::Proportion second;
   double difference = 0.0;          // rate of the second less rate of the first
   statistics::Interval interval{};  // 95 %, of the difference
-  double p_value = 1.0;             // McNemar where paired, else Fisher; both exact
+  double p_value = 1.0;  // McNemar where paired, else Fisher; both exact, NaN of shared layouts
   statistics::PairedCounts counts;  // zero where not paired
 };
 
@@ -44,8 +46,8 @@ struct ColumnComparison {
 struct RunComparison {
   bool paired = false;
   std::int64_t pairs = 0;  // trials that both runs finished without a simulator fault
-  // Trials that share their rocks with another one (course.trials_per_layout), in either run:
-  // p-values and intervals, which take trials as independent, are then too sure.
+  // Trials share their rocks with another one (course.trials_per_layout), in either run: every
+  // interval is of layouts (statistics/clustered_rate.h), and there are no p-values.
   bool shared_layouts = false;
   bool same_terrain = true;  // equal seed and index mean equal rocks, start and goal
   std::vector<SuccessComparison> successes;  // none where nothing drives
@@ -55,16 +57,12 @@ struct RunComparison {
   std::vector<ColumnComparison> arrived_columns;
 };
 
-// Whether two trials have the same layout of rocks (course.trials_per_layout): they are then not
-// independent. False where the records do not tell layouts apart. Cost: n log n.
-bool SharesLayouts(const truth::RecordSchema& schema, std::span<const truth::Record> records);
-
 // Equal seed and index mean equal rocks and equal noise, so that differences have far less variance
-// than two samples. Paired intervals: success by the score (Tango 1998); columns as any mean, of
-// the differences. Not paired: success by Newcombe (1998), method 10, from the Wilson intervals;
-// columns in the same way from the intervals of both means. A mean difference has no interval where
-// a mean of as many values has none (statistics/mean_interval.h). No correction for the number of
-// columns: they describe.
+// than two samples. Paired intervals: success by the score (Tango 1998), of shared layouts by
+// Agresti and Min (2005) of effective numbers; columns as any mean, of the differences. Not paired:
+// success by Newcombe (1998), method 10, from the Wilson intervals; columns in the same way from
+// the intervals of both means. A mean difference has no interval where a mean of as many values has
+// none (statistics/mean_interval.h). No correction for the number of columns: they describe.
 RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second);
 
 // At most 100 columns wide.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,11 +24,13 @@ std::string SuccessLines(const SuccessComparison& success, bool paired) {
       success.what, CountAndPercent(success.first), CountAndPercent(success.second), "",
       100.0 * success.difference, 100.0 * success.interval.low, 100.0 * success.interval.high);
   const statistics::PairedCounts& counts = success.counts;
+  const bool tested = std::isfinite(success.p_value);
   if (paired) {
-    text += fmt::format(
-        "  {:<17} both {}, only A {}, only B {}, neither {}; McNemar, exact: p = {:.3g}\n", "",
-        counts.both, counts.only_first, counts.only_second, counts.neither, success.p_value);
-  } else {
+    text +=
+        fmt::format("  {:<17} both {}, only A {}, only B {}, neither {}{}", "", counts.both,
+                    counts.only_first, counts.only_second, counts.neither,
+                    tested ? fmt::format("; McNemar, exact: p = {:.3g}\n", success.p_value) : "\n");
+  } else if (tested) {
     text += fmt::format("  {:<17} Fisher, exact: p = {:.3g}\n", "", success.p_value);
   }
   return text;
@@ -80,9 +83,7 @@ std::string RunComparisonText(const ComparedRun& first, const ComparedRun& secon
                                  Printable(second.name), second.seed, second.records.size());
   text += Pairing(comparison);
   if (comparison.shared_layouts) {
-    text +=
-        "Trials share rock layouts: intervals and p-values take trials as independent, and are too "
-        "sure.\n\n";
+    text += "Trials share layouts of rocks: intervals allow for it, and there are no p-values.\n\n";
   }
   for (const SuccessComparison& success : comparison.successes) {
     text += SuccessLines(success, comparison.paired);

@@ -24,7 +24,7 @@ statistics::DriveSummary WriteRunFiles(const std::filesystem::path& folder,
   WriteTrialsCsv(folder, schema, records);
   WriteFileAtomically(folder / "distance_cdf.csv",
                       [&](const TextSink& out) { DistanceCdfCsv(schema, prefix, out); });
-  WriteFileAtomically(folder / "summary.json", SummaryJson(run, summary, method));
+  WriteFileAtomically(folder / "summary.json", SummaryJson(run, summary));
   return summary;
 }
 
@@ -41,7 +41,7 @@ statistics::MeasurementSummary WriteMeasurementFiles(const std::filesystem::path
   WriteFileAtomically(folder / "cells.csv", CellsCsv(summary));
   const std::string drawing = CellsSvg(summary, run.scenario);
   if (!drawing.empty()) WriteFileAtomically(folder / "cells.svg", drawing);
-  WriteFileAtomically(folder / "summary.json", MeasurementJson(run, summary, method));
+  WriteFileAtomically(folder / "summary.json", MeasurementJson(run, summary));
   return summary;
 }
 

@@ -18,13 +18,12 @@ using statistics::DriveSummary;
 
 constexpr const char* kModeMethod = "half-sample mode; range by subsampling, no coverage claimed";
 
-JsonValue Rate(const statistics::Proportion& rate, statistics::IntervalMethod method) {
+JsonValue RateJson(const statistics::Proportion& rate) {
   return JsonValue::Object({{"count", rate.count},
                             {"trials", rate.trials},
                             {"rate", NumberOrNull(rate.rate)},
                             {"ci95", EndsOf(rate.interval)},
-                            {"ci_method", std::string(MethodName(statistics::RateMethod(
-                                              rate.count, rate.trials, method)))}});
+                            {"ci_method", std::string(MethodName(rate.method))}});
 }
 
 JsonValue Column(const ColumnSummary* column) {
@@ -115,14 +114,13 @@ JsonValue MetricsByOutcome(const DriveSummary& summary) {
   return json;
 }
 
-JsonValue CellRate(const statistics::CellRate& rate, statistics::IntervalMethod method) {
-  JsonValue json = Rate(rate.rate, method);
+JsonValue CellRate(const statistics::CellRate& rate) {
+  JsonValue json = RateJson(rate.rate);
   json.Set("ci95_all_cells", EndsOf(rate.simultaneous));
   return json;
 }
 
-JsonValue CellJson(const statistics::MeasurementSummary& summary, const statistics::Cell& cell,
-                   statistics::IntervalMethod method) {
+JsonValue CellJson(const statistics::MeasurementSummary& summary, const statistics::Cell& cell) {
   JsonValue json = JsonValue::Object({{"cell", cell.number}, {"runs", cell.runs}});
   for (std::size_t i = 0; i < cell.factors.size(); ++i) {
     json.Set(summary.factors[i].name, NumberOrNull(cell.factors[i]));
@@ -131,7 +129,7 @@ JsonValue CellJson(const statistics::MeasurementSummary& summary, const statisti
     json.Set(summary.bases[i].name, NumberOrNull(cell.bases[i]));
   }
   for (std::size_t i = 0; i < cell.rates.size(); ++i) {
-    json.Set(summary.rates[i].name, CellRate(cell.rates[i], method));
+    json.Set(summary.rates[i].name, CellRate(cell.rates[i]));
   }
   for (std::size_t i = 0; i < cell.means.size(); ++i) {
     const bool squares = summary.means[i].role == truth::ColumnRole::kSquares;
@@ -188,30 +186,31 @@ JsonValue ProvenanceJson(const core::Provenance& p) {
                             {"cpu_threads", p.cpu_threads}});
 }
 
-JsonValue MeasurementValue(const RunDescription& run, const statistics::MeasurementSummary& summary,
-                           statistics::IntervalMethod method) {
+JsonValue MeasurementValue(const RunDescription& run,
+                           const statistics::MeasurementSummary& summary) {
   JsonValue json = Head(run, summary.completed, summary.faults);
   JsonValue widest = JsonValue::Object();
   for (std::size_t i = 0; i < summary.rates.size(); ++i) {
     widest.Set(summary.rates[i].name, NumberOrNull(summary.WidestInterval(i)));
   }
   json.Set("widest_ci95", std::move(widest));
-  json.Set("simultaneous",
-           JsonValue("ci95_all_cells: Clopper-Pearson at level 1 - 0.05 / planned_cells, all cells "
-                     "at once"));
+  json.Set(
+      "simultaneous",
+      JsonValue(
+          "ci95_all_cells: at level 1 - 0.05 / planned_cells, all cells at once; of independent "
+          "trials Clopper-Pearson"));
   json.Set("planned_cells", JsonValue(summary.planned_cells));
   json.Set("cells", core::ListOf(summary.cells, [&](const statistics::Cell& cell) {
-             return CellJson(summary, cell, method);
+             return CellJson(summary, cell);
            }));
   AddTail(run, json);
   return json;
 }
 
-JsonValue SummaryValue(const RunDescription& run, const DriveSummary& summary,
-                       statistics::IntervalMethod method) {
+JsonValue SummaryValue(const RunDescription& run, const DriveSummary& summary) {
   JsonValue json = Head(run, summary.completed, summary.faults);
-  json.Set("declared_success", Rate(summary.declared_success, method));
-  json.Set("true_success", Rate(summary.true_success, method));
+  json.Set("declared_success", RateJson(summary.declared_success));
+  json.Set("true_success", RateJson(summary.true_success));
   json.Set("outcomes", Outcomes(summary));
   json.Set("causes", Causes(summary));
   AddColumns(summary, json);
@@ -222,14 +221,12 @@ JsonValue SummaryValue(const RunDescription& run, const DriveSummary& summary,
 }
 
 std::string MeasurementJson(const RunDescription& run,
-                            const statistics::MeasurementSummary& summary,
-                            statistics::IntervalMethod method) {
-  return core::SpreadJson(MeasurementValue(run, summary, method)) + "\n";
+                            const statistics::MeasurementSummary& summary) {
+  return core::SpreadJson(MeasurementValue(run, summary)) + "\n";
 }
 
-std::string SummaryJson(const RunDescription& run, const DriveSummary& summary,
-                        statistics::IntervalMethod method) {
-  return core::SpreadJson(SummaryValue(run, summary, method)) + "\n";
+std::string SummaryJson(const RunDescription& run, const DriveSummary& summary) {
+  return core::SpreadJson(SummaryValue(run, summary)) + "\n";
 }
 
 std::string ResolvedScenarioJson(const RunDescription& run) {

@@ -22,10 +22,8 @@ namespace rockyard::report {
 // std}, where mode_range is no interval of any confidence; a metric (statistics/metrics.h) is as
 // MetricJson says (mean_words.h); metrics without a value are left out. What is undefined is null,
 // as both ends of ci95 are where a mean has none.
-core::JsonValue SummaryValue(const RunDescription& run, const statistics::DriveSummary& summary,
-                             statistics::IntervalMethod method);
-std::string SummaryJson(const RunDescription& run, const statistics::DriveSummary& summary,
-                        statistics::IntervalMethod method);
+core::JsonValue SummaryValue(const RunDescription& run, const statistics::DriveSummary& summary);
+std::string SummaryJson(const RunDescription& run, const statistics::DriveSummary& summary);
 
 // summary.json of an experiment that measures: the same members up to accounting, stopping and
 // shard, then widest_ci95 (by rate), simultaneous (how the intervals of all cells at once are
@@ -33,11 +31,9 @@ std::string SummaryJson(const RunDescription& run, const statistics::DriveSummar
 // bases, rates with ci95 and ci95_all_cells, means), trial_hash, provenance. No success rates:
 // nothing drives.
 core::JsonValue MeasurementValue(const RunDescription& run,
-                                 const statistics::MeasurementSummary& summary,
-                                 statistics::IntervalMethod method);
+                                 const statistics::MeasurementSummary& summary);
 std::string MeasurementJson(const RunDescription& run,
-                            const statistics::MeasurementSummary& summary,
-                            statistics::IntervalMethod method);
+                            const statistics::MeasurementSummary& summary);
 
 // The program and the machine: version, commit, compiler, flags, build_type, host, cpu_model,
 // cpu_level, cpu_threads.

@@ -61,6 +61,9 @@ std::string Head(const RunDescription& run, const DriveSummary& summary, TextSty
                         run.stored - summary.completed);
   }
   text += AccountingText(run);
+  if (summary.shared_layouts) {
+    text += "  trials share layouts of rocks: intervals allow for it\n";
+  }
   if (summary.faults > 0) {
     text +=
         "  " +

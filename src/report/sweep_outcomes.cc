@@ -1,10 +1,8 @@
 #include "report/sweep_outcomes.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/check.h"
-#include "statistics/paired_counts.h"
 
 namespace rockyard::report {
 
@@ -23,6 +21,12 @@ CellOutcomes::CellOutcomes(std::span<const Record> records, std::int64_t per_lay
 bool CellOutcomes::Succeeded(std::size_t trial, SuccessKind kind) const {
   return kind == SuccessKind::kDeclared ? truth::DeclaredSuccess(Outcome(trial))
                                         : Outcome(trial) == truth::TrialOutcome::kGoalReached;
+}
+
+std::vector<std::size_t> CellOutcomes::Groups() const {
+  std::vector<std::size_t> groups;
+  for (std::size_t i = 0; SharesLayouts() && i < size(); ++i) groups.push_back(i / per_layout_);
+  return groups;
 }
 
 std::vector<CountOfRun> CellOutcomes::ByLayout(SuccessKind kind) const {
@@ -44,18 +48,6 @@ std::vector<Record> CellOutcomes::Records() const {
     records.push_back({trial, Outcome(trial), {}, {}});
   }
   return records;
-}
-
-statistics::Interval PairedByLayout(const CellOutcomes& first, const CellOutcomes& second,
-                                    SuccessKind kind, double confidence) {
-  statistics::ClusteredValues values;
-  const std::size_t per_layout = std::lcm(first.per_layout(), second.per_layout());
-  for (std::size_t trial = 0; trial < std::min(first.size(), second.size()); ++trial) {
-    if (first.IsFault(trial) || second.IsFault(trial)) continue;
-    values.Add(trial / per_layout, (second.Succeeded(trial, kind) ? 1.0 : 0.0) -
-                                       (first.Succeeded(trial, kind) ? 1.0 : 0.0));
-  }
-  return AgrestiMinInterval(values.Effective(confidence), confidence);
 }
 
 }  // namespace rockyard::report

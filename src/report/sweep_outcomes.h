@@ -33,6 +33,9 @@ class CellOutcomes {
   std::size_t per_layout() const { return per_layout_; }
   bool SharesLayouts() const { return per_layout_ > 1; }
 
+  // The layout of each trial; empty where none share one.
+  std::vector<std::size_t> Groups() const;
+
   // Successes and trials of each layout, faults left out.
   std::vector<statistics::CountOfRun> ByLayout(SuccessKind kind) const;
 
@@ -47,10 +50,5 @@ class CellOutcomes {
   std::vector<std::uint8_t> outcomes_;
   std::size_t per_layout_ = 1;
 };
-
-// Differences of success trial by trial, second less first, for two cells with equal seeds and
-// layouts: an interval that allows for trials that share a layout.
-statistics::Interval PairedByLayout(const CellOutcomes& first, const CellOutcomes& second,
-                                    SuccessKind kind, double confidence);
 
 }  // namespace rockyard::report

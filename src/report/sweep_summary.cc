@@ -35,8 +35,7 @@ Interval IntervalOf(const SweepCellTrials& trials, const CellOutcomes& outcomes,
                                           statistics::IntervalMethod::kStopped);
   }
   if (outcomes.SharesLayouts()) {
-    return statistics::ClusteredRateInterval(outcomes.ByLayout(kind), confidence,
-                                             statistics::WithoutScatter::kOnePerRun);
+    return statistics::ClusteredRateInterval(outcomes.ByLayout(kind), confidence);
   }
   return statistics::ProportionInterval(rate.count, rate.trials, confidence,
                                         statistics::IntervalMethod::kClopperPearson);
@@ -116,37 +115,15 @@ class Comparer {
                               .at = at,
                               .paired = comparison.paired,
                               .success = comparison.successes[kind]});
-      if (outcomes_[first].SharesLayouts() || outcomes_[second].SharesLayouts()) {
-        AllowForLayouts(first, second, static_cast<SuccessKind>(kind), differences_.back());
-      }
     }
-  }
-
-  // The exact tests take trials as independent.
-  void AllowForLayouts(std::size_t first, std::size_t second, SuccessKind kind,
-                       SweepDifference& difference) const {
-    SuccessComparison& success = difference.success;
-    success.p_value = kNaN;
-    if (difference.paired) {
-      success.interval = PairedByLayout(outcomes_[first], outcomes_[second], kind, kConfidence);
-      return;
-    }
-    success.first = RateIn(first, kind);
-    success.second = RateIn(second, kind);
-    success.interval = statistics::DifferenceInterval(success.first, success.second);
-  }
-
-  const Proportion& RateIn(std::size_t cell, SuccessKind kind) const {
-    const SweepCellSummary& summary = cells_[cell];
-    return kind == SuccessKind::kDeclared ? summary.declared_success.rate
-                                          : summary.true_success.rate;
   }
 
   ComparedRun View(std::size_t cell, std::span<const Record> records) const {
     return {.name = sweep_.cells[cell].name,
             .seed = static_cast<std::uint64_t>(sweep_.cells[cell].scenario.seed),
             .schema = {},
-            .records = records};
+            .records = records,
+            .groups = outcomes_[cell].Groups()};
   }
 
   const Sweep& sweep_;
@@ -184,9 +161,9 @@ void AddCautions(std::span<const SweepCellSummary> cells, std::span<const CellOu
   if (std::any_of(outcomes.begin(), outcomes.end(),
                   [](const CellOutcomes& cell) { return cell.SharesLayouts(); })) {
     notes.emplace_back(
-        "trials share layouts of rocks: intervals of rates, fits, differences and shares allow "
+        "trials share layouts of rocks: intervals of rates, means, fits and differences allow "
         "for");
-    notes.emplace_back("it; those of other metrics do not, and differences have no p-values");
+    notes.emplace_back("it; medians have no intervals, and differences no p-values");
   }
 }
 

@@ -46,7 +46,7 @@ Proportion RateOf(const std::vector<std::uint8_t>& failed, std::span<const std::
   std::vector<CountOfRun> counts;
   counts.reserve(runs.size());
   for (const auto& [cluster, run] : runs) counts.push_back(run);
-  rate.interval = ClusteredRateInterval(counts, confidence, WithoutScatter::kOnePerRun);
+  rate.interval = ClusteredRateInterval(counts, confidence);
   return rate;
 }
 

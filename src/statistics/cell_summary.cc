@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/check.h"
+#include "statistics/clustered_rate.h"
 #include "statistics/proportions.h"
 
 namespace rockyard::statistics {
@@ -22,7 +23,8 @@ struct KnownColumn {
 
 struct Sums {
   std::int64_t runs = 0;
-  std::vector<double> values;  // by index in the schema; factors are not added up
+  std::vector<double> values;        // by index in the schema; factors are not added up
+  std::vector<std::size_t> records;  // of the cell
 };
 
 std::vector<KnownColumn> KnownColumns(const truth::RecordSchema& schema) {
@@ -36,11 +38,13 @@ std::vector<KnownColumn> KnownColumns(const truth::RecordSchema& schema) {
 std::map<std::int64_t, Sums> Pool(std::span<const truth::Record> records,
                                   const std::vector<KnownColumn>& columns, std::size_t width) {
   std::map<std::int64_t, Sums> cells;
-  for (const truth::Record& record : records) {
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const truth::Record& record = records[i];
     if (IsFault(record) || record.values.size() != width) continue;
     Sums& sums = cells[static_cast<std::int64_t>(record.values.front())];
     sums.values.resize(width, 0.0);
     ++sums.runs;
+    sums.records.push_back(i);
     for (const KnownColumn& column : columns) {
       const double value = record.values[column.index];
       double& sum = sums.values[column.index];
@@ -50,12 +54,13 @@ std::map<std::int64_t, Sums> Pool(std::span<const truth::Record> records,
   return cells;
 }
 
-double BaseOf(const std::vector<KnownColumn>& columns, const Sums& sums,
-              const ValueInfo& of_column) {
-  for (const KnownColumn& column : columns) {
-    if (column.what->name == of_column.of) return sums.values[column.index];
-  }
-  return 0.0;
+// The column that it is a count or a sum of.
+const KnownColumn& BaseOf(const std::vector<KnownColumn>& columns, const ValueInfo& of_column) {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const KnownColumn& column) {
+    return column.what->name == of_column.of;
+  });
+  EXPECT(found != columns.end());
+  return *found;
 }
 
 // How intervals of rates are made.
@@ -64,12 +69,10 @@ struct Intervals {
   IntervalMethod method = IntervalMethod::kWilson;  // of the interval of one cell alone
 };
 
-CellRate MakeRate(double count, double base, const Intervals& intervals) {
-  const auto k = static_cast<std::int64_t>(std::llround(count));
-  const auto n = static_cast<std::int64_t>(std::llround(base));
+CellRate MakeRate(std::span<const CountOfRun> runs, bool independent, const Intervals& intervals) {
   const double level = 1.0 - (1.0 - kConfidence) / intervals.cells;
-  return {MakeProportion(k, n, kConfidence, intervals.method),
-          ProportionInterval(k, n, level, IntervalMethod::kClopperPearson)};
+  return {RateOfRuns(runs, independent, kConfidence, intervals.method),
+          RateOfRuns(runs, independent, level, IntervalMethod::kClopperPearson).interval};
 }
 
 // Cells of the whole run, or more: no cell takes a second turn before each had its first, so until
@@ -111,14 +114,24 @@ void NameColumns(const std::vector<KnownColumn>& columns, MeasurementSummary& su
   }
 }
 
-Cell MakeCell(std::int64_t number, const Sums& sums, const std::vector<KnownColumn>& columns,
-              const Intervals& intervals) {
+std::vector<CountOfRun> CountsOfRuns(std::span<const truth::Record> records, const Sums& sums,
+                                     std::size_t count, std::size_t base) {
+  std::vector<CountOfRun> runs;
+  runs.reserve(sums.records.size());
+  for (const std::size_t i : sums.records) {
+    const CountOfRun run{records[i].values[count], records[i].values[base]};
+    if (run.base > 0.0) runs.push_back(run);
+  }
+  return runs;
+}
+
+Cell MakeCell(std::int64_t number, std::span<const truth::Record> records, const Sums& sums,
+              const std::vector<KnownColumn>& columns, const Intervals& intervals) {
   Cell cell;
   cell.number = number;
   cell.runs = sums.runs;
   for (const KnownColumn& column : columns) {
     const double value = sums.values[column.index];
-    const double base = BaseOf(columns, sums, *column.what);
     switch (column.what->role) {
       case ColumnRole::kValue:
         break;
@@ -130,12 +143,16 @@ Cell MakeCell(std::int64_t number, const Sums& sums, const std::vector<KnownColu
         cell.bases.push_back(value);
         break;
       case ColumnRole::kCount:
-      case ColumnRole::kMainCount:
-        cell.rates.push_back(MakeRate(value, base, intervals));
+      case ColumnRole::kMainCount: {
+        const KnownColumn& base = BaseOf(columns, *column.what);
+        cell.rates.push_back(MakeRate(CountsOfRuns(records, sums, column.index, base.index),
+                                      base.what->role == ColumnRole::kTrials, intervals));
         break;
+      }
       case ColumnRole::kSum:
       case ColumnRole::kSquares:
-        cell.means.push_back(MakeMean(column.what->role, value, base));
+        cell.means.push_back(
+            MakeMean(column.what->role, value, sums.values[BaseOf(columns, *column.what).index]));
         break;
     }
   }
@@ -173,7 +190,7 @@ MeasurementSummary SummarizeCells(const truth::RecordSchema& schema,
   summary.planned_cells = PlannedCells(summary, pooled);
   const Intervals intervals{static_cast<double>(summary.planned_cells), method};
   for (const auto& [number, sums] : pooled) {
-    summary.cells.push_back(MakeCell(number, sums, columns, intervals));
+    summary.cells.push_back(MakeCell(number, records, sums, columns, intervals));
   }
   return summary;
 }

@@ -15,7 +15,7 @@ namespace rockyard::statistics {
 // A count of a cell against its base.
 struct CellRate {
   Proportion rate;        // with its own 95 % interval
-  Interval simultaneous;  // exact; all of this column hold together with 95 % (Bonferroni)
+  Interval simultaneous;  // all of this column hold together with 95 % (Bonferroni)
 };
 
 struct Cell {
@@ -48,12 +48,12 @@ struct MeasurementSummary {
 
 // Pools records by cell. `records` must be a contiguous prefix of finished runs, of a schema that
 // IsMeasurement; columns without a role in a cell (kValue) are left out. `planned` is
-// the number of runs of the whole plan, 0 for those given. Scenes of a cell are independent, so
-// counts add up to binomial counts. Where the base of a count is not made of independent trials
-// (hazards share fields), intervals are somewhat too narrow. `method` is that of a cell alone.
-// Simultaneous intervals are Clopper and Pearson's at the level 1 - 0.05 / planned_cells: Wilson's
-// keep their level on average over rates only, and far out in the tails not even that. Cost:
-// linear.
+// the number of runs of the whole plan, 0 for those given. Runs of a cell are independent. Counts
+// of independent trials (truth::ColumnRole::kTrials) add up to binomial counts; of what happens
+// several times in a run (hazards of a field, goals of a mission) intervals are by runs
+// (RateOfRuns). `method` is that of a cell alone. Simultaneous intervals are at the level 1 - 0.05
+// / planned_cells, of independent trials Clopper and Pearson's: Wilson's keep their level on
+// average over rates only, and far out in the tails not even that. Cost: linear.
 MeasurementSummary SummarizeCells(const truth::RecordSchema& schema,
                                   std::span<const truth::Record> records, std::int64_t planned = 0,
                                   IntervalMethod method = IntervalMethod::kWilson);

@@ -111,15 +111,10 @@ bool Independent(const PublishedValue& published, const ScenarioRun& run) {
 
 // The exact interval keeps its promise for rare events too.
 Interval RateInterval(const std::vector<Values>& values, bool independent, double confidence) {
-  if (independent) {
-    const Values sum = SumOf(values);
-    return ProportionInterval(std::llround(sum.of_column), std::llround(sum.base), confidence,
-                              IntervalMethod::kClopperPearson);
-  }
   std::vector<CountOfRun> runs;
   runs.reserve(values.size());
   for (const Values& each : values) runs.push_back({each.of_column, each.base});
-  return ClusteredRateInterval(runs, confidence);
+  return RateOfRuns(runs, independent, confidence, IntervalMethod::kClopperPearson).interval;
 }
 
 // Student's interval around a mean from the scatter of `residuals` about it; a point where nothing

@@ -51,16 +51,28 @@ class IncidenceVariance {
   double cF_ = 0.0;
 };
 
+// Clopper and Pearson's, of a share of both numbers, which is rounded outwards.
+Interval ExactBand(std::int64_t events, std::int64_t all, double share, double confidence) {
+  const double whole = std::ceil(share * static_cast<double>(all));
+  const double count = whole * static_cast<double>(events) / static_cast<double>(all);
+  const auto exact = [&](double rounded) {
+    return ProportionInterval(std::llround(rounded), std::llround(whole), confidence,
+                              IntervalMethod::kClopperPearson);
+  };
+  return {exact(std::floor(count)).low, exact(std::ceil(count)).high};
+}
+
 // Where none or all of those that were not censored have had the event there is no variance to go
 // by, but a count: its interval by Clopper and Pearson.
-Interval CensoredBand(const IncidenceStep& step, std::int64_t followed, double confidence) {
+Interval CensoredBand(const IncidenceStep& step, std::int64_t followed, double share,
+                      double confidence) {
   constexpr double kRounding = 1e-9;  // of sums of shares
   if (step.event > kRounding && step.event < 1.0 - kRounding) {
     const double z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
     return LogLogBand(step.event, step.standard_error, z);
   }
-  const std::int64_t events = step.event > 0.5 ? followed : 0;
-  return ProportionInterval(events, followed, confidence, IntervalMethod::kClopperPearson);
+  return followed == 0 ? Interval{0.0, 1.0}
+                       : ExactBand(step.event > 0.5 ? followed : 0, followed, share, confidence);
 }
 
 struct Ends {
@@ -90,24 +102,22 @@ struct EndCounts {
 
 // Without censoring so far both incidences are shares of all, and what sums of shares lose by
 // rounding is put right.
-void CompleteStep(const EndCounts& counts, double confidence, IncidenceStep& step) {
+void CompleteStep(const EndCounts& counts, double share, double confidence, IncidenceStep& step) {
   if (counts.censored > 0) {
-    step.band = CensoredBand(step, counts.all - counts.censored, confidence);
+    step.band = CensoredBand(step, counts.all - counts.censored, share, confidence);
     return;
   }
-  const Proportion share =
-      MakeProportion(counts.events, counts.all, confidence, IntervalMethod::kClopperPearson);
-  step.event = share.rate;
-  step.competing = static_cast<double>(counts.competing) / static_cast<double>(counts.all);
-  step.standard_error =
-      std::sqrt(share.rate * (1.0 - share.rate) / static_cast<double>(counts.all));
-  step.band = share.interval;
+  const auto all = static_cast<double>(counts.all);
+  step.event = static_cast<double>(counts.events) / all;
+  step.competing = static_cast<double>(counts.competing) / all;
+  step.standard_error = std::sqrt(step.event * (1.0 - step.event) / (share * all));
+  step.band = ExactBand(counts.events, counts.all, share, confidence);
 }
 
 }  // namespace
 
 std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> durations,
-                                               double confidence) {
+                                               double confidence, double share) {
   EXPECT(confidence > 0.0 && confidence < 1.0);
   std::vector<Duration> sorted;
   std::copy_if(durations.begin(), durations.end(), std::back_inserter(sorted),
@@ -139,10 +149,10 @@ std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> duratio
       steps.push_back({sorted[i].at,
                        event,
                        competing,
-                       std::sqrt(variance.At(event)),
+                       std::sqrt(variance.At(event) / share),
                        {},
                        static_cast<std::int64_t>(at_risk)});
-      CompleteStep(counts, confidence, steps.back());
+      CompleteStep(counts, share, confidence, steps.back());
     }
     // Those that are censored at the distance of an end leave after it.
     counts.censored += static_cast<std::int64_t>(ends.all) - static_cast<std::int64_t>(both);

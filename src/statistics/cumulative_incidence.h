@@ -37,10 +37,10 @@ struct IncidenceStep {
 // Returns the Aalen-Johansen estimate, one step per distinct distance with an event or a competing
 // event. The variance is by the delta method (Marubini and Valsecchi 1995, eq. 10.12). As long
 // as nothing was censored the incidences are the counts over all trials, to the last bit, and the
-// variance is the binomial one. Entries whose distance is not finite are left out. Cost: n log
-// n.
+// variance is the binomial one. Entries whose distance is not finite are left out. Where they hang
+// together, bands are those of `share` times as many. Cost: n log n.
 std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> durations,
-                                               double confidence = kConfidence);
+                                               double confidence = kConfidence, double share = 1.0);
 
 // How a trial's end counts when the event is reaching the goal: believed arrival is the event (or
 // true arrival only), a simulator fault is no observation, all else competes. A time limit competes

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "statistics/clustered_rate.h"
 #include "statistics/modes.h"
 #include "statistics/moments.h"
 #include "statistics/quantiles.h"
@@ -76,11 +77,13 @@ DriveSummary Summarize(const truth::RecordSchema& schema, std::span<const truth:
     }
   }
   summary.faults = summary.outcome(truth::TrialOutcome::kSimulatorFault);
-  const std::int64_t counted = summary.completed - summary.faults;
-  const std::int64_t reached = summary.outcome(truth::TrialOutcome::kGoalReached);
-  const std::int64_t believed = summary.outcome(truth::TrialOutcome::kFalseGoal);
-  summary.declared_success = MakeProportion(reached + believed, counted, kConfidence, method);
-  summary.true_success = MakeProportion(reached, counted, kConfidence, method);
+  const std::vector<std::size_t> groups = DependentGroups(schema, records);
+  summary.shared_layouts = !groups.empty();
+  const auto rate = [&](const auto& succeeded) {
+    return RateOfTrials(OnesWhere(records, succeeded), groups, kConfidence, method);
+  };
+  summary.declared_success = rate(truth::DeclaredSuccess);
+  summary.true_success = rate(truth::TrueSuccess);
   for (std::size_t i = 0; i < schema.size(); ++i) {
     if (schema[i].name == kPathRatio) continue;
     summary.columns.push_back(

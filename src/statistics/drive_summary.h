@@ -41,6 +41,7 @@ struct DriveSummary {
   std::int64_t faults = 0;      // simulator faults: in no rate and in no column
   Proportion declared_success;  // goal_reached and false_goal
   Proportion true_success;      // goal_reached
+  bool shared_layouts = false;  // trials share rocks, which every interval allows for
   std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
   std::array<std::int64_t, truth::kEndCauses.size()> causes{};  // of records that tell theirs
   // Every column of the schema over all trials without a fault, in the schema's order; but

@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "core/numbers.h"
+#include "statistics/clustered_rate.h"
 #include "statistics/drive_summary.h"
 #include "statistics/moments.h"
 #include "statistics/quantiles.h"
@@ -82,7 +83,8 @@ std::optional<std::vector<double>> MetricValues(const Metric& metric,
 }
 
 MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> values,
-                              double confidence, IntervalMethod method) {
+                              double confidence, IntervalMethod method,
+                              std::span<const std::size_t> groups) {
   const std::vector<double> sorted = SortedFinite(values);
   const Moments moments = MomentsOf(sorted);
   MetricSummary summary{.metric = &metric,
@@ -97,15 +99,15 @@ MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> valu
                         .min = moments.min(),
                         .max = moments.max()};
   if (metric.kind == MetricKind::kRate) {
-    const auto ones = std::count(sorted.begin(), sorted.end(), 1.0);
-    summary.method = RateMethod(ones, summary.count, method);
-    summary.interval = ProportionInterval(ones, summary.count, confidence, summary.method);
+    const Proportion rate = RateOfTrials(values, groups, confidence, method);
+    summary.method = rate.method;
+    summary.interval = rate.interval;
     return summary;
   }
-  summary.estimate = EstimateMean(sorted, metric.fewest_for_mean, confidence);
+  summary.estimate = MeanOfTrials(values, groups, metric.fewest_for_mean, confidence);
   summary.interval = summary.estimate.interval;
   summary.median = Quantile(sorted, 0.5);
-  summary.median_interval = MedianInterval(sorted, confidence);
+  if (groups.empty()) summary.median_interval = MedianInterval(sorted, confidence);
   return summary;
 }
 
@@ -114,6 +116,7 @@ std::vector<MetricSummary> SummarizeMetrics(const truth::RecordSchema& schema,
                                             IntervalMethod method,
                                             std::optional<truth::TrialOutcome> outcome) {
   std::vector<MetricSummary> summaries;
+  const std::vector<std::size_t> groups = DependentGroups(schema, records);
   for (const Metric& metric : Metrics()) {
     if (outcome &&
         (metric.source == MetricSource::kOutcome || metric.source == MetricSource::kCause)) {
@@ -124,7 +127,7 @@ std::vector<MetricSummary> SummarizeMetrics(const truth::RecordSchema& schema,
     for (std::size_t i = 0; outcome && i < records.size(); ++i) {
       if (records[i].outcome != *outcome) (*values)[i] = kNaN;
     }
-    summaries.push_back(SummarizeMetric(metric, *values, kConfidence, method));
+    summaries.push_back(SummarizeMetric(metric, *values, kConfidence, method, groups));
   }
   return summaries;
 }

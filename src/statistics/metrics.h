@@ -86,9 +86,12 @@ struct MetricSummary {
   double max = 0.0;
 };
 
+// `groups`: which values hang together (DependentGroups), none where it is empty. The interval of
+// the median knows independent values only: there is none of others.
 MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> values,
                               double confidence = kConfidence,
-                              IntervalMethod method = IntervalMethod::kWilson);
+                              IntervalMethod method = IntervalMethod::kWilson,
+                              std::span<const std::size_t> groups = {});
 
 // Summarizes every metric whose columns the schema has. With `outcome`, it is over trials that
 // ended so (rates of outcomes are then left out).

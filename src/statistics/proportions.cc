@@ -81,6 +81,7 @@ Interval ProportionInterval(std::int64_t count, std::int64_t trials, double conf
                             IntervalMethod method) {
   EXPECT(count >= 0 && count <= trials);
   EXPECT(confidence > 0.0 && confidence < 1.0);
+  EXPECT(method != IntervalMethod::kClustered);
   if (trials == 0) return {0.0, 1.0};
   const double k = static_cast<double>(count);
   const double n = static_cast<double>(trials);
@@ -90,6 +91,7 @@ Interval ProportionInterval(std::int64_t count, std::int64_t trials, double conf
     case IntervalMethod::kClopperPearson:
       return ClopperPearson(k, n, confidence);
     case IntervalMethod::kStopped:
+    case IntervalMethod::kClustered:
       break;
   }
   return ClopperPearson(k, n, 1.0 - kStoppedShare * (1.0 - confidence));
@@ -102,9 +104,11 @@ std::string_view MethodName(IntervalMethod method) {
     case IntervalMethod::kClopperPearson:
       return "clopper_pearson";
     case IntervalMethod::kStopped:
+      return "clopper_pearson_stopped";
+    case IntervalMethod::kClustered:
       break;
   }
-  return "clopper_pearson_stopped";
+  return "clustered";
 }
 
 IntervalMethod RateMethod(std::int64_t count, std::int64_t trials, IntervalMethod method) {
@@ -117,14 +121,19 @@ Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confid
                           IntervalMethod method) {
   const double rate = trials == 0 ? std::numeric_limits<double>::quiet_NaN()
                                   : static_cast<double>(count) / static_cast<double>(trials);
-  return {count, trials, rate,
-          ProportionInterval(count, trials, confidence, RateMethod(count, trials, method))};
+  const IntervalMethod chosen = RateMethod(count, trials, method);
+  return {count, trials, rate, ProportionInterval(count, trials, confidence, chosen), chosen};
 }
 
 Interval DifferenceInterval(const Proportion& first, const Proportion& second, double confidence) {
   if (first.trials == 0 || second.trials == 0) return {-1.0, 1.0};
-  const Interval a = ProportionInterval(first.count, first.trials, confidence);
-  const Interval b = ProportionInterval(second.count, second.trials, confidence);
+  const auto ends = [&](const Proportion& rate) {
+    return rate.method == IntervalMethod::kClustered
+               ? rate.interval
+               : ProportionInterval(rate.count, rate.trials, confidence);
+  };
+  const Interval a = ends(first);
+  const Interval b = ends(second);
   const double difference = second.rate - first.rate;
   // Newcombe 1998, method 10: d - sqrt((p_2 - l_2)^2 + (u_1 - p_1)^2) .. d + sqrt((u_2 - p_2)^2 +
   // (p_1 - l_1)^2) with the Wilson ends l, u.

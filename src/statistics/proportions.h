@@ -18,10 +18,12 @@ struct Interval {
 enum class IntervalMethod {
   kWilson,          // score interval (Wilson 1927): coverage near nominal on average
   kClopperPearson,  // exact (Clopper and Pearson 1934): coverage at least nominal, always
-  kStopped,  // Clopper and Pearson's, for trials that end once their interval is narrow enough
+  kStopped,    // Clopper and Pearson's, for trials that end once their interval is narrow enough
+  kClustered,  // of trials that hang together (clustered_rate.h); none of plain counts
 };
 
-// As in summary.json: "wilson", "clopper_pearson", "clopper_pearson_stopped".
+// As in summary.json: "wilson", "clopper_pearson", "clopper_pearson_stopped",
+// "clustered".
 std::string_view MethodName(IntervalMethod method);
 
 // Returns how the interval of a rate is made that is asked for by `method`: in Wilson's place
@@ -36,6 +38,7 @@ struct Proportion {
   std::int64_t trials = 0;
   double rate = 0.0;
   Interval interval;
+  IntervalMethod method = IntervalMethod::kWilson;  // of the interval
 };
 
 // Returns the two-sided interval of a binomial proportion, with 0 <= count <= trials and 0 <
@@ -58,8 +61,8 @@ Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confid
 
 // Returns the interval of the difference second less first of two independent rates: the distances
 // of the Wilson ends from the rates, added in squares (Newcombe 1998, Statistics in Medicine 17,
-// pp. 873-890, method 10). It is near nominal on average; [-1, 1] where either has no trials. Cost:
-// constant.
+// pp. 873-890, method 10); of clustered trials the ends that the rates have (Zou and Donner 2008).
+// It is near nominal on average; [-1, 1] where either has no trials. Cost: constant.
 Interval DifferenceInterval(const Proportion& first, const Proportion& second,
                             double confidence = kConfidence);
 

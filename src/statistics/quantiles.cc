@@ -46,12 +46,14 @@ Interval MedianInterval(std::span<const double> sorted, double confidence) {
   return {sorted[out - 1], sorted[sorted.size() - out]};
 }
 
-std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence, BandMethod method) {
+std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence, BandMethod method,
+                            std::optional<double> independent) {
   EXPECT(confidence > 0.0 && confidence < 1.0);
   const std::vector<double> sorted = SortedFinite(values);
   const double n = static_cast<double>(sorted.size());
   // Massart 1990: P(sup |F_n - F| > e) <= 2 e^(-2 n e^2), solved for e.
-  const double half = std::sqrt(std::log(2.0 / (1.0 - confidence)) / (2.0 * n));
+  const double half =
+      std::sqrt(std::log(2.0 / (1.0 - confidence)) / (2.0 * independent.value_or(n)));
   std::vector<EcdfPoint> points;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     // One step for equal values, at the last of them.

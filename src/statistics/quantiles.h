@@ -1,6 +1,7 @@
 // Quantiles and empirical distribution functions.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,10 @@ struct EcdfPoint {
 };
 
 // Returns the empirical distribution function of the finite values, one point per distinct value.
+// `independent`: of how many independent values the simultaneous band is, where that is not their
+// number.
 std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence = kConfidence,
-                            BandMethod method = BandMethod::kSimultaneous);
+                            BandMethod method = BandMethod::kSimultaneous,
+                            std::optional<double> independent = {});
 
 }  // namespace rockyard::statistics

@@ -40,6 +40,8 @@ constexpr bool DeclaredSuccess(TrialOutcome outcome) {
   return outcome == TrialOutcome::kGoalReached || outcome == TrialOutcome::kFalseGoal;
 }
 
+constexpr bool TrueSuccess(TrialOutcome outcome) { return outcome == TrialOutcome::kGoalReached; }
+
 // The rover was found unable to move.
 constexpr bool IsStuck(TrialOutcome outcome) {
   return outcome == TrialOutcome::kJammed || outcome == TrialOutcome::kHighCentred;

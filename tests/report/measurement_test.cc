@@ -44,13 +44,12 @@ TEST(MeasurementReport, NothingSpeaksOfSuccess) {
   const MeasurementSummary summary = Sample(3, 2);
   const RunDescription run = SampleDescription();
   EXPECT_THAT(MeasurementText(run, summary), Not(HasSubstr("success")));
-  EXPECT_THAT(MeasurementJson(run, summary, IntervalMethod::kWilson), Not(HasSubstr("success")));
+  EXPECT_THAT(MeasurementJson(run, summary), Not(HasSubstr("success")));
 }
 
 TEST(MeasurementReport, JsonHoldsEveryCell) {
   const MeasurementSummary summary = Sample(3, 2);
-  const json parsed =
-      json::parse(MeasurementJson(SampleDescription(), summary, IntervalMethod::kWilson));
+  const json parsed = json::parse(MeasurementJson(SampleDescription(), summary));
   ASSERT_EQ(parsed["cells"].size(), 6u);
   const json& cell = parsed["cells"][5];
   EXPECT_EQ(cell["height_m"], 0.1);

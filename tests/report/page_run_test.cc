@@ -43,8 +43,8 @@ json Parsed(const PageRun& run) { return json::parse(PageRunMembers(run, kWilson
 TEST(PageRun, ItsSummaryIsSummaryJson) {
   const std::vector<truth::Record> records = SampleRecords();
   const json run = Parsed(SamplePageRun(records));
-  const std::string expected = SummaryJson(
-      SampleDescription(), statistics::Summarize(SampleSchema(), records, 8, kWilson), kWilson);
+  const std::string expected =
+      SummaryJson(SampleDescription(), statistics::Summarize(SampleSchema(), records, 8, kWilson));
   EXPECT_EQ(run["summary"], json::parse(expected));
   EXPECT_EQ(run["kind"], "drive");
   EXPECT_TRUE(run["sweep"].is_null());

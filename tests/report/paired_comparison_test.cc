@@ -161,7 +161,7 @@ TEST(CompareRuns, OtherFieldsAreNotCalledEqualRocks) {
               HasSubstr("other settings of terrain"));
 }
 
-TEST(CompareRuns, WarnsWhereTrialsShareTheirRocks) {
+TEST(CompareRuns, AllowsForTrialsThatShareTheirRocks) {
   const truth::RecordSchema schema{{"layout", "1", ""}};
   std::vector<Record> own;
   std::vector<Record> shared;
@@ -172,8 +172,28 @@ TEST(CompareRuns, WarnsWhereTrialsShareTheirRocks) {
   const ComparedRun each{"each", 1, schema, own};
   const ComparedRun three{"three", 1, schema, shared};
   EXPECT_FALSE(CompareRuns(each, each).shared_layouts);
-  EXPECT_TRUE(CompareRuns(each, three).shared_layouts);
-  EXPECT_THAT(RunComparisonText(each, three, CompareRuns(each, three)), HasSubstr("too sure"));
+  const RunComparison result = CompareRuns(each, three);
+  EXPECT_TRUE(result.shared_layouts);
+  EXPECT_THAT(RunComparisonText(each, three, result),
+              AllOf(HasSubstr("intervals allow for it"), Not(HasSubstr("p = "))));
+  // Two groups of three that agree say as much as two trials, with Student's of one degree.
+  EXPECT_GT(result.successes[0].interval.high, 0.9);
+  EXPECT_LT(CompareRuns(each, each).successes[0].interval.high, 0.5);
+}
+
+// As two samples, each side by its own layouts; what the records do not tell is told beside them.
+TEST(CompareRuns, SamplesAreOfTheLayoutsThatTheyHave) {
+  const TwoRuns runs(30, 8, 1, 11);
+  ComparedRun first = runs.First();
+  const RunComparison plain = CompareRuns(first, runs.Second(2));
+  for (std::size_t i = 0; i < first.records.size(); ++i) first.groups.push_back(i / 5);
+  const RunComparison shared = CompareRuns(first, runs.Second(2));
+  EXPECT_TRUE(std::isfinite(plain.successes[0].p_value));
+  EXPECT_TRUE(std::isnan(shared.successes[0].p_value));
+  EXPECT_EQ(plain.successes[0].difference, shared.successes[0].difference);
+  EXPECT_LT(shared.successes[0].interval.low, plain.successes[0].interval.low);
+  EXPECT_GT(shared.successes[0].interval.high, plain.successes[0].interval.high);
+  EXPECT_EQ(plain.columns[0].difference, shared.columns[0].difference);
 }
 
 TEST(RunComparisonCsv, HoldsBothTables) {

@@ -24,8 +24,7 @@ statistics::DriveSummary SampleSummary(IntervalMethod method = IntervalMethod::k
 }
 
 TEST(SummaryJson, HasEveryMemberOfTheLayout) {
-  const json summary =
-      json::parse(SummaryJson(SampleDescription(), SampleSummary(), IntervalMethod::kWilson));
+  const json summary = json::parse(SummaryJson(SampleDescription(), SampleSummary()));
   EXPECT_EQ(summary["schema_version"], 2);
   EXPECT_EQ(summary["scenario"], "sample");
   EXPECT_EQ(summary["seed"], 9000000000000000001ULL);
@@ -44,8 +43,7 @@ TEST(SummaryJson, HasEveryMemberOfTheLayout) {
 }
 
 TEST(SummaryJson, RatesLeaveFaultsOut) {
-  const json summary =
-      json::parse(SummaryJson(SampleDescription(), SampleSummary(), IntervalMethod::kWilson));
+  const json summary = json::parse(SummaryJson(SampleDescription(), SampleSummary()));
   EXPECT_EQ(summary["declared_success"]["count"], 3);
   EXPECT_EQ(summary["declared_success"]["trials"], 5);
   EXPECT_DOUBLE_EQ(summary["declared_success"]["rate"], 0.6);
@@ -67,7 +65,7 @@ std::vector<truth::Record> Repeated(int times) {
 
 json SummaryOf(const std::vector<truth::Record>& records, IntervalMethod method) {
   const auto summary = statistics::Summarize(SampleSchema(), records, 0, method);
-  return json::parse(SummaryJson(SampleDescription(), summary, method));
+  return json::parse(SummaryJson(SampleDescription(), summary));
 }
 
 TEST(SummaryJson, RatesSayHowTheirIntervalsAreMade) {
@@ -106,8 +104,7 @@ TEST(SummaryJson, ModesHaveARangeThatClaimsNothing) {
 }
 
 TEST(SummaryJson, ColumnsByHand) {
-  const json summary =
-      json::parse(SummaryJson(SampleDescription(), SampleSummary(), IntervalMethod::kWilson));
+  const json summary = json::parse(SummaryJson(SampleDescription(), SampleSummary()));
   EXPECT_EQ(summary["distance_m"]["count"], 5);
   EXPECT_EQ(summary["distance_m"]["min"], 4.0);
   EXPECT_EQ(summary["distance_m"]["median"], 8.0);
@@ -124,7 +121,7 @@ TEST(SummaryJson, ColumnsByHand) {
 
 TEST(SummaryJson, NoTrialsAreNullNotZero) {
   const auto none = statistics::Summarize(SampleSchema(), {}, 8);
-  const json summary = json::parse(SummaryJson(SampleDescription(), none, IntervalMethod::kWilson));
+  const json summary = json::parse(SummaryJson(SampleDescription(), none));
   EXPECT_TRUE(summary["declared_success"]["rate"].is_null());
   EXPECT_TRUE(summary["distance_m"]["mean"].is_null());
   EXPECT_EQ(summary["distance_m"]["count"], 0);
