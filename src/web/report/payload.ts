@@ -34,7 +34,7 @@ export interface Run {
   stored_trials: number;
   /** The trials below this number are in every rate, mean and curve of the run: those before the first that is not stored. */
   prefix_trials: number;
-  /** Trials share layouts of rocks: they are not independent, and intervals that take them so are too narrow. */
+  /** Trials share layouts of rocks: intervals allow for it. */
   shared_layouts: boolean;
   /** How the trials of the rates ended, the commonest way first. */
   endings: { outcome: string; detail: string; count: number }[];

@@ -37,6 +37,7 @@ const METHODS: Record<string, string> = {
   wilson: "Wilson",
   clopper_pearson: "Clopper-Pearson",
   clopper_pearson_stopped: "Clopper-Pearson, for trials that their half-width ends",
+  clustered: "Clopper-Pearson, of as many independent trials as say as much",
 };
 
 export function methodName(method: unknown): string {
@@ -45,7 +46,7 @@ export function methodName(method: unknown): string {
 
 /** Of runs where several trials drive over the same rocks. */
 export const SHARED_LAYOUTS =
-  "Trials share layouts of rocks: they are not independent, and intervals that take them so are too narrow.";
+  "Trials share layouts of rocks: intervals allow for it, medians have none.";
 
 export interface VerdictWords {
   mark: string;
