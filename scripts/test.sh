@@ -101,8 +101,12 @@ trap 'exit 130' INT
 trap 'exit 143' TERM HUP
 
 # Debian's Python, whose packages the tests use; a shim of another one takes half a second a call.
-PATH="/usr/bin:$PATH"
-export PATH
+if [ -x /usr/bin/python3 ]; then
+  mkdir -p build/bin
+  ln -sf /usr/bin/python3 build/bin/python3
+  PATH="$PWD/build/bin:$PATH"
+  export PATH
+fi
 
 groups="build mpi pages test figures"
 if [ "$preset" = tsan ]; then groups="$groups tsan"; fi

@@ -24,7 +24,7 @@ CountOfRun SumOf(std::span<const CountOfRun> runs) {
   return sum;
 }
 
-// Events, and what is none, that runs of one trial each would have to show.
+// Runs with events, and with what is none, that can show how far these hang together.
 constexpr double kFewRuns = 5.0;
 
 // Variance of the ratio R = sum x / sum y over the one of independent trials: m var(x - R y) /
@@ -40,6 +40,18 @@ double DesignEffect(std::span<const CountOfRun> runs, const CountOfRun& sum, dou
   for (const CountOfRun& run : runs) residuals.Add(run.count - mean * run.base);
   const double effect = static_cast<double>(runs.size()) * residuals.variance() / scatter;
   return std::max(seen ? 1.0 : one_per_run, effect);
+}
+
+// Whether runs can show how far events hang together, of which `rarer` is the share of those, or of
+// the others.
+bool ShowDependence(std::span<const CountOfRun> runs, double rarer) {
+  const auto with = std::count_if(runs.begin(), runs.end(),
+                                  [](const CountOfRun& run) { return run.count > 0.0; });
+  const auto without = std::count_if(runs.begin(), runs.end(),
+                                     [](const CountOfRun& run) { return run.count < run.base; });
+  const auto all = static_cast<double>(runs.size());
+  const bool enough = runs.size() > kFewestForMean || all * rarer >= kFewRuns;
+  return enough && static_cast<double>(std::min(with, without)) >= kFewRuns;
 }
 
 // Square of the normal over Student's quantile: 1 for many runs.
@@ -58,8 +70,8 @@ Interval ClusteredRateInterval(std::span<const CountOfRun> runs, double confiden
   EXPECT(sum.count >= 0.0 && sum.count <= sum.base);
   if (runs.size() < 2 || sum.base == 0.0) return {0.0, 1.0};
   const double rate = sum.count / sum.base;
-  const double rarer = static_cast<double>(runs.size()) * std::min(rate, 1.0 - rate);
-  const double effect = DesignEffect(runs, sum, sum.base * rate * (1.0 - rate), rarer >= kFewRuns);
+  const double effect = DesignEffect(runs, sum, sum.base * rate * (1.0 - rate),
+                                     ShowDependence(runs, std::min(rate, 1.0 - rate)));
   // Effective numbers: n / design effect (z/t)^2, and as many successes at the same rate.
   const double trials = std::ceil(sum.base * FewRuns(runs.size(), confidence) / effect);
   const double count = trials * rate;

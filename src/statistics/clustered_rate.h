@@ -24,11 +24,11 @@ struct CountOfRun {
 // counts and base are divided by the design effect, which is
 //   max(1, runs Var(x - R y) / (n R (1 - R))),  x and y of the runs, R and n of all,
 // and by the square of Student's over the normal quantile, for the few runs behind it. Fractions
-// are rounded outwards. Where as many runs of one trial each would show fewer than five events, or
-// fewer than five of the others, a run that is all events may well be missing, and how far events
-// hang together cannot be seen: each run then says as much as one trial. So it holds the rate in 93
-// % of samples and more (8 to 60 runs of 5 to 30 trials, rates of 3 to 90 %;
-// tests/statistics/clustered_test.cc), without that rule in as few as 69.
+// are rounded outwards. Fewer than five runs with an event, or with what is none, cannot show how
+// far these hang together, nor can up to thirty runs that would show fewer than five if each were
+// one trial, as a run of nothing but events may well be missing: each run then says as much as one
+// trial. So it holds the rate in 93 % of samples and more (8 to 60 runs of 5 to 50 trials, rates of
+// 3 to 90 %; tests/statistics/clustered_test.cc).
 // Limits: one run, or no base, says nothing: [0, 1]. 0 <= count <= base. Cost: linear.
 Interval ClusteredRateInterval(std::span<const CountOfRun> runs, double confidence);
 

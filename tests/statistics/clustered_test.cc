@@ -83,6 +83,12 @@ TEST(ClusteredRate, HoldsForMissionsOfThirtyGoals) {
   }
 }
 
+TEST(ClusteredRate, HoldsForHazardsOfFortyFields) {
+  for (const double together : {0.0, 0.18, 0.33, 0.55}) {
+    EXPECT_GT(Coverage({40, 50, 0.1, together}, false), kLeast) << "together " << together;
+  }
+}
+
 // Negative control: what takes them as independent is found out.
 TEST(ClusteredRate, IntervalsOfIndependentTrialsDoNotHold) {
   EXPECT_LT(Coverage({60, 5, 0.85, 0.73}, true), 0.85);
@@ -100,16 +106,17 @@ TEST(ClusteredRate, IsThatOfPlainTrialsWhereEachRunHasOne) {
   EXPECT_EQ(RateOfRuns(std::vector<CountOfRun>{{1, 2}, {0, 1}}).method, IntervalMethod::kClustered);
 }
 
-// 2.3 % of 200 trials on 40 layouts: each layout says as much as one. 13 % would be five of 40.
-TEST(ClusteredRate, RareEventsCannotShowHowTheyHangTogether) {
-  std::vector<CountOfRun> runs(40, {0, 5});
-  const auto width = [&](std::size_t events) {
-    for (std::size_t run = 0; run < runs.size(); ++run) runs[run].count = run < events ? 1 : 0;
+// Of 40 layouts of five: events on four cannot show it, events on five can. Of 20, ten events of
+// 100 would be two if each layout were one trial.
+TEST(ClusteredRate, FewRunsWithEventsCannotShowHowTheyHangTogether) {
+  const auto width = [](std::size_t layouts, std::size_t events) {
+    std::vector<CountOfRun> runs(layouts, {0, 5});
+    for (std::size_t run = 0; run < events; ++run) runs[run].count = 1;
     const Interval interval = ClusteredRateInterval(runs, 0.95);
     return interval.high - interval.low;
   };
-  EXPECT_GT(width(5), 0.1);
-  EXPECT_LT(width(25), width(24));
+  EXPECT_LT(width(40, 5), 0.5 * width(40, 4));
+  EXPECT_GT(width(20, 10), 1.5 * width(31, 10));
 }
 
 truth::Record On(double layout, TrialOutcome outcome) { return {0, outcome, "", {layout}}; }
