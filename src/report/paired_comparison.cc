@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/numbers.h"
@@ -37,18 +38,20 @@ std::vector<std::size_t> GroupsOf(const ComparedRun& run) {
 std::vector<Pair> Pairs(const ComparedRun& first, const ComparedRun& second) {
   const std::vector<std::size_t> of_first = GroupsOf(first);
   const std::vector<std::size_t> of_second = GroupsOf(second);
-  // Trials of a layout follow one another.
-  const auto goes_on = [](const std::vector<std::size_t>& groups, std::size_t i) {
-    return !groups.empty() && groups[i] == groups[i - 1];
-  };
+  // A pair is of the group of an earlier one that shares its layout in either run.
+  std::map<std::size_t, std::size_t> in_first;
+  std::map<std::size_t, std::size_t> in_second;
   std::vector<Pair> pairs;
-  std::size_t group = 0;
   const std::size_t common = std::min(first.records.size(), second.records.size());
   for (std::size_t i = 0; i < common; ++i) {
     const Record& a = first.records[i];
     const Record& b = second.records[i];
-    if (i > 0 && !goes_on(of_first, i) && !goes_on(of_second, i)) ++group;
-    if (!IsFault(a) && !IsFault(b)) pairs.push_back({&a, &b, group});
+    if (IsFault(a) || IsFault(b)) continue;
+    std::size_t group = i;
+    if (!of_second.empty()) group = in_second.emplace(of_second[i], group).first->second;
+    if (!of_first.empty()) group = in_first.emplace(of_first[i], group).first->second;
+    if (!of_second.empty()) in_second[of_second[i]] = group;
+    pairs.push_back({&a, &b, group});
   }
   return pairs;
 }

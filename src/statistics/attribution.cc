@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "core/check.h"
@@ -20,10 +19,6 @@ Combination Bit(std::size_t i) { return Combination{1} << i; }
 
 double Factorial(std::size_t n) { return std::tgamma(static_cast<double>(n) + 1.0); }
 
-std::int64_t Count(const std::vector<std::uint8_t>& failed) {
-  return std::count(failed.begin(), failed.end(), std::uint8_t{1});
-}
-
 // One trial's value of a contrast: the sum of the weights of the combinations in which it failed.
 double ValueOf(const FactorialFailures& failures, const Contrast& contrast, std::size_t trial) {
   double value = 0.0;
@@ -31,23 +26,6 @@ double ValueOf(const FactorialFailures& failures, const Contrast& contrast, std:
     if (failures.failed[c][trial] != 0) value += contrast.weights[c];
   }
   return value;
-}
-
-Proportion RateOf(const std::vector<std::uint8_t>& failed, std::span<const std::size_t> clusters,
-                  double confidence) {
-  Proportion rate =
-      MakeProportion(Count(failed), static_cast<std::int64_t>(failed.size()), confidence);
-  if (clusters.empty()) return rate;
-  std::map<std::size_t, CountOfRun> runs;
-  for (std::size_t t = 0; t < failed.size(); ++t) {
-    runs[clusters[t]].count += failed[t];
-    runs[clusters[t]].base += 1.0;
-  }
-  std::vector<CountOfRun> counts;
-  counts.reserve(runs.size());
-  for (const auto& [cluster, run] : runs) counts.push_back(run);
-  rate.interval = ClusteredRateInterval(counts, confidence);
-  return rate;
 }
 
 }  // namespace
@@ -119,7 +97,8 @@ Attribution Attribute(const FactorialFailures& failures, double confidence) {
   EXPECT(failures.clusters.empty() || failures.clusters.size() == result.trials);
   for (const std::vector<std::uint8_t>& failed : failures.failed) {
     EXPECT(failed.size() == result.trials);
-    result.failures.push_back(RateOf(failed, failures.clusters, confidence));
+    result.failures.push_back(RateOfTrials(std::vector<double>(failed.begin(), failed.end()),
+                                           failures.clusters, confidence));
   }
   const auto estimate = [&](const Contrast& contrast) {
     return Estimated(failures, contrast, confidence);

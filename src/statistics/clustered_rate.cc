@@ -26,6 +26,8 @@ CountOfRun SumOf(std::span<const CountOfRun> runs) {
 
 // Runs with events, and with what is none, that can show how far these hang together.
 constexpr double kFewRuns = 5.0;
+// With more runs, their scatter shows it although a run of nothing but events may be missing.
+constexpr std::size_t kManyRuns = 30;
 
 // Variance of the ratio R = sum x / sum y over the one of independent trials: m var(x - R y) /
 // scatter, m runs, at least 1. `scatter` is the sum of squared deviations of single values from the
@@ -50,7 +52,7 @@ bool ShowDependence(std::span<const CountOfRun> runs, double rarer) {
   const auto without = std::count_if(runs.begin(), runs.end(),
                                      [](const CountOfRun& run) { return run.count < run.base; });
   const auto all = static_cast<double>(runs.size());
-  const bool enough = runs.size() > kFewestForMean || all * rarer >= kFewRuns;
+  const bool enough = runs.size() > kManyRuns || all * rarer >= kFewRuns;
   return enough && static_cast<double>(std::min(with, without)) >= kFewRuns;
 }
 

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 
 #include <fstream>
 #include <optional>
@@ -16,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 using truth::Record;
 
 template <typename Action>
@@ -74,6 +76,17 @@ class DamagedStore : public testing::Test {
 
 TEST_F(DamagedStore, IsFineBefore) {
   EXPECT_EQ(ResultStore::Resume(folder_.path(), FakeIdentity()).Load().size(), 400U);
+}
+
+// What lacks memory is not damaged, and nobody is told to set it aside.
+TEST_F(DamagedStore, IsFineWithoutMemory) {
+  sqlite3_hard_heap_limit64(1);
+  const auto error = ErrorOf([&] { ReadAll(ResultStore::Read(folder_.path())); });
+  sqlite3_hard_heap_limit64(0);
+  ExpectError(error, StoreProblem::kMemory, StorePath(folder_.path()));
+  EXPECT_TRUE(IsOfTheMachine(error->problem()));
+  EXPECT_THAT(error->problems().front().suggestion, Not(HasSubstr("--force")));
+  EXPECT_EQ(ResultStore::Read(folder_.path()).Load().size(), 400U);
 }
 
 TEST_F(DamagedStore, NoDatabase) {

@@ -181,6 +181,32 @@ TEST(CompareRuns, AllowsForTrialsThatShareTheirRocks) {
   EXPECT_LT(CompareRuns(each, each).successes[0].interval.high, 0.5);
 }
 
+// Layouts of three in one run and of two in the other chain six trials together; a fault in the
+// middle of a layout does not divide it.
+TEST(CompareRuns, ALayoutStaysWholeAroundAFault) {
+  const TwoRuns runs(30, 8, 1, 9);
+  ComparedRun first = runs.First();
+  ComparedRun second = runs.Second();
+  for (std::size_t i = 0; i < first.records.size(); ++i) {
+    first.groups.push_back(i / 3);
+    second.groups.push_back(i / 2);
+  }
+  const auto width = [](const ComparedRun& a, const ComparedRun& b) {
+    const statistics::Interval interval = CompareRuns(a, b).successes[0].interval;
+    return interval.high - interval.low;
+  };
+  ComparedRun six = first;
+  for (std::size_t i = 0; i < six.groups.size(); ++i) six.groups[i] = i / 6;
+  EXPECT_EQ(width(first, second), width(six, runs.Second()));
+  EXPECT_NE(width(first, runs.Second()), width(six, runs.Second()));
+  std::vector<Record> faulted(first.records.begin(), first.records.end());
+  faulted[1].outcome = TrialOutcome::kSimulatorFault;
+  first.records = faulted;
+  ComparedRun whole = first;
+  whole.groups[1] = 99;  // what a fault leaves tells no layout
+  EXPECT_EQ(width(first, runs.Second()), width(whole, runs.Second()));
+}
+
 // As two samples, each side by its own layouts; what the records do not tell is told beside them.
 TEST(CompareRuns, SamplesAreOfTheLayoutsThatTheyHave) {
   const TwoRuns runs(30, 8, 1, 11);
