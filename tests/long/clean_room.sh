@@ -26,7 +26,7 @@ fail() {
   exit 1
 }
 [ "$(id -u)" -eq 0 ] || fail "making a root folder needs root"
-command -v debootstrap > /dev/null || fail "install the package debootstrap first"
+"$project/scripts/install_dependencies.sh" clean_room
 if [ -z "$root" ]; then
   root=$(mktemp -d)
   keep=no
