@@ -46,15 +46,21 @@ void AddPlanOptions(CLI::App& command, CampaignOptions& options) {
 
 void AddFolderOptions(CLI::App& command, CampaignOptions& options) {
   command.add_option("--out", options.out, "run folder (default: results/runs/<name>-seed<seed>)");
-  command.add_flag("--resume", options.resume,
-                   "go on with the run in the folder; a larger --trials extends it");
+  CLI::Option* resume = command.add_flag(
+      "--resume", options.resume, "go on with the run in the folder; a larger --trials extends it");
+  CLI::Option* retry = command.add_flag("--retry-faults", options.request.retry_faults,
+                                        "with --resume: drive again what ended in a simulator "
+                                        "fault, as where the machine was to blame");
+  retry->needs(resume);
   command.add_flag("--force", options.force,
                    "set a run in the folder and the files of its names aside (as *.old-1.*: "
                    "nothing is deleted) and start anew; with --resume only where it cannot go on");
   command.add_flag("--any-build", options.any_build,
                    "let --resume mix trials of different builds of the program");
-  command.add_flag("--dry-run", options.dry_run,
-                   "say what would be done and what it would cost; run and write nothing else");
+  command
+      .add_flag("--dry-run", options.dry_run,
+                "say what would be done and what it would cost; run and write nothing else")
+      ->excludes(retry);
 }
 
 // `options` must outlive the command.

@@ -1,6 +1,8 @@
 #include "app/command_text.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -10,7 +12,8 @@ namespace rockyard::app {
 namespace {
 
 constexpr std::string_view kResume = "--resume";
-constexpr std::string_view kForce = "--force";
+// What holds for the first of a command's sessions alone.
+constexpr std::array<std::string_view, 3> kOnce = {kResume, "--force", "--retry-faults"};
 
 bool IsFlag(const CLI::Option& option) { return option.get_items_expected_min() == 0; }
 
@@ -21,7 +24,7 @@ std::string Text(const CLI::App& command, bool resume) {
   std::string options;
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
-    if (option->count() == 0 || (resume && (name == kResume || name == kForce))) continue;
+    if (option->count() == 0 || (resume && std::ranges::count(kOnce, name) > 0)) continue;
     if (option->get_positional()) {
       for (const std::string& word : option->results()) words += " " + campaign::ShellPath(word);
     } else if (IsFlag(*option)) {

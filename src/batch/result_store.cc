@@ -223,6 +223,8 @@ void ResultStore::Append(std::span<const CellRecord> records) {
   if (!records.empty()) InsertRecords(*database_, Trials(), records);
 }
 
+std::int64_t ResultStore::RetryFaults() { return SetSimulatorFaultsAside(*database_, Trials()); }
+
 std::vector<truth::Record> ResultStore::Load(int cell) const {
   return Load(cell, 0, planned(cell));
 }

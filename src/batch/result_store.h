@@ -97,6 +97,10 @@ class ResultStore {
   // value, or is a fault.
   void Append(std::span<const CellRecord> records);
 
+  // Makes trials that ended in a simulator fault pending again, for whom the machine was at fault;
+  // what each said is kept as an infrastructure fault. Returns how many.
+  std::int64_t RetryFaults();
+
   // The stored records of a cell, by trial index. Trials beyond those planned, which a wider
   // stopping rule did not ask for, stay in the store and are left out: the campaign is the same as
   // if they had not run. Cost: reads all of them into memory, some 500 bytes for each drive

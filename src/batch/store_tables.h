@@ -56,6 +56,10 @@ struct TrialTable {
 void InsertRecords(SqliteDatabase& database, const TrialTable& table,
                    std::span<const CellRecord> records);
 
+// Takes the simulator faults out of the table, each into that of infrastructure faults with what it
+// said, in one transaction: they are pending again. How many there were.
+std::int64_t SetSimulatorFaultsAside(SqliteDatabase& database, const TrialTable& table);
+
 // Trials from .. to-1 of a cell.
 struct TrialRange {
   int cell = 0;

@@ -252,6 +252,27 @@ void InsertRecords(SqliteDatabase& database, const TrialTable& table,
   transaction.Commit();
 }
 
+std::int64_t SetSimulatorFaultsAside(SqliteDatabase& database, const TrialTable& table) {
+  const bool sums = table.checksums == Checksums::kEachRow;
+  const std::string fault(truth::Name(truth::TrialOutcome::kSimulatorFault));
+  const std::string where = " FROM trials WHERE outcome = ?1";
+  SqliteTransaction transaction(database);
+  TableTally tally = sums ? InventoryOf(database, kTrialsTable) : TableTally{};
+  SqliteStatement select = database.Prepare("SELECT campaign_cell, trial, detail" +
+                                            std::string(sums ? ", row_checksum" : "") + where);
+  select.Bind(0, fault);
+  std::int64_t number = 0;
+  for (; select.Step(); ++number) {
+    const TrialId id{static_cast<int>(select.Integer(0)), select.Integer(1)};
+    InsertFault(database, table.checksums, {id, fault, select.Text(2)});
+    if (sums) tally.Remove(select.Integer(3));
+  }
+  database.Prepare("DELETE" + where).Bind(0, fault).Step();
+  if (sums) SetInventory(database, kTrialsTable, tally);
+  transaction.Commit();
+  return number;
+}
+
 std::vector<truth::Record> SelectRecords(const SqliteDatabase& database, const TrialTable& table,
                                          const TrialRange& range) {
   const truth::RecordSchema& schema = table.identity.schema;

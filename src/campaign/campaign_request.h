@@ -24,6 +24,7 @@ struct CampaignRequest {
   std::filesystem::path folder = {};        // empty: DefaultFolder
   ExistingRun existing = ExistingRun::kRefuse;
   batch::BuildPolicy build = batch::BuildPolicy::kSame;
+  bool retry_faults = false;                     // OpenRequest::retry_faults
   std::string shard = {};                        // "I/N"; empty: the whole campaign
   std::optional<batch::StoppingRule> rule = {};  // none: every planned trial
   double max_fault_fraction = 0.01;              // of all trials and of those of each cell

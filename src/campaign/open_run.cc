@@ -101,6 +101,9 @@ class Opener {
 
   batch::ResultStore Resume() {
     batch::ResultStore store = batch::ResultStore::Resume(folder_, identity_, request_.build);
+    if (request_.retry_faults && request_.existing != ExistingRun::kOwn) {
+      notes_.push_back(fmt::format("simulator faults to be driven again: {}", store.RetryFaults()));
+    }
     TellItIsOwn();
     resumed_ = true;
     if (!store.has_checksums()) notes_.push_back(NoChecksumsNote(folder_));

@@ -50,6 +50,7 @@ struct OpenRequest {
   std::filesystem::path folder;
   ExistingRun existing = ExistingRun::kRefuse;
   batch::BuildPolicy build = batch::BuildPolicy::kSame;
+  bool retry_faults = false;  // of a run that goes on: its simulator faults are driven again
   bool trials_given = false;  // false: those planned before count, where there is a run
   std::optional<batch::StoppingRule> rule;  // none: that of a run that goes on
   batch::Shard shard;

@@ -202,6 +202,7 @@ OpenRequest OpeningOf(const CampaignRequest& request, const CampaignPlan& plan) 
   return {.folder = request.folder.empty() ? plan.folder : request.folder,
           .existing = request.existing,
           .build = request.build,
+          .retry_faults = request.retry_faults,
           .trials_given = request.trials.has_value(),
           .rule = request.rule,
           .shard = request.ParseShard(),

@@ -25,8 +25,9 @@ constexpr std::size_t kMaxColumns = 7;
 std::string Head(const RunDescription& run, const MeasurementSummary& summary, TextStyle style) {
   const std::string name = Cut(Printable(run.scenario), 40);
   std::string text = style == TextStyle::kPlain ? name : "\x1b[1m" + name + "\x1b[0m";
-  text += fmt::format(", seed {}: {} of {} runs, {} cells\n", run.seed, summary.completed,
-                      run.planned, summary.cells.size());
+  text += fmt::format(", seed {}: {} of {} runs", run.seed, summary.completed, run.planned);
+  if (summary.cells.size() != 1) text += fmt::format(", {} cells", summary.cells.size());
+  text += "\n";
   text += SettingsText(run);
   if (run.stored > summary.completed) {
     text += fmt::format("  {} more finished runs count once those before them are finished\n",
@@ -54,13 +55,73 @@ std::string Bases(const MeasurementSummary& summary) {
   return text;
 }
 
-std::string Widest(const MeasurementSummary& summary) {
+std::string Widest(const MeasurementSummary& summary, std::size_t rate) {
+  if (rate == summary.rates.size()) return "";
+  return fmt::format("  widest 95 % interval of {}: {:.4f}\n", summary.rates[rate].name,
+                     summary.WidestInterval(rate));
+}
+
+// Adds names to a line that is broken where it grows too long.
+std::string Listed(const std::string& head, const std::vector<std::string>& names) {
+  std::string text = head;
+  for (const std::string& name : names) text += (&name == names.data() ? "" : ", ") + name;
+  return names.empty() ? "" : Wrapped(text + "\n");
+}
+
+std::size_t LongestName(const MeasurementSummary& summary) {
+  std::size_t longest = 0;
+  for (const auto* list : {&summary.rates, &summary.means}) {
+    for (const truth::ValueInfo& column : *list) longest = std::max(longest, column.name.size());
+  }
+  return longest;
+}
+
+// The rates of the cell that are shares of `of`, each with its interval.
+std::string SharesOf(const MeasurementSummary& summary, std::string_view of, std::size_t width) {
+  std::string text;
+  std::vector<std::string> never;
+  statistics::Proportion none;
+  for (std::size_t i = 0; i < summary.rates.size(); ++i) {
+    const statistics::Proportion& rate = summary.cells.front().rates[i].rate;
+    if (summary.rates[i].of != of || rate.trials == 0) continue;
+    if (text.empty() && never.empty()) none = rate;
+    if (rate.count == 0) {
+      never.push_back(summary.rates[i].name);
+      none = rate;
+      continue;
+    }
+    text += fmt::format("    {:<{}} {:5.1f} %  {:.1f} .. {:.1f}\n", summary.rates[i].name, width,
+                        100.0 * rate.rate, 100.0 * rate.interval.low, 100.0 * rate.interval.high);
+  }
+  if (text.empty() && never.empty()) return "";
+  text += Listed(fmt::format("    never (up to {:.1f} %): ", 100.0 * none.interval.high), never);
+  return fmt::format("  of {} {}, with 95 % intervals\n", none.trials, of) + text;
+}
+
+// A cell alone: everything that it measured, by what it is a share of.
+std::string OnlyCell(const MeasurementSummary& summary) {
+  const std::size_t width = LongestName(summary);
   std::string text;
   for (std::size_t i = 0; i < summary.rates.size(); ++i) {
-    text += fmt::format("  widest 95 % interval of {}: {:.4f}\n", summary.rates[i].name,
-                        summary.WidestInterval(i));
+    const std::string& of = summary.rates[i].of;
+    const auto same = [&](const truth::ValueInfo& rate) { return rate.of == of; };
+    const auto first = std::find_if(summary.rates.begin(), summary.rates.end(), same);
+    if (&*first == &summary.rates[i]) text += SharesOf(summary, of, width);
   }
-  return text;
+  std::vector<std::string> zero;
+  std::string means;
+  for (std::size_t i = 0; i < summary.means.size(); ++i) {
+    const truth::ValueInfo& column = summary.means[i];
+    const double mean = summary.cells.front().means[i];
+    if (mean == 0.0) {
+      zero.push_back(column.name);
+    } else if (std::isfinite(mean)) {
+      means += fmt::format("    {:<{}} {:>8}{}\n", column.name, width, FourDigits(mean),
+                           column.role == truth::ColumnRole::kSquares ? "  root mean square" : "");
+    }
+  }
+  means += Listed("    0: ", zero);
+  return means.empty() ? text : text + "  means\n" + means;
 }
 
 std::string CellLine(const Cell& cell) {
@@ -154,11 +215,15 @@ std::string MeasurementText(const RunDescription& run, const MeasurementSummary&
                             TextStyle style) {
   std::string text = Head(run, summary, style);
   if (!summary.cells.empty()) {
-    text += Bases(summary) + Widest(summary);
     const std::size_t rate = MainRate(summary.rates);
     const bool pool = summary.cells.size() > kMaxUnpooled && rate < summary.rates.size();
-    text += pool ? Pooled(summary, rate) : EveryCell(summary);
-    text += "  intervals of every cell, and of all cells at once, in cells.csv\n";
+    if (summary.cells.size() == 1) {
+      text += OnlyCell(summary);
+    } else {
+      text += Bases(summary) + Widest(summary, rate);
+      text += pool ? Pooled(summary, rate) : EveryCell(summary);
+      text += "  intervals of every cell, and of all cells at once, in cells.csv\n";
+    }
   }
   return text + fmt::format("  trial hash {}\n", run.trial_hash);
 }

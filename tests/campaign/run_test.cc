@@ -66,6 +66,34 @@ TEST_F(SmallRuns, StoppedAndResumedIsTheUninterruptedRun) {
   EXPECT_EQ(Hash("parts"), Hash("whole"));
 }
 
+// A store of a program that took a short memory for a fault of the simulator.
+TEST_F(SmallRuns, FaultsAreDrivenAgainWhereItIsAsked) {
+  ASSERT_EQ(campaign::Run(Request("whole", 3)).outcome, Outcome::kDone);
+  ASSERT_EQ(campaign::Run(Request("old", 2)).outcome, Outcome::kDone);
+  {
+    batch::ResultStore store =
+        batch::ResultStore::Resume(Path("old"), batch::ResultStore::Read(Path("old")).identity());
+    store.SetPlanned(0, 3);
+    batch::AppendRecords(store, {{2, truth::TrialOutcome::kSimulatorFault, "std::bad_alloc", {}}});
+  }
+  RunRequest request = Request("old", 3);
+  request.campaign.existing = ExistingRun::kResume;
+  EXPECT_EQ(campaign::Run(request).outcome, Outcome::kTooManyFaults);
+  for (const bool supervised : {true, false}) {  // the second finds none
+    request.campaign.retry_faults = true;
+    request.campaign.containment.supervisor = supervised;
+    const WorkResult result = campaign::Run(request);
+    EXPECT_EQ(result.outcome, Outcome::kDone);
+    EXPECT_THAT(result.notes,
+                Contains(Field(&Note::text, HasSubstr(supervised ? "again: 1" : "again: 0"))));
+    EXPECT_EQ(Hash("old"), Hash("whole"));
+  }
+  const auto faults = batch::ResultStore::Read(Path("old")).InfrastructureFaults();
+  ASSERT_THAT(faults, SizeIs(1));
+  EXPECT_EQ(faults[0].id.trial, 2);
+  EXPECT_EQ(faults[0].detail, "std::bad_alloc");
+}
+
 // What a worker process tells comes back to the one that asked for it.
 TEST_F(SmallRuns, ASupervisedRunIsTheSame) {
   RunRequest request = Request("supervised", 5);
