@@ -22,7 +22,6 @@
 #include "report/parameter_table.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/row_alignment.h"
-#include "vision/stereo/score.h"
 #include "vision/stereo/stereo_params.h"
 
 namespace rockyard::app {

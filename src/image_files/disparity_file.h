@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "image_files/image_limits.h"
+#include "image_files/raw_image.h"
 #include "vision/image.h"
 
 namespace rockyard::image_files {

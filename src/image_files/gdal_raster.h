@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "image_files/image_limits.h"
 #include "image_files/raw_image.h"
 
 namespace rockyard::image_files {

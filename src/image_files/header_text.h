@@ -1,6 +1,7 @@
-// The words and numbers of a file that begins as text: PGM, PPM and PFM.
+// The words and numbers of a file that begins as text (PGM, PPM and PFM), and numbers as bytes.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -34,5 +35,13 @@ class HeaderText {
   std::string_view rest_;
   const std::string& name_;
 };
+
+// Least significant byte first, on any machine.
+inline void AppendLittleEndian(float value, std::string& bytes) {
+  const auto word = std::bit_cast<std::uint32_t>(value);
+  for (unsigned shift = 0; shift < 32; shift += 8) {
+    bytes += static_cast<char>(static_cast<unsigned char>(word >> shift & 0xffU));
+  }
+}
 
 }  // namespace rockyard::image_files

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "image_files/image_limits.h"
+#include "image_files/raw_image.h"
 
 namespace rockyard::image_files {
 

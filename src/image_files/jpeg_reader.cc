@@ -10,7 +10,7 @@
 #include <jerror.h>
 
 #include "image_files/image_errors.h"
-#include "image_files/jpeg_file.h"
+#include "image_files/read_image.h"
 
 namespace rockyard::image_files {
 namespace {

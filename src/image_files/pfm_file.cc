@@ -12,7 +12,6 @@
 #include "core/check.h"
 #include "image_files/header_text.h"
 #include "image_files/image_errors.h"
-#include "image_files/little_endian.h"
 
 namespace rockyard::image_files {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "image_files/image_limits.h"
+#include "image_files/raw_image.h"
 #include "vision/image.h"
 
 namespace rockyard::image_files {

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "image_files/gdal_raster.h"
-#include "image_files/image_limits.h"
 #include "image_files/raw_image.h"
 
 namespace rockyard::image_files {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "image_files/little_endian.h"
+#include "image_files/header_text.h"
 
 namespace rockyard::image_files {
 namespace {

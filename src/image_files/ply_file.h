@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "image_files/picture.h"
+#include "image_files/raw_image.h"
 
 namespace rockyard::image_files {
 

@@ -4,8 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "image_files/image_limits.h"
-#include "image_files/picture.h"
 #include "image_files/raw_image.h"
 #include "vision/image.h"
 

@@ -5,7 +5,7 @@
 
 #include "image_files/header_text.h"
 #include "image_files/image_errors.h"
-#include "image_files/pnm_file.h"
+#include "image_files/read_image.h"
 
 namespace rockyard::image_files {
 namespace {

@@ -1,14 +1,28 @@
 // What an image file holds, before anything is made of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "vision/colour_image.h"
 #include "vision/image.h"
 
 namespace rockyard::image_files {
 
+// How large an image may be: checked against what the header of a file says, before memory is taken
+// for pixels.
+struct ImageLimits {
+  int max_side = 16384;
+  std::int64_t max_pixels = std::int64_t{1} << 26;  // 67 million: 400 MB of three colours
+};
+
+// No image within the limits needs more: P3 with 16 bits has up to 6 characters a sample.
+inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 31;
+
+using Rgb = vision::Rgb;
+using Picture = vision::ColourImage;
 using SamplePlane = vision::Image<std::uint16_t>;
 
 // Samples as the file has them, in the coding of the file (gamma and all): nothing is scaled but

@@ -8,11 +8,9 @@
 #include "core/whole_file.h"
 #include "image_files/gdal_raster.h"
 #include "image_files/image_errors.h"
-#include "image_files/jpeg_file.h"
 #include "image_files/pfm_file.h"
 #include "image_files/planetary.h"
 #include "image_files/png_file.h"
-#include "image_files/pnm_file.h"
 
 namespace rockyard::image_files {
 namespace {
@@ -48,18 +46,6 @@ RawImage ReadImage(const std::filesystem::path& path, const ImageLimits& limits)
     return ReadPlanetary(path, bytes, *kind, limits, FindGdal());
   }
   return DecodeImage(bytes, path.string(), limits);
-}
-
-std::vector<ReadableFormat> ReadableFormats() {
-  const RasterSupport support = FindGdal();
-  const bool gdal = support.reader != nullptr;
-  const std::string& remedy = support.remedy;
-  return {{"PNG", "1 to 16 bits, grey, colour and palette", true, ""},
-          {"JPEG", "8 bits, grey and colour", true, ""},
-          {"PGM and PPM", "P2, P3, P5 and P6, 1 to 16 bits", true, ""},
-          {"PDS3", "integers of 8 and 16 bits, one or three bands", gdal, remedy},
-          {"PDS4", "integers of 8 and 16 bits, one or three bands", gdal, remedy},
-          {"VICAR", "integers of 8 and 16 bits, one or three bands", gdal, remedy}};
 }
 
 std::string DescribeImage(const RawImage& image) {

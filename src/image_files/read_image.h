@@ -4,9 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "image_files/image_limits.h"
 #include "image_files/raw_image.h"
 
 namespace rockyard::image_files {
@@ -22,17 +20,22 @@ RawImage ReadImage(const std::filesystem::path& path, const ImageLimits& limits 
 RawImage DecodeImage(std::string_view bytes, const std::string& name,
                      const ImageLimits& limits = {});
 
-struct ReadableFormat {
-  std::string name;       // "PDS3"
-  std::string file_kind;  // "8 and 16 bits, grey and colour"
-  bool available = true;
-  std::string remedy;  // what to do where it is not available
-};
-
-// What this build of the program reads, and what it could.
-std::vector<ReadableFormat> ReadableFormats();
-
 // "1024 x 1024 pixels of 12-bit grey, PDS3"
 std::string DescribeImage(const RawImage& image);
+
+// An image of type P2, P3, P5 or P6 with a maximum of 1 to 65535, which is its full scale. `name`
+// is what messages call the file. Throws core::UserError: another type, fewer or more pixels than
+// the header says, a sample above the maximum, or beyond the limits.
+RawImage DecodePnm(std::string_view bytes, const std::string& name, const ImageLimits& limits);
+
+// An image of 8 bits, grey or colour, sequential or progressive, as it is stored: what EXIF says of
+// turning it is not heeded. `name` is what messages call the file. Throws core::UserError: no
+// complete image, damaged data (where libjpeg would go on with a guess), CMYK, arithmetic coding,
+// other than 8 bits, more than kMaxJpegScans scans, or beyond the limits.
+RawImage DecodeJpeg(std::string_view bytes, const std::string& name, const ImageLimits& limits);
+
+// A scan of a progressive image can say in a few bytes that nothing changes, and costs a pass over
+// all pixels; cameras and programs use about ten.
+inline constexpr int kMaxJpegScans = 100;
 
 }  // namespace rockyard::image_files

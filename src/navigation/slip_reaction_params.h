@@ -1,4 +1,4 @@
-// What a rover does whose check of slip raises an alarm (perception/slip_check.h).
+// What a rover does whose check of slip raises an alarm (perception/visual_motion.h).
 #pragma once
 
 #include <array>

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "vision/cameras/aligned_pair.h"
+#include "vision/cameras/rectification.h"
 #include "vision/stereo/pyramid.h"
 
 namespace rockyard::perception {

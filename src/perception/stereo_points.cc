@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "vision/cameras/triangulation.h"
-#include "vision/stereo/outside.h"
+#include "vision/cameras/rectification.h"
+#include "vision/stereo/disparity.h"
 #include "vision/stereo/stereo.h"
 
 namespace rockyard::perception {

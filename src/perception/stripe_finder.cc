@@ -1,6 +1,5 @@
 #include "perception/stripe_finder.h"
 
-#include "perception/stripe_association.h"
 #include "perception/stripe_peaks.h"
 
 namespace rockyard::perception {

@@ -16,7 +16,7 @@ namespace rockyard::perception {
 // averaged over 5 x 5 pixels, thresholded; each point on the image row of its scanline. What is no
 // part of the text is assumed, namely the threshold, that a stripe is looked for only in the
 // columns of elevations between search_low and search_high, and what happens to several peaks
-// (StripeFinderParams) and to several lasers in one image (stripe_association.h).
+// (StripeFinderParams) and to several lasers in one image (AssociatePeaks).
 class StripeFinder {
  public:
   // Works with the geometry that the rover believes. Cost: that of StripeSearches.

@@ -1,8 +1,12 @@
-// What a motion of the cameras, told in the rover's frame, says of the rover's pose.
+// What a motion of the cameras, told in the rover's frame, says of the rover's pose and of the slip
+// of its wheels.
 #pragma once
+
+#include <optional>
 
 #include "messages/aids.h"
 #include "messages/estimates.h"
+#include "perception/visual_motion_params.h"
 #include "vision/odometry/motion_estimate.h"
 
 namespace rockyard::perception {
@@ -29,5 +33,28 @@ struct FirstStance {
 // tilt_sd^2 (p_x^2 + p_y^2) is added to the variance of z. The captures are for the caller to fill
 // in. Requires |pitch| < 90 deg at both moments.
 messages::RelativeMotion LevelledMotion(const vision::Motion& motion, const FirstStance& first);
+
+// Slip over a stretch of way: what the wheels rolled against what was seen.
+struct MeasuredSlip {
+  double slip = 0.0;  // 1 - seen over rolled way, along the way that wheels and gyro lay off
+  double sd = 0.0;    // its standard deviation
+  bool exceeded = false;
+};
+
+// `rolled_F`: the way of wheels and gyro in the plane, told as messages::RelativeMotion tells the
+// way that was seen (x along the heading at first). With its length r, its direction u, the way
+// seen m and its covariance C,
+//
+//   slip = 1 - m . u / r      sd = sqrt(u' C u) / r
+//
+// and the limit is exceeded where slip - sigma sd > limit. Nothing where r is below min_way_m: a
+// turn in place has no slip of that kind, and a short way is noise. The wheels' own noise is part
+// of what is measured. Negative where a rover slides on.
+std::optional<MeasuredSlip> SlipOf(const Eigen::Vector2d& rolled_F,
+                                   const messages::RelativeMotion& seen,
+                                   const SlipCheckParams& params);
+
+// The way in the plane from one pose of the odometry frame to another, x along the first's heading.
+Eigen::Vector2d RolledWay(const messages::PoseEstimate& from, const messages::PoseEstimate& to);
 
 }  // namespace rockyard::perception

@@ -3,10 +3,18 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
-#include "perception/slip_check_params.h"
 #include "vision/odometry/odometer_params.h"
 
 namespace rockyard::perception {
+
+struct SlipCheckParams {
+  bool enabled = false;
+  double limit = 0.5;
+  double sigma = 2.0;
+  double min_way_m = 0.2;
+
+  void Visit(core::FieldVisitor& v);
+};
 
 struct VisualMotionParams {
   double tilt_sd_rad = math::DegToRad(1.0);

@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "rendering/imager_params.h"
 #include "rendering/pixel_noise.h"
-#include "rendering/rendered_row.h"
+#include "rendering/view_row.h"
 
 namespace rockyard::rendering {
 

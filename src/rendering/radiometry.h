@@ -1,6 +1,8 @@
 // From light to electrons: the sun in the passband, and the camera equation.
 #pragma once
 
+#include <vector>
+
 #include "math/pose.h"
 #include "messages/camera.h"
 #include "rendering/imager_params.h"
@@ -38,5 +40,13 @@ double ElectronsPerRadiance(const ImagerParams& imager, double pixel_m2, double 
 // central one, times the cosine by which the entrance pupil shrinks. That is cos^4 for a pinhole.
 // Real wide-angle lenses tilt their pupil and lose less.
 double RelativeIllumination(const messages::Camera& camera, double column_px, double row_px);
+
+// Returns the time, s, at which the loop of exposure control settles: where the metered pixels,
+// less the brightest_share of them, reach target_fill of the full well by sunlight alone,
+//   t = target_fill * full_well / (rate + dark current),
+// within the limits. The loop sees nothing but how bright pixels are. `rates_e_s` are the
+// photoelectrons per second of the metered pixels, in any order; where there are none, the time is
+// the longest.
+double ExposureTime(const ImagerParams& imager, std::vector<double> rates_e_s);
 
 }  // namespace rockyard::rendering

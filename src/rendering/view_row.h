@@ -1,4 +1,4 @@
-// One image line as a camera sees it: what does not depend on the scene.
+// One image line as a camera sees it: what does not depend on the scene, and the light on it.
 #pragma once
 
 #include <vector>
@@ -8,6 +8,20 @@
 #include "rendering/rover_body.h"
 
 namespace rockyard::rendering {
+
+// The light on the pixels of one line, in photoelectrons per second.
+struct RenderedRow {
+  // What one lamp adds to one pixel.
+  struct LampPixel {
+    int pixel = 0;  // counts from the first column of the line
+    int lamp = 0;
+    double rate_e_s = 0.0;
+  };
+
+  int row = 0;
+  std::vector<double> sun_e_s;   // per pixel, all lamps off
+  std::vector<LampPixel> lamps;  // where a lamp adds anything; terms to be summed
+};
 
 // The viewing rays, in R, through the edges between the pixels of an image line, halfway up the
 // line, so that neighbours share them.

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "image_files/picture.h"
+#include "image_files/raw_image.h"
 
 namespace rockyard::report {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "image_files/picture.h"
+#include "image_files/raw_image.h"
 #include "messages/stripe_images.h"
 #include "report/scan_view.h"
 

@@ -5,7 +5,7 @@
 
 #include "math/angles.h"
 #include "vision/cylinder/colour_cylinder.h"
-#include "vision/cylinder/cylinder_resolution.h"
+#include "vision/cylinder/cylinder_equations.h"
 
 namespace rockyard::sensing {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "rendering/exposure_control.h"
 #include "rendering/radiometry.h"
 #include "sensing/rover_parts.h"
 #include "sensing/stripe_layout_params.h"

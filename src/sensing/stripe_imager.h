@@ -6,7 +6,7 @@
 //   scene          what a ray meets, shadows                              image_scene.h
 //   light          sunlight on each pixel                                 row_renderer.h
 //                  laser stripes on each pixel                            sensing/stripe_light.h
-//   exposure       time from the bright pixels of the image without laser exposure_control.h
+//   exposure       time from the bright pixels of the image without laser radiometry.h
 //   readout        shot, read, dark and pattern noise, saturation, counts image_readout.h
 // All but the lasers is what every camera has (src/rendering).
 // Matthies 1995, section 6: for each group of lasers an image with them on and one with all off,

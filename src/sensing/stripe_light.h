@@ -6,7 +6,7 @@
 
 #include "messages/calibration.h"
 #include "rendering/image_scene.h"
-#include "rendering/lamps.h"
+#include "rendering/row_renderer.h"
 #include "sensing/beam_profile.h"
 #include "sensing/laser_fan.h"
 #include "sensing/light_stripe_params.h"

@@ -6,7 +6,7 @@
 
 #include "math/pose.h"
 #include "messages/estimates.h"
-#include "perception/slip_check.h"
+#include "perception/visual_motion.h"
 
 namespace rockyard::trial {
 

@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 #include "localization/estimator.h"
-#include "perception/slip_check.h"
+#include "perception/visual_motion.h"
 #include "terrain/terrain.h"
 #include "trial/capture_counter.h"
 #include "trial/drive_params.h"

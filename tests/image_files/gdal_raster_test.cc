@@ -2,10 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
-#include "core/test_folder.h"
 #include "image_files/pds_bytes.h"
 #include "image_files/read_image.h"
 #include "image_files/refusals.h"
@@ -20,12 +18,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-class GdalRasterTest : public testing::Test {
+class GdalRasterTest : public ImageFilesTest {
  protected:
-  fs::path Write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
-  }
   std::string Reason(const std::string& bytes, const ImageLimits& limits = {}) const {
     const fs::path path = Write("bad.img", bytes);
     testing::internal::CaptureStderr();
@@ -34,9 +28,6 @@ class GdalRasterTest : public testing::Test {
     EXPECT_EQ(problem.path, path.string());
     return problem.reason;
   }
-
-  core::TestFolder own_;
-  const fs::path& folder_ = own_.path();
 };
 
 PdsText Small() {
@@ -152,13 +143,6 @@ TEST_F(GdalRasterTest, FilesAreClosed) {
   const auto before = open_files();
   ReadImage(path);
   EXPECT_EQ(open_files(), before);
-}
-
-TEST(ReadableFormatsWithGdal, ListsThePlanetaryOnes) {
-  for (const ReadableFormat& format : ReadableFormats()) {
-    EXPECT_TRUE(format.available) << format.name;
-    EXPECT_EQ(format.remedy, "");
-  }
 }
 
 }  // namespace

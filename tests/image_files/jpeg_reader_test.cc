@@ -6,7 +6,7 @@
 #include <string>
 
 #include "image_files/jpeg_bytes.h"
-#include "image_files/jpeg_file.h"
+#include "image_files/read_image.h"
 #include "image_files/refusals.h"
 
 namespace rockyard::image_files {

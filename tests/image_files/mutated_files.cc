@@ -8,7 +8,6 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "image_files/image_limits.h"
 #include "image_files/jpeg_bytes.h"
 #include "image_files/luminance.h"
 #include "image_files/pds_bytes.h"
@@ -16,6 +15,7 @@
 #include "image_files/planetary.h"
 #include "image_files/png_bytes.h"
 #include "image_files/png_file.h"
+#include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 
 namespace rockyard::image_files {

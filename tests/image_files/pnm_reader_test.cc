@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "image_files/pnm_file.h"
+#include "image_files/read_image.h"
 #include "image_files/refusals.h"
 
 namespace rockyard::image_files {

@@ -5,10 +5,8 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
-#include "core/test_folder.h"
 #include "image_files/disparity_file.h"
 #include "image_files/jpeg_bytes.h"
 #include "image_files/pfm_file.h"
@@ -23,16 +21,7 @@ namespace fs = std::filesystem;
 
 using testing::HasSubstr;
 
-class ReadImageTest : public testing::Test {
- protected:
-  fs::path Write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
-  }
-
-  core::TestFolder own_;
-  const fs::path& folder_ = own_.path();
-};
+using ReadImageTest = ImageFilesTest;
 
 TEST_F(ReadImageTest, FormatsAreKnownByWhatTheyHold) {
   const std::string png = PngBytes({1, 1, 16, PngColour::kGrey, false, {300}, ""});
@@ -61,18 +50,6 @@ TEST_F(ReadImageTest, WhatIsNoImageIsRefused) {
   EXPECT_THAT(reason(Write("d.pbm", "P1 1 1\n1")), HasSubstr("neither PGM nor PPM"));
   EXPECT_THAT(reason(Write("d.pbm", "P4 8 1\n\1")), HasSubstr("neither PGM nor PPM"));
   EXPECT_THAT(reason(Write("d.pfm", "Pf 1 1 -1\nabcd")), HasSubstr("is a PFM file"));
-}
-
-TEST(ReadableFormatsTest, SaysWhatIsMissingAndHowToGetIt) {
-  const std::vector<ReadableFormat> formats = ReadableFormats();
-  ASSERT_EQ(formats.size(), 6U);
-  for (const ReadableFormat& format : formats) {
-    EXPECT_EQ(format.available, format.remedy.empty()) << format.name;
-    EXPECT_FALSE(format.file_kind.empty());
-  }
-  EXPECT_EQ(formats[0].name, "PNG");
-  EXPECT_TRUE(formats[0].available);
-  EXPECT_EQ(formats[3].name, "PDS3");
 }
 
 TEST_F(ReadImageTest, DisparitiesOfIntegerImages) {

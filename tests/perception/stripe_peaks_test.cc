@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "core/distributions.h"
-#include "perception/stripe_association.h"
 #include "perception/stripe_images.h"
 
 namespace rockyard::perception {

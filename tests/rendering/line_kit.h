@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "rendering/lamps.h"
-#include "rendering/rendered_row.h"
 #include "rendering/rover_body.h"
+#include "rendering/row_renderer.h"
+#include "rendering/view_row.h"
 
 namespace rockyard::rendering {
 

@@ -11,9 +11,8 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_text.h"
-#include "rendering/exposure_control.h"
-#include "rendering/image_blur.h"
 #include "rendering/line_kit.h"
+#include "rendering/row_renderer.h"
 
 namespace rockyard::rendering {
 namespace {

@@ -18,7 +18,7 @@
 #include "statistics/published_comparison.h"
 #include "trial/compute_profile.h"
 #include "trial/compute_tables.h"
-#include "vision/odometry/detector_params.h"
+#include "vision/odometry/feature_params.h"
 
 namespace rockyard::report {
 namespace {

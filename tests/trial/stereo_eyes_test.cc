@@ -15,7 +15,7 @@
 #include "sensing/stereo_view.h"
 #include "trial/shipped_trials.h"
 #include "trial/terrain_sensing.h"
-#include "vision/cameras/triangulation.h"
+#include "vision/cameras/rectification.h"
 
 namespace rockyard::trial {
 namespace {

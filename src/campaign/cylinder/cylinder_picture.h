@@ -1,7 +1,7 @@
 // What was found, drawn into both images.
 #pragma once
 
-#include "image_files/picture.h"
+#include "image_files/raw_image.h"
 #include "vision/cylinder/cylinder_sighting.h"
 
 namespace rockyard::campaign {

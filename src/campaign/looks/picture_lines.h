@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "image_files/picture.h"
+#include "image_files/raw_image.h"
 #include "math/pose.h"
 #include "vision/cameras/cahv.h"
 

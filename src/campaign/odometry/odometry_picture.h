@@ -4,7 +4,7 @@
 #include <string>
 
 #include "campaign/odometry/odometry_request.h"
-#include "image_files/picture.h"
+#include "image_files/raw_image.h"
 #include "vision/image.h"
 #include "vision/odometry/odometer.h"
 

@@ -6,8 +6,8 @@
 #include "core/error.h"
 #include "image_files/luminance.h"
 #include "image_files/read_image.h"
-#include "vision/cameras/aligned_pair.h"
 #include "vision/cameras/camera_file.h"
+#include "vision/cameras/rectification.h"
 
 namespace rockyard::campaign {
 namespace {

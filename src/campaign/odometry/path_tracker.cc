@@ -1,6 +1,6 @@
 #include "campaign/odometry/path_tracker.h"
 
-#include "vision/odometry/compose_motion.h"
+#include "vision/odometry/motion_estimate.h"
 
 namespace rockyard::campaign {
 

@@ -18,7 +18,7 @@
 #include "image_files/pfm_file.h"
 #include "image_files/ply_file.h"
 #include "image_files/png_file.h"
-#include "vision/stereo/outside.h"
+#include "vision/stereo/disparity.h"
 #include "vision/stereo/stereo.h"
 
 namespace rockyard::campaign {

@@ -10,8 +10,8 @@
 #include "image_files/pfm_file.h"
 #include "image_files/png_file.h"
 #include "sensing/stereo_imager.h"
-#include "vision/cameras/aligned_pair.h"
 #include "vision/cameras/camera_file.h"
+#include "vision/cameras/rectification.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -11,8 +11,8 @@
 #include "core/error.h"
 #include "image_files/luminance.h"
 #include "image_files/read_image.h"
-#include "vision/cameras/aligned_pair.h"
 #include "vision/cameras/camera_file.h"
+#include "vision/cameras/rectification.h"
 #include "vision/stereo/pyramid.h"
 #include "vision/stereo/rectification_table.h"
 

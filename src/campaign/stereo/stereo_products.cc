@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "report/colour_ramp.h"
-#include "vision/cameras/triangulation.h"
+#include "vision/cameras/rectification.h"
 
 namespace rockyard::campaign {
 namespace {

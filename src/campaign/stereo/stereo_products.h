@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "image_files/picture.h"
 #include "image_files/ply_file.h"
+#include "image_files/raw_image.h"
 #include "vision/cameras/rectification.h"
 #include "vision/image.h"
 #include "vision/stereo/disparity.h"

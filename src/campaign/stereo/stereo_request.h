@@ -11,7 +11,6 @@
 #include "vision/cameras/rectification.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/row_alignment.h"
-#include "vision/stereo/score.h"
 #include "vision/stereo/stereo_params.h"
 
 namespace rockyard::campaign {

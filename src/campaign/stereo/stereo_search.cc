@@ -10,9 +10,9 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_file.h"
-#include "vision/stereo/depth_range.h"
 #include "vision/stereo/dog.h"
 #include "vision/stereo/stereo.h"
+#include "vision/stereo/stereo_params.h"
 
 namespace rockyard::campaign {
 namespace {

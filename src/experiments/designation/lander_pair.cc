@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "vision/cameras/triangulation.h"
+#include "vision/cameras/rectification.h"
 
 namespace rockyard::experiments {
 

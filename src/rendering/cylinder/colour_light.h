@@ -1,11 +1,41 @@
-// Light of sun, sky and ground on a surface, in three channels.
+// Light and surfaces in three channels, an image of them before it is counted, and the light of
+// sun, sky and ground on a surface.
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
+
 #include "math/pose.h"
-#include "rendering/cylinder/colour.h"
 #include "rendering/cylinder/cylinder_params.h"
+#include "vision/image.h"
 
 namespace rockyard::rendering {
+
+// Red, green, blue: reflectances, irradiances or radiances, all in proportion to light (no gamma).
+using Colour = Eigen::Array3d;
+
+inline Colour ToColour(const ColourValues& values) { return {values[0], values[1], values[2]}; }
+
+using ColourPlane = vision::Image<float>;
+
+// Red, green, blue; all of one size. Radiance times pi (as irradiance of a white surface), or
+// counts.
+using ColourPlanes = std::array<ColourPlane, 3>;
+
+inline ColourPlanes MakePlanes(int columns, int rows) {
+  const ColourPlane plane(columns, rows, 0.0F);
+  return {plane, plane, plane};
+}
+
+inline void SetPixel(ColourPlanes& planes, int column, int row, const Colour& colour) {
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    planes[i].At(column, row) = static_cast<float>(colour[static_cast<Eigen::Index>(i)]);
+  }
+}
+
+inline Colour PixelOf(const ColourPlanes& planes, int column, int row) {
+  return {planes[0].At(column, row), planes[1].At(column, row), planes[2].At(column, row)};
+}
 
 // Directions are in L (cylinder_scene.h): x along the cameras' line of sight, y left, z up.
 class ColourLight {

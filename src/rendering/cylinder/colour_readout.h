@@ -5,7 +5,6 @@
 
 #include "core/random.h"
 #include "rendering/cylinder/colour_light.h"
-#include "rendering/cylinder/colour_planes.h"
 #include "rendering/cylinder/cylinder_params.h"
 #include "vision/colour_image.h"
 

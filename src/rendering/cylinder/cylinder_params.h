@@ -116,11 +116,11 @@ struct ClutterParams {
 };
 
 struct CylinderPictureParams {
-  CylinderTargetParams target;
-  ColourCameraParams cameras;
-  CylinderLightParams light;
-  BackdropParams backdrop;
-  ClutterParams clutter;
+  CylinderTargetParams target = {};
+  ColourCameraParams cameras = {};
+  CylinderLightParams light = {};
+  BackdropParams backdrop = {};
+  ClutterParams clutter = {};
   std::int64_t edge_samples = 6;
 
   void Visit(core::FieldVisitor& v);

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/random.h"
-#include "rendering/cylinder/colour_planes.h"
+#include "rendering/cylinder/colour_light.h"
 #include "rendering/cylinder/cylinder_params.h"
 #include "rendering/cylinder/cylinder_view.h"
 

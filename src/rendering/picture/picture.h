@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "rendering/surface_point.h"
 #include "vision/image.h"
@@ -14,7 +15,12 @@ struct Picture {
   static constexpr int kBlind = -5;
 
   Picture() = default;
-  Picture(int columns, int rows);
+  Picture(int columns, int rows)
+      : radiance_w_m2_sr(columns, rows),
+        range_m(columns, rows, std::numeric_limits<double>::infinity()),
+        normal_W(columns, rows, Eigen::Vector3f::Zero()),
+        surface(columns, rows, kBlind),
+        sunlit(columns, rows) {}
 
   int columns() const { return radiance_w_m2_sr.width(); }
   int rows() const { return radiance_w_m2_sr.height(); }

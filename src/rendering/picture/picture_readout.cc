@@ -7,7 +7,6 @@
 
 #include "core/check.h"
 #include "core/distributions.h"
-#include "rendering/exposure_control.h"
 #include "rendering/radiometry.h"
 
 namespace rockyard::rendering {

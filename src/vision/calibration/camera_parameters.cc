@@ -1,7 +1,7 @@
 #include "vision/calibration/camera_parameters.h"
 
 #include "core/check.h"
-#include "vision/cameras/image_plane.h"
+#include "vision/cameras/cahv.h"
 
 namespace rockyard::vision {
 namespace {

@@ -1,5 +1,5 @@
-// Where four squares of a chessboard may meet: saddle points of brightness with two dark and two
-// bright sectors around them.
+// A smoothed image, and where four squares of a chessboard may meet in it: saddle points of
+// brightness with two dark and two bright sectors around them.
 #pragma once
 
 #include <optional>
@@ -9,6 +9,12 @@
 #include "vision/image.h"
 
 namespace rockyard::vision {
+
+// The image convolved with a Gaussian of `sigma_px` > 0, cut at 3 sigma; edges are repeated.
+Image<float> Smoothed(const GrayImage& image, double sigma_px);
+
+// The bilinear value at a position; beyond the image that of the nearest pixel.
+double ValueAt(const Image<float>& image, const Pixel& at);
 
 // The candidates, each within about a pixel. `smooth` is the image smoothed by 1.5 px or so. A
 // candidate is the largest I_xy^2 - I_xx I_yy (minus the determinant of the Hessian) within 3

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "vision/cameras/image_plane.h"
+#include "vision/cameras/cahv.h"
 
 namespace rockyard::vision {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "vision/cameras/cahv.h"
 #include "vision/cameras/cahvore_angles.h"
-#include "vision/cameras/image_plane.h"
 
 namespace rockyard::vision {
 namespace {

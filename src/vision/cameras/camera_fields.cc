@@ -236,7 +236,6 @@ CameraModel ModelOf(const CameraFields& fields) {
 }
 
 CameraFields FieldsOf(const CameraModel& camera) {
-  EXPECT(!std::holds_alternative<LensCamera>(camera.lens));
   if (const auto* cahv = std::get_if<Cahv>(&camera.lens)) {
     return LinearFields(camera, *cahv, kCahvModel);
   }

@@ -61,7 +61,7 @@ struct CameraPairFields {
 // The camera of fields that were read without a problem.
 CameraModel ModelOf(const CameraFields& fields);
 
-// The fields of a camera that is no LensCamera, whose files are scenarios.
+// The fields of a camera, which ModelOf takes back.
 CameraFields FieldsOf(const CameraModel& camera);
 
 }  // namespace rockyard::vision

@@ -24,7 +24,7 @@ CameraPair LoadCameraPair(const std::filesystem::path& path);
 CameraModel ParseCamera(std::string_view content, std::string_view source_name);
 CameraPair ParseCameraPair(std::string_view content, std::string_view source_name);
 
-// The JSON of a camera that is no LensCamera. It reads back to the same bits, but for a pinhole's
+// The JSON of a camera. It reads back to the same bits, but for a pinhole's
 // attitude, which a quaternion holds within 1e-15.
 core::JsonValue CameraJson(const CameraModel& camera);
 core::JsonValue CameraPairJson(const CameraPair& pair);

@@ -7,22 +7,12 @@ namespace {
 
 using math::Vector3;
 
-CameraModel WithPixels(const CameraModel& camera, const PixelMap& map, const ImageSize& size) {
-  return {std::visit([&](const auto& lens) -> AnyLens { return Mapped(lens, map); }, camera.lens),
-          size};
-}
-
 const Vector3& CentreOfLens(const Cahv& lens) { return lens.C; }
 const Vector3& CentreOfLens(const Cahvor& lens) { return lens.linear.C; }
 const Vector3& CentreOfLens(const Cahvore& lens) { return lens.linear.C; }
 Vector3 CentreOfLens(const BrownPinhole& lens) { return lens.X_AC.translation(); }
-Vector3 CentreOfLens(const LensCamera& lens) { return lens.lens.X_RC.translation(); }
 
 }  // namespace
-
-CameraModel CameraModelOf(const messages::Camera& camera) {
-  return {LensCameraOf(camera), {camera.columns, camera.rows}};
-}
 
 std::optional<Pixel> Project(const CameraModel& camera, const Vector3& p_A,
                              PixelJacobian* jacobian) {
@@ -60,14 +50,9 @@ CameraModel Moved(const math::Transform& X_BA, const CameraModel& camera) {
 CameraModel Reduced(const CameraModel& camera, int factor) {
   EXPECT(factor >= 1 && factor <= camera.size.columns && factor <= camera.size.rows);
   const double scale = 1.0 / factor;
-  return WithPixels(camera, {scale, Pixel::Constant(-0.5 * (factor - 1) * scale)},
-                    {camera.size.columns / factor, camera.size.rows / factor});
-}
-
-CameraModel Cropped(const CameraModel& camera, int first_column, int first_row,
-                    const ImageSize& size) {
-  EXPECT(size.columns >= 1 && size.rows >= 1);
-  return WithPixels(camera, {1.0, Pixel(-first_column, -first_row)}, size);
+  const PixelMap map{scale, Pixel::Constant(-0.5 * (factor - 1) * scale)};
+  return {std::visit([&](const auto& lens) -> AnyLens { return Mapped(lens, map); }, camera.lens),
+          {camera.size.columns / factor, camera.size.rows / factor}};
 }
 
 }  // namespace rockyard::vision

@@ -9,20 +9,15 @@
 #include "vision/cameras/cahv.h"
 #include "vision/cameras/cahvor.h"
 #include "vision/cameras/cahvore.h"
-#include "vision/cameras/lens_camera.h"
 
 namespace rockyard::vision {
 
-using AnyLens = std::variant<Cahv, Cahvor, Cahvore, BrownPinhole, LensCamera>;
+using AnyLens = std::variant<Cahv, Cahvor, Cahvore, BrownPinhole>;
 
 struct CameraModel {
   AnyLens lens;
   ImageSize size;
 };
-
-// The camera with its own frame R as outer frame; pixel (0, 0) is the centre of its first column
-// and row.
-CameraModel CameraModelOf(const messages::Camera& camera);
 
 // Where p_A (m, in the camera's outer frame A) is imaged, inside of the image or not; into
 // `jacobian`, where there is one, the derivative by p_A. Nothing, and `jacobian` as it was, where
@@ -56,10 +51,5 @@ CameraModel Moved(const math::Transform& X_BA, const CameraModel& camera);
 // - 1, hence column' = (column - (factor - 1) / 2) / factor; columns and rows that do not fill a
 // pixel are lost. Requires 1 <= factor <= columns, rows.
 CameraModel Reduced(const CameraModel& camera, int factor);
-
-// The camera of a part of the image whose pixel (0, 0) is this one's (first_column, first_row). The
-// part may reach beyond the image.
-CameraModel Cropped(const CameraModel& camera, int first_column, int first_row,
-                    const ImageSize& size);
 
 }  // namespace rockyard::vision

@@ -133,8 +133,7 @@ CameraPair ParseCameraPairText(std::string_view text, std::string_view source_na
 }
 
 std::string CameraText(const CameraModel& camera, std::string_view comment) {
-  EXPECT(!std::holds_alternative<BrownPinhole>(camera.lens) &&
-         !std::holds_alternative<LensCamera>(camera.lens));
+  EXPECT(!std::holds_alternative<BrownPinhole>(camera.lens));
   return Commented(comment) + ModelLine(camera) +
          fmt::format("Dimensions = {} {}\n", camera.size.columns, camera.size.rows) +
          std::visit([](const auto& lens) { return LensLines(lens); }, camera.lens);

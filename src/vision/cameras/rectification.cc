@@ -7,10 +7,11 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "math/angles.h"
-#include "vision/cameras/image_plane.h"
+#include "vision/cameras/cahv.h"
 
 namespace rockyard::vision {
 namespace {
@@ -186,6 +187,12 @@ std::vector<Problem> OptionProblems(const RectificationOptions& options) {
   return problems;
 }
 
+constexpr double kSame = 1e-9;
+
+bool IsSame(const math::Vector3& a, const math::Vector3& b) {
+  return (a - b).norm() <= kSame * a.norm();
+}
+
 }  // namespace
 
 core::Result<RectifiedPair> Rectify(const CameraModel& left, const CameraModel& right,
@@ -228,6 +235,34 @@ std::optional<Pixel> SourceOf(const CameraModel& real, const Cahv& aligned, cons
                                     : Project(real, aligned.C + range_m * direction->normalized());
   if (!source || !IsInside(real.size, *source)) return std::nullopt;
   return source;
+}
+
+std::optional<TriangulatedPoint> Triangulate(const Cahv& left, const Cahv& right,
+                                             const Pixel& left_pixel, double disparity_px) {
+  if (!(disparity_px > 0.0)) return std::nullopt;
+  Eigen::Matrix<double, 3, 2> n_by_pixel;
+  const std::optional<math::Vector3> n = LeavePlane(left, left_pixel, &n_by_pixel);
+  if (!n) return std::nullopt;
+  const double depth = left.H.dot(right.C - left.C) / disparity_px;
+  TriangulatedPoint point;
+  point.p_A = left.C + depth * *n;
+  point.by_measurement.leftCols<2>() = depth * n_by_pixel;
+  point.by_measurement.col(2) = -depth / disparity_px * *n;
+  if (!point.p_A.allFinite() || !point.by_measurement.allFinite()) return std::nullopt;
+  return point;
+}
+
+std::optional<RectifiedPair> AlignedPair(const CameraModel& left, const CameraModel& right) {
+  const Cahv* l = std::get_if<Cahv>(&left.lens);
+  const Cahv* r = std::get_if<Cahv>(&right.lens);
+  if (l == nullptr || r == nullptr || left.size != right.size) return std::nullopt;
+  if (!IsSame(l->A, r->A) || !IsSame(l->H, r->H) || !IsSame(l->V, r->V)) return std::nullopt;
+  const math::Vector3 baseline = r->C - l->C;
+  const math::Vector3 rows = l->H - l->H.dot(l->A) * l->A;  // f_h h'
+  const math::Vector3 across = baseline.cross(rows);
+  if (across.norm() > kSame * baseline.norm() * rows.norm()) return std::nullopt;
+  if (baseline.dot(rows) <= 0.0) return std::nullopt;
+  return RectifiedPair{*l, *r, left.size, rows.norm(), baseline.norm()};
 }
 
 }  // namespace rockyard::vision

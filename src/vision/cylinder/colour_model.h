@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "vision/cylinder/colour_classes.h"
+#include "vision/cylinder/colour_regions.h"
 #include "vision/cylinder/robust_finder_params.h"
 
 namespace rockyard::vision {

@@ -60,9 +60,26 @@ double DistanceBySizeNear(double focal_px, double radius_m, double m_px) {
   return 0.5 * (d0_m + std::sqrt(d0_m * d0_m + 4.0 * radius_m * radius_m));
 }
 
-double DistanceByDisparity(double focal_px, double baseline_m, double mu_px) {
-  EXPECT(mu_px > 0.0);
-  return focal_px * baseline_m / mu_px;
+double FinestTurn(double m_px) { return 2.0 / m_px; }
+
+double CoarsestTurn(double m_px) { return std::numbers::sqrt2 * FinestTurn(m_px); }
+
+double FinestTurnAt(const ViewOfCylinder& view, double d_m) {
+  return 2.0 / view.image_width_px * (d_m / view.radius_m - view.radius_m / d_m) *
+         std::tan(0.5 * view.field_of_view_rad);
+}
+
+double CoarsestTurnAt(const ViewOfCylinder& view, double d_m) {
+  return std::numbers::sqrt2 * FinestTurnAt(view, d_m);
+}
+
+double RelativeStepBySize(const ViewOfCylinder& view, double d_m) {
+  return d_m * std::tan(0.5 * view.field_of_view_rad) / (view.image_width_px * view.radius_m);
+}
+
+double RelativeStepByStereo(const ViewOfCylinder& view, double d_m) {
+  return 2.0 * d_m * std::tan(0.5 * view.field_of_view_rad) /
+         (view.image_width_px * view.baseline_m);
 }
 
 }  // namespace rockyard::vision

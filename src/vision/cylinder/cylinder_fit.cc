@@ -9,7 +9,6 @@
 
 #include "math/angles.h"
 #include "math/decompositions.h"
-#include "vision/cylinder/fit_descent.h"
 #include "vision/cylinder/fit_problem.h"
 
 namespace rockyard::vision {

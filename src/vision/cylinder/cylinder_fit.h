@@ -3,7 +3,7 @@
 // Unknown are the place across and along the view, theta, the roll, the blur of edges, and the
 // radius where it is free; the colours of the quadrants are solved for inside (wall_colours.h:
 // variable projection, Golub and Pereyra 1973). All orientations are tried in steps of 7.5 deg, and
-// the best local minima refined (fit_descent.h): first in the candidate's boxes, then in those of
+// the best local minima refined (DescendFrom): first in the candidate's boxes, then in those of
 // the wall that was found. What the quadrants' colours tell against the surfaces' (colour_model.h)
 // is part of the least squares: an edge that leaves a quadrant too narrow or too wide mixes colours
 // that none has.
@@ -14,7 +14,7 @@
 
 #include "vision/cylinder/colour_model.h"
 #include "vision/cylinder/cylinder_candidates.h"
-#include "vision/cylinder/cylinder_view.h"
+#include "vision/cylinder/wall_colours.h"
 
 namespace rockyard::vision {
 

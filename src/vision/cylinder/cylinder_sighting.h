@@ -6,8 +6,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/check.h"
 #include "core/fields.h"
 #include "math/pose.h"
 #include "vision/cameras/camera_model.h"
@@ -77,7 +79,10 @@ struct CylinderFinding {
 };
 
 // A finding without a sighting.
-CylinderFinding NotFound(CylinderMiss miss, std::string reason);
+inline CylinderFinding NotFound(CylinderMiss miss, std::string reason) {
+  EXPECT(miss != CylinderMiss::kNone && !reason.empty());
+  return {std::nullopt, miss, std::move(reason)};
+}
 
 }  // namespace rockyard::vision
 

@@ -1,14 +1,15 @@
-// The residuals of a place of the cylinder against the profiles of both eyes.
+// The residuals of a place of the cylinder against the profiles of both eyes, and the descent to a
+// minimum of their squares.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "vision/cylinder/colour_model.h"
 #include "vision/cylinder/cylinder_candidates.h"
-#include "vision/cylinder/cylinder_view.h"
 #include "vision/cylinder/wall_colours.h"
 
 namespace rockyard::vision {
@@ -69,5 +70,27 @@ class FitProblem {
   double height_m_ = 0.0;
   int samples_ = 0;
 };
+
+using FitInformation = Eigen::Matrix<double, 6, 6>;
+
+struct FitState {
+  FitUnknowns unknowns = FitUnknowns::Zero();
+  double squares = std::numeric_limits<double>::infinity();  // infinite where nothing is imaged
+  // Of the unknowns, by the derivatives before the last step.
+  FitInformation information = FitInformation::Identity();
+  FitProblem::Evaluation evaluation;  // at the unknowns
+};
+
+// Whether a descent may change the radius, beside the place across and along the view, theta, the
+// roll and the blur.
+enum class FitRadius { kFixed, kFree };
+
+// The standard deviation of the radius's prior over the cylinder's own.
+double RadiusDeviation(FitRadius radius);
+
+// Gauss-Newton with numerical derivatives and Levenberg's damping: at most `most_steps` steps from
+// a start, fewer where the squares no longer fall.
+FitState DescendFrom(const FitProblem& problem, const FitUnknowns& start, FitRadius radius,
+                     int most_steps);
 
 }  // namespace rockyard::vision

@@ -7,9 +7,41 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
-#include "vision/cylinder/colour_class_params.h"
 
 namespace rockyard::vision {
+
+// The primary that the two others are divided by.
+enum class PrimaryColour { kRed, kGreen, kBlue };
+
+// A class: both ratios lie within their ranges. The first ratio is that of the first of the two
+// other primaries in the order red, green, blue: green/red and blue/red over red, red/green and
+// blue/green over green, red/blue and green/blue over blue.
+struct ColourRatioParams {
+  PrimaryColour over = PrimaryColour::kRed;
+  double first_low = 0.0;
+  double first_high = 0.0;
+  double second_low = 0.0;
+  double second_high = 0.0;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// The classes. A.3 has ratios over blue for blue and over red for red and magenta, in ranges
+// "experimentally determined" that it does not tell. The defaults are assumed about linear surface
+// colours of fluorescent cardboard in white light: blue (0.12, 0.30, 0.85), pink (0.95, 0.25,
+// 0.60), orange (1.00, 0.35, 0.10), away from ground of (0.45, 0.27, 0.16).
+struct ColourClassParams {
+  ColourRatioParams blue{PrimaryColour::kBlue, 0.0, 0.45, 0.0, 0.70};
+  ColourRatioParams magenta{PrimaryColour::kRed, 0.0, 0.47, 0.38, 1.10};
+  ColourRatioParams red{PrimaryColour::kRed, 0.0, 0.47, 0.0, 0.30};
+  double darkest = 20.0;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// A class of green surfaces (0.15, 0.80, 0.25), the colour that section 5 proposes in place of
+// orange, for `red` above.
+ColourRatioParams GreenRatios();
 
 // What is seen of a quadrant, the k of equation 14.
 enum class QuadrantMeasure {
@@ -33,6 +65,11 @@ struct PublishedFinderParams {
 };
 
 }  // namespace rockyard::vision
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::PrimaryColour> {
+  static constexpr std::array<std::string_view, 3> kNames{"red", "green", "blue"};
+};
 
 template <>
 struct rockyard::core::EnumNames<rockyard::vision::QuadrantMeasure> {

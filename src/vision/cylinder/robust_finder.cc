@@ -11,8 +11,8 @@
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "vision/cylinder/cylinder_equations.h"
 #include "vision/cylinder/cylinder_fit.h"
-#include "vision/cylinder/cylinder_resolution.h"
 
 namespace rockyard::vision {
 namespace {

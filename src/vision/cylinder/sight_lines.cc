@@ -3,8 +3,7 @@
 #include <cmath>
 #include <variant>
 
-#include "vision/cameras/aligned_pair.h"
-#include "vision/cameras/triangulation.h"
+#include "vision/cameras/rectification.h"
 
 namespace rockyard::vision {
 namespace {

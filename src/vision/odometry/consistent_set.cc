@@ -4,16 +4,32 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "core/check.h"
+#include "math/decompositions.h"
 #include "vision/odometry/pair_projection.h"
-#include "vision/odometry/rigid_motion.h"
 
 namespace rockyard::vision {
 namespace {
 
 using math::Transform;
 using math::Vector3;
+
+double WeightOf(std::span<const double> weights, std::size_t i) {
+  return weights.empty() ? 1.0 : weights[i];
+}
+
+math::Vector3 MeanOf(std::span<const math::Vector3> points, std::span<const double> weights) {
+  math::Vector3 sum = math::Vector3::Zero();
+  double weight = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sum += WeightOf(weights, i) * points[i];
+    weight += WeightOf(weights, i);
+  }
+  return sum / weight;
+}
+
 using Members = std::vector<std::size_t>;
 
 constexpr std::size_t kSample = 3;
@@ -149,7 +165,42 @@ std::optional<ConsistentSet> GrowRigid(const PointsSeenTwice& points,
   return set;
 }
 
+constexpr int kRounds = 5;
+constexpr std::size_t kFewest = 3;
+
+PointsSeenTwice Chosen(const PointsSeenTwice& points, const std::vector<std::size_t>& members) {
+  PointsSeenTwice chosen;
+  chosen.reserve(members.size());
+  for (const std::size_t member : members) chosen.push_back(points[member]);
+  return chosen;
+}
+
 }  // namespace
+
+std::optional<math::Transform> RigidMotion(std::span<const math::Vector3> points_F,
+                                           std::span<const math::Vector3> points_S,
+                                           std::span<const double> weights) {
+  EXPECT(points_F.size() == points_S.size());
+  EXPECT(weights.empty() || weights.size() == points_F.size());
+  if (points_F.size() < 3) return std::nullopt;
+  const math::Vector3 middle_F = MeanOf(points_F, weights);
+  const math::Vector3 middle_S = MeanOf(points_S, weights);
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < points_F.size(); ++i) {
+    moments +=
+        WeightOf(weights, i) * (points_F[i] - middle_F) * (points_S[i] - middle_S).transpose();
+  }
+  if (!moments.allFinite()) return std::nullopt;
+  const math::SingularValues svd = math::SingularValuesOf(moments);
+  constexpr double kFlat = 1e-12;  // of squares
+  if (!(svd.values[1] > kFlat * svd.values[0])) return std::nullopt;
+  math::Vector3 sign = math::Vector3::Ones();
+  if (svd.U.determinant() * svd.V.determinant() < 0.0) sign.z() = -1.0;
+  math::Transform X_FS = math::Transform::Identity();
+  X_FS.linear() = svd.U * sign.asDiagonal() * svd.V.transpose();
+  X_FS.translation() = middle_F - X_FS.linear() * middle_S;
+  return X_FS;
+}
 
 std::optional<ConsistentSet> FindConsistentSet(const PointsSeenTwice& points,
                                                const RectifiedPair& cameras,
@@ -179,6 +230,24 @@ std::int64_t DrawsNeeded(std::size_t members, std::size_t points, double miss, s
   const double share = k * (k - 1.0) * (k - 2.0) / (n * (n - 1.0) * (n - 2.0));
   const double draws = std::ceil(std::log(miss) / std::log1p(-share));  // 0 where all are members
   return static_cast<std::int64_t>(std::clamp(draws, 1.0, static_cast<double>(most)));
+}
+
+SetMotion MotionOfSet(const PointsSeenTwice& points, const RectifiedPair& cameras,
+                      const ConsistentSet& set, const SelectionParams& selection,
+                      const EstimationParams& estimation) {
+  SetMotion found{EstimateMotion(Chosen(points, set.members), cameras, estimation, set.X_FS),
+                  set.members};
+  for (int round = 0; round < kRounds && found.estimated.converged; ++round) {
+    std::vector<std::size_t> members =
+        PointsWith(points, cameras, found.estimated.X_FS, selection.inlier_px);
+    if (members == found.members || members.size() < kFewest) break;
+    const std::int64_t iterations = found.estimated.iterations;
+    found.estimated =
+        EstimateMotion(Chosen(points, members), cameras, estimation, found.estimated.X_FS);
+    found.estimated.iterations += iterations;
+    found.members = std::move(members);
+  }
+  return found;
 }
 
 }  // namespace rockyard::vision

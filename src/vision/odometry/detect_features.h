@@ -7,10 +7,9 @@
 
 #include "vision/cameras/camera_types.h"
 #include "vision/image.h"
-#include "vision/odometry/detector_params.h"
 #include "vision/odometry/feature.h"
+#include "vision/odometry/feature_params.h"
 #include "vision/odometry/harris.h"
-#include "vision/odometry/local_maxima.h"
 
 namespace rockyard::vision {
 

@@ -1,6 +1,7 @@
 // Points of an image that can be found again in another one.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -27,5 +28,12 @@ struct FeatureMatch {
 };
 
 using FeatureMatches = std::vector<FeatureMatch>;
+
+// How one view of a plane follows from another, about a point: what the one shows at the offset o
+// (px) from it, the other has at the offset by_offset o / (1 + by_distance . o).
+struct ViewChange {
+  Eigen::Matrix2d by_offset = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d by_distance = Eigen::Vector2d::Zero();  // 1/px
+};
 
 }  // namespace rockyard::vision

@@ -1,10 +1,10 @@
-#include "vision/odometry/local_maxima.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
+
+#include "vision/odometry/harris.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vision/odometry/local_maxima.cc"

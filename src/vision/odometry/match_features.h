@@ -7,8 +7,7 @@
 #include "vision/cameras/camera_types.h"
 #include "vision/image.h"
 #include "vision/odometry/feature.h"
-#include "vision/odometry/matcher_params.h"
-#include "vision/odometry/view_change.h"
+#include "vision/odometry/feature_params.h"
 
 namespace rockyard::vision {
 

@@ -51,6 +51,12 @@ struct MotionResult {
   double rms_px = 0.0;  // root mean square residual of the consistent set; 0 without one
 };
 
+// From A to C by way of B, the errors of both parts being independent and small. With the errors
+// of MotionCovariance, each told in the first frame of its part,
+//   e_r = e_rAB + R_AB e_rBC        e_t = e_tAB + R_AB e_tBC - [R_AB p_BC]x e_rAB,
+// so that the covariance is J_AB C_AB J_AB' + J_BC C_BC J_BC', told in A.
+Motion Compose(const Motion& A_to_B, const Motion& B_to_C);
+
 }  // namespace rockyard::vision
 
 template <>

@@ -5,9 +5,7 @@
 
 #include "core/check.h"
 #include "vision/odometry/consistent_set.h"
-#include "vision/odometry/feature_places.h"
-#include "vision/odometry/keep_clean.h"
-#include "vision/odometry/motion_of_set.h"
+#include "vision/odometry/place_features.h"
 #include "vision/odometry/plane_view.h"
 #include "vision/odometry/refine_match.h"
 

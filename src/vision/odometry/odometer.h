@@ -10,7 +10,6 @@
 #include "math/pose.h"
 #include "vision/cameras/rectification.h"
 #include "vision/image.h"
-#include "vision/odometry/aligned_images.h"
 #include "vision/odometry/detect_features.h"
 #include "vision/odometry/feature.h"
 #include "vision/odometry/match_features.h"

@@ -8,11 +8,21 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
-#include "vision/odometry/detector_params.h"
-#include "vision/odometry/disparity_map_params.h"
-#include "vision/odometry/matcher_params.h"
+#include "vision/odometry/feature_params.h"
+#include "vision/stereo/stereo_params.h"
 
 namespace rockyard::vision {
+
+// How the map is made (vision/stereo), and what its disparities are worth.
+struct DisparityMapParams {
+  DogParams dog;
+  std::int64_t window_side_px = 7;
+  StereoFilterParams filters;
+  double noise_px = 0.15;
+  double max_step_px = 1.0;
+
+  void Visit(core::FieldVisitor& v);
+};
 
 enum class PlaceSource {
   kRightEye,      // the feature itself is found in the right image

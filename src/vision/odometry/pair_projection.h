@@ -2,7 +2,7 @@
 //
 //   column = H . d / A . d    row = V . d / A . d    disparity = H . b / A . d
 //
-// with d = p - C_left and b = C_right - C_left (cahv.h, triangulation.h, whose inverse it is).
+// with d = p - C_left and b = C_right - C_left (cahv.h, Triangulate, whose inverse it is).
 #pragma once
 
 #include <Eigen/Core>

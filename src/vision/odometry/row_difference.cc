@@ -11,7 +11,7 @@
 #include <hwy/highway.h>
 
 #include "core/check.h"
-#include "vision/odometry/row_difference.h"
+#include "vision/odometry/place_features.h"
 #include "vision/stereo/aligned_buffer.h"
 
 HWY_BEFORE_NAMESPACE();

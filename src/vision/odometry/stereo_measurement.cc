@@ -1,6 +1,6 @@
 #include "vision/odometry/stereo_measurement.h"
 
-#include "vision/cameras/triangulation.h"
+#include "vision/cameras/rectification.h"
 
 namespace rockyard::vision {
 

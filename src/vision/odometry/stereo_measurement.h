@@ -1,4 +1,4 @@
-// What a pair of aligned cameras measures of one point.
+// What a pair of aligned cameras takes, and what it measures of one point.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,10 +8,21 @@
 #include "math/pose.h"
 #include "vision/cameras/camera_types.h"
 #include "vision/cameras/rectification.h"
+#include "vision/image.h"
+#include "vision/stereo/disparity.h"
 
 namespace rockyard::vision {
 
-// A point in both eyes, and where it lies (cameras/triangulation.h; Matthies and Shafer 1987).
+// Two images of one moment with aligned rows.
+struct AlignedImages {
+  GrayImage left;
+  GrayImage right;
+  // Of the left image's pixels, where stereo has matched these images already; else empty, and made
+  // where places are taken from it (PlacementParams::source).
+  DisparityImage disparities = {};
+};
+
+// A point in both eyes, and where it lies (Triangulate; Matthies and Shafer 1987).
 struct StereoMeasurement {
   Pixel left = Pixel::Zero();  // column and row in the left image
   double disparity_px = 0.0;   // column_left - column_right, > 0
@@ -28,7 +39,7 @@ struct StereoMeasurement {
 
 // Returns what a pair measures of a point at `left_pixel`, whose covariance is `pixel_px2`, with
 // the disparity and its variance, independent of that: P = J S J' with S = diag(pixel_px2,
-// disparity_px2) and J of triangulation.h. Nothing where the point is at or beyond infinity.
+// disparity_px2) and J of Triangulate. Nothing where the point is at or beyond infinity.
 std::optional<StereoMeasurement> MeasureStereo(const RectifiedPair& cameras,
                                                const Pixel& left_pixel,
                                                const Eigen::Matrix2d& pixel_px2,

@@ -7,7 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "vision/odometry/template_sums.h"
+#include "vision/odometry/window_samples.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {

@@ -10,7 +10,6 @@
 #include <hwy/highway.h>
 
 #include "core/check.h"
-#include "vision/odometry/warp.h"
 #include "vision/odometry/window.h"
 
 HWY_BEFORE_NAMESPACE();

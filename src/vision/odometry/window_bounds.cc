@@ -1,9 +1,9 @@
 // Bounds of differences of windows, for every instruction set.
-#include "vision/odometry/window_bounds.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
+
+#include "vision/odometry/best_matches.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vision/odometry/window_bounds.cc"

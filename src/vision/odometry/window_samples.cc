@@ -12,7 +12,6 @@
 
 #include "core/check.h"
 #include "vision/odometry/window_samples.h"
-#include "vision/odometry/window_view.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "vision/stereo/correlator_kernels.h"
-#include "vision/stereo/subpixel.h"
+#include "vision/stereo/correlator_state.h"
 
 namespace rockyard::vision {
 namespace {

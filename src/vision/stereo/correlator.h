@@ -12,7 +12,7 @@
 //   curvature
 //                  c = S(x, d_L - 1) - 2 S(x, d_L) + S(x, d_L + 1) is at least side^2 times a
 //                  parameter, and at least S(x, d_L) times another
-//   sub-pixel:     the lowest point of a parabola through the three, or of two lines (subpixel.h)
+//   sub-pixel:     the lowest point of a parabola through the three, or of two lines (SubPixel)
 //
 // Sums slide in both directions: a score gains the row that comes and loses the one that goes, and
 // what it gains or loses in a row slides along the row, so that the time does not depend on the

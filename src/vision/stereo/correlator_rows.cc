@@ -7,7 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "vision/stereo/correlator_kernels.h"
+#include "vision/stereo/correlator_state.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {

@@ -1,6 +1,7 @@
 #include "vision/stereo/correlator_state.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rockyard::vision {
 namespace {
@@ -15,6 +16,25 @@ void FillMask(const LaneLayout& layout, int first, int last, std::uint16_t* mask
 }
 
 }  // namespace
+
+PeakLimits MakePeakLimits(const StereoFilterParams& filters, const CorrelatorParams& correlator) {
+  const auto side = static_cast<double>(correlator.window_side_px);
+  return {filters.interpolation, static_cast<int>(filters.line_of_sight_px),
+          static_cast<std::int32_t>(std::ceil(filters.min_curvature * side * side)),
+          static_cast<std::int32_t>(std::ceil(filters.min_curvature_ratio * 256.0))};
+}
+
+LaneLayout::LaneLayout(int lanes_in, int width_in, const CorrelatorParams& params)
+    : lanes(lanes_in),
+      width(width_in),
+      segment((width_in + 4 * lanes_in - 1) / (4 * lanes_in) * 4),
+      before(static_cast<int>(params.window_side_px) / 2),
+      after(static_cast<int>(params.window_side_px) - 1 - before),
+      min_disparity(static_cast<int>(params.min_disparity_px)),
+      disparities(static_cast<int>(params.disparities)),
+      groups((disparities + kGroup - 1) / kGroup),
+      first(std::min(0, -(min_disparity + kGroup * groups - 1))),
+      last(std::max(segment - 1, segment - 1 - min_disparity)) {}
 
 CorrelatorState::CorrelatorState(int lanes, int width, const CorrelatorParams& params)
     : layout(lanes, width, params),

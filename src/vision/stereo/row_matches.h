@@ -10,7 +10,7 @@
 //   - it is not at the end of what was searched,
 //   - searched back in the same way, it finds the point again within a pixel.
 // The row's fraction is the lowest point of two lines of opposite slope through S of the rows
-// above, at and below (subpixel.h).
+// above, at and below (SubPixel).
 #pragma once
 
 #include <optional>
@@ -27,8 +27,8 @@ struct RowMatchOptions {
   int max_rows_px = 12;     // rows searched above and below, at least 1
   // Columns searched, as disparities: column of the left image less that of the right one. Where
   // there is none: -width / 8 and width / 4.
-  std::optional<int> min_disparity_px;
-  std::optional<int> max_disparity_px;
+  std::optional<int> min_disparity_px = std::nullopt;
+  std::optional<int> max_disparity_px = std::nullopt;
   double max_ratio = 0.8;  // of S at the match to S at every other place, in (0, 1]
 };
 

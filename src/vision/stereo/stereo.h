@@ -7,7 +7,7 @@
 //   4 correlator.h            best matches of left and right
 //   5 correlator.h            line of sight, peak filter, sub-pixel interpolation
 //   6 blob.h                  small regions
-//   range of disparities from depths: depth_range.h; stage 7, points, is the camera's part.
+//   range of disparities from depths: SearchDepths; stage 7, points, is the camera's part.
 // Results are the same bits whatever the instruction set and the number of threads.
 #pragma once
 

@@ -60,9 +60,9 @@ struct StereoFilterParams {
 
 struct StereoPipelineParams {
   std::int64_t pyramid_level = 0;
-  DogParams dog;
-  CorrelatorParams correlator;
-  StereoFilterParams filters;
+  DogParams dog = {};
+  CorrelatorParams correlator = {};
+  StereoFilterParams filters = {};
 
   void Visit(core::FieldVisitor& v);
 };
@@ -70,6 +70,23 @@ struct StereoPipelineParams {
 // Returns whether every score of the correlator fits its 16 bits with two bits to spare: the
 // largest sum of absolute differences, side^2 * 2 limit, is below 2^14.
 bool ScoresFit(const DogParams& dog, const CorrelatorParams& correlator);
+
+// A rectified pair: parallel axes, rows aligned, one focal length.
+struct StereoGeometry {
+  double focal_px = 0.0;    // at the pyramid level that is correlated
+  double baseline_m = 0.0;  // from the left to the right camera, positive
+  double offset_px = 0.0;   // disparity of what is infinitely far: c_left - c_right of the columns
+};
+
+// Returns `correlator` with the range that depths ask for (Goldberg 2002 section 2 stage 4:
+// "derived geometrically from the input range of depth values"), in which a point from nearest_m to
+// farthest_m before the cameras (along their axes; farthest_m may be infinite) has its disparity
+//   d = focal baseline / depth + offset,
+// rounded outwards, and one disparity more on either side, which the peak filter needs. 0 <
+// nearest_m <= farthest_m. Throws core::UserError where that is more than 512 disparities or
+// reaches beyond 480 px.
+CorrelatorParams SearchDepths(const StereoGeometry& pair, double nearest_m, double farthest_m,
+                              CorrelatorParams correlator);
 
 }  // namespace rockyard::vision
 

@@ -1,10 +1,10 @@
 // Rays and bodies against closed forms.
-#include "rendering/cylinder/coloured_body.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "rendering/cylinder/cylinder_scene.h"
 
 namespace rockyard::rendering {
 namespace {

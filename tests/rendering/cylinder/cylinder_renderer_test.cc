@@ -131,11 +131,9 @@ TEST(CylinderPicture, DisparityIsThatOfEquationSeventeen) {
 // The scene seen in a mirror that holds the line of sight: left and right eye change places, the
 // sun's azimuth its sign, and theta becomes 90 deg - theta, as both side quadrants are pink.
 TEST(CylinderPicture, MirroredLightGivesTheMirroredPicture) {
-  CylinderPictureParams params;
-  params.backdrop.contrast = 0.0;
-  params.backdrop.hue_contrast = 0.0;
-  params.backdrop.horizon_relief_m = 0.0;
-  params.light.azimuth_rad = math::DegToRad(110.0);
+  CylinderPictureParams params{
+      .light = {.azimuth_rad = math::DegToRad(110.0)},
+      .backdrop = {.contrast = 0.0, .hue_contrast = 0.0, .horizon_relief_m = 0.0}};
   // The upper half: the turntable's corners turn with the cylinder.
   const auto images = RenderCylinder(params, ViewAt(3.0, 25.0), kKey);
   params.light.azimuth_rad = -params.light.azimuth_rad;
@@ -182,9 +180,7 @@ TEST(CylinderPicture, WallsAreShadedByLambertsLaw) {
 }
 
 TEST(CylinderPicture, SurroundingsStayWhereTheCylinderTurnsOrGoes) {
-  CylinderPictureParams params;
-  params.clutter.rocks = 10.0;
-  params.clutter.hardware = 2.0;
+  CylinderPictureParams params{.clutter = {.rocks = 10.0, .hardware = 2.0}};
   const auto first = RenderCylinder(params, ViewAt(5.0, 0.0), kKey);
   const auto again = RenderCylinder(params, ViewAt(5.0, 0.0), kKey);
   const auto turned = RenderCylinder(params, ViewAt(5.0, 120.0), kKey);

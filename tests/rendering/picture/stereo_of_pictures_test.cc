@@ -59,10 +59,7 @@ std::vector<terrain::Rock> SomeRocks() {
 }
 
 vision::StereoPipelineParams Params() {
-  vision::StereoPipelineParams params;
-  params.correlator.min_disparity_px = -2;
-  params.correlator.disparities = 72;
-  return params;
+  return {.correlator = {.min_disparity_px = -2, .disparities = 72}};
 }
 
 // The same with the filters of peaks and regions open.

@@ -1,4 +1,4 @@
-// Levels of a pyramid, parts of an image, moves.
+// Levels of a pyramid, moves.
 #include <gtest/gtest.h>
 
 #include "core/check.h"
@@ -60,18 +60,6 @@ TEST(CameraModelTest, HalfAPixelShiftsInAReducedImage) {
   EXPECT_EQ(*Project(Reduced(camera, 1), p), *Project(camera, p));
 }
 
-TEST(CameraModelTest, ACroppedCameraCountsFromItsCorner) {
-  for (const NamedCamera& named : ModelCameras()) {
-    const CameraModel part = Cropped(named.camera, 100, -20, {50, 60});
-    EXPECT_EQ(part.size, (ImageSize{50, 60}));
-    const auto ray = BackProject(named.camera, {130.0, 17.0});
-    ASSERT_TRUE(ray);
-    const auto pixel = Project(part, ray->origin + ray->direction);
-    ASSERT_TRUE(pixel);
-    EXPECT_LT((*pixel - Pixel(30.0, 37.0)).norm(), 1e-9) << named.name;
-  }
-}
-
 TEST(CameraModelTest, AMovedCameraSeesAMovedWorld) {
   const math::Transform X_BA = math::MakePose({-3.0, 5.0, 0.5}, -2.0, 0.7, 1.1);
   for (const NamedCamera& named : ModelCameras()) {
@@ -113,7 +101,6 @@ TEST(CameraModelTest, MoreThanTheImageCannotBeOnePixel) {
   const CameraModel camera{TestCahv(), {64, 4}};
   EXPECT_THROW(Reduced(camera, 5), core::ContractViolation);
   EXPECT_THROW(Reduced(camera, 0), core::ContractViolation);
-  EXPECT_THROW(Cropped(camera, 0, 0, {0, 5}), core::ContractViolation);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "vision/cameras/test_cameras.h"
-#include "vision/lens.h"
 
 namespace rockyard::vision {
 namespace {
@@ -137,24 +136,6 @@ TEST(BrownPinholeTest, IsTheFormulaInThirtyDigits) {
     const auto pixel = Project(camera, test.p);
     ASSERT_TRUE(pixel);
     EXPECT_LT((*pixel - test.pixel).norm(), 1e-11);
-  }
-}
-
-TEST(LensCameraTest, IsTheLensWithPixelsFromTheCorner) {
-  for (const messages::Lens lens :
-       {messages::Lens::kEquidistantRows, messages::Lens::kEquidistant, messages::Lens::kPinhole}) {
-    const messages::Camera camera{lens, TestPose(), 0.004, 0.003, 201, 100};
-    const CameraModel model = CameraModelOf(camera);
-    EXPECT_EQ(model.size, (ImageSize{201, 100}));
-    const Vector3 p_R = TestPose() * Vector3(2.0, 0.4, -0.3);
-    const auto expected = Project(camera, TestPose().inverse() * p_R);
-    const auto pixel = Project(model, p_R);
-    ASSERT_TRUE(expected && pixel);
-    EXPECT_NEAR(pixel->x() + camera.image_columns().first, expected->column_px, 1e-12);
-    EXPECT_NEAR(pixel->y() + camera.first_row(), expected->row_px, 1e-12);
-    const auto ray = BackProject(model, *pixel);
-    ASSERT_TRUE(ray);
-    EXPECT_LT((ray->direction - TestPose().linear() * PixelRay(camera, *expected)).norm(), 1e-15);
   }
 }
 

@@ -154,29 +154,6 @@ TEST(CameraDomainTest, ATangentialFoldIsNotImaged) {
   EXPECT_FALSE(BackProject(camera, {100 + 200 * 0.5, 80}));  // x' has its maximum at 0.41667
 }
 
-TEST(CameraDomainTest, LensesEndWhereTheirDirectionsDo) {
-  const double pitch_rad = 0.01;
-  const auto camera = [&](messages::Lens lens) {
-    return CameraModelOf({lens, math::Transform::Identity(), pitch_rad, pitch_rad, 100, 100});
-  };
-  const auto rows = camera(messages::Lens::kEquidistantRows);
-  EXPECT_TRUE(BackProject(rows, {50 + 157, 50}));
-  EXPECT_FALSE(BackProject(rows, {50 + 158, 50}));
-  EXPECT_TRUE(BackProject(rows, {50, 50 + 314}));
-  EXPECT_FALSE(BackProject(rows, {50, 50 + 315}));
-  const auto symmetric = camera(messages::Lens::kEquidistant);
-  EXPECT_TRUE(BackProject(symmetric, {50 + 314, 50}));
-  EXPECT_FALSE(BackProject(symmetric, {50 + 300, 50 + 100}));
-}
-
-TEST(CameraDomainTest, ALensSeesNothingSoNearThatNoDerivativeIsFinite) {
-  for (const auto lens : {messages::Lens::kEquidistantRows, messages::Lens::kEquidistant}) {
-    const auto camera = CameraModelOf({lens, math::Transform::Identity(), 0.01, 0.01, 100, 100});
-    EXPECT_TRUE(Project(camera, {1e-100, 1e-101, 1e-101}));
-    EXPECT_FALSE(Project(camera, {1e-170, 1e-171, 1e-171}));
-  }
-}
-
 // Models of wild numbers and wild points: what comes back is finite.
 TEST(CameraDomainTest, NothingWildGivesNaN) {
   core::RandomStream random({23, 0}, core::Purpose::kTest);

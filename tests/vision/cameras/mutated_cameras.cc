@@ -178,7 +178,6 @@ std::string CameraFault(const CameraSeed& file) {
 std::vector<CameraSeed> CameraSeeds() {
   std::vector<CameraSeed> seeds;
   for (const NamedCamera& named : ModelCameras()) {
-    if (std::holds_alternative<LensCamera>(named.camera.lens)) continue;
     seeds.push_back({named.name + " as JSON", core::DumpJson(CameraJson(named.camera))});
     if (std::holds_alternative<BrownPinhole>(named.camera.lens)) continue;
     seeds.push_back({named.name + " as text", CameraText(named.camera, "of a test")});

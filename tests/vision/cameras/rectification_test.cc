@@ -19,17 +19,13 @@ const Cahv kPlainLens{{0, 0, 0}, {0, 0, 1}, {300, 0, 160}, {0, 300, 90}};
 
 // A pair of cameras of one kind, the right one 0.2 m along the rows of the left one, somewhat ahead
 // of it, and turned.
-CameraModel RightOf(const CameraModel& left, bool lens_frame) {
+CameraModel RightOf(const CameraModel& left) {
   Transform X_LM = Transform::Identity();
-  if (lens_frame) {
-    X_LM = math::MakePose({0.01, -0.2, 0.015}, 0.02, -0.03, 0.04);
-  } else {
-    X_LM.linear() =
-        (Eigen::AngleAxisd(0.02, Vector3::UnitY()) * Eigen::AngleAxisd(-0.03, Vector3::UnitX()) *
-         Eigen::AngleAxisd(0.04, Vector3::UnitZ()))
-            .toRotationMatrix();
-    X_LM.translation() = Vector3(0.2, -0.015, 0.01);
-  }
+  X_LM.linear() =
+      (Eigen::AngleAxisd(0.02, Vector3::UnitY()) * Eigen::AngleAxisd(-0.03, Vector3::UnitX()) *
+       Eigen::AngleAxisd(0.04, Vector3::UnitZ()))
+          .toRotationMatrix();
+  X_LM.translation() = Vector3(0.2, -0.015, 0.01);
   return Moved(TestPose() * X_LM * TestPose().inverse(), left);
 }
 
@@ -101,8 +97,7 @@ TEST(RectificationTest, RowsAreEpipolarLinesOfEveryModel) {
     cameras.push_back(named);
   }
   for (const NamedCamera& named : cameras) {
-    const bool is_lens = std::holds_alternative<LensCamera>(named.camera.lens);
-    const CameraModel right = RightOf(named.camera, is_lens);
+    const CameraModel right = RightOf(named.camera);
     // A pupil that moves by millimetres needs distance: no table holds for all ranges.
     const double nearest_m = IsCentral(named.camera) ? 0.5 : 100.0;
     for (const RectifiedField field : {RectifiedField::kOverlap, RectifiedField::kLeft}) {
@@ -156,7 +151,7 @@ TEST(RectificationTest, TheBaselineOfTheMerNavcamsIsThePublishedOne) {
 
 TEST(RectificationTest, TheCamerasShareAllButTheirCentres) {
   const CameraModel left = ModelCameras()[1].camera;
-  const CameraModel right = RightOf(left, false);
+  const CameraModel right = RightOf(left);
   const auto pair = Rectify(left, right);
   ASSERT_TRUE(pair.ok());
   EXPECT_EQ(pair->left.A, pair->right.A);
@@ -220,7 +215,7 @@ TEST(RectificationTest, TheOverlapIsWhatBothSee) {
 
 TEST(RectificationTest, ASizeHoldsTheWholeFieldInItsMiddle) {
   const CameraModel left = ModelCameras()[1].camera;
-  const CameraModel right = RightOf(left, false);
+  const CameraModel right = RightOf(left);
   const auto natural = Rectify(left, right);
   const auto sized = Rectify(left, right, {.size = {256, 256}});
   ASSERT_TRUE(natural.ok() && sized.ok());
@@ -254,7 +249,7 @@ TEST(RectificationTest, AFieldBeyondARightAngleIsKeptToTheLargestAngleToo) {
 
 TEST(RectificationTest, SourcesAreInsideOfTheImageOrNowhere) {
   const CameraModel left = ModelCameras()[1].camera;
-  const CameraModel right = RightOf(left, false);
+  const CameraModel right = RightOf(left);
   const auto pair = Rectify(left, right, {.field = RectifiedField::kLeft});
   ASSERT_TRUE(pair.ok());
   int outside = 0;

@@ -11,8 +11,8 @@
 
 #include "core/archive.h"
 #include "core/error.h"
+#include "vision/cameras/rectification.h"
 #include "vision/cameras/test_cameras.h"
-#include "vision/cameras/triangulation.h"
 
 namespace rockyard::vision {
 namespace {

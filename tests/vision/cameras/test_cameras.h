@@ -77,11 +77,6 @@ inline std::vector<NamedCamera> ModelCameras() {
   brown.p1 = 0.0012;
   brown.p2 = -0.0008;
   cameras.push_back({"brown", {brown, size}});
-  for (const messages::Lens lens :
-       {messages::Lens::kEquidistantRows, messages::Lens::kEquidistant, messages::Lens::kPinhole}) {
-    const messages::Camera camera{lens, TestPose(), 0.0033, 0.0031, 640, 480};
-    cameras.push_back({"lens " + std::to_string(static_cast<int>(lens)), CameraModelOf(camera)});
-  }
   return cameras;
 }
 

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "math/angles.h"
-#include "vision/cylinder/cylinder_resolution.h"
 
 namespace rockyard::vision {
 namespace {
@@ -133,14 +132,6 @@ TEST(CylinderEquationsTest, TheNearSolutionIsThatOfTheTangents) {
     EXPECT_LT(std::abs(near_m - d_m),
               std::abs(DistanceBySize(kTextFocal_px, 0.1, 2.0 * half_px) - d_m) + 1e-12);
   }
-}
-
-TEST(CylinderEquationsTest, DistanceByDisparityIsThatOfEquation17) {
-  const double M = 512.0;
-  const double mu = 23.0;
-  const double f_px = 0.5 * M / std::tan(DegToRad(14.665));
-  EXPECT_NEAR(DistanceByDisparity(f_px, 0.12, mu),
-              M * 0.12 / (2.0 * mu * std::tan(DegToRad(14.665))), 1e-12);
 }
 
 // A.2.1: 6.7 and 9.5 deg with 17 pixels.

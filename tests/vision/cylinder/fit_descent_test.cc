@@ -1,14 +1,13 @@
 // Descents of the cylinder's fit: what moves, what stays, and where they end.
-#include "vision/cylinder/fit_descent.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "math/angles.h"
 #include "math/decompositions.h"
-#include "vision/cylinder/colour_classes.h"
 #include "vision/cylinder/colour_model.h"
+#include "vision/cylinder/colour_regions.h"
+#include "vision/cylinder/fit_problem.h"
 #include "vision/cylinder/painted_cylinder.h"
 
 namespace rockyard::vision {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "math/angles.h"
-#include "vision/cylinder/cylinder_resolution.h"
+#include "vision/cylinder/cylinder_equations.h"
 #include "vision/cylinder/painted_cylinder.h"
 
 namespace rockyard::vision {

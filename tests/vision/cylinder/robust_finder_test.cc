@@ -11,7 +11,7 @@
 
 #include "math/angles.h"
 #include "vision/cylinder/colour_model.h"
-#include "vision/cylinder/cylinder_resolution.h"
+#include "vision/cylinder/cylinder_equations.h"
 #include "vision/cylinder/painted_cylinder.h"
 
 namespace rockyard::vision {

@@ -1,10 +1,9 @@
 // The covariance of one motion after another against that of drawn errors.
-#include "vision/odometry/compose_motion.h"
-
 #include <gtest/gtest.h>
 
 #include "core/distributions.h"
 #include "core/random.h"
+#include "vision/odometry/motion_estimate.h"
 
 namespace rockyard::vision {
 namespace {

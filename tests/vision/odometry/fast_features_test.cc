@@ -297,6 +297,12 @@ std::vector<BestWindow> WithoutSecond(std::vector<BestWindow> windows) {
   return windows;
 }
 
+void ExpectLeast(const WindowSet& first, const WindowSet& second, const BestWindows& expected) {
+  const BestWindows least = FindLeastDifferent(first, second);
+  EXPECT_EQ(least.of_first, WithoutSecond(expected.of_first)) << InstructionSet();
+  EXPECT_EQ(least.of_second, WithoutSecond(expected.of_second)) << InstructionSet();
+}
+
 // More windows than are compared at once, many of them alike.
 TEST(FastFeaturesTest, TheBestOfManyWindows) {
   constexpr std::size_t kFirst = 300;
@@ -319,8 +325,7 @@ TEST(FastFeaturesTest, TheBestOfManyWindows) {
     const PlainWindow window = PlainWindowAt(image, first_features[i], 3);
     for (std::size_t j = 0; j < kSecond; ++j) {
       const PlainWindow other = PlainWindowAt(image, second_features[j], 3);
-      int difference = 0;
-      for (std::size_t k = 0; k < 9; ++k) difference += std::abs(window[k] - other[k]);
+      const int difference = PlainDifference(window, other);
       offer(j, difference, expected.of_first[i]);
       offer(i, difference, expected.of_second[j]);
     }
@@ -330,9 +335,7 @@ TEST(FastFeaturesTest, TheBestOfManyWindows) {
     const BestWindows found = FindBestWindows(first, second);
     EXPECT_EQ(found.of_first, expected.of_first) << InstructionSet();
     EXPECT_EQ(found.of_second, expected.of_second) << InstructionSet();
-    const BestWindows least = FindLeastDifferent(first, second);
-    EXPECT_EQ(least.of_first, WithoutSecond(expected.of_first)) << InstructionSet();
-    EXPECT_EQ(least.of_second, WithoutSecond(expected.of_second)) << InstructionSet();
+    ExpectLeast(first, second, expected);
   }
 }
 
@@ -352,10 +355,7 @@ TEST(FastFeaturesTest, TheLeastDifferentOfManyTwins) {
     const WindowSet second = some(500, 11);
     for (const std::int64_t set : InstructionSets()) {
       const UseInstructionSet use(set);
-      const BestWindows expected = FindBestWindows(first, second);
-      const BestWindows least = FindLeastDifferent(first, second);
-      EXPECT_EQ(least.of_first, WithoutSecond(expected.of_first)) << InstructionSet();
-      EXPECT_EQ(least.of_second, WithoutSecond(expected.of_second)) << InstructionSet();
+      ExpectLeast(first, second, FindBestWindows(first, second));
     }
   }
 }

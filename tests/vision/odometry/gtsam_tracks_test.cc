@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "vision/cameras/triangulation.h"
+#include "vision/cameras/rectification.h"
 #include "vision/odometry/consistent_set.h"
-#include "vision/odometry/motion_of_set.h"
 
 namespace rockyard::vision {
 namespace {

@@ -1,6 +1,4 @@
 // Peaks of any responses are those of their definition, with every instruction set.
-#include "vision/odometry/local_maxima.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -9,6 +7,7 @@
 #include "core/random.h"
 #include "plain_features.h"
 #include "vision/each_pixel.h"
+#include "vision/odometry/harris.h"
 #include "vision/stereo/correlator.h"
 #include "vision/stereo/instruction_sets.h"
 

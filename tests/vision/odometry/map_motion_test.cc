@@ -8,8 +8,8 @@
 #include "core/check.h"
 #include "core/chi_squared.h"
 #include "core/distributions.h"
-#include "vision/odometry/map_places.h"
 #include "vision/odometry/odometer.h"
+#include "vision/odometry/place_features.h"
 #include "vision/odometry/synthetic_sequence.h"
 #include "vision/odometry/trajectory_error.h"
 

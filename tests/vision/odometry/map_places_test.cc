@@ -1,15 +1,14 @@
 // Places of features from a dense disparity map: interpolation in closed form, edges of what the
 // map knows, and the plane that images are of.
-#include "vision/odometry/map_places.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
 #include "core/check.h"
-#include "vision/cameras/triangulation.h"
+#include "vision/cameras/rectification.h"
 #include "vision/each_pixel.h"
+#include "vision/odometry/place_features.h"
 #include "vision/odometry/synthetic_sequence.h"
 
 namespace rockyard::vision {

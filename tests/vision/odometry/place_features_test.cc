@@ -12,12 +12,11 @@
 #include <vector>
 
 #include "core/distributions.h"
-#include "vision/cameras/triangulation.h"
+#include "vision/cameras/rectification.h"
 #include "vision/each_pixel.h"
 #include "vision/odometry/refine_match.h"
-#include "vision/odometry/row_difference.h"
 #include "vision/odometry/synthetic_sequence.h"
-#include "vision/odometry/template_sums.h"
+#include "vision/odometry/window_samples.h"
 #include "vision/stereo/instruction_sets.h"
 
 namespace rockyard::vision {

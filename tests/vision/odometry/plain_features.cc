@@ -135,12 +135,6 @@ Features OfRegion(const GrayImage& image, const FeatureDetectorParams& params,
   return corners;
 }
 
-int PlainDifference(const PlainWindow& a, const PlainWindow& b) {
-  int sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
-  return sum;
-}
-
 // What two features differ by, where they are compared.
 using Differences = Image<std::optional<int>>;
 
@@ -174,6 +168,12 @@ Differences DifferencesOf(const GrayImage& first, const Features& first_features
 }
 
 }  // namespace
+
+int PlainDifference(const PlainWindow& a, const PlainWindow& b) {
+  int sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
+  return sum;
+}
 
 Image<std::int64_t> PlainResponse(const GrayImage& image, std::int64_t weight) {
   Image<std::int64_t> response(image.width(), image.height(), 0);

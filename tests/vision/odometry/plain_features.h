@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "vision/image.h"
-#include "vision/odometry/detector_params.h"
 #include "vision/odometry/feature.h"
+#include "vision/odometry/feature_params.h"
 #include "vision/odometry/match_features.h"
-#include "vision/odometry/matcher_params.h"
 
 namespace rockyard::vision {
 
@@ -17,7 +16,7 @@ namespace rockyard::vision {
 Image<std::int64_t> PlainResponse(const GrayImage& image, std::int64_t weight);
 
 // Whether a response is larger than those within `reach` columns and rows that come before it in
-// the order of rows, and not smaller than those behind (local_maxima.h).
+// the order of rows, and not smaller than those behind (LocalMaxima).
 bool IsPeak(const Image<std::int64_t>& response, int x, int y, int reach);
 
 // As FeatureDetector (detect_features.h).
@@ -27,6 +26,9 @@ Features PlainFeatures(const GrayImage& image, const FeatureDetectorParams& para
 // A window of `side` pixels about a feature, row by row.
 using PlainWindow = std::vector<int>;
 PlainWindow PlainWindowAt(const GrayImage& image, const Feature& feature, int side);
+
+// The sum of absolute differences of two windows of one size.
+int PlainDifference(const PlainWindow& a, const PlainWindow& b);
 
 // As WarpWindow (window.h).
 PlainWindow PlainWarpedWindow(const GrayImage& image, const Feature& feature,

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "vision/cameras/triangulation.h"
+#include "vision/cameras/rectification.h"
 #include "vision/odometry/pair_projection.h"
 #include "vision/odometry/synthetic_sequence.h"
 

@@ -1,6 +1,4 @@
 // Disparities and slopes of windows on level ground, which does not face the cameras.
-#include "vision/odometry/slanted_match.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +9,8 @@
 
 #include "vision/each_pixel.h"
 #include "vision/odometry/detect_features.h"
-#include "vision/odometry/keep_clean.h"
 #include "vision/odometry/place_features.h"
+#include "vision/odometry/refine_match.h"
 #include "vision/odometry/synthetic_sequence.h"
 
 namespace rockyard::vision {

@@ -9,7 +9,6 @@
 #include "core/random.h"
 #include "vision/cameras/camera_model.h"
 #include "vision/cameras/rectification.h"
-#include "vision/cameras/triangulation.h"
 #include "vision/odometry/stereo_measurement.h"
 
 namespace rockyard::vision {

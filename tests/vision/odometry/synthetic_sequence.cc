@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/distributions.h"
-#include "vision/cameras/triangulation.h"
+#include "vision/cameras/rectification.h"
 
 namespace rockyard::vision {
 namespace {

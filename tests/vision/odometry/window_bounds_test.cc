@@ -1,6 +1,4 @@
 // Bounds of differences: their definition, with every instruction set, and that they are bounds.
-#include "vision/odometry/window_bounds.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "core/random.h"
 #include "plain_features.h"
 #include "textured_image.h"
+#include "vision/odometry/best_matches.h"
 #include "vision/stereo/instruction_sets.h"
 
 namespace rockyard::vision {
@@ -33,12 +32,6 @@ int PlainBound(const PlainWindow& a, const PlainWindow& b, int side) {
     for (int x = 0; x < 5; ++x) sum += std::abs(mean(a, x, y) - mean(b, x, y));
   }
   return std::max(0, 9 * sum - 200);
-}
-
-int PlainDifference(const PlainWindow& a, const PlainWindow& b) {
-  int sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
-  return sum;
 }
 
 struct Windows {

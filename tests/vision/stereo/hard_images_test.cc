@@ -14,13 +14,6 @@ constexpr int kWidth = 160;
 constexpr int kHeight = 90;
 constexpr int kInside = (kWidth - 6) * (kHeight - 6);  // pixels whose windows of 7 x 7 are inside
 
-StereoPipelineParams Range(int min_disparity, int disparities) {
-  StereoPipelineParams params;
-  params.correlator.min_disparity_px = min_disparity;
-  params.correlator.disparities = disparities;
-  return params;
-}
-
 std::int64_t Count(const DropCounts& counts, Drop drop) {
   return counts[static_cast<std::size_t>(drop)];
 }

@@ -25,13 +25,6 @@ struct Quality {
   double rms_px = 0.0;
 };
 
-StereoPipelineParams Range(int min_disparity, int disparities) {
-  StereoPipelineParams params;
-  params.correlator.min_disparity_px = min_disparity;
-  params.correlator.disparities = disparities;
-  return params;
-}
-
 Quality Judge(const SyntheticPair& pair, const DisparityImage& found) {
   double seen = 0.0, valid = 0.0, bad = 0.0, sum = 0.0, squares = 0.0;
   for (int y = kMargin_px; y < found.height() - kMargin_px; ++y) {
@@ -60,12 +53,7 @@ Quality Judge(const Scene& scene, const StereoPipelineParams& params) {
 }
 
 Scene SceneOf(std::uint32_t number, std::function<double(double, double)> disparity) {
-  Scene scene;
-  scene.width = 240;
-  scene.height = 120;
-  scene.number = number;
-  scene.disparity = std::move(disparity);
-  return scene;
+  return {.width = 240, .height = 120, .disparity = std::move(disparity), .number = number};
 }
 
 // The generator first: the right image shows at x - d what the left one shows at x.
@@ -174,7 +162,7 @@ TEST(StereoQualityTest, AStepLosesWhatIsHidden) {
 }
 
 // Bias against the fraction t of the true disparity: a parabola through sums of absolute
-// differences says t / (2 (1 - t)) up to a half (subpixel.h); two lines say t.
+// differences says t / (2 (1 - t)) up to a half (SubPixel); two lines say t.
 TEST(StereoQualityTest, PixelLocking) {
   StereoPipelineParams params = Range(0, 24);
   std::vector<double> parabola;

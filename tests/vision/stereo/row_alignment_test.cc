@@ -11,8 +11,7 @@
 
 #include "synthetic_pair.h"
 #include "vision/each_pixel.h"
-#include "vision/stereo/outside.h"
-#include "vision/stereo/score.h"
+#include "vision/stereo/disparity.h"
 #include "vision/stereo/stereo.h"
 
 namespace rockyard::vision {
@@ -33,18 +32,14 @@ double LeftRow(const RowCorrection& moved, double x, double right_row) {
 
 // Ground that rises towards the lower edge: disparities from 14 to 31 px.
 Scene MovedScene(std::uint32_t number, const RowCorrection& moved) {
-  Scene scene{.width = kWidth, .height = kHeight, .number = number};
-  scene.disparity = [](double, double y) { return 14.0 + 0.15 * y; };
-  scene.left_row = [moved](double x, double y) { return LeftRow(moved, x, y); };
-  return scene;
+  return {.width = kWidth,
+          .height = kHeight,
+          .disparity = [](double, double y) { return 14.0 + 0.15 * y; },
+          .left_row = [moved](double x, double y) { return LeftRow(moved, x, y); },
+          .number = number};
 }
 
-RowAlignmentOptions SmallGrid() {
-  RowAlignmentOptions options;
-  options.search.grid_columns = 16;
-  options.search.grid_rows = 10;
-  return options;
-}
+RowAlignmentOptions SmallGrid() { return {.search = {.grid_columns = 16, .grid_rows = 10}}; }
 
 core::Result<RowAlignment> Align(const Scene& scene,
                                  const RowAlignmentOptions& options = SmallGrid()) {

@@ -16,18 +16,14 @@ constexpr int kHeight = 80;
 constexpr int kDisparity_px = 10;
 
 Scene MovedScene(double rows) {
-  Scene scene{.width = kWidth, .height = kHeight, .number = 300};
-  scene.disparity = [](double, double) { return double{kDisparity_px}; };
-  scene.left_row = [rows](double, double y) { return y - rows; };
-  return scene;
+  return {.width = kWidth,
+          .height = kHeight,
+          .disparity = [](double, double) { return double{kDisparity_px}; },
+          .left_row = [rows](double, double y) { return y - rows; },
+          .number = 300};
 }
 
-RowMatchOptions SmallGrid() {
-  RowMatchOptions options;
-  options.grid_columns = 14;
-  options.grid_rows = 8;
-  return options;
-}
+RowMatchOptions SmallGrid() { return {.grid_columns = 14, .grid_rows = 8}; }
 
 std::vector<RowMatch> MatchesOf(const Scene& scene, const RowMatchOptions& options = SmallGrid()) {
   const SyntheticPair pair = MakePair(scene);
@@ -50,9 +46,7 @@ TEST(RowMatches, LieWhereTheRowsWereMovedTo) {
 
 // One point a cell, in it, with its window in the image; by rows of the grid.
 TEST(RowMatches, AreOneACell) {
-  RowMatchOptions options;
-  options.grid_columns = 8;
-  options.grid_rows = 5;
+  const RowMatchOptions options{.grid_columns = 8, .grid_rows = 5};
   int last = -1;
   for (const RowMatch& match : MatchesOf(MovedScene(1.0), options)) {
     const int cell = match.left_row * 5 / kHeight * 8 + match.left_column * 8 / kWidth;
@@ -74,9 +68,7 @@ TEST(RowMatches, AreWhereTheTextureIs) {
     pair.left.At(x, y) = 110;
     if (x >= kDisparity_px) pair.right.At(x - kDisparity_px, y) = 110;
   });
-  RowMatchOptions options;
-  options.grid_columns = 1;
-  options.grid_rows = 4;
+  const RowMatchOptions options{.grid_columns = 1, .grid_rows = 4};
   const std::vector<RowMatch> matches = FindRowMatches(pair.left, pair.right, options);
   EXPECT_EQ(matches.size(), 4U);
   for (const RowMatch& match : matches) EXPECT_NEAR(match.left_column, 72, 6);

@@ -19,10 +19,7 @@ ScalarFilter FilterOf(const DogParams& params) {
 }  // namespace
 
 StereoPipelineParams AsPrinted() {
-  StereoPipelineParams params;
-  params.dog = kLaplacianDog;
-  params.filters.interpolation = Interpolation::kQuadratic;
-  return params;
+  return {.dog = kLaplacianDog, .filters = {.interpolation = Interpolation::kQuadratic}};
 }
 
 ScalarPipeline::ScalarPipeline(const ScalarStages& stages, int width,

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "vision/stereo/subpixel.h"
+#include "vision/stereo/correlator_state.h"
 
 namespace rockyard::vision {
 

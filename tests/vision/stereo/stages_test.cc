@@ -8,13 +8,13 @@
 #include "core/params_text.h"
 #include "core/random.h"
 #include "vision/each_pixel.h"
-#include "vision/stereo/depth_range.h"
+#include "vision/stereo/correlator_state.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/dog.h"
 #include "vision/stereo/pyramid.h"
 #include "vision/stereo/rectification_table.h"
 #include "vision/stereo/stereo.h"
-#include "vision/stereo/subpixel.h"
+#include "vision/stereo/stereo_params.h"
 
 namespace rockyard::vision {
 namespace {

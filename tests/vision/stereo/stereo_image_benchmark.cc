@@ -13,7 +13,6 @@
 #include <opencv2/core.hpp>
 #endif
 
-#include "core/hash.h"
 #include "instruction_sets.h"
 #include "synthetic_pair.h"
 #include "vision/stereo/blob.h"
@@ -35,31 +34,19 @@ Size SizeOf(const benchmark::State& state) {
           static_cast<int>(state.range(2))};
 }
 
-// Ground that rises from one to three quarters of the range down the image, with a step.
 const SyntheticPair& PairOf(const Size& size) {
   static std::map<std::tuple<int, int, int>, SyntheticPair> pairs;
   const auto key = std::tuple(size.width, size.height, size.disparities);
   const auto found = pairs.find(key);
   if (found != pairs.end()) return found->second;
-  Scene scene{.width = size.width, .height = size.height};
-  scene.disparity = [size](double x, double y) {
-    const bool rock = x > 0.4 * size.width && x < 0.6 * size.width && y > 0.5 * size.height;
-    return size.disparities * (0.25 + 0.4 * y / size.height + (rock ? 0.1 : 0.0));
-  };
+  const Scene scene{.width = size.width,
+                    .height = size.height,
+                    .disparity = SteppedGround(size.width, size.height, size.disparities)};
   return pairs.emplace(key, MakePair(scene)).first->second;
 }
 
-std::string HashOf(const DisparityImage& image) {
-  core::Hasher hash;
-  for (const std::int16_t value : image.values()) hash.Integer(value);
-  return core::Hex(hash.value());
-}
-
 StereoPipelineParams ParamsOf(const Size& size, int side) {
-  StereoPipelineParams params;
-  params.correlator.disparities = size.disparities;
-  params.correlator.window_side_px = side;
-  return params;
+  return {.correlator = {.window_side_px = side, .disparities = size.disparities}};
 }
 
 void Sizes(benchmark::internal::Benchmark* benchmark) {

@@ -20,13 +20,12 @@
 #include <string>
 #include <vector>
 
-#include "core/hash.h"
 #include "instruction_sets.h"
 #include "scalar_pipeline.h"
 #include "synthetic_pair.h"
 #include "vision/stereo/blob.h"
 #include "vision/stereo/correlator.h"
-#include "vision/stereo/correlator_kernels.h"
+#include "vision/stereo/correlator_state.h"
 #include "vision/stereo/dog.h"
 #include "vision/stereo/pyramid.h"
 #include "vision/stereo/rectification_table.h"
@@ -72,15 +71,12 @@ struct Images {
 };
 
 Images MakeImages(const Case& c) {
-  Scene scene{.width = c.width,
-              .height = c.height,
-              .shortest_wave_px = 2.5 * (1 << c.level),
-              .longest_wave_px = 24.0 * (1 << c.level)};
   const double range_px = c.disparities * (1 << c.level);
-  scene.disparity = [c, range_px](double x, double y) {
-    const bool rock = x > 0.4 * c.width && x < 0.6 * c.width && y > 0.5 * c.height;
-    return range_px * (0.25 + 0.4 * y / c.height + (rock ? 0.1 : 0.0));
-  };
+  const Scene scene{.width = c.width,
+                    .height = c.height,
+                    .disparity = SteppedGround(c.width, c.height, range_px),
+                    .shortest_wave_px = 2.5 * (1 << c.level),
+                    .longest_wave_px = 24.0 * (1 << c.level)};
   const SyntheticPair pair = MakePair(scene);
   const int width = c.width >> c.level;
   const int height = c.height >> c.level;
@@ -97,12 +93,6 @@ StereoPipelineParams ParamsOf(const Case& c) {
   params.correlator.window_side_px = c.side;
   params.correlator.disparities = c.disparities;
   return params;
-}
-
-std::string HashOf(const DisparityImage& image) {
-  core::Hasher hash;
-  for (const std::int16_t value : image.values()) hash.Integer(value);
-  return core::Hex(hash.value());
 }
 
 // The stages of either side on one pair of images; times are differences of `runs` afterwards.

@@ -29,25 +29,20 @@ constexpr int kMargin_px = 24;    // from the image's edges, beyond the range
 constexpr int kRealizations = 8;  // of the noise
 
 StereoPipelineParams Params(Interpolation interpolation, const DogParams& dog = {}) {
-  StereoPipelineParams params;
-  params.correlator.disparities = 20;
-  params.dog = dog;
-  params.filters.interpolation = interpolation;
-  params.filters.blob_min_px = 0;
-  return params;
+  return {.dog = dog,
+          .correlator = {.disparities = 20},
+          .filters = {.interpolation = interpolation, .blob_min_px = 0}};
 }
 
 // Waves of 4 px and more: what a lens with a blur of half a pixel lets through. No noise.
 Scene SceneOf(double contrast, std::uint32_t number, std::function<double(double, double)> d) {
-  Scene scene;
-  scene.width = 200;
-  scene.height = 90;
-  scene.contrast = contrast;
-  scene.shortest_wave_px = 4.0;
-  scene.noise = 0.0;
-  scene.number = number;
-  scene.disparity = std::move(d);
-  return scene;
+  return {.width = 200,
+          .height = 90,
+          .disparity = std::move(d),
+          .contrast = contrast,
+          .shortest_wave_px = 4.0,
+          .noise = 0.0,
+          .number = number};
 }
 
 GrayImage WithNoise(const GrayImage& image, double noise, std::uint32_t number) {
@@ -129,7 +124,7 @@ NoisyScore ScoreWithNoise(const GrayImage& left, const GrayImage& right, const D
   return score;
 }
 
-// Variance of delta of subpixel.h by the noise, to first order: delta = (S- - S+) / (2 m) moves by
+// Variance of delta of SubPixel by the noise, to first order: delta = (S- - S+) / (2 m) moves by
 // (dS- - dS+ - 2 delta dm) / (2 m).
 double PredictedVariance(const std::array<NoisyScore, 3>& s, Interpolation interpolation,
                          double noise) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/distributions.h"
+#include "core/hash.h"
 #include "core/random.h"
 
 namespace rockyard::vision {
@@ -103,6 +104,19 @@ SyntheticPair MakePair(const Scene& scene) {
     }
   }
   return pair;
+}
+
+std::function<double(double, double)> SteppedGround(int width, int height, double range_px) {
+  return [=](double x, double y) {
+    const bool rock = x > 0.4 * width && x < 0.6 * width && y > 0.5 * height;
+    return range_px * (0.25 + 0.4 * y / height + (rock ? 0.1 : 0.0));
+  };
+}
+
+std::string HashOf(const DisparityImage& image) {
+  core::Hasher hash;
+  for (const std::int16_t value : image.values()) hash.Integer(value);
+  return core::Hex(hash.value());
 }
 
 }  // namespace rockyard::vision

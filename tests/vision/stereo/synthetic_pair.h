@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "vision/image.h"
+#include "vision/stereo/disparity.h"
+#include "vision/stereo/stereo_params.h"
 
 namespace rockyard::vision {
 
@@ -39,5 +42,16 @@ struct SyntheticPair {
 // it as it is, the right one, at (x - d, y), what the left one shows at (x, y), and in other rows
 // than y where left_row says so.
 SyntheticPair MakePair(const Scene& scene);
+
+// Disparities of ground that rises from one to three quarters of a range down an image of this
+// size, with a step.
+std::function<double(double, double)> SteppedGround(int width, int height, double range_px);
+
+// The defaults over these disparities.
+inline StereoPipelineParams Range(int min_disparity, int disparities) {
+  return {.correlator = {.min_disparity_px = min_disparity, .disparities = disparities}};
+}
+
+std::string HashOf(const DisparityImage& image);
 
 }  // namespace rockyard::vision

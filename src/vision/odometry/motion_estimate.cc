@@ -1,4 +1,4 @@
-#include "vision/odometry/compose_motion.h"
+#include "vision/odometry/motion_estimate.h"
 
 namespace rockyard::vision {
 namespace {
