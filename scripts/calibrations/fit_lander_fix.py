@@ -2,7 +2,7 @@
 """Fits the law by which the lander finds the coloured cylinder to rendered views, and checks it on another seed.
 
 scenarios/cylinder/views.json is run with orientations as a factor, one view and one measurement a run. Of a finder's
-rows (src/sensing/cylinder_law.h has the law) come
+rows (src/sensing/aids.h has the law) come
   found, wrong     the most likely logistic laws of ln(width / 20 px), "no blue is seen", sin(2 theta) and the sine of
                    the sun's elevation, with a normal prior of deviation 10 on each coefficient; wrong: of what was found
   heading, range,  variance = least^2 + (pixels step)^2 of what was right, about the mean error where that is more

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/fields.h"
-#include "statistics/poisson_interval.h"
+#include "statistics/counts.h"
 #include "terrain/corridor.h"
 #include "terrain/field.h"
 #include "trial/layout.h"

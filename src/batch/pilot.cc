@@ -5,7 +5,7 @@
 
 #include "batch/executor.h"
 #include "batch/trial_hash.h"
-#include "statistics/moments.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::batch {
 namespace {

@@ -9,7 +9,7 @@
 #include "perception/stripe_peaks.h"
 #include "perception/stripe_search.h"
 #include "perception/triangulation.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 #include "sensing/stripe_imager.h"
 #include "trial/onboard_calibration.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "sensing/stereo_view.h"
-#include "terrain/rock_points.h"
+#include "terrain/rock.h"
 #include "trial/drive_params.h"
 #include "trial/terrain_sensor_set_params.h"
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/field_reader.h"
-#include "core/field_schema.h"
 #include "core/field_table.h"
 #include "core/field_writer.h"
 #include "core/json_value.h"

@@ -1,5 +1,6 @@
 #include "core/distributions.h"
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <numbers>
@@ -31,6 +32,11 @@ std::int64_t InvertPoisson(RandomStream& stream, double mean) {
 }
 
 }  // namespace
+
+double ChiSquaredQuantile(double p, int degrees) {
+  EXPECT(p >= 0.0 && p < 1.0 && degrees >= 1);
+  return boost::math::quantile(boost::math::chi_squared(degrees), p);
+}
 
 double SampleUniform(RandomStream& stream, double low, double high) {
   EXPECT(low <= high);

@@ -8,6 +8,10 @@
 
 namespace rockyard::core {
 
+// Value below which a chi-squared number of `degrees` >= 1 degrees of freedom lies with probability
+// p, 0 <= p < 1 (Boost.Math).
+double ChiSquaredQuantile(double p, int degrees);
+
 // Uniform on (low, high).
 double SampleUniform(RandomStream& stream, double low, double high);
 

@@ -57,9 +57,9 @@ enum class MotionDisagreement {
 };
 
 struct ErrorStateFilterParams {
-  PriorParams prior;
-  DriftParams drift;
-  GateParams gate;
+  PriorParams prior{};
+  DriftParams drift{};
+  GateParams gate{};
   MotionDisagreement motion_disagreement = MotionDisagreement::kDoubtWheels;
   double stretch_m = 0.067;
 

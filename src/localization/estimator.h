@@ -1,13 +1,27 @@
 // Where the rover believes to be, whatever it is worked out from.
 #pragma once
 
-#include "localization/estimator_memory.h"
+#include <optional>
+
+#include "localization/error_state.h"
+#include "math/pose.h"
 #include "messages/aids.h"
 #include "messages/estimates.h"
 #include "messages/measurements.h"
 #include "messages/vehicle_state.h"
 
 namespace rockyard::localization {
+
+// What an estimator of the same kind begins with when the computer is switched on again, at the
+// place where the rover stood. Odometer, roll, pitch and height begin anew, and data that aids took
+// before are of no use any more.
+struct EstimatorMemory {
+  math::Pose2 pose;  // as believed, in W
+  // Of estimators that keep account of their error; empty for others.
+  std::optional<ErrorMatrix> covariance;  // rows as in error_state.h
+  double gyro_scale = 1.0;                // measured over true turn, as believed
+  double wheel_scale = 1.0;               // true over rolled way, as believed
+};
 
 // What became of an aid's data.
 enum class AidUse {

@@ -20,12 +20,11 @@ struct EstimatorMemory;
 // What an estimator gets at the start of a drive, beside its parameters: how wheels, gyro and
 // accelerometers are read is the same for all of them.
 struct EstimatorSetup {
-  messages::DriveCalibration calibration;
-  DeadReckoningParams dead_reckoning;
-  AttitudeParams attitude;
-  math::Pose2 start;  // where operators put the rover down, in the world frame; as remembered
-  // Of the day before, where the rover was not put down but goes on
-  // (localization/estimator_memory.h).
+  messages::DriveCalibration calibration{};
+  DeadReckoningParams dead_reckoning{};
+  AttitudeParams attitude{};
+  math::Pose2 start{};  // where operators put the rover down, in the world frame; as remembered
+  // Of the day before, where the rover was not put down but goes on (localization/estimator.h).
   const EstimatorMemory* memory = nullptr;
 };
 

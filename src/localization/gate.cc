@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "core/check.h"
-#include "core/chi_squared.h"
+#include "core/distributions.h"
 
 namespace rockyard::localization {
 

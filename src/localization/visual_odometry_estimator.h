@@ -11,7 +11,7 @@
 
 #include <map>
 
-#include "localization/dead_reckoning_estimator.h"
+#include "localization/dead_reckoning.h"
 #include "localization/estimator.h"
 #include "localization/estimator_set_params.h"
 

@@ -7,7 +7,7 @@
 #include "core/json_text.h"
 #include "report/baseline_letters.h"
 #include "statistics/metrics.h"
-#include "statistics/moments.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "statistics/cumulative_incidence.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 #include "truth/record.h"
 
 namespace rockyard::report {

@@ -11,8 +11,7 @@
 #include "statistics/equivalence.h"
 #include "statistics/mean_interval.h"
 #include "statistics/metrics.h"
-#include "statistics/moments.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::report {

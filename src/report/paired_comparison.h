@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "statistics/paired_counts.h"
 #include "statistics/proportions.h"
 #include "truth/record.h"
 

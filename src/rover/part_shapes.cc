@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
 namespace {

@@ -7,7 +7,7 @@
 #include "math/pose.h"
 #include "messages/commands.h"
 #include "rover/rover_params.h"
-#include "terrain/rock_holding_params.h"
+#include "terrain/rock_params.h"
 #include "terrain/terrain.h"
 #include "truth/rover_state.h"
 

@@ -36,4 +36,24 @@ RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params) {
   return geometry;
 }
 
+messages::DriveCalibration MakeDriveCalibration(const RoverParams& params) {
+  const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
+  messages::DriveCalibration calibration;
+  calibration.wheel_radius_m = params.geometry.wheel_radius_m;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    calibration.wheel_x_m[i] = geometry.wheel_R[i].x();
+    calibration.wheel_y_m[i] = geometry.wheel_R[i].y();
+  }
+  calibration.steered = geometry.steered;
+  calibration.max_steer_rad = params.drive.max_steer_rad;
+  calibration.max_wheel_speed_m_s = params.drive.speed_m_s;
+  return calibration;
+}
+
+Outline BodyOutline(const RoverGeometryParams& params) {
+  const double dx = 0.5 * params.length_m;
+  const double dy = 0.5 * params.width_m;
+  return {{-dx, -dy}, {dx, -dy}, {dx, dy}, {-dx, dy}};
+}
+
 }  // namespace rockyard::rover

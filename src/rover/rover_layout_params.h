@@ -1,11 +1,16 @@
-// Where wheels and pivots are, in frame R while the rover stands on level ground.
+// Where the parts of the rover are, in frame R while it stands on level ground.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "math/pose.h"
+#include "messages/calibration.h"
 #include "messages/wheels.h"
 #include "rover/rover_geometry_params.h"
+#include "rover/rover_params.h"
 
 namespace rockyard::rover {
 
@@ -22,5 +27,31 @@ struct RoverGeometry {
 
 // Spreads the wheels over the wheelbase and puts the bogies at the end that the parameters name.
 RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params);
+
+// Returns the true drive geometry, of which on-board code gets a copy.
+messages::DriveCalibration MakeDriveCalibration(const RoverParams& params);
+
+// Returns the sinkage up to which the law of the rut holds, m: a sixth of the wheel's diameter
+// (Wong 2008 sec. 2.5).
+inline double LargestLawfulSinkage(const RoverGeometryParams& params) {
+  return params.wheel_radius_m / 3.0;
+}
+
+// A closed outline seen from above: corners (x, y) in R, m, counter-clockwise.
+using Outline = std::vector<std::pair<double, double>>;
+Outline BodyOutline(const RoverGeometryParams& params);  // overall length by width
+
+// Returns the chassis from belly to panel and, on top of it, the solar panel, both as boxes in
+// frame R, m. The panel is 25 mm thick, as in the rover's collision shapes.
+inline std::array<Eigen::AlignedBox3d, 2> BodyBoxes(const RoverGeometryParams& params) {
+  constexpr double kPanelThickness_m = 0.025;
+  const double panel_z_m = params.height_m - kPanelThickness_m;
+  const Eigen::Vector3d belly(0.5 * params.belly_length_m, 0.5 * params.belly_width_m, 0.0);
+  const Eigen::Vector3d panel(0.5 * params.length_m, 0.5 * params.width_m, 0.0);
+  const auto at_height = [](double z_m) { return Eigen::Vector3d(0.0, 0.0, z_m); };
+  return {Eigen::AlignedBox3d(at_height(params.belly_clearance_m) - belly,
+                              at_height(panel_z_m) + belly),
+          Eigen::AlignedBox3d(at_height(panel_z_m) - panel, at_height(params.height_m) + panel)};
+}
 
 }  // namespace rockyard::rover

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "rover/multibody/multibody.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
 namespace {

@@ -6,10 +6,9 @@
 #include <string>
 
 namespace rockyard::rover {
+namespace {
 
 using core::Origin;
-
-namespace {
 
 // Rim speed up to which motion counts as quasi-static, m/s. Inertia tells against weight by the
 // Froude number v^2 / (g r), which is held at that of the comparison in README.md of this folder:
@@ -50,6 +49,26 @@ void RequireSlowMotion(const RoverParams& params, core::FieldVisitor& v) {
 }
 
 }  // namespace
+
+void QuasiStaticParams::Visit(core::FieldVisitor& v) {
+  v.Real("step_s", step_s,
+         {.doc = "time of one step", .min = 1e-3, .max = 1.0, .origin = Origin::kSetting});
+  v.Real("settle_distance_m", settle_distance_m,
+         {.doc = "way between two poses that are settled on the terrain; interpolated between",
+          .min = 1e-3,
+          .max = 0.1,
+          .origin = Origin::kSetting});
+  v.Angle("settle_turn_deg", settle_turn_rad,
+          {.doc = "turn between two settled poses",
+           .min = 0.1,
+           .max = 15.0,
+           .origin = Origin::kSetting});
+  v.Real("rock_settle_share", rock_settle_share,
+         {.doc = "share of both while a rock or a wall bears a part of the rover",
+          .min = 0.05,
+          .max = 1.0,
+          .origin = Origin::kSetting});
+}
 
 void RoverMassParams::Visit(core::FieldVisitor& v) {
   v.Real("total_kg", total_kg,

@@ -7,10 +7,19 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
-#include "rover/quasi_static/quasi_static_params.h"
 #include "rover/rover_geometry_params.h"
 
 namespace rockyard::rover {
+
+// The step at which the state is reported, and how far the wheels travel between two balances.
+struct QuasiStaticParams {
+  double step_s = 0.05;
+  double settle_distance_m = 0.02;
+  double settle_turn_rad = math::DegToRad(3.0);
+  double rock_settle_share = 0.5;
+
+  void Visit(core::FieldVisitor& v);
+};
 
 // How the rover's motion is computed.
 enum class Fidelity { kMultibody, kQuasiStatic };
@@ -56,12 +65,12 @@ struct RoverPhysicsParams {
 
 struct RoverParams {
   Fidelity fidelity = Fidelity::kMultibody;
-  RoverGeometryParams geometry;
-  RoverMassParams mass;
-  RoverDriveParams drive;
-  RoverContactParams contact;
-  RoverPhysicsParams physics;
-  QuasiStaticParams quasi_static;
+  RoverGeometryParams geometry{};
+  RoverMassParams mass{};
+  RoverDriveParams drive{};
+  RoverContactParams contact{};
+  RoverPhysicsParams physics{};
+  QuasiStaticParams quasi_static{};
 
   void Visit(core::FieldVisitor& v);
 };

@@ -51,10 +51,6 @@ Rut WheelRut::RutUnder(double load_N, double dug_slip) const {
   return rut;
 }
 
-double WheelRut::Load_N(double sinkage_m) const {
-  return load_factor_ * std::pow(sinkage_m, exponent_ + 0.5);
-}
-
 double WheelRut::Sinkage_m(double load_N) const {
   // Bekker's law solved for z.
   return std::pow(load_N / load_factor_, 1.0 / (exponent_ + 0.5));

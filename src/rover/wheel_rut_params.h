@@ -45,8 +45,6 @@ class WheelRut {
   // the sinkage is at most the wheel's radius, where its axle meets the ground. At 0, and with
   // slip sinkage off, the same bits as without.
   Rut RutUnder(double load_N, double dug_slip) const;
-  // Returns the load at which the wheel sinks by z >= 0: the inverse of Sinkage_m.
-  double Load_N(double sinkage_m) const;
 
   // These return single fields of the rut, for a load >= 0.
   double Sinkage_m(double load_N) const;

@@ -14,7 +14,6 @@
 #include "core/fields.h"
 #include "math/angles.h"
 #include "messages/calibration.h"
-#include "sensing/laser_params.h"
 #include "sensing/stripe_imager_params.h"
 
 namespace rockyard::sensing {
@@ -71,14 +70,14 @@ struct LightStripeParams {
   double wrong_place_probability = 0.01;
   WrongPlace wrong_place = WrongPlace::kSearchedPart;
   double missed_probability = 0.0;
-  std::vector<double> missed_at;  // instead, of each point, row by row; none: the same for all
+  std::vector<double> missed_at{};  // instead, of each point, row by row; none: the same for all
   double outlier_persistence = 0.0;
   double column_noise_px = 0.0;
 
   // The image fidelity goes from light to images by these; the geometric fidelity does not look at
   // them.
-  LaserParams laser;
-  StripeImagerParams imager;
+  LaserParams laser{};
+  StripeImagerParams imager{};
 
   double column_pitch_rad() const {
     return active_width_m / static_cast<double>(columns) / focal_length_m;

@@ -3,8 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "rover/body_boxes_params.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::sensing {
 

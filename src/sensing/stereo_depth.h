@@ -2,14 +2,113 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
-#include "sensing/stereo_outline.h"
+#include "math/pose.h"
 #include "sensing/stereo_view.h"
+#include "terrain/rock_shape.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::sensing {
+
+inline constexpr int kNoJump = std::numeric_limits<int>::max() / 2;
+
+// Fills `distance_px` with the number of columns from each pixel of a row to the nearest jump of
+// jump_px or more between two columns: 1 for the two pixels on its sides, kNoJump or more where the
+// row has none. A window of half width k around a pixel, 2 k + 1 columns wide, holds both sides of
+// the jump where the distance is k or less. Both spans have one length. Cost: two passes.
+inline void JumpDistances(std::span<const double> row_px, double jump_px,
+                          std::span<int> distance_px) {
+  const std::size_t size = row_px.size();
+  const auto jumps = [&](std::size_t column) {  // between column - 1 and column
+    return std::abs(row_px[column] - row_px[column - 1]) >= jump_px;
+  };
+  int distance = kNoJump;
+  for (std::size_t column = 0; column < size; ++column) {
+    distance = column > 0 && jumps(column) ? 1 : distance + 1;
+    distance_px[column] = distance;
+  }
+  distance = kNoJump;
+  for (std::size_t column = size; column-- > 0;) {
+    distance = column + 1 < size && jumps(column + 1) ? 1 : distance + 1;
+    if (distance < distance_px[column]) distance_px[column] = distance;
+  }
+}
+
+// Returns the first column on the other side of the jump that lies `distance_px` columns from
+// `column`, as JumpDistances has it; the right one of two at the same distance.
+inline std::size_t AcrossJump(std::span<const double> row_px, double jump_px, std::size_t column,
+                              int distance_px) {
+  const auto distance = static_cast<std::size_t>(distance_px);
+  const std::size_t right = column + distance;
+  const bool to_the_right =
+      right < row_px.size() && std::abs(row_px[right] - row_px[right - 1]) >= jump_px;
+  return to_the_right ? right : column - distance;
+}
+
+// A span of columns of an image row, as real numbers; empty where first > last.
+struct ColumnSpan {
+  double first = 1.0;
+  double last = 0.0;
+};
+
+// One row's cut through the rock: quadratics in the column.
+struct RowCut {
+  double quadratic = 0.0;  // discriminant = (quadratic c + 2 linear) c + constant
+  double linear = 0.0;
+  double constant = 0.0;
+  double approach_0 = 0.0;  // approach = approach_0 + approach_1 c
+  double approach_1 = 0.0;
+  double inverse_outside_1 = 0.0;
+  // The columns within which the row can meet the rock. Where it is exact, every column in it does.
+  ColumnSpan span;
+  bool exact = true;
+
+  double Discriminant(double column) const {
+    return (quadratic * column + 2.0 * linear) * column + constant;
+  }
+  double Approach(double column) const { return approach_0 + approach_1 * column; }
+  // Returns one over the depth at a column, 1/m; 0 where the ray misses.
+  double InverseDepth(double column) const;
+  // Returns at least the largest InverseDepth of the row, where the span is exact.
+  double NearestInverseDepth() const;
+};
+
+// The outline of a rock in an image. In the coordinates in which the rock is the unit sphere, with
+// the eye at q and the pixel's ray e(c, r) = e0 + c e1 + r e2, the ray meets it at depth Z where |q
+// + Z e| = 1, so that
+//   1/Z = (B + sqrt(B^2 - K |e|^2)) / K,  B = -q . e, K = |q|^2 - 1 (terrain/rock_shape.h).
+// The discriminant is a quadratic form of (c, r): the outline is a conic, and where it is an
+// ellipse its rows and the columns of each row have closed forms.
+class RockOutline {
+ public:
+  // The view is given in W; `eye_W` is one of its two eyes.
+  RockOutline(const terrain::RockShape& shape, const math::Vector3& center_W,
+              const StereoView& view_W, const math::Vector3& eye_W);
+
+  // Returns whether the eye lies within the rock; then there is no outline.
+  bool ContainsEye() const { return outside_1_ <= 0.0; }
+
+  // Rows from first_row() to last_row(), within the image, can meet the rock.
+  int first_row() const { return first_row_; }
+  int last_row() const { return last_row_; }
+  RowCut Row(double row) const;
+
+ private:
+  void FindRows(int rows);
+
+  double outside_1_;  // K
+  double b0_, b1_, b2_;
+  double a_;             // of c^2 in the discriminant
+  double d0_, d1_;       // of 2 c and of 2 c r
+  double f0_, f1_, f2_;  // of 1, 2 r and r^2
+  int first_row_ = 0;
+  int last_row_ = -1;
+};
 
 // A value for each pixel, [row][column]: one over a depth, 1/m, or a disparity, px; 0 where the
 // pixel shows nothing.

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "sensing/depth_jumps.h"
+#include "sensing/stereo_depth.h"
 
 namespace rockyard::sensing {
 namespace {

@@ -22,7 +22,7 @@ using PixelNumbers = Eigen::Array<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 struct StereoTruth {
   DepthImage left_px;  // disparity of what the left eye sees within max_range_m; 0: nothing
   DepthImage both_px;  // the same where the right eye sees it, too, else 0
-  PixelNumbers jumps;  // columns to the nearest jump in depth, see depth_jumps.h
+  PixelNumbers jumps;  // columns to the nearest jump in depth, see JumpDistances
   PixelFlags behind;   // where there is one: on its farther side
   PixelNumbers rocks;  // index of the rock that the left eye sees there; -1: none
   PixelFlags shaded;   // the surface there turns away from the sun, or something is between

@@ -58,8 +58,8 @@ struct StereoParams {
   double horizontal_fov_rad = math::DegToRad(110.0);
   double vertical_fov_rad = math::DegToRad(90.0);
   double baseline_m = 0.12;
-  StereoMountParams front;
-  StereoMountParams rear;
+  StereoMountParams front{};
+  StereoMountParams rear{};
   double max_range_m = 4.0;
   double disparity_noise_px = 0.18;
   std::int64_t noise_window_px = 1;
@@ -74,8 +74,8 @@ struct StereoParams {
   double edge_mismatch_probability = 0.0;
   double shadow_dropout_probability = 0.0;
   std::int64_t margin_px = 0;
-  StripeWindowParams stripe_window;
-  StereoImageParams images;
+  StripeWindowParams stripe_window{};
+  StereoImageParams images{};
 
   // Focal length along an image row and along a column, px.
   double focal_columns_px() const;

@@ -1,4 +1,4 @@
-// One rectified pinhole pair, as a rover carries it.
+// One rectified pinhole pair, as a rover carries it, and which of its points are handed on.
 #pragma once
 
 #include <cstdint>
@@ -36,5 +36,10 @@ struct StereoView {
 
 // Returns the view in R. The ideal sensor has one eye in the middle of the pair.
 StereoView MakeStereoView(const StereoParams& params, messages::LookDirection direction);
+
+// Whether a point of a look, in R, is handed on: always with the full field of view, else where it
+// lies in stripe_window, which is ahead of the rover or behind it as the look is.
+bool IsWanted(const StereoParams& params, const math::Vector3& p_RoP_R,
+              messages::LookDirection direction);
 
 }  // namespace rockyard::sensing

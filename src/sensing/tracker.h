@@ -22,8 +22,6 @@ class Tracker {
   // kTracker, substream sample + 1; substream 0 holds the systematic error).
   math::Pose2 Observe(const math::Pose2& truth, std::int64_t sample) const;
 
-  const math::Pose2& systematic_error() const { return bias_; }
-
  private:
   TrackerParams params_;
   core::TrialKey key_;

@@ -51,10 +51,10 @@ struct ContactSensorParams {
 };
 
 struct VehicleSensorParams {
-  ArticulationSensorParams articulation;
-  AccelerometerParams accelerometers;
-  MotorCurrentSensorParams motor_current;
-  ContactSensorParams contact;
+  ArticulationSensorParams articulation{};
+  AccelerometerParams accelerometers{};
+  MotorCurrentSensorParams motor_current{};
+  ContactSensorParams contact{};
 
   bool any() const {
     return articulation.enabled || accelerometers.enabled || motor_current.enabled ||

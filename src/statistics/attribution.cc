@@ -8,7 +8,7 @@
 #include "core/check.h"
 #include "core/numbers.h"
 #include "statistics/clustered_rate.h"
-#include "statistics/paired_counts.h"
+#include "statistics/proportions.h"
 
 namespace rockyard::statistics {
 namespace {

@@ -61,7 +61,7 @@ Contrast Removed(std::size_t functions, Combination set);
 
 // Returns the mean over trials of the contrast, with an interval. All contrasts here are linear in
 // the failures, so that each trial has a value of its own between -1 and +1 and pairs are kept as
-// pairs. The interval is Agresti and Min's (statistics/paired_counts.h): near nominal, and no point
+// pairs. The interval is Agresti and Min's (statistics/proportions.h): near nominal, and no point
 // where all trials agree. A bootstrap over trials estimates the same, and has no width there. Where
 // trials share clusters, it is that of as many independent values as say as much (ClusteredValues).
 // Without trials it is NaN.

@@ -11,11 +11,11 @@ namespace rockyard::statistics {
 namespace {
 
 // Positions of a rate in both summaries.
-using RatePair = std::pair<std::size_t, std::size_t>;
+using ColumnPair = std::pair<std::size_t, std::size_t>;
 
-std::vector<RatePair> SharedRates(const MeasurementSummary& first,
-                                  const MeasurementSummary& second) {
-  std::vector<RatePair> shared;
+std::vector<ColumnPair> SharedRates(const MeasurementSummary& first,
+                                    const MeasurementSummary& second) {
+  std::vector<ColumnPair> shared;
   for (std::size_t i = 0; i < first.rates.size(); ++i) {
     const std::size_t other = second.FindRate(first.rates[i].name);
     if (other < second.rates.size()) shared.emplace_back(i, other);
@@ -86,8 +86,8 @@ CellComparison CompareCells(const MeasurementSummary& first, const MeasurementSu
   CellComparison result;
   result.alpha = alpha;
   result.factors = first.factors;
-  const std::vector<RatePair> rates = SharedRates(first, second);
-  for (const RatePair& pair : rates) result.rates.push_back(first.rates[pair.first]);
+  const std::vector<ColumnPair> rates = SharedRates(first, second);
+  for (const ColumnPair& pair : rates) result.rates.push_back(first.rates[pair.first]);
   std::map<std::vector<double>, const Cell*> others;
   if (SameNames(first.factors, second.factors)) {
     for (const Cell& cell : second.cells) others.emplace(cell.factors, &cell);

@@ -9,8 +9,7 @@
 #include <map>
 
 #include "core/check.h"
-#include "statistics/moments.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

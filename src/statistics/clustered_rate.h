@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "statistics/mean_interval.h"
-#include "statistics/paired_counts.h"
 #include "statistics/proportions.h"
 #include "truth/record.h"
 

@@ -8,11 +8,9 @@
 #include "core/numbers.h"
 #include "statistics/compare_rows.h"
 #include "statistics/drive_summary.h"
-#include "statistics/exponential_tail.h"
-#include "statistics/modes.h"
-#include "statistics/moments.h"
+#include "statistics/kolmogorov.h"
 #include "statistics/predictive.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

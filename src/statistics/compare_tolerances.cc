@@ -13,7 +13,7 @@
 #include "statistics/clustered_rate.h"
 #include "statistics/compare_rows.h"
 #include "statistics/drive_summary.h"
-#include "statistics/moments.h"
+#include "statistics/sample_statistics.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::statistics {

@@ -19,6 +19,16 @@ double LogChoose(double n, double k) { return -std::log(n + 1.0) - LogBeta(n - k
 
 }  // namespace
 
+Interval PoissonInterval(std::int64_t count, double confidence) {
+  EXPECT(count >= 0 && confidence > 0.0 && confidence < 1.0);
+  const double tail = 0.5 * (1.0 - confidence);
+  const auto seen = static_cast<double>(count);
+  // P(N >= n; mean) is the regularized lower incomplete gamma function P(n, mean), P(N <= n; mean)
+  // the upper one Q(n + 1, mean).
+  const double low = count == 0 ? 0.0 : boost::math::gamma_p_inv(seen, tail);
+  return {low, boost::math::gamma_q_inv(seen + 1.0, tail)};
+}
+
 CountLaw BinomialLaw(std::int64_t trials, double rate) {
   EXPECT(trials >= 0 && rate >= 0.0 && rate <= 1.0);
   const boost::math::binomial law(static_cast<double>(trials), rate);

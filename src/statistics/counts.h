@@ -1,4 +1,5 @@
-// What a simulated pool predicts for a count in a small set of real runs.
+// What one count says of its mean, and what a simulated pool predicts for a count in a small set of
+// real runs.
 //
 // If simulation and reality follow one law, then n new runs beside a pool with K of N show k with
 // probability BetaBinomial(k; n, K + 1/2, N - K + 1/2): the posterior predictive under Jeffreys'
@@ -12,6 +13,11 @@
 #include "statistics/proportions.h"
 
 namespace rockyard::statistics {
+
+// Returns the exact two-sided interval of the mean of a Poisson number of which `count` >= 0 was
+// seen (Garwood 1936, Biometrika 28): its ends are the means at which that many or more, or that
+// many or fewer, have the probability (1 - confidence) / 2. Cost: constant.
+Interval PoissonInterval(std::int64_t count, double confidence = kConfidence);
 
 // The probabilities of the counts 0..n. They sum to 1.
 using CountLaw = std::vector<double>;

@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "statistics/clustered_rate.h"
-#include "statistics/modes.h"
-#include "statistics/moments.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

@@ -26,7 +26,7 @@ struct ColumnSummary {
   double median = 0.0;
   double mean = 0.0;
   double mode = 0.0;      // half-sample mode
-  Interval mode_range{};  // by subsampling, no coverage claimed (modes.h)
+  Interval mode_range{};  // by subsampling, no coverage claimed
   double p95 = 0.0;
   double max = 0.0;
   double std = 0.0;  // unbiased

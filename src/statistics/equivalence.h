@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <span>
 
-#include "statistics/paired_counts.h"
 #include "statistics/proportions.h"
 
 namespace rockyard::statistics {

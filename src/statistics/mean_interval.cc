@@ -6,7 +6,7 @@
 
 #include "core/check.h"
 #include "core/numbers.h"
-#include "statistics/moments.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

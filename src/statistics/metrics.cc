@@ -7,8 +7,7 @@
 #include "core/numbers.h"
 #include "statistics/clustered_rate.h"
 #include "statistics/drive_summary.h"
-#include "statistics/moments.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 #include "truth/end_cause.h"
 
 namespace rockyard::statistics {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/check.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

@@ -132,11 +132,11 @@ struct ReferenceScenario {
 };
 
 struct PublishedReference {
-  std::string title;
-  std::string citation;
-  std::vector<ReferenceScenario> scenarios;  // those whose files are known
-  std::vector<PublishedValue> values;
-  std::vector<Misprint> misprints;
+  std::string title{};
+  std::string citation{};
+  std::vector<ReferenceScenario> scenarios{};  // those whose files are known
+  std::vector<PublishedValue> values{};
+  std::vector<Misprint> misprints{};
 };
 
 }  // namespace rockyard::statistics

@@ -11,11 +11,9 @@
 
 #include "core/check.h"
 #include "core/numbers.h"
-#include "statistics/moments.h"
 #include "statistics/multiple_testing.h"
-#include "statistics/quantiles.h"
-#include "statistics/regression_power.h"
 #include "statistics/regression_samples.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

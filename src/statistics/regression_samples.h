@@ -1,13 +1,17 @@
-// One metric of a regression check: what both sides say of it, tested. For regression*.cc only.
+// One metric of a regression check: what both sides say of it, tested, and what the check would
+// have seen. For regression*.cc only.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "statistics/equivalence.h"
 #include "statistics/proportions.h"
 #include "statistics/regression.h"
+#include "statistics/sample_size.h"
 
 namespace rockyard::statistics {
 
@@ -39,5 +43,19 @@ Spread SpreadOf(const RegressionSamples& samples);
 
 // Fills the p-values and the interval of the row, of which metric, paired and margin are set.
 void TestSamples(const RegressionSamples& samples, RegressionRow& row);
+
+// Fills seen_80, seen_90, to_see, sees_enough and trials_for_margin of rows whose tests and levels
+// are known. Keeps Fisher's tests, which many rows share.
+class RegressionPower {
+ public:
+  void Fill(const RegressionSamples& samples, double equivalence_alpha, RegressionRow& row);
+
+ private:
+  void FillRate(const RegressionSamples& samples, RegressionRow& row);
+  double SeenRateShift(const RegressionSamples& samples, const RegressionRow& row, double power);
+  double SeenGroupShift(const RegressionSamples& samples, double level, double power);
+
+  std::map<std::pair<std::int64_t, double>, FisherTest> tests_;  // by trials of a group and level
+};
 
 }  // namespace rockyard::statistics

@@ -1,12 +1,19 @@
-// How far a straight blind swath gets through a rock field before it first touches an obstacle.
+// Where a rover that drives straight along x first touches a rock, and how far a blind swath gets
+// through a rock field before that.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "terrain/rock.h"
 #include "terrain/rock_params.h"
 
 namespace rockyard::terrain {
+
+// Returns the smallest x of the part of the rock's outline (the ellipse of its horizontal axes)
+// that lies within half_width_m of the line y = y_m; none where no part does. The front of the
+// rover is taken as a straight edge of that half width.
+std::optional<double> FirstContact(const Rock& rock, double y_m, double half_width_m);
 
 // A swath of width W is all that passes between y - W/2 and y + W/2 as its front moves along +x.
 // Obstacles are rocks with diameters of at least min_diameter_m, whatever their height.

@@ -8,7 +8,7 @@
 
 #include "terrain/arena.h"
 #include "terrain/field_export.h"
-#include "terrain/rock_points.h"
+#include "terrain/rock.h"
 
 namespace rockyard::terrain {
 namespace {

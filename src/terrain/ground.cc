@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "terrain/depression_field.h"
-#include "terrain/ray_crossing.h"
+#include "terrain/relief.h"
 #include "terrain/roughness_field.h"
 #include "terrain/roughness_spline.h"
 

@@ -7,8 +7,8 @@
 
 #include "core/random.h"
 #include "math/pose.h"
-#include "terrain/ground_params.h"
 #include "terrain/relief.h"
+#include "terrain/terrain_params.h"
 
 namespace rockyard::terrain {
 

@@ -3,7 +3,7 @@
 
 #include "math/pose.h"
 #include "terrain/rock.h"
-#include "terrain/rock_holding_params.h"
+#include "terrain/rock_params.h"
 
 namespace rockyard::terrain {
 

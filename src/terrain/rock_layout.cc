@@ -11,7 +11,7 @@
 #include "core/distributions.h"
 #include "terrain/arena.h"
 #include "terrain/placement.h"
-#include "terrain/rock_profile.h"
+#include "terrain/rock.h"
 #include "terrain/rock_size_law.h"
 
 namespace rockyard::terrain {

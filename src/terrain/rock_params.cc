@@ -1,12 +1,26 @@
 #include "terrain/rock_params.h"
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 namespace rockyard::terrain {
 namespace {
 
 using core::Origin;
+
+// Most rocks of a list; about 10 MB of JSON.
+constexpr std::size_t kMostRocks = 100000;
+
+void RequireLength(std::string_view name, const std::vector<double>& list, std::size_t rocks,
+                   core::FieldVisitor& v) {
+  v.Require(
+      name, list.size() == rocks,
+      "has " + std::to_string(list.size()) + " entries where x_m has " + std::to_string(rocks),
+      "give every rock one entry of each list");
+}
 
 // Share of the count area that exact counts may cover: well below the 54.7 % at which random
 // sequential placement of equal discs jams, so that every rock finds a place.
@@ -171,6 +185,71 @@ void VisitShape(RockFieldParams& p, core::FieldVisitor& v) {
 }
 
 }  // namespace
+
+void RockHoldingParams::Visit(core::FieldVisitor& v) {
+  v.Real("rock_density_kg_m3", rock_density_kg_m3,
+         {.doc = "movable: density of the rocks",
+          .min = 100.0,
+          .max = 10000.0,
+          .origin = Origin::kAssumed,
+          .source = "solid andesite or basalt; vesicular rocks are lighter",
+          .study_low = 2300.0,
+          .study_high = 3000.0});
+  v.Real("soil_density_kg_m3", soil_density_kg_m3,
+         {.doc = "movable: density of the soil that a rock pushes ahead",
+          .min = 100.0,
+          .max = 4000.0,
+          .origin = Origin::kAssumed,
+          .source = "dry sand, loose to dense",
+          .study_low = 1400.0,
+          .study_high = 1800.0});
+  v.Angle("soil_friction_angle_deg", soil_friction_angle_rad,
+          {.doc = "movable: angle of internal friction of that soil, without cohesion",
+           .min = 0.0,
+           .max = 60.0,
+           .origin = Origin::kAssumed,
+           .source = "dry sand, loose to dense",
+           .study_low = 30.0,
+           .study_high = 40.0});
+  v.Real("rock_soil_friction", rock_soil_friction,
+         {.doc = "movable: friction between a rock and the soil under it",
+          .min = 0.0,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = "rough rock on sand, somewhat below the soil's own friction of 0.7",
+          .study_low = 0.4,
+          .study_high = 0.8});
+}
+
+void ListedRocksParams::Visit(core::FieldVisitor& v) {
+  v.Reals("x_m", x_m,
+          {.doc = "listed: x of every centre",
+           .min = -1000.0,
+           .max = 1000.0,
+           .origin = Origin::kSetting,
+           .max_entries = kMostRocks});
+  v.Reals("y_m", y_m,
+          {.doc = "listed: y of every centre",
+           .min = -1000.0,
+           .max = 1000.0,
+           .origin = Origin::kSetting,
+           .max_entries = kMostRocks});
+  v.Reals("diameter_m", diameter_m,
+          {.doc = "listed: diameter of every rock",
+           .min = 0.02,
+           .max = 5.0,
+           .origin = Origin::kSetting,
+           .max_entries = kMostRocks});
+  v.Reals("height_m", height_m,
+          {.doc = "listed: height of every rock above the ground",
+           .min = 0.01,
+           .max = 5.0,
+           .origin = Origin::kSetting,
+           .max_entries = kMostRocks});
+  RequireLength("y_m", y_m, x_m.size(), v);
+  RequireLength("diameter_m", diameter_m, x_m.size(), v);
+  RequireLength("height_m", height_m, x_m.size(), v);
+}
 
 double MooreNumberPerM2(double k_per_m2, double diameter_m) {
   return k_per_m2 * std::pow(diameter_m, -kMooreExponent);

@@ -3,12 +3,38 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/fields.h"
-#include "terrain/listed_rocks_params.h"
-#include "terrain/rock_holding_params.h"
+#include "math/angles.h"
 
 namespace rockyard::terrain {
+
+// The values that terrain/rock_holding.h asks for.
+struct RockHoldingParams {
+  double rock_density_kg_m3 = 2700.0;
+  double soil_density_kg_m3 = 1600.0;
+  double soil_friction_angle_rad = math::DegToRad(35.0);
+  double rock_soil_friction = 0.6;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// Each list has one entry for every rock. The rocks are round, the same in every trial, and share
+// burial_mean of the field; overlap, clear zones and shape ratios do not touch them.
+struct ListedRocksParams {
+  std::vector<double> x_m;  // centres, in the world frame
+  std::vector<double> y_m;
+  std::vector<double> diameter_m;
+  std::vector<double> height_m;  // above the ground
+
+  // Returns whether all lists are as long as each other.
+  bool IsSound() const {
+    return y_m.size() == x_m.size() && diameter_m.size() == x_m.size() &&
+           height_m.size() == x_m.size();
+  }
+  void Visit(core::FieldVisitor& v);
+};
 
 // Exponent of Moore's law N(>=D) = k D^-2.66 per m2 (Matthies 1995 eq. 4, after Moore and Jakosky
 // 1989).
@@ -67,10 +93,10 @@ struct RockFieldParams {
 
   OverlapRule overlap = OverlapRule::kRelocate;
   LineRule mirror_line = LineRule::kMerge;
-  ListedRocksParams listed;
+  ListedRocksParams listed{};
   double clear_radius_m = 0.5;
   RockMobility mobility = RockMobility::kFixed;
-  RockHoldingParams holding;
+  RockHoldingParams holding{};
 
   // Returns the expected number of rocks per m2 of the layout area, before clear zones and overlap;
   // 0 for listed ones, which follow no law.

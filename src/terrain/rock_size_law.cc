@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/check.h"
 
@@ -17,14 +16,6 @@ double PowerIntegral(double power, double low, double high) {
 }
 
 }  // namespace
-
-double MooreCoveredFraction(double k_per_m2, double low_m, double high_m) {
-  EXPECT(low_m > 0.0 && high_m >= low_m);
-  // -dN/dD = k m D^(-m - 1) with m = 2.66, so the integral of (pi/4) D^2 (-dN/dD) is (pi/4) k m
-  // times that of D^(1 - m): PowerIntegral of 2 - m.
-  return 0.25 * std::numbers::pi * k_per_m2 * kMooreExponent *
-         PowerIntegral(2.0 - kMooreExponent, low_m, high_m);
-}
 
 MooreSizeLaw::MooreSizeLaw(double min_m, double max_m)
     : min_m_(min_m),

@@ -1,4 +1,4 @@
-// Distributions of rock diameters, with the closed forms that tests and audits compare with.
+// Distributions of rock diameters, with the closed forms that audits compare with.
 #pragma once
 
 #include <memory>
@@ -6,11 +6,6 @@
 #include "terrain/rock_params.h"
 
 namespace rockyard::terrain {
-
-// Returns the share of the ground that round rocks of Moore's law with diameters from low_m to
-// high_m cover, overlap not counted: the integral of (pi D^2 / 4) (-dN/dD), Matthies 1995 eq. (4).
-// high_m may be infinite; then k = 0.013 and 0.00415 from 0.1 m give the published 19 % and 6 %.
-double MooreCoveredFraction(double k_per_m2, double low_m, double high_m);
 
 // The distribution of one rock's diameter.
 class RockSizeLaw {

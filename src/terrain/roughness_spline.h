@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "terrain/ray_crossing.h"
 #include "terrain/relief.h"
 #include "terrain/roughness_field.h"
 

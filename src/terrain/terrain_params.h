@@ -1,18 +1,107 @@
 // Parameters of a terrain: ground, rocks and arena.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "core/fields.h"
-#include "terrain/arena_params.h"
-#include "terrain/ground_params.h"
+#include "terrain/depression_params.h"
 #include "terrain/rock_params.h"
+#include "terrain/soil_params.h"
 
 namespace rockyard::terrain {
 
+enum class ArenaKind {
+  kOpen,             // the rock field goes on beyond the arena
+  kWalled,           // vertical walls at the arena's edges
+  kVirtualUnfolded,  // layout mirrored about the mirror lines again and again; nothing at the lines
+  kVirtualReflected,  // layout mirrored once, up to the edges; the trial reflects the rover
+};
+
+// The arena is the rectangle x_min_m <= x <= x_min_m + length_m, |y| <= width_m / 2.
+struct ArenaParams {
+  ArenaKind kind = ArenaKind::kVirtualReflected;
+  double x_min_m = -2.0;
+  double length_m = 12.0;
+  double width_m = 4.0;
+  double mirror_margin_m = 0.9;
+  double open_margin_m = 4.0;
+  std::int64_t unfolded_strips = 2;
+
+  bool IsVirtual() const {
+    return kind == ArenaKind::kVirtualUnfolded || kind == ArenaKind::kVirtualReflected;
+  }
+  // The mirror lines of the virtual arenas are y = +-this.
+  double MirrorLine() const { return 0.5 * width_m - mirror_margin_m; }
+  // Returns whether a course may start or end there: in the arena and, where virtual, between the
+  // mirror lines.
+  bool HoldsCoursePoint(double x_m, double y_m) const {
+    const double half_width_m = IsVirtual() ? MirrorLine() : 0.5 * width_m;
+    return x_m >= x_min_m && x_m <= x_min_m + length_m && y_m >= -half_width_m &&
+           y_m <= half_width_m;
+  }
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// The plane, its roughness, ditches and pits, and its soil.
+struct GroundParams {
+  double slope_rad = 0.0;
+  double slope_direction_rad = 0.0;
+  double roughness_rms_m = 0.0;
+  double hurst_exponent = 0.8;
+  double roughness_wavelength_m = 2.0;
+  DitchesParams ditches{};
+  PitsParams pits{};
+  SoilParams soil{};
+
+  bool HasDepressions() const { return !ditches.x_m.empty() || !pits.x_m.empty(); }
+  // Returns whether the ground is level everywhere.
+  bool IsLevel() const { return slope_rad == 0.0 && roughness_rms_m == 0.0 && !HasDepressions(); }
+
+  void Visit(core::FieldVisitor& v) {
+    v.Angle("slope_deg", slope_rad,
+            {.doc = "inclination of the ground plane",
+             .min = 0.0,
+             .max = 45.0,
+             .origin = core::Origin::kSetting});
+    v.Angle("slope_direction_deg", slope_direction_rad,
+            {.doc = "uphill direction, from +x towards +y",
+             .min = -360.0,
+             .max = 360.0,
+             .origin = core::Origin::kSetting});
+    v.Real("roughness_rms_m", roughness_rms_m,
+           {.doc = "root mean square height of the fractal roughness; 0 leaves a plane",
+            .min = 0.0,
+            .max = 0.5,
+            .origin = core::Origin::kSetting});
+    v.Real("hurst_exponent", hurst_exponent,
+           {.doc = "Hurst exponent of the roughness",
+            .min = 0.05,
+            .max = 1.0,
+            .origin = core::Origin::kAssumed,
+            .source = "no effect at the default RMS of 0",
+            .study_low = 0.5,
+            .study_high = 1.0});
+    v.Real("roughness_wavelength_m", roughness_wavelength_m,
+           {.doc = "longest wavelength of the roughness",
+            .min = 0.2,
+            .max = 100.0,
+            .origin = core::Origin::kAssumed,
+            .source = "no effect at the default RMS of 0",
+            .study_low = 1.0,
+            .study_high = 8.0});
+    v.Group("ditches", ditches, "straight trenches with round ends, one by one");
+    v.Group("pits", pits, "round holes, one by one");
+    v.Group("soil", soil, "what the ground does to wheels");
+  }
+};
+
 // The whole of a scenario's `terrain` section.
 struct TerrainParams {
-  GroundParams ground;
-  RockFieldParams rocks;
-  ArenaParams arena;
+  GroundParams ground{};
+  RockFieldParams rocks{};
+  ArenaParams arena{};
 
   // Returns the area over which the rocks are laid out at random, before mirroring, m2.
   double LayoutArea() const;
@@ -23,3 +112,9 @@ struct TerrainParams {
 };
 
 }  // namespace rockyard::terrain
+
+template <>
+struct rockyard::core::EnumNames<rockyard::terrain::ArenaKind> {
+  static constexpr std::array<std::string_view, 4> kNames{"open", "walled", "virtual_unfolded",
+                                                          "virtual_reflected"};
+};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "localization/beacon_fix.h"
+#include "localization/aid_fixes.h"
 #include "trial/lander_place.h"
 
 namespace rockyard::trial {

@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "core/random.h"
+#include "localization/aid_fixes.h"
 #include "localization/estimator.h"
-#include "localization/sun_compass.h"
-#include "sensing/lander_fix.h"
-#include "sensing/radio_beacon.h"
-#include "sensing/sun_sensor.h"
+#include "sensing/aids.h"
 #include "terrain/terrain.h"
 #include "trial/aid_schedule.h"
 #include "trial/capture_counter.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/chi_squared.h"
+#include "core/distributions.h"
 #include "math/angles.h"
 
 namespace rockyard::trial {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "math/angles.h"
-#include "rover/steepest_slope_params.h"
+#include "rover/standing_params.h"
 #include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {

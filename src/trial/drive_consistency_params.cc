@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "rover/static_loads_params.h"
+#include "rover/standing_params.h"
 #include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "math/angles.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 #include "sensing/tracker.h"
 #include "trial/belief.h"
 #include "trial/drive_observer.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "localization/estimator_memory.h"
+#include "localization/estimator.h"
 #include "math/pose.h"
 #include "terrain/field.h"
 #include "trial/power_budget.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/random.h"
-#include "sensing/lander_fix.h"
+#include "sensing/aids.h"
 #include "trial/course_params.h"
 
 namespace rockyard::trial {

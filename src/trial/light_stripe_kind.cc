@@ -5,7 +5,7 @@
 
 #include "perception/cloud_elevations.h"
 #include "perception/triangulation.h"
-#include "rover/body_boxes_params.h"
+#include "rover/rover_layout_params.h"
 #include "sensing/stripe_layout_params.h"
 #include "sensing/stripe_view_params.h"
 #include "trial/drive_params.h"

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "math/pose.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 #include "sensing/stripe_layout_params.h"
 
 namespace rockyard::trial {

@@ -1,4 +1,4 @@
-#include "localization/dead_reckoning_estimator.h"
+#include "localization/dead_reckoning.h"
 #include "localization/error_state_filter.h"
 #include "localization/visual_odometry_estimator.h"
 #include "trial/oracle_estimator.h"

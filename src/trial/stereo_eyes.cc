@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "sensing/stereo_window.h"
+#include "sensing/stereo_view.h"
 #include "trial/onboard_calibration.h"
 #include "vision/cameras/cahv.h"
 #include "vision/stereo/disparity.h"

@@ -13,7 +13,7 @@
 #include "core/refusals.h"
 #include "experiments/hazard_scenarios.h"
 #include "scenario/load.h"
-#include "statistics/straight_drift.h"
+#include "statistics/closed_forms.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/chi_squared.h"
+#include "core/distributions.h"
 #include "experiments/scenario_experiment.h"
 #include "scenario/shipped.h"
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "core/chi_squared.h"
+#include "core/distributions.h"
 #include "core/refusals.h"
 #include "experiments/scenario_experiment.h"
 #include "scenario/shipped.h"

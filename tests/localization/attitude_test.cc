@@ -13,11 +13,7 @@ using math::Vector3;
 
 constexpr double kTick_s = 0.1;
 
-AttitudeParams Unfiltered() {
-  AttitudeParams params;
-  params.filter_s = 0.0;
-  return params;
-}
+AttitudeParams Unfiltered() { return AttitudeParams{.filter_s = 0.0}; }
 
 // What accelerometers of a rover at rest feel, in any gravity.
 messages::VehicleState AtRest(const math::Transform& X_WR, double gravity_m_s2 = 3.72) {
@@ -72,8 +68,7 @@ TEST(AttitudeTest, HeightGrowsByTheSineOfTheClimb) {
 
 TEST(AttitudeTest, LowPassFollowsAStepExponentially) {
   // Of a step between two attitudes n ticks ago, exp(-n dt / tau) of the old force is left.
-  AttitudeParams params;
-  params.filter_s = 0.5;
+  AttitudeParams params{.filter_s = 0.5};
   AttitudeEstimator estimator(params);
   const math::Transform level = math::Transform::Identity();
   const math::Transform down = math::MakePose(Vector3::Zero(), 0.0, 0.3, 0.0);
@@ -95,8 +90,7 @@ TEST(AttitudeTest, IsLevelWithoutAccelerometersAndWhereItIsToldSo) {
   const math::Transform X_WR = math::MakePose(Vector3::Zero(), 0.0, 0.3, 0.2);
   AttitudeEstimator blind(Unfiltered());
   blind.Integrate({}, 1.0, kTick_s);
-  AttitudeParams params;
-  params.source = AttitudeSource::kLevel;
+  AttitudeParams params{.source = AttitudeSource::kLevel};
   AttitudeEstimator told(params);
   told.Integrate(AtRest(X_WR), 1.0, kTick_s);
   for (const auto& estimate : {blind.estimate(), told.estimate()}) {

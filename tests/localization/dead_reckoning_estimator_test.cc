@@ -1,9 +1,8 @@
-#include "localization/dead_reckoning_estimator.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "localization/dead_reckoning.h"
 #include "math/pose.h"
 
 namespace rockyard::localization {
@@ -11,15 +10,10 @@ namespace {
 
 constexpr double kTick_s = 0.05;
 
-EstimatorSetup StartSetup() {
-  EstimatorSetup setup;
-  setup.start = {1.0, 2.0, 0.5};
-  return setup;
-}
+EstimatorSetup StartSetup() { return EstimatorSetup{.start = {1.0, 2.0, 0.5}}; }
 
 messages::MotionMeasurement Rolling(double wheel_turn_rad, double turn_rad = 0.0) {
-  messages::MotionMeasurement motion;
-  motion.duration_s = kTick_s;
+  messages::MotionMeasurement motion{.duration_s = kTick_s};
   motion.wheel_turn_rad.fill(wheel_turn_rad);
   motion.turn_rad = turn_rad;
   return motion;

@@ -13,10 +13,8 @@ namespace {
 using messages::MotionMeasurement;
 
 messages::DriveCalibration Calibration() {
-  messages::DriveCalibration calibration;
-  calibration.wheel_radius_m = kWheelRadius_m;
-  calibration.steered = {true, false, true, true, false, true};
-  return calibration;
+  return messages::DriveCalibration{.wheel_radius_m = kWheelRadius_m,
+                                    .steered = {true, false, true, true, false, true}};
 }
 
 MotionMeasurement Straight(double distance_m, double turn_rad = 0.0) {
@@ -46,9 +44,7 @@ TEST(DeadReckoningTest, BackwardMotionAddsToTheOdometer) {
 
 TEST(DeadReckoningTest, TurnInPlaceMovesNothing) {
   auto dead_reckoning = Make();
-  MotionMeasurement motion;
-  motion.wheel_turn_rad = {-2.0, -1.5, -2.0, 2.0, 1.5, 2.0};
-  motion.turn_rad = 0.3;
+  MotionMeasurement motion{.wheel_turn_rad = {-2.0, -1.5, -2.0, 2.0, 1.5, 2.0}, .turn_rad = 0.3};
   dead_reckoning.Integrate(motion);
   EXPECT_EQ(dead_reckoning.estimate().x_m, 0.0);
   EXPECT_EQ(dead_reckoning.estimate().distance_m, 0.0);
@@ -56,8 +52,7 @@ TEST(DeadReckoningTest, TurnInPlaceMovesNothing) {
 }
 
 TEST(DeadReckoningTest, CalibratedScaleAndRadius) {
-  DeadReckoningParams params;
-  params.distance_scale = 0.95;
+  DeadReckoningParams params{.distance_scale = 0.95};
   auto dead_reckoning = Make(params);
   dead_reckoning.Integrate(Straight(1.0));
   EXPECT_NEAR(dead_reckoning.estimate().x_m, 0.95, 1e-12);
@@ -66,8 +61,7 @@ TEST(DeadReckoningTest, CalibratedScaleAndRadius) {
 // A circle in n steps closes exactly with the midpoint rule, and misses by a step's second order
 // with the equations of section 5 as printed.
 double ClosingError(StepHeading rule, int steps) {
-  DeadReckoningParams params;
-  params.step_heading = rule;
+  DeadReckoningParams params{.step_heading = rule};
   auto dead_reckoning = Make(params);
   // A quarter of a circle of radius 1 m ends at (1, 1).
   for (int i = 0; i < steps; ++i) {
@@ -96,8 +90,7 @@ TEST(DeadReckoningTest, CornerWheelsLengthenArcs) {
   auto all = Make();
   all.Integrate(motion);
   EXPECT_NEAR(all.estimate().distance_m / (0.75 * turn), 1.038, 0.001);
-  DeadReckoningParams params;
-  params.wheels = OdometryWheels::kUnsteered;
+  DeadReckoningParams params{.wheels = OdometryWheels::kUnsteered};
   auto middle = Make(params);
   middle.Integrate(motion);
   EXPECT_NEAR(middle.estimate().distance_m, 0.75 * turn, 1e-12);
@@ -106,8 +99,7 @@ TEST(DeadReckoningTest, CornerWheelsLengthenArcs) {
 // Six wheels at x = +-half_length and 0, y = +-half_track roll about (0, R), and steer for it.
 MotionMeasurement SteeredWheels(double half_length_m, double half_track_m, double radius_m,
                                 double turn_rad) {
-  MotionMeasurement motion;
-  motion.turn_rad = turn_rad;
+  MotionMeasurement motion{.turn_rad = turn_rad};
   const double x_m[] = {half_length_m, 0.0, -half_length_m, half_length_m, 0.0, -half_length_m};
   for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
     const double y_m = wheel < 3 ? half_track_m : -half_track_m;
@@ -128,8 +120,7 @@ MotionMeasurement SixSteeredWheels(double radius_m, double turn_rad) {
 // What an odometer reads too much on an arc, in per cent, with the wheels of Rocky 3.2.
 double OverCountPercent(OdometryWheels wheels, double radius_m) {
   constexpr double kTurn_rad = 0.01;
-  DeadReckoningParams params;
-  params.wheels = wheels;
+  DeadReckoningParams params{.wheels = wheels};
   auto dead_reckoning = Make(params);
   dead_reckoning.Integrate(SteeredWheels(0.26, 0.20, radius_m, kTurn_rad));
   return 100.0 * (dead_reckoning.estimate().distance_m / (radius_m * kTurn_rad) - 1.0);
@@ -149,8 +140,7 @@ TEST(DeadReckoningTest, OverCountOnTheArcsOfRocky32) {
 }
 
 TEST(DeadReckoningTest, SteeringTakenIntoAccountIsExactOnArcs) {
-  DeadReckoningParams params;
-  params.wheels = OdometryWheels::kForward;
+  DeadReckoningParams params{.wheels = OdometryWheels::kForward};
   for (const double radius_m : {0.5, 1.0, 4.0}) {
     auto forward = Make(params);
     forward.Integrate(SixSteeredWheels(radius_m, 0.1));

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "localization/dead_reckoning_estimator.h"
+#include "localization/dead_reckoning.h"
 #include "localization/filter_rover.h"
 
 namespace rockyard::localization {
@@ -16,11 +16,9 @@ constexpr int kHeading = error::kHeading;
 
 // A rover whose heading, wheels and gyro are right: its place alone is uncertain.
 ErrorStateFilterParams AlongOnly() {
-  ErrorStateFilterParams params;
-  params.prior = {.gyro_scale_sd = 0.0, .wheel_scale_sd = 0.0};
-  params.drift.heading_variance_deg2_per_m = 0.0;
-  params.drift.distance_variance_m2_per_m = 0.01;
-  return params;
+  return ErrorStateFilterParams{
+      .prior = {.gyro_scale_sd = 0.0, .wheel_scale_sd = 0.0},
+      .drift = {.heading_variance_deg2_per_m = 0.0, .distance_variance_m2_per_m = 0.01}};
 }
 
 EstimatorSetup AlongX() {
@@ -216,8 +214,7 @@ TEST(ErrorStateFilter, AMotionSaysNothingOfTheHeadingBeforeIt) {
 }
 
 TEST(ErrorStateFilter, LearnsHowItsSensorsAreWrong) {
-  ErrorStateFilterParams params;
-  params.prior.gyro_bias_sd_rad_s = 0.002;
+  ErrorStateFilterParams params{.prior = {.gyro_bias_sd_rad_s = 0.002}};
   ErrorStateFilterParams noiseless = params;
   noiseless.drift.distance_variance_m2_per_m = 0.0;
   noiseless.drift.heading_variance_deg2_per_m = 0.0;
@@ -244,8 +241,7 @@ TEST(ErrorStateFilter, LearnsHowItsSensorsAreWrong) {
 
 // Angles that differ by a whole turn are one.
 TEST(ErrorStateFilter, TakesAHeadingAcrossTheBack) {
-  ErrorStateFilterParams params;
-  params.prior.heading_sd_rad = 0.1;
+  ErrorStateFilterParams params{.prior = {.heading_sd_rad = 0.1}};
   EstimatorSetup setup = FilterSetup();
   setup.start.heading_rad = math::DegToRad(179.0);
   ErrorStateFilter filter(params, setup);
@@ -343,8 +339,7 @@ TEST(ErrorStateFilter, ReckonsWithTheDriftItIsTold) {
 
 // Way is way, forwards or backwards.
 TEST(ErrorStateFilter, LosesAsMuchBackwards) {
-  ErrorStateFilterParams params;
-  params.drift.scrapes_per_m = 0.2;
+  ErrorStateFilterParams params{.drift = {.scrapes_per_m = 0.2}};
   const auto covariance = [&](double step_m) {
     ErrorStateFilter filter(params, FilterSetup());
     for (int i = 0; i < 200; ++i) filter.Propagate(Rolled(step_m, 0.0, 0.05));

@@ -1,7 +1,7 @@
 // What an estimator keeps over a night, and what it begins the next day with.
 #include <gtest/gtest.h>
 
-#include "localization/dead_reckoning_estimator.h"
+#include "localization/dead_reckoning.h"
 #include "localization/filter_rover.h"
 #include "localization/visual_odometry_estimator.h"
 
@@ -9,10 +9,8 @@ namespace rockyard::localization {
 namespace {
 
 ErrorStateFilterParams Uncertain() {
-  ErrorStateFilterParams params;
-  params.prior.gyro_bias_sd_rad_s = 1e-4;
-  params.drift.scrapes_per_m = 0.3;
-  return params;
+  return ErrorStateFilterParams{.prior = {.gyro_bias_sd_rad_s = 1e-4},
+                                .drift = {.scrapes_per_m = 0.3}};
 }
 
 void DriveInACurve(Estimator& estimator, int ticks) {

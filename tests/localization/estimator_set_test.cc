@@ -5,7 +5,7 @@
 #include "core/archive.h"
 #include "core/json_text.h"
 #include "core/refusals.h"
-#include "localization/dead_reckoning_estimator.h"
+#include "localization/dead_reckoning.h"
 #include "localization/toy_estimator.h"
 
 namespace rockyard::localization {
@@ -48,8 +48,7 @@ TEST(EstimatorSet, TheFirstIsChosen) {
 
 TEST(EstimatorSet, MakesWhatIsNamedWithItsParameters) {
   const Group group = Read(R"({"estimator": "toy", "toy": {"variance_m": 0.5}})");
-  EstimatorSetup setup;
-  setup.calibration.wheel_radius_m = 0.1;
+  EstimatorSetup setup{.calibration = {.wheel_radius_m = 0.1}};
   const auto estimator = group.set.chosen().Make(setup);
   messages::MotionMeasurement motion;
   motion.wheel_turn_rad.fill(4.0);

@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "core/hash.h"
-#include "localization/dead_reckoning_estimator.h"
+#include "localization/dead_reckoning.h"
 #include "localization/filter_rover.h"
 
 namespace rockyard::localization {
@@ -39,8 +39,7 @@ BENCHMARK(BM_DeadReckoning)->Unit(benchmark::kNanosecond);
 
 // A stretch of one tick: what carrying the covariance on costs.
 void BM_EndStretch(benchmark::State& state) {
-  ErrorStateFilterParams params;
-  params.stretch_m = 0.0;
+  ErrorStateFilterParams params{.stretch_m = 0.0};
   Propagate(state, ErrorStateFilter(params, FilterSetup()));
 }
 BENCHMARK(BM_EndStretch)->Unit(benchmark::kNanosecond);

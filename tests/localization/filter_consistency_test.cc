@@ -3,7 +3,7 @@
 // Kirubarajan 2001, section 5.4), with controls in which it is wrong.
 #include <gtest/gtest.h>
 
-#include "core/chi_squared.h"
+#include "core/distributions.h"
 #include "localization/filter_rover.h"
 
 namespace rockyard::localization {
@@ -19,9 +19,8 @@ struct Consistency {
 };
 
 ErrorStateFilterParams World() {
-  ErrorStateFilterParams params;
-  params.prior.gyro_bias_sd_rad_s = math::DegToRad(0.005);
-  params.prior.gyro_scale_sd = 0.03;
+  ErrorStateFilterParams params{
+      .prior = {.gyro_bias_sd_rad_s = math::DegToRad(0.005), .gyro_scale_sd = 0.03}};
   params.gate.chance = 0.0;  // every fix counts
   return params;
 }

@@ -13,15 +13,12 @@ namespace rockyard::localization {
 inline constexpr double kWheelRadius_m = 0.065;
 
 inline EstimatorSetup FilterSetup() {
-  EstimatorSetup setup;
-  setup.calibration.wheel_radius_m = kWheelRadius_m;
-  setup.start = {1.0, -2.0, 0.3};
-  return setup;
+  return EstimatorSetup{.calibration = {.wheel_radius_m = kWheelRadius_m},
+                        .start = {1.0, -2.0, 0.3}};
 }
 
 inline messages::MotionMeasurement Rolled(double forward_m, double turn_rad, double duration_s) {
-  messages::MotionMeasurement motion;
-  motion.duration_s = duration_s;
+  messages::MotionMeasurement motion{.duration_s = duration_s};
   motion.wheel_turn_rad.fill(forward_m / kWheelRadius_m);
   motion.turn_rad = turn_rad;
   return motion;

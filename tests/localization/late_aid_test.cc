@@ -14,17 +14,13 @@ constexpr double kQ = 0.01;         // m2/m
 constexpr double kR = 0.02 * 0.02;  // of an aid, m2
 
 EstimatorSetup StartSetup() {
-  EstimatorSetup setup;
-  setup.calibration.wheel_radius_m = 0.1;
-  setup.start = {1.0, -2.0, 0.0};
-  return setup;
+  return EstimatorSetup{.calibration = {.wheel_radius_m = 0.1}, .start = {1.0, -2.0, 0.0}};
 }
 
 class LateAid : public testing::Test {
  protected:
   void DriveFor(double duration_s) {
-    messages::MotionMeasurement motion;
-    motion.duration_s = kTick_s;
+    messages::MotionMeasurement motion{.duration_s = kTick_s};
     motion.wheel_turn_rad.fill(kSpeed_m_s * kTick_s / 0.1);
     for (int i = 0; i < std::lround(duration_s / kTick_s); ++i) {
       toy_.Propagate(motion);

@@ -14,15 +14,12 @@ constexpr double kRadius_m = 0.1;
 constexpr double kTick_s = 0.1;
 
 EstimatorSetup StartSetup() {
-  EstimatorSetup setup;
-  setup.calibration.wheel_radius_m = kRadius_m;
-  setup.start = {1.0, -2.0, 0.5 * std::numbers::pi};
-  return setup;
+  return EstimatorSetup{.calibration = {.wheel_radius_m = kRadius_m},
+                        .start = {1.0, -2.0, 0.5 * std::numbers::pi}};
 }
 
 messages::MotionMeasurement Tick(double forward_m, double turn_rad) {
-  messages::MotionMeasurement motion;
-  motion.duration_s = kTick_s;
+  messages::MotionMeasurement motion{.duration_s = kTick_s};
   motion.wheel_turn_rad.fill(forward_m / kRadius_m);
   motion.turn_rad = turn_rad;
   return motion;

@@ -10,10 +10,7 @@ namespace rockyard::rover {
 namespace {
 
 RoverParams WithRamp(double ramp_s, double rate_Hz = 60.0) {
-  RoverParams params;
-  params.physics.step_s = 1.0 / rate_Hz;
-  params.drive.ramp_s = ramp_s;
-  return params;
+  return RoverParams{.drive = {.ramp_s = ramp_s}, .physics = {.step_s = 1.0 / rate_Hz}};
 }
 
 terrain::Terrain Level(terrain::SoilPreset preset) {
@@ -83,9 +80,7 @@ TEST(ChangeOfSpeed, SteepRampsLoseAsMuchAt60HzAsAt480Hz) {
 TEST(ChangeOfSpeed, TimeScaleDoesNotChangeWhatAStopCosts) {
   const terrain::Terrain terrain = FlatTerrain();
   const auto way_over_rims = [&](double time_scale) {
-    RoverParams params;
-    params.drive.speed_m_s = 0.0067;
-    params.physics.time_scale = time_scale;
+    RoverParams params{.drive = {.speed_m_s = 0.0067}, .physics = {.time_scale = time_scale}};
     const auto rover = PlacedRover(params, terrain);
     const double from_m = rover->state().X_WR.translation().x();
     for (int i = 0; i < 3; ++i) {
@@ -128,8 +123,7 @@ terrain::Rock BeltHighRock() { return MakeRock(0.4, 0.0, 0.2, 0.1, 0.1, 0.06); }
 // Motors that jump get parts of steps; a rock that the rover pushes along, and that slides on when
 // the brakes are on, knows nothing of them.
 TEST(ChangeOfSpeed, ALooseRockGoesAsFarAt60HzAsAt960Hz) {
-  terrain::RockHoldingParams holding;
-  holding.rock_density_kg_m3 = 1000.0;
+  terrain::RockHoldingParams holding{.rock_density_kg_m3 = 1000.0};
   const auto pushed_m = [&](double rate_Hz) {
     RoverParams params = WithRamp(0.0, rate_Hz);
     params.contact.body_rock_friction = 0.0;
@@ -151,8 +145,7 @@ TEST(ChangeOfSpeed, ALooseRockGoesAsFarAt60HzAsAt960Hz) {
 // the way.
 TEST(ChangeOfSpeed, SoilBrakesALooseRockAtItsRateInStepsOfAnyLength) {
   constexpr double kGravity_m_s2 = 9.81;
-  terrain::RockHoldingParams holding;
-  holding.rock_density_kg_m3 = 1000.0;
+  terrain::RockHoldingParams holding{.rock_density_kg_m3 = 1000.0};
   terrain::Terrain terrain = FlatTerrain({BeltHighRock()});
   const terrain::Rock rock = terrain.rocks()[0];
   const double mass_kg = terrain::RockMass(rock, holding.rock_density_kg_m3);

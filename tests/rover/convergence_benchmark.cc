@@ -13,10 +13,8 @@ namespace rockyard::rover {
 namespace {
 
 RoverParams ParamsOf(const benchmark::State& bench) {
-  RoverParams params;
-  params.physics.step_s = 1.0 / static_cast<double>(bench.range(0));
-  params.physics.solver_iterations = bench.range(1);
-  return params;
+  return RoverParams{.physics = {.step_s = 1.0 / static_cast<double>(bench.range(0)),
+                                 .solver_iterations = bench.range(1)}};
 }
 
 // 14 s straight ahead over four rocks that lift one side at a time, by up to 9 cm.

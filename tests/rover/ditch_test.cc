@@ -79,14 +79,13 @@ TEST_P(Ditch, ACrackIsDrivenOver) {
 // one behind first, where steps of 0.01 mrad around its rim find the least heights.
 TEST(GroundTouchesTest, LieOnBothFlanksWhereTheRimIsNearest) {
   constexpr double kRadius_m = 0.1;
-  terrain::GroundParams params;
-  params.ditches = {.x_m = {1.0},
-                    .y_m = {0.0},
-                    .direction_deg = {90.0},
-                    .length_m = {0.0},
-                    .width_m = {0.14},
-                    .depth_m = {0.2},
-                    .flank_m = {0.07}};
+  terrain::GroundParams params{.ditches = {.x_m = {1.0},
+                                           .y_m = {0.0},
+                                           .direction_deg = {90.0},
+                                           .length_m = {0.0},
+                                           .width_m = {0.14},
+                                           .depth_m = {0.2},
+                                           .flank_m = {0.07}}};
   const terrain::Ground ground(params, {});
   const math::Vector3 center_W(1.0, 0.0, 0.08);
   const auto support = [&](const math::Vector3& n_W) -> math::Vector3 {

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "core/random.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
 namespace {
@@ -67,16 +67,13 @@ void SetConfiguration(const Configuration& c, Multibody& body) {
 
 // Masses that differ in everything, with bogies at either end and the middle wheels off the middle.
 RoverParams Uneven(BogieEnd end) {
-  RoverParams params;
-  params.geometry.bogie_end = end;
-  params.geometry.middle_wheel_x_m = 0.01;
-  params.mass = {.total_kg = 17.0,
-                 .wheel_kg = 0.7,
-                 .rocker_kg = 1.3,
-                 .bogie_kg = 0.4,
-                 .chassis_com_x_m = 0.023,
-                 .chassis_com_z_m = 0.21};
-  return params;
+  return RoverParams{.geometry = {.middle_wheel_x_m = 0.01, .bogie_end = end},
+                     .mass = {.total_kg = 17.0,
+                              .wheel_kg = 0.7,
+                              .rocker_kg = 1.3,
+                              .bogie_kg = 0.4,
+                              .chassis_com_x_m = 0.023,
+                              .chassis_com_z_m = 0.21}};
 }
 
 // The rover once more as Bullet's body, to be asked for accelerations by unit forces.

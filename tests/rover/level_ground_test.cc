@@ -157,8 +157,7 @@ TEST_F(LevelGround, PlaceOnARockSettlesOnIt) {
 
 TEST(RoughGround, CarriesTheRoverWithoutSnagging) {
   const RoverParams params;
-  terrain::GroundParams ground;
-  ground.roughness_rms_m = 0.02;
+  terrain::GroundParams ground{.roughness_rms_m = 0.02};
   const terrain::Terrain terrain(terrain::Ground(ground, {}), {}, {});
   const auto rover = PlacedRover(params, terrain);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
@@ -189,8 +188,7 @@ TEST(Geometry, CalibrationIsTheTrueGeometry) {
 }
 
 TEST(Geometry, BogiesInFrontMirrorBogiesBehind) {
-  RoverGeometryParams params;
-  params.bogie_end = BogieEnd::kRear;
+  RoverGeometryParams params{.bogie_end = BogieEnd::kRear};
   const RoverGeometry rear = MakeRoverGeometry(params);
   params.bogie_end = BogieEnd::kFront;
   const RoverGeometry front = MakeRoverGeometry(params);

@@ -22,16 +22,10 @@ terrain::Rock BeltHighRock(double x_m, double y_m) {
   return MakeRock(x_m, y_m, 0.2, 0.1, 0.1, 0.06);
 }
 
-RoverParams SmoothRover() {
-  RoverParams params;
-  params.contact.body_rock_friction = 0.0;
-  return params;
-}
+RoverParams SmoothRover() { return RoverParams{.contact = {.body_rock_friction = 0.0}}; }
 
 terrain::RockHoldingParams Density(double density_kg_m3) {
-  terrain::RockHoldingParams holding;
-  holding.rock_density_kg_m3 = density_kg_m3;
-  return holding;
+  return terrain::RockHoldingParams{.rock_density_kg_m3 = density_kg_m3};
 }
 
 double Holding_N(const terrain::RockHoldingParams& holding) {

@@ -4,15 +4,14 @@
 #include <cmath>
 
 #include "rover/mass_properties_params.h"
-#include "rover/static_loads_params.h"
+#include "rover/standing_params.h"
 #include "rover_drive.h"
 
 namespace rockyard::rover {
 namespace {
 
 TEST(MassProperties, BodiesMakeTheRover) {
-  RoverParams params;
-  params.mass.chassis_com_x_m = 0.02;
+  RoverParams params{.mass = {.chassis_com_x_m = 0.02}};
   const RoverMasses m = MakeRoverMasses(params);
   EXPECT_NEAR(
       m.chassis.mass_kg + 2.0 * (m.rocker.mass_kg + m.bogie.mass_kg) + 6.0 * m.wheel.mass_kg,
@@ -38,9 +37,7 @@ TEST(MassProperties, MomentsOfInertiaAreThoseOfCylinderAndBox) {
 // Forces and moments about the lateral axis balance, on whichever end the bogies are.
 TEST(StaticLoads, CarryTheRoverAndItsMoment) {
   for (const BogieEnd end : {BogieEnd::kFront, BogieEnd::kRear}) {
-    RoverParams params;
-    params.geometry.bogie_end = end;
-    params.mass.chassis_com_x_m = 0.02;
+    RoverParams params{.geometry = {.bogie_end = end}, .mass = {.chassis_com_x_m = 0.02}};
     const messages::PerWheel<double> load_N = StaticWheelLoads(params);
     const RoverGeometry g = MakeRoverGeometry(params.geometry);
     const Weights w(params);
@@ -66,8 +63,7 @@ TEST(StaticLoads, CarryTheRoverAndItsMoment) {
 // within it all carry something.
 TEST(StaticLoads, AllWheelsCarryWithinTheRange) {
   for (const BogieEnd end : {BogieEnd::kFront, BogieEnd::kRear}) {
-    RoverParams params;
-    params.geometry.bogie_end = end;
+    RoverParams params{.geometry = {.bogie_end = end}};
     params.mass.chassis_com_x_m = 0.5;  // does not matter
     const ComRange range = StandingComRange(params);
     const auto least_N = [&params](double com_x_m) {
@@ -105,12 +101,10 @@ TEST(StaticLoads, RoverFallsOverBeyondTheRange) {
 
 // Against the simulation on ground without friction, which would make loads indeterminate.
 TEST(StaticLoads, AgreeWithTheSimulation) {
-  RoverParams params;
-  params.mass.chassis_com_x_m = -0.03;
+  RoverParams params{.mass = {.chassis_com_x_m = -0.03}};
   terrain::SoilParams smooth = terrain::MakeSoil(terrain::SoilPreset::kHardGround);
   smooth.friction_angle_rad = 0.0;
-  terrain::GroundParams ground;
-  ground.soil = smooth;
+  terrain::GroundParams ground{.soil = smooth};
   const RoverOn rover(terrain::Terrain(terrain::Ground(ground, {}), {}, {}), params);
   RunFor(*rover, kBraked, 3.0);
   const messages::PerWheel<double> load_N = StaticWheelLoads(params);

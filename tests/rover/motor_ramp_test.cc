@@ -12,11 +12,7 @@ using messages::PerWheel;
 // Top speed 15 cm/s on wheels of 65 mm.
 constexpr double kTop_rad_s = 0.15 / 0.065;
 
-RoverParams WithRamp(double ramp_s) {
-  RoverParams params;
-  params.drive.ramp_s = ramp_s;
-  return params;
-}
+RoverParams WithRamp(double ramp_s) { return RoverParams{.drive = {.ramp_s = ramp_s}}; }
 
 PerWheel<double> All(double rate_rad_s) {
   PerWheel<double> rates;

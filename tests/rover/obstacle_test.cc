@@ -32,8 +32,7 @@ Climb TryStep(double height_m, double friction, const RoverParams& rover_params 
 // lifts itself by friction.
 TEST(Step, ClimbsUpToOneAndAHalfWheelDiameters) {
   for (const double stall_torque_Nm : {2.0, 4.0}) {
-    RoverParams params;
-    params.drive.stall_torque_Nm = stall_torque_Nm;
+    RoverParams params{.drive = {.stall_torque_Nm = stall_torque_Nm}};
     for (const double height_m : {0.10, 0.13, 0.195}) {
       for (const double friction : {0.8, 1.0}) {
         EXPECT_EQ(TryStep(height_m, friction, params), Climb::kUp) << height_m << ", " << friction;
@@ -50,8 +49,7 @@ TEST(Step, FailsOnHigherSteps) {
 
 TEST(Step, FailsWithoutFrictionOrTorque) {
   EXPECT_EQ(TryStep(0.13, 0.2), Climb::kStuck);
-  RoverParams weak;
-  weak.drive.stall_torque_Nm = 0.5;
+  RoverParams weak{.drive = {.stall_torque_Nm = 0.5}};
   EXPECT_EQ(TryStep(0.13, 0.8, weak), Climb::kStuck);
 }
 
@@ -72,17 +70,6 @@ TEST(Rock, DifferentialHalvesThePitchOfOneSide) {
     max_rad = std::max(max_rad, std::abs(s.left_rocker_rad));
   }
   EXPECT_GT(max_rad, math::DegToRad(2.0));
-}
-
-TEST(Rock, LowerThanTheBellyPassesBetweenTheWheels) {
-  const RoverParams params;
-  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)}), params);
-  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
-  for (int i = 0; i < 600; ++i) {
-    rover->Step(command);
-    EXPECT_TRUE(rover->state().contacts.empty());
-  }
-  EXPECT_GT(rover->state().X_WR.translation().x(), 1.3);
 }
 
 using truth::BodyPart;
@@ -145,24 +132,36 @@ TEST(Rock, GlancingBlowDeflects) {
   EXPECT_GT(story.max_turn_rad, math::DegToRad(2.0));
 }
 
-TEST(Rock, TallerThanTheBellyBlocksIt) {
-  const RoverParams params;
-  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)}), params);
-  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
-  const truth::RoverState& state = rover->state();
-  EXPECT_LT(state.X_WR.translation().x(), 0.5);
-  ASSERT_EQ(state.contacts.size(), 1U);
-  EXPECT_EQ(state.contacts[0].part, BodyPart::kBelly);
-  EXPECT_EQ(state.contacts[0].rock, 0);
-  EXPECT_GT(state.contacts[0].normal_force_N, 50.0);
-}
-
 // The same at both levels of fidelity.
 class RockAtEachFidelity : public testing::TestWithParam<Fidelity> {
  protected:
   RockAtEachFidelity() { params_.fidelity = GetParam(); }
   RoverParams params_;
 };
+
+TEST_P(RockAtEachFidelity, LowerThanTheBellyPassesBetweenTheWheels) {
+  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)}), params_);
+  const messages::WheelCommand command = Drive(params_, 0.15, 0.0);
+  for (double time_s = 0.0; time_s < 10.0; time_s += rover->step_s()) {
+    rover->Step(command);
+    EXPECT_TRUE(rover->state().contacts.empty());
+  }
+  EXPECT_GT(rover->state().X_WR.translation().x(), 1.3);
+}
+
+TEST_P(RockAtEachFidelity, TallerThanTheBellyBlocksItUntilItBacksOff) {
+  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)}), params_);
+  RunFor(*rover, Drive(params_, 0.15, 0.0), 10.0);
+  const truth::RoverState& state = rover->state();
+  EXPECT_LT(state.X_WR.translation().x(), 0.5);
+  ASSERT_EQ(state.contacts.size(), 1U);
+  EXPECT_EQ(state.contacts[0].part, BodyPart::kBelly);
+  EXPECT_EQ(state.contacts[0].rock, 0);
+  EXPECT_GT(state.contacts[0].normal_force_N, 50.0);
+  const double blocked_x = state.X_WR.translation().x();
+  RunFor(*rover, Drive(params_, -0.15, 0.0), 1.0);
+  EXPECT_LT(rover->state().X_WR.translation().x(), blocked_x - 0.1);
+}
 
 // What contact switches go by: the place on the rover, here the front edge of the belly, wherever
 // in the world the rover is and whichever way it faces.
@@ -254,11 +253,10 @@ TEST(Wall, PushesTurnedWheelsAway) {
   }
 }
 
-TEST(Wall, StopsThePanel) {
-  const RoverParams params;
-  const RoverOn rover(FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}}), params);
-  RunFor(*rover, Drive(params, 0.15, 0.0), 6.0);
-  EXPECT_NEAR(rover->state().X_WR.translation().x(), 0.8 - 0.5 * params.geometry.length_m, 0.01);
+TEST_P(RockAtEachFidelity, AWallStopsThePanel) {
+  const RoverOn rover(FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}}), params_);
+  RunFor(*rover, Drive(params_, 0.15, 0.0), 6.0);
+  EXPECT_NEAR(rover->state().X_WR.translation().x(), 0.8 - 0.5 * params_.geometry.length_m, 0.01);
   ASSERT_FALSE(rover->state().contacts.empty());
   EXPECT_EQ(rover->state().contacts[0].part, BodyPart::kPanelEdge);
   EXPECT_EQ(rover->state().contacts[0].rock, -1);

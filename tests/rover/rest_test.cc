@@ -97,10 +97,8 @@ math::Transform Lifted(double height_m, double roll_rad, double pitch_rad) {
 // and, under wheels, the work of the sinkage law, which rebounds as the springs do.
 double LargestGain_J(double step_s, const terrain::SoilParams& soil, const math::Transform& X_WR,
                      const std::vector<terrain::Rock>& rocks) {
-  RoverParams params;
-  params.physics.step_s = step_s;
-  terrain::GroundParams ground;
-  ground.soil = soil;
+  RoverParams params{.physics = {.step_s = step_s}};
+  terrain::GroundParams ground{.soil = soil};
   const terrain::Terrain terrain(terrain::Ground(ground, {}), rocks, {});
   BrakedBody body(params, terrain);
   body.Drop(X_WR);
@@ -143,9 +141,8 @@ TEST(Rest, BrakedRoverDoesNotCreep) {
   for (const double slope_deg : {0.0, 12.0, 20.0}) {
     for (const auto& on : {std::vector<terrain::Rock>{}, rocks}) {
       if (slope_deg > 0.0 && !on.empty()) continue;  // rocks stand on level ground
-      terrain::GroundParams ground;
-      ground.slope_rad = math::DegToRad(slope_deg);
-      ground.slope_direction_rad = 0.7;
+      terrain::GroundParams ground{.slope_rad = math::DegToRad(slope_deg),
+                                   .slope_direction_rad = 0.7};
       const RoverOn rover(terrain::Terrain(terrain::Ground(ground, {}), on, {}));
       RunFor(*rover, kBraked, 5.0);
       const math::Vector3 from = rover->state().X_WR.translation();

@@ -9,7 +9,7 @@
 #include "core/distributions.h"
 #include "core/random.h"
 #include "rover_drive.h"
-#include "terrain/rock_profile.h"
+#include "terrain/rock.h"
 
 namespace rockyard::rover {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/hash.h"
 #include "rover_drive.h"
-#include "terrain/rock_profile.h"
+#include "terrain/rock.h"
 
 namespace rockyard::rover {
 namespace {
@@ -40,13 +40,6 @@ terrain::Terrain RockField(double k, double pointedness = 0.0) {
     rocks.back().yaw_rad = 2.0 * std::numbers::pi * Scatter(i, 0.3247179572447461);
   }
   return FlatTerrain(std::move(rocks));
-}
-
-std::string StateHash(const truth::RoverState& state) {
-  core::Hasher hasher;
-  for (const double value : state.X_WR.matrix().reshaped()) hasher.Real(value);
-  for (const double angle : state.wheel_angle_rad) hasher.Real(angle);
-  return core::Hex(hasher.value());
 }
 
 // Cost of the steps alone, and how many trials of this kind a CPU-second holds.

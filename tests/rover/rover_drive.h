@@ -3,12 +3,14 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "core/hash.h"
 #include "messages/commands.h"
 #include "rover/rover.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::rover {
@@ -41,10 +43,14 @@ inline messages::WheelCommand SteerOnly(messages::WheelCommand command) {
   return command;
 }
 
-inline RoverParams WithFidelity(Fidelity fidelity) {
-  RoverParams params;
-  params.fidelity = fidelity;
-  return params;
+inline RoverParams WithFidelity(Fidelity fidelity) { return RoverParams{.fidelity = fidelity}; }
+
+// Of pose and wheel angles, to tell whether two drives are the same.
+inline std::string StateHash(const truth::RoverState& state) {
+  core::Hasher hasher;
+  for (const double value : state.X_WR.matrix().reshaped()) hasher.Real(value);
+  for (const double angle : state.wheel_angle_rad) hasher.Real(angle);
+  return core::Hex(hasher.value());
 }
 
 // A rover that has been placed, at the origin unless told otherwise.
@@ -79,10 +85,8 @@ inline terrain::Terrain FlatTerrain(std::vector<terrain::Rock> rocks = {},
 
 inline terrain::Terrain SlopeTerrain(double slope_rad, double direction_rad,
                                      const terrain::SoilParams& soil = {}) {
-  terrain::GroundParams params;
-  params.slope_rad = slope_rad;
-  params.slope_direction_rad = direction_rad;
-  params.soil = soil;
+  terrain::GroundParams params{
+      .slope_rad = slope_rad, .slope_direction_rad = direction_rad, .soil = soil};
   return {terrain::Ground(params, {}), {}, {}};
 }
 
@@ -97,12 +101,10 @@ inline terrain::SoilParams RigidGround(double friction) {
 // An ellipsoid with its centre at the given height.
 inline terrain::Rock MakeRock(double x_m, double y_m, double center_z_m, double a_m, double b_m,
                               double c_m) {
-  terrain::Rock rock;
-  rock.center_W = math::Vector3(x_m, y_m, center_z_m);
-  rock.semi_axes_m = math::Vector3(a_m, b_m, c_m);
-  rock.diameter_m = 2.0 * a_m;
-  rock.height_m = center_z_m + c_m;
-  return rock;
+  return terrain::Rock{.center_W = math::Vector3(x_m, y_m, center_z_m),
+                       .semi_axes_m = math::Vector3(a_m, b_m, c_m),
+                       .diameter_m = 2.0 * a_m,
+                       .height_m = center_z_m + c_m};
 }
 
 // A vertical step across the way, 1.2 m deep: flat ellipsoids stacked so densely that a wheel meets
@@ -112,8 +114,7 @@ inline terrain::Terrain StepTerrain(double height_m, const terrain::SoilParams& 
   for (double z = height_m - 0.01; z > 0.0; z -= 0.006) {
     rocks.push_back(MakeRock(1.2, 0.0, z, 0.6, 2.0, 0.01));
   }
-  terrain::GroundParams ground;
-  ground.soil = soil;
+  terrain::GroundParams ground{.soil = soil};
   return {terrain::Ground(ground, {}), std::move(rocks), {}};
 }
 

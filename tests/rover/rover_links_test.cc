@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 #include "scenario/load.h"
 
 namespace rockyard::rover {
@@ -57,11 +57,10 @@ TEST_P(RoverLinks, WheelsAreWhereTheGeometrySays) {
 }
 
 TEST_P(RoverLinks, EveryAngleTurnsItsOwnJoint) {
-  truth::RoverPosture posture;
-  posture.left_rocker_rad = 0.1;
-  posture.right_rocker_rad = -0.1;
-  posture.left_bogie_rad = 0.2;
-  posture.right_bogie_rad = 0.3;
+  truth::RoverPosture posture{.left_rocker_rad = 0.1,
+                              .right_rocker_rad = -0.1,
+                              .left_bogie_rad = 0.2,
+                              .right_bogie_rad = 0.3};
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     posture.steer_rad[i] = 0.4 + 0.01 * static_cast<double>(i);
     posture.wheel_angle_rad[i] = 5.0 + static_cast<double>(i);

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "rover/quasi_static/wheel_soil_table.h"
 #include "rover/wheel_soil.h"
 #include "rover_drive.h"
 #include "soil_reference.h"

@@ -15,10 +15,7 @@ using messages::PerWheel;
 
 // Firm enough for 30 deg.
 terrain::SoilParams FirmSoil() {
-  terrain::SoilParams soil;
-  soil.friction_angle_rad = math::DegToRad(45.0);
-  soil.shear_modulus_m = 0.002;
-  return soil;
+  return terrain::SoilParams{.friction_angle_rad = math::DegToRad(45.0), .shear_modulus_m = 0.002};
 }
 
 struct SlipCase {
@@ -31,10 +28,8 @@ struct SlipCase {
 
 // Wheels of one rigid rover share one slip: at it their tractions add up to weight and resistance.
 void ExpectSlipOfTheCurve(const SlipCase& c) {
-  RoverParams params;
-  params.drive.speed_m_s = c.speed_m_s;
-  params.physics.step_s = 1.0 / c.rate_Hz;
-  params.physics.gravity_m_s2 = c.gravity_m_s2;
+  RoverParams params{.drive = {.speed_m_s = c.speed_m_s},
+                     .physics = {.step_s = 1.0 / c.rate_Hz, .gravity_m_s2 = c.gravity_m_s2}};
   const double slope = math::DegToRad(c.slope_deg);
   const RoverOn rover(SlopeTerrain(slope, 0.0, c.soil), params);
   const messages::WheelCommand command = Drive(params, c.speed_m_s, 0.0);
@@ -83,8 +78,7 @@ TEST(Slip, FollowsTheCurveUnderMarsGravity) {
 // must not take turns in pulling for that.
 TEST(Slip, WheelsPullSteadilyNearTheLargestTraction) {
   const RoverParams params;
-  terrain::SoilParams soil;
-  soil.shear_modulus_m = 0.001;
+  terrain::SoilParams soil{.shear_modulus_m = 0.001};
   const RoverOn rover(SlopeTerrain(math::DegToRad(26.0), 0.0, soil), params);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   RunFor(*rover, command, 4.0);

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "rover/steepest_slope_params.h"
+#include "rover/standing_params.h"
 #include "rover_drive.h"
 #include "soil_reference.h"
 
@@ -30,8 +30,7 @@ TEST(Slope, BrakedRoverSlidesBeyondTheFrictionAngle) {
   for (const double gravity_m_s2 : {9.81, 3.72}) {
     for (const double direction : {kUphill, kLeftUp, 0.7}) {
       for (const double excess_deg : {-1.0, 1.0, 10.0}) {
-        RoverParams params;
-        params.physics.gravity_m_s2 = gravity_m_s2;
+        RoverParams params{.physics = {.gravity_m_s2 = gravity_m_s2}};
         const double slope = std::atan(0.5) + math::DegToRad(excess_deg);
         const RoverOn rover(SlopeTerrain(slope, direction, RigidGround(0.5)), params);
         const math::Vector3 from = rover->state().X_WR.translation();

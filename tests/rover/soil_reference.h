@@ -38,11 +38,12 @@ struct SoilReference {
            std::pow(z_m, soil.sinkage_exponent);
   }
   // W(z) = (3 - n) / 3 * b p(z) * sqrt(D z).
+  double Load(double z_m) const {
+    return (3.0 - soil.sinkage_exponent) / 3.0 * LinePressure(z_m) *
+           std::sqrt(2.0 * radius_m * z_m);
+  }
   double Sinkage(double load_N) const {
-    const double factor = (3.0 - soil.sinkage_exponent) / 3.0;
-    return Bisect(0.0, radius_m, [&](double z) {
-      return factor * LinePressure(z) * std::sqrt(2.0 * radius_m * z) - load_N;
-    });
+    return Bisect(0.0, radius_m, [&](double z_m) { return Load(z_m) - load_N; });
   }
   // Work per length of pressing a plate down to z.
   double Resistance(double load_N) const {

@@ -89,9 +89,7 @@ PerWheel<double> LoadsAfterDriving(const RoverParams& params, const terrain::Ter
 TEST(StaticLoads, PitchSlope) {
   for (const BogieEnd end : {BogieEnd::kFront, BogieEnd::kRear}) {
     for (const double slope_deg : {-15.0, 0.0, 8.0, 15.0}) {
-      RoverParams params;
-      params.geometry.bogie_end = end;
-      params.mass.chassis_com_x_m = 0.02;
+      RoverParams params{.geometry = {.bogie_end = end}, .mass = {.chassis_com_x_m = 0.02}};
       const double slope = math::DegToRad(slope_deg);
       const terrain::Terrain terrain =
           SlopeTerrain(std::abs(slope), slope < 0.0 ? std::numbers::pi : 0.0);
@@ -137,8 +135,7 @@ TEST(StaticLoads, RollSlope) {
 // Without friction, drag and slope the same levers in their simplest form: the rocker wheel and the
 // bogie pivot share what a side carries, the bogie halves its share.
 TEST(StaticLoads, LevelWithoutFriction) {
-  RoverParams params;
-  params.mass.chassis_com_x_m = 0.02;
+  RoverParams params{.mass = {.chassis_com_x_m = 0.02}};
   const Weights w(params);
   const RoverOn rover(SlopeTerrain(0.0, 0.0, RigidGround(0.0)), params);
   RunFor(*rover, kBraked, 3.0);

@@ -25,10 +25,7 @@ constexpr double kAcross = 0.5 * std::numbers::pi;
 constexpr double kDownhill = std::numbers::pi;
 
 RoverParams AtRate(double rate_Hz, double ramp_s) {
-  RoverParams params;
-  params.physics.step_s = 1.0 / rate_Hz;
-  params.drive.ramp_s = ramp_s;
-  return params;
+  return RoverParams{.drive = {.ramp_s = ramp_s}, .physics = {.step_s = 1.0 / rate_Hz}};
 }
 
 // At both rates, to half a per cent or to `least` of the rims' way.

@@ -15,10 +15,7 @@ namespace {
 constexpr double kMfexSpeed_m_s = 0.0067;
 
 RoverParams SlowRover(double time_scale) {
-  RoverParams params;
-  params.drive.speed_m_s = kMfexSpeed_m_s;
-  params.physics.time_scale = time_scale;
-  return params;
+  return RoverParams{.drive = {.speed_m_s = kMfexSpeed_m_s}, .physics = {.time_scale = time_scale}};
 }
 
 // scenarios/rovers/mfex.json where it differs from the defaults, on Mars.

@@ -10,7 +10,7 @@
 
 #include "math/pose.h"
 #include "rover/mass_properties_params.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 #include "scenario/load.h"
 
 namespace rockyard::rover {

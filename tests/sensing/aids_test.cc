@@ -1,4 +1,6 @@
 // The aids of localization: what they see, from where, and how well.
+#include "sensing/aids.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,10 +9,7 @@
 #include "math/angles.h"
 #include "math/sun_position.h"
 #include "noise_laws.h"
-#include "sensing/lander_fix.h"
-#include "sensing/radio_beacon.h"
 #include "sensing/stripe_scene.h"
-#include "sensing/sun_sensor.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -85,8 +84,7 @@ TEST(LanderFixTest, IsTurnedByThePanError) {
 
 // What fixes have in common stays from number to number; all of it with a share of 1.
 TEST(LanderFixTest, SharesWhatItIsTold) {
-  LanderFixParams params;
-  params.common_share = 1.0;
+  LanderFixParams params{.common_share = 1.0};
   const LanderFix same(params, kLander, kKey);
   EXPECT_EQ(same.Observe(Rover(), Flat(), 0)->pose_W, same.Observe(Rover(), Flat(), 1)->pose_W);
   // A half: fixes of one trial correlate by a half over trials.
@@ -105,8 +103,7 @@ TEST(LanderFixTest, SharesWhatItIsTold) {
 }
 
 TEST(LanderFixTest, EndsAtItsRangeAndBehindRocks) {
-  LanderFixParams params;
-  params.range_m = 9.99;
+  LanderFixParams params{.range_m = 9.99};
   EXPECT_FALSE(LanderFix(params, kLander, kKey).Observe(Rover(), Flat(), 0));
   params.range_m = 10.01;
   EXPECT_TRUE(LanderFix(params, kLander, kKey).Observe(Rover(), Flat(), 0));

@@ -1,6 +1,4 @@
 // How the lander finds the coloured cylinder, as a law and as fixes drawn by it.
-#include "sensing/cylinder_law.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +7,7 @@
 
 #include "math/angles.h"
 #include "noise_laws.h"
-#include "sensing/lander_fix.h"
+#include "sensing/aids.h"
 #include "sensing/stripe_scene.h"
 
 namespace rockyard::sensing {

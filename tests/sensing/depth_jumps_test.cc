@@ -1,10 +1,10 @@
-#include "sensing/depth_jumps.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
+
+#include "sensing/stereo_depth.h"
 
 namespace rockyard::sensing {
 namespace {

@@ -25,8 +25,7 @@ terrain::Terrain RandomField(double per_m2, double roughness_rms_m) {
     const double yaw = core::SampleUniform(stream, 0.0, 3.0);
     rocks.push_back(EllipsoidRock(x, y, 0.2 * radius, radius, 0.8 * radius, 0.6 * radius, yaw));
   }
-  terrain::GroundParams ground;
-  ground.roughness_rms_m = roughness_rms_m;
+  terrain::GroundParams ground{.roughness_rms_m = roughness_rms_m};
   return {terrain::Ground(ground, {7, 0}), std::move(rocks), {}};
 }
 

@@ -153,9 +153,7 @@ TEST(RoverBody, LeavesTheDefaultLayoutFree) {
     return hidden;
   };
   EXPECT_EQ(hidden_edges(LightStripeParams{}), 0);
-  LightStripeParams low;
-  low.camera_x_m = 0.22;
-  low.camera_height_m = 0.17;
+  LightStripeParams low{.camera_x_m = 0.22, .camera_height_m = 0.17};
   EXPECT_GT(hidden_edges(low), 0);
 
   const LineView line{LightStripeParams{}, Darkness()};

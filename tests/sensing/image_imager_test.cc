@@ -129,9 +129,7 @@ TEST(StripeImager, AllLasersAtOnceMakeOneGroup) {
 }
 
 TEST(StripeImager, DenserArraysHaveMoreBands) {
-  LightStripeParams params;
-  params.row_subdivision = 2;
-  params.stripe_subdivision = 2;
+  LightStripeParams params{.row_subdivision = 2, .stripe_subdivision = 2};
   const auto images = Make(params).Expose(FlatWith({}), PoseAt(0, 0, 0), kKey, 0);
   for (const messages::StripeExposure& exposure : images.exposures) {
     EXPECT_EQ(exposure.lit.size(), 7U);
@@ -206,8 +204,7 @@ TEST(StripeImage, LightIsFiniteInAnyPose) {
   }
   const std::vector<terrain::Wall> walls{{math::Vector3::UnitX(), 0.8}};
   const terrain::Terrain flat = FlatWith(rocks, walls);
-  terrain::GroundParams rough;
-  rough.roughness_rms_m = 0.02;
+  terrain::GroundParams rough{.roughness_rms_m = 0.02};
   const terrain::Terrain hilly(terrain::Ground(rough, {4, 0}), rocks, walls);
   for (int i = 0; i < 60; ++i) {
     LineView line{LightStripeParams{}, SunParams{}};

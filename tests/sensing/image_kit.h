@@ -25,8 +25,7 @@ using rendering::ViewRow;
 
 // Everything that disturbs an image but the shot noise is off, and counts are fine.
 inline LightStripeParams QuietParams() {
-  LightStripeParams params;
-  params.laser.speckle_contrast = 0.0;
+  LightStripeParams params{.laser = {.speckle_contrast = 0.0}};
   rendering::Quieten(params.imager);
   return params;
 }

@@ -9,7 +9,7 @@
 #include "core/distributions.h"
 #include "core/hash.h"
 #include "stripe_scene.h"
-#include "terrain/rock_profile.h"
+#include "terrain/rock.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -68,25 +68,20 @@ BENCHMARK(BM_ScanPointedRocks)->ArgName("rocks_per_m2")->Arg(6)->Arg(20);
 
 // Curved scanlines.
 void BM_ScanRadialLens(benchmark::State& state) {
-  LightStripeParams params;
-  params.lens = messages::Lens::kEquidistant;
+  LightStripeParams params{.lens = messages::Lens::kEquidistant};
   Scan(state, params);
 }
 BENCHMARK(BM_ScanRadialLens)->ArgName("rocks_per_m2")->Arg(0)->Arg(6);
 
 void BM_ScanAllErrors(benchmark::State& state) {
-  LightStripeParams params;
-  params.missed_probability = 0.01;
-  params.outlier_persistence = 0.5;
-  params.column_noise_px = 0.5;
+  LightStripeParams params{
+      .missed_probability = 0.01, .outlier_persistence = 0.5, .column_noise_px = 0.5};
   Scan(state, params);
 }
 BENCHMARK(BM_ScanAllErrors)->ArgName("rocks_per_m2")->Arg(0)->Arg(6);
 
 void BM_ScanDenseArray(benchmark::State& state) {
-  LightStripeParams params;
-  params.row_subdivision = 2;
-  params.stripe_subdivision = 2;
+  LightStripeParams params{.row_subdivision = 2, .stripe_subdivision = 2};
   Scan(state, params);
 }
 BENCHMARK(BM_ScanDenseArray)->ArgName("rocks_per_m2")->Arg(0)->Arg(6);

@@ -99,9 +99,8 @@ terrain::Terrain RandomScene(core::RandomStream& stream, int scene) {
     const double b = a * SampleUniform(stream, 0.6, 1.0);
     rocks.push_back(EllipsoidRock(x, y, z, a, b, c, SampleUniform(stream, 0.0, 3.1)));
   }
-  terrain::GroundParams ground;
-  ground.slope_rad = SampleUniform(stream, 0.0, 0.2);
-  ground.slope_direction_rad = SampleUniform(stream, -3.0, 3.0);
+  terrain::GroundParams ground{.slope_rad = SampleUniform(stream, 0.0, 0.2),
+                               .slope_direction_rad = SampleUniform(stream, -3.0, 3.0)};
   if (scene % 2 == 1) ground.roughness_rms_m = 0.02;
   return {terrain::Ground(ground, {1, static_cast<std::uint32_t>(scene)}), std::move(rocks), {}};
 }

@@ -35,8 +35,7 @@ TEST(LightStripeGeometryTest, FieldsOfViewAreThoseOfAnFThetaLens) {
   const LightStripeParams rocky;
   EXPECT_NEAR(768 * rocky.column_pitch_rad(), 1.854, 5e-4);
   EXPECT_NEAR(484 * rocky.row_pitch_rad(), 1.375, 5e-4);
-  LightStripeParams mfex;
-  mfex.focal_length_m = 0.004;
+  LightStripeParams mfex{.focal_length_m = 0.004};
   // Table 3 rounds 2.225 x 1.65 rad to 2.2 x 1.6, and gives 2.9 x 3.4 mrad per pixel.
   EXPECT_NEAR(768 * mfex.column_pitch_rad(), 2.2, 0.03);
   EXPECT_NEAR(484 * mfex.row_pitch_rad(), 1.6, 0.051);

@@ -9,7 +9,7 @@
 #include "noise_laws.h"
 #include "perception/hazard_criteria.h"
 #include "rendering/image_readout.h"
-#include "sensing/stripe_image_name.h"
+#include "sensing/stripe_imager.h"
 #include "sensing/stripe_scene.h"
 
 namespace rockyard::sensing {
@@ -67,8 +67,7 @@ TEST(LightStripeNoiseTest, MissedPoints) {
 
 // Number of kScans scans in which at least one of the 20 points is misplaced.
 int DisturbedScans(double wrong_place_probability) {
-  LightStripeParams params;
-  params.wrong_place_probability = wrong_place_probability;
+  LightStripeParams params{.wrong_place_probability = wrong_place_probability};
   const LightStripe sensor(params);
   int disturbed = 0;
   for (std::int64_t number = 0; number < kScans; ++number) {
@@ -90,9 +89,7 @@ TEST(LightStripeNoiseTest, OneScanInFiveIsDisturbed) {
 
 // Columns at which points are misplaced, as shares of each scanline's searched part, in ten bins.
 std::vector<double> ColumnBins(WrongPlace model, double& total) {
-  LightStripeParams params;
-  params.wrong_place_probability = 0.2;
-  params.wrong_place = model;
+  LightStripeParams params{.wrong_place_probability = 0.2, .wrong_place = model};
   const LightStripe sensor(params);
   std::vector<double> bins(10, 0.0);
   for (std::int64_t number = 0; number < kScans; ++number) {
@@ -129,9 +126,8 @@ TEST(LightStripeNoiseTest, MisplacedColumnsAreUniformOverTheSearchedPart) {
 }
 
 TEST(LightStripeNoiseTest, WholeScanlineReachesBeyondTheSearchedPart) {
-  LightStripeParams params;
-  params.wrong_place_probability = 1.0;
-  params.wrong_place = WrongPlace::kWholeScanline;
+  LightStripeParams params{.wrong_place_probability = 1.0,
+                           .wrong_place = WrongPlace::kWholeScanline};
   const LightStripe sensor(params);
   int outside = 0;
   for (std::int64_t number = 0; number < 200; ++number) {

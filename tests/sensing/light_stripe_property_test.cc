@@ -83,9 +83,7 @@ TEST(LightStripePropertyTest, MovingSceneAndRoverTogetherChangesNothing) {
 }
 
 TEST(LightStripePropertyTest, AScanDependsOnItsArgumentsAlone) {
-  LightStripeParams params;
-  params.wrong_place_probability = 0.2;
-  params.missed_probability = 0.2;
+  LightStripeParams params{.wrong_place_probability = 0.2, .missed_probability = 0.2};
   const LightStripe sensor(params);
   const terrain::Terrain terrain = FlatWith(RandomRocks(1));
   const auto first = sensor.Scan(terrain, PoseAt(0, 0, 0), {5, 3}, 17);
@@ -97,8 +95,7 @@ TEST(LightStripePropertyTest, AScanDependsOnItsArgumentsAlone) {
 }
 
 TEST(LightStripePropertyTest, TheSamePointsAreMisplacedOnEveryTerrain) {
-  LightStripeParams params;
-  params.wrong_place_probability = 0.3;
+  LightStripeParams params{.wrong_place_probability = 0.3};
   const LightStripe sensor(params);
   const auto nothing_visible = PoseAt(0, 0, 50.0);
   for (std::int64_t number = 0; number < 50; ++number) {

@@ -16,11 +16,7 @@ namespace {
 using math::DegToRad;
 using math::Vector3;
 
-GyroParams QuietGyro() {
-  GyroParams params;
-  params.heading_variance_deg2_per_m = 0.0;
-  return params;
-}
+GyroParams QuietGyro() { return GyroParams{.heading_variance_deg2_per_m = 0.0}; }
 
 EncoderParams QuietEncoders() { return {.distance_variance_m2_per_m = 0.0}; }
 

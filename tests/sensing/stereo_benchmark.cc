@@ -20,8 +20,7 @@ constexpr int kHashedLooks = 28;
 // Rocks of 10 to 60 cm at `per_m2` in a square of 16 m; sizes after N ~ D^-2.66.
 terrain::Terrain RandomField(double per_m2, double roughness_m) {
   core::RandomStream stream({7, 0}, core::Purpose::kTest, 2);
-  terrain::GroundParams ground;
-  ground.roughness_rms_m = roughness_m;
+  terrain::GroundParams ground{.roughness_rms_m = roughness_m};
   std::vector<terrain::Rock> rocks;
   constexpr double kSide_m = 16.0;
   const auto count = static_cast<int>(per_m2 * kSide_m * kSide_m);
@@ -37,10 +36,9 @@ terrain::Terrain RandomField(double per_m2, double roughness_m) {
 
 // Terrain of the published runs: Moore's law in the virtual arena.
 terrain::Terrain MooreField(double k_per_m2) {
-  terrain::TerrainParams params;
-  params.arena.kind = terrain::ArenaKind::kVirtualReflected;
-  params.rocks.kind = terrain::RockFieldKind::kMoore;
-  params.rocks.k_per_m2 = k_per_m2;
+  terrain::TerrainParams params{
+      .rocks = {.kind = terrain::RockFieldKind::kMoore, .k_per_m2 = k_per_m2},
+      .arena = {.kind = terrain::ArenaKind::kVirtualReflected}};
   return terrain::BuildField(params, {1, 0}, {}).terrain;
 }
 
@@ -81,9 +79,7 @@ void BM_LookIdeal(benchmark::State& state) {
 BENCHMARK(BM_LookIdeal)->ArgName("rocks_per_m2")->Arg(0)->Arg(6)->Unit(benchmark::kMicrosecond);
 
 void BM_LookErrorsAlike(benchmark::State& state) {
-  StereoParams params;
-  params.noise_window_px = 7;
-  params.mismatch_probability = 0.01;
+  StereoParams params{.noise_window_px = 7, .mismatch_probability = 0.01};
   Look(state, RandomField(2.0, 0.0), params);
 }
 BENCHMARK(BM_LookErrorsAlike)->Unit(benchmark::kMicrosecond);

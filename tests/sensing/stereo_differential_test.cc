@@ -49,9 +49,8 @@ struct Scene {
 Scene RandomScene(std::uint32_t number, bool rough) {
   using core::SampleUniform;
   core::RandomStream stream({20260501, 0}, core::Purpose::kTest, number);
-  terrain::GroundParams ground;
-  ground.slope_rad = SampleUniform(stream, 0.0, 0.25);
-  ground.slope_direction_rad = SampleUniform(stream, -3.0, 3.0);
+  terrain::GroundParams ground{.slope_rad = SampleUniform(stream, 0.0, 0.25),
+                               .slope_direction_rad = SampleUniform(stream, -3.0, 3.0)};
   if (rough) ground.roughness_rms_m = 0.03;
   const terrain::Ground surface(ground, {1, number});
   std::vector<terrain::Rock> rocks;
@@ -109,12 +108,7 @@ Tally Compare(int scenes, bool rough, const StereoParams& params, double range_m
   return tally;
 }
 
-StereoParams SmallImage() {
-  StereoParams params;
-  params.columns = 96;
-  params.rows = 64;
-  return params;
-}
+StereoParams SmallImage() { return StereoParams{.columns = 96, .rows = 64}; }
 
 TEST(StereoDifferentialTest, AgreesWithPlainRayCastingOnPlaneGround) {
   const Tally tally = Compare(60, false, SmallImage(), 4.0);

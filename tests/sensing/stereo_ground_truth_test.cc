@@ -28,8 +28,7 @@ StereoTruth TruthOf(const StereoParams& params, const terrain::Terrain& terrain,
 // The plane z = 0: a ray from the eye at height h with the downward component s of its direction
 // meets it at depth h / s along the axis, so d = f B s / h.
 TEST(StereoGroundTruthTest, LevelGroundHasThePlanesDisparities) {
-  StereoParams params;
-  params.max_range_m = 20.0;
+  StereoParams params{.max_range_m = 20.0};
   const StereoView view = MakeStereoView(params, LookDirection::kAhead);
   const StereoTruth truth = TruthOf(params, FlatWith({}));
   for (const auto& [row, column] : {std::pair{40, 64}, {64, 100}, {100, 30}, {127, 64}}) {
@@ -50,8 +49,7 @@ TEST(StereoGroundTruthTest, LevelGroundHasThePlanesDisparities) {
 
 // The end of the range is no jump in depth, the edge of a rock is one.
 TEST(StereoGroundTruthTest, OnlySurfacesMakeJumps) {
-  StereoParams params;
-  params.max_range_m = 2.0;
+  StereoParams params{.max_range_m = 2.0};
   const StereoTruth bare = TruthOf(params, FlatWith({}));
   EXPECT_GE(bare.jumps.minCoeff(), 10000);
   const StereoTruth truth =
@@ -96,8 +94,7 @@ TEST(StereoGroundTruthTest, MarginsAreWhereAWindowReachesOverAnEdge) {
 }
 
 TEST(StereoGroundTruthTest, TheRoversOwnPartsAreMargins) {
-  StereoParams params;
-  params.front.pitch_rad = math::DegToRad(60.0);
+  StereoParams params{.front = {.pitch_rad = math::DegToRad(60.0)}};
   params.front.ahead_m = 0.0;  // over the middle of the rover
   params.front.height_m = 0.8;
   const StereoTruth truth = TruthOf(params, FlatWith({}));

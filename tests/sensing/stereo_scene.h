@@ -11,18 +11,11 @@ namespace rockyard::sensing {
 
 // The error model without any error: geometry alone.
 inline StereoParams NoiselessStereo() {
-  StereoParams params;
-  params.disparity_noise_px = 0.0;
-  params.dropout_probability = 0.0;
-  params.edge_dropout_probability = 0.0;
-  return params;
+  return StereoParams{
+      .disparity_noise_px = 0.0, .dropout_probability = 0.0, .edge_dropout_probability = 0.0};
 }
 
-inline StereoParams IdealStereo() {
-  StereoParams params;
-  params.fidelity = StereoFidelity::kIdeal;
-  return params;
-}
+inline StereoParams IdealStereo() { return StereoParams{.fidelity = StereoFidelity::kIdeal}; }
 
 inline messages::PointCloud LookAhead(const StereoParams& params, const terrain::Terrain& terrain,
                                       const math::Transform& X_WR, std::int64_t number = 0) {

@@ -22,10 +22,7 @@ StripeErrors::Searched Searched() {
 }
 
 LightStripeParams Persisting(double persistence) {
-  LightStripeParams params;
-  params.wrong_place_probability = kShare;
-  params.outlier_persistence = persistence;
-  return params;
+  return LightStripeParams{.wrong_place_probability = kShare, .outlier_persistence = persistence};
 }
 
 // What the errors make of a scan in which nothing is seen.
@@ -187,8 +184,7 @@ TEST(MissedAtTest, EachPointHasItsOwnProbability) {
 }
 
 TEST(StripeErrorsTest, NowhereToSearchIsNowhereToMisplace) {
-  LightStripeParams params;
-  params.wrong_place_probability = 1.0;
+  LightStripeParams params{.wrong_place_probability = 1.0};
   messages::StripeScan scan;
   StripeErrors(params).Disturb({1, 0}, StripeErrors::Searched{}, scan);
   for (const auto& pixel : scan.pixels.points()) EXPECT_FALSE(pixel.detected);

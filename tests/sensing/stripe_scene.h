@@ -8,9 +8,7 @@
 namespace rockyard::sensing {
 
 inline LightStripeParams NoiselessParams() {
-  LightStripeParams params;
-  params.wrong_place_probability = 0.0;
-  return params;
+  return LightStripeParams{.wrong_place_probability = 0.0};
 }
 
 using terrain::EllipsoidRock;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "image_kit.h"
-#include "rover/body_boxes_params.h"
+#include "rover/rover_layout_params.h"
 #include "sensing/light_stripe.h"
 #include "sensing/stripe_view_params.h"
 #include "vision/lens.h"
@@ -29,8 +29,7 @@ std::size_t FoundOnFlatGround(const LightStripeParams& params) {
 
 TEST(StripeViewTest, StripePointsAreImagedOnTheirRow) {
   for (const Lens lens : {Lens::kEquidistantRows, Lens::kEquidistant, Lens::kPinhole}) {
-    LightStripeParams params;
-    params.lens = lens;
+    LightStripeParams params{.lens = lens};
     const messages::StripeCalibration calibration = TrueCalibration(params);
     for (const messages::StripeLaser& laser : calibration.lasers) {
       const auto& camera = calibration.cameras[static_cast<std::size_t>(laser.camera)];

@@ -12,12 +12,10 @@ namespace {
 constexpr int kTicks = 20000;
 
 TEST(VehicleNoiseTest, DeviationsAreThoseOfTheParameters) {
-  VehicleSensorParams params;
-  params.articulation = {true, 0.004, 0.0, 0};
-  params.accelerometers = {true, 0.03, 0.0, 0};
-  params.motor_current = {true, 0.001, 0.0, 0, 20.0, 0.02};
-  rover::RoverParams rover;
-  rover.physics.gravity_m_s2 = 3.72;
+  VehicleSensorParams params{.articulation = {true, 0.004, 0.0, 0},
+                             .accelerometers = {true, 0.03, 0.0, 0},
+                             .motor_current = {true, 0.001, 0.0, 0, 20.0, 0.02}};
+  rover::RoverParams rover{.physics = {.gravity_m_s2 = 3.72}};
   VehicleSensors sensors(params, rover, {20261121, 0});
   messages::WheelCommand command;
   command.rate_rad_s.fill(1.0);

@@ -36,11 +36,7 @@ messages::WheelCommand Rolling() {
   return command;
 }
 
-rover::RoverParams OnMars() {
-  rover::RoverParams rover;
-  rover.physics.gravity_m_s2 = 3.72;
-  return rover;
-}
+rover::RoverParams OnMars() { return rover::RoverParams{.physics = {.gravity_m_s2 = 3.72}}; }
 
 truth::RoverState Touching(BodyPart part, const Vector3& p_RoC_R, double force_N = 5.0) {
   return {.contacts = {{.part = part, .rock = 0, .normal_force_N = force_N, .p_RoC_R = p_RoC_R}}};
@@ -202,8 +198,7 @@ TEST(NoiseTest, IsIndexedByTickAndSensor) {
   all.articulation.enabled = all.accelerometers.enabled = all.motor_current.enabled =
       all.contact.enabled = true;
   all.contact.false_probability = 0.3;
-  VehicleSensorParams alone;
-  alone.motor_current.enabled = true;
+  VehicleSensorParams alone{.motor_current = {.enabled = true}};
   VehicleSensors first(all, {}, {7, 3});
   VehicleSensors second(alone, {}, {7, 3});
   VehicleSensors other(alone, {}, {7, 4});

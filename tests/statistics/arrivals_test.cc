@@ -8,9 +8,9 @@
 
 #include "core/distributions.h"
 #include "core/random.h"
-#include "statistics/moments.h"
 #include "statistics/predictive.h"
 #include "statistics/published_comparison.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {
@@ -48,8 +48,7 @@ std::vector<Record> Uniforms(double others, std::uint32_t count = 6000) {
 }
 
 ComparedValue CompareOne(const PublishedValue& value, const std::vector<Record>& records) {
-  PublishedReference reference;
-  reference.values = {value};
+  PublishedReference reference{.values = {value}};
   const ScenarioRun run{"run", {{"x", "1", "a number"}, {"base", "1", "another"}}, records};
   return Compare(reference, {&run, 1}, {.seed = 1, .replicates = kReplicates}).values.front();
 }

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

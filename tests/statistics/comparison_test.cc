@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "statistics/modes.h"
 #include "statistics/published_comparison.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 #include "synthetic_trials.h"
 
 namespace rockyard::statistics {
@@ -46,8 +45,7 @@ PublishedReference Publish(const std::vector<truth::Record>& set) {
   const std::vector<double> distance = Sorted(set, 0);
   const std::vector<double> error = Sorted(set, 2);
   const auto negative = std::count_if(error.begin(), error.end(), [](double x) { return x < 0.0; });
-  PublishedReference reference;
-  reference.title = "synthetic";
+  PublishedReference reference{.title = "synthetic"};
   using enum StatisticKind;
   reference.values = {
       Value("success", kOutcomeCount, n, static_cast<double>(reached)),
@@ -94,8 +92,7 @@ TEST(Verdicts, AWrongSimulationIsFound) {
 
 ComparedValue CompareOneValue(const PublishedValue& value, const std::vector<ScenarioRun>& runs,
                               std::size_t replicates = 2000) {
-  PublishedReference reference;
-  reference.values = {value};
+  PublishedReference reference{.values = {value}};
   return Compare(reference, runs, {.seed = 1, .replicates = replicates}).values[0];
 }
 

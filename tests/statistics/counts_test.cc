@@ -8,7 +8,6 @@
 #include "core/distributions.h"
 #include "core/random.h"
 #include "statistics/layout_effect.h"
-#include "statistics/poisson_interval.h"
 
 namespace rockyard::statistics {
 namespace {

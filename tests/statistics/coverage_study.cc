@@ -24,10 +24,8 @@
 #include "statistics/drive_summary.h"
 #include "statistics/equivalence.h"
 #include "statistics/metrics.h"
-#include "statistics/modes.h"
-#include "statistics/moments.h"
-#include "statistics/paired_counts.h"
-#include "statistics/quantiles.h"
+#include "statistics/proportions.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

@@ -8,10 +8,8 @@
 #include "core/random.h"
 #include "oracles.h"
 #include "statistics/kolmogorov.h"
-#include "statistics/modes.h"
-#include "statistics/moments.h"
 #include "statistics/multiple_testing.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/json_file.h"
 #include "oracles.h"
 #include "statistics/counts.h"
-#include "statistics/quantiles.h"
 #include "statistics/sample_size.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

@@ -103,8 +103,7 @@ TEST(HowardOdometryReference, RatiosAreThoseOfTwiceAsManyFeatures) {
 }
 
 TEST(HowardOdometryReference, InputsAreThoseOfTheProgram) {
-  trial::ComputeParams params;
-  params.computer = trial::Computer::kMer;
+  trial::ComputeParams params{.computer = trial::Computer::kMer};
   ExpectInputs(kOdometry, "vo.mer_256", trial::VisualTimeOf(params).computing_s, 1.0);
   ExpectInputs(kOdometry, "vo.mer_minutes", trial::VisualTimeOf(params).computing_s, 60.0);
   params.computer = trial::Computer::kFpga;
@@ -122,8 +121,7 @@ TEST(HowardSpeedReference, VisualOdometryIsSlowerThanItsTimesAlone) {
 }
 
 TEST(HowardSpeedReference, InputsAreThoseOfTheProgram) {
-  trial::ComputeParams mer;
-  mer.computer = trial::Computer::kMer;
+  trial::ComputeParams mer{.computer = trial::Computer::kMer};
   const trial::ComputeTimes times = trial::MakeComputeTimes(
       mer, {.cell_m = trial::kAthenaCell_m, .area_m2 = trial::kTable3Area_m2});
   const std::vector<double> blind = InputsOf(kSpeed, "speed.mer_blind");

@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "statistics/equivalence.h"
 #include "statistics/metrics.h"
-#include "statistics/moments.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

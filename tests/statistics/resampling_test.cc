@@ -8,11 +8,9 @@
 
 #include "core/distributions.h"
 #include "core/random.h"
-#include "statistics/exponential_tail.h"
 #include "statistics/kolmogorov.h"
-#include "statistics/modes.h"
-#include "statistics/moments.h"
 #include "statistics/predictive.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

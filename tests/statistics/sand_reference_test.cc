@@ -10,7 +10,6 @@
 
 #include "report/comparison_reference.h"
 #include "statistics/closed_forms.h"
-#include "statistics/straight_drift.h"
 
 namespace rockyard::statistics {
 namespace {

@@ -1,9 +1,9 @@
-#include "statistics/straight_drift.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "statistics/closed_forms.h"
 
 namespace rockyard::statistics {
 namespace {

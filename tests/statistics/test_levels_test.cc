@@ -9,7 +9,7 @@
 #include "statistics/counts.h"
 #include "statistics/kolmogorov.h"
 #include "statistics/proportions.h"
-#include "statistics/quantiles.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::statistics {
 namespace {

@@ -335,8 +335,7 @@ TEST(Tolerances, WhatIsComputedNeedsNoRun) {
   value.inputs = {0.01, 20.0};
   value.low = 0.16;
   value.high = 0.20;
-  PublishedReference reference;
-  reference.values = {value};
+  PublishedReference reference{.values = {value}};
   const ComparedValue inside = Compare(reference, {}).values.front();
   EXPECT_EQ(inside.verdict, Verdict::kHolds);
   EXPECT_NEAR(inside.pool_value, 0.1821, 1e-4);

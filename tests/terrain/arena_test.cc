@@ -7,17 +7,10 @@
 namespace rockyard::terrain {
 namespace {
 
-ArenaParams Arena(ArenaKind kind) {
-  ArenaParams params;
-  params.kind = kind;
-  return params;
-}
+ArenaParams Arena(ArenaKind kind) { return ArenaParams{.kind = kind}; }
 
 Rock RockAt(double y_m, double yaw_rad) {
-  Rock rock;
-  rock.center_W = {3.0, y_m, 0.05};
-  rock.yaw_rad = yaw_rad;
-  return rock;
+  return Rock{.center_W = {3.0, y_m, 0.05}, .yaw_rad = yaw_rad};
 }
 
 TEST(ArenaTest, DefaultsAreThePaperArena) {

@@ -13,7 +13,6 @@
 #include "core/statistical_checks.h"
 #include "terrain/field.h"
 #include "terrain/placed_rocks.h"
-#include "terrain/swept_path.h"
 
 namespace rockyard::terrain {
 namespace {
@@ -85,9 +84,7 @@ double LeastX_m(const Rock& rock) {
 }
 
 TEST(BlindSwathTest, ClosedFormEqualsQuadrature) {
-  RockFieldParams rocks;
-  rocks.min_width_ratio = 1.0;
-  rocks.max_width_ratio = 1.0;
+  RockFieldParams rocks{.min_width_ratio = 1.0, .max_width_ratio = 1.0};
   for (const double min_m : {0.0, 0.1, 0.2, 0.5}) {
     const BlindSwath swath{kRoverWidth_m, min_m};
     const double expected = ByQuadrature(rocks, swath);
@@ -97,12 +94,11 @@ TEST(BlindSwathTest, ClosedFormEqualsQuadrature) {
 }
 
 TEST(BlindSwathTest, UniformRocksOfOneSizeNeedNoIntegral) {
-  RockFieldParams rocks;
-  rocks.kind = RockFieldKind::kUniformCount;
-  rocks.count = 10;
-  rocks.uniform_min_diameter_m = 0.3;
-  rocks.uniform_max_diameter_m = 0.3;
-  rocks.min_width_ratio = 1.0;
+  RockFieldParams rocks{.kind = RockFieldKind::kUniformCount,
+                        .count = 10,
+                        .uniform_min_diameter_m = 0.3,
+                        .uniform_max_diameter_m = 0.3,
+                        .min_width_ratio = 1.0};
   EXPECT_NEAR(BlindContactsPerM(rocks, {0.5, 0.2}), 10.0 / 17.6 * 0.8, 1e-12);
   EXPECT_EQ(BlindContactsPerM(rocks, {0.5, 0.31}), 0.0);
   rocks.kind = RockFieldKind::kNone;
@@ -112,11 +108,8 @@ TEST(BlindSwathTest, UniformRocksOfOneSizeNeedNoIntegral) {
 // Needles: the mean extent of a segment of length 1 is 2 / pi (Buffon). The flattest ellipses that
 // a field may have are 0.2, whose perimeter over pi is 0.6688 by Ramanujan's second approximation.
 TEST(BlindSwathTest, FlatRocksAreMetByTheirMeanExtent) {
-  RockFieldParams round;
-  round.min_width_ratio = 1.0;
-  RockFieldParams flat;
-  flat.min_width_ratio = 0.2;
-  flat.max_width_ratio = 0.2;
+  RockFieldParams round{.min_width_ratio = 1.0};
+  RockFieldParams flat{.min_width_ratio = 0.2, .max_width_ratio = 0.2};
   const double h = std::pow(0.8 / 1.2, 2.0);
   const double extent = 0.5 * 1.2 * (1.0 + 3.0 * h / (10.0 + std::sqrt(4.0 - 3.0 * h)));
   const double ratio = BlindContactsPerM(flat, {0.0, 0.1}) / BlindContactsPerM(round, {0.0, 0.1});

@@ -21,17 +21,16 @@ constexpr core::TrialKey kKey{5, 1};
 
 // A ditch 0.5 m wide, 0.3 m deep and 4 m long along y at x = 2, and a pit with a floor.
 GroundParams DitchAndPit() {
-  GroundParams params;
-  params.ditches = {.x_m = {2.0},
-                    .y_m = {0.5},
-                    .direction_deg = {90.0},
-                    .length_m = {4.0},
-                    .width_m = {0.5},
-                    .depth_m = {0.3},
-                    .flank_m = {0.2}};
-  params.pits = {
-      .x_m = {-1.0}, .y_m = {-1.0}, .diameter_m = {1.2}, .depth_m = {0.25}, .flank_m = {0.4}};
-  return params;
+  return GroundParams{
+      .ditches = {.x_m = {2.0},
+                  .y_m = {0.5},
+                  .direction_deg = {90.0},
+                  .length_m = {4.0},
+                  .width_m = {0.5},
+                  .depth_m = {0.3},
+                  .flank_m = {0.2}},
+      .pits = {
+          .x_m = {-1.0}, .y_m = {-1.0}, .diameter_m = {1.2}, .depth_m = {0.25}, .flank_m = {0.4}}};
 }
 
 TEST(DepressionTest, DitchIsAsDeepAndWideAsListed) {

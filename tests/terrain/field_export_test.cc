@@ -63,8 +63,7 @@ TEST_F(FieldExportTest, JsonHoldsRocksAndAudit) {
 }
 
 TEST_F(FieldExportTest, WaypointsAreExportedAndDrawn) {
-  Course course;
-  course.waypoints = {{3.0, 0.5}, {5.0, -0.25}};
+  Course course{.waypoints = {{3.0, 0.5}, {5.0, -0.25}}};
   const core::JsonValue json = core::ParseJson(ToJson(field_, params_, course), "field");
   ASSERT_EQ(json.Find("waypoints_m")->list().size(), 2u);
   EXPECT_EQ(json.Find("waypoints_m")->list()[1].list()[1].number(), -0.25);

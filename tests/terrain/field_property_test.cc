@@ -160,8 +160,7 @@ TEST_P(MirrorTest, SurfaceIsSymmetricAboutBothLines) {
 }
 
 TEST(MirrorTest, UnfoldedAndReflectedShareTheStrip) {
-  TerrainParams params;
-  params.arena.kind = ArenaKind::kVirtualUnfolded;
+  TerrainParams params{.arena = {.kind = ArenaKind::kVirtualUnfolded}};
   const Field unfolded = BuildField(params, {34, 0}, {});
   params.arena.kind = ArenaKind::kVirtualReflected;
   const Field reflected = BuildField(params, {34, 0}, {});
@@ -180,8 +179,7 @@ TEST(MirrorTest, UnfoldedAndReflectedShareTheStrip) {
 TEST(LayoutTest, CentresLieInTheLayoutArea) {
   for (const ArenaKind kind : {ArenaKind::kOpen, ArenaKind::kWalled, ArenaKind::kVirtualUnfolded,
                                ArenaKind::kVirtualReflected}) {
-    TerrainParams params;
-    params.arena.kind = kind;
+    TerrainParams params{.arena = {.kind = kind}};
     const Rectangle area = LayoutBounds(params);
     for (const Rock& rock : LayoutRocks(BuildField(params, {35, 0}, {}))) {
       EXPECT_TRUE(area.Contains(rock.center_W.x(), rock.center_W.y()));

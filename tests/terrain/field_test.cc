@@ -123,8 +123,7 @@ TEST_P(FieldRuleTest, RejectAndRelocateLeaveNoOverlapEvenWithImages) {
 }
 
 TEST_P(FieldRuleTest, NoRockReachesIntoTheClearZones) {
-  Course course;
-  course.waypoints = {{3.0, 0.6}, {5.0, -0.6}};
+  Course course{.waypoints = {{3.0, 0.6}, {5.0, -0.6}}};
   for (std::uint32_t trial = 0; trial < 20; ++trial) {
     const Field field = BuildField(Params(OverlapRule::kRelocate), {5, trial}, course);
     for (const Rock& rock : field.terrain.rocks()) {
@@ -168,9 +167,7 @@ TEST(FieldTest, AuditCountsHighRocksOfTheLayoutOnly) {
 }
 
 TEST(FieldTest, RocksStandOnTheGround) {
-  TerrainParams params;
-  params.ground.slope_rad = 0.2;
-  params.ground.roughness_rms_m = 0.03;
+  TerrainParams params{.ground = {.slope_rad = 0.2, .roughness_rms_m = 0.03}};
   const Field field = BuildField(params, {9, 1}, {});
   ASSERT_GT(field.terrain.rocks().size(), 10u);
   for (const Rock& rock : field.terrain.rocks()) {
@@ -181,16 +178,14 @@ TEST(FieldTest, RocksStandOnTheGround) {
 }
 
 TEST(FieldTest, NoneIsBareGround) {
-  TerrainParams params;
-  params.rocks.kind = RockFieldKind::kNone;
+  TerrainParams params{.rocks = {.kind = RockFieldKind::kNone}};
   const Field field = BuildField(params, {9, 2}, {});
   EXPECT_TRUE(field.terrain.rocks().empty());
   EXPECT_EQ(field.audit.expected_cover, 0.0);
 }
 
 TEST(FieldTest, CourseOutsideTheArenaIsAUserError) {
-  Course course;
-  course.goal_x_m = 11.0;
+  Course course{.goal_x_m = 11.0};
   EXPECT_THROW(BuildField({}, {1, 0}, course), core::UserError);
   course.goal_x_m = 7.6;
   course.goal_y_m = 1.2;  // beyond the mirror line

@@ -23,9 +23,8 @@ TEST(GroundTest, FlatByDefault) {
 }
 
 TEST(GroundTest, SlopeRisesAlongItsDirection) {
-  GroundParams params;
-  params.slope_rad = math::DegToRad(20.0);
-  params.slope_direction_rad = math::DegToRad(90.0);
+  GroundParams params{.slope_rad = math::DegToRad(20.0),
+                      .slope_direction_rad = math::DegToRad(90.0)};
   const Ground ground(params, kKey);
   EXPECT_TRUE(ground.IsPlane());
   EXPECT_NEAR(ground.Height(5.0, 2.0), 2.0 * std::tan(params.slope_rad), 1e-12);
@@ -54,10 +53,7 @@ TEST(GroundTest, RayFromBelowHitsAtOnce) {
 class RoughGroundTest : public testing::Test {
  protected:
   static GroundParams Params() {
-    GroundParams params;
-    params.slope_rad = math::DegToRad(5.0);
-    params.roughness_rms_m = 0.05;
-    return params;
+    return GroundParams{.slope_rad = math::DegToRad(5.0), .roughness_rms_m = 0.05};
   }
   const Ground ground_{Params(), kKey};
 };

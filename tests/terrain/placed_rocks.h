@@ -10,13 +10,11 @@ namespace rockyard::terrain {
 
 inline Rock EllipsoidRock(double x_m, double y_m, double z_m, double a_m, double b_m, double c_m,
                           double yaw_rad = 0.0) {
-  Rock rock;
-  rock.center_W = {x_m, y_m, z_m};
-  rock.semi_axes_m = {a_m, b_m, c_m};
-  rock.yaw_rad = yaw_rad;
-  rock.diameter_m = 2.0 * a_m;
-  rock.height_m = z_m + c_m;
-  return rock;
+  return Rock{.center_W = {x_m, y_m, z_m},
+              .semi_axes_m = {a_m, b_m, c_m},
+              .yaw_rad = yaw_rad,
+              .diameter_m = 2.0 * a_m,
+              .height_m = z_m + c_m};
 }
 
 inline Terrain FlatWith(std::vector<Rock> rocks, std::vector<Wall> walls = {}) {

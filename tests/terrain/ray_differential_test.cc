@@ -179,8 +179,7 @@ TEST(RayDifferentialTest, AgreesWithMarchingThroughTheImplicitSurfaces) {
 }
 
 TEST(RayDifferentialTest, RoughGroundAgreesWithMarching) {
-  GroundParams params;
-  params.roughness_rms_m = 0.04;
+  GroundParams params{.roughness_rms_m = 0.04};
   const Terrain terrain(Ground(params, {15, 0}), {}, {});
   core::RandomStream stream({16, 0}, core::Purpose::kTest);
   constexpr double kStep_m = 5e-4;

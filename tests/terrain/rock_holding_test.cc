@@ -37,9 +37,8 @@ TEST(RockHolding, UnburiedRockIsHeldByFrictionUnderWeightAndLoad) {
 
 // Rankine: K = 3 at 30 degrees. Half of 3 x 1600 x 9.81 N/m3 x (0.1 m)^2 x 0.3 m is 70.63 N.
 TEST(RockHolding, BuriedRockIsAlsoHeldByThePassivePressureOnItsFront) {
-  RockHoldingParams params;
-  params.soil_friction_angle_rad = math::DegToRad(30.0);
-  params.rock_soil_friction = 0.0;
+  RockHoldingParams params{.soil_friction_angle_rad = math::DegToRad(30.0),
+                           .rock_soil_friction = 0.0};
   const auto force = [&](double depth_m, const math::Vector3& push_W) {
     return HoldingForce(MakeRock(0.15, 0.1, 0.15, depth_m), params, kEarth_m_s2, 0.0, push_W);
   };
@@ -50,8 +49,7 @@ TEST(RockHolding, BuriedRockIsAlsoHeldByThePassivePressureOnItsFront) {
 }
 
 TEST(RockHolding, WidthFollowsTheRocksYaw) {
-  RockHoldingParams params;
-  params.rock_soil_friction = 0.0;
+  RockHoldingParams params{.rock_soil_friction = 0.0};
   Rock rock = MakeRock(0.15, 0.1, 0.15, 0.1);
   const double across_N =
       HoldingForce(rock, params, kEarth_m_s2, 0.0, 7.0 * math::Vector3::UnitY());

@@ -1,11 +1,9 @@
 // Points of rocks for drawings against the queries of the terrain.
-#include "terrain/rock_points.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "terrain/rock_profile.h"
+#include "terrain/rock.h"
 #include "terrain/rock_shape.h"
 
 namespace rockyard::terrain {

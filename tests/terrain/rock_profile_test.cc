@@ -1,6 +1,4 @@
 // The family of rocks from dome to cone: against its definition, written down a second time here.
-#include "terrain/rock_profile.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "core/distributions.h"
 #include "terrain/arena.h"
+#include "terrain/rock.h"
 #include "terrain/rock_shape.h"
 #include "terrain/terrain.h"
 
@@ -306,8 +305,7 @@ TEST(RockProfileTest, IsConvex) {
 }
 
 TEST(RockProfileTest, MirrorImagesAreAsPointed) {
-  ArenaParams arena;
-  arena.kind = ArenaKind::kVirtualUnfolded;
+  ArenaParams arena{.kind = ArenaKind::kVirtualUnfolded};
   core::RandomStream stream({57, 0}, core::Purpose::kTest);
   const Sample sample = DrawSample(stream, 0.87);
   const double line_m = arena.MirrorLine();

@@ -111,8 +111,7 @@ TEST(UniformSizeLawTest, OneDiameterOnly) {
 }
 
 TEST(MakeSizeLawTest, NoneHasNoLaw) {
-  RockFieldParams params;
-  params.kind = RockFieldKind::kNone;
+  RockFieldParams params{.kind = RockFieldKind::kNone};
   EXPECT_EQ(MakeSizeLaw(params), nullptr);
   EXPECT_EQ(params.RocksPerM2(), 0.0);
 }

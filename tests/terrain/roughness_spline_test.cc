@@ -40,10 +40,7 @@ TEST(RoughnessSpline, IsTheSumOfTheOctaves) {
 }
 
 Ground RoughGround(double rms_m, double slope_rad) {
-  GroundParams params;
-  params.roughness_rms_m = rms_m;
-  params.slope_rad = slope_rad;
-  params.slope_direction_rad = 0.7;
+  GroundParams params{.slope_rad = slope_rad, .slope_direction_rad = 0.7, .roughness_rms_m = rms_m};
   return Ground(params, kKey);
 }
 

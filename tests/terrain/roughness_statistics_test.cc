@@ -14,9 +14,7 @@ double MeanSquare(double hurst,
                   const std::function<double(const Ground&, double x_m, double y_m)>& value_m) {
   constexpr std::uint32_t kTrials = 40;
   constexpr int kPoints = 400;
-  GroundParams params;
-  params.roughness_rms_m = 0.05;
-  params.hurst_exponent = hurst;
+  GroundParams params{.roughness_rms_m = 0.05, .hurst_exponent = hurst};
   double sum = 0.0;
   for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
     const Ground ground(params, {81, trial});

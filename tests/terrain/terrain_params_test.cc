@@ -32,9 +32,7 @@ TEST(TerrainParamsTest, LayoutAreaMatchesTheRectangle) {
   for (const ArenaKind arena : {ArenaKind::kOpen, ArenaKind::kWalled, ArenaKind::kVirtualUnfolded,
                                 ArenaKind::kVirtualReflected}) {
     for (const RockFieldKind rocks : {RockFieldKind::kMoore, RockFieldKind::kUniformCount}) {
-      TerrainParams params;
-      params.arena.kind = arena;
-      params.rocks.kind = rocks;
+      TerrainParams params{.rocks = {.kind = rocks}, .arena = {.kind = arena}};
       EXPECT_NEAR(params.LayoutArea(), LayoutBounds(params).Area(), 1e-12);
     }
   }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 
+#include "terrain/rock_size_law.h"
 #include "terrain/terrain_params.h"
 
 namespace rockyard::terrain {
@@ -10,32 +12,29 @@ namespace rockyard::terrain {
 // Moore's law on an open 12 x 4 m arena without margin and without clear zones: every drawn rock
 // stays, anywhere on 48 m2.
 inline TerrainParams PlainMoore(double k_per_m2) {
-  TerrainParams params;
-  params.rocks.k_per_m2 = k_per_m2;
-  params.rocks.clear_radius_m = 0.0;
-  params.rocks.overlap = OverlapRule::kAllow;
-  params.arena.kind = ArenaKind::kOpen;
-  params.arena.open_margin_m = 0.0;
-  return params;
+  return TerrainParams{
+      .rocks = {.k_per_m2 = k_per_m2, .overlap = OverlapRule::kAllow, .clear_radius_m = 0.0},
+      .arena = {.kind = ArenaKind::kOpen, .open_margin_m = 0.0}};
 }
 
 // Moore's law in an arena of the default size, with its clear zones.
 inline TerrainParams MooreIn(ArenaKind arena, double k_per_m2, OverlapRule overlap,
                              LineRule line = LineRule::kMerge) {
-  TerrainParams params;
-  params.arena.kind = arena;
-  params.rocks.k_per_m2 = k_per_m2;
-  params.rocks.overlap = overlap;
-  params.rocks.mirror_line = line;
-  return params;
+  return TerrainParams{.rocks = {.k_per_m2 = k_per_m2, .overlap = overlap, .mirror_line = line},
+                       .arena = {.kind = arena}};
 }
 
 inline TerrainParams ExactCount(std::int64_t count, ArenaKind arena) {
-  TerrainParams params;
-  params.rocks.kind = RockFieldKind::kUniformCount;
-  params.rocks.count = count;
-  params.arena.kind = arena;
-  return params;
+  return TerrainParams{.rocks = {.kind = RockFieldKind::kUniformCount, .count = count},
+                       .arena = {.kind = arena}};
+}
+
+// The share of the ground that round rocks of Moore's law with diameters from low_m to high_m
+// cover, overlap not counted: the integral of (pi D^2 / 4) (-dN/dD), Matthies 1995 eq. (4). high_m
+// may be infinite; then k = 0.013 and 0.00415 from 0.1 m give the published 19 % and 6 %.
+inline double MooreCoveredFraction(double k_per_m2, double low_m, double high_m) {
+  const double per_m2 = MooreNumberPerM2(k_per_m2, low_m) - MooreNumberPerM2(k_per_m2, high_m);
+  return 0.25 * std::numbers::pi * per_m2 * MooreSizeLaw(low_m, high_m).MeanPower(2.0);
 }
 
 inline constexpr double kNominalK = 0.00415;  // Matthies 1995 sec. 7

@@ -10,7 +10,7 @@
 
 #include "math/angles.h"
 #include "navigation/navigator.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 #include "scenario/shipped.h"
 #include "trial/shipped_trials.h"
 

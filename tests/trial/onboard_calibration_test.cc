@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "perception/triangulation.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 #include "sensing/light_stripe.h"
 #include "sensing/stripe_layout_params.h"
 #include "trial/shipped_trials.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "math/angles.h"
-#include "sensing/gyro.h"
+#include "sensing/motion_sensors.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -11,8 +11,8 @@
 #include "experiments/hazard_detection/hazard_judge.h"
 #include "experiments/hazard_detection/hazard_study.h"
 #include "experiments/scene_key.h"
+#include "terrain/blind_swath.h"
 #include "terrain/field.h"
-#include "terrain/swept_path.h"
 #include "terrain/terrain.h"
 #include "trial/layout.h"
 

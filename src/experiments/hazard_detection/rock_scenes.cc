@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/distributions.h"
-#include "terrain/rock_profile.h"
+#include "terrain/rock.h"
 
 namespace rockyard::experiments {
 

@@ -22,7 +22,7 @@ struct PlacedBody {
 // A its map onto the unit sphere, P the projection along the mapped ray. Where the edge of an
 // ellipse runs through the sun's disc, which is as wide as d = diameter * distance there, the disc
 // is cut by a straight line at the distance (sqrt(m) - 1) / |grad sqrt(m)|; what several rocks
-// leave of it is multiplied. Caps (rock_profile.h) are asked by eight rays over the disc, and
+// leave of it is multiplied. Caps (rock.h) are asked by eight rays over the disc, and
 // ground and rover by one: their shadows have hard edges. Walls cast none.
 class SunShadows {
  public:

@@ -10,7 +10,6 @@
 #include "rover/motor_ramp.h"
 #include "rover/multibody/contact_finder.h"
 #include "rover/multibody/contact_law.h"
-#include "rover/multibody/friction_block.h"
 #include "rover/multibody/loose_rocks.h"
 #include "rover/multibody/multibody.h"
 #include "rover/rover_params.h"

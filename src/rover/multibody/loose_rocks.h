@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rover/multibody/contact_finder.h"
-#include "terrain/rock_holding_params.h"
+#include "terrain/rock_params.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::rover {

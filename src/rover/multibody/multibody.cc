@@ -3,7 +3,7 @@
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
 #include "rover/mass_properties_params.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
 namespace {

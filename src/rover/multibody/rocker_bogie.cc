@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/check.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
 namespace {

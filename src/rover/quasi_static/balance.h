@@ -7,12 +7,10 @@
 #include "messages/wheels.h"
 #include "rover/quasi_static/contacts.h"
 #include "rover/quasi_static/linkage.h"
-#include "rover/quasi_static/linkage_equations.h"
 #include "rover/quasi_static/progress.h"
-#include "rover/quasi_static/wheel_soil_table.h"
 #include "rover/rover_params.h"
-#include "rover/shear_curve.h"
 #include "rover/slip_sinkage.h"
+#include "rover/wheel_soil.h"
 
 namespace rockyard::rover {
 

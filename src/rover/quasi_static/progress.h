@@ -1,7 +1,7 @@
 // How far a rover with mass gets along the way of its wheels while these start and stop.
 #pragma once
 
-#include "rover/shear_curve.h"
+#include "rover/wheel_soil.h"
 
 namespace rockyard::rover {
 

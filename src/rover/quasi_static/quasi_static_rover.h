@@ -7,7 +7,7 @@
 #include "rover/quasi_static/contacts.h"
 #include "rover/quasi_static/linkage.h"
 #include "rover/rover.h"
-#include "rover/rover_geometry.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
 

@@ -12,7 +12,7 @@
 #include "campaign/odometry/odometry_files.h"
 #include "campaign/odometry/pose_text.h"
 #include "campaign/odometry/render_sequence.h"
-#include "core/chi_squared.h"
+#include "core/distributions.h"
 #include "core/error.h"
 #include "core/test_folder.h"
 #include "image_files/luminance.h"

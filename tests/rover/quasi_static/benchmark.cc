@@ -14,13 +14,6 @@ namespace {
 
 constexpr int kStepsPerTrial = 2700;
 
-std::string StateHash(const truth::RoverState& state) {
-  core::Hasher hasher;
-  for (const double value : state.X_WR.matrix().reshaped()) hasher.Real(value);
-  for (const double angle : state.wheel_angle_rad) hasher.Real(angle);
-  return core::Hex(hasher.value());
-}
-
 // Seven seconds ahead, one back, two turning; again and again.
 const messages::WheelCommand& Pattern(int step,
                                       const std::array<messages::WheelCommand, 3>& commands) {
@@ -29,8 +22,7 @@ const messages::WheelCommand& Pattern(int step,
 }
 
 void Trial(benchmark::State& bench, double k, double pointedness = 0.0) {
-  RoverParams params;
-  params.fidelity = Fidelity::kQuasiStatic;
+  RoverParams params{.fidelity = Fidelity::kQuasiStatic};
   const terrain::Terrain terrain = ScatteredRocks(k, 1.0, 0, pointedness);
   const std::array<messages::WheelCommand, 3> commands{
       Drive(params, 0.15, 0.0), Drive(params, -0.15, 0.0), Drive(params, 0.0, 0.5)};
@@ -58,8 +50,7 @@ BENCHMARK_CAPTURE(Trial, VikingLander2, 0.013)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Trial, NominalPointed, 0.00415, 0.87)->Unit(benchmark::kMillisecond);
 
 void Place(benchmark::State& bench) {
-  RoverParams params;
-  params.fidelity = Fidelity::kQuasiStatic;
+  RoverParams params{.fidelity = Fidelity::kQuasiStatic};
   const terrain::Terrain terrain = ScatteredRocks(0.013, 1.0, 0);
   QuasiStaticRover rover(params, terrain);
   for (auto _ : bench) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rover/rover_drive.h"
-#include "terrain/rock_profile.h"
+#include "terrain/rock.h"
 
 namespace rockyard::rover {
 

@@ -9,7 +9,7 @@
 #include "rover/quasi_static/wheel_rock_gap.h"
 #include "rover/rock_body.h"
 #include "rover/rover_drive.h"
-#include "terrain/rock_profile.h"
+#include "terrain/rock.h"
 
 namespace rockyard::rover {
 namespace {

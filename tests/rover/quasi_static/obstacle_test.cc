@@ -10,8 +10,6 @@
 namespace rockyard::rover {
 namespace {
 
-using truth::BodyPart;
-
 RoverParams QuasiStatic() { return WithFidelity(Fidelity::kQuasiStatic); }
 
 // Wheels over a low rock on one side: the wheel centre rises to the rock's top plus the radius less
@@ -27,39 +25,6 @@ TEST(QuasiStaticRock, BogieAngleFromGeometry) {
   const double bogie_rad = Pitch(state.X_WR) + state.left_rocker_rad + state.left_bogie_rad;
   EXPECT_NEAR(bogie_rad, -std::asin(top_m / length_m), math::DegToRad(1.0));
   EXPECT_NEAR(state.left_rocker_rad + state.right_rocker_rad, 0.0, 1e-12);
-}
-
-TEST(QuasiStaticRock, LowerThanTheBellyPassesBetweenTheWheels) {
-  const RoverParams params = QuasiStatic();
-  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)}), params);
-  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
-  for (int i = 0; i < 200; ++i) {
-    rover->Step(command);
-    EXPECT_TRUE(rover->state().contacts.empty());
-  }
-  EXPECT_GT(rover->state().X_WR.translation().x(), 1.3);
-}
-
-TEST(QuasiStaticRock, TallerThanTheBellyBlocksItUntilItBacksOff) {
-  const RoverParams params = QuasiStatic();
-  const RoverOn rover(FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)}), params);
-  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
-  const truth::RoverState& state = rover->state();
-  EXPECT_LT(state.X_WR.translation().x(), 0.5);
-  ASSERT_EQ(state.contacts.size(), 1U);
-  EXPECT_EQ(state.contacts[0].part, BodyPart::kBelly);
-  EXPECT_EQ(state.contacts[0].rock, 0);
-  EXPECT_GT(state.contacts[0].normal_force_N, 50.0);
-  const double blocked_x = state.X_WR.translation().x();
-  RunFor(*rover, Drive(params, -0.15, 0.0), 1.0);
-  EXPECT_LT(rover->state().X_WR.translation().x(), blocked_x - 0.1);
-}
-
-TEST(QuasiStaticWall, StopsTheRover) {
-  const RoverParams params = QuasiStatic();
-  const RoverOn rover(FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}}), params);
-  RunFor(*rover, Drive(params, 0.15, 0.0), 6.0);
-  EXPECT_NEAR(rover->state().X_WR.translation().x(), 0.8 - 0.5 * params.geometry.length_m, 0.01);
 }
 
 // A wheel that is steered into a rock while the rover stands pushes the rover away.
@@ -143,9 +108,8 @@ Stalled StalledWheels(Fidelity fidelity, const terrain::Terrain& terrain, double
 // The ground's force across a wheel takes nothing from its motor: along a slope that falls to the
 // right, the rear wheels that stand show their stall torque, as in the multibody.
 TEST(QuasiStaticMotor, AStalledWheelShowsItsStallTorqueUnderASideForce) {
-  terrain::GroundParams ground;
-  ground.slope_rad = math::DegToRad(3.0);
-  ground.slope_direction_rad = math::DegToRad(90.0);
+  terrain::GroundParams ground{.slope_rad = math::DegToRad(3.0),
+                               .slope_direction_rad = math::DegToRad(90.0)};
   const terrain::Terrain terrain(terrain::Ground(ground, {}),
                                  {MakeRock(0.7, 0.0, 0.0, 0.2, 2.0, 0.6)}, {});
   for (const Fidelity fidelity : {Fidelity::kQuasiStatic, Fidelity::kMultibody}) {

@@ -209,9 +209,7 @@ TEST(QuasiStaticSlope, BrakedRoverSlidesBeyondTheFrictionAngle) {
 
 // Soil without strength: wheels that spin do not get on, neither forward nor, on a slope, back.
 TEST(QuasiStaticSlope, NothingCreepsWhereNothingCanMove) {
-  terrain::SoilParams soil;
-  soil.friction_angle_rad = math::DegToRad(3.0);
-  soil.cohesion_Pa = 0.0;
+  terrain::SoilParams soil{.cohesion_Pa = 0.0, .friction_angle_rad = math::DegToRad(3.0)};
   const RoverParams params = QuasiStatic();
   for (const double slope_deg : {0.0, 5.0}) {
     const RoverOn rover(SlopeTerrain(math::DegToRad(slope_deg), kUphill, soil), params);
@@ -237,10 +235,9 @@ TEST(QuasiStaticSlope, TipsOverSidewaysAtTheStaticAngle) {
   const double middle_y = 0.5 * (params.geometry.width_m - params.geometry.wheel_width_m);
   const double edge_y = 0.5 * params.geometry.width_m;
   const auto tilt_after = [&](double slope) {
-    terrain::GroundParams ground;
-    ground.slope_rad = slope;
-    ground.slope_direction_rad = kLeftUp;
-    ground.soil = terrain::MakeSoil(terrain::SoilPreset::kHardGround);
+    terrain::GroundParams ground{.slope_rad = slope,
+                                 .slope_direction_rad = kLeftUp,
+                                 .soil = terrain::MakeSoil(terrain::SoilPreset::kHardGround)};
     ground.soil.friction_angle_rad = math::DegToRad(60.0);  // holds until it tips
     const RoverOn rover(terrain::Terrain(terrain::Ground(ground, {}), {}, {}), params);
     RunFor(*rover, Drive(params, 0.15, 0.0), 2.0);
@@ -266,7 +263,9 @@ TEST(QuasiStaticDrive, TurnsInPlaceAboutItsCentre) {
   const WheelSoil soil(terrain.ground().soil(), params.geometry.wheel_radius_m,
                        params.geometry.wheel_width_m);
   const double load_N = Weights(params).total_N / 6.0;
-  const double slip = soil.Slip(soil.Resistance_N(load_N) / soil.LargestTraction_N(load_N), load_N);
+  const double share = soil.Resistance_N(load_N) / soil.LargestTraction_N(load_N);
+  const double slip =
+      Bisect(0.0, 1.0, [&](double i) { return soil.TractionShare(i, load_N) - share; });
   EXPECT_NEAR(math::Heading(X) - from_rad, 1.2 * (1.0 - slip), 0.01);
 }
 

@@ -48,8 +48,7 @@ RockyDrive DriveOverRocks(const RoverParams& params, const terrain::Terrain& ter
 
 // The nominal terrain of Matthies 1995 with its pointed rocks.
 terrain::Terrain NominalRocks(std::uint32_t field) {
-  terrain::TerrainParams params;
-  params.rocks.pointedness = 0.8675;
+  terrain::TerrainParams params{.rocks = {.pointedness = 0.8675}};
   constexpr std::uint64_t kSeed = 77;
   return terrain::BuildField(params, {kSeed, field}, {}).terrain;
 }

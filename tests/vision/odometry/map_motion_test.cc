@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/check.h"
-#include "core/chi_squared.h"
 #include "core/distributions.h"
 #include "vision/odometry/odometer.h"
 #include "vision/odometry/place_features.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/chi_squared.h"
+#include "core/distributions.h"
 #include "math/decompositions.h"
 #include "vision/odometry/estimate_motion.h"
 #include "vision/odometry/plain_motion.h"

@@ -1,0 +1,52 @@
+#include "localization/aid_fixes.h"
+
+#include <cmath>
+
+#include "core/check.h"
+#include "math/angles.h"
+#include "math/polar.h"
+
+namespace rockyard::localization {
+
+messages::PoseFix PlaceFromBeacon(const messages::BeaconReading& reading) {
+  constexpr int kX = messages::Index(messages::PoseCoordinate::kX);
+  constexpr int kY = messages::Index(messages::PoseCoordinate::kY);
+  messages::PoseFix fix;
+  fix.capture = reading.capture;
+  fix.measured.set(kX).set(kY);
+  fix.pose_W[kX] = reading.station_x_m + reading.range_m * std::cos(reading.bearing_rad);
+  fix.pose_W[kY] = reading.station_y_m + reading.range_m * std::sin(reading.bearing_rad);
+  fix.covariance.topLeftCorner<2, 2>() = math::PolarCovariance(
+      reading.bearing_rad, reading.range_sd_m, reading.range_m * reading.bearing_sd_rad);
+  return fix;
+}
+
+math::Vector3 SunAlmanac::Sun_W(double time_s) const {
+  const double time_h = start_solar_time_h + 24.0 * time_s / math::kSolOfMars_s;
+  return math::ToUnitVector(math::SunPosition(latitude_rad, declination_rad, time_h),
+                            north_heading_rad);
+}
+
+messages::PoseFix HeadingFromSun(const messages::SunSighting& sighting,
+                                 const messages::AttitudeEstimate& attitude,
+                                 const math::Vector3& sun_W, double tilt_sd_rad) {
+  const double level = std::hypot(sun_W.x(), sun_W.y());
+  EXPECT(level > 0.0);
+  const math::Transform X_LR =
+      math::MakePose(math::Vector3::Zero(), 0.0, attitude.pitch_rad, attitude.roll_rad);
+  const math::Vector3 sun_L = X_LR.linear() * sighting.sun_R;
+  const double tangent = sun_W.z() / level;
+  constexpr int kHeading = messages::Index(messages::PoseCoordinate::kHeading);
+  messages::PoseFix fix;
+  fix.capture = sighting.capture;
+  fix.measured.set(kHeading);
+  fix.pose_W[kHeading] =
+      math::WrapAngle(std::atan2(sun_W.y(), sun_W.x()) - std::atan2(sun_L.y(), sun_L.x()));
+  // cos(elevation) = level, tan(elevation) = tangent.
+  const double across_rad = sighting.direction_sd_rad / level;
+  const double tilt_rad = tilt_sd_rad * tangent;
+  fix.covariance(kHeading, kHeading) = across_rad * across_rad + tilt_rad * tilt_rad;
+  return fix;
+}
+
+}  // namespace rockyard::localization

@@ -1,0 +1,101 @@
+// Statistics of one sample: moments, quantiles, empirical distribution function, modes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "statistics/proportions.h"
+
+namespace rockyard::statistics {
+
+// Count, mean, variance and extremes of a stream of values in one pass (Welford 1962), mergeable
+// (Chan, Golub and LeVeque 1983). Values that are not finite are counted apart and otherwise left
+// out. Merging in a fixed order gives the same bits whatever the threads did.
+class Moments {
+ public:
+  void Add(double value);
+  void Merge(const Moments& other);
+
+  std::int64_t count() const { return count_; }
+  std::int64_t not_finite() const { return not_finite_; }
+  double mean() const;                // NaN when empty
+  double variance() const;            // unbiased; NaN below two values
+  double standard_deviation() const;  // root of the unbiased variance
+  double min() const;                 // NaN when empty
+  double max() const;                 // NaN when empty
+
+ private:
+  std::int64_t count_ = 0;
+  std::int64_t not_finite_ = 0;
+  double mean_ = 0.0;
+  double sum_of_squares_ = 0.0;  // of the deviations from the mean
+  double min_ = 0.0;
+  double max_ = 0.0;
+};
+
+Moments MomentsOf(std::span<const double> values);
+
+// Returns the finite values in ascending order (NaN and infinities are left out).
+std::vector<double> SortedFinite(std::span<const double> values);
+
+// Returns the quantile of type 7 (Hyndman and Fan 1996): linear between order statistics, the
+// default of R and NumPy. `sorted` is ascending, 0 <= probability <= 1. It is NaN when empty.
+double Quantile(std::span<const double> sorted, double probability);
+
+// Returns the interval of the median from two order statistics, whose ranks the binomial law of the
+// values below it gives (Thompson 1936): it covers with at least this confidence whatever the
+// continuous law. `sorted` is ascending; the ends are NaN where so few values cannot give the
+// confidence (below 6 at 95 %).
+Interval MedianInterval(std::span<const double> sorted, double confidence = kConfidence);
+
+// How much of the curve a band covers at once.
+enum class BandMethod {
+  kSimultaneous,  // Dvoretzky-Kiefer-Wolfowitz with Massart's constant (1990): the whole curve
+  kPointwise,     // Clopper-Pearson at each point on its own
+};
+
+// One step of an empirical distribution function: at and right of `value` the function is
+// `fraction`.
+struct EcdfPoint {
+  double value = 0.0;
+  double fraction = 0.0;
+  Interval band;
+};
+
+// Returns the empirical distribution function of the finite values, one point per distinct value.
+// `independent`: of how many independent values the simultaneous band is, where that is not their
+// number.
+std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence = kConfidence,
+                            BandMethod method = BandMethod::kSimultaneous,
+                            std::optional<double> independent = {});
+
+// Estimates of the mode of a sample. Matthies 1995 quotes modes without saying how they were found;
+// the half-sample mode is the one that the comparison uses, the others are shown beside it.
+
+// Returns the half-sample mode (Robertson and Cryer 1974; Bickel and Fruehwirth 2006): it takes the
+// shortest interval that holds half of the points, again and again, until three or fewer are left.
+// It needs no bin and no bandwidth. `sorted` is ascending and finite; the mode is NaN when it is
+// empty. Of equally short halves the lowest is taken. Cost: linear.
+double HalfSampleMode(std::span<const double> sorted);
+
+// Returns how far the half-sample mode of the law may lie from that of the sample, by subsampling
+// (Politis, Romano and Wolf 1999, sec. 2.2): the spread of the modes of at most 100 blocks of
+// n^(2/3) values (1000 at most) that follow each other in `values`, which must be independent and
+// in no order, shrunk to n values at the rate n^(1/3) of an estimator of shortest intervals. No
+// coverage is claimed: where a law has several near-modes, the mode of a sample jumps between them
+// at any size. NaN below 30 finite values. Cost: 100 blocks, sorted.
+Interval HalfSampleModeRange(std::span<const double> values, double confidence = kConfidence);
+
+// Returns the middle of the fullest bin of a histogram with Freedman-Diaconis bins that start at
+// the minimum (Sturges' number of bins where the quartiles coincide). Of equally full bins the
+// lowest is taken.
+double HistogramMode(std::span<const double> sorted);
+
+// Returns the highest point of a Gaussian kernel density with Silverman's bandwidth 0.9 min(s,
+// IQR/1.34) n^(-1/5) (Silverman 1986, eq. 3.31), found on a grid of 256 points from minimum to
+// maximum and refined by a parabola. Cost: 256 n.
+double KernelMode(std::span<const double> sorted);
+
+}  // namespace rockyard::statistics

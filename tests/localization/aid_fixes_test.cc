@@ -1,0 +1,121 @@
+#include "localization/aid_fixes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/distributions.h"
+#include "core/random.h"
+#include "math/angles.h"
+
+namespace rockyard::localization {
+namespace {
+
+using math::DegToRad;
+
+TEST(BeaconFix, LiesAtRangeAndBearingFromTheStation) {
+  const auto fix = PlaceFromBeacon({.capture = 5,
+                                    .station_x_m = 1.0,
+                                    .station_y_m = -2.0,
+                                    .range_m = 10.0,
+                                    .bearing_rad = math::DegToRad(30.0),
+                                    .range_sd_m = 1.0,
+                                    .bearing_sd_rad = math::DegToRad(3.0)});
+  EXPECT_EQ(fix.capture, 5);
+  EXPECT_EQ(fix.measured.to_ulong(), 3u);  // x and y
+  EXPECT_NEAR(fix.pose_W[0], 1.0 + 10.0 * std::cos(math::DegToRad(30.0)), 1e-12);
+  EXPECT_NEAR(fix.pose_W[1], -2.0 + 5.0, 1e-12);
+}
+
+// Against the spread of places that noisy readings give; 20000 of them know a variance to 1 %.
+TEST(BeaconFix, HasTheSpreadOfItsReadings) {
+  constexpr int kReadings = 20000;
+  const messages::BeaconReading truth{.range_m = 40.0,
+                                      .bearing_rad = math::DegToRad(125.0),
+                                      .range_sd_m = 1.0,
+                                      .bearing_sd_rad = math::DegToRad(3.0)};
+  core::RandomStream stream({5, 0}, core::Purpose::kTest);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (int i = 0; i < kReadings; ++i) {
+    messages::BeaconReading reading = truth;
+    reading.range_m = core::SampleNormal(stream, truth.range_m, truth.range_sd_m);
+    reading.bearing_rad = core::SampleNormal(stream, truth.bearing_rad, truth.bearing_sd_rad);
+    const Eigen::Vector2d place = PlaceFromBeacon(reading).pose_W.head<2>();
+    sum += place;
+    squares += place * place.transpose();
+  }
+  const Eigen::Vector2d mean = sum / kReadings;
+  const Eigen::Matrix2d spread = squares / kReadings - mean * mean.transpose();
+  const Eigen::Matrix2d told = PlaceFromBeacon(truth).covariance.topLeftCorner<2, 2>();
+  EXPECT_LT((spread - told).norm() / told.norm(), 0.04);
+  // The control: the axes the wrong way round.
+  EXPECT_GT((spread - Eigen::Matrix2d(told.reverse())).norm() / told.norm(), 0.3);
+}
+
+constexpr int kHeading = messages::Index(messages::PoseCoordinate::kHeading);
+
+messages::SunSighting SightedBy(const math::Transform& X_WR, const math::Vector3& sun_W) {
+  return messages::SunSighting{
+      .capture = 3, .sun_R = X_WR.linear().transpose() * sun_W, .direction_sd_rad = DegToRad(0.5)};
+}
+
+math::Vector3 SunAt(double heading_rad, double elevation_rad) {
+  return math::ToUnitVector({-heading_rad, elevation_rad}, 0.0);
+}
+
+TEST(SunCompass, FindsTheHeadingOfATiltedRover) {
+  for (const double heading_deg : {-170.0, -30.0, 0.0, 75.0, 179.0}) {
+    const math::Transform X_WR = math::MakePose(math::Vector3(1.0, 2.0, 0.1), DegToRad(heading_deg),
+                                                DegToRad(8.0), DegToRad(-11.0));
+    const math::Vector3 sun_W = SunAt(DegToRad(60.0), DegToRad(50.0));
+    const auto fix =
+        HeadingFromSun(SightedBy(X_WR, sun_W),
+                       {.roll_rad = DegToRad(-11.0), .pitch_rad = DegToRad(8.0)}, sun_W, 0.0);
+    EXPECT_NEAR(math::WrapAngle(fix.pose_W[kHeading] - DegToRad(heading_deg)), 0.0, 1e-12);
+    EXPECT_EQ(fix.measured.count(), 1u);
+    EXPECT_TRUE(fix.measured[kHeading]);
+    EXPECT_EQ(fix.capture, 3);
+  }
+}
+
+// A tilt of e about the horizontal direction to the sun that the rover does not know of shifts its
+// azimuth by e tan(elevation); one across that direction shifts it not at all, to first order.
+TEST(SunCompass, ErrsByTheTiltTimesTheTangentOfTheElevation) {
+  constexpr double kTilt_rad = 1e-4;
+  for (const double elevation_deg : {20.0, 45.0, 70.0}) {
+    const double elevation_rad = DegToRad(elevation_deg);
+    const math::Vector3 sun_W = SunAt(0.0, elevation_rad);  // straight ahead: x is the direction
+    const auto rolled = math::MakePose(math::Vector3::Zero(), 0.0, 0.0, kTilt_rad);
+    const auto pitched = math::MakePose(math::Vector3::Zero(), 0.0, kTilt_rad, 0.0);
+    const auto by_roll = HeadingFromSun(SightedBy(rolled, sun_W), {}, sun_W, 0.0);
+    const auto by_pitch = HeadingFromSun(SightedBy(pitched, sun_W), {}, sun_W, 0.0);
+    EXPECT_NEAR(std::abs(by_roll.pose_W[kHeading]), kTilt_rad * std::tan(elevation_rad), 1e-7);
+    EXPECT_NEAR(by_pitch.pose_W[kHeading], 0.0, 1e-7);
+  }
+}
+
+TEST(SunCompass, KnowsItsVariance) {
+  const double elevation_rad = DegToRad(40.0);
+  const math::Vector3 sun_W = SunAt(0.3, elevation_rad);
+  const auto fix =
+      HeadingFromSun(SightedBy(math::Transform::Identity(), sun_W), {}, sun_W, DegToRad(2.0));
+  const double across = DegToRad(0.5) / std::cos(elevation_rad);
+  const double tilt = DegToRad(2.0) * std::tan(elevation_rad);
+  EXPECT_NEAR(fix.covariance(kHeading, kHeading), across * across + tilt * tilt, 1e-12);
+}
+
+TEST(SunAlmanac, FollowsTheSunOverTheDay) {
+  const SunAlmanac almanac{.latitude_rad = DegToRad(19.3),
+                           .declination_rad = math::SunDeclination(DegToRad(142.7)),
+                           .start_solar_time_h = 10.0,
+                           .north_heading_rad = DegToRad(90.0)};
+  const math::Vector3 morning = almanac.Sun_W(0.0);
+  const math::Vector3 noon = almanac.Sun_W(2.0 / 24.0 * math::kSolOfMars_s);
+  EXPECT_GT(morning.x(), 0.3);  // east, to the right of north, is +x
+  EXPECT_NEAR(noon.x(), 0.0, 1e-9);
+  EXPECT_GT(noon.z(), morning.z());
+}
+
+}  // namespace
+}  // namespace rockyard::localization
