@@ -6,7 +6,7 @@
 
 #include "replay/data.h"
 #include "scenario/scenario.h"
-#include "truth/traced_trial.h"
+#include "truth/trace.h"
 
 namespace rockyard::campaign {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scenario/scenario.h"
-#include "truth/traced_trial.h"
+#include "truth/trace.h"
 
 namespace rockyard::campaign {
 

@@ -6,7 +6,7 @@
 #include "messages/estimates.h"
 #include "messages/stripe_images.h"
 #include "report/scan_view.h"
-#include "trial/scan_watcher.h"
+#include "trial/watchers.h"
 
 namespace rockyard::campaign {
 

@@ -18,7 +18,7 @@
 #include "scenario/load.h"
 #include "terrain/terrain.h"
 #include "trial/hazard_watch.h"
-#include "trial/patience_params.h"
+#include "trial/open_values_params.h"
 
 namespace rockyard::campaign {
 namespace {

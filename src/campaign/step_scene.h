@@ -2,7 +2,7 @@
 #pragma once
 
 #include "report/step_scene.h"
-#include "trial/step_watcher.h"
+#include "trial/watchers.h"
 #include "truth/trace.h"
 
 namespace rockyard::campaign {

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "experiments/cell_factor_params.h"
+#include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
 
@@ -40,5 +43,27 @@ class CellTable {
   std::vector<CellFactor> factors_;
   std::size_t size_ = 1;
 };
+
+// The columns of `known` that records of cells have: the factors, `more`, and what ForEachSum lists
+// of Sums.
+template <typename Sums>
+truth::RecordSchema CellSchema(const truth::RecordSchema& known, const CellTable& table,
+                               const std::vector<std::string>& more = {}) {
+  const std::vector<std::string_view> factors = table.columns();
+  std::vector<std::string> names(factors.begin(), factors.end());
+  names.insert(names.end(), more.begin(), more.end());
+  ForEachSum(Sums{}, [&](const std::string& name, double) { names.push_back(name); });
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return truth::MeasurementSchema(known, views);
+}
+
+// Such a record; `values` are those of the factors and of `more`.
+template <typename Sums>
+truth::Record CellRecord(std::uint64_t index, std::size_t cell, std::vector<double> values,
+                         const Sums& sums) {
+  values.insert(values.begin(), static_cast<double>(cell));
+  ForEachSum(sums, [&](const std::string&, double value) { values.push_back(value); });
+  return {index, truth::TrialOutcome::kMeasured, "", std::move(values)};
+}
 
 }  // namespace rockyard::experiments

@@ -8,24 +8,15 @@
 #include <string_view>
 
 #include "core/fields.h"
-#include "experiments/cylinder_sighting/checks_params.h"
 #include "experiments/cylinder_sighting/cylinder_sighting_params.h"
-#include "experiments/dead_reckoning/checks_params.h"
 #include "experiments/dead_reckoning/dead_reckoning_walk_params.h"
-#include "experiments/designation/checks_params.h"
 #include "experiments/designation/designation_study_params.h"
-#include "experiments/hazard_detection/checks_params.h"
 #include "experiments/hazard_detection/hazard_detection_params.h"
-#include "experiments/mission/checks_params.h"
 #include "experiments/mission/mission_params.h"
-#include "experiments/stereo_sensing/checks_params.h"
 #include "experiments/stereo_sensing/stereo_sensing_params.h"
-#include "experiments/three_rock_run/checks_params.h"
 #include "experiments/three_rock_run/three_rock_run_params.h"
-#include "experiments/visual_motion/checks_params.h"
 #include "experiments/visual_motion/visual_motion_study_params.h"
 #include "trial/drive_checks_params.h"
-#include "trial/drive_consistency_params.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::experiments {

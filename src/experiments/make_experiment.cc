@@ -5,23 +5,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "experiments/cylinder_sighting/columns.h"
 #include "experiments/cylinder_sighting/cylinder_sighting.h"
-#include "experiments/dead_reckoning/columns.h"
 #include "experiments/dead_reckoning/dead_reckoning.h"
-#include "experiments/designation/columns.h"
 #include "experiments/designation/designation.h"
 #include "experiments/drive/drive_experiment.h"
 #include "experiments/experiment.h"
-#include "experiments/hazard_detection/columns.h"
 #include "experiments/hazard_detection/hazard_detection.h"
-#include "experiments/mission/columns.h"
 #include "experiments/mission/mission_experiment.h"
-#include "experiments/stereo_sensing/columns.h"
 #include "experiments/stereo_sensing/stereo_sensing.h"
-#include "experiments/three_rock_run/columns.h"
 #include "experiments/three_rock_run/three_rock_run.h"
-#include "experiments/visual_motion/columns.h"
 #include "experiments/visual_motion/visual_motion.h"
 #include "truth/measurement_record.h"
 

@@ -1,4 +1,4 @@
-// What a run of an experiment gives, whatever happens in it.
+// What a run of an experiment gives, whatever happens in it, and the random keys of its scenes.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,19 @@ truth::Record RecordOf(std::uint64_t seed, std::uint64_t index, const Measure& m
     if (core::IsMachineFailure(error)) throw;
     return truth::MakeFault(seed, index, error.what());
   }
+}
+
+// A key of its own for every scene of every run, so that nothing that lasts from scan to scan
+// (outliers that persist) links two scenes. Throws std::out_of_range where 32 bits end.
+inline core::TrialKey SceneKey(core::TrialKey run, std::int64_t scenes_per_run,
+                               std::int64_t scene) {
+  const std::uint64_t number =
+      std::uint64_t{run.trial} * static_cast<std::uint64_t>(scenes_per_run) +
+      static_cast<std::uint64_t>(scene);
+  if (number > std::numeric_limits<std::uint32_t>::max()) {
+    throw std::out_of_range("scenes end at 2^32 - 1, the size of their random key");
+  }
+  return {run.seed, static_cast<std::uint32_t>(number)};
 }
 
 }  // namespace rockyard::experiments

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "messages/measurements.h"
 
@@ -83,6 +84,12 @@ struct HazardReport {
     }
     return false;
   }
+};
+
+// Corners of a way in the world frame, the first one to drive to first; the last one is the goal.
+// Empty: there is no way.
+struct Route {
+  std::vector<Goal> corners;
 };
 
 }  // namespace rockyard::messages

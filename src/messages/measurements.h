@@ -1,4 +1,4 @@
-// What the sensors report.
+// What the sensors report, and a tracker of features.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,13 @@ struct StripePixel {
 struct StripeScan {
   std::int64_t number = 0;  // counts every scan of the trial from 0
   StripeArray<StripePixel> pixels;
+};
+
+// Where the feature lies that the rover drives to, as seen from R's origin in the levelled rover
+// frame.
+struct FeatureSighting {
+  double range_m = 0.0;      // horizontal, >= 0
+  double bearing_rad = 0.0;  // from the heading, positive left, within [-pi, pi]
 };
 
 }  // namespace rockyard::messages

@@ -7,7 +7,6 @@
 
 #include "messages/commands.h"
 #include "messages/estimates.h"
-#include "messages/look.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
 #include "messages/vehicle_state.h"

@@ -9,7 +9,6 @@
 #include "core/fields.h"
 #include "core/kind_set.h"
 #include "messages/estimates.h"
-#include "messages/route.h"
 #include "navigation/navigator_traits_params.h"
 
 namespace rockyard::navigation {
@@ -77,5 +76,8 @@ class NavigatorSet : public core::KindSet<NavigatorKind> {
     NavigatorDescription<Params> description;
   };
 };
+
+// The one list of them: pathfinder (chosen), gestalt, route.
+NavigatorSet StandardNavigators();
 
 }  // namespace rockyard::navigation

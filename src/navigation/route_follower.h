@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "messages/route.h"
+#include "messages/estimates.h"
 #include "navigation/navigator.h"
 #include "navigation/navigator_set_params.h"
 #include "navigation/route_params.h"

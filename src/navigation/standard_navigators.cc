@@ -1,7 +1,7 @@
 #include "navigation/gestalt/gestalt.h"
+#include "navigation/navigator_set_params.h"
 #include "navigation/pathfinder/pathfinder.h"
 #include "navigation/route_follower.h"
-#include "navigation/standard_navigators_params.h"
 
 namespace rockyard::navigation {
 

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "navigation/navigator.h"
-#include "navigation/stuck_reaction_params.h"
+#include "navigation/reaction_params.h"
 
 namespace rockyard::navigation {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "messages/calibration.h"
-#include "messages/column_range.h"
+#include "messages/camera.h"
 #include "messages/measurements.h"
 #include "messages/stripe_images.h"
 #include "perception/stripe_finder_params.h"

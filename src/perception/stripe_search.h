@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "messages/calibration.h"
-#include "messages/column_range.h"
+#include "messages/camera.h"
 
 namespace rockyard::perception {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "messages/estimates.h"
-#include "messages/feature_sighting.h"
+#include "messages/measurements.h"
 
 namespace rockyard::perception {
 

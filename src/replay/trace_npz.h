@@ -5,7 +5,7 @@
 #include <string>
 
 #include "replay/data.h"
-#include "truth/traced_trial.h"
+#include "truth/trace.h"
 
 namespace rockyard::replay {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "truth/traced_trial.h"
+#include "truth/trace.h"
 
 namespace rockyard::report {
 

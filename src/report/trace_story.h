@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "truth/traced_trial.h"
+#include "truth/trace.h"
 
 namespace rockyard::report {
 

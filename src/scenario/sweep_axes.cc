@@ -1,18 +1,23 @@
-#include "scenario/sweep_axes.h"
-
+// The axes of sweep files, and these files as a whole.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <set>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/field_table.h"
 #include "core/json_text.h"
+#include "core/json_value.h"
 #include "core/spelling.h"
 #include "scenario/former_keys.h"
 #include "scenario/load.h"
+#include "scenario/sweep_parts.h"
+#include "scenario/sweep_spec.h"
 
 namespace rockyard::scenario {
 namespace {
@@ -28,6 +33,33 @@ std::string LevelText(const JsonValue& value) {
 }
 
 bool Has(const JsonValue& value, std::string_view key) { return value.Find(key) != nullptr; }
+
+class AxisReader {
+ public:
+  // `parts` must outlive this.
+  explicit AxisReader(PartReader& parts);
+
+  // An element of "axes", which stands at `path`. Names of scenario files in it are replaced by
+  // what the files hold.
+  AxisSpec Read(core::JsonValue& value, const std::string& path);
+
+ private:
+  void ReadLevels(core::JsonValue& value, const AxisParams& params, const std::string& path,
+                  AxisSpec& axis);
+  void ReadValues(core::JsonValue& value, const std::string& path, AxisSpec& axis);
+  void ReadScenarios(core::JsonValue& value, const std::string& path, AxisSpec& axis);
+  void ReadAblation(const AxisParams& params, AxisSpec& axis);
+  void ReadRange(const core::JsonValue& value, const AxisParams& params, const std::string& path,
+                 AxisSpec& axis);
+  // What is known of the parameter that an axis varies; nullptr where the path names none.
+  const core::ParameterInfo* Describe(const std::string& path, AxisSpec& axis);
+  bool IsGroup(const std::string& path) const;
+  std::string Nearest(const std::string& path) const;
+  void CheckLevels(const AxisSpec& axis, const std::string& path);
+
+  PartReader& parts_;
+  std::vector<core::ParameterInfo> parameters_;
+};
 
 }  // namespace
 
@@ -191,6 +223,25 @@ void AxisReader::CheckLevels(const AxisSpec& axis, const std::string& path) {
                "keep one of them");
     return;
   }
+}
+
+SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& folder,
+                        std::vector<core::Problem>& problems) {
+  PartReader parts(folder, problems);
+  AxisReader axes(parts);
+  SweepSpec spec;
+  spec.document = std::move(document);
+  spec.params = parts.Fixed<SweepParams>(spec.document, "", kFreeSweepKeys);
+  parts.CheckName(spec.params.name, "name");
+  spec.scenario = parts.Base(spec.document, "");
+  spec.settings = parts.Settings(spec.document.Find("set"), "set");
+  for (core::JsonValue* axis : parts.Elements(spec.document, "axes", "")) {
+    spec.axes.push_back(axes.Read(*axis, fmt::format("axes[{}]", spec.axes.size())));
+  }
+  for (core::JsonValue* cell : parts.Elements(spec.document, "cells", "")) {
+    spec.cells.push_back(parts.Level(*cell, fmt::format("cells[{}]", spec.cells.size())));
+  }
+  return spec;
 }
 
 }  // namespace rockyard::scenario

@@ -1,5 +1,5 @@
 // The fixed keys of sweep files. Keys that hold settings or levels, whose shape is free, are read
-// by sweep_reader.cc.
+// by sweep_axes.cc.
 #pragma once
 
 #include <array>

@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 #include "math/pose.h"
-#include "messages/feature_sighting.h"
+#include "messages/measurements.h"
 #include "sensing/feature_tracker_params.h"
 
 namespace rockyard::sensing {

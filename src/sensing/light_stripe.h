@@ -25,7 +25,7 @@
 #include "core/random.h"
 #include "math/pose.h"
 #include "messages/calibration.h"
-#include "messages/column_range.h"
+#include "messages/camera.h"
 #include "messages/measurements.h"
 #include "sensing/light_stripe_params.h"
 #include "sensing/scan_curve.h"

@@ -7,7 +7,7 @@
 
 #include "math/pose.h"
 #include "messages/calibration.h"
-#include "messages/column_range.h"
+#include "messages/camera.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::sensing {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/random.h"
-#include "messages/column_range.h"
+#include "messages/camera.h"
 #include "messages/measurements.h"
 #include "sensing/light_stripe_params.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "localization/aid_fixes.h"
-#include "trial/lander_place.h"
+#include "trial/goal_designation.h"
 
 namespace rockyard::trial {
 namespace {

@@ -2,6 +2,7 @@
 // becomes of them.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,13 +10,50 @@
 #include "core/random.h"
 #include "localization/aid_fixes.h"
 #include "localization/estimator.h"
+#include "messages/aids.h"
+#include "sensing/aid_params.h"
 #include "sensing/aids.h"
 #include "terrain/terrain.h"
-#include "trial/aid_schedule.h"
-#include "trial/capture_counter.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::trial {
+
+// All aids of one drive draw from one counter: an estimator tells their moments apart by number.
+class CaptureCounter {
+ public:
+  messages::CaptureNumber Next() { return next_++; }
+
+ private:
+  messages::CaptureNumber next_ = 0;
+};
+
+// Counts measurements by way and by time; the first is due one interval after the start. One that
+// comes late (a tick is longer than the interval) does not put the next ones off.
+class AidSchedule {
+ public:
+  explicit AidSchedule(const sensing::AidScheduleParams& params) : params_(params) {}
+
+  // Whether a measurement is due at this odometer and simulated time, neither of which falls.
+  bool IsDue(double way_m, double time_s) {
+    if (!params_.enabled) return false;
+    const bool by_way = Passes(way_m, params_.every_m, ways_);
+    const bool by_time = Passes(time_s, params_.every_s, times_);
+    return by_way || by_time;
+  }
+
+ private:
+  static bool Passes(double value, double every, double& passed) {
+    if (every <= 0.0) return false;
+    const double whole = std::floor(value / every);
+    if (whole <= passed) return false;
+    passed = whole;
+    return true;
+  }
+
+  sensing::AidScheduleParams params_;
+  double ways_ = 0.0;   // whole intervals of way so far
+  double times_ = 0.0;  // and of time
+};
 
 // How often.
 struct AidCounts {

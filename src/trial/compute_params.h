@@ -9,7 +9,7 @@
 namespace rockyard::trial {
 
 // Computers of Goldberg 2002, section 5, whose times stand in compute_tables.h, and of others whose
-// stereo goes with the width of the images, in stereo_tables.h and measured_tables.h. Section 5 has
+// stereo goes with the width of the images, in compute_tables.h. Section 5 has
 // four computers: the first of table 2 and the three of table 3.
 enum class Computer {
   kNone,            // images, stereo and navigation take no time

@@ -8,8 +8,6 @@
 
 #include "core/check.h"
 #include "trial/compute_tables.h"
-#include "trial/measured_tables.h"
-#include "trial/stereo_tables.h"
 
 namespace rockyard::trial {
 namespace {

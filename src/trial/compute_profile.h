@@ -51,7 +51,7 @@ struct ComputeTimes {
 // The Pentium M of 1.6 GHz moves the rover (Howard 2012 figure 5); navigation runs beside the
 // gates, on a processor that is called "Pentium-class" and no more, and is taken to be as fast.
 //
-// Of the core of 2026 stereo is on lines through the widths of measured_tables.h, a cycle of the
+// Of the core of 2026 stereo is on lines through the widths of compute_tables.h, a cycle of the
 // map goes with the cells, and start-up is not timed.
 ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid,
                               double stereo_width_px = kStereoWidth_px);

@@ -1,12 +1,121 @@
-// Tables 2 and 3 of Goldberg 2002 as data: mean times of every step of a navigation cycle. The
-// clock of a trial and the benchmark of GESTALT read them here.
+// Times of computing as data: of every step of a navigation cycle, tables 2 and 3 of Goldberg 2002;
+// of stereo by the width of the matched images, and what a stereo unit in gates takes, tables 1 and
+// 2 of Howard 2012 with their text and Matthies 1995 section 8; of rockyard's own stages on one
+// core of today, its benchmarks' (results/). The clock of a trial and the benchmark of GESTALT read
+// them here.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 namespace rockyard::trial {
+
+// A time as printed, from one end to the other; both are the same where one number is printed.
+struct PrintedTime {
+  double width_px;  // of either image as it is matched
+  double low_s;
+  double high_s;
+
+  constexpr double middle_s() const { return 0.5 * (low_s + high_s); }
+};
+
+// Table 2, and section 3: "24 to 30 seconds [...] from a pair of 256 pixel wide images" on MER.
+inline constexpr PrintedTime kMerStereo{256.0, 24.0, 30.0};
+
+// Table 2, Virtex 5: one number a width.
+inline constexpr std::array kFpgaStereo = {
+    PrintedTime{256.0, 0.005, 0.005},
+    PrintedTime{512.0, 0.019, 0.019},
+    PrintedTime{1024.0, 0.082, 0.082},
+};
+
+// Sections 1 and 3: million instructions a second of the RAD6000 of MER and the RAD750 of MSL,
+// whose ratio makes MSL's 1.32 to 1.65 s of MER's time. A clock of 200 MHz against 20 MHz is in it.
+inline constexpr double kMerMips = 22.0;
+inline constexpr double kMslMips = 400.0;
+
+// Matthies 1995 section 8, Sparc 10: images of 512 x 480 by a pyramid to 64 x 60, then a time for
+// each scanline. All of the 60 are computed at most, and the 45 with range at least.
+inline constexpr double kSparc10Pyramid_s = 0.100;
+inline constexpr double kSparc10Scanline_s = 0.003;
+inline constexpr PrintedTime kSparc10Scanlines{64.0, 45 * kSparc10Scanline_s,
+                                               60 * kSparc10Scanline_s};
+
+// Howard 2012 section 3 and Goldberg 2002 table 3: clocks of Athena's Pentium M of 2012 and of the
+// Pentium III whose map and votes are printed.
+inline constexpr double kPentiumMClock_MHz = 1600.0;
+inline constexpr double kPentium3Clock_MHz = 500.0;
+
+// Visual odometry: table 3 and section 3. MSL's 8.8 s are MER's times 22 / 400.
+inline constexpr double kMerVisualOdometry_s = 160.0;       // images 256 px wide
+inline constexpr double kFpgaFeaturesAndMatches_s = 0.016;  // 512 px wide; "+ CPU"
+
+// How what a module takes goes with the width of the images; section 3. The height does not matter
+// (section 2).
+enum class WidthGrowth {
+  kNotStated,
+  kLinear,
+  kSquare,
+};
+
+// Table 1: blocks of memory and slices of a Virtex 5 for images 512 px wide.
+struct FpgaModule {
+  std::string_view name;
+  int blocks;
+  int slices;
+  WidthGrowth blocks_growth;
+  WidthGrowth slices_growth;
+};
+
+inline constexpr double kFpgaTableWidth_px = 512.0;
+inline constexpr int kFpgaBlocks = 576;    // of the device
+inline constexpr int kFpgaSlices = 40960;  // of the device
+inline constexpr int kFpgaBlocksUsed = 136;
+inline constexpr int kFpgaSlicesUsed = 29963;
+
+inline constexpr std::array kFpgaModules = {
+    FpgaModule{"Stereo Rectification", 2, 1186, WidthGrowth::kLinear, WidthGrowth::kNotStated},
+    FpgaModule{"Stereo Filter", 32, 3556, WidthGrowth::kLinear, WidthGrowth::kNotStated},
+    FpgaModule{"Stereo Disparity", 36, 13275, WidthGrowth::kSquare, WidthGrowth::kLinear},
+    FpgaModule{"VO Harris Feature Detector", 2, 10567, WidthGrowth::kLinear,
+               WidthGrowth::kNotStated},
+    FpgaModule{"VO SAD Operator", 64, 1379, WidthGrowth::kNotStated, WidthGrowth::kNotStated},
+};
+
+// What a number of table 1 is for images of another width; nothing where the paper states no growth
+// and the width is not the table's.
+constexpr std::optional<double> AtWidth(int printed, WidthGrowth growth, double width_px) {
+  const double ratio = width_px / kFpgaTableWidth_px;
+  switch (growth) {
+    case WidthGrowth::kLinear:
+      return printed * ratio;
+    case WidthGrowth::kSquare:
+      return printed * ratio * ratio;
+    case WidthGrowth::kNotStated:
+      break;
+  }
+  if (width_px == kFpgaTableWidth_px) return printed;
+  return std::nullopt;
+}
+
+// Of rockyard on one core of today: dense stereo by the width of square images with disparities of
+// an eighth of it, vectors of 512 bits: levels 3 to 0 of results/studies/stereo_speedup.json.
+inline constexpr std::array kOwnStereo = {
+    PrintedTime{64.0, 0.120e-3, 0.120e-3},
+    PrintedTime{128.0, 0.285e-3, 0.285e-3},
+    PrintedTime{256.0, 0.862e-3, 0.862e-3},
+    PrintedTime{512.0, 2.689e-3, 2.689e-3},
+};
+
+// A whole cycle of GESTALT's map with 16384 points, 9 m x 9 m in cells of 50, 20 and 10 cm
+// (results/gestalt.md): points, planes, traversability and votes.
+inline constexpr std::array<double, 3> kOwnCycles_s{0.325e-3, 0.372e-3, 0.541e-3};
+
+// A step of visual odometry on images of 512 x 384 pixels with 400 features
+// (results/studies/odometry_speed.json).
+inline constexpr double kOwnVisualOdometry_s = 2.349e-3;
 
 // The part of a cycle that a row belongs to; the blocks of table 2.
 enum class Phase {

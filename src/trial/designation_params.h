@@ -1,4 +1,5 @@
-// How goals are designated in the images of the lander's cameras (Matthies 1995, section 4).
+// How goals are designated in the images of the lander's cameras (Matthies 1995, section 4), and
+// what these show of the rocks.
 #pragma once
 
 #include <array>
@@ -41,6 +42,19 @@ struct DesignationParams {
   // First order in the errors: where sigma_downrange is no longer small against R (as published 7 %
   // of it at 100 m), true downrange errors are skewed, these are not. range_m >= 0.
   DesignationErrors ErrorsAt(double range_m) const;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// What the lander's stereo pair shows of the rocks (Matthies 1995, sections 2.1.1 and 4). The
+// cameras themselves, and where they stand, are those that designate goals: angle of a pixel,
+// baseline, pan error.
+struct LanderMapParams {
+  double mast_height_m = 1.5;
+  double edge_sd_px = 1.0;
+  double disparity_sd_px = 0.1;
+  double resolved_px = 3.0;
+  double reach_m = 40.0;
 
   void Visit(core::FieldVisitor& v);
 };

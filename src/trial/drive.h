@@ -13,9 +13,7 @@
 #include "trial/drive_tracer.h"
 #include "trial/referee.h"
 #include "trial/run_trial.h"
-#include "trial/seen_look.h"
 #include "trial/slip_alarms.h"
-#include "trial/stretch.h"
 #include "trial/timeline.h"
 #include "trial/watchers.h"
 

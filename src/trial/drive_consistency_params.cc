@@ -1,5 +1,3 @@
-#include "trial/drive_consistency_params.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "rover/standing_params.h"
+#include "trial/drive_checks_params.h"
 #include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {

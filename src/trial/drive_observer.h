@@ -6,17 +6,12 @@
 
 #include "math/pose.h"
 #include "messages/commands.h"
+#include "trial/drive_counters.h"
 #include "trial/drive_monitor.h"
 #include "trial/drive_parts.h"
-#include "trial/error_growth.h"
-#include "trial/hazard_counter.h"
 #include "trial/hazard_watch.h"
-#include "trial/move_counter.h"
 #include "trial/referee.h"
 #include "trial/slip_onset.h"
-#include "trial/steer_counter.h"
-#include "trial/stop_counter.h"
-#include "trial/turn_counter.h"
 #include "trial/visual_aid.h"
 #include "truth/drive_record.h"
 

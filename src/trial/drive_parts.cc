@@ -4,10 +4,10 @@
 
 #include "navigation/stuck_reaction.h"
 #include "terrain/arena.h"
+#include "trial/goal_designation.h"
 #include "trial/layout.h"
 #include "trial/make_estimator.h"
 #include "trial/onboard_calibration.h"
-#include "trial/told_places.h"
 
 namespace rockyard::trial {
 namespace {

@@ -1,6 +1,9 @@
 // Everything that takes part in a drive, as it is set up from the parameters.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,14 +20,12 @@
 #include "sensing/motion_sensors.h"
 #include "terrain/field.h"
 #include "trial/aid_suite.h"
-#include "trial/capture_counter.h"
 #include "trial/drive_params.h"
-#include "trial/drive_start.h"
 #include "trial/goal_rock.h"
 #include "trial/ledger.h"
 #include "trial/mirror_arena.h"
 #include "trial/referee.h"
-#include "trial/stretch.h"
+#include "trial/run_trial.h"
 #include "trial/terrain_sensing.h"
 #include "trial/timeline.h"
 #include "trial/vehicle_guard.h"
@@ -32,6 +33,20 @@
 #include "trial/watchers.h"
 
 namespace rockyard::trial {
+
+// What is asked for in seconds happens in whole steps of the rover: a control tick of 1/25 s takes
+// two steps of 1/60 s. duration_s is the time of these steps, and all that steers, measures or
+// keeps books goes by it, never by the time asked for.
+struct Stretch {
+  std::int64_t steps = 1;
+  double duration_s = 0.0;
+};
+
+// The nearest whole number of steps, one at least.
+inline Stretch WholeSteps(double asked_s, double step_s) {
+  const std::int64_t steps = std::max<std::int64_t>(1, std::llround(asked_s / step_s));
+  return {steps, static_cast<double>(steps) * step_s};
+}
 
 // The loop (drive.h) moves them; who watches it (drive_observer.h, drive_tracer.h) reads them.
 // `drive` outlives it, and so does `from`, which may be null.

@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "core/distributions.h"
+#include "trial/lander_map.h"
+#include "trial/route_planner.h"
 
 namespace rockyard::trial {
 namespace {
@@ -57,6 +59,25 @@ messages::Goal Designated(const messages::Goal& truth, const CourseParams& cours
           truth.y_m + downrange_m * sight.along_y + left_m * sight.along_x};
 }
 
+bool AreSpaced(const messages::Goal& a, const messages::Goal& b, double spacing_m) {
+  return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) >= spacing_m;
+}
+
+// Corners that are far enough from the place kept before them and from the end.
+std::vector<messages::Goal> Thinned(const messages::Route& route, const messages::Goal& start,
+                                    const messages::Goal& goal, double spacing_m) {
+  std::vector<messages::Goal> places;
+  messages::Goal from = start;
+  for (std::size_t i = 0; i + 1 < route.corners.size(); ++i) {
+    const messages::Goal& corner = route.corners[i];
+    if (!AreSpaced(from, corner, spacing_m) || !AreSpaced(corner, goal, spacing_m)) continue;
+    places.push_back(corner);
+    from = corner;
+  }
+  places.push_back(goal);
+  return places;
+}
+
 }  // namespace
 
 double PanError_rad(const DesignationParams& designation, core::TrialKey key) {
@@ -79,6 +100,33 @@ std::vector<messages::Goal> DesignatedGoals(const CourseParams& course, core::Tr
   }
   goals.push_back(DesignatedGoal(course, key));
   return goals;
+}
+
+sensing::LanderPlace LanderPlaceOf(const CourseParams& course, core::TrialKey key) {
+  const messages::Goal place = course.LanderPlace();
+  return {
+      .x_m = place.x_m, .y_m = place.y_m, .pan_error_rad = PanError_rad(course.designation, key)};
+}
+
+messages::Route ToldRoute(const DriveParams& drive, const terrain::Terrain& terrain,
+                          core::TrialKey key, const messages::Goal& goal) {
+  if (drive.course.route_map.source == RouteMap::kOracle) {
+    return PlanRoute(drive, terrain.rocks(), goal);
+  }
+  std::vector<terrain::Rock> rocks;
+  for (const MappedRock& known : MapFromLander(drive.course, terrain, key)) {
+    rocks.push_back(known.rock);
+  }
+  return PlanRoute(drive, rocks, goal);
+}
+
+std::vector<messages::Goal> ToldPlaces(const DriveParams& drive, const terrain::Terrain& terrain,
+                                       core::TrialKey key) {
+  const RouteMapParams& map = drive.course.route_map;
+  if (map.use != RouteUse::kWaypoints) return DesignatedGoals(drive.course, key);
+  const messages::Goal goal = DesignatedGoal(drive.course, key);
+  return Thinned(ToldRoute(drive, terrain, key, goal),
+                 {drive.course.start_x_m, drive.course.start_y_m}, goal, map.spacing_m);
 }
 
 }  // namespace rockyard::trial

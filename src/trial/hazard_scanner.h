@@ -14,7 +14,7 @@
 #include "sensing/stripe_imager.h"
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
-#include "trial/scan_watcher.h"
+#include "trial/watchers.h"
 
 namespace rockyard::trial {
 

@@ -1,5 +1,3 @@
-#include "trial/light_stripe_kind.h"
-
 #include <memory>
 #include <utility>
 
@@ -13,7 +11,7 @@
 #include "trial/hazard_watch.h"
 #include "trial/look_time.h"
 #include "trial/onboard_calibration.h"
-#include "trial/scan_time.h"
+#include "trial/terrain_sensor_kinds.h"
 #include "trial/terrain_sensor_model.h"
 #include "trial/watchers.h"
 

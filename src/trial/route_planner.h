@@ -2,14 +2,61 @@
 // on-board code.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "messages/estimates.h"
-#include "messages/route.h"
+#include "terrain/arena.h"
 #include "terrain/rock.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::trial {
+
+// Where the centre of a rover may be: cells of a rectangle, free or blocked. Their centres lie
+// within it (unless it is narrower than half a cell); the last ones are longer or shorter than the
+// others.
+class FreeGrid {
+ public:
+  FreeGrid(const terrain::Rectangle& bounds, double cell_m);
+
+  // Blocks the cells whose centres lie inside the rock's outline, its half axes longer by room_m.
+  void Block(const terrain::Rock& rock, double room_m);
+
+  int nx() const { return nx_; }
+  int ny() const { return ny_; }
+  std::size_t size() const { return blocked_.size(); }
+  bool IsFree(int ix, int iy) const {
+    return ix >= 0 && ix < nx_ && iy >= 0 && iy < ny_ && blocked_[Index(ix, iy)] == 0;
+  }
+  bool IsFree(const messages::Goal& point) const {
+    return IsFree(Column(point.x_m), Row(point.y_m));
+  }
+  std::size_t Index(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) +
+           static_cast<std::size_t>(ix);
+  }
+  // The cell that holds a point; beyond the grid where the point is.
+  int Column(double x_m) const;
+  int Row(double y_m) const;
+  messages::Goal Centre(std::size_t index) const;
+
+  // Whether a straight way leads over free cells only, looked at every half cell.
+  bool IsClear(const messages::Goal& from, const messages::Goal& to) const;
+
+ private:
+  terrain::Rectangle bounds_;
+  double cell_m_;
+  int nx_;
+  int ny_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+// The cells of a shortest path between free cells, both ends included; empty where there is none.
+// Moves lead to the eight neighbours, across a corner only where both cells beside it are free. Of
+// equally short ways always the same one.
+std::vector<std::size_t> ShortestPath(const FreeGrid& grid, std::size_t from, std::size_t to);
 
 // The shortest path from the start of the course to `goal` among `rocks` on a grid (A*, eight
 // neighbours; Hart, Nilsson and Raphael 1968), its corners pulled straight. The first of these that

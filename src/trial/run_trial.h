@@ -1,17 +1,38 @@
 // One closed-loop drive: terrain, rover, sensors, localizer, navigator, referee.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "core/random.h"
+#include "localization/estimator.h"
+#include "math/pose.h"
+#include "terrain/field.h"
 #include "trial/drive_params.h"
-#include "trial/drive_start.h"
+#include "trial/power_budget.h"
+#include "trial/solar_supply.h"
 #include "trial/watchers.h"
 #include "truth/drive_record.h"
 #include "truth/record.h"
 #include "truth/trace.h"
 
 namespace rockyard::trial {
+
+// The rover stands where the course starts, in truth. What it believes of that, among which rocks
+// it stands and what supplies it comes from here. `field` outlives the drive.
+struct DriveStart {
+  localization::EstimatorMemory memory;
+  const terrain::Field& field;
+  std::optional<SolarSupply> sun;  // time 0 is the start of the drive; none: batteries alone
+};
+
+struct DriveEnd {
+  math::Transform X_WR = math::Transform::Identity();  // true
+  localization::EstimatorMemory memory;
+  std::array<double, kActivityCount> energy_wh{};  // drawn, by activity
+  double battery_wh = 0.0;                         // of these, from the batteries
+};
 
 struct DriveResult {
   truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "messages/vehicle_state.h"
-#include "navigation/slip_reaction_params.h"
+#include "navigation/reaction_params.h"
 
 namespace rockyard::trial {
 

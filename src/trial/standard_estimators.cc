@@ -1,8 +1,8 @@
 #include "localization/dead_reckoning.h"
 #include "localization/error_state_filter.h"
 #include "localization/visual_odometry_estimator.h"
+#include "trial/drive_params.h"
 #include "trial/oracle_estimator.h"
-#include "trial/standard_estimators_params.h"
 
 namespace rockyard::trial {
 

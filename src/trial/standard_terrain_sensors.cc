@@ -1,5 +1,4 @@
-#include "trial/light_stripe_kind.h"
-#include "trial/stereo_kind.h"
+#include "trial/terrain_sensor_kinds.h"
 #include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {

@@ -12,7 +12,7 @@
 #include "sensing/stereo_sensor.h"
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
-#include "trial/stereo_watcher.h"
+#include "trial/watchers.h"
 
 namespace rockyard::trial {
 

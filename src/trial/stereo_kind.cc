@@ -1,5 +1,3 @@
-#include "trial/stereo_kind.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +12,7 @@
 #include "trial/hazard_watch.h"
 #include "trial/look_time.h"
 #include "trial/stereo_eyes.h"
+#include "trial/terrain_sensor_kinds.h"
 #include "trial/terrain_sensor_model.h"
 #include "trial/watchers.h"
 

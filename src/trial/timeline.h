@@ -5,11 +5,26 @@
 #include <memory>
 #include <optional>
 
+#include "math/pose.h"
+#include "messages/point_cloud.h"
+#include "trial/clock_params.h"
 #include "trial/ledger.h"
-#include "trial/overlap_params.h"
-#include "trial/seen_look.h"
+#include "trial/terrain_sensing.h"
 
 namespace rockyard::trial {
+
+// A look at the terrain on its way to the navigator.
+struct SeenLook {
+  // Null where the navigator does not read it.
+  const messages::HazardReport* report() const {
+    return percept.report ? &*percept.report : nullptr;
+  }
+  const messages::PointCloud* cloud() const { return percept.cloud ? &*percept.cloud : nullptr; }
+
+  Percept percept;
+  messages::LookMoment moment;
+  math::Transform X_WR = math::Transform::Identity();  // where the rover truly was
+};
 
 // The rover as a whole does one thing at a time: it drives, steers, rests. Looks may be under way
 // beside that: the cameras take images, then the computer works on them. Each has place for one

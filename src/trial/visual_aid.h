@@ -10,7 +10,7 @@
 #include "localization/estimator.h"
 #include "perception/visual_motion.h"
 #include "terrain/terrain.h"
-#include "trial/capture_counter.h"
+#include "trial/aid_suite.h"
 #include "trial/drive_params.h"
 #include "trial/visual_eyes.h"
 

@@ -90,7 +90,7 @@ struct DriveRecord {
   // The most between two progresses towards the goal (trial/referee.h), or since the last one.
   double no_progress_distance_m = 0.0;  // driven, true
   double no_progress_turn_deg = 0.0;    // turned in place, true
-  // Slopes of squared errors against the true distance along the run (trial/error_growth.h).
+  // Slopes of squared errors against the true distance along the run (trial/drive_counters.h).
   double heading_growth_deg2_per_m = 0.0;
   double distance_growth_m2_per_m = 0.0;
   double hazards_begun = 0.0;      // of hazards_believed, those that the scan before did not see

@@ -38,6 +38,13 @@ inline RecordSchema MeasurementSchema(const RecordSchema& known,
   return schema;
 }
 
+// The same with all columns of `known`.
+inline RecordSchema MeasurementSchema(const RecordSchema& known) {
+  RecordSchema schema = MeasurementSchema(known, {});
+  schema.insert(schema.end(), known.begin(), known.end());
+  return schema;
+}
+
 constexpr bool IsBase(ColumnRole role) {
   return role == ColumnRole::kTrials || role == ColumnRole::kBase;
 }

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "truth/record_values.h"
+#include "truth/value_table.h"
 
 namespace rockyard::truth {
 

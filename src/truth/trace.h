@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "math/pose.h"
 #include "messages/estimates.h"
 #include "messages/wheels.h"
+#include "truth/record.h"
 
 namespace rockyard::truth {
 
@@ -65,6 +67,15 @@ struct Trace {
     const double at_rest_s = rests.empty() ? 0.0 : rests.back().sample.time_s;
     return samples.empty() ? at_rest_s : std::max(at_rest_s, samples.back().time_s);
   }
+};
+
+struct TracedTrial {
+  std::string scenario;
+  std::uint64_t seed = 1;
+  messages::Goal goal;
+  RecordSchema schema;
+  Record record;
+  Trace trace;
 };
 
 }  // namespace rockyard::truth

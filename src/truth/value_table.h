@@ -1,9 +1,16 @@
-// The values of many records in less memory than one vector each takes.
+// The values of many records in less memory than one vector each takes, and those of one record:
+// its own, or a row of a table that many share.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
 #include <span>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace rockyard::truth {
@@ -50,6 +57,81 @@ class ValueTable {
   std::vector<std::vector<Piece>> blocks_;
   std::vector<double> plain_;  // of the unfinished block, row by row
   std::size_t unfinished_ = 0;
+};
+
+// Reads like a vector of doubles. What changes values of a row first copies it, and so does the
+// operator [] of a record that is not const: the table never changes. Two threads may read one.
+class RecordValues {
+ public:
+  RecordValues() = default;
+  RecordValues(std::initializer_list<double> values) : own_(values) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): a vector of doubles is what this stands for.
+  RecordValues(std::vector<double> values) : own_(std::move(values)) {}
+  RecordValues(std::shared_ptr<const ValueTable> table, std::size_t row)
+      : table_(std::move(table)), row_(static_cast<std::uint32_t>(row)) {}
+
+  std::size_t size() const { return table_ ? table_->columns() : own_.size(); }
+  bool empty() const { return size() == 0; }
+
+  double operator[](std::size_t i) const { return table_ ? table_->At(row_, i) : own_[i]; }
+  double& operator[](std::size_t i) { return Own()[i]; }
+  double at(std::size_t i) const {
+    if (i >= size()) throw std::out_of_range("a record has no such value");
+    return (*this)[i];
+  }
+  double front() const { return (*this)[0]; }
+  double& back() { return Own().back(); }
+
+  class ConstIterator {
+   public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = double;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const double*;
+    using reference = double;
+    ConstIterator() = default;
+    ConstIterator(const RecordValues& values, std::size_t at) : values_(&values), at_(at) {}
+    double operator*() const { return (*values_)[at_]; }
+    ConstIterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    ConstIterator operator++(int) {
+      const ConstIterator before = *this;
+      ++at_;
+      return before;
+    }
+    bool operator==(const ConstIterator&) const = default;
+
+   private:
+    const RecordValues* values_ = nullptr;
+    std::size_t at_ = 0;
+  };
+  using value_type = double;
+  using const_iterator = ConstIterator;
+  ConstIterator begin() const { return {*this, 0}; }
+  ConstIterator end() const { return {*this, size()}; }
+
+  void push_back(double value) { Own().push_back(value); }
+  void reserve(std::size_t size) { Own().reserve(size); }
+  void assign(std::size_t size, double value) { Own().assign(size, value); }
+  void clear() { *this = {}; }
+  // Lets go of the table, which would live as long as this.
+  void Detach() { Own(); }
+
+  friend bool operator==(const RecordValues& a, const RecordValues& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+
+ private:
+  std::vector<double>& Own() {
+    if (table_) *this = std::vector<double>(begin(), end());
+    return own_;
+  }
+
+  std::vector<double> own_;  // empty where there is a table
+  std::shared_ptr<const ValueTable> table_;
+  std::uint32_t row_ = 0;
 };
 
 }  // namespace rockyard::truth

@@ -1,5 +1,3 @@
-#include "experiments/hazard_detection/columns.h"
-
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -9,9 +7,10 @@
 #include "core/json_value.h"
 #include "experiments/drive/drive_experiment.h"
 #include "experiments/experiment.h"
+#include "experiments/hazard_detection/hazard_detection.h"
 #include "experiments/hazard_scenarios.h"
 #include "experiments/stereo_scenarios.h"
-#include "experiments/three_rock_run/columns.h"
+#include "experiments/three_rock_run/three_rock_run.h"
 #include "scenario/load.h"
 #include "truth/measurement_record.h"
 

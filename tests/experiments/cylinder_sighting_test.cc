@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "experiments/cylinder_sighting/judge_sighting.h"
+#include "experiments/cylinder_sighting/sighting_sums.h"
 #include "experiments/scenario_experiment.h"
 
 namespace rockyard::experiments {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "experiments/stereo_sensing/rock_finds.h"
-#include "navigation/standard_navigators_params.h"
+#include "navigation/navigator_set_params.h"
 #include "terrain/placed_rocks.h"
 
 namespace rockyard::experiments {

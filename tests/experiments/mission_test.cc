@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "experiments/mission/columns.h"
 #include "experiments/mission/command_cycle.h"
 #include "experiments/mission/mission_experiment.h"
-#include "experiments/mission/sol_key.h"
+#include "experiments/mission/sol.h"
 #include "experiments/scenario_experiment.h"
 #include "math/angles.h"
 #include "math/sun_position.h"

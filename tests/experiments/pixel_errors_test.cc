@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/stereo_sensing/columns.h"
+#include "experiments/stereo_sensing/stereo_sensing.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {

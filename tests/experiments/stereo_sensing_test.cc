@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/refusals.h"
+#include "experiments/look_factors.h"
 #include "experiments/stereo_scenarios.h"
-#include "experiments/stereo_sensing/random_place.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {

@@ -11,7 +11,6 @@
 #include "navigation/navigator.h"
 #include "navigation/navigator_set_params.h"
 #include "navigation/pathfinder/pathfinder_params.h"
-#include "navigation/standard_navigators_params.h"
 
 namespace rockyard::navigation {
 namespace {

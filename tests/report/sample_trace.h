@@ -2,7 +2,7 @@
 // a scrape, 0.5 m south by hand of the operators, the end.
 #pragma once
 
-#include "truth/traced_trial.h"
+#include "truth/trace.h"
 
 namespace rockyard::report {
 

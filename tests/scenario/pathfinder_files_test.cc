@@ -1,4 +1,5 @@
-// The committed scenarios hold what Matthies 1995 states, and differ in nothing else.
+// The committed scenarios hold what Matthies 1995 states, and differ in nothing else; what those of
+// the lander's map, and its sweeps, may differ in.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -10,15 +11,15 @@
 #include "core/json_text.h"
 #include "navigation/pathfinder/pathfinder_params.h"
 #include "scenario/load.h"
+#include "scenario/shipped.h"
+#include "scenario/sweep.h"
 
 namespace rockyard::scenario {
 namespace {
 
 const std::filesystem::path kRoot = ROCKYARD_SOURCE_DIR;
 
-Scenario Load(const std::string& name) {
-  return LoadScenario(kRoot / "scenarios" / "pathfinder" / (name + ".json"));
-}
+Scenario Load(const std::string& name) { return Shipped("pathfinder/" + name); }
 
 std::map<std::string, Scenario> LoadAll() {
   std::map<std::string, Scenario> scenarios;
@@ -160,6 +161,59 @@ TEST(PathfinderFilesTest, ScenariosDifferInWhatTheyAreNamedAfterAlone) {
   EXPECT_EQ(Differences(nominal, Load("level_sand")),
             (Paths{"course.goal_x_m", "perception.hazard.enabled", "terrain.arena.kind",
                    "terrain.rocks.kind"}));
+}
+
+// With the map and the navigator of map_none nothing is left that differs; map_none is the nominal
+// terrain with designated goals.
+TEST(LanderMapFilesTest, TheyDifferInMapAndNavigatorAlone) {
+  Scenario none = Shipped("localization/map_none");
+  std::set<std::uint64_t> own;
+  for (const std::string name :
+       {"map_none", "map_lander", "map_lander_merged", "map_oracle", "map_oracle_merged"}) {
+    SCOPED_TRACE(name);
+    Scenario scenario = Shipped("localization/" + name);
+    EXPECT_EQ(scenario.name, name);
+    own.insert(Fingerprint(scenario));
+    const bool lander = name.starts_with("map_lander");
+    EXPECT_EQ(scenario.drive.course.route_map.source == trial::RouteMap::kLander, lander);
+    const bool merged = name.ends_with("merged");
+    EXPECT_EQ(scenario.drive.course.route_map.use == trial::RouteUse::kWaypoints, merged);
+    const bool follows = scenario.drive.navigation.navigators.chosen().traits().follows_route;
+    EXPECT_EQ(follows, !merged && name != "map_none");
+    scenario.drive.course.route_map = none.drive.course.route_map;
+    scenario.drive.navigation = none.drive.navigation;
+    EXPECT_EQ(Fingerprint(scenario), Fingerprint(none));
+  }
+  EXPECT_EQ(own.size(), 5U);
+  none.drive.course.designation.enabled = false;
+  EXPECT_EQ(Fingerprint(none), Fingerprint(Load("nominal")));
+}
+
+TEST(LanderMapFilesTest, TheSweepHasEveryMapAtEveryAbundance) {
+  const Sweep sweep = LoadSweep(kRoot / "scenarios/sweeps/lander_map.json");
+  ASSERT_EQ(sweep.cells.size(), 20U);
+  for (const std::size_t first : {0U, 5U, 10U, 15U}) {
+    for (std::size_t i = 0; i < 5; ++i) {
+      const Scenario& scenario = sweep.cells[first + i].scenario;
+      const trial::RouteMapParams& map = scenario.drive.course.route_map;
+      EXPECT_EQ(map.source == trial::RouteMap::kLander, i == 1 || i == 2);
+      EXPECT_EQ(map.use == trial::RouteUse::kWaypoints, i == 2 || i == 4);
+      EXPECT_EQ(scenario.drive.terrain.rocks.k_per_m2, first % 10 == 0 ? 0.00415 : 0.013);
+      EXPECT_EQ(scenario.seed, sweep.cells[0].scenario.seed);
+      EXPECT_TRUE(scenario.drive.course.designation.enabled);
+    }
+  }
+}
+
+TEST(LanderMapFilesTest, TheSweepOfRangesMovesTheLanderAlone) {
+  const Sweep sweep = LoadSweep(kRoot / "scenarios/sweeps/lander_map_range.json");
+  ASSERT_EQ(sweep.cells.size(), 24U);
+  for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
+    Scenario scenario = sweep.cells[i].scenario;
+    EXPECT_LE(scenario.drive.course.designation.lander_ahead_m, 0.0);
+    scenario.drive.course.designation.lander_ahead_m = 0.0;
+    EXPECT_EQ(Fingerprint(scenario), Fingerprint(sweep.cells[i % 4].scenario));
+  }
 }
 
 }  // namespace

@@ -1,14 +1,20 @@
-// Sweep files: cells, seeds, names, and what of a document is kept.
+// Sweep files: cells, seeds, names, what of a document is kept, and axes that take causes of
+// failure away.
 #include "scenario/sweep.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "core/json_text.h"
+#include "core/refusals.h"
+#include "scenario/ablations.h"
 #include "scenario/load.h"
 #include "terrain/rock_params.h"
 
@@ -16,6 +22,8 @@ namespace rockyard::scenario {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 
 std::vector<std::string> Names(const Sweep& sweep) {
   std::vector<std::string> names;
@@ -140,6 +148,15 @@ TEST(SweepTest, CommonRandomNumbersGiveEveryCellTheSeedOfTheCampaign) {
   for (const SweepCell& cell : sweep.cells) EXPECT_EQ(cell.scenario.seed, 7);
 }
 
+void ExpectSaysItself(const Sweep& sweep) {
+  const Sweep again = ParseSweep(sweep.document, {}, "/nowhere");
+  ASSERT_EQ(again.cells.size(), sweep.cells.size());
+  for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
+    EXPECT_EQ(again.cells[i].name, sweep.cells[i].name);
+    EXPECT_EQ(ResolvedJson(again.cells[i].scenario), ResolvedJson(sweep.cells[i].scenario));
+  }
+}
+
 TEST(SweepTest, TheDocumentSaysByItselfWhatIsRun) {
   const std::filesystem::path folder = ROCKYARD_SOURCE_DIR "/scenarios/pathfinder";
   const Sweep sweep = ParseSweep(
@@ -148,12 +165,7 @@ TEST(SweepTest, TheDocumentSaysByItselfWhatIsRun) {
       {.overrides = {"course.goal_radius_m=0.9"}, .trials = 4, .seed = 5}, folder);
   EXPECT_EQ(sweep.axes[0].name, "scenario");
   EXPECT_EQ(sweep.cells[3].name, "scenario=obstacles_0.85,goal_x_m=6");
-  const Sweep again = ParseSweep(sweep.document, {}, "/nowhere");
-  ASSERT_EQ(again.cells.size(), sweep.cells.size());
-  for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
-    EXPECT_EQ(again.cells[i].name, sweep.cells[i].name);
-    EXPECT_EQ(ResolvedJson(again.cells[i].scenario), ResolvedJson(sweep.cells[i].scenario));
-  }
+  ExpectSaysItself(sweep);
 }
 
 // Each point of a design that fills space is a cell.
@@ -211,6 +223,80 @@ TEST(SweepTest, SweepsAreToldFromScenarios) {
   EXPECT_TRUE(IsSweep(core::ParseJson(R"({"cells": []})", "sweep")));
   EXPECT_FALSE(IsSweep(core::ParseJson(DefaultsJson(), "scenario")));
   EXPECT_FALSE(IsSweep(core::ParseJson("[1]", "list")));
+}
+
+constexpr std::string_view kFactorial = R"({
+  "name": "factorial", "seed": 3, "common_random_numbers": true,
+  "set": {"course.designation.enabled": true},
+  "axes": [{"name": "goal", "ablation": "perfect_designation"},
+           {"ablation": "perfect_localization"}]
+})";
+
+std::string ProblemsOf(const std::string& axes, const std::string& more = "") {
+  return core::RefusalOf([&] { ParseSweep("{" + more + R"("axes": [)" + axes + "]}"); });
+}
+
+TEST(SweepAblationTest, AnAxisIsOffAndOn) {
+  const Sweep sweep = ParseSweep(kFactorial);
+  ASSERT_EQ(sweep.cells.size(), 4u);
+  EXPECT_EQ(sweep.axes[0].name, "goal");
+  EXPECT_EQ(sweep.axes[0].ablation, "perfect_designation");
+  EXPECT_EQ(sweep.axes[1].name, "perfect_localization") << "by default that of the ablation";
+  EXPECT_FALSE(sweep.axes[1].numeric);
+  EXPECT_EQ(sweep.cells[1].name, "goal=off,perfect_localization=on");
+  EXPECT_THAT(AblationsInForce(sweep.cells[0].scenario), IsEmpty());
+  EXPECT_THAT(AblationsInForce(sweep.cells[1].scenario), ElementsAre("perfect_localization"));
+  EXPECT_THAT(AblationsInForce(sweep.cells[2].scenario), ElementsAre("perfect_designation"));
+  EXPECT_THAT(AblationsInForce(sweep.cells[3].scenario),
+              ElementsAre("perfect_designation", "perfect_localization"));
+}
+
+TEST(SweepAblationTest, CellsAreTheScenariosOfTheOption) {
+  const Sweep sweep = ParseSweep(kFactorial);
+  const std::vector<std::string> both{"perfect_localization", "perfect_designation"};
+  EXPECT_EQ(Fingerprint(sweep.cells[3].scenario),
+            Fingerprint(WithAblations(sweep.cells[0].scenario, both).scenario));
+  for (const SweepCell& cell : sweep.cells) EXPECT_EQ(cell.scenario.seed, 3);
+}
+
+// Settings come first, whichever axis is named first.
+TEST(SweepAblationTest, AblationsLieOverSettings) {
+  const std::string ablation = R"({"name": "known", "ablation": "perfect_localization"})";
+  const std::string levels = R"({"name": "by", "levels": [
+      {"name": "wheels", "set": {"localization.estimator": "dead_reckoning"}},
+      {"name": "far", "set": {"course.goal_x_m": 6}}]})";
+  for (const std::string& axes :
+       {fmt::format("{}, {}", ablation, levels), fmt::format("{}, {}", levels, ablation)}) {
+    const Sweep sweep = ParseSweep(fmt::format(R"({{"axes": [{}]}})", axes));
+    ASSERT_EQ(sweep.cells.size(), 4u);
+    const bool ablation_first = sweep.axes[0].name == "known";
+    const Scenario& off = sweep.cells[0].scenario;  // by wheels
+    const Scenario& on = sweep.cells[ablation_first ? 2 : 1].scenario;
+    EXPECT_EQ(off.drive.localization.estimators.chosen().name(), "dead_reckoning");
+    EXPECT_EQ(on.drive.localization.estimators.chosen().name(), "oracle");
+    EXPECT_EQ(sweep.cells[3].scenario.drive.localization.estimators.chosen().name(), "oracle");
+    EXPECT_EQ(sweep.cells[3].scenario.drive.course.goal_x_m, 6.0);
+  }
+}
+
+TEST(SweepAblationTest, TheDocumentSaysByItselfWhatIsRun) {
+  ExpectSaysItself(ParseSweep(kFactorial));
+}
+
+TEST(SweepAblationTest, NamesWhatIsWrong) {
+  EXPECT_THAT(ProblemsOf(R"({"ablation": "perfect_localisation"})"),
+              HasSubstr("did you mean \"perfect_localization\"?"));
+  EXPECT_THAT(ProblemsOf(R"({"ablation": 3})"), HasSubstr("axes[0].ablation"));
+  EXPECT_THAT(ProblemsOf(R"({"ablation": "no_slip"}, {"name": "b", "ablation": "no_slip"})"),
+              HasSubstr("twice"));
+  EXPECT_THAT(ProblemsOf(R"({"ablation": "no_slip", "values": [1]})"),
+              HasSubstr("several of values, levels, scenarios and ablation"));
+  // In the cell that has both.
+  EXPECT_THAT(ProblemsOf(R"({"ablation": "no_avoidance"}, {"ablation": "perfect_path_selection"})"),
+              HasSubstr("undone by another one"));
+  // Without designated goals there are no errors to take away: both cells would be the same.
+  EXPECT_THAT(ProblemsOf(R"({"ablation": "perfect_designation"})"),
+              HasSubstr("perfect_designation"));
 }
 
 }  // namespace

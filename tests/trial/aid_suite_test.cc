@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "core/refusals.h"
-#include "trial/aid_schedule.h"
-#include "trial/lander_place.h"
+#include "trial/goal_designation.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

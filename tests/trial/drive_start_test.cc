@@ -1,11 +1,10 @@
 // Drives that go on from an earlier one: by what they believe, in its field, under a sun.
-#include "trial/drive_start.h"
-
 #include <gtest/gtest.h>
 
 #include <numeric>
 
 #include "trial/layout.h"
+#include "trial/run_trial.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

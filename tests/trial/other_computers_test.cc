@@ -12,8 +12,6 @@
 #include "core/json_file.h"
 #include "trial/compute_profile.h"
 #include "trial/compute_tables.h"
-#include "trial/measured_tables.h"
-#include "trial/stereo_tables.h"
 
 namespace rockyard::trial {
 namespace {

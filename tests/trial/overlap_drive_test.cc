@@ -12,7 +12,7 @@
 #include "localization/estimator.h"
 #include "localization/estimator_set_params.h"
 #include "math/angles.h"
-#include "messages/look.h"
+#include "messages/point_cloud.h"
 #include "navigation/navigator.h"
 #include "scenario/shipped.h"
 #include "trial/onboard_calibration.h"

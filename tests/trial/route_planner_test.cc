@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "terrain/field.h"
-#include "trial/free_grid.h"
 #include "trial/layout.h"
 #include "trial/shipped_trials.h"
 

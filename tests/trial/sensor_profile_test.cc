@@ -7,8 +7,8 @@
 
 #include "core/refusals.h"
 #include "scenario/load.h"
+#include "trial/look_time.h"
 #include "trial/power_budget.h"
-#include "trial/scan_time.h"
 
 namespace rockyard::trial {
 namespace {

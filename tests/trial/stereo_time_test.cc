@@ -8,9 +8,9 @@
 
 #include "core/json_file.h"
 #include "trial/compute_profile.h"
+#include "trial/compute_tables.h"
 #include "trial/look_time.h"
 #include "trial/shipped_trials.h"
-#include "trial/stereo_tables.h"
 
 namespace rockyard::trial {
 namespace {

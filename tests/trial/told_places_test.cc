@@ -1,5 +1,4 @@
 // Routes planned on a map of the rocks, and the drives along them.
-#include "trial/told_places.h"
 
 #include <gtest/gtest.h>
 

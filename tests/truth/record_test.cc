@@ -2,10 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <random>
 #include <set>
+#include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "truth/drive_record.h"
+#include "truth/value_table.h"
 
 namespace rockyard::truth {
 namespace {
@@ -59,6 +67,89 @@ TEST(DriveRecordTest, NamesEndInTheirUnit) {
       EXPECT_TRUE(column.name.ends_with(column.unit)) << column.name;
     }
   }
+}
+
+constexpr std::size_t kRows = 2 * ValueTable::kBlockRows + 100;  // the last block is unfinished
+
+std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+// Columns of every form that a block can hold: one value, few, some hundreds, too many to list;
+// and what equal numbers would hide: both zeros, and undefined values.
+std::vector<double> Row(std::size_t i) {
+  static std::mt19937_64 random(1);
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  return {7.6,
+          static_cast<double>(i % 7),
+          i % 2 == 0 ? 0.0 : -0.0,
+          static_cast<double>(i % 256),
+          static_cast<double>(i % 257),
+          static_cast<double>(i % 1024),
+          static_cast<double>(i % 1025),
+          i % 5 == 0 ? kNaN : static_cast<double>(random()),
+          static_cast<double>(i < ValueTable::kBlockRows)};
+}
+
+TEST(ValueTable, KeepsEveryBit) {
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < kRows; ++i) rows.push_back(Row(i));
+  ValueTable table(rows.front().size());
+  for (const std::vector<double>& row : rows) table.Append(row);
+  ASSERT_EQ(table.rows(), kRows);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    for (std::size_t j = 0; j < table.columns(); ++j) {
+      ASSERT_EQ(Bits(table.At(i, j)), Bits(rows[i][j])) << i << ' ' << j;
+    }
+  }
+}
+
+TEST(ValueTable, MayHaveNoColumns) {
+  ValueTable table(0);
+  for (std::size_t i = 0; i < ValueTable::kBlockRows + 1; ++i) table.Append({});
+  EXPECT_EQ(table.rows(), ValueTable::kBlockRows + 1);
+}
+
+std::shared_ptr<ValueTable> TwoRows() {
+  auto table = std::make_shared<ValueTable>(2);
+  table->Append(std::vector<double>{1.0, 2.0});
+  table->Append(std::vector<double>{3.0, 4.0});
+  return table;
+}
+
+TEST(RecordValues, ReadARowAsAVector) {
+  const RecordValues row(TwoRows(), 1);
+  EXPECT_EQ(row.size(), 2u);
+  EXPECT_EQ(row[0], 3.0);
+  EXPECT_EQ(row.at(1), 4.0);
+  EXPECT_THROW(row.at(2), std::out_of_range);
+  EXPECT_EQ(row, (RecordValues{3.0, 4.0}));
+  EXPECT_EQ(std::vector<double>(row.begin(), row.end()), (std::vector<double>{3.0, 4.0}));
+  EXPECT_NE(row, (RecordValues{3.0}));
+  EXPECT_NE(row, (RecordValues{3.0, 5.0}));
+}
+
+// Records of one table do not see each other's changes, and the table does not either.
+TEST(RecordValues, ChangesStayWithOneRecord) {
+  const auto table = TwoRows();
+  RecordValues changed(table, 0);
+  const RecordValues other = changed;
+  changed[1] = 7.0;
+  changed.push_back(8.0);
+  EXPECT_EQ(changed, (RecordValues{1.0, 7.0, 8.0}));
+  EXPECT_EQ(other, (RecordValues{1.0, 2.0}));
+  EXPECT_EQ(table->At(0, 1), 2.0);
+}
+
+TEST(RecordValues, LetGoOfTheirTable) {
+  auto table = TwoRows();
+  const std::weak_ptr<ValueTable> held = table;
+  RecordValues kept(table, 1);
+  RecordValues cleared(std::move(table), 0);
+  kept.Detach();
+  EXPECT_FALSE(held.expired());
+  cleared.clear();
+  EXPECT_TRUE(held.expired());
+  EXPECT_EQ(kept, (RecordValues{3.0, 4.0}));
+  EXPECT_TRUE(cleared.empty());
 }
 
 }  // namespace

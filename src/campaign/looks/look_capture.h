@@ -6,7 +6,7 @@
 #include "math/pose.h"
 #include "messages/point_cloud.h"
 #include "perception/stereo_points.h"
-#include "trial/stereo_watcher.h"
+#include "trial/watchers.h"
 #include "vision/cameras/rectification.h"
 #include "vision/stereo/stereo_params.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "replay/data.h"
-#include "trial/stereo_watcher.h"
+#include "trial/watchers.h"
 
 namespace rockyard::campaign {
 

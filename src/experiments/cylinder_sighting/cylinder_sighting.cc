@@ -8,30 +8,70 @@
 #include <vector>
 
 #include "core/distributions.h"
-#include "experiments/cylinder_sighting/columns.h"
-#include "experiments/cylinder_sighting/judge_sighting.h"
+#include "experiments/cylinder_sighting/sighting_sums.h"
 #include "experiments/record_of.h"
-#include "experiments/scene_key.h"
 #include "math/angles.h"
 #include "rendering/cylinder/colour_readout.h"
 #include "rendering/cylinder/cylinder_renderer.h"
-#include "truth/measurement_record.h"
 #include "vision/cylinder/published_finder.h"
 #include "vision/cylinder/robust_finder.h"
 
 namespace rockyard::experiments {
 namespace {
 
+using enum truth::ColumnRole;
+
+void AddFinder(const std::string& finder, const std::string& called, truth::ColumnRole found_role,
+               truth::RecordSchema& columns) {
+  const std::string found = finder + "_found";
+  const std::string right = finder + "_right";
+  columns.push_back({found, "1", "of these, with a pose by " + called, found_role, "measurements"});
+  columns.push_back({finder + "_wrong", "1",
+                     "of these, off by more than 3 of its own standard deviations and more than "
+                     "10 deg or 10 %, or without a cylinder in view",
+                     kCount, found});
+  columns.push_back({right, "1", "of these, not wrong", kCount, found});
+  for (std::size_t i = 1; i < kCylinderMisses; ++i) {
+    const std::string reason(core::EnumNames<vision::CylinderMiss>::kNames[i]);
+    std::string name = finder + "_";
+    name += reason;
+    columns.push_back(
+        {name, "1", "without a pose, for the reason " + reason, kCount, "measurements"});
+  }
+  const auto error = [&](const std::string& name, const std::string& suffix,
+                         const std::string& unit, const std::string& meaning,
+                         const std::string& of) {
+    columns.push_back({finder + "_" + name + "_bias" + suffix, unit, meaning, kSum, of});
+    columns.push_back({finder + "_" + name + "_error" + suffix, unit, meaning, kSquares, of});
+  };
+  error("orientation", "_deg", "deg", "measured less true orientation, wrong ones too", found);
+  error("stereo", "", "1", "depth by stereo over the true one, less 1, wrong ones too", found);
+  error("size", "", "1", "depth by size over the true one, less 1, wrong ones too", found);
+  error("right_orientation", "_deg", "deg", "measured less true orientation", right);
+  error("right_range", "", "1", "range along the ground over the true one, less 1", right);
+  error("right_bearing", "_mrad", "mrad", "measured less true bearing", right);
+  columns.push_back({finder + "_nees", "1",
+                     "squared error of place and orientation in units of the stated covariance: 4 "
+                     "on average where that is right",
+                     kSum, right});
+}
+
+truth::RecordSchema MakeSightingColumns() {
+  truth::RecordSchema columns{
+      {"distance_m", "m", "from the cameras' centre of rotation along the ground", kFactor},
+      {"orientation_deg", "deg", "theta: azimuth of the cameras in the cylinder's frame", kFactor},
+      {"sun_elevation_deg", "deg", "of picture.light", kFactor},
+      {"clutter_level", "1", "factor of the numbers of picture.clutter", kFactor},
+      {"third_colour", "1", "0 orange, 1 green", kFactor},
+      {"measurements", "1", "pairs of images", kTrials},
+  };
+  AddFinder("published", "the published finder", kMainCount, columns);
+  AddFinder("robust", "rockyard's own finder", kCount, columns);
+  return columns;
+}
+
 using core::SampleUniform;
 using rendering::CylinderPictureParams;
-
-truth::RecordSchema SchemaOfSightings(const CellTable& table) {
-  std::vector<std::string> names;
-  for (const std::string_view name : table.columns()) names.emplace_back(name);
-  ForEachSum(SightingSums{}, [&](const std::string& name, double) { names.push_back(name); });
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  return truth::MeasurementSchema(CylinderSightingColumns(), views);
-}
 
 void SetFactor(std::string_view name, double value, StudiedView& studied) {
   CylinderPictureParams& picture = studied.picture;
@@ -75,8 +115,15 @@ CylinderTruth TruthOf(const StudiedView& studied, const vision::Cahv& left) {
 
 }  // namespace
 
+const truth::RecordSchema& CylinderSightingColumns() {
+  static const truth::RecordSchema kColumns = MakeSightingColumns();
+  return kColumns;
+}
+
 CylinderSightingExperiment::CylinderSightingExperiment(const CylinderSightingParams& params)
-    : params_(params), table_(params.Factors()), schema_(SchemaOfSightings(table_)) {}
+    : params_(params),
+      table_(params.Factors()),
+      schema_(CellSchema<SightingSums>(CylinderSightingColumns(), table_)) {}
 
 StudiedView CylinderSightingExperiment::Draw(std::size_t cell, core::TrialKey key) const {
   StudiedView studied{params_.picture, {}, params_.published, params_.robust};
@@ -130,11 +177,7 @@ SightingSums CylinderSightingExperiment::Measure(std::size_t cell, core::TrialKe
 truth::Record CylinderSightingExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
   return RecordOf(seed, index, [&](const core::TrialKey& key) {
     const std::size_t cell = index % table_.size();
-    truth::Record record{index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(cell)}};
-    for (const double value : table_.Values(cell)) record.values.push_back(value);
-    const SightingSums sums = Measure(cell, key);
-    ForEachSum(sums, [&](const std::string&, double value) { record.values.push_back(value); });
-    return record;
+    return CellRecord(index, cell, table_.Values(cell), Measure(cell, key));
   });
 }
 

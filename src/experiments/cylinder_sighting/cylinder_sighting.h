@@ -2,8 +2,8 @@
 //
 // One run is a block of views of one cell, each measured several times with new noise; run i
 // belongs to cell i modulo their number, so that every prefix of the runs covers the cells evenly.
-// All finders are given the same images. Its record holds the factors, then counts and sums
-// (columns.h); its outcome is `measured`.
+// All finders are given the same images. Its record holds the factors, then counts and sums; its
+// outcome is `measured`.
 #pragma once
 
 #include "core/random.h"
@@ -12,8 +12,13 @@
 #include "experiments/cylinder_sighting/sighting_sums.h"
 #include "experiments/experiment.h"
 #include "rendering/cylinder/cylinder_view.h"
+#include "truth/record.h"
 
 namespace rockyard::experiments {
+
+// Every column but the number of the cell: the factors that may name a cell, then the sums of
+// SightingSums in their order.
+const truth::RecordSchema& CylinderSightingColumns();
 
 // A view of a cell: what is before the cameras, and what finders are told.
 struct StudiedView {

@@ -34,4 +34,8 @@ struct CylinderSightingParams {
   void Visit(core::FieldVisitor& v);
 };
 
+// Requires that the whole cylinder lies in both images at every distance and bearing. A failure
+// names the parameter, what is wrong and a remedy.
+void RequireSightable(const CylinderSightingParams& study, core::FieldVisitor& v);
+
 }  // namespace rockyard::experiments

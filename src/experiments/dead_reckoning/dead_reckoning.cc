@@ -2,25 +2,43 @@
 
 #include <cmath>
 #include <string>
-#include <string_view>
 
 #include "core/check.h"
-#include "experiments/dead_reckoning/columns.h"
 #include "experiments/record_of.h"
-#include "experiments/scene_key.h"
 #include "math/angles.h"
 #include "trial/onboard_calibration.h"
-#include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
 namespace {
 
-truth::RecordSchema WalkSchema(const CellTable& table) {
-  std::vector<std::string> names;
-  for (const std::string_view name : table.columns()) names.emplace_back(name);
-  ForEachSum(WalkSums{}, [&](const std::string& name, double) { names.push_back(name); });
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  return truth::MeasurementSchema(DeadReckoningColumns(), views);
+using enum truth::ColumnRole;
+
+void AddError(const std::string& name, const std::string& unit, const std::string& meaning,
+              truth::RecordSchema& columns) {
+  columns.push_back({name + "_bias_" + unit, unit, meaning, kSum, "walks"});
+  columns.push_back({name + "_error_" + unit, unit, meaning, kSquares, "walks"});
+  columns.push_back({name + "_deviation_" + unit, unit,
+                     "standard deviation within the run, times its walks: " + meaning, kSum,
+                     "walks"});
+}
+
+truth::RecordSchema MakeWalkColumns() {
+  truth::RecordSchema columns{
+      {"distance_m", "m", "length of a walk; it has the nearest number of whole steps", kFactor},
+      {"heading_variance_deg2_per_m", "deg2/m", "of the heading, in driving", kFactor},
+      {"distance_variance_m2_per_m", "m2/m", "of the distance", kFactor},
+      {"scale_deviation", "1", "of a scale error that a walk keeps", kFactor},
+      {"rest_s", "s", "time at rest after a step, in which the heading's noise goes on", kFactor},
+      {"walks", "1", "walks, independent of one another", kTrials},
+      {"way_m", "m", "true way of all walks", kBase},
+      {"within_reach", "1", "walks that end within reach_m of where the rover believes to be",
+       kMainCount, "walks"},
+  };
+  AddError("along", "m", "believed less true place, in the direction of the start", columns);
+  AddError("across", "m", "believed less true place, to the left of it", columns);
+  AddError("heading", "deg", "believed less true heading, within half a turn", columns);
+  AddError("distance", "m", "odometer less true distance", columns);
+  return columns;
 }
 
 WalkingRover RoverOf(const trial::DriveParams& drive) {
@@ -31,6 +49,11 @@ WalkingRover RoverOf(const trial::DriveParams& drive) {
 }
 
 }  // namespace
+
+const truth::RecordSchema& DeadReckoningColumns() {
+  static const truth::RecordSchema kColumns = MakeWalkColumns();
+  return kColumns;
+}
 
 WalkPlan PlanOf(const DeadReckoningWalkParams& params, const std::vector<double>& values) {
   EXPECT(values.size() == 5);
@@ -56,7 +79,7 @@ DeadReckoningExperiment::DeadReckoningExperiment(const DeadReckoningWalkParams& 
     : params_(params),
       table_(params.Factors()),
       rover_(RoverOf(drive)),
-      schema_(WalkSchema(table_)) {}
+      schema_(CellSchema<WalkSums>(DeadReckoningColumns(), table_)) {}
 
 WalkSums DeadReckoningExperiment::Measure(const WalkPlan& plan, core::TrialKey key) const {
   std::vector<WalkError> errors;
@@ -80,11 +103,7 @@ truth::Record DeadReckoningExperiment::Run(std::uint64_t seed, std::uint64_t ind
   return RecordOf(seed, index, [&](const core::TrialKey& key) {
     const std::size_t number = index % table_.size();
     const std::vector<double> factors = table_.Values(number);
-    truth::Record record{index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(number)}};
-    for (const double value : factors) record.values.push_back(value);
-    const WalkSums sums = Measure(PlanOf(params_, factors), key);
-    ForEachSum(sums, [&](const std::string&, double value) { record.values.push_back(value); });
-    return record;
+    return CellRecord(index, number, factors, Measure(PlanOf(params_, factors), key));
   });
 }
 

@@ -2,7 +2,7 @@
 //
 // One run is a block of walks of one cell; run i belongs to cell i modulo their number, so that
 // every prefix of the runs covers the cells evenly. Its record holds the cell's factors, then
-// counts and sums (columns.h); its outcome is `measured`.
+// counts and sums; its outcome is `measured`.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,13 @@
 #include "experiments/dead_reckoning/noisy_walk.h"
 #include "experiments/experiment.h"
 #include "trial/drive_params.h"
+#include "truth/record.h"
 
 namespace rockyard::experiments {
+
+// Every column but the number of the cell: first the factors that name a cell, then what WalkSums
+// holds.
+const truth::RecordSchema& DeadReckoningColumns();
 
 class DeadReckoningExperiment final : public Experiment {
  public:

@@ -6,6 +6,7 @@
 
 #include "core/fields.h"
 #include "experiments/cell_factor_params.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::experiments {
 
@@ -28,5 +29,9 @@ struct DeadReckoningWalkParams {
 
   void Visit(core::FieldVisitor& v);
 };
+
+// Requires that the drive's estimator is the dead reckoning that is measured. A failure names the
+// parameter, what is wrong and a remedy.
+void RequireDeadReckoning(const trial::DriveParams& drive, core::FieldVisitor& v);
 
 }  // namespace rockyard::experiments

@@ -3,22 +3,96 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <string_view>
-#include <vector>
 
 #include "core/distributions.h"
-#include "experiments/designation/columns.h"
 #include "experiments/record_of.h"
-#include "experiments/scene_key.h"
 #include "trial/goal_designation.h"
 #include "truth/measurement_record.h"
+#include "vision/cameras/rectification.h"
 
 namespace rockyard::experiments {
+
+using math::Vector3;
+
+LanderPair::LanderPair(const LanderCameras& cameras, const Vector3& p_goal_L) {
+  const Vector3 top_L(0.0, 0.0, cameras.mast_height_m);
+  const Vector3 ahead_L = (p_goal_L - top_L).normalized();
+  // Pan and no roll: rows of the images are level.
+  const double along_m = std::hypot(ahead_L.x(), ahead_L.y());
+  const Vector3 right_L = along_m > 0.0
+                              ? Vector3(ahead_L.y() / along_m, -ahead_L.x() / along_m, 0.0)
+                              : Vector3(0.0, -1.0, 0.0);
+  const double focal_px = 1.0 / cameras.pixel_rad;
+  const double middle_px = 0.5 * (cameras.image_side_px - 1);
+  left_.A = ahead_L;
+  left_.H = focal_px * right_L + middle_px * ahead_L;
+  left_.V = focal_px * ahead_L.cross(right_L) + middle_px * ahead_L;
+  right_ = left_;
+  left_.C = top_L - 0.5 * cameras.baseline_m * right_L;
+  right_.C = top_L + 0.5 * cameras.baseline_m * right_L;
+}
+
+std::optional<StereoPick> LanderPair::See(const Vector3& p_L) const {
+  const auto left_px = vision::Project(left_, p_L);
+  const auto right_px = vision::Project(right_, p_L);
+  if (!left_px || !right_px) return std::nullopt;
+  return StereoPick{*left_px, left_px->x() - right_px->x()};
+}
+
+std::optional<Vector3> LanderPair::Place(const StereoPick& pick) const {
+  const auto point = vision::Triangulate(left_, right_, pick.left_px, pick.disparity_px);
+  if (!point) return std::nullopt;
+  return point->p_A;
+}
+
+Vector3 Panned(const Vector3& p_L, double pan_rad) {
+  return Eigen::AngleAxisd(pan_rad, Vector3::UnitZ()) * p_L;
+}
+
+const truth::RecordSchema& DesignationColumns() {
+  using enum truth::ColumnRole;
+  static const truth::RecordSchema kColumns{
+      {"range_m", "m", "true range along the ground, from the lander's mast", kFactor},
+      {"designations", "1", "goals that operators designated", kTrials},
+      {"beyond", "1", "with a disparity of 0 or less: no place is told", kCount, "designations"},
+      {"found", "1", "with a place", kMainCount, "designations"},
+      {"near_enough", "1", "told within near_enough_m along the ground, pan error included", kCount,
+       "designations"},
+      {"doubled", "1", "told at more than twice the true range", kCount, "designations"},
+      {"downrange_m", "m", "told less true place, away from the lander", kSum, "found"},
+      {"downrange_error_m", "m", "the same", kSquares, "found"},
+      {"downrange_cubes_m3", "m3", "its third powers, for the skewness", kSum, "found"},
+      {"downrange_spread_m", "m",
+       "its magnitude times the root of pi/2: the standard deviation of a normal error", kSum,
+       "found"},
+      {"crossrange_m", "m", "told less true place, to the left", kSum, "found"},
+      {"crossrange_error_m", "m", "the same", kSquares, "found"},
+      {"crossrange_spread_m", "m", "its magnitude times the root of pi/2", kSum, "found"},
+      {"height_m", "m", "told less true height", kSum, "found"},
+      {"height_error_m", "m", "the same", kSquares, "found"},
+      {"panned_downrange_m", "m", "downrange error, pan error included", kSum, "found"},
+      {"panned_downrange_error_m", "m", "the same", kSquares, "found"},
+      {"panned_crossrange_m", "m", "crossrange error, pan error included", kSum, "found"},
+      {"panned_crossrange_error_m", "m", "the same", kSquares, "found"},
+      {"miss_m", "m", "from the true to the told place along the ground, pan error included", kSum,
+       "found"},
+      {"course_downrange_error_m", "m", "downrange error that course.designation draws", kSquares,
+       "designations"},
+      {"course_crossrange_m", "m", "crossrange error that it draws, pan error included", kSum,
+       "designations"},
+      {"course_crossrange_error_m", "m", "the same", kSquares, "designations"},
+      {"equation_1_m", "m", "random crossrange error by Matthies 1995 eq. (1)", kSum,
+       "designations"},
+      {"equation_2_m", "m", "random downrange error by eq. (2)", kSum, "designations"},
+      {"equation_3_m", "m", "systematic crossrange error by eq. (3)", kSum, "designations"},
+  };
+  return kColumns;
+}
+
 namespace {
 
 using enum DesignationColumn;
 using core::SampleNormal;
-using math::Vector3;
 
 // What operators, correlation and the pan axis do to one goal.
 struct PickErrors {
@@ -81,12 +155,6 @@ void AddCourse(const trial::CourseParams& course, core::TrialKey key, Designatio
   sums.Add(kEquation3, errors.crossrange_bias_m);
 }
 
-truth::RecordSchema SchemaOfDesignation() {
-  std::vector<std::string_view> names;
-  for (const truth::ValueInfo& column : DesignationColumns()) names.emplace_back(column.name);
-  return truth::MeasurementSchema(DesignationColumns(), names);
-}
-
 }  // namespace
 
 LanderCameras CamerasOf(const DesignationStudyParams& study,
@@ -101,7 +169,7 @@ DesignationExperiment::DesignationExperiment(const DesignationStudyParams& param
       course_(course),
       cameras_(CamerasOf(params, course.designation)),
       table_(params.Factors()),
-      schema_(SchemaOfDesignation()) {}
+      schema_(truth::MeasurementSchema(DesignationColumns())) {}
 
 trial::CourseParams DesignationExperiment::CourseOf(double range_m) const {
   trial::CourseParams course = course_;

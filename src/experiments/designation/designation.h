@@ -2,18 +2,110 @@
 //
 // One run is a block of independent designations of a goal at one range; run i belongs to cell i
 // modulo their number, so that every prefix of the runs covers the cells evenly. Its record holds
-// the range, then counts and sums (columns.h); its outcome is `measured`.
+// the range, then counts and sums; its outcome is `measured`.
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
 
 #include "core/random.h"
 #include "experiments/cell_table.h"
 #include "experiments/designation/designation_study_params.h"
-#include "experiments/designation/designation_sums.h"
-#include "experiments/designation/lander_pair.h"
 #include "experiments/experiment.h"
+#include "math/pose.h"
 #include "trial/course_params.h"
+#include "truth/record.h"
+#include "vision/cameras/cahv.h"
+#include "vision/cameras/camera_types.h"
 
 namespace rockyard::experiments {
+
+// The lander's stereo cameras on their mast, turned towards a goal.
+//
+// Frame L: origin on the ground under the mast, x along the ground towards the goal, y to the left,
+// z up. The cameras stand half a baseline to the left and right of the mast's top, look in parallel
+// down the line from there to the goal, and image by a pinhole whose middle pixels cover pixel_rad.
+struct LanderCameras {
+  double pixel_rad = 0.001;
+  double baseline_m = 0.15;
+  double mast_height_m = 1.5;
+  int image_side_px = 256;
+};
+
+// A place as it is measured in the images.
+struct StereoPick {
+  vision::Pixel left_px = vision::Pixel::Zero();  // column, row
+  double disparity_px = 0.0;                      // column_left - column_right
+};
+
+class LanderPair {
+ public:
+  // Turned towards p_goal_L, which is not the mast's top.
+  LanderPair(const LanderCameras& cameras, const math::Vector3& p_goal_L);
+
+  // Where both cameras image a place; nothing where one of them has it behind its back.
+  std::optional<StereoPick> See(const math::Vector3& p_L) const;
+
+  // The place in L that stands for a measurement, triangulated. Nothing where its disparity is not
+  // positive, so that it lies at infinity or beyond.
+  std::optional<math::Vector3> Place(const StereoPick& pick) const;
+
+ private:
+  vision::Cahv left_;
+  vision::Cahv right_;
+};
+
+// The place as it is told in the lander's frame by a pan axis whose angle is wrong by pan_rad,
+// positive to the left.
+math::Vector3 Panned(const math::Vector3& p_L, double pan_rad);
+
+// The columns after the range, by their place in DesignationColumns.
+enum class DesignationColumn : std::size_t {
+  kDesignations,
+  kBeyond,
+  kFound,
+  kNearEnough,
+  kDoubled,
+  kDownrange,
+  kDownrangeSquares,
+  kDownrangeCubes,
+  kDownrangeSpread,
+  kCrossrange,
+  kCrossrangeSquares,
+  kCrossrangeSpread,
+  kHeight,
+  kHeightSquares,
+  kPannedDownrange,
+  kPannedDownrangeSquares,
+  kPannedCrossrange,
+  kPannedCrossrangeSquares,
+  kMiss,
+  kCourseDownrangeSquares,
+  kCourseCrossrange,
+  kCourseCrossrangeSquares,
+  kEquation1,
+  kEquation2,
+  kEquation3,
+  kColumns
+};
+
+class DesignationSums {
+ public:
+  static constexpr std::size_t kSize = static_cast<std::size_t>(DesignationColumn::kColumns);
+
+  void Add(DesignationColumn column, double value) {
+    values_[static_cast<std::size_t>(column)] += value;
+  }
+  const std::array<double, kSize>& values() const { return values_; }
+
+ private:
+  std::array<double, kSize> values_{};
+};
+
+// Every column but the number of the cell: the range that names a cell, then what DesignationSums
+// holds, in its order.
+const truth::RecordSchema& DesignationColumns();
 
 class DesignationExperiment final : public Experiment {
  public:

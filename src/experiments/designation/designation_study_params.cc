@@ -1,5 +1,8 @@
 #include "experiments/designation/designation_study_params.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace rockyard::experiments {
 
 using core::Origin;
@@ -41,6 +44,25 @@ void DesignationStudyParams::Visit(core::FieldVisitor& v) {
           .source = "Matthies 1995 sec. 4: half of the vehicle's width of 48 cm"});
   v.Require("ranges_m", !ranges_m.empty(), "is empty", "list at least one range, e.g. 10");
   v.Require("ranges_m", Cells() <= kMaxCells, "names more than 2000 cells", "shorten the list");
+}
+
+// Turned towards the goal, the cameras image it half its disparity f B / Z off their middle; of a
+// side of N pixels, (N - 1) / 2 lie on either side of the middle. An operator's pick is taken as
+// within 5 standard deviations.
+void RequireDesignable(const DesignationStudyParams& study, const trial::DriveParams& drive,
+                       core::FieldVisitor& v) {
+  const trial::DesignationParams& errors = drive.course.designation;
+  const double half_px = 0.5 * (static_cast<double>(study.image_side_px) - 1.0);
+  const auto holds = [&](double range_m) {
+    const double slant_m = std::hypot(range_m, study.mast_height_m - study.goal_height_m);
+    const double offset_px = 0.5 * errors.baseline_m / (errors.pixel_rad * slant_m);
+    return offset_px + 5.0 * errors.pixel_sd_px <= half_px;
+  };
+  v.Require("designation.ranges_m",
+            std::all_of(study.ranges_m.begin(), study.ranges_m.end(), holds),
+            "names a range at which a goal, or an operator's pick of it, leaves an image",
+            "use longer ranges, larger images (image_side_px) or smaller errors "
+            "(course.designation.pixel_sd_px)");
 }
 
 }  // namespace rockyard::experiments

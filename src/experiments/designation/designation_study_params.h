@@ -6,6 +6,7 @@
 
 #include "core/fields.h"
 #include "experiments/cell_factor_params.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::experiments {
 
@@ -24,5 +25,10 @@ struct DesignationStudyParams {
 
   void Visit(core::FieldVisitor& v);
 };
+
+// Requires that both cameras image the goal of every range, wide of the image's edges. Each failure
+// names the parameter, what is wrong and a remedy.
+void RequireDesignable(const DesignationStudyParams& study, const trial::DriveParams& drive,
+                       core::FieldVisitor& v);
 
 }  // namespace rockyard::experiments

@@ -4,7 +4,7 @@
 #include "experiments/cell_table.h"
 #include "experiments/hazard_detection/hazard_judge.h"
 #include "experiments/hazard_detection/hazard_study.h"
-#include "experiments/scene_key.h"
+#include "experiments/record_of.h"
 #include "perception/hazard_criteria.h"
 
 namespace rockyard::experiments {

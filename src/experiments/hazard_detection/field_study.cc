@@ -10,7 +10,7 @@
 #include "experiments/cell_table.h"
 #include "experiments/hazard_detection/hazard_judge.h"
 #include "experiments/hazard_detection/hazard_study.h"
-#include "experiments/scene_key.h"
+#include "experiments/record_of.h"
 #include "terrain/blind_swath.h"
 #include "terrain/field.h"
 #include "terrain/terrain.h"

@@ -2,7 +2,7 @@
 //
 // One run is a block of independent scenes of one cell; run i belongs to cell i modulo their
 // number, so that every prefix of the runs covers the cells evenly. Its record holds the cell's
-// factors, then counts and sums (columns.h); its outcome is `measured`.
+// factors, then counts and sums; its outcome is `measured`.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,14 @@
 #include "experiments/experiment.h"
 #include "experiments/hazard_detection/hazard_study.h"
 #include "trial/drive_params.h"
+#include "truth/record.h"
 
 namespace rockyard::experiments {
+
+// Every column of any study but the number of the cell: first the factors that name a cell, then
+// the bases, and counts and sums of these. A study takes those that it measures
+// (HazardStudyRunner::columns), and its factors those of their lists (CellFactor::column).
+const truth::RecordSchema& HazardColumns();
 
 class HazardDetectionExperiment final : public Experiment {
  public:

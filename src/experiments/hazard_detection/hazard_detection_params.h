@@ -9,6 +9,7 @@
 #include "core/fields.h"
 #include "experiments/cell_factor_params.h"
 #include "math/angles.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::experiments {
 
@@ -67,6 +68,12 @@ struct HazardDetectionParams {
 
   void Visit(core::FieldVisitor& v);
 };
+
+// Requires that the light stripe is the sensor in use, on flat ground, with scans that each pose
+// takes for itself, and of the study in use that its lists ask for what sensor, rocks and course
+// can show. Each failure names the parameter, what is wrong and a remedy.
+void RequireMeasurable(const HazardDetectionParams& study, const trial::DriveParams& drive,
+                       core::FieldVisitor& v);
 
 }  // namespace rockyard::experiments
 

@@ -13,7 +13,7 @@
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
 #include "trial/hazard_scanner.h"
-#include "trial/scan_watcher.h"
+#include "trial/watchers.h"
 
 namespace rockyard::experiments {
 

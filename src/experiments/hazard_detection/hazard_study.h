@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "experiments/hazard_detection/hazard_detection_params.h"
 #include "trial/drive_params.h"
-#include "trial/scan_watcher.h"
+#include "trial/watchers.h"
 
 namespace rockyard::experiments {
 
@@ -17,7 +17,7 @@ class HazardStudyRunner {
  public:
   virtual ~HazardStudyRunner() = default;
 
-  // Names of those columns of columns.h that follow those of the factors.
+  // Names of those columns of HazardColumns that follow those of the factors.
   virtual std::vector<std::string_view> columns() const = 0;
 
   // Their values, summed over hazard_detection.scenes_per_run scenes of one cell. A pure function

@@ -8,7 +8,7 @@
 #include "core/distributions.h"
 #include "experiments/cell_table.h"
 #include "experiments/hazard_detection/hazard_study.h"
-#include "experiments/scene_key.h"
+#include "experiments/record_of.h"
 #include "perception/triangulation.h"
 #include "sensing/stripe_layout_params.h"
 #include "terrain/terrain.h"

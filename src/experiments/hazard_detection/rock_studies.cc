@@ -8,7 +8,7 @@
 #include "experiments/hazard_detection/hazard_judge.h"
 #include "experiments/hazard_detection/hazard_study.h"
 #include "experiments/hazard_detection/rock_scenes.h"
-#include "experiments/scene_key.h"
+#include "experiments/record_of.h"
 
 namespace rockyard::experiments {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/check.h"
 #include "experiments/mission/command_cycle.h"
-#include "experiments/mission/sol_key.h"
+#include "experiments/mission/sol.h"
 #include "localization/estimator.h"
 #include "math/angles.h"
 #include "math/sun_position.h"

@@ -1,7 +1,7 @@
 // One mission: sol after sol a command, a drive, an evening and a night.
 //
 // The rover stays in one rock field. On each morning it stands where it stood in the evening, and
-// believes what it believed then (trial/drive_start.h); operators designate the next goal in the
+// believes what it believed then (trial/run_trial.h); operators designate the next goal in the
 // lander's images with the errors of Matthies 1995, section 4. In the evening the lander finds the
 // rover in its images, where the mission has that aid and the lander sees the rover.
 #pragma once

@@ -1,26 +1,34 @@
 #include "experiments/mission/mission_experiment.h"
 
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "experiments/mission/columns.h"
 #include "experiments/mission/mission.h"
 #include "experiments/mission/mission_record.h"
 #include "experiments/record_of.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
+
+const truth::RecordSchema& MissionColumns() {
+  static const truth::RecordSchema kColumns = [] {
+    truth::RecordSchema columns;
+    ForEachMissionColumn(MissionRecord({}, {}), [&](const truth::ValueInfo& column, double) {
+      columns.push_back(column);
+    });
+    return columns;
+  }();
+  return kColumns;
+}
+
 namespace {
 
 // Sols of all missions of a seed have keys of their own.
 constexpr std::uint64_t kMissions = (std::uint64_t{1} << 32) / kMostSols;
 
 truth::RecordSchema SchemaOf(const MissionParams& params) {
-  std::vector<std::string_view> names;
-  for (const truth::ValueInfo& column : MissionColumns()) names.push_back(column.name);
-  truth::RecordSchema schema = truth::MeasurementSchema(MissionColumns(), names);
+  truth::RecordSchema schema = truth::MeasurementSchema(MissionColumns());
   if (!params.sol_columns) return schema;
   for (std::int64_t sol = 1; sol <= params.sols; ++sol) {
     ForEachSolColumn(sol, nullptr,

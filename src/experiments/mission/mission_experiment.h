@@ -1,6 +1,6 @@
 // The experiment "mission": one run is one mission of many sols.
 //
-// Its outcome is `measured`; columns.h lists what is counted. With mission.sol_columns a block of
+// Its outcome is `measured`; MissionColumns lists what is counted. With mission.sol_columns a block of
 // columns for every sol follows, NaN after the last one.
 #pragma once
 
@@ -9,8 +9,13 @@
 #include "experiments/experiment.h"
 #include "experiments/mission/mission_params.h"
 #include "trial/drive_params.h"
+#include "truth/record.h"
 
 namespace rockyard::experiments {
+
+// Every column but the number of the cell and those of sols (mission.sol_columns), in the order of
+// ForEachMissionColumn (mission_record.h).
+const truth::RecordSchema& MissionColumns();
 
 class MissionExperiment final : public Experiment {
  public:

@@ -9,6 +9,7 @@
 
 #include "core/fields.h"
 #include "messages/estimates.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::experiments {
 
@@ -84,6 +85,12 @@ struct MissionParams {
 
   void Visit(core::FieldVisitor& v);
 };
+
+// Requires fixed rocks in an open arena that holds every goal, drives to one goal each, one
+// activity at a time, a day that the evening fits into, and a sun that rises. Each failure names
+// the parameter, what is wrong and a remedy.
+void RequireMission(const MissionParams& mission, const trial::DriveParams& drive,
+                    core::FieldVisitor& v);
 
 }  // namespace rockyard::experiments
 

@@ -7,11 +7,57 @@
 #include <optional>
 #include <string_view>
 
-#include "experiments/mission/sol_energy.h"
+#include "core/random.h"
+#include "experiments/mission/mission_params.h"
 #include "math/pose.h"
+#include "trial/power_budget.h"
+#include "trial/run_trial.h"
+#include "trial/solar_supply.h"
 #include "truth/record.h"
 
 namespace rockyard::experiments {
+
+// Wh. Sources and sinks add up to the same.
+struct SolEnergy {
+  // Sinks.
+  std::array<double, trial::kActivityCount> drive_wh{};  // by activity of the drive
+  double idle_wh = 0.0;
+  double transmit_wh = 0.0;  // modem and the rover that is awake meanwhile
+  double sleep_wh = 0.0;
+  // Sources.
+  double sun_wh = 0.0;
+  double battery_wh = 0.0;
+  double overdrawn_wh = 0.0;  // that a drive took from batteries which had just become empty
+
+  double sun_available_wh = 0.0;  // what the cells could have given
+
+  double Drive() const;
+  double Sinks() const { return Drive() + idle_wh + transmit_wh + sleep_wh; }
+  double Sources() const { return sun_wh + battery_wh + overdrawn_wh; }
+
+  SolEnergy& operator+=(const SolEnergy& other);
+};
+
+// Keeps the books of one sol, whose time 0 is the opening of its window.
+class SolBooks {
+ public:
+  // `battery_wh`: what the batteries hold at the beginning.
+  SolBooks(const trial::SolarSupply& sun, double battery_wh);
+
+  // A drive, by its own ledger, which knew the same sun and batteries.
+  void AddDrive(const trial::DriveEnd& drive);
+  // A steady load from begin_s to end_s, added to `sink`. With empty batteries it takes what the
+  // sun gives of it: what is off then, is off.
+  void AddLoad(double load_W, double begin_s, double end_s, double& sink_wh);
+
+  SolEnergy& energy() { return energy_; }
+  double battery_wh() const { return battery_wh_; }
+
+ private:
+  trial::SolarSupply sun_;
+  double battery_wh_;
+  SolEnergy energy_;
+};
 
 // What ended the drive of a sol.
 enum class SolEnd {
@@ -58,5 +104,13 @@ struct Sol {
   double PositionError_m() const;
   double HeadingError_rad() const;  // absolute
 };
+
+// The key of a sol, from 0: trial number mission * kMostSols + sol of the same seed, so that no two
+// sols share a stream. What lasts a mission (rocks, ground, pan error, what the lander's fixes have
+// in common) is drawn by the key of the mission itself, with purposes that no sol draws by its own.
+// Missions of one seed and number meet the same noise sol by sol, whatever aids they have.
+inline core::TrialKey SolKey(core::TrialKey mission, std::int64_t sol) {
+  return {mission.seed, mission.trial * kMostSols + static_cast<std::uint32_t>(sol)};
+}
 
 }  // namespace rockyard::experiments

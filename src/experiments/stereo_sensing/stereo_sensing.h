@@ -3,7 +3,7 @@
 //
 // One run is a block of looks of one cell; run i belongs to cell i modulo their number, so that
 // every prefix of the runs covers the cells evenly. Its record holds the cell's factors, then
-// counts and sums (columns.h); its outcome is `measured`.
+// counts and sums; its outcome is `measured`.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,13 @@
 #include "experiments/stereo_sensing/stereo_sensing_params.h"
 #include "experiments/stereo_sensing/stereo_sums.h"
 #include "trial/drive_params.h"
+#include "truth/record.h"
 
 namespace rockyard::experiments {
+
+// Every column but the number of the cell: first the factors that name a cell, of which a scenario
+// has those of its lists (StereoSensingParams::Factors), then what StereoSums holds.
+const truth::RecordSchema& StereoColumns();
 
 class StereoSensingExperiment final : public Experiment {
  public:

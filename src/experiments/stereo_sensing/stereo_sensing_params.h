@@ -6,6 +6,7 @@
 
 #include "core/fields.h"
 #include "experiments/cell_factor_params.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::experiments {
 
@@ -30,5 +31,11 @@ struct StereoSensingParams {
 
   void Visit(core::FieldVisitor& v);
 };
+
+// Requires that stereo is the sensor in use, with both its eyes and all that they see, on level
+// ground with round rocks; that the navigator reads points; and that the cells are something that
+// the cameras can measure. Each failure names the parameter, what is wrong and a remedy.
+void RequireStereoMeasurable(const StereoSensingParams& study, const trial::DriveParams& drive,
+                             core::FieldVisitor& v);
 
 }  // namespace rockyard::experiments

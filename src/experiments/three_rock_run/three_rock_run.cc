@@ -3,17 +3,27 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "experiments/record_of.h"
-#include "experiments/three_rock_run/columns.h"
 #include "experiments/three_rock_run/rock_layout_draw.h"
 #include "trial/run_trial.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
+
+const truth::RecordSchema& ThreeRockColumns() {
+  static const truth::RecordSchema kColumns = [] {
+    truth::RecordSchema columns;
+    ForEachThreeRockColumn(ThreeRockRecord{}, [&](truth::ValueInfo column, double) {
+      columns.push_back(std::move(column));
+    });
+    return columns;
+  }();
+  return kColumns;
+}
+
 namespace {
 
 // A rover that spins its wheels at a rock believes to arrive without having passed it. Twice the
@@ -26,12 +36,6 @@ RoverZone ArrayOf(const sensing::LightStripeParams& sensor) {
 
 RoverZone BodyOf(const rover::RoverGeometryParams& rover) {
   return {-0.5 * rover.length_m, 0.5 * rover.length_m, 0.5 * rover.width_m};
-}
-
-truth::RecordSchema ThreeRockSchema() {
-  std::vector<std::string_view> names;
-  for (const truth::ValueInfo& column : ThreeRockColumns()) names.push_back(column.name);
-  return truth::MeasurementSchema(ThreeRockColumns(), names);
 }
 
 }  // namespace
@@ -56,7 +60,7 @@ ThreeRockRunExperiment::ThreeRockRunExperiment(const ThreeRockRunParams& params,
       drive_(std::move(drive)),
       array_(ArrayOf(drive_.sensors.light_stripe)),
       body_(BodyOf(drive_.rover.geometry)),
-      schema_(ThreeRockSchema()) {}
+      schema_(truth::MeasurementSchema(ThreeRockColumns())) {}
 
 truth::Record ThreeRockRunExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
   return RecordOf(seed, index, [&](const core::TrialKey& key) {

@@ -4,14 +4,18 @@
 // draws places of rock B beside the way that the rover took, until a drive among both goes as told,
 // then likewise of C. A drive depends on no rock that it has not come to, so that the last one is a
 // drive among all three. The outcome of a run is `measured`; conditions, tries and errors are
-// columns (columns.h).
+// columns.
 #pragma once
 
 #include "experiments/experiment.h"
 #include "experiments/three_rock_run/three_rock_record.h"
 #include "trial/drive_params.h"
+#include "truth/record.h"
 
 namespace rockyard::experiments {
+
+// Every column but the number of the cell, in the order of ThreeRockRecord (three_rock_record.h).
+const truth::RecordSchema& ThreeRockColumns();
 
 class ThreeRockRunExperiment final : public Experiment {
  public:

@@ -7,6 +7,7 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::experiments {
 
@@ -58,5 +59,11 @@ struct ThreeRockRunParams {
     v.Group("told", told, "what a run has to show to count as one like the published run");
   }
 };
+
+// Requires the light stripe and a navigator that reads its reports, level ground without rocks of
+// its own in an open arena that holds the longest course, and a straight course from the origin.
+// Each failure names the parameter, what is wrong and a remedy.
+void RequireThreeRockRun(const ThreeRockRunParams& run, const trial::DriveParams& drive,
+                         core::FieldVisitor& v);
 
 }  // namespace rockyard::experiments

@@ -3,34 +3,58 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <string_view>
 
 #include "core/distributions.h"
 #include "experiments/look_factors.h"
 #include "experiments/record_of.h"
-#include "experiments/scene_key.h"
-#include "experiments/stereo_sensing/random_place.h"
-#include "experiments/visual_motion/columns.h"
 #include "math/angles.h"
 #include "math/decompositions.h"
-#include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
 namespace {
+
+using enum truth::ColumnRole;
+
+truth::RecordSchema MakeVisualColumns() {
+  truth::RecordSchema columns{
+      {"step_m", "m", "length of the way", kFactor},
+      {"turn_deg", "deg", "turn, to either side", kFactor},
+      {"soil_graininess", "1", "of sensors.look", kFactor},
+      {"sun_elevation_deg", "deg", "of sensors.sun", kFactor},
+      {"baseline_m", "m", "of sensors.stereo", kFactor},
+      {"steps", "1", "motions, each at a place of its own", kTrials},
+      {"found", "1", "of these, with a motion", kMainCount, "steps"},
+      {"wrong", "1",
+       "of these, off by more than 6 standard deviations of their own statement and more than 5 cm "
+       "or 2 deg",
+       kCount, "found"},
+      {"matches", "1", "features of two left images that look alike", kSum, "steps"},
+      {"points", "1", "of these, with a place at both moments", kSum, "steps"},
+      {"consistent", "1", "of these, moved as one", kSum, "steps"},
+      {"nees", "1",
+       "squared error in units of the stated covariance: 6 on average where that is right", kSum,
+       "found"},
+      {"position_m", "m", "length of the error of the way", kSum, "found"},
+  };
+  const auto add = [&](const std::string& name, const std::string& unit,
+                       const std::string& meaning) {
+    columns.push_back({name + "_bias_" + unit, unit, meaning, kSum, "found"});
+    columns.push_back({name + "_error_" + unit, unit, meaning, kSquares, "found"});
+  };
+  add("along", "m", "measured less true way, along x of the first rover frame");
+  add("across", "m", "along y");
+  add("up", "m", "along z");
+  add("roll", "deg", "measured less true turn, about x of the first rover frame");
+  add("pitch", "deg", "about y");
+  add("heading", "deg", "about z");
+  return columns;
+}
 
 using math::Transform;
 
 constexpr double kWrongSigma = 6.0;
 constexpr double kWrong_m = 0.05;
 constexpr double kWrong_rad = 2.0 * std::numbers::pi / 180.0;
-
-truth::RecordSchema StudySchema(const CellTable& table) {
-  std::vector<std::string> names;
-  for (const std::string_view name : table.columns()) names.emplace_back(name);
-  ForEachSum(VisualSums{}, [&](const std::string& name, double) { names.push_back(name); });
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  return truth::MeasurementSchema(VisualMotionColumns(), views);
-}
 
 // An arc of a length and a turn, from the middle of its chord's direction.
 Transform Arc(double way_m, double turn_rad) {
@@ -64,6 +88,11 @@ StudiedStep DrawStep(const VisualMotionStudyParams& params, const Transform& lev
 
 }  // namespace
 
+const truth::RecordSchema& VisualMotionColumns() {
+  static const truth::RecordSchema kColumns = MakeVisualColumns();
+  return kColumns;
+}
+
 void AddStep(const StudiedStep& step, const vision::MotionResult& seen, VisualSums& sums) {
   sums.steps += 1.0;
   sums.matches += static_cast<double>(seen.counts.matches);
@@ -92,7 +121,9 @@ void AddStep(const StudiedStep& step, const vision::MotionResult& seen, VisualSu
 
 VisualMotionExperiment::VisualMotionExperiment(const VisualMotionStudyParams& params,
                                                const trial::DriveParams& drive)
-    : params_(params), table_(params.Factors()), schema_(StudySchema(table_)) {
+    : params_(params),
+      table_(params.Factors()),
+      schema_(CellSchema<VisualSums>(VisualMotionColumns(), table_)) {
   for (std::size_t i = 0; i < table_.size(); ++i) {
     drives_.push_back(WithLookFactors(drive, table_.columns(), table_.Values(i)));
   }
@@ -118,11 +149,7 @@ VisualSums VisualMotionExperiment::Measure(std::size_t cell, core::TrialKey key)
 truth::Record VisualMotionExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
   return RecordOf(seed, index, [&](const core::TrialKey& key) {
     const std::size_t cell = index % table_.size();
-    truth::Record record{index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(cell)}};
-    for (const double value : table_.Values(cell)) record.values.push_back(value);
-    const VisualSums sums = Measure(cell, key);
-    ForEachSum(sums, [&](const std::string&, double value) { record.values.push_back(value); });
-    return record;
+    return CellRecord(index, cell, table_.Values(cell), Measure(cell, key));
   });
 }
 

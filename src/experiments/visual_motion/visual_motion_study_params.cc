@@ -74,4 +74,12 @@ void VisualMotionStudyParams::Visit(core::FieldVisitor& v) {
             "shorten the lists");
 }
 
+void RequireVisualMotion(const VisualMotionStudyParams& /*study*/, const trial::DriveParams& drive,
+                         core::FieldVisitor& v) {
+  v.Require("terrain.ground.slope_deg", drive.terrain.ground.IsLevel(),
+            "or roughness_rms_m is not 0, or there are ditches or pits, where the experiment puts "
+            "the rover on level ground",
+            "leave the ground flat");
+}
+
 }  // namespace rockyard::experiments

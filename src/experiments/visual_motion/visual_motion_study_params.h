@@ -7,6 +7,7 @@
 #include "core/fields.h"
 #include "experiments/cell_factor_params.h"
 #include "math/angles.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::experiments {
 
@@ -29,5 +30,10 @@ struct VisualMotionStudyParams {
 
   void Visit(core::FieldVisitor& v);
 };
+
+// Requires level ground, on which the experiment stands the rover. A failure names the parameter,
+// what is wrong and a remedy.
+void RequireVisualMotion(const VisualMotionStudyParams& study, const trial::DriveParams& drive,
+                         core::FieldVisitor& v);
 
 }  // namespace rockyard::experiments

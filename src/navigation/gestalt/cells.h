@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "math/point_moments.h"
-#include "navigation/gestalt/cell_index.h"
+#include "navigation/gestalt/goodness_grid.h"
 
 namespace rockyard::navigation {
 

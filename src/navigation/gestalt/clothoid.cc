@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "navigation/gestalt/gauss_nodes.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -63,10 +62,6 @@ Chord QuadratureChord(const Piece& piece) {
 }
 
 }  // namespace
-
-ClothoidPoint OnClothoid(double curvature_per_m, double rate_per_m2, double length_m) {
-  return AlongClothoid({}, curvature_per_m, rate_per_m2, length_m);
-}
 
 ClothoidPoint AlongClothoid(const ClothoidPoint& from, double curvature_per_m, double rate_per_m2,
                             double length_m) {

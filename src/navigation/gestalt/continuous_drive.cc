@@ -9,8 +9,8 @@
 #include "math/angles.h"
 #include "math/pose.h"
 #include "navigation/gestalt/choice.h"
+#include "navigation/gestalt/curvature_law.h"
 #include "navigation/gestalt/gestalt.h"
-#include "navigation/gestalt/speed_law.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -5,10 +5,17 @@
 #include <iterator>
 
 #include "core/check.h"
-#include "navigation/gestalt/gauss_nodes.h"
-#include "navigation/gestalt/speed_law.h"
+#include "navigation/gestalt/clothoid.h"
 
 namespace rockyard::navigation {
+
+double SpeedShare(const SpeedLawParams& params, double curvature_per_m) {
+  // How much of the way from the one curvature to the other.
+  const double way = (std::abs(curvature_per_m) - params.full_speed_curvature_per_m) /
+                     (params.slow_curvature_per_m - params.full_speed_curvature_per_m);
+  return 1.0 - (1.0 - params.min_speed_share) * std::clamp(way, 0.0, 1.0);
+}
+
 namespace {
 
 // Where the speed falls, a piece ends when it has fallen to this share of that at its beginning:
@@ -168,6 +175,53 @@ ClothoidPoint CurvatureLaw::Along(const ClothoidPoint& from, double from_per_m, 
     const double piece_m = length_m * (Integral(next) - Integral(begin)) / whole;
     if (piece_m > 0.0) end = AlongPiece(end, begin, next, piece_m);
     begin = next;
+  }
+  return end;
+}
+
+double CurvatureAt(const Spline& spline, double driven_m, const CurvatureLaw& law) {
+  const double half_m = 0.5 * spline.length_m;
+  if (driven_m <= 0.0) return spline.start_per_m;
+  if (driven_m < half_m) {
+    return law.Between(spline.start_per_m, spline.first_knot_per_m, driven_m / half_m);
+  }
+  if (driven_m < spline.length_m) {
+    return law.Between(spline.first_knot_per_m, spline.second_knot_per_m,
+                       (driven_m - half_m) / half_m);
+  }
+  return spline.second_knot_per_m;
+}
+
+double CurvatureRateAt(const Spline& spline, double driven_m, const CurvatureLaw& law) {
+  const double half_m = 0.5 * spline.length_m;
+  if (driven_m < 0.0 || driven_m >= spline.length_m) return 0.0;
+  if (driven_m < half_m) {
+    return law.RateBetween(spline.start_per_m, spline.first_knot_per_m, driven_m / half_m, half_m);
+  }
+  return law.RateBetween(spline.first_knot_per_m, spline.second_knot_per_m,
+                         (driven_m - half_m) / half_m, half_m);
+}
+
+double LargestRateInTime(const Spline& spline, double full_speed_m_s, const CurvatureLaw& law) {
+  const double half_m = 0.5 * spline.length_m;
+  return std::max(
+      law.LargestRateInTime(spline.start_per_m, spline.first_knot_per_m, half_m, full_speed_m_s),
+      law.LargestRateInTime(spline.first_knot_per_m, spline.second_knot_per_m, half_m,
+                            full_speed_m_s));
+}
+
+ClothoidPoint AlongSpline(const ClothoidPoint& from, const Spline& spline, double from_m,
+                          double to_m, const CurvatureLaw& law) {
+  EXPECT(0.0 <= from_m && from_m <= to_m);
+  ClothoidPoint end = from;
+  double begin_m = from_m;
+  // Up to each knot, and beyond the last one, as far as the way leads.
+  for (const double knot_m : {0.5 * spline.length_m, spline.length_m, to_m}) {
+    const double next_m = std::min(knot_m, to_m);
+    if (next_m <= begin_m) continue;
+    end = law.Along(end, CurvatureAt(spline, begin_m, law), CurvatureAt(spline, next_m, law),
+                    next_m - begin_m);
+    begin_m = next_m;
   }
   return end;
 }

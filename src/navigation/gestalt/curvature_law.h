@@ -4,11 +4,16 @@
 
 #include <vector>
 
+#include "messages/navigation_view.h"
 #include "navigation/gestalt/clothoid.h"
-#include "navigation/gestalt/speed_law_params.h"
 #include "navigation/gestalt/spline_params.h"
 
 namespace rockyard::navigation {
+
+// Returns the share of the full speed, from min_speed_share to 1, at the curvature c of either
+// sign:
+//   1 up to c_full, 1 - (1 - p_min) (|c| - c_full) / (c_slow - c_full) up to c_slow, p_min beyond.
+double SpeedShare(const SpeedLawParams& params, double curvature_per_m);
 
 // With p(c) the share of full speed v at curvature c, curvature that is linear in time has
 //   ds/dt = v p(c),  dc/dt constant  =>  p(c) dc = const ds,
@@ -58,5 +63,23 @@ class CurvatureLaw {
   double slow_integral_ = 0.0;  // F at slow_curvature
   std::vector<double> edges_;   // curvatures between which a path is all of one kind, ascending
 };
+
+using messages::Spline;
+
+// Returns the curvature, 1/m, after driven_m: that of the start before it, and that of the second
+// knot beyond the end.
+double CurvatureAt(const Spline& spline, double driven_m, const CurvatureLaw& law);
+
+// Returns what it grows by with each metre, 1/m2; where it has a corner, what it grows by from
+// there on. 0 before the start and beyond the end.
+double CurvatureRateAt(const Spline& spline, double driven_m, const CurvatureLaw& law);
+
+// Returns the largest change of curvature a second, 1/(m s), at the speed of the speed law.
+double LargestRateInTime(const Spline& spline, double full_speed_m_s, const CurvatureLaw& law);
+
+// Returns the place after to_m >= from_m of a spline that has led to `from` after from_m >= 0.
+// Errors: those of CurvatureLaw::Along.
+ClothoidPoint AlongSpline(const ClothoidPoint& from, const Spline& spline, double from_m,
+                          double to_m, const CurvatureLaw& law);
 
 }  // namespace rockyard::navigation

@@ -6,7 +6,7 @@
 #include "math/angles.h"
 #include "math/pose.h"
 #include "navigation/gestalt/choice.h"
-#include "navigation/gestalt/speed_law.h"
+#include "navigation/gestalt/curvature_law.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -2,12 +2,17 @@
 // the rover (Goldberg 2002, section 4).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "navigation/gestalt/cell_index.h"
-
 namespace rockyard::navigation {
+
+// Returns the place of cell (ix, iy) in a grid that is `width` cells wide, row by row.
+inline std::size_t CellIndex(int ix, int iy, int width) {
+  return static_cast<std::size_t>(iy) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(ix);
+}
 
 // How safe it is for a rover centred at the cell, and how sure that is: 8 bits each, 255 is best.
 struct CellValue {

@@ -13,7 +13,6 @@
 #include "navigation/gestalt/goodness_grid.h"
 #include "navigation/gestalt/map_params.h"
 #include "navigation/gestalt/planes.h"
-#include "navigation/gestalt/steps.h"
 #include "navigation/gestalt/traversability.h"
 
 namespace rockyard::navigation {

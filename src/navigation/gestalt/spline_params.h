@@ -10,6 +10,17 @@
 
 namespace rockyard::navigation {
 
+// Full speed up to one curvature, min_speed_share of it from another one on: "The maximum speed
+// [...] was 7 cm/sec and is reduced only for high-curvature maneuvers" (Howard 2012, section 3). By
+// default curves are driven as fast as straight lines.
+struct SpeedLawParams {
+  double full_speed_curvature_per_m = 0.5;
+  double min_speed_share = 1.0;
+  double slow_curvature_per_m = 1.0;
+
+  void Visit(core::FieldVisitor& v);
+};
+
 // In what the curvature between two knots is linear: "Clothoid trajectories are motions whose
 // curvature varies linearly with distance or time" (Howard 2012, section 2). The two are the same
 // at constant speed.

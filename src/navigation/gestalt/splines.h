@@ -15,7 +15,6 @@
 #include "navigation/gestalt/curvature_law.h"
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/gestalt/goodness_grid.h"
-#include "navigation/gestalt/spline_curves.h"
 #include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {

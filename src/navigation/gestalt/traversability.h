@@ -1,21 +1,56 @@
-// Goodness of cells from what their patches hold (Goldberg 2002, section 4, step 3).
+// Differences of elevation within vehicle-sized patches of the map, and the goodness of cells from
+// what their patches hold (Goldberg 2002, section 4, step 3).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "math/pose.h"
+#include "navigation/gestalt/cells.h"
 #include "navigation/gestalt/goodness_grid.h"
 #include "navigation/gestalt/map_params.h"
 #include "navigation/gestalt/planes.h"
 
 namespace rockyard::navigation {
 
+// Finds the largest difference of elevation between any two cells of each patch. The elevation of a
+// cell is the mean height of its points (the paper does not say): the ten moments hold no other,
+// and a single bad point does not make a step. Minima and maxima over windows go by doubling. Cost:
+// O(cells log reach).
+class PatchSteps {
+ public:
+  // Works on the same cells and box as PatchPlanes::Fit.
+  void Find(const CellWindow& cells, const CellBox& box, PatchReach reach);
+
+  // As Find, but elevations count from the patch's own plane where it has one:
+  //   e = max - min over the cells of  z - (dz/dx x + dz/dy y),
+  // with the means of their points. Cost: O(cells times cells of a patch).
+  void FindFromPlanes(const CellWindow& cells, const CellBox& box, PatchReach reach,
+                      const std::vector<PatchPlane>& planes);
+
+  // Returns the differences, m, row by row; 0 where a patch holds no points.
+  const std::vector<double>& steps_m() const { return steps_; }
+
+ private:
+  void LoadElevations(const CellWindow& cells, const CellBox& box, PatchReach reach);
+  double StepFrom(const PatchPlane& plane, const CellBox& patch) const;
+
+  int width_ = 0;  // of the padded maps below
+  int height_ = 0;
+  std::vector<double> highest_;  // padded by the reach on all sides
+  std::vector<double> lowest_;
+  std::vector<double> steps_;
+  int columns_ = 0;                   // of means_
+  std::vector<math::Vector3> means_;  // of the points of each cell with data, m
+  std::vector<bool> has_data_;
+};
+
 // Gives every cell the least of the goodnesses of its hazards:
 //   step       127 (1 - min(1, e/h))    from e = h/3 on
 //   roughness  255 (1 - min(1, f r/h))  from r = f h/3 on; see RoughnessFormula
 //   pitch      255 (1 - min(1, s/max_pitch))
 //   border     border.goodness          where a neighbour is unknown
-// and 255 where there is none (hazards.h). A cell is unknown where its patch has not
+// and 255 where there is none (traversability.cc). A cell is unknown where its patch has not
 // enough data, where no enabled test could run, and where a failed plane says so (FailedFit);
 // outside the window all is unknown. A patch with a cell where the rover felt an obstacle is a step
 // obstacle, whatever its points.

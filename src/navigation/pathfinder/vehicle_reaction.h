@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "navigation/navigator.h"
-#include "navigation/pathfinder/vehicle_reaction_params.h"
+#include "navigation/pathfinder/pathfinder_params.h"
 
 namespace rockyard::navigation {
 

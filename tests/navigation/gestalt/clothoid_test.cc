@@ -1,14 +1,17 @@
-// Clothoids against Fresnel integrals, quadrature, arcs and themselves.
+// Clothoids against Fresnel integrals, quadrature, arcs and themselves; splines of two knots.
 #include "navigation/gestalt/clothoid.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "clothoid_known.h"
 #include "core/check.h"
 #include "core/random.h"
+#include "navigation/gestalt/curvature_law.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -39,7 +42,7 @@ TEST(Clothoid, IsAFresnelIntegral) {
     SCOPED_TRACE(z);
     // Both are odd in z.
     const double side = z < 0.0 ? -1.0 : 1.0;
-    const ClothoidPoint point = OnClothoid(0.0, kPi, std::abs(z));
+    const ClothoidPoint point = AlongClothoid({}, 0.0, kPi, std::abs(z));
     const double error = 1e-12 * std::max(1.0, std::abs(z));
     EXPECT_NEAR(point.x_m, side * Number(known, "C"), error);
     EXPECT_NEAR(point.y_m, side * Number(known, "S"), error);
@@ -51,19 +54,19 @@ TEST(Clothoid, AgreesWithKnownAnswers) {
   for (const core::JsonValue& known : KnownAnswers("clothoid")) {
     const double length = Number(known, "L");
     const double rate = (Number(known, "kappa1") - Number(known, "kappa0")) / length;
-    ExpectNear(OnClothoid(Number(known, "kappa0"), rate, length),
+    ExpectNear(AlongClothoid({}, Number(known, "kappa0"), rate, length),
                {Number(known, "x"), Number(known, "y"), Number(known, "theta")}, 3e-12);
   }
 }
 
 TEST(Clothoid, WithoutRateIsAnArcOrAStraightLine) {
   for (const double length : {0.0, 0.01, 0.12, 0.13, 1.0, 3.0, 20.0}) {
-    EXPECT_NEAR(OnClothoid(0.0, 0.0, length).x_m, length, 1e-15 * length);
-    EXPECT_EQ(OnClothoid(0.0, 0.0, length).y_m, 0.0);
-    EXPECT_EQ(OnClothoid(0.0, 0.0, length).heading_rad, 0.0);
+    EXPECT_NEAR(AlongClothoid({}, 0.0, 0.0, length).x_m, length, 1e-15 * length);
+    EXPECT_EQ(AlongClothoid({}, 0.0, 0.0, length).y_m, 0.0);
+    EXPECT_EQ(AlongClothoid({}, 0.0, 0.0, length).heading_rad, 0.0);
     for (const double c : {-20.0, -1.0, -1e-3, 1e-9, 0.3, 1.0, 7.0}) {
       const double half_sine = std::sin(0.5 * c * length);
-      ExpectNear(OnClothoid(c, 0.0, length),
+      ExpectNear(AlongClothoid({}, c, 0.0, length),
                  {std::sin(c * length) / c, 2.0 * half_sine * half_sine / c, c * length},
                  1e-12 * length);
     }
@@ -80,15 +83,15 @@ TEST(Clothoid, KeepsItsErrorForAnyCurvatureAndLength) {
     const double rate = (2.0 * random.Uniform() - 1.0) * turn * turn / (length * length);
     SCOPED_TRACE(testing::Message() << curvature << " " << rate << " " << length);
     // Its own error, and that of the comparison.
-    ExpectNear(OnClothoid(curvature, rate, length), BySimpson(curvature, rate, length),
+    ExpectNear(AlongClothoid({}, curvature, rate, length), BySimpson(curvature, rate, length),
                1e-12 * length + 1e-13);
   }
 }
 
 TEST(Clothoid, MirroredCurvatureGivesTheMirroredPlace) {
   for (const double length : {0.1, 2.9}) {
-    const ClothoidPoint left = OnClothoid(0.4, -0.7, length);
-    const ClothoidPoint right = OnClothoid(-0.4, 0.7, length);
+    const ClothoidPoint left = AlongClothoid({}, 0.4, -0.7, length);
+    const ClothoidPoint right = AlongClothoid({}, -0.4, 0.7, length);
     EXPECT_EQ(right.x_m, left.x_m);
     EXPECT_EQ(right.y_m, -left.y_m);
     EXPECT_EQ(right.heading_rad, -left.heading_rad);
@@ -101,7 +104,7 @@ TEST(Clothoid, GoesOnFromAnyPlace) {
   const double c = 0.4;
   const double rate = -0.7;
   const ClothoidPoint from{1.5, -0.3, 2.1};
-  const ClothoidPoint own = OnClothoid(c, rate, 2.0);
+  const ClothoidPoint own = AlongClothoid({}, c, rate, 2.0);
   const ClothoidPoint moved{
       from.x_m + std::cos(from.heading_rad) * own.x_m - std::sin(from.heading_rad) * own.y_m,
       from.y_m + std::sin(from.heading_rad) * own.x_m + std::cos(from.heading_rad) * own.y_m,
@@ -112,7 +115,106 @@ TEST(Clothoid, GoesOnFromAnyPlace) {
 }
 
 TEST(Clothoid, HasNoNegativeLength) {
-  EXPECT_THROW(OnClothoid(0.1, 0.0, -0.1), core::ContractViolation);
+  EXPECT_THROW(AlongClothoid({}, 0.1, 0.0, -0.1), core::ContractViolation);
+}
+
+constexpr Spline kSpline{
+    .start_per_m = 0.2, .first_knot_per_m = -0.4, .second_knot_per_m = 0.8, .length_m = 3.0};
+
+CurvatureLaw InDistance() { return {SplineLaw::kDistance, {}}; }
+
+CurvatureLaw InTime() {
+  return {SplineLaw::kTime,
+          {.full_speed_curvature_per_m = 0.3, .min_speed_share = 0.4, .slow_curvature_per_m = 0.7}};
+}
+
+TEST(SplineCurves, GoFromKnotToKnot) {
+  const CurvatureLaw law = InDistance();
+  EXPECT_EQ(CurvatureAt(kSpline, -1.0, law), 0.2);
+  EXPECT_EQ(CurvatureAt(kSpline, 0.0, law), 0.2);
+  EXPECT_NEAR(CurvatureAt(kSpline, 0.5, law), 0.0, 1e-15);
+  EXPECT_EQ(CurvatureAt(kSpline, 1.5, law), -0.4);
+  EXPECT_NEAR(CurvatureAt(kSpline, 2.5, law), 0.4, 1e-15);
+  EXPECT_EQ(CurvatureAt(kSpline, 3.0, law), 0.8);
+  EXPECT_EQ(CurvatureAt(kSpline, 9.0, law), 0.8);
+}
+
+TEST(SplineCurves, RatesAreThoseFromHereOn) {
+  const CurvatureLaw law = InDistance();
+  EXPECT_EQ(CurvatureRateAt(kSpline, -0.1, law), 0.0);
+  EXPECT_NEAR(CurvatureRateAt(kSpline, 0.0, law), -0.4, 1e-15);
+  EXPECT_NEAR(CurvatureRateAt(kSpline, 1.49, law), -0.4, 1e-15);
+  EXPECT_NEAR(CurvatureRateAt(kSpline, 1.5, law), 0.8, 1e-15);
+  EXPECT_NEAR(CurvatureRateAt(kSpline, 2.99, law), 0.8, 1e-15);
+  EXPECT_EQ(CurvatureRateAt(kSpline, 3.0, law), 0.0);
+}
+
+// The curvature is continuous, and its slope is the rate; both laws, corners left out.
+TEST(SplineCurves, RatesAreTheSlopesOfTheCurvature) {
+  for (const CurvatureLaw& law : {InDistance(), InTime()}) {
+    for (double s_m = -0.1; s_m < 3.2; s_m += 0.01) {
+      const double step_m = 1e-7;
+      const double change =
+          CurvatureAt(kSpline, s_m + step_m, law) - CurvatureAt(kSpline, s_m - step_m, law);
+      EXPECT_LT(std::abs(change), 1e-5) << s_m;
+      const double knot_m = std::min({std::abs(s_m), std::abs(s_m - 1.5), std::abs(s_m - 3.0)});
+      // dc/ds jumps nowhere else.
+      if (knot_m > 2.0 * step_m) {
+        EXPECT_NEAR(CurvatureRateAt(kSpline, s_m, law), change / (2.0 * step_m), 1e-6) << s_m;
+      }
+    }
+  }
+}
+
+TEST(SplineCurves, LargestRateInTimeIsThatOfTheWorseHalf) {
+  // |k2 - k1| / 1.5 m = 0.8 / m2, and the other way round.
+  EXPECT_NEAR(LargestRateInTime(kSpline, 0.07, InDistance()), 0.056, 1e-15);
+  EXPECT_NEAR(LargestRateInTime({0.8, -0.4, 0.2, 3.0}, 0.07, InDistance()), 0.056, 1e-15);
+}
+
+TEST(SplineCurves, AgreeWithKnownAnswers) {
+  ASSERT_EQ(KnownAnswers("two_segment").size(), 30u);
+  for (const core::JsonValue& known : KnownAnswers("two_segment")) {
+    const Spline spline{Number(known, "kappa0"), Number(known, "kappa_mid"),
+                        Number(known, "kappa1"), Number(known, "L")};
+    const ClothoidPoint end = AlongSpline({}, spline, 0.0, spline.length_m, InDistance());
+    ExpectNear(end, {Number(known, "x"), Number(known, "y"), Number(known, "theta")}, 3e-12);
+  }
+}
+
+// What the curvature says, summed up in steps of 0.05 mm at their middles: the error of the sums is
+// of the order of h^2 L / 24, 1e-10 m.
+TEST(SplineCurves, PlacesFollowTheCurvature) {
+  for (const CurvatureLaw& law : {InDistance(), InTime()}) {
+    const double step_m = 5e-5;
+    ClothoidPoint sum;
+    for (int i = 0; i < 80000; ++i) {
+      if (i % 4000 == 0) {
+        const ClothoidPoint place = AlongSpline({}, kSpline, 0.0, i * step_m, law);
+        ExpectNear(place, sum, 2e-9);
+      }
+      const double turn_rad = CurvatureAt(kSpline, (i + 0.5) * step_m, law) * step_m;
+      sum.x_m += step_m * std::cos(sum.heading_rad + 0.5 * turn_rad);
+      sum.y_m += step_m * std::sin(sum.heading_rad + 0.5 * turn_rad);
+      sum.heading_rad += turn_rad;
+    }
+  }
+}
+
+TEST(SplineCurves, GoOnFromAnyPlace) {
+  for (const CurvatureLaw& law : {InDistance(), InTime()}) {
+    const ClothoidPoint end = AlongSpline({}, kSpline, 0.0, 3.4, law);
+    for (const std::vector<double>& stops :
+         {std::vector<double>{0.0, 0.7, 0.7, 3.4}, {0.0, 1.5, 3.0, 3.4}, {0.0, 1.2, 3.3, 3.4}}) {
+      ClothoidPoint place;
+      for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+        place = AlongSpline(place, kSpline, stops[i], stops[i + 1], law);
+      }
+      ExpectNear(place, end, 4e-12);
+    }
+  }
+  EXPECT_THROW(AlongSpline({}, kSpline, 0.0, -0.1, InDistance()), core::ContractViolation);
+  EXPECT_THROW(AlongSpline({}, kSpline, 1.0, 0.9, InDistance()), core::ContractViolation);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "moving_drive.h"
-#include "navigation/gestalt/speed_law.h"
+#include "navigation/gestalt/curvature_law.h"
 
 namespace rockyard::navigation {
 namespace {

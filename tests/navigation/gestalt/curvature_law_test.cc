@@ -11,7 +11,6 @@
 #include "clothoid_known.h"
 #include "core/check.h"
 #include "core/random.h"
-#include "navigation/gestalt/speed_law.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -230,7 +229,7 @@ TEST(CurvatureLaw, PathsInTimeAgreeWithAnotherIntegral) {
 TEST(CurvatureLaw, PathsInTimeOfOneCurvatureAreArcs) {
   const CurvatureLaw law(SplineLaw::kTime, kSlow);
   for (const double c : {-1.3, -0.8, 0.3, 0.8, 1.3}) {
-    const ClothoidPoint arc = OnClothoid(c, 0.0, kHalf_m);
+    const ClothoidPoint arc = AlongClothoid({}, c, 0.0, kHalf_m);
     for (const double to : {c, c + 1e-15, c + 1e-13}) {
       const ClothoidPoint end = law.Along({}, c, to, kHalf_m);
       ExpectNear(end, arc, 1e-12);
