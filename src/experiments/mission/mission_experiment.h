@@ -1,7 +1,7 @@
 // The experiment "mission": one run is one mission of many sols.
 //
-// Its outcome is `measured`; MissionColumns lists what is counted. With mission.sol_columns a block of
-// columns for every sol follows, NaN after the last one.
+// Its outcome is `measured`; MissionColumns lists what is counted. With mission.sol_columns a block
+// of columns for every sol follows, NaN after the last one.
 #pragma once
 
 #include <cstdint>
