@@ -9,7 +9,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/store_notes.h"
+#include "app/run_folders.h"
 #include "campaign/make_baseline.h"
 #include "campaign/output_file.h"
 #include "core/error.h"

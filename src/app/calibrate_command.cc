@@ -6,10 +6,10 @@
 #include <memory>
 #include <string>
 
-#include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_files.h"
+#include "app/progress_line.h"
 #include "campaign/calibrate/calibrate_cameras.h"
 #include "campaign/calibrate/calibrate_json.h"
 #include "core/error.h"

@@ -4,12 +4,12 @@
 #include <string>
 #include <variant>
 
-#include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_files.h"
+#include "app/progress_line.h"
 #include "app/run_display.h"
-#include "app/store_notes.h"
-#include "app/written_file.h"
+#include "app/run_folders.h"
 #include "campaign/check.h"
 #include "campaign/output_file.h"
 #include "report/comparison_table.h"

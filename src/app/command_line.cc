@@ -1,9 +1,14 @@
 #include "app/command_line.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <csignal>
+#include <functional>
+#include <initializer_list>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -13,12 +18,10 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/examples.h"
-#include "app/guard.h"
 #include "app/option_checks.h"
-#include "app/refused_value.h"
-#include "app/standard_streams.h"
-#include "app/start_text.h"
+#include "app/run_display.h"
 #include "campaign/campaign_process.h"
+#include "campaign/journal.h"
 #include "core/error.h"
 #include "core/provenance.h"
 #include "core/spelling.h"
@@ -26,6 +29,31 @@
 
 namespace rockyard::app {
 namespace {
+
+// For reading alone: what is written to it fails, as it would have without. open() takes the lowest
+// number that is free, which is this one, as those below are open by then.
+void OpenIfClosed(int descriptor) {
+  if (fcntl(descriptor, F_GETFD) >= 0) return;
+  [[maybe_unused]] const int opened = open("/dev/null", O_RDONLY);
+}
+
+// To be called first of all. A stream that the caller has closed is opened, so that no file of a
+// run gets its number and what is printed: reading finds its end, writing fails (console.h).
+// Writing into a pipe without a reader, or beyond a limit on the size of files, becomes an error
+// instead of a signal that would end the program before what it was asked for is stored.
+void PrepareStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) OpenIfClosed(stream);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+// What `action` returns. An exception out of it is told on the terminal: kBadInput for
+// core::UserError, kFailed for anything else.
+ExitCode Guarded(const std::function<ExitCode()>& action) {
+  const campaign::Observer console = MessagesToConsole(Output::kText);
+  campaign::Journal journal(console);
+  return campaign::Guarded(journal, action);
+}
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 a comparison differs, 2 bad input (nothing written), 3 too many\n"

@@ -4,7 +4,7 @@
 namespace rockyard::app {
 
 // Parses the arguments, runs the subcommand, reports every failure on standard error as
-// "error: PATH: reason" and "  try: suggestion", and returns the exit code (exit_code.h). Throws
+// "error: PATH: reason" and "  try: suggestion", and returns the exit code (console.h). Throws
 // nothing.
 int RunCommandLine(int argc, const char* const* argv);
 

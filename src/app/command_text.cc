@@ -1,11 +1,14 @@
 #include "app/command_text.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
 
+#include "batch/communicator.h"
 #include "campaign/shell_word.h"
 
 namespace rockyard::app {
@@ -44,5 +47,18 @@ std::string Text(const CLI::App& command, bool resume) {
 std::string CommandText(const CLI::App& command) { return Text(command, false); }
 
 std::string ResumeText(const CLI::App& command) { return Text(command, true); }
+
+std::string NextCommand(const std::filesystem::path& folder, Finished what) {
+  if (what == Finished::kShard) return "rockyard merge SHARD... --out FOLDER";
+  return "rockyard report " + campaign::ShellPath(folder.string());
+}
+
+std::string NextLine(const std::filesystem::path& folder, Finished what,
+                     const std::string& resume) {
+  if (resume.empty()) return fmt::format("  next: {}\n", NextCommand(folder, what));
+  const auto launch = batch::FindLaunch();
+  return fmt::format("  next: {}{}\n", launch ? fmt::format("mpirun -n {} ", launch->ranks) : "",
+                     resume);
+}
 
 }  // namespace rockyard::app

@@ -2,7 +2,9 @@
 // callback runs, and throws core::UserError for what is wrong with the input.
 #pragma once
 
-#include "app/exit_code.h"
+#include <string>
+
+#include "app/console.h"
 
 namespace CLI {
 class App;
@@ -38,5 +40,9 @@ void AddCompletionCommand(CLI::App& app);  // after all others, which it complet
 
 // All of them, with their examples and with what no option may be given.
 void AddCommands(CLI::App& app, ExitCode& exit_code);
+
+// What the program is, three commands to begin with, where the documentation is, and every
+// subcommand of the parser with a line.
+std::string StartText(const CLI::App& app);
 
 }  // namespace rockyard::app

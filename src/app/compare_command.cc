@@ -12,9 +12,8 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_files.h"
 #include "app/run_folders.h"
-#include "app/store_notes.h"
-#include "app/written_file.h"
 #include "campaign/compare.h"
 #include "campaign/output_file.h"
 #include "campaign/run_views.h"

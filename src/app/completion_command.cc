@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/commands.h"
-#include "app/completion_lookup.h"
+#include "app/completion_offers.h"
 #include "app/completion_script.h"
 #include "app/console.h"
 

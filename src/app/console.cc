@@ -7,10 +7,8 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <string>
 
 #include "batch/communicator.h"
-#include "report/line_text.h"
 
 namespace rockyard::app {
 namespace {

@@ -6,12 +6,16 @@
 #include <string_view>
 #include <vector>
 
-#include "app/exit_code.h"
+#include "campaign/outcome.h"
 #include "core/error.h"
 #include "report/line_text.h"
 #include "report/summary_text.h"
 
 namespace rockyard::app {
+
+// What the command tells the shell: 0 done, 1 a comparison differs, 2 bad input, 3 too many
+// simulator faults, 4 inconclusive, 5 failed while running, 130 interrupted.
+using ExitCode = campaign::Outcome;
 
 // False in a process of mpirun, which gives a terminal of its own making to rank 0 wherever its own
 // output goes.

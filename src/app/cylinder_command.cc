@@ -10,7 +10,6 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_files.h"
-#include "campaign/cylinder/cylinder_json.h"
 #include "campaign/cylinder/find_cylinder.h"
 #include "core/archive.h"
 #include "core/error.h"

@@ -12,7 +12,6 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/manual.h"
-#include "app/start_text.h"
 #include "core/error.h"
 #include "core/provenance.h"
 #include "core/spelling.h"

@@ -9,7 +9,6 @@
 #include "app/run_display.h"
 #include "app/run_folders.h"
 #include "app/show_report.h"
-#include "app/store_notes.h"
 #include "campaign/merge.h"
 
 namespace rockyard::app {

@@ -7,7 +7,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "report/metric_table.h"
+#include "report/parameter_table.h"
 
 namespace rockyard::app {
 

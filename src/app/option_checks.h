@@ -1,9 +1,14 @@
-// What no command may be given.
+// What no command may be given, and what the parser says of a value that an option may not have.
 #pragma once
+
+#include <optional>
+
+#include "core/error.h"
 
 namespace CLI {
 class App;
-}
+class ParseError;
+}  // namespace CLI
 
 namespace rockyard::app {
 
@@ -17,5 +22,9 @@ void CheckEveryValue(CLI::App& app);
 // that it is given to read, by whatever name. More is refused by campaign/output_file.h, and of
 // folders by campaign/output_folder.h.
 void KeepEveryInput(CLI::App& app);
+
+// The option, what is wrong with its value, and what would be right: the words that it takes where
+// it takes one of a few, with the nearest of them first. Nothing for other errors of the parser.
+std::optional<core::Problem> RefusedValue(const CLI::App& command, const CLI::ParseError& error);
 
 }  // namespace rockyard::app

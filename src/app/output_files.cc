@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/console.h"
+#include "report/atomic_file.h"
 #include "report/line_text.h"
 
 namespace rockyard::app {
@@ -29,6 +31,11 @@ std::string FilesText(std::span<const campaign::OutputFile> files) {
     text += fmt::format("  {} in {}\n", file.what, report::Printable(file.path.string()));
   }
   return text;
+}
+
+void WriteNamedFile(std::string_view what, const std::string& file, std::string_view bytes) {
+  report::WriteFileAtomically(file, bytes);
+  PrintNote(fmt::format("  {} in {}", what, file));
 }
 
 }  // namespace rockyard::app

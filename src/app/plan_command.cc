@@ -7,18 +7,78 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/plan_report.h"
 #include "batch/stopping_rule.h"
 #include "core/error.h"
+#include "core/json_text.h"
+#include "core/json_value.h"
 #include "statistics/sample_size.h"
 
 namespace rockyard::app {
 namespace {
 
 using statistics::IntervalMethod;
+
+class PlanReport {
+ public:
+  explicit PlanReport(std::string question) : question_(std::move(question)) {}
+
+  // `key` for programs, `what` for people.
+  void Add(std::string key, std::string what, std::int64_t trials);
+  void Add(std::string key, std::string what, double probability);
+
+  struct Line {
+    std::string key;
+    std::string what;
+    core::JsonValue number;
+    bool cut_off = false;
+  };
+  const std::string& question() const { return question_; }
+  const std::vector<Line>& lines() const { return lines_; }
+
+ private:
+  std::string question_;
+  std::vector<Line> lines_;
+};
+
+// Whether a number of trials is where the search for it ended, and no answer.
+bool IsCutOff(std::int64_t trials) { return trials >= statistics::kMaxTrials; }
+
+void PlanReport::Add(std::string key, std::string what, std::int64_t trials) {
+  const bool cut_off = IsCutOff(trials);
+  if (cut_off) what += " (that many or more: the search ends there)";
+  lines_.push_back({std::move(key), std::move(what), core::JsonValue(trials), cut_off});
+}
+
+void PlanReport::Add(std::string key, std::string what, double probability) {
+  lines_.push_back({std::move(key), std::move(what), core::JsonValue(probability), false});
+}
+
+std::string PlanText(const PlanReport& report) {
+  std::string text = report.question() + "\n";
+  for (const PlanReport::Line& line : report.lines()) {
+    const bool whole = line.number.Is(core::JsonValue::Type::kInteger);
+    const std::string number =
+        whole ? std::to_string(line.number.integer()) : fmt::format("{:.4f}", line.number.number());
+    text += fmt::format("  {:>10}  {}\n", number, line.what);
+  }
+  return text;
+}
+
+// {"question", and a number for each key}, and KEY_or_more: true where its search was cut off.
+std::string PlanJson(const PlanReport& report) {
+  core::JsonValue json = core::JsonValue::Object();
+  json.Set("question", core::JsonValue(report.question()));
+  for (const PlanReport::Line& line : report.lines()) {
+    json.Set(line.key, line.number);
+    if (line.cut_off) json.Set(line.key + "_or_more", core::JsonValue(true));
+  }
+  return core::DumpJson(json);
+}
 
 // What all questions have.
 struct PlanOptions {

@@ -3,14 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
 #include <string_view>
+#include <utility>
 
 #include "app/console.h"
 #include "statistics/proportions.h"
 
 namespace rockyard::app {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 constexpr double kPlainInterval_s = 5.0;
 
@@ -34,6 +41,25 @@ std::string Pace(const batch::Progress& progress) {
 std::string_view AtMost(const batch::Progress& progress) {
   const bool open = progress.target_half_width > 0.0 && progress.finished < progress.planned;
   return open ? "<=" : "";
+}
+
+void Tell(const std::stop_token& stop, const std::string& what) {
+  const bool terminal = IsTerminal(stderr);
+  const std::chrono::seconds interval(terminal ? 1 : 5);
+  const Clock::time_point begin = Clock::now();
+  std::mutex mutex;
+  std::condition_variable_any ended;
+  std::unique_lock lock(mutex);
+  bool told = false;
+  while (!ended.wait_for(lock, stop, interval, [] { return false; }) && !stop.stop_requested()) {
+    const auto seconds =
+        std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - begin).count();
+    const std::string text = report::Printable(fmt::format("  {}: {} s", what, seconds));
+    const std::string line = terminal ? "\r" + text + "\x1b[K" : text + "\n";
+    std::fwrite(line.data(), 1, line.size(), stderr);
+    told = true;
+  }
+  if (terminal && told) std::fputs("\r\x1b[K", stderr);
 }
 
 }  // namespace
@@ -93,5 +119,10 @@ void ProgressLine::FinishText(std::string text) {
 void ProgressLine::Write(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stream_);
 }
+
+BusyLine::BusyLine(std::string what)
+    : teller_([what = std::move(what)](const std::stop_token& stop) { Tell(stop, what); }) {}
+
+BusyLine::~BusyLine() = default;
 
 }  // namespace rockyard::app

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_files.h"

@@ -8,13 +8,12 @@
 #include <string>
 #include <tuple>
 
-#include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/replay_options.h"
+#include "app/progress_line.h"
 #include "app/replay_views.h"
 #include "app/run_display.h"
-#include "app/store_notes.h"
+#include "app/run_folders.h"
 #include "app/trial_options.h"
 #include "campaign/replay.h"
 #include "report/line_text.h"

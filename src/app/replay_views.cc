@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <string>
 #include <string_view>
 
-#include "app/busy_line.h"
 #include "app/console.h"
+#include "app/progress_line.h"
 #include "app/run_display.h"
 #include "app/trial_options.h"
 #include "campaign/replay_moments.h"

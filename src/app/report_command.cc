@@ -12,7 +12,6 @@
 #include "app/console.h"
 #include "app/run_display.h"
 #include "app/run_folders.h"
-#include "app/store_notes.h"
 #include "campaign/report.h"
 #include "campaign/shell_word.h"
 #include "report/line_text.h"

@@ -12,9 +12,9 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_files.h"
 #include "app/scenario_list.h"
 #include "app/scenario_names.h"
-#include "app/written_file.h"
 #include "campaign/output_file.h"
 #include "campaign/run_source.h"
 #include "core/error.h"

@@ -1,18 +1,69 @@
 #include "app/run_display.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
 #include <memory>
+#include <new>
 #include <vector>
 
+#include "app/command_text.h"
 #include "app/console.h"
-#include "app/interrupt.h"
-#include "app/next_command.h"
 #include "app/progress_line.h"
 #include "app/show_report.h"
+#include "core/error.h"
 
 namespace rockyard::app {
 namespace {
+
+// While this lives, the first SIGINT, SIGTERM, SIGHUP or SIGUSR1 sets the flag. One at
+// a time; at the end the default action of these signals comes back, except where the caller
+// ignored them.
+class InterruptGuard {
+ public:
+  // `requested` must outlive this; it may be shared with others who may ask for an end.
+  InterruptGuard(std::atomic<bool>& requested, campaign::SecondWish second);
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+};
+
+// SIGUSR1: mpirun passes it on to every rank, where it would make an end of SIGTERM by itself.
+constexpr std::array kPolite = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
+
+// A signal handler can reach nothing but static storage.
+std::atomic<std::atomic<bool>*> requested_flag = nullptr;
+static_assert(std::atomic<bool>::is_always_lock_free, "the signal handler writes it");
+static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free, "and reads where it is");
+
+void SetFlag(int) {
+  if (std::atomic<bool>* flag = requested_flag) *flag = true;
+}
+
+void SetFlagOnce(int signal) {
+  SetFlag(signal);
+  std::signal(signal, SIG_DFL);
+}
+
+InterruptGuard::InterruptGuard(std::atomic<bool>& requested, campaign::SecondWish second) {
+  requested_flag = &requested;
+  const auto handler = second == campaign::SecondWish::kEnds ? SetFlagOnce : SetFlag;
+  for (const int signal : kPolite) {
+    // What the caller told to ignore (nohup, background jobs of a script) stays ignored.
+    if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+}
+
+InterruptGuard::~InterruptGuard() {
+  for (const int signal : kPolite) {
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+  requested_flag = nullptr;
+}
 
 void ShowProgress(campaign::RunObserver& observer) {
   using campaign::Moment;
@@ -29,6 +80,19 @@ void ShowProgress(campaign::RunObserver& observer) {
 }
 
 }  // namespace
+
+static_assert(std::atomic<bool>::is_always_lock_free, "a lock would be of one process alone");
+
+SharedFlag::SharedFlag() {
+  void* memory =
+      mmap(nullptr, sizeof(*set_), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) {
+    throw core::UserError("memory", std::strerror(errno), "end other programs");
+  }
+  set_ = new (memory) std::atomic<bool>(false);
+}
+
+SharedFlag::~SharedFlag() { munmap(set_, sizeof(*set_)); }
 
 campaign::Observer MessagesToConsole(Output output) {
   const auto note = [output](const campaign::Note& told) {

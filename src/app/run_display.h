@@ -1,14 +1,31 @@
 // What people see of a campaign while it runs, and how they end it.
 #pragma once
 
+#include <atomic>
+
 #include "app/campaign_options.h"
-#include "app/exit_code.h"
-#include "app/shared_flag.h"
+#include "app/console.h"
 #include "campaign/observer.h"
 #include "campaign/run_campaign.h"
 #include "campaign/stop.h"
 
 namespace rockyard::app {
+
+// Lies in memory that a fork shares, so that the supervisor of a campaign learns what its workers
+// set, however they end. The constructor throws core::UserError where there is no memory.
+class SharedFlag {
+ public:
+  SharedFlag();
+  ~SharedFlag();
+  SharedFlag(const SharedFlag&) = delete;
+  SharedFlag& operator=(const SharedFlag&) = delete;
+
+  void Set() { *set_ = true; }
+  bool IsSet() const { return *set_; }
+
+ private:
+  std::atomic<bool>* set_;
+};
 
 // Warnings and problems to standard error, remarks too but for kQuiet.
 campaign::Observer MessagesToConsole(Output output);

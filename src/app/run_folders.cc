@@ -8,9 +8,11 @@
 #include <system_error>
 #include <utility>
 
+#include "app/console.h"
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
 #include "batch/store_error.h"
+#include "campaign/run_source.h"
 #include "core/error.h"
 
 namespace rockyard::app {
@@ -80,6 +82,10 @@ void RequireRuns(std::span<const std::string> paths) {
                                       runs.size() == 1 ? "" : "s"),
                           "name one of them: " + list);
   }
+}
+
+void NoteStores(std::span<const std::string> paths) {
+  for (const std::string& note : campaign::StoreNotes(paths)) PrintNote(note);
 }
 
 }  // namespace rockyard::app

@@ -1,4 +1,4 @@
-// Folders of runs, where one run is asked for.
+// Folders of runs, where one run is asked for; what commands that read stores say of them first.
 #pragma once
 
 #include <filesystem>
@@ -14,5 +14,8 @@ std::vector<std::filesystem::path> RunFolders(const std::filesystem::path& folde
 // Throws core::UserError where a path is a folder that holds no run itself but folders of runs:
 // with the ten latest of them, each with its scenario, trials and date.
 void RequireRuns(std::span<const std::string> paths);
+
+// To standard error, a line for each store in those folders that has no checksums.
+void NoteStores(std::span<const std::string> paths);
 
 }  // namespace rockyard::app

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <string_view>
 #include <variant>
 
+#include "app/command_text.h"
 #include "app/console.h"
-#include "app/next_command.h"
 #include "report/accounting.h"
 #include "report/line_text.h"
 #include "report/measurement_text.h"
@@ -68,6 +71,51 @@ struct FinishedOf {
   Finished operator()(const SweepShardReport&) const { return Finished::kShard; }
 };
 
+constexpr std::array<int, 4> kThreadCounts{1, 2, 4, 16};
+
+std::string CostText(const campaign::DryRun& told, std::string_view at_most) {
+  const batch::PilotCost& pilot = told.pilot;
+  const double count = static_cast<double>(told.pending);
+  const double total_s = count * pilot.mean_s;
+  // What three pilots leave open of the mean, and the scatter of the trials to come.
+  const double error_s =
+      std::sqrt(pilot.variance_s2 * count * (1.0 + count / static_cast<double>(pilot.trials)));
+  return fmt::format(
+      "  cost {}{:.3g} CPU seconds, give or take {:.2g}: {:.3g} s a trial in {} pilot trials; "
+      "about "
+      "{:.3g} s on {} threads\n",
+      at_most, total_s, error_s, pilot.mean_s, pilot.trials, total_s / told.threads, told.threads);
+}
+
+// Empty where none are asked for. Which trials fail is not known before.
+std::string TracesText(const campaign::DryRun& told) {
+  if (!told.traces.any()) return "";
+  return fmt::format("  traces of {} (of at most {} trials), which are driven twice\n",
+                     campaign::RetentionText(told.traces), told.planned.total);
+}
+
+std::string CostDuration(double seconds) {
+  if (seconds < 120.0) return fmt::format("{:.3g} s", seconds);
+  if (seconds < 7200.0) return fmt::format("{:.3g} min", seconds / 60.0);
+  return fmt::format("{:.3g} h", seconds / 3600.0);
+}
+
+std::string CostText(const campaign::CampaignCost& cost, const campaign::PlannedTrials& trials) {
+  if (cost.pilots == 0) return "  no pilots, no cost\n";
+  const std::string error = cost.standard_error_s
+                                ? "standard error " + CostDuration(*cost.standard_error_s)
+                                : "standard error unknown";
+  std::string text =
+      fmt::format("  expected cost, from {} pilot trials: {}{} of CPU time ({})\n    ", cost.pilots,
+                  trials.at_most ? "at most " : "", CostDuration(cost.total_s), error);
+  for (const int threads : kThreadCounts) {
+    text += fmt::format("{} with {} thread{}{}", CostDuration(cost.total_s / threads), threads,
+                        threads == 1 ? "" : "s", threads == kThreadCounts.back() ? "\n" : ", ");
+  }
+  return text + fmt::format("    (as many cores as threads; the slowest pilot took {})\n",
+                            CostDuration(cost.slowest_s));
+}
+
 }  // namespace
 
 void ShowReport(const campaign::FolderReport& report, const ShowOptions& options) {
@@ -78,6 +126,23 @@ void ShowReport(const campaign::FolderReport& report, const ShowOptions& options
   Print(std::visit(TextOf(), report));
   Print(fmt::format("  results in {}\n", report::Printable(folder.string())));
   if (options.next) Print(NextLine(folder, std::visit(FinishedOf(), report), options.resume));
+}
+
+std::string RehearsalText(const campaign::DryRun& told) {
+  const std::string_view at_most = told.planned.at_most ? "at most " : "";
+  return Wrapped(fmt::format("{}, seed {}: {} planned, {} stored, {}{} to run\n",
+                             report::Printable(told.name), told.seed, told.planned.text(),
+                             told.stored, at_most, told.pending)) +
+         Wrapped(CostText(told, at_most)) + Wrapped(TracesText(told)) +
+         fmt::format("  into {}; nothing was written\n", report::Printable(told.folder.string()));
+}
+
+std::string RehearsalText(const campaign::SweepRehearsal& told) {
+  return Wrapped(fmt::format("{}: {} cells, {}, seed {}\n", report::Printable(told.sweep.name),
+                             told.sweep.cells.size(), told.trials.text(), told.sweep.seed)) +
+         Wrapped(CostText(told.plan.cost, told.trials)) +
+         fmt::format("  plan, and every cell's scenario, in {}\n",
+                     report::Printable(told.plan.folder.string()));
 }
 
 }  // namespace rockyard::app

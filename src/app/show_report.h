@@ -1,10 +1,12 @@
-// What the folder of a campaign says, on standard output.
+// What the folder of a campaign says, on standard output; what `--dry-run` says.
 #pragma once
 
 #include <string>
 
 #include "app/campaign_options.h"
+#include "campaign/dry_run.h"
 #include "campaign/folder_report.h"
+#include "campaign/sweep.h"
 
 namespace rockyard::app {
 
@@ -16,5 +18,11 @@ struct ShowOptions {
 
 // A table and the next command, or summary.json, or nothing.
 void ShowReport(const campaign::FolderReport& report, const ShowOptions& options);
+
+// What a run would do and cost.
+std::string RehearsalText(const campaign::DryRun& told);
+
+// What a sweep would run and cost, and where its plan is.
+std::string RehearsalText(const campaign::SweepRehearsal& told);
 
 }  // namespace rockyard::app

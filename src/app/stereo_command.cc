@@ -9,12 +9,11 @@
 #include <optional>
 #include <string>
 
-#include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_files.h"
+#include "app/progress_line.h"
 #include "campaign/stereo/match_pair.h"
-#include "campaign/stereo/stereo_json.h"
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_text.h"

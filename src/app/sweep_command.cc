@@ -7,9 +7,9 @@
 #include "app/command_text.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/rehearsal_text.h"
 #include "app/run_display.h"
 #include "app/scenario_names.h"
+#include "app/show_report.h"
 #include "campaign/sweep.h"
 
 namespace rockyard::app {

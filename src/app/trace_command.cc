@@ -8,22 +8,21 @@
 #include <string>
 #include <vector>
 
-#include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/store_notes.h"
+#include "app/progress_line.h"
+#include "app/run_folders.h"
 #include "app/trial_options.h"
 #include "campaign/campaign_traces.h"
 #include "campaign/drive_recording.h"
 #include "campaign/output_file.h"
-#include "campaign/plan_view.h"
 #include "campaign/trace_retention.h"
 #include "campaign/trial_source.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/line_text.h"
-#include "report/trace_csv.h"
 #include "report/trace_story.h"
+#include "report/trace_view.h"
 
 namespace rockyard::app {
 namespace {

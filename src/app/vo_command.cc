@@ -13,7 +13,7 @@
 #include "app/progress_line.h"
 #include "app/run_display.h"
 #include "campaign/odometry/estimate_path.h"
-#include "campaign/odometry/odometry_json.h"
+#include "campaign/odometry/odometry_files.h"
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_text.h"

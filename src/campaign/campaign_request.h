@@ -1,4 +1,5 @@
-// What running one scenario and running a sweep can be asked for alike.
+// What running one scenario and running a sweep can be asked for alike, and whether a plan can be
+// run like that.
 #pragma once
 
 #include <cstdint>
@@ -36,5 +37,10 @@ struct CampaignRequest {
   // Throws core::UserError where the text is none of 1/N ... N/N.
   batch::Shard ParseShard() const;
 };
+
+// Throws core::UserError with everything that is asked of this plan and that cannot be: a stopping
+// rule of a shard, where nothing drives, or where trials share layouts and are not independent;
+// traces that are asked for with a rule that is none, or where nothing drives.
+void CheckPlan(const CampaignRequest& request, const CampaignPlan& plan);
 
 }  // namespace rockyard::campaign

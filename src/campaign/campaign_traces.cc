@@ -18,7 +18,6 @@
 #include "core/error.h"
 #include "replay/trace_npz.h"
 #include "report/atomic_file.h"
-#include "report/trace_csv.h"
 #include "report/trace_view.h"
 #include "scenario/sweep.h"
 

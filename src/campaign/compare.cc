@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "campaign/drive_comparison.h"
 #include "campaign/run_views.h"
 #include "core/error.h"
 #include "core/json_text.h"

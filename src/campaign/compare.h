@@ -31,7 +31,7 @@ struct Comparison {
   Outcome outcome = Outcome::kDone;  // kDiffers where a rate of a cell does; drives describe
 };
 
-// Memory: of drives, 200 bytes a trial of each and some columns (drive_comparison.h); of
+// Memory: of drives, 200 bytes a trial of each and some columns (run_views.h); of
 // measurements the records of both runs.
 core::Result<Comparison> Compare(const CompareRequest& request);
 

@@ -1,7 +1,8 @@
-// A drive that is driven again with somebody watching.
+// A drive that is driven again with somebody watching, and its plan view.
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "replay/data.h"
@@ -31,5 +32,11 @@ DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t see
 // Every moment of the recording in the order of time, with the angles of the rover's links.
 std::vector<replay::ReplayPose> PosesOf(const scenario::Scenario& scenario,
                                         const truth::Trace& trace);
+
+// An SVG file in the manner of Matthies 1995, figure 16: octagons at the positions and of the sizes
+// of rocks, true path solid, dead-reckoned path dotted, filled circles on both where obstacles were
+// detected, an x at start and goal. Rocks lie where they lay at the start. Cost: that of building
+// the terrain.
+std::string PlanView(const scenario::Scenario& scenario, const truth::TracedTrial& traced);
 
 }  // namespace rockyard::campaign

@@ -7,7 +7,6 @@
 #include "batch/pilot.h"
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
-#include "campaign/plan_checks.h"
 #include "campaign/run_campaign.h"
 #include "experiments/experiment.h"
 

@@ -8,7 +8,6 @@
 #include "batch/pilot.h"
 #include "campaign/campaign_request.h"
 #include "campaign/open_run.h"
-#include "campaign/planned_trials.h"
 #include "campaign/trace_retention.h"
 
 namespace rockyard::campaign {

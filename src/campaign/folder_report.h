@@ -1,4 +1,4 @@
-// What the folder of a campaign says once its trials have been run.
+// What the folder of a campaign says once its trials have been run, and the files that say it.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "batch/campaign.h"
+#include "batch/result_store.h"
 #include "report/run_description.h"
 #include "report/sweep_files.h"
 #include "report/sweep_summary.h"
@@ -42,5 +43,20 @@ struct SweepShardReport {
 };
 
 using FolderReport = std::variant<RunReport, SweepReport, SweepShardReport>;
+
+struct ReportSettings {
+  statistics::IntervalMethod method = statistics::IntervalMethod::kWilson;
+  int threads = 0;  // as the summary names them; 0: as many as the machine runs at once
+};
+
+// Writes them into the folder. A shard gets trials.csv and a summary.json without rates. Throws
+// core::UserError where a file cannot be written.
+RunReport ReportRun(const std::filesystem::path& folder, const ReportSettings& settings);
+
+// `store`: of a campaign with the cells of the sweep. Writes the files into its folder. Of a shard
+// no rate can be told, and so it gets a summary.json without any. Memory: the records of one cell.
+// Throws core::UserError where a file cannot be written.
+FolderReport ReportSweep(const batch::ResultStore& store, const scenario::Sweep& sweep,
+                         const ReportSettings& settings);
 
 }  // namespace rockyard::campaign

@@ -9,8 +9,6 @@
 
 #include "batch/merge_shards.h"
 #include "batch/result_store.h"
-#include "campaign/run_report.h"
-#include "campaign/sweep_report.h"
 #include "core/error.h"
 #include "core/result.h"
 #include "scenario/sweep.h"

@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 #include <utility>
 
 #include "batch/store_error.h"
-#include "campaign/derived_files.h"
 #include "campaign/run_source.h"
-#include "campaign/store_notes.h"
 #include "core/hash.h"
+#include "core/machine_error.h"
 #include "scenario/load.h"
 
 namespace rockyard::campaign {
@@ -58,6 +58,46 @@ void RefuseForeignFolder(const OpenRequest& request) {
                      "go on with it by --resume, set it aside by --force (nothing is "
                      "deleted), or choose another folder with --out");
   }
+}
+
+// As report/run_files.h and report/sweep_files.h write them, and the folder of campaign_traces.h.
+constexpr std::array kDerivedFiles = {
+    "attribution.csv", "cells.csv",        "cells.svg",
+    "curves.csv",      "distance_cdf.csv", "differences.csv",
+    "fit.csv",         "fits.csv",         "scenario.resolved.json",
+    "success.svg",     "summary.json",     "sweep.json",
+    "traces",          "trials.csv"};
+
+// As `rockyard report` names them where it is told no other name: of the run, but written later.
+constexpr std::array kReportFiles = {"report.html", "report_replays"};
+
+fs::path FreeName(const fs::path& folder, const fs::path& name) {
+  for (int number = 1;; ++number) {
+    fs::path aside =
+        fmt::format("{}.old-{}{}", name.stem().string(), number, name.extension().string());
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(folder / aside, error))) return aside;
+  }
+}
+
+void SetAside(const fs::path& folder, const fs::path& name, std::vector<std::string>& names) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(folder / name, error))) return;
+  const fs::path aside = FreeName(folder, name);
+  fs::rename(folder / name, folder / aside, error);
+  if (error) core::FailOnDisk(folder / name, "cannot be set aside", error);
+  names.push_back(aside.string());
+}
+
+// Renames every file in the folder that has the name of one that a campaign writes beside its
+// store, or of the page and the replays that `rockyard report` writes there, whoever wrote it:
+// summary.json to summary.old-1.json, or -2, ... Nothing is deleted or overwritten. Returns the new
+// names. Requires a claim of the folder. Throws core::UserError where one cannot be renamed.
+std::vector<std::string> SetDerivedFilesAside(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::path name : kDerivedFiles) SetAside(folder, name, names);
+  for (const fs::path name : kReportFiles) SetAside(folder, name, names);
+  return names;
 }
 
 class Opener {
@@ -203,6 +243,28 @@ void CheckFolder(const OpenRequest& request, const batch::CampaignIdentity& iden
 OpenedRun OpenRun(const OpenRequest& request, const CampaignPlan& plan,
                   const truth::RecordSchema& schema) {
   return Opener(request, plan, schema).Open();
+}
+
+std::string PlannedTrials::text() const {
+  return fmt::format("{}{} trials", at_most ? "at most " : "", total);
+}
+
+PlannedTrials TrialsOf(const OpenRequest& request, const CampaignPlan& plan) {
+  PlannedTrials planned;
+  planned.at_most = request.rule.has_value();
+  for (const CampaignCell& cell : plan.cells) {
+    const std::int64_t trials = request.rule ? request.rule->max_trials : cell.scenario.trials;
+    planned.cells.push_back(request.shard.Share(trials));
+    planned.total += planned.cells.back();
+  }
+  const bool limited = request.rule && request.rule->budget > 0;
+  if (limited) planned.total = std::min(planned.total, request.rule->budget);
+  return planned;
+}
+
+bool IsRunFile(const fs::path& name) {
+  return name == batch::kStoreFile ||
+         std::find(kDerivedFiles.begin(), kDerivedFiles.end(), name) != kDerivedFiles.end();
 }
 
 }  // namespace rockyard::campaign

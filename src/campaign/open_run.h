@@ -1,4 +1,5 @@
-// From a plan to a store that is ready for trials.
+// From a plan to a store that is ready for trials; the files that a campaign derives from its
+// store, beside it.
 #pragma once
 
 #include <cstdint>
@@ -81,5 +82,19 @@ void CheckFolder(const OpenRequest& request, const batch::CampaignIdentity& iden
 // run is then removed again.
 OpenedRun OpenRun(const OpenRequest& request, const CampaignPlan& plan,
                   const truth::RecordSchema& schema);
+
+struct PlannedTrials {
+  std::vector<std::int64_t> cells;  // the shard's share of each
+  std::int64_t total = 0;           // of all, as far as the budget of a rule goes
+  bool at_most = false;             // a rule may end cells before
+
+  std::string text() const;  // "12 trials", "at most 100 trials"
+};
+
+// Of a plan that is to be run as requested; trials that are stored already are among them.
+PlannedTrials TrialsOf(const OpenRequest& request, const CampaignPlan& plan);
+
+// Whether a campaign writes a file of that name into its folder, or has its store there.
+bool IsRunFile(const std::filesystem::path& name);
 
 }  // namespace rockyard::campaign

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "batch/run_folder.h"
-#include "campaign/derived_files.h"
+#include "campaign/open_run.h"
 #include "core/error.h"
 #include "core/temporary_file.h"
 

@@ -3,17 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <system_error>
 
 #include "campaign/baseline_scenario.h"
 #include "campaign/run_views.h"
 #include "core/error.h"
+#include "report/comparison_reference.h"
+#include "report/page_data.h"
 #include "scenario/load.h"
 
 namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
+
 using Settings = std::vector<std::string>;
 
 constexpr std::size_t kMaxShown = 12;
@@ -55,6 +60,24 @@ Settings OtherSettings(const statistics::PublishedReference& reference, const fs
   return run.settings.value_or(Settings());
 }
 
+constexpr const char* kReferenceFolder = "results/reference";
+
+std::vector<fs::path> StoredReferences() {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(kReferenceFolder, error)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool Names(const statistics::PublishedReference& reference, const std::string& scenario) {
+  return std::any_of(
+      reference.values.begin(), reference.values.end(),
+      [&](const statistics::PublishedValue& value) { return value.scenario == scenario; });
+}
+
 }  // namespace
 
 std::vector<statistics::ScenarioRun> PublishedViews(const statistics::PublishedReference& reference,
@@ -68,6 +91,49 @@ std::vector<statistics::ScenarioRun> PublishedViews(const statistics::PublishedR
     views.back().other_settings = OtherSettings(reference, folder, *run, journal);
   }
   return views;
+}
+
+void PublishedTables::Load(const fs::path& file) {
+  references_.push_back({file.parent_path(), report::LoadReference(file)});
+}
+
+PublishedTables::PublishedTables(const std::string& file, Journal& journal) : journal_(journal) {
+  if (!file.empty()) {
+    Load(file);
+    return;
+  }
+  for (const fs::path& each : StoredReferences()) {
+    try {
+      Load(each);
+    } catch (const core::UserError& error) {
+      journal.Warn(fmt::format("{} is left out: {} {}", each.string(),
+                               error.problems().front().path, error.problems().front().reason));
+    }
+  }
+}
+
+std::string PublishedTables::Table(const StoredRun& run) const {
+  for (const auto& [folder, reference] : references_) {
+    if (!Names(reference, run.identity.scenario)) continue;
+    const std::array runs{&run};
+    return report::PublishedJson(
+        reference,
+        statistics::Compare(reference, PublishedViews(reference, folder, runs, journal_)),
+        run.identity.scenario);
+  }
+  return "null";
+}
+
+std::string PublishedTables::WhyNone() const {
+  if (references_.empty()) {
+    return fmt::format(
+        "no published values stand beside the runs: {} below the working folder holds no "
+        "reference; name one with --against FILE",
+        kReferenceFolder);
+  }
+  return fmt::format(
+      "no published values stand beside the runs: no reference in {} names their scenarios",
+      kReferenceFolder);
 }
 
 }  // namespace rockyard::campaign

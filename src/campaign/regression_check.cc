@@ -4,16 +4,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <string_view>
 #include <utility>
 
+#include "batch/run_folder.h"
 #include "batch/scenario_difference.h"
 #include "batch/trial_hash.h"
-#include "campaign/baseline_cells.h"
 #include "campaign/baseline_scenario.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
 #include "report/baseline.h"
+#include "truth/record.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -21,6 +24,73 @@ namespace {
 using batch::ScenarioDifference;
 using report::BaselineCell;
 using report::CheckedCell;
+
+bool IsSame(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+// Of each campaign the cell of that name or number; all of them where `cell` is empty. `paths`:
+// folders of runs, or of such folders. Throws core::UserError: no run, no such cell, a shard.
+std::vector<StoredRun> ReadCells(const std::vector<std::string>& paths, const std::string& cell) {
+  std::vector<StoredRun> cells;
+  for (const std::string& path : paths) {
+    for (const auto& folder : batch::FindRuns(path)) {
+      std::vector<StoredRun> found;
+      if (cell.empty()) {
+        found = ReadCampaign(folder);
+      } else {
+        found.push_back(ReadRun(folder, cell));
+      }
+      for (StoredRun& each : found) {
+        RequireWhole(each);
+        cells.push_back(std::move(each));
+      }
+    }
+  }
+  return cells;
+}
+
+// Leaves those cells in the baseline that one of the runs is; all of them where none is.
+void KeepCellsOf(const std::vector<StoredRun>& runs, report::Baseline& baseline) {
+  std::vector<report::BaselineCell> kept;
+  for (const report::BaselineCell& cell : baseline.cells) {
+    const bool named = std::any_of(
+        runs.begin(), runs.end(), [&](const StoredRun& run) { return CellName(run) == cell.name; });
+    if (named) kept.push_back(cell);
+  }
+  if (!kept.empty()) baseline.cells = std::move(kept);
+}
+
+// Compares trial by trial outcomes and values of metrics, rounded as the baseline keeps them;
+// `values` are the run's, by metric of the baseline, and empty where it has none. A metric without
+// a value in both is the same. Leaves `only_hash` as it is.
+report::RecordChanges CompareRecords(const BaselineCell& cell,
+                                     std::span<const truth::Record> records,
+                                     const std::vector<std::vector<double>>& values) {
+  report::RecordChanges changes;
+  changes.columns = {{"outcome"}};
+  for (const statistics::BaselineMetric& metric : cell.metrics) {
+    changes.columns.push_back({metric.name});
+  }
+  const std::size_t pairs = std::min(records.size(), cell.outcomes.size());
+  changes.pairs = static_cast<std::int64_t>(pairs);
+  for (std::size_t trial = 0; trial < pairs; ++trial) {
+    bool same = true;
+    const auto compare = [&](std::size_t column, bool is_same) {
+      if (is_same) return;
+      same = false;
+      ++changes.columns[column].trials;
+    };
+    compare(0, records[trial].outcome == cell.outcomes[trial]);
+    for (std::size_t i = 0; i < cell.metrics.size(); ++i) {
+      compare(i + 1,
+              !values[i].empty() && IsSame(cell.metrics[i].values.at(trial), values[i].at(trial)));
+    }
+    changes.trials += same ? 0 : 1;
+  }
+  std::erase_if(changes.columns, [](const auto& column) { return column.trials == 0; });
+  std::stable_sort(changes.columns.begin(), changes.columns.end(),
+                   [](const auto& a, const auto& b) { return a.trials > b.trials; });
+  return changes;
+}
 
 constexpr std::size_t kShownDifferences = 12;
 

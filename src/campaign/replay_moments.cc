@@ -3,18 +3,22 @@
 #include <fmt/format.h>
 
 #include <exception>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "campaign/looks/look_capture.h"
-#include "campaign/replay_files.h"
 #include "campaign/scan_capture.h"
-#include "campaign/step_scene.h"
 #include "core/error.h"
 #include "experiments/drive/drive_experiment.h"
 #include "experiments/experiment.h"
+#include "image_files/png_file.h"
+#include "messages/point_cloud.h"
+#include "report/atomic_file.h"
+#include "report/navigation_drawing.h"
+#include "report/scan_drawing.h"
+#include "scenario/load.h"
+#include "scenario/scenario.h"
 #include "sensing/stereo_params.h"
 #include "trial/terrain_sensor_set_params.h"
 
@@ -22,6 +26,63 @@ namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
+
+// A decision of a map-based navigator, and the last points that it rests on.
+struct CapturedStep {
+  report::NavigationPicture picture;
+  messages::PointCloud cloud;
+  std::vector<CapturedLook> looks;  // on which it rests; none where there are no images
+};
+
+std::string FileStem(const messages::StripeExposure& frames) {
+  return fmt::format("{}-group{}", frames.camera == 0 ? "left" : "right", frames.group);
+}
+
+void BeginFolder(const fs::path& folder, const scenario::Scenario& scenario) {
+  fs::create_directories(folder);
+  report::WriteFileAtomically(folder / "scenario.resolved.json", scenario::ResolvedJson(scenario));
+}
+
+bool HasStereoCameras(const scenario::Scenario& scenario) {
+  const trial::DriveParams& drive = scenario.drive;
+  return drive.sensors.terrain_sensors.chosen().cameras(drive) != nullptr;
+}
+
+// Makes the folder and writes into it, as WriteStepFiles: PNG images of every exposure (lit, dark,
+// difference), array.svg, points.csv, the scenario. Both throw core::UserError or
+// std::filesystem::filesystem_error.
+void WriteScanFiles(const fs::path& folder, const scenario::Scenario& scenario,
+                    const CapturedScan& captured) {
+  BeginFolder(folder, scenario);
+  for (const CapturedExposure& exposure : captured.exposures) {
+    const auto write = [&](std::string_view what, const image_files::Picture& picture) {
+      report::WriteFileAtomically(
+          folder / fmt::format("{}-{}.png", FileStem(exposure.frames), what),
+          image_files::EncodePng(picture));
+    };
+    write("lit", report::FramePicture(exposure.frames.lit.front()));
+    write("dark", report::FramePicture(exposure.frames.dark.front()));
+    write("difference",
+          report::DifferencePicture(captured.view, exposure.frames, exposure.difference));
+  }
+  report::WriteFileAtomically(folder / "array.svg", report::ScanSvg(captured.view));
+  report::WriteFileAtomically(folder / "points.csv", report::ScanCsv(captured.view));
+}
+
+// step.svg, map.csv, votes.csv, points.csv, the scenario. Of stereo cameras also what they saw: the
+// files that it gives back (WriteLookFiles).
+std::vector<LookFile> WriteStepFiles(const fs::path& folder, const scenario::Scenario& scenario,
+                                     const CapturedStep& captured) {
+  BeginFolder(folder, scenario);
+  const messages::NavigationView& view = captured.picture.view;
+  report::WriteFileAtomically(folder / "step.svg", report::NavigationSvg(captured.picture));
+  report::WriteFileAtomically(folder / "map.csv", report::MapCsv(view.map));
+  report::WriteFileAtomically(folder / "votes.csv", report::VotesCsv(view));
+  report::WriteFileAtomically(folder / "points.csv", report::CloudCsv(captured.cloud));
+  if (!captured.looks.empty()) return WriteLookFiles(folder, captured.looks, view);
+  if (!HasStereoCameras(scenario)) return {};
+  return WriteCloudFiles(folder, captured.cloud);
+}
 
 bool Draws(const MomentsRequest& request) { return request.scan || request.step; }
 std::string_view OptionOf(const MomentsRequest& request) {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "campaign/journal.h"
-#include "campaign/looks/look_files.h"
+#include "campaign/looks/look_pictures.h"
 #include "campaign/observer.h"
 #include "campaign/trial_source.h"
 #include "math/pose.h"
 #include "messages/navigation_view.h"
-#include "report/scan_view.h"
+#include "report/scan_drawing.h"
 
 namespace rockyard::campaign {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "batch/parallel_tasks.h"
-#include "campaign/report_facts.h"
+#include "campaign/report_inputs.h"
 #include "experiments/drive/drive_experiment.h"
 #include "report/trace_path.h"
 #include "report/trace_view.h"

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "campaign/run_report.h"
+#include "campaign/folder_report.h"
 #include "campaign/run_source.h"
 #include "campaign/scenario_doubts.h"
 #include "campaign/shell_word.h"

@@ -9,7 +9,6 @@
 
 #include "batch/run_folder.h"
 #include "campaign/heeded_work.h"
-#include "campaign/plan_checks.h"
 #include "core/error.h"
 #include "experiments/experiment.h"
 

@@ -4,14 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "batch/run_folder.h"
+#include "batch/store_error.h"
 #include "batch/stored_ends.h"
 #include "batch/trial_hash.h"
-#include "campaign/setup_words.h"
 #include "core/check.h"
+#include "core/fields.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "scenario/ablations.h"
@@ -23,6 +25,34 @@ namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
+
+// "dead_reckoning" to "dead reckoning".
+std::string Words(std::string_view name) {
+  std::string words(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+template <typename Enum>
+std::string Words(Enum value) {
+  return Words(core::EnumNames<Enum>::kNames[static_cast<std::size_t>(value)]);
+}
+
+// Two lines: rover, gravity, soil and fidelity; by what it looks, drives and localizes. None of an
+// experiment that does not drive.
+std::vector<std::string> SetupInWords(const scenario::Scenario& scenario) {
+  if (scenario.experiment.kind != experiments::ExperimentKind::kDrive) return {};
+  const trial::DriveParams& drive = scenario.drive;
+  const rover::RoverParams& rover = drive.rover;
+  return {fmt::format("rover {:g} m long, {:g} kg, wheels of {:g} cm; {:g} m/s2, {}; {} physics",
+                      rover.geometry.length_m, rover.mass.total_kg,
+                      200.0 * rover.geometry.wheel_radius_m, rover.physics.gravity_m_s2,
+                      Words(drive.terrain.ground.soil.preset), Words(rover.fidelity)),
+          fmt::format("looks by {}, drives by {}, localizes by {}",
+                      Words(drive.sensors.terrain_sensors.chosen().name()),
+                      Words(drive.navigation.navigators.chosen().name()),
+                      Words(drive.localization.estimators.chosen().name()))};
+}
 
 // "0 (k=0.004), 1 (k=0.013), ...": what --cell takes.
 std::string CellList(const std::vector<batch::CellIdentity>& cells) {
@@ -87,6 +117,14 @@ std::optional<scenario::Scenario> TryRead(const std::string& resolved) {
     return scenario::ParseScenario(resolved);
   } catch (const core::UserError&) {
     return std::nullopt;
+  }
+}
+
+std::vector<std::filesystem::path> RunsIn(const std::string& path) {
+  try {
+    return batch::FindRuns(path);
+  } catch (const batch::StoreError&) {
+    return {};
   }
 }
 
@@ -223,6 +261,21 @@ report::RunDescription Describe(const StoredRun& run, int threads) {
       .stopping = StoppingOf(run),
       .shard_index = run.shard.index,
       .shard_count = run.shard.count};
+}
+
+std::string NoChecksumsNote(const std::filesystem::path& folder) {
+  return batch::StorePath(folder).string() +
+         ": an older program made it, without checksums: damage may pass unseen";
+}
+
+std::vector<std::string> StoreNotes(std::span<const std::string> paths) {
+  std::vector<std::string> notes;
+  for (const std::string& path : paths) {
+    for (const std::filesystem::path& folder : RunsIn(path)) {
+      if (!batch::HasChecksums(folder)) notes.push_back(NoChecksumsNote(folder));
+    }
+  }
+  return notes;
 }
 
 }  // namespace rockyard::campaign

@@ -1,4 +1,5 @@
-// Where scenarios and finished runs come from.
+// Where scenarios and finished runs come from, and what there is to know of stores before their
+// results are believed.
 #pragma once
 
 #include <filesystem>
@@ -90,5 +91,12 @@ std::string BuildName();
 
 // What a report says of a run, with the provenance of this program.
 report::RunDescription Describe(const StoredRun& run, int threads);
+
+// The sentence for people about a store without checksums (batch::HasChecksums).
+std::string NoChecksumsNote(const std::filesystem::path& folder);
+
+// One sentence for each such store in these folders of runs, or folders of such folders. Other
+// paths, and stores that cannot be read, are for whoever reads them to judge.
+std::vector<std::string> StoreNotes(std::span<const std::string> paths);
 
 }  // namespace rockyard::campaign

@@ -1,12 +1,15 @@
-// Everything that can be shown of one scan, taken at the moment when it happens.
+// Everything that can be shown of one scan, taken at the moment when it happens, and where a
+// decision of a map-based navigator was taken, for its drawing.
 #pragma once
 
 #include <vector>
 
 #include "messages/estimates.h"
 #include "messages/stripe_images.h"
-#include "report/scan_view.h"
+#include "report/scan_drawing.h"
+#include "report/step_scene.h"
 #include "trial/watchers.h"
+#include "truth/trace.h"
 
 namespace rockyard::campaign {
 
@@ -27,5 +30,9 @@ messages::HazardReport HazardsOf(const trial::WatchedScan& watched);
 // Whole images of every camera and group of lasers are rendered also where the scan came from the
 // geometric model. Cost: some seconds.
 CapturedScan Capture(const trial::WatchedScan& watched);
+
+// `trace` is that of the trial up to this decision. Rocks lie where they lie now. A rover without
+// stereo cameras has no camera.
+report::StepScene SceneOf(const trial::WatchedStep& watched, const truth::Trace& trace);
 
 }  // namespace rockyard::campaign

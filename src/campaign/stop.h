@@ -28,4 +28,19 @@ struct Stop {
   }
 };
 
+// Listens while it lives. A second wish ends the process.
+class StopWish {
+ public:
+  explicit StopWish(const Stop& stop) : stop_(stop), watch_(stop.Watch(flag_, SecondWish::kEnds)) {}
+  StopWish(const StopWish&) = delete;
+  StopWish& operator=(const StopWish&) = delete;
+
+  bool IsThere() const { return flag_ || stop_.IsWanted(); }
+
+ private:
+  const Stop& stop_;
+  std::atomic<bool> flag_ = false;
+  std::shared_ptr<void> watch_;
+};
+
 }  // namespace rockyard::campaign

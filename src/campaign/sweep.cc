@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "campaign/plan_checks.h"
+#include "campaign/folder_report.h"
 #include "campaign/scenario_doubts.h"
-#include "campaign/sweep_report.h"
 #include "core/error.h"
 
 namespace rockyard::campaign {

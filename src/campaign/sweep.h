@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "campaign/campaign_request.h"
-#include "campaign/planned_trials.h"
+#include "campaign/open_run.h"
 #include "campaign/run_campaign.h"
 #include "campaign/sweep_plan.h"
 #include "core/result.h"

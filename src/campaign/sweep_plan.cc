@@ -3,18 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
-#include "campaign/open_run.h"
-#include "campaign/sweep_pilot.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_text.h"
 #include "core/machine_error.h"
+#include "experiments/experiment.h"
 #include "report/atomic_file.h"
 #include "report/csv.h"
 #include "scenario/load.h"
@@ -162,7 +160,46 @@ std::vector<std::string> EqualPilots(const Sweep& sweep,
   return notes;
 }
 
+constexpr std::size_t kMaxPilotCells = 100;
+
+// Of the trials that are planned, by cell as the pilots are.
+CampaignCost ExpectedCost(const PlannedTrials& planned,
+                          const std::vector<batch::PilotCost>& pilots) {
+  CampaignCost cost;
+  double measured_trials = 0.0;
+  double variance = 0.0;
+  bool scatter = false;
+  for (std::size_t i = 0; i < pilots.size(); ++i) {
+    const auto trials = static_cast<double>(planned.cells[i]);
+    const batch::PilotCost& pilot = pilots[i];
+    if (pilot.trials == 0) continue;
+    measured_trials += trials;
+    cost.pilots += pilot.trials;
+    cost.total_s += trials * pilot.mean_s;
+    cost.slowest_s = std::max(cost.slowest_s, pilot.slowest_s);
+    variance += pilot.variance_s2 * trials * (1.0 + trials / static_cast<double>(pilot.trials));
+    scatter = scatter || pilot.trials > 1;
+  }
+  if (measured_trials == 0.0) return cost;
+  const double share = static_cast<double>(planned.total) / measured_trials;
+  cost.total_s *= share;
+  if (scatter) cost.standard_error_s = share * std::sqrt(variance);
+  return cost;
+}
+
 }  // namespace
+
+std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep, int trials) {
+  std::vector<batch::PilotCost> pilots(sweep.cells.size());
+  if (trials == 0) return pilots;
+  const std::size_t stride = (sweep.cells.size() + kMaxPilotCells - 1) / kMaxPilotCells;
+  for (std::size_t i = 0; i < sweep.cells.size(); i += stride) {
+    const auto experiment = experiments::MakeExperiment(sweep.cells[i].scenario.experiment,
+                                                        sweep.cells[i].scenario.drive);
+    pilots[i] = batch::RunPilots(*experiment, sweep.seed, trials);
+  }
+  return pilots;
+}
 
 SweepPlan WriteSweepPlan(const Sweep& sweep, const SweepPlanOptions& options) {
   const fs::path folder = FolderOf(sweep, options);

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/json_text.h"
-#include "report/json_values.h"
 #include "report/line_text.h"
+#include "report/mean_words.h"
 
 namespace rockyard::report {
 namespace {

@@ -3,17 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <string_view>
 #include <utility>
+
+#include "report/csv.h"
+#include "report/line_text.h"
+#include "report/mean_words.h"
+#include "report/sweep_summary.h"
 
 namespace rockyard::report {
 namespace {
 
+using core::JsonValue;
+using core::NumberOrNull;
 using scenario::Sweep;
+using statistics::Attribution;
 using statistics::Combination;
+using statistics::Estimate;
 using statistics::FactorialFailures;
+using statistics::NameOf;
 
 // Cells of one setting of the other axes, by combination.
 struct Setting {
@@ -95,6 +107,96 @@ SweepAttribution AttributeSetting(const Setting& setting, const std::vector<std:
   return result;
 }
 
+constexpr std::size_t kNameWidth = 23;  // three intervals beside it fit 100 columns
+constexpr std::size_t kPlaceWidth = 30;
+// Longer tables are for files.
+constexpr std::size_t kMaxEffects = 15;
+
+std::string Percent(const Estimate& estimate) {
+  return fmt::format("{:6.1f} ({:6.1f} ..{:6.1f})", 100.0 * estimate.value,
+                     100.0 * estimate.interval.low, 100.0 * estimate.interval.high);
+}
+
+std::string Percent(const statistics::Proportion& rate) {
+  return Percent(Estimate{rate.rate, rate.interval});
+}
+
+std::string Shares(const Attribution& result) {
+  std::string text = fmt::format("  {:<{}} {:<24} {:<24} {}\n", "made perfect removes, %",
+                                 kNameWidth, "Shapley share", "alone", "after all others");
+  for (const statistics::FunctionShare& row : result.shares) {
+    text += fmt::format("  {:<{}} {} {} {}\n", Cut(row.function, kNameWidth), kNameWidth,
+                        Percent(row.share), Percent(row.first), Percent(row.last));
+  }
+  text += fmt::format("  {:<{}} {} {:6.1f}: these need not sum\n", "all of them", kNameWidth,
+                      Percent(result.removed), 100.0 * result.sum_of_firsts);
+  return text;
+}
+
+std::string Failures(const Attribution& result) {
+  return fmt::format("  {:<{}} {}\n  {:<{}} {}\n", "fail as flown, %", kNameWidth,
+                     Percent(result.failures.front()), "fail, all perfect, %", kNameWidth,
+                     Percent(result.remainder));
+}
+
+std::string Effects(const Attribution& result) {
+  std::string text =
+      "  effects on the failure probability, points of per cent (interactions: halved "
+      "differences)\n";
+  for (std::size_t i = 0; i < result.effects.size() && i < kMaxEffects; ++i) {
+    const statistics::EffectOfSet& row = result.effects[i];
+    text += fmt::format("    {}  {}\n", Percent(row.effect),
+                        statistics::NameOf(row.set, result.functions).substr(0, 70));
+  }
+  return text;
+}
+
+std::string Combinations(const Attribution& result) {
+  std::string text = "  failures with these perfect, %\n";
+  for (std::size_t c = 0; c < result.failures.size() && c <= kMaxEffects; ++c) {
+    const auto set = static_cast<statistics::Combination>(c);
+    const std::string name = statistics::NameOf(set, result.functions, " + ");
+    text += fmt::format("    {}  {}\n", Percent(result.failures[c]), name.substr(0, 70));
+  }
+  return text;
+}
+
+std::string Table(const SweepAttribution& attribution, std::size_t kind) {
+  const Attribution& result = attribution.by_success[kind];
+  const std::string at = attribution.at.empty() ? "" : ", " + Cut(attribution.at, kPlaceWidth);
+  std::string text = fmt::format("\nattribution of failures, {}{}: {} paired trials\n",
+                                 kSuccessNames[kind], at, result.trials);
+  if (attribution.left_out > 0) {
+    text += fmt::format("  {} with a fault in some cell left out\n", attribution.left_out);
+  }
+  if (result.trials == 0) return text;
+  text += Failures(result) + Shares(result);
+  // The other definition of success gets the short table.
+  if (kind == static_cast<std::size_t>(SuccessKind::kDeclared)) return text;
+  return text + Effects(result) + Combinations(result);
+}
+
+// Calls row(kind, functions, estimate) for everything that an attribution says.
+void ForEachRow(
+    const Attribution& result,
+    const std::function<void(std::string_view, const std::string&, const Estimate&)>& row) {
+  for (std::size_t c = 0; c < result.failures.size(); ++c) {
+    const statistics::Proportion& rate = result.failures[c];
+    row("failure_rate", NameOf(static_cast<statistics::Combination>(c), result.functions, " + "),
+        {rate.rate, rate.interval});
+  }
+  for (const statistics::FunctionShare& each : result.shares) {
+    row("share", each.function, each.share);
+    row("alone", each.function, each.first);
+    row("last", each.function, each.last);
+  }
+  row("removed", "all", result.removed);
+  row("remainder", "all", {result.remainder.rate, result.remainder.interval});
+  for (const statistics::EffectOfSet& each : result.effects) {
+    row("effect", NameOf(each.set, result.functions), each.effect);
+  }
+}
+
 }  // namespace
 
 std::vector<SweepAttribution> AttributeSweep(const Sweep& sweep,
@@ -112,6 +214,61 @@ std::vector<SweepAttribution> AttributeSweep(const Sweep& sweep,
     attributions.push_back(AttributeSetting(setting, functions, outcomes));
   }
   return attributions;
+}
+
+std::string AttributionText(std::span<const SweepAttribution> attributions) {
+  std::string text;
+  for (const SweepAttribution& attribution : attributions) {
+    text += Table(attribution, static_cast<std::size_t>(SuccessKind::kTrue));
+    text += Table(attribution, static_cast<std::size_t>(SuccessKind::kDeclared));
+  }
+  return text;
+}
+
+std::string AttributionCsv(std::span<const SweepAttribution> attributions) {
+  std::string csv = "at,success,kind,functions,value,low,high\n";
+  for (const SweepAttribution& attribution : attributions) {
+    for (std::size_t kind = 0; kind < kSuccessNames.size(); ++kind) {
+      ForEachRow(
+          attribution.by_success[kind],
+          [&](std::string_view what, const std::string& functions, const Estimate& estimate) {
+            const std::vector<std::string> fields{CsvField(attribution.at),
+                                                  std::string(kSuccessNames[kind]),
+                                                  std::string(what),
+                                                  CsvField(functions),
+                                                  CsvNumber(estimate.value),
+                                                  CsvNumber(estimate.interval.low),
+                                                  CsvNumber(estimate.interval.high)};
+            csv += CsvLine(fields);
+          });
+    }
+  }
+  return csv;
+}
+
+JsonValue AttributionJson(std::span<const SweepAttribution> attributions) {
+  JsonValue::List list;
+  for (const SweepAttribution& attribution : attributions) {
+    for (std::size_t kind = 0; kind < kSuccessNames.size(); ++kind) {
+      const Attribution& result = attribution.by_success[kind];
+      JsonValue::List rows;
+      ForEachRow(result, [&](std::string_view what, const std::string& functions,
+                             const Estimate& estimate) {
+        rows.push_back(JsonValue::Object({{"kind", what},
+                                          {"functions", functions},
+                                          {"value", NumberOrNull(estimate.value)},
+                                          {"interval", EndsOf(estimate.interval)}}));
+      });
+      JsonValue& json = list.emplace_back(
+          JsonValue::Object({{"at", attribution.at},
+                             {"success", kSuccessNames[kind]},
+                             {"trials", result.trials},
+                             {"left_out", attribution.left_out},
+                             {"sum_of_alone", NumberOrNull(result.sum_of_firsts)}}));
+      json.Set("rows", JsonValue(std::move(rows)));
+    }
+  }
+  return JsonValue(std::move(list));
 }
 
 }  // namespace rockyard::report

@@ -1,5 +1,3 @@
-#include "report/camera_panel.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +5,8 @@
 #include <vector>
 
 #include "report/colour_ramp.h"
-#include "report/grid_surface.h"
+#include "report/pinhole_camera.h"
+#include "report/step_scene.h"
 
 namespace rockyard::report {
 namespace {

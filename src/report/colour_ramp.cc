@@ -1,9 +1,7 @@
 #include "report/colour_ramp.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 
 namespace rockyard::report {
 namespace {

@@ -1,11 +1,11 @@
-#include "report/course_panel.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
+
+#include "report/step_scene.h"
 
 namespace rockyard::report {
 namespace {

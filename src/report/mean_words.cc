@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "report/json_values.h"
 #include "report/line_text.h"
 
 namespace rockyard::report {

@@ -1,10 +1,12 @@
-// What a report says where the mean of a metric has no interval.
+// What a report says where the mean of a metric has no interval; JSON values that several result
+// files hold.
 #pragma once
 
 #include <string>
 
 #include "core/json_value.h"
 #include "statistics/metrics.h"
+#include "statistics/proportions.h"
 
 namespace rockyard::report {
 
@@ -17,5 +19,14 @@ std::string ReasonOf(const statistics::MeanEstimate& estimate);
 // commonest value, and the trials that have another one, exact. ci_method says how ci95 is made:
 // wilson, clopper_pearson or skewed_t (statistics/mean_interval.h); null where there is none.
 core::JsonValue MetricJson(const statistics::MetricSummary& summary);
+
+// Of summary.json and its like.
+inline constexpr int kSchemaVersion = 2;
+
+// [low, high], null where there is none.
+inline core::JsonValue EndsOf(const statistics::Interval& interval) {
+  return core::JsonValue(
+      core::JsonValue::List{core::NumberOrNull(interval.low), core::NumberOrNull(interval.high)});
+}
 
 }  // namespace rockyard::report

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/curve_colours.h"
+#include "report/colour_ramp.h"
 #include "report/measurement_text.h"
 #include "report/xml_text.h"
 

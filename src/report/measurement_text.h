@@ -1,4 +1,4 @@
-// The cells of a measurement for people.
+// The cells of a measurement for people, and as a table.
 #pragma once
 
 #include <cstddef>
@@ -22,5 +22,10 @@ std::string MeasurementText(const RunDescription& run,
 // The first of `rates` that the experiment calls its main one, which text and drawing show where
 // there is room for one; rates.size() where there is none.
 std::size_t MainRate(const truth::RecordSchema& rates);
+
+// cells.csv: one line per cell: cell, runs, factors, bases; for each rate <name>, <name>_low and
+// <name>_high (95 % interval of this cell), <name>_all_low and <name>_all_high (95 % for all cells
+// at once, Bonferroni); then mean_<name> or rms_<name>.
+std::string CellsCsv(const statistics::MeasurementSummary& summary);
 
 }  // namespace rockyard::report

@@ -12,10 +12,9 @@
 #include <vector>
 
 #include "math/angles.h"
-#include "report/camera_panel.h"
 #include "report/colour_ramp.h"
-#include "report/course_panel.h"
-#include "report/svg_elements.h"
+#include "report/step_scene.h"
+#include "report/xml_text.h"
 
 namespace rockyard::report {
 namespace {

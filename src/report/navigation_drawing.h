@@ -16,8 +16,8 @@ struct NavigationPicture {
   StepScene scene;
 };
 
-// An SVG file: the course with the path so far (course_panel.h), the view of the front camera with
-// the grid (camera_panel.h), maps of elevation, goodness (with the candidate arcs) and certainty, x
+// An SVG file: the course with the path so far (CoursePanel), the view of the front camera with
+// the grid (CameraPanel), maps of elevation, goodness (with the candidate arcs) and certainty, x
 // to the right and y up in the estimated world frame, and the votes of every candidate in three
 // rows (waypoint, hazard, merged). Candidates run from the leftmost to the rightmost turn; those
 // with the best vote are underlined, the chosen one is framed.

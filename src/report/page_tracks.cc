@@ -15,7 +15,7 @@ void AddCentimetres(double length_m, std::vector<std::string>& to) {
   to.push_back(std::to_string(std::llround(100.0 * length_m)));
 }
 
-std::string Place(const messages::Goal& place) {
+std::string PlaceJson(const messages::Goal& place) {
   return JsonList(std::vector{JsonNumber(place.x_m), JsonNumber(place.y_m)});
 }
 
@@ -48,10 +48,10 @@ std::string Rocks(const std::vector<PageRock>& rocks) {
 std::string PageCourseJson(const PageCourse& course) {
   return JsonObject()
       .AddText("rover", course.rover)
-      .Add("start", Place({course.start.x_m, course.start.y_m}))
-      .Add("goal", Place(course.goal))
+      .Add("start", PlaceJson({course.start.x_m, course.start.y_m}))
+      .Add("goal", PlaceJson(course.goal))
       .AddNumber("goal_radius_m", course.goal_radius_m)
-      .Add("waypoints", JsonList(course.waypoints, Place))
+      .Add("waypoints", JsonList(course.waypoints, PlaceJson))
       .Add("mirror_lines_m", JsonList(course.mirror_lines_m, JsonNumber))
       .Text();
 }

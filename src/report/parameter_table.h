@@ -1,5 +1,5 @@
 // Tables of a scenario's parameters: what each value is, where it comes from, how far it may be
-// off.
+// off; of the metrics of statistics/metrics.h.
 #pragma once
 
 #include <optional>
@@ -28,5 +28,9 @@ std::string ParametersMarkdown(std::span<const core::ParameterInfo> parameters);
 // Columns path, kind, value, unit, origin, study_low, study_high, min, max, choices (separated by
 // |), source, doc; RFC 4180.
 std::string ParametersCsv(std::span<const core::ParameterInfo> parameters);
+
+// Name, unit, trials that count, definition, record columns, default margin.
+std::string MetricTableText();      // at most 100 columns
+std::string MetricTableMarkdown();  // for README.md
 
 }  // namespace rockyard::report

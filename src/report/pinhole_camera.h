@@ -1,11 +1,14 @@
-// What a pinhole camera sees of points, surfaces and convex bodies.
+// What a pinhole camera sees of points, surfaces and convex bodies; the map of a navigator as a
+// surface, as its rover believes to stand before it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "math/pose.h"
+#include "messages/navigation_view.h"
 
 namespace rockyard::report {
 
@@ -44,5 +47,23 @@ std::vector<ImagePoint> Silhouette(const PinholeCamera& camera,
                                    std::span<const math::Vector3> points);
 // What of the image looks below the horizon, for the unit vector that points up.
 std::vector<ImagePoint> BelowHorizon(const PinholeCamera& camera, const math::Vector3& up);
+
+// The believed elevations of the map as quadrilaterals in R, by the pose and the attitude that the
+// rover believes to have. `view` outlives it.
+class GridSurface {
+ public:
+  explicit GridSurface(const messages::NavigationView& view);
+
+  // Of a cell that holds points: once around it, each corner as high as the cells with points that
+  // meet there, on average.
+  std::array<math::Vector3, 4> Corners(int ix, int iy) const;
+
+ private:
+  // At the lower corner of cell (ix, iy).
+  math::Vector3 Corner(int ix, int iy) const;
+
+  const messages::MapView& map_;
+  math::Transform X_RE_;  // of the map's frame
+};
 
 }  // namespace rockyard::report

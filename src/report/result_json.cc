@@ -71,7 +71,7 @@ std::string Cell(const CheckedCell& cell) {
       .Text();
 }
 
-std::string Metric(const statistics::RegressionRow& row) {
+std::string MetricRow(const statistics::RegressionRow& row) {
   return JsonObject()
       .AddText("cell", row.cell)
       .AddText("metric", row.metric->name)
@@ -154,7 +154,7 @@ std::string BaselineCheckJson(const RegressionReport& report, int exit_code) {
   std::vector<std::string> cells;
   for (const CheckedCell& cell : report.cells) cells.push_back(Cell(cell));
   std::vector<std::string> metrics;
-  for (const statistics::RegressionRow& row : report.result.rows) metrics.push_back(Metric(row));
+  for (const statistics::RegressionRow& row : report.result.rows) metrics.push_back(MetricRow(row));
   return Line(Begin("baseline_check")
                   .AddText("baseline", report.baseline)
                   .AddText("baseline_build", report.baseline_build)

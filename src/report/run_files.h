@@ -1,9 +1,10 @@
-// The files of a run folder that are derived from its store.
+// The files of a run folder that are derived from its store; the records of a run as tables.
 #pragma once
 
 #include <filesystem>
 #include <span>
 
+#include "report/atomic_file.h"
 #include "report/run_description.h"
 #include "statistics/cell_summary.h"
 #include "statistics/drive_summary.h"
@@ -32,5 +33,24 @@ statistics::MeasurementSummary WriteMeasurementFiles(const std::filesystem::path
                                                      std::span<const truth::Record> records,
                                                      std::span<const truth::Record> prefix,
                                                      statistics::IntervalMethod method);
+
+// trials.csv: one line per record, trial, outcome, every value (the names carry the units; empty
+// where undefined), and the sentence that says why it ended. Memory: a line.
+void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,
+               const TextSink& out);
+
+// distance_cdf.csv: one line per distinct true distance, over all trials without a simulator fault.
+//   distance_m
+//   ecdf, ecdf_low, ecdf_high    plain empirical distribution function of the distance of all runs,
+//                                however they ended, with a simultaneous 95 % band
+//   goal, goal_low, goal_high    cumulative incidence of declared arrival, all other ends
+//   competing,
+//                                with a pointwise 95 % band; its end is the success rate
+//   failure                      cumulative incidence of failure
+//   at_risk                      runs still under way just before this distance
+// `records` must be a contiguous prefix. Only the header where there is no column true_distance_m.
+// Memory: 250 bytes a record.
+void DistanceCdfCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,
+                    const TextSink& out);
 
 }  // namespace rockyard::report

@@ -5,7 +5,6 @@
 
 #include "core/json_text.h"
 #include "report/accounting.h"
-#include "report/json_values.h"
 #include "report/mean_words.h"
 
 namespace rockyard::report {

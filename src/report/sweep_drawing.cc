@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-#include "report/curve_colours.h"
+#include "report/colour_ramp.h"
 #include "report/sweep_curves.h"
 #include "report/sweep_files.h"
 #include "report/xml_text.h"

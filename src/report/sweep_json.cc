@@ -4,7 +4,6 @@
 #include "core/json_text.h"
 #include "report/accounting.h"
 #include "report/atomic_file.h"
-#include "report/json_values.h"
 #include "report/mean_words.h"
 #include "report/sweep_files.h"
 

@@ -1,4 +1,5 @@
-// What story, CSV and drawing of a trial look up in its trace, and in what way two records differ.
+// What story, CSV and drawing of a trial look up in its trace, and in what way two records differ;
+// the course of a trial as a table.
 #pragma once
 
 #include <span>
@@ -18,5 +19,20 @@ const truth::TraceSample* SampleAt(std::span<const truth::TraceSample> samples, 
 // bits of every value are equal (undefined values count as equal).
 std::vector<std::string> RecordDifferences(const truth::RecordSchema& schema,
                                            const truth::Record& stored, const truth::Record& now);
+
+// Samples and events in the order of time, one a line; world frame, m, s, rad:
+//   row                    "sample" (every control tick) or "event"
+//   time_s                 simulated time
+//   kind                   of a sample what the rover does: drive, turn, steer;
+//                          of an event what happened: hazard, scrape, reflection, end
+//   true_x_m, true_y_m, true_heading_rad
+//   tilt_rad               of the chassis
+//   believed_x_m, believed_y_m, believed_heading_rad
+//   odometer_m             distance by dead reckoning
+//   detail                 of an event: the stripes that see a hazard ('#'), left to right; why the
+//                          trial ended
+// What an event line says beyond its own true pose is that of the sample before it, empty where
+// there is none.
+std::string TraceCsv(const truth::Trace& trace);
 
 }  // namespace rockyard::report

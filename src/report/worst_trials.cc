@@ -1,17 +1,29 @@
 #include "report/worst_trials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "statistics/drive_summary.h"
 
 namespace rockyard::report {
 namespace {
 
+using truth::TrialOutcome;
+
 bool Failed(const truth::Record& record) {
   return !truth::IsFault(record) && record.outcome != truth::TrialOutcome::kGoalReached &&
          record.outcome != truth::TrialOutcome::kMeasured;
+}
+
+using Ended = std::vector<std::pair<double, std::uint64_t>>;  // distance and number of each trial
+
+double DistanceOf(const truth::Record& record, std::optional<std::size_t> column) {
+  if (!column || *column >= record.values.size()) return 0.0;
+  const double distance_m = record.values[*column];
+  return std::isfinite(distance_m) ? distance_m : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -51,6 +63,27 @@ std::vector<std::uint64_t> WorstTrials(const truth::RecordSchema& schema,
   std::vector<std::uint64_t> trials;
   trials.reserve(failures.size());
   for (const Failure& failure : failures) trials.push_back(failure.trial);
+  return trials;
+}
+
+std::vector<std::uint64_t> ExampleTrials(const truth::RecordSchema& schema,
+                                         std::span<const truth::Record> records) {
+  const auto column = statistics::ColumnIndex(schema, "true_distance_m");
+  std::array<Ended, truth::kTrialOutcomeNames.size()> by_outcome;
+  for (const truth::Record& record : records) {
+    if (truth::IsFault(record) || record.outcome == TrialOutcome::kMeasured) continue;
+    by_outcome[static_cast<std::size_t>(record.outcome)].emplace_back(DistanceOf(record, column),
+                                                                      record.trial);
+  }
+  std::stable_sort(by_outcome.begin(), by_outcome.end(),
+                   [](const Ended& a, const Ended& b) { return a.size() > b.size(); });
+  std::vector<std::uint64_t> trials;
+  for (Ended& ended : by_outcome) {
+    if (ended.empty()) continue;
+    const auto middle = ended.begin() + static_cast<std::ptrdiff_t>((ended.size() - 1) / 2);
+    std::nth_element(ended.begin(), middle, ended.end());
+    trials.push_back(middle->second);
+  }
   return trials;
 }
 

@@ -1,4 +1,4 @@
-// Which trials of a run to look at first.
+// Which trials of a run to look at first, and one that stands for each way in which they ended.
 #pragma once
 
 #include <cstddef>
@@ -24,5 +24,12 @@ double GoalDistanceOrInfinity(const truth::Record& record, std::optional<std::si
 // where the schema has no such column.
 std::vector<std::uint64_t> WorstTrials(const truth::RecordSchema& schema,
                                        std::span<const truth::Record> records, std::size_t most);
+
+// Of each outcome that occurs, but for simulator faults and measurements, the trial whose true
+// distance is the median of that outcome's (the lower of two, and of equals the one with the lowest
+// number): neither the best of them nor the worst. Commonest outcome first. Without a column of
+// distances, the trial in the middle of their numbers. Cost: n log n.
+std::vector<std::uint64_t> ExampleTrials(const truth::RecordSchema& schema,
+                                         std::span<const truth::Record> records);
 
 }  // namespace rockyard::report

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "app/exit_code.h"
+#include "app/console.h"
 #include "app/run_display.h"
 #include "app/watched_run.h"
 #include "campaign/campaign_process.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "campaign/looks/look_record.h"
+#include "campaign/looks/look_capture.h"
 #include "campaign/looks/picture_lines.h"
 #include "image_files/png_file.h"
 #include "report/colour_ramp.h"

@@ -14,10 +14,10 @@
 
 #include "batch/fake_experiment.h"
 #include "batch/result_store.h"
-#include "campaign/drive_comparison.h"
+#include "campaign/folder_report.h"
 #include "campaign/report_build.h"
-#include "campaign/run_report.h"
 #include "campaign/run_source.h"
+#include "campaign/run_views.h"
 #include "core/hash.h"
 #include "core/test_folder.h"
 #include "report/paired_comparison.h"

@@ -1,10 +1,9 @@
 // The scene of a decision against the simulation that it was taken in.
-#include "campaign/step_scene.h"
-
 #include <gtest/gtest.h>
 
 #include <optional>
 
+#include "campaign/scan_capture.h"
 #include "experiments/drive/drive_experiment.h"
 #include "scenario/scenario.h"
 #include "scenario/shipped.h"

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "core/says.h"
-#include "report/camera_panel.h"
 #include "report/colour_ramp.h"
-#include "report/course_panel.h"
+#include "report/step_scene.h"
 
 namespace rockyard::report {
 namespace {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "report/page_data.h"
-#include "report/run_csv.h"
+#include "report/run_files.h"
 #include "report/summary_json.h"
 #include "sample_run.h"
 #include "statistics/drive_summary.h"

@@ -1,11 +1,10 @@
-#include "report/run_csv.h"
-
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cstdlib>
 
 #include "report/csv.h"
+#include "report/run_files.h"
 #include "sample_run.h"
 #include "truth/end_cause.h"
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "report/scan_drawing.h"
-#include "report/scan_picture.h"
 
 namespace rockyard::report {
 namespace {

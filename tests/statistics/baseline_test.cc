@@ -11,7 +11,7 @@
 
 #include "core/json_text.h"
 #include "core/refusals.h"
-#include "report/metric_table.h"
+#include "report/parameter_table.h"
 
 namespace rockyard::report {
 namespace {

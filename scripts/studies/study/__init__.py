@@ -121,7 +121,7 @@ def compare(rockyard, first, second):
     return success, {(row["trials"], row["column"]): row for row in read_csv(path)}
 
 
-# Columns of trials.csv that hold words (report/run_csv.cc).
+# Columns of trials.csv that hold words (report/run_files.cc).
 TEXT_COLUMNS = ("outcome", "cause", "detail")
 
 

@@ -1,7 +1,7 @@
 // What came out of a calibration, for programs.
 #pragma once
 
-#include "campaign/calibrate/calibrate_request.h"
+#include "campaign/calibrate/calibrate_cameras.h"
 #include "core/json_value.h"
 
 namespace rockyard::campaign {

@@ -4,17 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 
-#include "campaign/cylinder/cylinder_json.h"
-#include "campaign/cylinder/cylinder_picture.h"
+#include "campaign/looks/picture_lines.h"
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "core/provenance.h"
 #include "image_files/png_file.h"
+#include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 #include "math/angles.h"
 #include "vision/cameras/camera_file.h"
@@ -26,6 +29,9 @@ namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
+using core::JsonValue;
+using image_files::Picture;
+using image_files::Rgb;
 
 CylinderParams CylinderParamsOf(const CylinderRequest& request) {
   core::JsonValue document = core::JsonValue::Object();
@@ -88,6 +94,95 @@ void CheckAxis(const CylinderRequest& request, const vision::ColourPair& pair,
                   up.x(), up.y(), up.z()));
 }
 
+template <typename Enum>
+std::string NameIn(Enum value) {
+  return std::string(core::EnumNames<Enum>::kNames.at(static_cast<std::size_t>(value)));
+}
+
+JsonValue RegionJson(const vision::ColourRegion& region) {
+  JsonValue json = JsonValue::Object({{"role", NameIn(region.role)},
+                                      {"left", region.left},
+                                      {"top", region.top},
+                                      {"right", region.right},
+                                      {"bottom", region.bottom},
+                                      {"pixels", region.pixels}});
+  json.Set("colour", region.colour ? JsonValue(NameIn(*region.colour)) : JsonValue());
+  json.Set("centroid", core::ListOf(std::vector{region.centroid.x(), region.centroid.y()}));
+  return json;
+}
+
+JsonValue SightingJson(const vision::CylinderSighting& sighting) {
+  JsonValue json = JsonValue::Object();
+  json.Set("orientation_deg", JsonValue(math::RadToDeg(sighting.orientation_rad)));
+  const math::Vector3& p = sighting.p_LT_L;
+  json.Set("position_m", core::ListOf(std::vector{p.x(), p.y(), p.z()}));
+  json.Set("distance_by_stereo_m", JsonValue(sighting.distance_by_stereo_m));
+  json.Set("distance_by_size_m", JsonValue(sighting.distance_by_size_m));
+  JsonValue::List rows;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector4d row = sighting.covariance.row(i);
+    rows.push_back(core::ListOf(std::vector<double>(row.data(), row.data() + row.size())));
+  }
+  json.Set("covariance", JsonValue(std::move(rows)));
+  JsonValue regions = JsonValue::Object();
+  regions.Set("left", core::ListOf(sighting.regions[0], RegionJson));
+  regions.Set("right", core::ListOf(sighting.regions[1], RegionJson));
+  json.Set("regions", std::move(regions));
+  return json;
+}
+
+Rgb BoxColour(const vision::ColourRegion& region) {
+  if (!region.colour) return {255, 255, 255};
+  switch (*region.colour) {
+    case vision::CylinderColour::kBlue:
+      return {0, 255, 255};
+    case vision::CylinderColour::kMagenta:
+      return {255, 0, 255};
+    case vision::CylinderColour::kRed:
+      return {255, 255, 0};
+  }
+  return {255, 255, 255};
+}
+
+void CopyInto(const vision::ColourImage& image, int first_column, Picture& picture) {
+  for (int y = 0; y < image.height(); ++y) {
+    const auto row = image.Row(y);
+    std::copy(row.begin(), row.end(), picture.Row(y).begin() + first_column);
+  }
+}
+
+// The box around a region, one pixel outside of it.
+void DrawBox(const vision::ColourRegion& region, int first_column, Picture& picture) {
+  const double left = first_column + region.left - 1.0;
+  const double right = first_column + region.right + 1.0;
+  const double top = region.top - 1.0;
+  const double bottom = region.bottom + 1.0;
+  const Rgb colour = BoxColour(region);
+  DrawLine({{left, top}, {right, top}}, colour, 1, picture);
+  DrawLine({{left, bottom}, {right, bottom}}, colour, 1, picture);
+  DrawLine({{left, top}, {left, bottom}}, colour, 1, picture);
+  DrawLine({{right, top}, {right, bottom}}, colour, 1, picture);
+}
+
+// Both images side by side, with the bounding boxes of the regions: the whole white, quadrants in
+// pure colours of their classes. Where nothing was found it is the images alone.
+Picture CylinderPicture(const vision::ColourImage& left, const vision::ColourImage& right,
+                        const vision::CylinderFinding& finding) {
+  Picture picture(left.width() + right.width(), std::max(left.height(), right.height()));
+  CopyInto(left, 0, picture);
+  CopyInto(right, left.width(), picture);
+  if (!finding.sighting) return picture;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const int first_column = eye == 0 ? 0 : left.width();
+    const auto& regions = finding.sighting->regions.at(eye);
+    // Quadrants first, so that the whole stays visible about them.
+    for (std::size_t i = regions.size(); i > 0; --i) {
+      DrawBox(regions[i - 1], first_column, picture);
+    }
+  }
+  return picture;
+}
+
 }  // namespace
 
 void CylinderParams::Visit(core::FieldVisitor& v) {
@@ -147,6 +242,25 @@ CylinderResult FindCylinderInFiles(const CylinderRequest& request) {
   folder->Finish();
   result.files = folder->files();
   return result;
+}
+
+JsonValue CylinderJson(const CylinderRequest& request, const CylinderResult& result) {
+  JsonValue json = JsonValue::Object();
+  json.Set("schema_version", JsonValue(std::int64_t{1}));
+  json.Set("left", JsonValue::Object({{"file", request.left.string()}, {"what", result.read[0]}}));
+  json.Set("right",
+           JsonValue::Object({{"file", request.right.string()}, {"what", result.read[1]}}));
+  json.Set("finder",
+           JsonValue(request.finder == CylinderFinder::kPublished ? "published" : "robust"));
+  json.Set("parameters", core::WriteParams(result.params));
+  const vision::CylinderFinding& finding = result.finding;
+  json.Set("found", JsonValue(finding.sighting.has_value()));
+  json.Set("miss", finding.sighting ? JsonValue() : JsonValue(NameIn(finding.miss)));
+  json.Set("reason", finding.sighting ? JsonValue() : JsonValue(finding.reason));
+  json.Set("sighting", finding.sighting ? SightingJson(*finding.sighting) : JsonValue());
+  json.Set("files", FilesJson(result.files));
+  json.Set("program", JsonValue(core::VersionLine()));
+  return json;
 }
 
 }  // namespace rockyard::campaign

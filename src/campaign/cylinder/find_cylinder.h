@@ -2,13 +2,50 @@
 // cylinder (Matthies 1995, section 5 and appendix A).
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <vector>
 
-#include "campaign/cylinder/cylinder_request.h"
+#include "campaign/output_folder.h"
+#include "core/fields.h"
+#include "core/json_value.h"
 #include "vision/colour_image.h"
+#include "vision/cylinder/cylinder_sighting.h"
+#include "vision/cylinder/published_finder_params.h"
+#include "vision/cylinder/robust_finder_params.h"
 
 namespace rockyard::campaign {
+
+enum class CylinderFinder {
+  kRobust,     // vision/cylinder/robust_finder.h
+  kPublished,  // vision/cylinder/published_finder.h
+};
+
+struct CylinderParams {
+  vision::ColourCylinder cylinder;
+  vision::RobustFinderParams robust;
+  vision::PublishedFinderParams published;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct CylinderRequest {
+  std::filesystem::path left;
+  std::filesystem::path right;
+  std::filesystem::path cameras;
+  std::filesystem::path out;  // a folder, which is made; empty: no files
+  ExistingFiles existing = ExistingFiles::kRefuse;
+  CylinderFinder finder = CylinderFinder::kRobust;
+  std::vector<std::string> settings;  // PATH=VALUE of CylinderParams
+};
+
+struct CylinderResult {
+  CylinderParams params;
+  std::array<std::string, 2> read;  // what was read and done, left and right
+  vision::CylinderFinding finding;
+  std::vector<OutputFile> files;
+};
 
 // Reads both images and the cameras, looks for the cylinder and writes, where a folder is asked
 // for, regions.png and cylinder.json. Throws core::UserError, before anything is written, for
@@ -20,5 +57,7 @@ CylinderResult FindCylinderInFiles(const CylinderRequest& request);
 // A colour image file as 8 bits of each primary, round(255 sample / full scale); `what` becomes
 // what was read and done. Throws core::UserError.
 vision::ColourImage ReadColour(const std::filesystem::path& path, std::string& what);
+
+core::JsonValue CylinderJson(const CylinderRequest& request, const CylinderResult& result);
 
 }  // namespace rockyard::campaign

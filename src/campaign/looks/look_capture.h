@@ -1,4 +1,5 @@
-// Everything that can be shown of one look of stereo cameras, kept from the moment when it happens.
+// Everything that can be shown of one look of stereo cameras, kept from the moment when it happens,
+// and what a replay page keeps of it.
 #pragma once
 
 #include <vector>
@@ -6,6 +7,7 @@
 #include "math/pose.h"
 #include "messages/point_cloud.h"
 #include "perception/stereo_points.h"
+#include "replay/data.h"
 #include "trial/watchers.h"
 #include "vision/cameras/rectification.h"
 #include "vision/stereo/stereo_params.h"
@@ -35,5 +37,11 @@ class LookMemory {
  private:
   std::vector<CapturedLook> looks_;
 };
+
+// Sides of its pictures are at most this long, px: larger images are reduced by powers of two.
+inline constexpr int kLargestRecordSide_px = 160;
+
+// The look at `time_s` with its pictures. Cost: some milliseconds.
+replay::ReplayLook LookRecord(const trial::WatchedStereo& watched, double time_s);
 
 }  // namespace rockyard::campaign

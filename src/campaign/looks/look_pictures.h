@@ -1,8 +1,11 @@
-// What a look of stereo cameras saw, as pictures and points, in the manner of figures 1 and 3 of
-// Goldberg 2002.
+// What a look of stereo cameras saw, as pictures, points and files, in the manner of figures 1
+// and 3 of Goldberg 2002.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -46,5 +49,23 @@ std::vector<image_files::ColouredPoint> HeightPoints(const messages::PointCloud&
 
 // "front" or "rear": the cameras that look there.
 std::string_view CamerasOf(messages::LookDirection direction);
+
+struct LookFile {
+  std::string name;  // in its folder
+  std::string what;  // it shows, in words
+};
+
+// Both write into a folder that is there, and return what they have written; they throw
+// core::UserError or std::filesystem::filesystem_error.
+//
+// Of each look, whose name begins with "front" or "rear": left.png, grid.png, disparity.png,
+// elevation.png, cloud.ply (look_pictures.h); pictures but left.png are enlarged to some 512
+// pixels.
+std::vector<LookFile> WriteLookFiles(const std::filesystem::path& folder,
+                                     std::span<const CapturedLook> looks,
+                                     const messages::NavigationView& view);
+// Of points without images elevation.png and cloud.ply.
+std::vector<LookFile> WriteCloudFiles(const std::filesystem::path& folder,
+                                      const messages::PointCloud& cloud);
 
 }  // namespace rockyard::campaign

@@ -5,20 +5,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <span>
-#include <string>
 #include <utility>
 
 #include "campaign/odometry/image_sequence.h"
 #include "campaign/odometry/odometry_files.h"
 #include "campaign/odometry/odometry_picture.h"
 #include "campaign/odometry/pair_reader.h"
-#include "campaign/odometry/path_errors.h"
 #include "campaign/odometry/path_journal.h"
 #include "campaign/odometry/path_tracker.h"
 #include "campaign/odometry/pose_text.h"
-#include "campaign/odometry/stop_wish.h"
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/hash.h"

@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "campaign/odometry/number_lines.h"
 #include "campaign/odometry/pose_text.h"
 #include "core/error.h"
 #include "core/whole_file.h"

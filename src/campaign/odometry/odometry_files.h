@@ -1,10 +1,11 @@
-// The files of an estimated path.
+// The files of an estimated path, vo.json among them.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "campaign/odometry/odometry_request.h"
+#include "campaign/odometry/estimate_path.h"
+#include "core/json_value.h"
 
 namespace rockyard::campaign {
 
@@ -17,19 +18,13 @@ std::vector<std::string> OdometryFileNames();
 void WriteOdometryFiles(const OdometryRequest& request, OutputFolder& folder,
                         OdometryResult& result);
 
-// A line a pair: its number, time, reference, keyframe, whether there was a motion and why not, the
-// pose (m, unit quaternion), counts, iterations, rms of what is left over.
-std::string TrajectoryCsv(const OdometryResult& result);
+// The file vo.json: described in src/campaign/README.md.
+core::JsonValue OdometryJson(const OdometryRequest& request, const OdometryResult& result);
 
-// A line a pair: the upper triangles, row by row, of the covariance of the motion from its
-// reference and of that of the pose (vision::MotionCovariance); empty where there is none.
-std::string CovarianceCsv(const OdometryResult& result);
+// Of one stage over all pairs, s: median and largest. Nothing of no pairs.
+std::optional<vision::ErrorSummary> StageTimes(const OdometryResult& result, PairStage stage);
 
-// A line a pair: milliseconds of each stage.
-std::string TimesCsv(const OdometryResult& result);
-
-// A line a pair with a true pose: true and estimated position, first poses made equal, and their
-// distance, m.
-std::string ErrorsCsv(const OdometryResult& result);
+// How many pairs ended with each reason, in the order of vision::NoMotion.
+std::vector<std::int64_t> ReasonCounts(const OdometryResult& result);
 
 }  // namespace rockyard::campaign

@@ -10,7 +10,7 @@
 #include "campaign/looks/look_pictures.h"
 #include "campaign/looks/picture_lines.h"
 #include "report/colour_ramp.h"
-#include "report/svg_elements.h"
+#include "report/xml_text.h"
 
 namespace rockyard::campaign {
 namespace {

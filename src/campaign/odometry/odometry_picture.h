@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "campaign/odometry/odometry_request.h"
+#include "campaign/odometry/estimate_path.h"
 #include "image_files/raw_image.h"
 #include "vision/image.h"
 #include "vision/odometry/odometer.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/odometry/odometry_request.h"
+#include "campaign/odometry/estimate_path.h"
 #include "vision/odometry/odometer.h"
 
 namespace rockyard::campaign {

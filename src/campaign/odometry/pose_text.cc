@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
+#include <charconv>
 #include <cmath>
 #include <iterator>
-#include <string_view>
 
-#include "campaign/odometry/number_lines.h"
 #include "core/check.h"
 #include "core/error.h"
+#include "core/whole_file.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -19,6 +19,11 @@ using math::Transform;
 constexpr std::size_t kKittiNumbers = 12;
 constexpr std::size_t kTumNumbers = 8;
 constexpr double kNoRotation = 1e-3;
+
+struct NumberLine {
+  int line = 1;                 // from 1
+  std::vector<double> numbers;  // finite
+};
 
 [[noreturn]] void FailAtLine(const std::filesystem::path& path, int line, const std::string& reason,
                              const std::string& suggestion) {
@@ -68,6 +73,33 @@ void CheckGrowing(const std::filesystem::path& path, const std::vector<NumberLin
     FailAtLine(path, lines[i].line, "its time is not later than that of the line before",
                "sort the lines by time, each time once");
   }
+}
+
+// A text file of at most 64 MB whose lines are numbers; those that are empty or begin with # are
+// left out. Throws core::UserError with the line: a word that is no finite number; no line with
+// numbers at all; a file that cannot be read. `kind` says what to give instead: "a file of poses".
+std::vector<NumberLine> ReadNumberLines(const std::filesystem::path& path, std::string_view kind) {
+  const std::string text = core::ReadTextFile(path, kLargestText, kind);
+  std::vector<NumberLine> lines;
+  int number = 0;
+  for (const std::string_view line : LinesOf(text)) {
+    ++number;
+    const std::vector<std::string_view> words = WordsOf(line);
+    if (words.empty() || words.front().starts_with('#')) continue;
+    NumberLine& read = lines.emplace_back();
+    read.line = number;
+    for (const std::string_view word : words) {
+      if (!ParseNumber(word, read.numbers.emplace_back())) {
+        throw core::UserError(fmt::format("{}: line {}", path.string(), number),
+                              fmt::format("\"{}\" is no finite number", word.substr(0, 40)),
+                              fmt::format("give {}", kind));
+      }
+    }
+  }
+  if (lines.empty()) {
+    throw core::UserError(path.string(), "holds no numbers", fmt::format("give {}", kind));
+  }
+  return lines;
 }
 
 }  // namespace
@@ -134,6 +166,34 @@ std::vector<double> ReadTimes(const std::filesystem::path& path) {
   }
   CheckGrowing(path, lines);
   return times_s;
+}
+
+std::vector<std::string_view> WordsOf(std::string_view line) {
+  constexpr std::string_view kBetween = " \t\r,";
+  std::vector<std::string_view> words;
+  std::size_t begin = line.find_first_not_of(kBetween);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(kBetween, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(kBetween, end);
+  }
+  return words;
+}
+
+bool ParseNumber(std::string_view word, double& number) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
+}
+
+std::vector<std::string_view> LinesOf(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
 }
 
 }  // namespace rockyard::campaign

@@ -1,10 +1,12 @@
-// Files of poses and times, as the benchmarks of others write them.
+// Files of poses and times, as the benchmarks of others write them; text files of numbers,
+// line by line.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "math/pose.h"
@@ -37,5 +39,17 @@ PoseFile ReadPoses(const std::filesystem::path& path);
 
 // Reads times, as ReadPoses reads poses.
 std::vector<double> ReadTimes(const std::filesystem::path& path);
+
+// The words of a line, which blanks, tabs, carriage returns or commas part.
+std::vector<std::string_view> WordsOf(std::string_view line);
+
+// The finite number that all of a word is; nothing otherwise.
+bool ParseNumber(std::string_view word, double& number);
+
+// The lines of a text, without their ends.
+std::vector<std::string_view> LinesOf(std::string_view text);
+
+// Of files of text.
+inline constexpr std::size_t kLargestText = std::size_t{64} << 20;
 
 }  // namespace rockyard::campaign

@@ -1,16 +1,22 @@
 // What `rockyard render` does: what the stereo cameras of a scenario's rover see, as files that
-// `rockyard stereo` reads.
+// `rockyard stereo` reads; the stage that it stands on: terrain, rover and cameras of a trial.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "campaign/output_folder.h"
+#include "core/random.h"
 #include "math/pose.h"
 #include "messages/point_cloud.h"
+#include "rover/rover.h"
+#include "scenario/scenario.h"
+#include "sensing/stereo_imager.h"
+#include "terrain/terrain.h"
 #include "vision/cameras/camera_types.h"
 
 namespace rockyard::campaign {
@@ -45,5 +51,33 @@ struct RenderResult {
 // at). Throws core::UserError for what is wrong with scenario, place or folder. Cost: some 0.5 s
 // for images of 512 x 512 pixels.
 RenderResult RenderPair(const RenderRequest& request);
+
+// Everything at rest: the rover settles on the ground and whatever else stands there.
+class RenderStage {
+ public:
+  // Of the request its scenario with overrides, seed and trial. A scenario whose stereo sensor has
+  // other fidelities has cameras all the same. Throws core::UserError for what is wrong with them.
+  explicit RenderStage(const RenderRequest& request);
+  RenderStage(const RenderStage&) = delete;  // the rover stands on this very terrain
+  RenderStage& operator=(const RenderStage&) = delete;
+
+  const scenario::Scenario& scenario() const { return scenario_; }
+  const terrain::Terrain& terrain() const { return terrain_; }
+  const sensing::StereoImager& imager() const { return imager_; }
+
+  // Stands the rover there and gives back where it came to rest.
+  const math::Transform& Stand(const math::Pose2& X_WR);
+
+ private:
+  scenario::Scenario scenario_;
+  core::TrialKey key_;
+  terrain::Terrain terrain_;
+  std::unique_ptr<rover::Rover> rover_;
+  sensing::StereoImager imager_;
+};
+
+// Where the rover is to stand at first: of the request, and what is absent there of the trial's
+// start.
+math::Pose2 FirstPose(const RenderRequest& request, const math::Pose2& start);
 
 }  // namespace rockyard::campaign

@@ -5,8 +5,6 @@
 
 #include <fstream>
 
-#include "campaign/cylinder/cylinder_json.h"
-#include "campaign/cylinder/cylinder_picture.h"
 #include "campaign/cylinder/painted_files.h"
 #include "core/refusals.h"
 #include "core/test_folder.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/cylinder/cylinder_request.h"
+#include "campaign/cylinder/find_cylinder.h"
 #include "image_files/mutated_files.h"
 
 namespace rockyard::campaign {

@@ -1,10 +1,10 @@
 // Ways of rendered sequences against circles and polygons.
-#include "campaign/odometry/sequence_way.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "campaign/odometry/render_sequence.h"
 
 namespace rockyard::campaign {
 namespace {
