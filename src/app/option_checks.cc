@@ -17,6 +17,7 @@
 
 #include "app/completion_offers.h"
 #include "app/scenario_names.h"
+#include "core/json_file.h"
 #include "core/spelling.h"
 
 namespace rockyard::app {
@@ -78,6 +79,17 @@ fs::path MeantBy(const CLI::Option& option, const std::string& word) {
   }
 }
 
+// What is read for it: a file of JSON extends others.
+std::vector<fs::path> ReadFor(const fs::path& input) {
+  std::error_code error;
+  if (input.extension() != ".json" || !fs::is_regular_file(input, error)) return {input};
+  try {
+    return core::FilesOf(input);
+  } catch (const core::UserError&) {
+    return {input};  // the command says what is wrong with it
+  }
+}
+
 void RefuseWriting(const std::string& option, const fs::path& file, const fs::path& input) {
   std::error_code error;
   if (fs::is_regular_file(file, error) && fs::equivalent(file, input, error)) {
@@ -92,7 +104,9 @@ void KeepInputs(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
       if (IsOutput(*option)) continue;
       for (const std::string& word : option->results()) {
-        RefuseWriting(output->get_name(), output->results().front(), MeantBy(*option, word));
+        for (const fs::path& input : ReadFor(MeantBy(*option, word))) {
+          RefuseWriting(output->get_name(), output->results().front(), input);
+        }
       }
     }
   }

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <chrono>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "batch/store_error.h"
 #include "core/machine_error.h"
+#include "core/temporary_file.h"
 
 namespace rockyard::batch {
 namespace {
@@ -72,10 +75,23 @@ const char* Suggestion(StoreProblem problem) {
   }
 }
 
+// Where SQLite cannot make a file it tries to read one of that name, and then knows only that there
+// is none: the folder tells why.
+int WhyNotOpened(const std::filesystem::path& path, int reason) {
+  if (reason != ENOENT) return reason;
+  try {
+    const core::TemporaryFile probe(path);
+    return reason;
+  } catch (const std::system_error& error) {
+    return error.code().value();
+  }
+}
+
 [[noreturn]] void Fail(sqlite3* database, int code, const std::filesystem::path& path) {
   const int extended = database == nullptr ? code : sqlite3_extended_errcode(database);
   const char* text = database == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(database);
-  const int reason = database == nullptr ? 0 : sqlite3_system_errno(database);
+  int reason = database == nullptr ? 0 : sqlite3_system_errno(database);
+  if ((code & 0xff) == SQLITE_CANTOPEN) reason = WhyNotOpened(path, reason);
   const StoreProblem problem = Kind((extended & 0xff) == (code & 0xff) ? extended : code, reason);
   throw StoreError(problem, path.string(),
                    fmt::format("{} (SQLite {}: {})", Reason(problem), extended, text),

@@ -37,6 +37,7 @@ class ExtendsLoader {
     if (error) identity = path;
     CheckChain(path, identity, at);
     JsonValue value = LoadJsonFileAlone(path);
+    files_.push_back(identity);
     chain_.push_back(std::move(identity));
     value = Resolve(std::move(value), path.parent_path(), at);
     chain_.pop_back();
@@ -62,6 +63,8 @@ class ExtendsLoader {
     merged.Merge(value);
     return merged;
   }
+
+  const std::vector<fs::path>& files() const { return files_; }
 
  private:
   // One file, or a list of them of which each lies over the one before.
@@ -103,7 +106,7 @@ class ExtendsLoader {
           fmt::format("more than {} files extend each other: {}", kLongestChain, Chain(path)),
           "merge some of them");
     }
-    if (++files_ > kMaxFiles) {
+    if (files_.size() >= kMaxFiles) {
       throw UserError(Join(at, kExtends), fmt::format("more than {} files are read", kMaxFiles),
                       "merge some of them");
     }
@@ -116,7 +119,7 @@ class ExtendsLoader {
   }
 
   std::vector<fs::path> chain_;
-  std::size_t files_ = 0;
+  std::vector<fs::path> files_;  // all that were read
 };
 
 // The text as JSON, or nothing where it is none.
@@ -131,6 +134,12 @@ std::optional<JsonValue> TryParse(std::string_view text) {
 }  // namespace
 
 JsonValue LoadJsonFile(const fs::path& path) { return ExtendsLoader().Load(path, ""); }
+
+std::vector<fs::path> FilesOf(const fs::path& path) {
+  ExtendsLoader loader;
+  static_cast<void>(loader.Load(path, ""));
+  return loader.files();
+}
 
 JsonValue LoadJsonFileAlone(const fs::path& path) {
   return ParseJson(ReadWholeFile(path, JsonLimits().max_bytes, "a JSON file"), path.string());

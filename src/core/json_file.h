@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/json_value.h"
 
@@ -18,6 +19,10 @@ namespace rockyard::core {
 // that is no object, cycles, more than 16 files in a chain or 64 in all. Problems of "extends" are
 // named by their path in the document, such as "rover.extends".
 JsonValue LoadJsonFile(const std::filesystem::path& path);
+
+// Returns the file and those that it extends, as LoadJsonFile reads them: without links and each as
+// often as it is read. Throws as that does.
+std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& path);
 
 // The value in a file as it stands there, "extends" and all. Throws UserError for what is missing,
 // unreadable or no JSON.

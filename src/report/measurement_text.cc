@@ -117,8 +117,9 @@ std::string OnlyCell(const MeasurementSummary& summary) {
     if (mean == 0.0) {
       zero.push_back(column.name);
     } else if (std::isfinite(mean)) {
-      means += fmt::format("    {:<{}} {:>8}{}\n", column.name, width, FourDigits(mean),
-                           column.role == truth::ColumnRole::kSquares ? "  root mean square" : "");
+      const bool squares = column.role == truth::ColumnRole::kSquares;
+      means += fmt::format("    {:<{}} {:>8}  of {}{}\n", column.name, width, FourDigits(mean),
+                           column.of, squares ? ", root mean square" : "");
     }
   }
   means += Listed("    0: ", zero);

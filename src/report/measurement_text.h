@@ -13,7 +13,8 @@ namespace rockyard::report {
 // Of the factors of a cell, so many are shown beside its numbers.
 inline constexpr std::size_t kMaxFactors = 4;
 
-// Runs, widest intervals, and the cells: every one where they are few, otherwise the main rate
+// Runs and cells: of one alone every rate, with its interval, and every mean; otherwise the widest
+// interval of the main rate, and first columns of every cell, or where they are many that rate
 // pooled over all factors but the first two. At most 100 columns.
 std::string MeasurementText(const RunDescription& run,
                             const statistics::MeasurementSummary& summary,

@@ -166,12 +166,17 @@ TEST_F(OutputTest, IsNeverAnInput) {
   fs::create_directory(work() / "scenarios");
   fs::copy_file(Scenario("nominal"), work() / "scenarios/mine.json");
   WriteFile(work() / "scenarios/base.json", "{}");
+  WriteFile(work() / "scenarios/far.json", R"({"trials": 2})");
+  WriteFile(work() / "scenarios/near.json", R"({"extends": "far.json"})");
+  WriteFile(work() / "heir.json", R"({"rover": {"extends": "scenarios/near.json"}})");
   fs::create_symlink("scenarios/mine.json", work() / "link.json");
   RunTo(0, QuickRun("run", 1));
   RunTo(0, {"baseline", "run", "--reason", "a test", "--out", "base.json"});
   const std::vector<Words> commands = {
       {"terrain", "scenarios/mine.json", "--out", "scenarios/mine.json"},
       {"terrain", "mine", "--out", "link.json"},
+      {"terrain", "heir.json", "--out", "scenarios/near.json"},
+      {"terrain", "heir.json", "--out", "scenarios/far.json"},
       {"rover", "mine", "--out", "scenarios/../scenarios/mine.json"},
       {"trace", "run", "--trial", "0", "--csv", "run/trials.csv"},
       {"trace", "link.json", "--trial", "0", "--svg", "link.json"},

@@ -22,6 +22,7 @@ using nlohmann::json;
 using statistics::CellComparison;
 using statistics::IntervalMethod;
 using statistics::MeasurementSummary;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 using truth::TrialOutcome;
@@ -77,6 +78,21 @@ TEST(MeasurementReport, CsvHasALineACellAndAsManyFieldsAsItsHeader) {
     ++cells;
   }
   EXPECT_EQ(cells, 6);
+}
+
+TEST(MeasurementReport, OneCellIsToldWhole) {
+  constexpr std::string_view kNames[] = {"scenes", "scans", "detected_single", "detected_double"};
+  const std::vector<truth::Record> records = {
+      {0, TrialOutcome::kMeasured, "", {0.0, 100.0, 120.0, 5.0, 0.0}}};
+  const MeasurementSummary summary =
+      statistics::SummarizeCells(truth::MeasuredSchema(kNames), records, 1);
+  const std::string text = MeasurementText(SampleDescription(), summary);
+  EXPECT_THAT(text, HasSubstr("  of 100 scenes, with 95 % intervals\n"
+                              "    detected_single   5.0 %  2.2 .. 11.2\n"
+                              "    never (up to 3.6 %): detected_double\n"
+                              "  means\n"
+                              "    scans                1.2  of scenes\n"));
+  EXPECT_THAT(text, Not(AnyOf(HasSubstr("1 cells"), HasSubstr("widest"), HasSubstr("cells.csv"))));
 }
 
 TEST(MeasurementReport, FewCellsAreListedManyArePooled) {

@@ -331,7 +331,7 @@ class PackageList(unittest.TestCase):
         packages = [line.split(None, 2) for line in lines if line and not line.startswith("#")]
         for fields in packages:
             self.assertEqual(len(fields), 3, fields)
-            self.assertIn(fields[1], ("build", "mpi", "planetary", "pages", "test", "tsan", "figures"))
+            self.assertIn(fields[1], ("build", "mpi", "planetary", "pages", "test", "tsan", "figures", "clean_room"))
         names = [fields[0] for fields in packages]
         self.assertEqual(len(names), len(set(names)))
 

@@ -158,6 +158,47 @@ TEST(DependentGroups, DecideTheRatesOfASummary) {
   }
 }
 
+// Whether the paired interval of runs that share draws, as Law says, holds the difference of the
+// rates; with `alone` as if each pair were a run.
+double PairedCoverage(const Law& law, double second_rate, bool alone) {
+  int held = 0;
+  for (std::uint32_t campaign = 0; campaign < kCampaigns; ++campaign) {
+    core::RandomStream stream({20261131, campaign}, core::Purpose::kTest);
+    // Both ways meet the same draw in six pairs of ten.
+    const auto pair = [&] {
+      const double first = stream.Uniform();
+      const bool same = stream.Uniform() < 0.6;
+      const double other = stream.Uniform();
+      return ((same ? first : other) < second_rate ? 1.0 : 0.0) - (first < law.rate ? 1.0 : 0.0);
+    };
+    ClusteredValues differences;
+    std::size_t number = 0;
+    for (std::size_t run = 0; run < law.runs; ++run) {
+      const double drawn = pair();
+      for (std::size_t i = 0; i < (run % 3 == 2 ? (law.size + 1) / 2 : law.size); ++i, ++number) {
+        const double own = pair();
+        differences.Add(alone ? number : run, stream.Uniform() < law.together ? drawn : own);
+      }
+    }
+    const Interval interval = AgrestiMinInterval(differences.Effective(kConfidence), kConfidence);
+    const double difference = second_rate - law.rate;
+    if (interval.low <= difference && difference <= interval.high) ++held;
+  }
+  return static_cast<double>(held) / kCampaigns;
+}
+
+TEST(ClusteredValues, PairedIntervalsHoldOnLayoutsOfFive) {
+  for (const std::size_t runs : {8, 20, 60}) {
+    for (const double second : {0.1, 0.25, 0.6}) {
+      for (const double together : {0.0, 0.4, 0.73, 0.95}) {
+        EXPECT_GT(PairedCoverage({runs, 5, 0.1, together}, second, false), kLeast)
+            << runs << " runs, second " << second << ", together " << together;
+      }
+    }
+  }
+  EXPECT_LT(PairedCoverage({60, 5, 0.1, 0.73}, 0.6, true), 0.85);  // the negative control
+}
+
 // 60 groups of five, some of two: values of a group share half of their variance.
 TEST(MeanOfTrials, HoldsWhereValuesHangTogether) {
   int held = 0;
