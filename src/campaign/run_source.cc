@@ -188,7 +188,7 @@ report::Accounting AccountingOf(const StoredRun& run) {
 
 std::optional<report::StoppingReport> StoppingOf(const StoredRun& run) {
   if (!run.rule) return std::nullopt;
-  constexpr std::array kEnds = {"open", "max_trials", "precise", "budget"};
+  constexpr std::array kEndNames = {"open", "max_trials", "precise", "budget"};
   const bool adaptive = run.rule->allocation == batch::Allocation::kAdaptive;
   return report::StoppingReport{.half_width = run.rule->half_width,
                                 .max_trials = run.rule->max_trials,
@@ -196,7 +196,7 @@ std::optional<report::StoppingReport> StoppingOf(const StoredRun& run) {
                                 .confidence = run.rule->confidence,
                                 .allocation = adaptive ? "adaptive" : "uniform",
                                 .budget = run.rule->budget,
-                                .end = kEnds[static_cast<std::size_t>(run.state.end)],
+                                .end = kEndNames[static_cast<std::size_t>(run.state.end)],
                                 .trials = run.state.counts.trials,
                                 .drives = run.state.counts.drives(),
                                 .successes = run.state.counts.declared_successes,

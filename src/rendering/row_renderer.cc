@@ -11,9 +11,9 @@ namespace rockyard::rendering {
 using math::Vector3;
 
 ImageBlur::ImageBlur(double sigma_px) : weights_{1.0} {
-  constexpr double kReach = 4.0;  // in units of sigma
+  constexpr double kReach_sigmas = 4.0;
   double sum = 1.0;
-  for (int k = 1; k < kReach * sigma_px + 1.0; ++k) {
+  for (int k = 1; k < kReach_sigmas * sigma_px + 1.0; ++k) {
     // exp(-k^2 / 2 s^2), then normalized so that the line keeps its light.
     weights_.push_back(std::exp(-0.5 * k * k / (sigma_px * sigma_px)));
     sum += 2.0 * weights_.back();
