@@ -31,6 +31,7 @@ struct CompareOptions {
   std::string cell;
   std::string second_cell;
   std::string csv;
+  bool all = false;
   bool json = false;
 };
 
@@ -41,8 +42,8 @@ void WriteCsv(const CompareOptions& options, const std::string& csv) {
 // The settings in which two runs differ, one per line.
 std::string SettingsText(const std::vector<batch::ScenarioDifference>& differences) {
   constexpr std::size_t kShown = 12;
-  if (differences.empty()) return "\nno setting differs\n";
-  std::string text = "\nsettings that differ (A, B)\n";
+  if (differences.empty()) return "no setting differs\n\n";
+  std::string text = "settings that differ (A, B)\n";
   for (const batch::ScenarioDifference& each :
        std::span(differences).first(std::min(kShown, differences.size()))) {
     text += fmt::format("  {:<56} {:>18.18} {:>20.20}\n", report::Printable(each.path),
@@ -52,7 +53,7 @@ std::string SettingsText(const std::vector<batch::ScenarioDifference>& differenc
     text += fmt::format("  and {} more: compare the files scenario.resolved.json\n",
                         differences.size() - kShown);
   }
-  return text;
+  return text + "\n";
 }
 
 std::string DriveJson(const campaign::Comparison& told, const report::RunComparison& drives) {
@@ -69,14 +70,15 @@ void Show(const campaign::Comparison& told, const CompareOptions& options) {
   if (const auto* drives = std::get_if<report::RunComparison>(&told.found)) {
     WriteCsv(options, report::RunComparisonCsv(*drives));
     if (options.json) return PrintJson(DriveJson(told, *drives));
-    return Print(report::RunComparisonText(a, b, *drives) + SettingsText(told.settings));
+    return Print(
+        report::RunComparisonText(a, b, *drives, SettingsText(told.settings), options.all));
   }
   const auto& cells = std::get<statistics::CellComparison>(told.found);
   WriteCsv(options, report::CellComparisonCsv(cells));
   if (options.json) {
     return PrintJson(report::CellComparisonJson(a, b, cells, static_cast<int>(told.outcome)));
   }
-  Print(report::CellComparisonText(a, b, cells));
+  Print(SettingsText(told.settings) + report::CellComparisonText(a, b, cells));
 }
 
 ExitCode Compare(const CompareOptions& options) {
@@ -107,6 +109,8 @@ void AddCompareCommand(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--cell-b", options->second_cell, "cell of RUN_B, where it is another one");
   command->add_option("--csv", options->csv,
                       "write every cell, or every column of drives, to this file");
+  command->add_flag("--all", options->all,
+                    "every column of drives, not those alone that metrics are made of");
   command->add_flag("--json", options->json, "print JSON instead of the table");
   command->callback([options, &exit_code] { exit_code = Compare(*options); });
 }

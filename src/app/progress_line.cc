@@ -71,8 +71,9 @@ std::string ProgressText(const batch::Progress& progress) {
                                  progress.planned, Pace(progress));
   if (trials > 0) {
     const auto rate = statistics::MakeProportion(prefix.declared_successes, trials);
-    text += fmt::format(", success {:.1f} % (95 %: {:.1f} .. {:.1f} of {})", 100.0 * rate.rate,
-                        100.0 * rate.interval.low, 100.0 * rate.interval.high, trials);
+    text +=
+        fmt::format(", declared success {:.1f} % (95 %: {:.1f} .. {:.1f} of {})", 100.0 * rate.rate,
+                    100.0 * rate.interval.low, 100.0 * rate.interval.high, trials);
   }
   if (progress.cells > 1) {
     text += fmt::format(", {}/{} cells ended", progress.cells_ended, progress.cells);

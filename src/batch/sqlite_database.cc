@@ -62,11 +62,13 @@ const char* Suggestion(StoreProblem problem) {
     case StoreProblem::kFull:
       return "free some space on the disk (or lift the quota), then go on with --resume";
     case StoreProblem::kInUse:
-      return "wait for the other program or end it, then go on with --resume";
+      return "wait for the other program or end it, then repeat the command (run and sweep with "
+             "--resume)";
     case StoreProblem::kOpenFiles:
       return core::kMoreOpenFiles;
     case StoreProblem::kMemory:
-      return "end other programs or allow more memory (ulimit -v), then go on with --resume";
+      return "end other programs or allow more memory (ulimit -v), then repeat the command (run "
+             "and sweep with --resume)";
     case StoreProblem::kUnwritable:
       return "check the permissions, or choose another folder with --out";
     default:

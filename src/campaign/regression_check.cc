@@ -227,10 +227,7 @@ class BaselineComparison {
   bool CompareScenarios(const BaselineCell& cell, const StoredRun& run) {
     if (cell.fingerprint == run.identity.fingerprint) return true;
     const BaselineScenario compared = CompareWithBaseline(cell.resolved, run.identity.resolved);
-    if (!compared.younger.empty()) {
-      report_.notes.push_back(fmt::format("{}: younger than the baseline, at their defaults: {}",
-                                          cell.name, fmt::join(compared.younger, ", ")));
-    }
+    if (!compared.younger.empty()) report_.notes.push_back(YoungerNote(cell, compared.younger));
     const std::vector<ScenarioDifference>& differences = compared.differences;
     for (std::size_t i = 0; i < std::min(differences.size(), kShownDifferences); ++i) {
       Tell(cell, differences[i]);
@@ -240,6 +237,15 @@ class BaselineComparison {
           fmt::format("{}: {} settings differ in all", cell.name, differences.size()));
     }
     return compared.same_fields;
+  }
+
+  static std::string YoungerNote(const BaselineCell& cell,
+                                 const std::vector<std::string>& younger) {
+    constexpr std::size_t kNamed = 3;
+    const auto named = std::span(younger).first(std::min(kNamed, younger.size()));
+    return fmt::format("{}: {} settings are younger than the baseline and at their defaults: {}{}",
+                       cell.name, younger.size(), fmt::join(named, ", "),
+                       younger.size() > kNamed ? ", ..." : "");
   }
 
   void Tell(const BaselineCell& cell, const ScenarioDifference& each) {

@@ -64,9 +64,11 @@ struct RunComparison {
 // none (statistics/mean_interval.h). No correction for the number of columns: they describe.
 RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second);
 
-// At most 100 columns wide.
+// What differs between the runs, `settings` (lines), success, and the columns that metrics are made
+// of (statistics/metrics.h), with a value; `every_column`: all of them. At most 100 columns wide.
 std::string RunComparisonText(const ComparedRun& first, const ComparedRun& second,
-                              const RunComparison& comparison);
+                              const RunComparison& comparison, std::string_view settings = "",
+                              bool every_column = false);
 
 // Every column of both tables: trials (all, arrived), column, unit, n, both means, their difference
 // and its interval.

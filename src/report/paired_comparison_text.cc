@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "report/csv.h"
 #include "report/line_text.h"
 #include "report/paired_comparison.h"
+#include "statistics/metrics.h"
 
 namespace rockyard::report {
 namespace {
@@ -48,6 +51,23 @@ std::string ColumnLine(const ColumnComparison& column) {
                      FourDigits(column.interval.high));
 }
 
+bool IsOfAMetric(const ColumnComparison& column, statistics::MetricTrials trials) {
+  const auto metrics = statistics::Metrics();
+  return Least(column) > 0 && std::ranges::any_of(metrics, [&](const statistics::Metric& metric) {
+           return metric.trials == trials &&
+                  (metric.name == column.name || metric.columns[0] == column.name);
+         });
+}
+
+std::vector<ColumnComparison> OfMetrics(const std::vector<ColumnComparison>& columns,
+                                        statistics::MetricTrials trials) {
+  std::vector<ColumnComparison> kept;
+  std::ranges::copy_if(columns, std::back_inserter(kept), [trials](const ColumnComparison& column) {
+    return IsOfAMetric(column, trials);
+  });
+  return kept;
+}
+
 std::string ColumnTable(std::string_view title, std::span<const ColumnComparison> columns) {
   std::string text = fmt::format("\n  {:<27} {:>5} {:>10} {:>10} {:>10} {:>19}\n", title, "n", "A",
                                  "B", "B - A", "95 % interval");
@@ -77,24 +97,33 @@ std::string CsvRows(std::string_view trials, std::span<const ColumnComparison> c
 }  // namespace
 
 std::string RunComparisonText(const ComparedRun& first, const ComparedRun& second,
-                              const RunComparison& comparison) {
+                              const RunComparison& comparison, std::string_view settings,
+                              bool every_column) {
   std::string text = fmt::format("A: {}, seed {}, {} trials\nB: {}, seed {}, {} trials\n",
                                  Printable(first.name), first.seed, first.records.size(),
                                  Printable(second.name), second.seed, second.records.size());
   text += Pairing(comparison);
+  text += settings;
   if (comparison.shared_layouts) {
     text += "Trials share layouts of rocks: intervals allow for it, and there are no p-values.\n\n";
   }
   for (const SuccessComparison& success : comparison.successes) {
     text += SuccessLines(success, comparison.paired);
   }
-  text += ColumnTable("means, all trials", comparison.columns);
+  const bool whole = every_column || comparison.successes.empty();
+  const std::vector<ColumnComparison> all =
+      whole ? comparison.columns : OfMetrics(comparison.columns, statistics::MetricTrials::kAll);
+  text += ColumnTable("means, all trials", all);
   if (!comparison.arrived_columns.empty()) {
-    text += ColumnTable(comparison.paired ? "means, both arrived" : "means, arrived",
-                        comparison.arrived_columns);
+    text += ColumnTable(
+        comparison.paired ? "means, both arrived" : "means, arrived",
+        whole ? comparison.arrived_columns
+              : OfMetrics(comparison.arrived_columns, statistics::MetricTrials::kArrived));
     text += "  (arrived: declared success; trials that one of both failed are left out here)\n";
   }
-  return text;
+  if (whole) return text;
+  return text + fmt::format("\n  {} columns more: --all, or --csv FILE\n",
+                            comparison.columns.size() - all.size());
 }
 
 std::string RunComparisonCsv(const RunComparison& comparison) {

@@ -180,10 +180,11 @@ std::string RegressionText(const RegressionReport& report, ReportedRows rows) {
   std::string text = Determinism(report);
   text += fmt::format("against baseline {}: {}\n", Printable(report.baseline),
                       Printable(report.reason));
-  for (const std::string& note : report.notes) text += "  note: " + Printable(note) + "\n";
   for (const CheckedCell& cell : report.cells) text += CellLine(cell);
-  return text + Table(report, rows) + Moved(report) + Unsure(report) + Records(report) +
-         Distribution(report.result) + Rates(report.result.options);
+  text += Table(report, rows) + Moved(report) + Unsure(report) + Records(report) +
+          Distribution(report.result) + Rates(report.result.options);
+  for (const std::string& note : report.notes) text += "  note: " + Printable(note) + "\n";
+  return text;
 }
 
 }  // namespace rockyard::report

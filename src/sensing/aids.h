@@ -65,11 +65,11 @@ struct LanderPlace {
 };
 
 // Of law `constant`: a fix is a place in polar coordinates about the cameras and a heading: range
-// (1 + f n1), bearing
-// + b n2, heading + h n3 with the deviations f, b, h of the parameters and standard normal n; pan
-// error added to both angles. The covariance that comes with it knows the deviations and neither
-// what they have in common from fix to fix nor the pan error. Limits: any colour, light and stance
-// of the rover is seen as well as any other; deviations do not go with the angle of view.
+// (1 + f n1), bearing + b n2, heading + h n3 with the deviations f, b, h of the parameters and
+// standard normal n; pan error added to both angles. The covariance that comes with it knows the
+// deviations and neither what they have in common from fix to fix nor the pan error. Limits: any
+// colour, light and stance of the rover is seen as well as any other; deviations do not go with the
+// angle of view.
 //
 // Of law `cylinder` (CylinderLaw) the deviations go with the stance of the rover, there
 // are biases, a fix may be missed, and one may be wrong: its heading off by anything up to

@@ -148,6 +148,12 @@ TEST_F(CliRegression, YoungerSettingsAreAnotherScenarioUnlessAtTheirDefault) {
   resolved["course"].erase("trials_per_layout");
   Write(baseline);
   EXPECT_THAT(RunTo(0, CheckOf("a")).out, HasSubstr("course.trials_per_layout"));
+  for (const char* key : {"tip_over_deg", "stall_window_s", "stall_distance_m", "stall_turn_deg"}) {
+    resolved["referee"].erase(key);
+  }
+  Write(baseline);
+  EXPECT_THAT(RunTo(0, CheckOf("a")).out,
+              testing::ContainsRegex("note: .*: 5 settings are younger .*, \\.\\.\\.\n$"));
 }
 
 TEST_F(CliRegression, SharedRocksAreRefused) {

@@ -20,7 +20,8 @@ TEST(ProgressText, RatesOfThePrefixAlone) {
                            .prefix = {.trials = 101, .faults = 1, .declared_successes = 90},
                            .elapsed_s = 25.0};
   EXPECT_EQ(ProgressText(progress),
-            "  120/300 done, 4/s, ETA 0:45, success 90.0 % (95 %: 82.6 .. 94.5 of 100), faults 3");
+            "  120/300 done, 4/s, ETA 0:45, declared success 90.0 % (95 %: 82.6 .. 94.5 of 100), "
+            "faults 3");
 }
 
 TEST(ProgressText, SaysNothingThatItDoesNotKnow) {
