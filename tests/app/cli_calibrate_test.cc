@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command.h"
+#include "app/kill_runs.h"
 #include "vision/calibration/rendered_target.h"
 #include "vision/cameras/camera_file.h"
 
@@ -30,7 +30,8 @@ std::string PgmOf(const vision::GrayImage& image) {
   return text;
 }
 
-class CliCalibrate : public CommandTest {
+// On a disk that may be full.
+class CliCalibrate : public KillRuns {
  protected:
   // Rendered once for all tests.
   static void SetUpTestSuite() {
@@ -74,6 +75,12 @@ class CliCalibrate : public CommandTest {
 
   static inline std::map<std::string, std::string> images_;
 };
+
+TEST_F(CliCalibrate, AFullDiskHoldsAllOrNothing) {
+  const std::vector<std::string> words =
+      With(With({"calibrate"}, Names("left")), {"--target", "board.json", "--out", "a"});
+  ExpectFullDisksAreTold(words, words, 5, true);
+}
 
 // Of the truth, over the middle of the image, at half a metre.
 double LargestError_px(const vision::CameraModel& found, const vision::Cahvor& truth) {

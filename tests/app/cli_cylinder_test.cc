@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command.h"
+#include "app/kill_runs.h"
 #include "campaign/cylinder/painted_files.h"
 
 namespace rockyard::app {
@@ -36,6 +36,15 @@ class CliCylinder : public CommandTest {
     EXPECT_FALSE(fs::exists(work() / "seen"));
   }
 };
+
+class CylinderOnFullDisk : public KillRuns {};
+
+TEST_F(CylinderOnFullDisk, AllOrNothingIsWritten) {
+  campaign::WritePaintedPair(work());
+  const std::vector<std::string> words = {"cylinder",     "left.png", "right.png", "--cameras",
+                                          "cameras.json", "--out",    "a"};
+  ExpectFullDisksAreTold(words, words, 3, true);
+}
 
 TEST_F(CliCylinder, AFoundOneIsToldWithItsUnits) {
   const CommandResult result = RunTo(0, Words());
