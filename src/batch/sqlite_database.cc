@@ -30,8 +30,8 @@ StoreProblem Kind(int code, int reason) {
     case SQLITE_LOCKED:
       return StoreProblem::kInUse;
     case SQLITE_CANTOPEN:
-      return ProblemOf(reason);
     case SQLITE_READONLY:
+      return ProblemOf(reason);
     case SQLITE_PERM:
     case SQLITE_AUTH:
       return StoreProblem::kUnwritable;
@@ -78,9 +78,12 @@ const char* Suggestion(StoreProblem problem) {
 }
 
 // Where SQLite cannot make a file it tries to read one of that name, and then knows only that there
-// is none: the folder tells why.
-int WhyNotOpened(const std::filesystem::path& path, int reason) {
-  if (reason != ENOENT) return reason;
+// is none, or that it may not write: the folder tells why.
+int WhyNotOpened(const std::filesystem::path& path, int code, int reason) {
+  const bool is_known = (code & 0xff) == SQLITE_CANTOPEN && reason != ENOENT;
+  if (is_known || ((code & 0xff) != SQLITE_CANTOPEN && (code & 0xff) != SQLITE_READONLY)) {
+    return reason;
+  }
   try {
     const core::TemporaryFile probe(path);
     return reason;
@@ -92,8 +95,8 @@ int WhyNotOpened(const std::filesystem::path& path, int reason) {
 [[noreturn]] void Fail(sqlite3* database, int code, const std::filesystem::path& path) {
   const int extended = database == nullptr ? code : sqlite3_extended_errcode(database);
   const char* text = database == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(database);
-  int reason = database == nullptr ? 0 : sqlite3_system_errno(database);
-  if ((code & 0xff) == SQLITE_CANTOPEN) reason = WhyNotOpened(path, reason);
+  const int reason =
+      WhyNotOpened(path, code, database == nullptr ? 0 : sqlite3_system_errno(database));
   const StoreProblem problem = Kind((extended & 0xff) == (code & 0xff) ? extended : code, reason);
   throw StoreError(problem, path.string(),
                    fmt::format("{} (SQLite {}: {})", Reason(problem), extended, text),

@@ -101,7 +101,8 @@ void OutputFolder::RefuseInputs() const {
 void OutputFolder::ReadContents(ExistingFiles existing) {
   if (!fs::is_directory(path_)) return;  // a file is refused by the claim
   const auto left_by_the_killed = [&](const fs::path& entry) {
-    return std::any_of(plan_.names.begin(), plan_.names.end(),
+    return core::IsTemporaryOf(batch::StorePath(path_), entry) ||  // of the claim
+           std::any_of(plan_.names.begin(), plan_.names.end(),
                        [&](const auto& name) { return core::IsTemporaryOf(name, entry); });
   };
   const bool holds_something = std::any_of(

@@ -3,9 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 namespace rockyard::core {
+
+// Not by the variant's own copy: in libstdc++ 12 that destroys what was never made where a text or
+// a list finds no memory.
+JsonValue::JsonValue(const JsonValue& other) {
+  const auto copy = [this](const auto& value) {
+    data_.emplace<std::remove_cvref_t<decltype(value)>>(value);
+  };
+  std::visit(copy, other.data_);
+}
+
+JsonValue& JsonValue::operator=(const JsonValue& other) { return *this = JsonValue(other); }
 
 JsonValue::JsonValue(bool value) : data_(value) {}
 JsonValue::JsonValue(std::int64_t value) : data_(value) {}

@@ -25,6 +25,12 @@ class JsonValue {
   enum class Type { kNull, kBoolean, kInteger, kReal, kText, kList, kObject };
 
   JsonValue() = default;
+  // std::bad_alloc leaves the value as it was.
+  JsonValue(const JsonValue& other);
+  JsonValue(JsonValue&& other) noexcept = default;
+  JsonValue& operator=(const JsonValue& other);
+  JsonValue& operator=(JsonValue&& other) noexcept = default;
+  ~JsonValue() = default;
   explicit JsonValue(bool value);
   explicit JsonValue(std::int64_t value);
   explicit JsonValue(double value);
