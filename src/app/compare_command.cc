@@ -111,7 +111,7 @@ void AddCompareCommand(CLI::App& app, ExitCode& exit_code) {
                       "write every cell, or every column of drives, to this file");
   command->add_flag("--all", options->all,
                     "every column of drives, not those alone that metrics are made of");
-  command->add_flag("--json", options->json, "print JSON instead of the table");
+  command->add_flag("--json", options->json, "print JSON instead of the table")->excludes("--all");
   command->callback([options, &exit_code] { exit_code = Compare(*options); });
 }
 

@@ -79,14 +79,14 @@ fs::path MeantBy(const CLI::Option& option, const std::string& word) {
   }
 }
 
-// What is read for it: a file of JSON extends others.
+// What is read for it: a scenario extends others.
 std::vector<fs::path> ReadFor(const fs::path& input) {
   std::error_code error;
-  if (input.extension() != ".json" || !fs::is_regular_file(input, error)) return {input};
+  if (!fs::is_regular_file(input, error)) return {input};
   try {
     return core::FilesOf(input);
   } catch (const core::UserError&) {
-    return {input};  // the command says what is wrong with it
+    return {input};  // no scenario, or one of which the command says what is wrong
   }
 }
 

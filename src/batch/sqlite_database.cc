@@ -60,7 +60,8 @@ const char* Reason(StoreProblem problem) {
 const char* Suggestion(StoreProblem problem) {
   switch (problem) {
     case StoreProblem::kFull:
-      return "free some space on the disk (or lift the quota), then go on with --resume";
+      return "free some space on the disk (or lift the quota), then repeat the command (run and "
+             "sweep with --resume)";
     case StoreProblem::kInUse:
       return "wait for the other program or end it, then repeat the command (run and sweep with "
              "--resume)";

@@ -243,9 +243,11 @@ class BaselineComparison {
                                  const std::vector<std::string>& younger) {
     constexpr std::size_t kNamed = 3;
     const auto named = std::span(younger).first(std::min(kNamed, younger.size()));
-    return fmt::format("{}: {} settings are younger than the baseline and at their defaults: {}{}",
-                       cell.name, younger.size(), fmt::join(named, ", "),
-                       younger.size() > kNamed ? ", ..." : "");
+    return fmt::format(
+        "{}: {} younger than the baseline and at {}: {}{}", cell.name,
+        younger.size() == 1 ? "a setting is" : fmt::format("{} settings are", younger.size()),
+        younger.size() == 1 ? "its default" : "their defaults", fmt::join(named, ", "),
+        younger.size() > kNamed ? ", ..." : "");
   }
 
   void Tell(const BaselineCell& cell, const ScenarioDifference& each) {

@@ -81,28 +81,40 @@ std::size_t LongestName(const MeasurementSummary& summary) {
 std::string SharesOf(const MeasurementSummary& summary, std::string_view of, std::size_t width) {
   std::string text;
   std::vector<std::string> never;
-  statistics::Proportion none;
+  std::int64_t base = 0;
+  double highest = 0.0;  // of those that never happened
   for (std::size_t i = 0; i < summary.rates.size(); ++i) {
     const statistics::Proportion& rate = summary.cells.front().rates[i].rate;
     if (summary.rates[i].of != of || rate.trials == 0) continue;
-    if (text.empty() && never.empty()) none = rate;
+    base = rate.trials;
     if (rate.count == 0) {
       never.push_back(summary.rates[i].name);
-      none = rate;
+      highest = std::max(highest, rate.interval.high);
       continue;
     }
     text += fmt::format("    {:<{}} {:5.1f} %  {:.1f} .. {:.1f}\n", summary.rates[i].name, width,
                         100.0 * rate.rate, 100.0 * rate.interval.low, 100.0 * rate.interval.high);
   }
   if (text.empty() && never.empty()) return "";
-  text += Listed(fmt::format("    never (up to {:.1f} %): ", 100.0 * none.interval.high), never);
-  return fmt::format("  of {} {}, with 95 % intervals\n", none.trials, of) + text;
+  text += Listed(fmt::format("    never (up to {:.1f} %): ", 100.0 * highest), never);
+  return fmt::format("  of {} {}, with 95 % intervals\n", base, of) + text;
 }
 
 // A cell alone: everything that it measured, by what it is a share of.
 std::string OnlyCell(const MeasurementSummary& summary) {
   const std::size_t width = LongestName(summary);
+  const Cell& cell = summary.cells.front();
   std::string text;
+  for (std::size_t i = 0; i < summary.factors.size(); ++i) {
+    text += fmt::format("  {} {:.6g}\n", summary.factors[i].name, cell.factors[i]);
+  }
+  for (std::size_t i = 0; i < summary.bases.size(); ++i) {
+    const std::string& base = summary.bases[i].name;
+    const auto is_of = [&](const truth::ValueInfo& rate) { return rate.of == base; };
+    if (std::none_of(summary.rates.begin(), summary.rates.end(), is_of)) {
+      text += fmt::format("  {} {:.6g}\n", base, cell.bases[i]);
+    }
+  }
   for (std::size_t i = 0; i < summary.rates.size(); ++i) {
     const std::string& of = summary.rates[i].of;
     const auto same = [&](const truth::ValueInfo& rate) { return rate.of == of; };

@@ -114,16 +114,15 @@ std::string RunComparisonText(const ComparedRun& first, const ComparedRun& secon
   const std::vector<ColumnComparison> all =
       whole ? comparison.columns : OfMetrics(comparison.columns, statistics::MetricTrials::kAll);
   text += ColumnTable("means, all trials", all);
-  if (!comparison.arrived_columns.empty()) {
-    text += ColumnTable(
-        comparison.paired ? "means, both arrived" : "means, arrived",
-        whole ? comparison.arrived_columns
-              : OfMetrics(comparison.arrived_columns, statistics::MetricTrials::kArrived));
+  const std::vector<ColumnComparison> arrived =
+      whole ? comparison.arrived_columns
+            : OfMetrics(comparison.arrived_columns, statistics::MetricTrials::kArrived);
+  if (!arrived.empty()) {
+    text += ColumnTable(comparison.paired ? "means, both arrived" : "means, arrived", arrived);
     text += "  (arrived: declared success; trials that one of both failed are left out here)\n";
   }
   if (whole) return text;
-  return text + fmt::format("\n  {} columns more: --all, or --csv FILE\n",
-                            comparison.columns.size() - all.size());
+  return text + "\n  every column: --all, or --csv FILE\n";
 }
 
 std::string RunComparisonCsv(const RunComparison& comparison) {

@@ -38,6 +38,9 @@ TEST_F(CliErrors, Arguments) {
   ExpectRefused({"run", Scenario("nominal"), "--threads", "1000000"}, "--threads");
   ExpectRefused({"run", Scenario("nominal"), "--interval", "wald"}, "--interval");
   ExpectRefused({"run", Scenario("nominal"), "--max-faults", "2"}, "--max-faults");
+  ExpectRefused({"run", Scenario("nominal"), "--retry-faults"}, "--retry-faults");
+  ExpectRefused({"run", Scenario("nominal"), "--resume", "--retry-faults", "--dry-run"},
+                "--dry-run");
   ExpectRefused({"run", Scenario("nominal"), "--json", "--quiet"}, "--quiet");
   ExpectRefused({"check", "somewhere"}, "--against");
   ExpectRefused({"compare", "one"}, "RUN_B");

@@ -63,12 +63,12 @@ TEST_F(CliTools, CompareAndCheck) {
   EXPECT_THAT(compare.out, Says("3 pairs", "equal rocks and equal noise"));
   Run(With(QuickRun("dense", 3), {"--set", "terrain.rocks.k_per_m2=0.01"}));
   const CommandResult other = Run({"compare", "runs/a", "dense", "--csv", "columns.csv"});
-  EXPECT_THAT(other.out, Says("other settings of terrain", "columns more: --all"));
+  EXPECT_THAT(other.out, Says("other settings of terrain", "every column: --all"));
   EXPECT_LT(other.out.find("terrain.rocks.k_per_m2"), other.out.find("declared success"));
   EXPECT_EQ(other.out.find("final_x_m"), std::string::npos);
   const CommandResult whole = Run({"compare", "runs/a", "dense", "--all"});
   EXPECT_THAT(whole.out, Says("final_x_m", "true_distance_m"));
-  EXPECT_EQ(whole.out.find("columns more"), std::string::npos);
+  EXPECT_EQ(whole.out.find("every column"), std::string::npos);
   EXPECT_THAT(ReadFile(work() / "columns.csv"), HasSubstr("all,true_distance_m,m,3,"));
 
   const std::string reference =

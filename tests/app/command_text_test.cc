@@ -51,7 +51,8 @@ TEST_F(CommandLine, NamesNoFileThatLooksLikeAnOption) {
 TEST_F(CommandLine, ResumesWithoutSettingAside) {
   EXPECT_EQ(ResumeText(Parsed("sweep", {"s.json", "--force", "--out", "x"})),
             "rockyard sweep s.json --out x --resume");
-  EXPECT_EQ(ResumeText(Parsed("run", {"s.json", "--resume"})), "rockyard run s.json --resume");
+  EXPECT_EQ(ResumeText(Parsed("run", {"s.json", "--resume", "--retry-faults"})),
+            "rockyard run s.json --resume");
 }
 
 TEST(NextCommand, IsThePage) {

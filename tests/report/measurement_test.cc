@@ -81,13 +81,16 @@ TEST(MeasurementReport, CsvHasALineACellAndAsManyFieldsAsItsHeader) {
 }
 
 TEST(MeasurementReport, OneCellIsToldWhole) {
-  constexpr std::string_view kNames[] = {"scenes", "scans", "detected_single", "detected_double"};
+  constexpr std::string_view kNames[] = {"height_m", "scenes",          "hazards",
+                                         "scans",    "detected_single", "detected_double"};
   const std::vector<truth::Record> records = {
-      {0, TrialOutcome::kMeasured, "", {0.0, 100.0, 120.0, 5.0, 0.0}}};
+      {0, TrialOutcome::kMeasured, "", {0.0, 0.2, 100.0, 7.0, 120.0, 5.0, 0.0}}};
   const MeasurementSummary summary =
       statistics::SummarizeCells(truth::MeasuredSchema(kNames), records, 1);
   const std::string text = MeasurementText(SampleDescription(), summary);
-  EXPECT_THAT(text, HasSubstr("  of 100 scenes, with 95 % intervals\n"
+  EXPECT_THAT(text, HasSubstr("  height_m 0.2\n"
+                              "  hazards 7\n"
+                              "  of 100 scenes, with 95 % intervals\n"
                               "    detected_single   5.0 %  2.2 .. 11.2\n"
                               "    never (up to 3.6 %): detected_double\n"
                               "  means\n"

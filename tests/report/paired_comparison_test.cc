@@ -149,7 +149,14 @@ TEST(CompareRuns, DistancesOfArrivedPairsBesideThoseOfAll) {
 TEST(CompareRuns, NoPairArrived) {
   const RunComparison result = TwoRuns(0, 5, 5, 5).Compare();
   EXPECT_EQ(result.arrived_columns[0].count, 0);
-  EXPECT_THAT(RunComparisonText(TwoRuns(0, 5, 5, 5).First(), TwoRuns(0, 5, 5, 5).Second(), result),
+  const auto text = [&](bool every_column) {
+    return RunComparisonText(TwoRuns(0, 5, 5, 5).First(), TwoRuns(0, 5, 5, 5).Second(), result, "",
+                             every_column);
+  };
+  EXPECT_THAT(text(true), HasSubstr("means, both arrived"));
+  EXPECT_THAT(text(false), Not(HasSubstr("means, both arrived")));
+  const TwoRuns some(5, 0, 0, 0);
+  EXPECT_THAT(RunComparisonText(some.First(), some.Second(), some.Compare()),
               HasSubstr("means, both arrived"));
 }
 
