@@ -135,6 +135,8 @@ class Opener {
       notes_.push_back("the former results are kept as " + aside.string());
     }
     if (MaySetAside(request_)) SetFilesAside();
+    if (request_.retry_faults)
+      notes_.emplace_back("no run is gone on with: no fault to drive again");
     TellItIsOwn();
     return batch::ResultStore::Create(folder_, identity_, WantedTrials());
   }

@@ -126,13 +126,15 @@ class KillRuns : public WatchedRunTest {
       CommandResult result = RunShimmed(what, call, words);
       if (!WasStruck()) break;
       ++kills;
+      // What a repeated merge finds whole it leaves as it is.
+      const bool is_left = result.exit_code == 0 || words.front() == "merge";
       if (result.exit_code != 0) {
         ASSERT_EQ(result.exit_code, what == kKill ? -SIGKILL : 5) << result.err;
         result = RunShimmed(what, 0, again);
       }
       ASSERT_EQ(result.exit_code, 0) << result.err;
       auto contents = Contents("a");
-      if (what == kFull) {
+      if (what == kFull && is_left) {
         // A store that found no room at its very end is whole with its log beside it.
         std::erase_if(contents,
                       [](const auto& file) { return file.first.starts_with("results.sqlite-"); });

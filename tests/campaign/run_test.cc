@@ -81,6 +81,10 @@ TEST_F(SmallRuns, FaultsAreDrivenAgainWhereItIsAsked) {
   RunRequest request = Request("old", 3);
   request.campaign.existing = ExistingRun::kResume;
   EXPECT_EQ(campaign::Run(request).outcome, Outcome::kTooManyFaults);
+  RunRequest fresh = Request("new", 1);
+  fresh.campaign.existing = ExistingRun::kResume;
+  fresh.campaign.retry_faults = true;
+  EXPECT_THAT(campaign::Run(fresh).notes, Contains(Field(&Note::text, HasSubstr("no fault to"))));
   for (const bool supervised : {true, false}) {  // the second finds none
     request.campaign.retry_faults = true;
     request.campaign.containment.supervisor = supervised;
