@@ -12,13 +12,14 @@
 // So many allocations of this thread still succeed; below zero: all.
 static thread_local int allocations_left = -1;
 
-void* operator new(std::size_t size) {
+// Not inlined: the compiler would see new meet free, and warn.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   if (allocations_left >= 0 && allocations_left-- == 0) throw std::bad_alloc();
   if (void* const memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace rockyard::core {
 namespace {
