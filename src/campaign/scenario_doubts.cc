@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -12,12 +13,12 @@
 #include <utility>
 
 #include "campaign/run_source.h"
+#include "campaign/setting_doubts.h"
 #include "core/archive.h"
 #include "core/json_text.h"
 #include "rover/rover.h"
 #include "scenario/load.h"
 #include "terrain/terrain.h"
-#include "trial/hazard_watch.h"
 #include "trial/open_values_params.h"
 
 namespace rockyard::campaign {
@@ -76,7 +77,6 @@ void DoubtMass(const trial::DriveParams& drive, std::vector<Problem>& doubts) {
                     "state its masses, and what its motors can do (rover.drive)"});
 }
 
-// From its middle a rover's front lies half of its length ahead.
 void DoubtSizes(const trial::DriveParams& drive, std::vector<Problem>& doubts) {
   const rover::RoverGeometryParams& rover = drive.rover.geometry;
   if (drive.course.goal_radius_m < 0.4 * rover.length_m) {
@@ -85,35 +85,6 @@ void DoubtSizes(const trial::DriveParams& drive, std::vector<Problem>& doubts) {
                                   drive.course.goal_radius_m, rover.length_m),
                       "state how near its middle has to come"});
   }
-  const trial::TerrainSensorKind& sensor = drive.sensors.terrain_sensors.chosen();
-  const std::string group = "sensors." + std::string(sensor.name());
-  const trial::Zone seen = sensor.reported_zone(drive);
-  const double front_m = 0.5 * rover.wheelbase_m + rover.wheel_radius_m;
-  if (seen.x_high_m < front_m + 2.0 * rover.wheel_radius_m) {
-    doubts.push_back({group,
-                      fmt::format("it sees the ground up to {:.2g} m ahead of the rover's middle, "
-                                  "whose wheels reach {:.2g} m",
-                                  seen.x_high_m, front_m),
-                      "fit the sensor to this rover, or choose another one"});
-  } else if (seen.y_high_m - seen.y_low_m < 0.8 * rover.width_m) {
-    doubts.push_back({group,
-                      fmt::format("it sees a strip of {:.2g} m for a rover {:.2g} m wide",
-                                  seen.y_high_m - seen.y_low_m, rover.width_m),
-                      "fit the sensor to this rover, or choose another one"});
-  }
-}
-
-// What the behaviour navigator takes for level is driven over by the belly.
-void DoubtHazards(const trial::DriveParams& drive, std::vector<Problem>& doubts) {
-  constexpr double kMost = 1.25;  // of the clearance
-  const double threshold_m = drive.perception.hazard.range_threshold_m;
-  const double clearance_m = drive.rover.geometry.belly_clearance_m;
-  if (drive.navigation.navigators.chosen().name() != "pathfinder") return;
-  if (!drive.perception.hazard.enabled || threshold_m <= kMost * clearance_m) return;
-  doubts.push_back({"perception.hazard.range_threshold_m",
-                    fmt::format("{:g} m are no hazard for a belly {:g} m above the ground",
-                                threshold_m, clearance_m),
-                    "state the clearance"});
 }
 
 // True way over that of the rims on level sand, by the quasi-static rover.
@@ -184,24 +155,6 @@ void DoubtOdometer(const trial::DriveParams& drive, LevelScales& scales,
                     "divide it by 1 + e / 100, where e is the median distance error of a run"});
 }
 
-// GESTALT weighs the ground under a vehicle whose size it is told (Goldberg 2002, table 1).
-void DoubtVehicle(const scenario::Scenario& scenario, std::vector<Problem>& doubts) {
-  constexpr std::string_view kPath = "navigation.gestalt.map.rover";
-  constexpr double kAlike = 0.1;  // of the rover's width
-  if (scenario.drive.navigation.navigators.chosen().name() != "gestalt") return;
-  const JsonValue document = scenario::WriteScenario(scenario);
-  const JsonValue* width = &document;
-  for (const char* key : {"navigation", "gestalt", "map", "rover", "width_m"}) {
-    if (width != nullptr) width = width->Find(key);
-  }
-  const double rover_m = scenario.drive.rover.geometry.width_m;
-  if (width == nullptr || std::abs(width->number() - rover_m) < kAlike * rover_m) return;
-  doubts.push_back({std::string(kPath),
-                    fmt::format("it drives a vehicle {:g} m wide, the rover is {:g} m wide",
-                                width->number(), rover_m),
-                    "state length_m, width_m, wheel_radius_m, clearance_m and obst_height_m"});
-}
-
 // A word of the name, so that "marsupial" is none.
 bool SaysMars(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
@@ -237,11 +190,10 @@ std::vector<Problem> DoubtsWith(const scenario::Scenario& scenario, LevelScales&
   DoubtLimits(scenario.drive, doubts);
   DoubtMass(scenario.drive, doubts);
   DoubtSizes(scenario.drive, doubts);
-  DoubtHazards(scenario.drive, doubts);
   DoubtOdometer(scenario.drive, scales, doubts);
-  DoubtVehicle(scenario, doubts);
   DoubtGravity(scenario, doubts);
   DoubtSoil(scenario, doubts);
+  std::ranges::move(DoubtsOfSettings(scenario), std::back_inserter(doubts));
   std::erase_if(doubts, [&](const Problem& doubt) {
     return scenario.accepted.find(WhatOf(doubt)) != std::string::npos;
   });

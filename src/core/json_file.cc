@@ -133,7 +133,14 @@ std::optional<JsonValue> TryParse(std::string_view text) {
 
 }  // namespace
 
-JsonValue LoadJsonFile(const fs::path& path) { return ExtendsLoader().Load(path, ""); }
+JsonValue LoadJsonFile(const fs::path& path) {
+  JsonValue document = ExtendsLoader().Load(path, "");
+  if (!document.Is(JsonValue::Type::kObject)) {
+    throw UserError(path.string(), fmt::format("is {}, not an object", Describe(document.type())),
+                    "write an object");
+  }
+  return document;
+}
 
 std::vector<fs::path> FilesOf(const fs::path& path) {
   ExtendsLoader loader;
@@ -162,6 +169,11 @@ void SetPath(JsonValue& document, std::string_view path, JsonValue value) {
     if (key.empty()) {
       throw UserError(fmt::format("\"{}\"", path), "is not a path",
                       "write keys joined by dots, such as a.b.c");
+    }
+    if (!at->Is(JsonValue::Type::kObject)) {
+      const std::string_view before = path.substr(0, path.size() - rest.size());
+      throw UserError(before.empty() ? "(root)" : std::string(before.substr(0, before.size() - 1)),
+                      fmt::format("is {}, not an object", Abbreviate(*at)), "write an object");
     }
     if (dot == std::string_view::npos) {
       at->Set(key, std::move(value));

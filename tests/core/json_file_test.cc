@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <exception>
@@ -163,6 +164,9 @@ TEST_F(JsonFileTest, MissingAndWrongFilesAreErrors) {
             "names " + (folder_ / "none.json").string() + ", which does not exist");
   EXPECT_THAT(ProblemOf(Write("b.json", R"({"extends": 3})")).reason, HasSubstr("not a file name"));
   EXPECT_THAT(ProblemOf(Write("empty.json", "")).reason, HasSubstr("line 1"));
+  const fs::path list = Write("list.json", R"([{"name": "x"}])");
+  EXPECT_EQ(ProblemOf(list).path, list.string());
+  EXPECT_EQ(ProblemOf(list).reason, "is a list, not an object");
   EXPECT_THAT(ProblemOf(Write("large.json", std::string((32 << 20) + 1, ' '))).reason,
               HasSubstr("more than the 33554432 allowed"));
 }
@@ -220,6 +224,24 @@ TEST(OverrideTest, ValuesAreJsonOrElseText) {
 
 TEST(OverrideTest, PathsMakeTheGroupsOnTheWay) {
   EXPECT_EQ(Overridden("n.e.w=1").Find("n")->Find("e")->Find("w")->integer(), 1);
+}
+
+TEST(OverrideTest, WhatIsNoObjectIsNotReplaced) {
+  for (const auto& [text, path, reason] :
+       {std::array{R"([{"a": 1}])", "(root)", "is a list, not an object"},
+        std::array{R"({"a": 5})", "a", "is 5, not an object"},
+        std::array{R"({"a": {"b": null}})", "a.b", "is null, not an object"}}) {
+    JsonValue document = ParseJson(text, "test");
+    const std::string before = DumpJson(document);
+    try {
+      ApplyOverride(document, "a.b.c=1");
+      ADD_FAILURE() << text;
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.problems().front().path, path);
+      EXPECT_EQ(error.problems().front().reason, reason);
+    }
+    EXPECT_EQ(DumpJson(document), before);
+  }
 }
 
 TEST(OverrideTest, BadAssignmentsAreErrors) {

@@ -71,9 +71,10 @@ class EntryReader {
     result.rms_px = At("rms_px").number();
     if (!IsNull("motion")) result.motion = ReadMotion();
     if (!IsNull("reason")) result.reason = ReadReason();
-    const std::vector<double> counts = Numbers("counts", kCounts.size());
+    const JsonValue::List& counts = At("counts").list();
+    if (counts.size() != kCounts.size()) throw std::out_of_range("other counts");
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      result.counts.*kCounts[i] = static_cast<std::int64_t>(counts[i]);
+      result.counts.*kCounts[i] = counts[i].integer();
     }
     const std::vector<double> seconds = Numbers("seconds", entry.seconds.size());
     std::copy(seconds.begin(), seconds.end(), entry.seconds.begin());

@@ -51,18 +51,20 @@ def is_sanitized(rockyard):
     return "-fsanitize" in version.stdout
 
 
+@functools.cache
+def limit_all(sanitized):
+    """Limits of this process, which all that it starts inherit: half as dear as to set them in each."""
+    if not sanitized:
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
 def run(command, folder, timeout_s, stdout=subprocess.PIPE):
-    limited = not is_sanitized(command[0])
-
-    def limit():
-        if limited:
-            resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-
+    limit_all(is_sanitized(command[0]))
     words = [os.fsencode(word) if isinstance(word, str) else word for word in command]
     try:
         done = subprocess.run(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=stdout,
-                              stderr=subprocess.PIPE, timeout=timeout_s, check=False, preexec_fn=limit)
+                              stderr=subprocess.PIPE, timeout=timeout_s, check=False)
     except subprocess.TimeoutExpired as late:
         return End(None, _text(late.stdout), _text(late.stderr))
     return End(done.returncode, _text(done.stdout), _text(done.stderr))
