@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -11,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/check.h"
 #include "core/field_table.h"
@@ -19,6 +21,7 @@
 #include "messages/estimates.h"
 #include "scenario/load.h"
 #include "trial/hazard_watch.h"
+#include "trial/look_time.h"
 #include "trial/open_values_params.h"
 
 namespace rockyard::campaign {
@@ -39,6 +42,11 @@ class Settings {
 
   // In the unit that ends its path's name.
   double operator()(std::string_view path) const { return At(path).number(); }
+  std::vector<std::int64_t> Integers(std::string_view path) const {
+    std::vector<std::int64_t> numbers;
+    for (const JsonValue& each : At(path).list()) numbers.push_back(each.integer());
+    return numbers;
+  }
   bool On(std::string_view path) const { return At(path).boolean(); }
   bool Is(std::string_view path, std::string_view name) const { return At(path).text() == name; }
   // Whether the parameter is there and false.
@@ -157,6 +165,17 @@ void DoubtField(Settings& s) {
     s.Within("terrain.rocks.clear_radius_m", 0.9 * Front_m(s), 0.3 * Course_m(s), OfCourse(s),
              "clear what the rover stands on");
   }
+  if (s.Is("terrain.rocks.kind", "uniform_count")) {
+    s.AtLeast("terrain.rocks.uniform_max_diameter_m", 0.75 * clearance_m,
+              fmt::format("a belly {:g} m above the ground: none is a hazard", clearance_m),
+              "let the field have rocks that stop this rover");
+    const double mean_m = 0.5 * (s("terrain.rocks.uniform_min_diameter_m") +
+                                 s("terrain.rocks.uniform_max_diameter_m"));
+    const double area_m2 =
+        s("terrain.rocks.count_area_length_m") * s("terrain.rocks.count_area_width_m");
+    s.AtMost("terrain.rocks.count", 0.3 * area_m2 / (0.785 * mean_m * mean_m),
+             fmt::format("an area of {:.3g} m2", area_m2), "leave a way between them");
+  }
   if (s.Is("terrain.rocks.kind", "moore")) {
     s.AtMost("terrain.rocks.k_per_m2", 0.1, "a field of rocks: Viking Lander 2 has 0.013",
              "state the number of rocks of a metre and more per m2");
@@ -166,6 +185,18 @@ void DoubtField(Settings& s) {
     s.AtLeast("terrain.rocks.max_diameter_m", clearance_m,
               fmt::format("a belly {:g} m above the ground: none is a hazard", clearance_m),
               "let the field have rocks that stop this rover");
+  }
+  const double radius_m = s("rover.geometry.wheel_radius_m");
+  const terrain::GroundParams& ground = s.drive.terrain.ground;
+  const std::pair<std::string_view, const std::vector<double>*> hollows[] = {
+      {"terrain.ground.ditches.depth_m", &ground.ditches.depth_m},
+      {"terrain.ground.pits.depth_m", &ground.pits.depth_m}};
+  for (const auto& [path, depths_m] : hollows) {
+    const auto deepest = std::ranges::max_element(*depths_m);
+    s.Doubt(deepest != depths_m->end() && *deepest < 0.75 * radius_m, path,
+            fmt::format("wheels of {:g} m roll through {:g} m", 2.0 * radius_m,
+                        deepest == depths_m->end() ? 0.0 : *deepest),
+            "let them be hazards of this rover");
   }
   s.AtMost("terrain.ground.roughness_rms_m", clearance_m,
            fmt::format("a belly {:g} m above the ground", clearance_m), "check the unit");
@@ -182,7 +213,7 @@ void DoubtField(Settings& s) {
            fmt::format("a lane between rocks of an arena {:g} m wide", s("terrain.arena.width_m")),
            "use a few centimetres");
   if (lander) {
-    s.AtLeast("course.lander_map.reach_m", 0.5 * Course_m(s), OfCourse(s),
+    s.AtLeast("course.lander_map.reach_m", 0.8 * Course_m(s), OfCourse(s),
               "let the map show the way");
   }
 }
@@ -197,6 +228,13 @@ void DoubtReferee(Settings& s) {
   s.Within("referee.hazard_height_m", 0.25 * clearance_m, 2.0 * clearance_m,
            fmt::format("a belly {:g} m above the ground", clearance_m),
            "use the height that stops this rover");
+  s.AtMost("referee.no_path_progress_m", 0.25 * Course_m(s), OfCourse(s),
+           "use some tenths of a metre");
+  // What stands on level ground: half of the width over the height of the centre of mass.
+  const double stands_deg = math::RadToDeg(
+      std::atan2(0.5 * s("rover.geometry.width_m"), s("rover.mass.chassis_com_z_m")));
+  s.AtLeast("referee.tip_over_deg", 0.6 * stands_deg,
+            fmt::format("a rover that stands up to {:.3g} deg", stands_deg), "use 60");
   const double turn_deg = s("referee.no_path_turn_deg");
   if (turn_deg > 0.0 && Uses(s, "pathfinder")) {
     s.AtLeast("referee.no_path_turn_deg", 0.5 * s("navigation.pathfinder.turn_give_up_deg"),
@@ -246,12 +284,13 @@ void DoubtShape(Settings& s) {
 }
 
 void DoubtTraction(Settings& s) {
-  constexpr double kRolling = 0.15;  // resistance of sand over the load
+  // Over the load: resistance of sand, or of a rock that half of the wheels climb.
+  const double resistance = HasRocks(s) ? 0.5 : 0.15;
   const double gravity_m_s2 = s("rover.physics.gravity_m_s2");
   const double weight_N = s("rover.mass.total_kg") * gravity_m_s2;
   const double radius_m = s("rover.geometry.wheel_radius_m");
   const double need_N =
-      weight_N * (std::sin(DegToRad(s("terrain.ground.slope_deg"))) + kRolling);
+      weight_N * (std::sin(DegToRad(s("terrain.ground.slope_deg"))) + resistance);
   s.AtLeast("rover.drive.stall_torque_Nm", need_N * radius_m / 6.0,
             fmt::format("the {:.3g} N that keep it moving here", need_N),
             "state the torque at the wheel, behind its gears");
@@ -319,6 +358,31 @@ void DoubtPace(Settings& s) {
           "drive slower, or see farther");
 }
 
+// Looks and drives from start to goal, one after the other.
+void DoubtTime(Settings& s) {
+  if (Uses(s, "route") || (Uses(s, "pathfinder") && !s.On("perception.hazard.enabled"))) return;
+  const double speed_m_s = s("rover.drive.speed_m_s");
+  const double look_s = trial::MakeLookTime(s.drive).total_s();
+  const bool continuous = Uses(s, "gestalt") &&
+                          !s.Is("navigation.gestalt.continuous.cycle", "stop_and_look");
+  const double step_m = continuous ? s("navigation.gestalt.continuous.motion_m")
+                                   : s(OfNavigator(s, "drive.step_m", "scan_interval_m"));
+  const double limit_s = s.drive.referee.time_limit_s;
+  const double needed_s = Course_m(s) / step_m * (look_s + step_m / speed_m_s);
+  // Shorter ones are doubted as limits (scenario_doubts.cc), or meant as durations.
+  const bool is_for_course = limit_s >= 800.0 * Course_m(s);
+  s.Doubt(limit_s > 0.0 && (limit_s < look_s || (is_for_course && limit_s < 0.75 * needed_s)),
+          limit_s < look_s ? "referee.time_limit_s" : "clock",
+          fmt::format("a look takes {:.3g} s, the way with its looks {:.3g} s, and the drive ends "
+                      "after {:g} s",
+                      look_s, needed_s, limit_s),
+          "check the units, or state referee.time_limit_s");
+  s.Doubt(continuous && look_s > 1.2 * step_m / speed_m_s, "clock.compute.computer",
+          fmt::format("a look takes {:.3g} s, and a motion of {:g} m {:.3g} s: it stands and waits",
+                      look_s, step_m, step_m / speed_m_s),
+          "use a computer that keeps up, or stop and look");
+}
+
 // The array of elevations of the pathfinder, fitted to a rover.
 void DoubtArray(Settings& s) {
   if (!DrivesByArray(s)) return;
@@ -336,11 +400,25 @@ void DoubtArray(Settings& s) {
                       "reach {:.2g} m",
                       seen.x_high_m, wheels_m),
           fit);
-  s.Doubt(far && seen.y_high_m - seen.y_low_m < 0.8 * width_m, array,
+  s.Doubt(far && seen.y_high_m - seen.y_low_m < width_m, array,
           fmt::format("it sees a strip of {:.2g} m for a rover {:.2g} m wide",
                       seen.y_high_m - seen.y_low_m, width_m),
           fit);
+  const auto mean = [](const std::vector<std::int64_t>& stripes) {
+    double sum = 0.0;
+    for (const std::int64_t stripe : stripes) sum += static_cast<double>(stripe);
+    return sum / std::max(1.0, static_cast<double>(stripes.size()));
+  };
+  const std::vector<std::int64_t> left = s.Integers("navigation.pathfinder.left_stripes");
+  const std::vector<std::int64_t> right = s.Integers("navigation.pathfinder.right_stripes");
+  s.Doubt(!left.empty() && !right.empty() && mean(left) > mean(right),
+          "navigation.pathfinder.left_stripes", "are right of right_stripes",
+          "count from the left: 0 is the leftmost");
   const double begins_m = stereo ? s("perception.cloud_elevations.near_m") : seen.x_low_m;
+  s.Doubt(stereo && begins_m < 0.95 * Front_m(s), array,
+          fmt::format("it begins {:g} m ahead of the rover's middle, and the front is at {:g} m",
+                      begins_m, Front_m(s)),
+          "begin right before the wheels");
   s.Doubt(begins_m > Front_m(s) + 0.75 * s("rover.geometry.length_m"), array,
           fmt::format("what it looks at begins {:.2g} m ahead of its front, and it remembers "
                       "nothing",
@@ -383,9 +461,20 @@ void DoubtStereo(Settings& s) {
                       ahead_m, high_m, length_m),
           "state where they are on this rover");
   const double tall_deg = s("sensors.stereo.vertical_fov_deg");
+  const double pitch_deg = s("sensors.stereo.front.pitch_deg");
   s.AtLeast("sensors.stereo.front.pitch_deg", tall_deg / 8.0,
             fmt::format("cameras {:g} deg tall: half of what they see is sky", tall_deg),
             "turn them down, and check that it is in degrees");
+  const double upper_deg = pitch_deg - 0.5 * tall_deg;
+  const double end_m =
+      upper_deg > 0.0 ? ahead_m + high_m / std::tan(DegToRad(upper_deg)) : kNone;
+  s.Doubt(end_m < Front_m(s) + 0.25 * length_m, "sensors.stereo.front.pitch_deg",
+          fmt::format("the ground is seen up to {:.2g} m ahead of the rover's middle, and its front "
+                      "is at {:.2g} m",
+                      end_m, Front_m(s)),
+          "turn the cameras up");
+  s.Within("sensors.stereo.baseline_m", 0.02 * width_m, width_m,
+           fmt::format("a rover {:g} m wide", width_m), "check the unit");
   // The ground half a length ahead of the front.
   const double half_fov_rad = 0.5 * DegToRad(s("sensors.stereo.horizontal_fov_deg"));
   const double there_m = std::hypot(Front_m(s) + 0.5 * length_m - ahead_m, high_m);
@@ -454,13 +543,22 @@ void DoubtMap(Settings& s) {
     s.AtLeast(end, s(fmt::format("{}{}0_m", grid, axis)) + 1.5 * path_m, paths,
               "use twice plan_max_dist_m and more");
   }
-  s.AtLeast("navigation.gestalt.map.grid_dist_timeout_m", 0.5 * path_m, paths,
+  s.AtLeast("navigation.gestalt.map.grid_dist_timeout_m", 0.75 * path_m, paths,
             "keep what was seen of them");
   s.AtMost("navigation.gestalt.plan.plan_min_dist_m", length_m, rover,
            "judge the ground right before it");
   s.AtLeast("navigation.gestalt.plan.plan_max_dist_m", length_m, rover,
             "judge what it drives until the next look");
   s.AtMost("navigation.gestalt.drive.step_m", 0.6 * path_m, paths, "use a fraction of them");
+  for (const char* name : {"votes.min_fwd_threshold", "votes.min_allowed_goodness",
+                           "votes.min_vote_goodness", "waypoints.waypoint_certainty"}) {
+    const std::string path = fmt::format("navigation.gestalt.{}", name);
+    s.Doubt(s(path) > 0.0 && s(path) < 1.5, path, fmt::format("{:g} of 255 is next to none", s(path)),
+            "count to 255, not to 1");
+  }
+  s.AtMost("navigation.gestalt.votes.min_allowed_goodness", 180.0,
+           "cells of 255: those beside an obstacle and unknown ones are below",
+           "use 10, as Goldberg 2002 does");
   const double step_s = s("navigation.gestalt.drive.step_m") / s("rover.drive.speed_m_s");
   s.AtLeast("navigation.gestalt.drive.step_time_out_s", step_s,
             fmt::format("a step that takes {:.3g} s", step_s), "use some times as long");
@@ -488,10 +586,23 @@ void DoubtLocalization(Settings& s) {
               fmt::format("a gyro whose scale is off by {:.2g}", error),
               "use how well the scale is known");
     const double drift = s("sensors.gyro.heading_variance_deg2_per_m");
-    s.AtLeast("localization.error_state.drift.heading_variance_deg2_per_m", drift / 10.0,
-              fmt::format("a gyro of {:g}", drift), "use that of the gyro, or more");
+    s.Within("localization.error_state.drift.heading_variance_deg2_per_m", drift / 10.0,
+             std::max(100.0 * drift, 2.0),
+              fmt::format("a gyro of {:g}", drift), "use that of the gyro, or somewhat more");
   }
+  s.AtMost("sensors.gyro.scrape.min_sliding_speed_m_s", 0.8 * s("rover.drive.speed_m_s"),
+           fmt::format("a rover that drives {:g} m/s: no scrape would count",
+                       s("rover.drive.speed_m_s")),
+           "use a share of its speed");
   if (s.On("sensors.visual_odometry.enabled")) {
+    for (const char* axis : {"along", "across", "up"}) {
+      s.AtMost(fmt::format("sensors.visual_odometry.error_model.{}.per_m", axis), 0.05,
+               "visual odometry: wheels on sand are as good", "use a share, not per cent");
+    }
+    s.AtMost("sensors.visual_odometry.schedule.every_deg",
+             0.6 * s("sensors.stereo.horizontal_fov_deg"),
+             fmt::format("images {:g} deg wide", s("sensors.stereo.horizontal_fov_deg")),
+             "let images show common ground");
     const double range_m = s("sensors.stereo.max_range_m");
     s.AtMost("sensors.visual_odometry.schedule.every_m", 0.5 * range_m,
              fmt::format("images that show the ground up to {:g} m", range_m),
@@ -553,6 +664,79 @@ bool IsUsed(const Settings& s, const std::string& path) {
   return true;
 }
 
+// What no study varies: what is usual of it, generously.
+struct Usual {
+  std::string_view path;
+  double low;
+  double high;
+  std::string_view what;
+};
+constexpr Usual kUsual[] = {
+    {"terrain.rocks.burial_mean", 0.0, 0.7, "rocks that stand out of the ground"},
+    {"terrain.rocks.min_height_ratio", 0.2, 3.0, "rocks as heights over diameters go"},
+    {"terrain.rocks.max_height_ratio", 0.3, 4.0, "rocks as heights over diameters go"},
+    {"rover.drive.speed_m_s", 0.002, 2.0, "a planetary rover"},
+    {"rover.drive.ramp_s", 0.0, 10.0, "a motor that starts"},
+    {"rover.physics.gravity_m_s2", 1.0, 12.0, "a place with ground: Moon 1.62, Mars 3.72, Earth 9.81"},
+    {"rover.contact.wheel_rock_friction", 0.3, 1.5, "wheels on rock"},
+    {"rover.contact.body_rock_friction", 0.1, 1.2, "a body on rock"},
+    {"rover.geometry.rocker_limit_deg", 8.0, 80.0, "rockers that follow the ground"},
+    {"sensors.light_stripe.wrong_place_probability", 0.0, 0.2, "points that hazards are found in"},
+    {"sensors.light_stripe.missed_probability", 0.0, 0.7, "points that hazards are found in"},
+    {"sensors.light_stripe.column_noise_px", 0.0, 20.0, "stripes that are found"},
+    {"sensors.stereo.columns", 48.0, kNone, "matching"},
+    {"sensors.stereo.rows", 32.0, kNone, "matching"},
+    {"sensors.stereo.dropout_probability", 0.0, 0.85, "ground that is seen"},
+    {"sensors.stereo.mismatch_probability", 0.0, 0.2, "ground that is seen"},
+    {"sensors.gyro.level_sand_gain", 0.2, 5.0, "a gyro"},
+    {"sensors.gyro.scrape.jump_deg", 0.0, 30.0, "a scrape of a rock"},
+    {"sensors.encoders.distance_variance_m2_per_m", 0.0, 0.1, "wheels that roll"},
+    {"sensors.aids.lander_fix.heading_sd_deg", 0.0, 30.0, "an aid"},
+    {"sensors.aids.lander_fix.range_sd_fraction", 0.0, 0.3, "an aid"},
+    {"sensors.aids.lander_fix.bearing_sd_rad", 0.0, 0.1, "an aid"},
+    {"sensors.aids.lander_fix.delay_s", 0.0, 7200.0, "a drive that goes on"},
+    {"sensors.aids.beacon.bearing_sd_deg", 0.0, 30.0, "an aid"},
+    {"sensors.aids.sun.half_field_of_view_deg", 10.0, 90.0, "a camera that finds the sun"},
+    {"perception.attitude.filter_s", 0.0, 10.0, "a rover that tilts in seconds"},
+    {"localization.error_state.prior.position_sd_m", 0.0, 5.0, "a rover that begins beside its lander"},
+    {"localization.error_state.prior.heading_sd_deg", 0.0, 45.0, "a rover that begins beside its lander"},
+    {"localization.error_state.prior.wheel_scale_sd", 0.0, 0.3, "wheels of known size"},
+    {"localization.error_state.gate.chance", 0.0, 0.1, "fixes that are mostly right"},
+    {"localization.error_state.stretch_m", 0.0, 1.0, "a filter"},
+    {"navigation.pathfinder.scan_interval_m", 0.02, kNone, "looks of many seconds"},
+    {"navigation.pathfinder.turn_increment_deg", 2.0, 60.0, "a turn around a rock"},
+    {"navigation.pathfinder.turn_give_up_deg", 90.0, kNone, "a rover that looks around"},
+    {"navigation.pathfinder.heading_deadband_deg", 0.0, 30.0, "driving to a goal"},
+    {"navigation.pathfinder.clear_distance_m", 0.0, 3.0, "a rock to pass"},
+    {"navigation.gestalt.arcs.num_forward_arcs", 3.0, kNone, "a choice"},
+    {"navigation.gestalt.map.max_idles", 10.0, kNone, "a map that is kept"},
+    {"navigation.gestalt.map.min_cell_points", 0.0, 50.0, "cells that stereo fills"},
+    {"navigation.gestalt.map.roughness_fraction", 0.05, 10.0, "a share of the obstacle height"},
+    {"navigation.gestalt.map.rover.max_pitch_deg", 5.0, 60.0, "ground that a rover climbs"},
+    {"navigation.gestalt.waypoints.vote_index_variance", 1.0, 10000.0, "arcs counted from -11 to 11"},
+    {"navigation.gestalt.continuous.motion_m", 0.1, 5.0, "a motion between plans"},
+    {"navigation.gestalt.speed.min_speed_share", 0.05, 1.0, "a rover that goes on"},
+    {"navigation.gestalt.splines.max_curvature_per_m", 0.1, kNone, "a way around rocks"},
+    {"navigation.route.corner_tolerance_m", 0.0, 0.5, "a route between rocks"},
+    {"navigation.route.steer_interval_m", 0.005, 1.0, "a route between rocks"},
+    {"navigation.route.heading_deadband_deg", 0.0, 20.0, "a route between rocks"},
+    {"course.tracking.half_field_of_view_deg", 5.0, 180.0, "a camera that keeps a goal in view"},
+    {"course.tracking.range_sd_fraction", 0.0, 0.3, "a goal that is tracked"},
+    {"clock.scan_time_s", 0.0, 300.0, "a look"},
+    {"clock.scan_speed_factor", 0.2, kNone, "a scan of today: above 1 is faster"},
+    {"clock.control_rate_hz", 1.0, 1000.0, "a control loop"},
+    {"clock.stop_time_s", 0.0, 10.0, "wheels that stop"},
+};
+
+void DoubtUnusual(Settings& s) {
+  for (const Usual& usual : kUsual) {
+    const std::string path(usual.path);
+    if (IsUsed(s, path) || path.starts_with("rover.")) {
+      s.Within(path, usual.low, usual.high, usual.what, "check the unit, and what it means");
+    }
+  }
+}
+
 void DoubtUnits(Settings& s) {
   constexpr double kFar = 5.0;  // times the range's end; units differ by 57 and more
   for (const core::ParameterInfo& each : s.parameters) {
@@ -575,7 +759,7 @@ void DoubtUnits(Settings& s) {
 std::vector<core::Problem> DoubtsOfSettings(const scenario::Scenario& scenario) {
   Settings s(scenario);
   for (const auto rule : {DoubtGoal, DoubtField, DoubtReferee, DoubtShape, DoubtTraction,
-                          DoubtSteering, DoubtPace, DoubtArray, DoubtLightStripe, DoubtStereo,
+                          DoubtSteering, DoubtPace, DoubtTime, DoubtArray, DoubtLightStripe, DoubtStereo,
                           DoubtLocalization, DoubtAids}) {
     rule(s);
   }
@@ -583,6 +767,7 @@ std::vector<core::Problem> DoubtsOfSettings(const scenario::Scenario& scenario) 
     DoubtVehicle(s);
     DoubtMap(s);
   }
+  DoubtUnusual(s);
   DoubtUnits(s);
   return s.doubts;
 }
