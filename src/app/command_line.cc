@@ -65,10 +65,10 @@ std::string VersionText() {
                      p.host, p.cpu_model, p.cpu_level, p.cpu_threads);
 }
 
-// "rockyard run --help" where a subcommand was named, else "rockyard --help".
-std::string HelpCommand(const CLI::App& app) {
+// The last of the subcommands that were named: `plan claim` of `rockyard plan claim`.
+const CLI::App& Chosen(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
-  return chosen.empty() ? "rockyard --help" : "rockyard " + chosen.front()->get_name() + " --help";
+  return chosen.empty() ? app : Chosen(*chosen.front());
 }
 
 // "--trails" of "The following arguments were not expected: 5 --trails"; empty for other errors,
@@ -93,8 +93,8 @@ std::string NearestOption(const CLI::App& command, std::string_view word) {
   return std::string(core::Nearest(word, candidates));
 }
 
-core::Problem ExplainOption(const CLI::App& app, const CLI::App& command,
-                            const std::string& unknown, const CLI::ParseError& error) {
+core::Problem ExplainOption(const CLI::App& command, const std::string& unknown,
+                            const CLI::ParseError& error) {
   const std::string text = error.what();
   if (const auto refused = RefusedValue(command, error)) return *refused;
   // The two options exclude each other; CLI11 names both and says no more.
@@ -103,20 +103,20 @@ core::Problem ExplainOption(const CLI::App& app, const CLI::App& command,
     return {"command line", text, "--max-trials bounds the trials of --until-half-width"};
   }
   const std::string meant = NearestOption(command, unknown);
-  if (meant.empty()) return {"command line", text, HelpCommand(app)};
+  if (meant.empty()) return {"command line", text, HelpOf(command)};
   return {"command line", fmt::format("{} is no option of this command", unknown),
-          fmt::format("did you mean \"{}\"? see {}", meant, HelpCommand(app))};
+          fmt::format("did you mean \"{}\"? see {}", meant, HelpOf(command))};
 }
 
 // The parser alone would say that a subcommand is missing, not that the one given is unknown.
 core::Problem Explain(const CLI::App& app, const CLI::ParseError& error, std::string_view first) {
-  const auto chosen = app.get_subcommands();
-  if (!chosen.empty()) return ExplainOption(app, *chosen.front(), UnknownOption(error), error);
+  const CLI::App& command = Chosen(app);
+  if (&command != &app) return ExplainOption(command, UnknownOption(error), error);
   if (first.empty() || first.front() == '-') {
-    return ExplainOption(app, app, std::string(first), error);
+    return ExplainOption(app, std::string(first), error);
   }
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  for (const CLI::App* each : app.get_subcommands({})) names.push_back(each->get_name());
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   return {"command line", fmt::format("\"{}\" is no subcommand", first),
           core::Suggest(first, candidates)};

@@ -151,6 +151,14 @@ void CheckEveryValue(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands({})) CheckEveryValue(*command);
 }
 
+std::string HelpOf(const CLI::App& command) {
+  std::string words = "--help";
+  for (const CLI::App* at = &command; at->get_parent() != nullptr; at = at->get_parent()) {
+    words = at->get_name() + " " + words;
+  }
+  return "rockyard " + words;
+}
+
 std::optional<core::Problem> RefusedValue(const CLI::App& command, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ValidationError*>(&error) == nullptr) return std::nullopt;
   const std::string text = error.what();  // "--interval: wald not in {wilson,clopper-pearson}"
@@ -158,7 +166,7 @@ std::optional<core::Problem> RefusedValue(const CLI::App& command, const CLI::Pa
   if (colon == std::string::npos) return std::nullopt;
   const std::string name = text.substr(0, colon);
   const std::string reason = text.substr(colon + 2);
-  const std::string help = fmt::format("rockyard {} --help", command.get_name());
+  const std::string help = HelpOf(command);
   const CLI::Option* option = OptionNamed(command, name);
   const std::string given = GivenWord(reason);
   if (option == nullptr || given.empty()) return core::Problem{name, reason, help};

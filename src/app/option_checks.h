@@ -23,6 +23,9 @@ void CheckEveryValue(CLI::App& app);
 // folders by campaign/output_folder.h.
 void KeepEveryInput(CLI::App& app);
 
+// What tells of a command: "rockyard plan claim --help".
+std::string HelpOf(const CLI::App& command);
+
 // The option, what is wrong with its value, and what would be right: the words that it takes where
 // it takes one of a few, with the nearest of them first. Nothing for other errors of the parser.
 std::optional<core::Problem> RefusedValue(const CLI::App& command, const CLI::ParseError& error);

@@ -212,7 +212,7 @@ statistics::RatePair DiscordantRates(const DifferenceQuestion& q) {
     throw core::UserError("--discordant",
                           fmt::format("is {:g}, which no pairs with rates {:g} and {:g} have",
                                       q.discordant, q.first, q.second),
-                          fmt::format("use a share from {:g} to {:g}", least, most));
+                          fmt::format("use a share from {} to {}", least, most));
   }
   return {0.5 * (q.discordant - difference), 0.5 * (q.discordant + difference)};
 }

@@ -117,7 +117,8 @@ ExitCode Render(RenderOptions& options) {
     throw core::UserError("--pairs", "is missing", "say how many pairs a sequence has");
   }
   if (!options.pairs && options.request.existing == campaign::ExistingFiles::kResume) {
-    throw core::UserError("--resume", "needs --pairs", "take the one pair anew with --force");
+    throw core::UserError("--resume", "needs --pairs",
+                          "take the one pair anew with --force in place of --resume");
   }
   options.request.scenario = ScenarioFile(options.scenario);
   if (options.behind) options.request.direction = messages::LookDirection::kBehind;

@@ -13,6 +13,7 @@
 #include "batch/run_folder.h"
 #include "batch/store_error.h"
 #include "campaign/run_source.h"
+#include "campaign/shell_word.h"
 #include "core/error.h"
 
 namespace rockyard::app {
@@ -39,7 +40,7 @@ std::string About(const fs::path& folder) {
       fmt::format("{:%Y-%m-%d}",
                   fmt::localtime(std::chrono::system_clock::to_time_t(
                       std::chrono::time_point_cast<std::chrono::system_clock::duration>(written))));
-  const std::string name = folder.filename().string();
+  const std::string name = campaign::ShellPath(folder.string());
   try {
     const batch::ResultStore store = batch::ResultStore::Read(folder);
     std::int64_t trials = 0;

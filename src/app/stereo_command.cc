@@ -114,7 +114,7 @@ void CheckRequest(const StereoOptions& options) {
   }
   if (options.farthest_m && *options.farthest_m < *options.nearest_m) {
     throw core::UserError("--farthest", "is nearer than --nearest",
-                          fmt::format("give at least {:g} m", *options.nearest_m));
+                          fmt::format("give at least {} m", *options.nearest_m));
   }
 }
 

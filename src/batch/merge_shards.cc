@@ -60,7 +60,7 @@ class Inspector {
     const Shard& shard = part.store.identity().shard;
     if (shard.whole()) {
       Add(part.folder.string(), "holds a whole campaign, not a shard",
-          "name folders that were made with --shard I/N");
+          "name folders that `rockyard run` or `rockyard sweep` made with --shard I/N");
       return;
     }
     if (&part != &First() && !BelongsToFirst(part)) return;
@@ -92,7 +92,9 @@ class Inspector {
       found.push_back({"trials",
                        fmt::format("planned are {} there and {} in the first shard", there,
                                    First().store.planned(cell)),
-                       "run the shorter ones again with --resume and more --trials"});
+                       "run the shorter ones again, by `rockyard run` or `rockyard sweep` with "
+                       "--resume and more "
+                       "--trials"});
     }
     if (found.empty()) return true;
     Add(part.folder.string(),
@@ -115,7 +117,9 @@ class Inspector {
         });
     if (finished == planned) return;
     Add(part.folder.string(), fmt::format("has {} of {} trials", finished, planned),
-        "finish it with --resume, or take what there is with --partial");
+        "finish it by the same `rockyard run` or `rockyard sweep` with --resume, or take what "
+        "there "
+        "is with --partial");
   }
 
   const std::vector<Part>& parts_;

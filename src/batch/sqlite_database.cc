@@ -71,10 +71,11 @@ const char* Suggestion(StoreProblem problem) {
       return "end other programs or allow more memory (ulimit -v), then repeat the command (run "
              "and sweep with --resume)";
     case StoreProblem::kUnwritable:
-      return "check the permissions, or choose another folder with --out";
+      return "check the name and the permissions of the folder, or use another one";
     default:
-      return "run again with --force: the file is set aside, not deleted, and the trials are run "
-             "anew";
+      return "run it anew, by `rockyard run` or `rockyard sweep` with --force: the file is set "
+             "aside, "
+             "not deleted";
   }
 }
 

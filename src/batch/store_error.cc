@@ -14,11 +14,11 @@ namespace {
 const char* Remedy(StoreProblem problem) {
   switch (problem) {
     case StoreProblem::kFull:
-      return "free some space on the disk (or lift the quota), or choose another folder with --out";
+      return "free some space on the disk (or lift the quota), or use another folder";
     case StoreProblem::kOpenFiles:
       return core::kMoreOpenFiles;
     default:
-      return "check the permissions, or choose another folder with --out";
+      return "check the name and the permissions of the folder, or use another one";
   }
 }
 
@@ -60,7 +60,8 @@ void FailSystem(const std::filesystem::path& path, std::string_view what, int re
 void FailDamaged(const std::filesystem::path& path, const std::string& reason) {
   throw StoreError(
       StoreProblem::kDamaged, path.string(), reason,
-      "run again with --force: the file is set aside, not deleted, and the trials are run anew");
+      "run it anew, by `rockyard run` or `rockyard sweep` with --force: the file is set aside, "
+      "not deleted");
 }
 
 }  // namespace rockyard::batch

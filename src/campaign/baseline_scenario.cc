@@ -48,11 +48,12 @@ std::vector<core::Problem> SharedLayoutProblems(const std::string& label,
   const core::JsonValue* course = document.Find("course");
   const core::JsonValue* group = course == nullptr ? nullptr : course->Find("trials_per_layout");
   if (group == nullptr || !group->IsNumber() || group->number() <= 1.0) return {};
-  return {{label,
-           fmt::format("has {:g} trials on each field of rocks: they are not independent, so that "
-                       "no false-alarm rate holds",
-                       group->number()),
-           "run it with --set course.trials_per_layout=1"}};
+  return {
+      {label,
+       fmt::format("has {:g} trials on each field of rocks: they are not independent, so that "
+                   "no false-alarm rate holds",
+                   group->number()),
+       "run it anew, by `rockyard run` or `rockyard sweep` with --set course.trials_per_layout=1"}};
 }
 
 }  // namespace rockyard::campaign

@@ -33,7 +33,7 @@ std::vector<core::Problem> BaselineProblems(const StoredRun& run) {
   if (static_cast<std::int64_t>(run.prefix().size()) < run.planned) {
     return {{run.Label(),
              fmt::format("is unfinished: {} of {} trials", run.prefix().size(), run.planned),
-             "finish it with rockyard run --resume"}};
+             "finish it: the same `rockyard run` or `rockyard sweep` with --resume"}};
   }
   return SharedLayoutProblems(run.Label(), run.identity.resolved);
 }

@@ -114,8 +114,11 @@ void OutputFolder::ReadContents(ExistingFiles existing) {
     throw core::UserError(
         path_.string(),
         fmt::format("is not empty and holds nothing of `rockyard {}`", plan_.command),
-        "choose another folder with --out, or write into it with --force, which "
-        "sets files of the names it needs aside");
+        existing == ExistingFiles::kResume
+            ? "choose another folder with --out, or write into it with --force in place of "
+              "--resume, which sets files of the names it needs aside"
+            : "choose another folder with --out, or write into it with --force, which sets files "
+              "of the names it needs aside");
   }
   const core::JsonValue maker = core::LoadJsonFileAlone(path_ / kMadeByFile);
   if (existing == ExistingFiles::kResume) {
@@ -150,14 +153,14 @@ void OutputFolder::RequireSame(const core::JsonValue& maker) const {
   const std::string program = TextOf(maker, "program");
   if (program != core::VersionLine()) {
     refuse(fmt::format("was begun by {}, this is {}", program, core::VersionLine()),
-           "use the program that began it, or set it aside by --force");
+           "use the program that began it, or set it aside by --force in place of --resume");
   }
   const core::JsonValue* request = maker.Find("request");
   const std::string differs =
       DifferenceOf(request == nullptr ? core::JsonValue::Object() : *request, plan_.request);
   if (!differs.empty()) {
     refuse("was begun with other " + differs,
-           "give what it was begun with, or set it aside by --force");
+           "give what it was begun with, or set it aside by --force in place of --resume");
   }
 }
 

@@ -115,7 +115,7 @@ void RequireNewFolder(const fs::path& folder) {
   if (!fs::exists(folder, error)) return;
   if (fs::is_directory(folder, error) && fs::is_empty(folder, error)) return;
   throw core::UserError("--out", folder.string() + " exists and is no empty folder",
-                        "name another folder, or remove it");
+                        "name another folder");
 }
 
 class MomentReplayer {
@@ -230,11 +230,11 @@ std::string WhyNoImages(const scenario::Scenario& scenario) {
 core::UserError Missing(const MomentsRequest& request, const MomentsResult& result,
                         const truth::Record& record) {
   const std::int64_t there = request.scan ? result.scans : result.steps;
-  return {
-      std::string(OptionOf(request)),
-      fmt::format("{} {} does not occur in this trial", KindOf(request), NumberOf(request)),
-      fmt::format("the trial has {} {}s{}; leave {} out to list them", there, KindOf(request),
-                  truth::IsFault(record) ? " until its simulator fault" : "", OptionOf(request))};
+  return {std::string(OptionOf(request)),
+          fmt::format("{} {} does not occur in this trial", KindOf(request), NumberOf(request)),
+          fmt::format("the trial has {} {}s{}; --list in place of {} lists them", there,
+                      KindOf(request), truth::IsFault(record) ? " until its simulator fault" : "",
+                      OptionOf(request))};
 }
 
 Outcome Draw(const MomentsRequest& request, const TrialSource& source, const MomentTrial& replayed,

@@ -64,7 +64,7 @@ std::vector<core::Problem> FaultProblems(const OpenedRun& run, const batch::Batc
                        result.progress.faults, result.progress.finished, 100.0 * most,
                        cells.empty() ? "" : fmt::format(" of all, or of a cell{}", cells)),
            cells.empty()
-               ? "trials.csv names seed and trial of each: look there for the reason"
+               ? "trials.csv names each with its reason, in the column detail"
                : "`detail` in the table trials of results.sqlite names the reason of each"}};
 }
 

@@ -73,9 +73,11 @@ int FindCell(const fs::path& folder, const std::vector<batch::CellIdentity>& cel
     if (named || std::to_string(i) == wanted) return static_cast<int>(i);
   }
   if (wanted.empty()) {
-    throw core::UserError(folder.string(),
-                          fmt::format("holds a campaign of {} cells", cells.size()),
-                          "choose one of them with --cell: " + CellList(cells));
+    throw core::UserError(
+        folder.string(), fmt::format("holds a campaign of {} cells", cells.size()),
+        "`rockyard trace`, `rockyard replay`, `rockyard check`, `rockyard compare` and "
+        "`rockyard report` take one by --cell: " +
+            CellList(cells));
   }
   throw core::UserError("--cell", fmt::format("\"{}\" is no cell of {}", wanted, folder.string()),
                         "use one of " + CellList(cells));
@@ -96,7 +98,9 @@ core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
   }
   core::JsonValue document = core::LoadJsonFile(path);
   if (scenario::IsSweep(document)) {
-    throw core::UserError(path.string(), "is a sweep, not a scenario", "use rockyard sweep");
+    throw core::UserError(path.string(), "is a sweep, not a scenario",
+                          "`rockyard sweep FILE --dry-run` writes the scenario of each cell, and "
+                          "without it runs them");
   }
   return IsResolved(document) ? core::JsonValue(*document.Find("scenario")) : document;
 }

@@ -30,12 +30,12 @@ namespace {
 using core::JsonValue;
 using math::DegToRad;
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // Values by their paths, and the doubts of them.
-class Settings {
+class Values {
  public:
-  explicit Settings(const scenario::Scenario& scenario)
+  explicit Values(const scenario::Scenario& scenario)
       : drive(scenario.drive), parameters(scenario::ListParameters(scenario)) {
     for (const core::ParameterInfo& each : parameters) values_[each.path] = &each.value;
   }
@@ -67,10 +67,10 @@ class Settings {
           fmt::format("{:g} is {} for {}", value, value < low ? "little" : "much", what), right);
   }
   void AtLeast(std::string_view path, double low, std::string_view what, std::string_view right) {
-    Within(path, low, kNone, what, right);
+    Within(path, low, kUnbounded, what, right);
   }
   void AtMost(std::string_view path, double high, std::string_view what, std::string_view right) {
-    Within(path, -kNone, high, what, right);
+    Within(path, -kUnbounded, high, what, right);
   }
 
   const trial::DriveParams& drive;
@@ -87,42 +87,40 @@ class Settings {
   std::map<std::string, const JsonValue*, std::less<>> values_;
 };
 
-double Course_m(const Settings& s) { return trial::CourseLength_m(s.drive.course); }
+double Course_m(const Values& s) { return trial::CourseLength_m(s.drive.course); }
 
-std::string OfCourse(const Settings& s) {
-  return fmt::format("a course of {:.3g} m", Course_m(s));
-}
+std::string OfCourse(const Values& s) { return fmt::format("a course of {:.3g} m", Course_m(s)); }
 
-double Front_m(const Settings& s) { return 0.5 * s("rover.geometry.length_m"); }
+double Front_m(const Values& s) { return 0.5 * s("rover.geometry.length_m"); }
 
-bool Uses(const Settings& s, std::string_view navigator) {
+bool Uses(const Values& s, std::string_view navigator) {
   return s.Is("navigation.navigator", navigator);
 }
 
-bool SeesBy(const Settings& s, std::string_view sensor) {
+bool SeesBy(const Values& s, std::string_view sensor) {
   return s.Is("sensors.terrain_sensor", sensor);
 }
 
-bool HasRocks(const Settings& s) { return !s.Is("terrain.rocks.kind", "none"); }
+bool HasRocks(const Values& s) { return !s.Is("terrain.rocks.kind", "none"); }
 
 // The pathfinder has hazards of an array of elevations; what it does not see now it does not know.
-bool DrivesByArray(const Settings& s) {
+bool DrivesByArray(const Values& s) {
   return Uses(s, "pathfinder") && s.On("perception.hazard.enabled");
 }
 
-std::string OfNavigator(const Settings& s, std::string_view gestalts, std::string_view key) {
+std::string OfNavigator(const Values& s, std::string_view gestalts, std::string_view key) {
   if (Uses(s, "gestalt")) return fmt::format("navigation.gestalt.{}", gestalts);
   return fmt::format("navigation.{}.{}", Uses(s, "route") ? "route" : "pathfinder", key);
 }
 
-trial::Zone Seen(const Settings& s) {
+trial::Zone ReportedZone(const Values& s) {
   return s.drive.sensors.terrain_sensors.chosen().reported_zone(s.drive);
 }
 
 // ---- The task
 
 // The shortest way from a point of the course to the next.
-double Leg_m(const Settings& s) {
+double Leg_m(const Values& s) {
   double leg_m = Course_m(s);
   messages::Goal from{s("course.start_x_m"), s("course.start_y_m")};
   for (const messages::Goal& to : s.drive.course.Goals()) {
@@ -132,7 +130,7 @@ double Leg_m(const Settings& s) {
   return leg_m;
 }
 
-void DoubtGoal(Settings& s) {
+void DoubtGoal(Values& s) {
   constexpr double kShare = 1.0 / 3.0;  // beyond it a goal is reached without its course
   s.AtMost("course.goal_radius_m", kShare * Course_m(s), OfCourse(s),
            "state how near the rover has to come");
@@ -158,7 +156,7 @@ void DoubtGoal(Settings& s) {
 }
 
 // What lies on the way is what is to be found out.
-void DoubtField(Settings& s) {
+void DoubtField(Values& s) {
   const double width_m = s("rover.geometry.width_m");
   const double clearance_m = s("rover.geometry.belly_clearance_m");
   if (HasRocks(s)) {
@@ -205,9 +203,16 @@ void DoubtField(Settings& s) {
               fmt::format("a rover {:g} m wide among rocks", width_m),
               "use several widths of the rover");
   }
+  s.Doubt(s("course.trials_per_layout") > 0.2 * s("trials") && s("course.trials_per_layout") > 1.0,
+          "course.trials_per_layout",
+          fmt::format("{:g} of {:g} trials meet one field: the rate is that of a few fields",
+                      s("course.trials_per_layout"), s("trials")),
+          "use a small part of the trials");
   const bool lander = s.Is("course.route_map.source", "lander");
   const bool along = s.Is("course.route_map.use", "waypoints");
   if (!Uses(s, "route") && !along) return;
+  s.AtMost("course.oracle_route.cell_m", width_m / 3.0, fmt::format("a rover {:g} m wide", width_m),
+           "use a tenth of its width");
   const double room_m = 0.5 * (0.6 * s("terrain.arena.width_m") - width_m);
   s.AtMost("course.oracle_route.margin_m", room_m,
            fmt::format("a lane between rocks of an arena {:g} m wide", s("terrain.arena.width_m")),
@@ -218,7 +223,7 @@ void DoubtField(Settings& s) {
   }
 }
 
-void DoubtReferee(Settings& s) {
+void DoubtReferee(Values& s) {
   const double speed_m_s = s("rover.drive.speed_m_s");
   const double clearance_m = s("rover.geometry.belly_clearance_m");
   s.AtLeast("referee.stall_window_s", s("referee.stall_distance_m") / speed_m_s,
@@ -235,6 +240,18 @@ void DoubtReferee(Settings& s) {
       std::atan2(0.5 * s("rover.geometry.width_m"), s("rover.mass.chassis_com_z_m")));
   s.AtLeast("referee.tip_over_deg", 0.6 * stands_deg,
             fmt::format("a rover that stands up to {:.3g} deg", stands_deg), "use 60");
+  // What stands in the way is gone around: no nearer to the goal for as far as it reaches.
+  const auto& listed = s.drive.terrain.rocks.listed;
+  const double patience_m = s.drive.referee.no_path_distance_m;
+  if (s.Is("terrain.rocks.kind", "listed") && listed.x_m.size() > 2 && patience_m > 0.0) {
+    const auto [near, far] = std::ranges::minmax(listed.x_m);
+    const auto [right, left] = std::ranges::minmax(listed.y_m);
+    const double around_m = far - near + 0.5 * (left - right);
+    s.Doubt(patience_m < 0.5 * around_m, "referee.no_path_distance_m",
+            fmt::format("{:g} m end a rover on its way around rocks that take {:.3g} m", patience_m,
+                        around_m),
+            "use more than the way around them, or null");
+  }
   const double turn_deg = s("referee.no_path_turn_deg");
   if (turn_deg > 0.0 && Uses(s, "pathfinder")) {
     s.AtLeast("referee.no_path_turn_deg", 0.5 * s("navigation.pathfinder.turn_give_up_deg"),
@@ -256,7 +273,7 @@ void DoubtReferee(Settings& s) {
 
 // ---- The rover, with three wheels a side
 
-void DoubtShape(Settings& s) {
+void DoubtShape(Values& s) {
   const double length_m = s("rover.geometry.length_m");
   const double radius_m = s("rover.geometry.wheel_radius_m");
   const double clearance_m = s("rover.geometry.belly_clearance_m");
@@ -276,21 +293,20 @@ void DoubtShape(Settings& s) {
            fmt::format("a chassis from {:g} to {:g} m above the ground", clearance_m,
                        s("rover.geometry.height_m")),
            "state it from the ground up");
-  const double moving_kg = 6.0 * s("rover.mass.wheel_kg") +
-                           2.0 * (s("rover.mass.rocker_kg") + s("rover.mass.bogie_kg"));
+  const double moving_kg =
+      6.0 * s("rover.mass.wheel_kg") + 2.0 * (s("rover.mass.rocker_kg") + s("rover.mass.bogie_kg"));
   s.AtLeast("rover.mass.total_kg", moving_kg / 0.75,
             fmt::format("wheels and arms of {:g} kg", moving_kg),
             "state the masses of this rover's parts, too");
 }
 
-void DoubtTraction(Settings& s) {
+void DoubtTraction(Values& s) {
   // Over the load: resistance of sand, or of a rock that half of the wheels climb.
   const double resistance = HasRocks(s) ? 0.5 : 0.15;
   const double gravity_m_s2 = s("rover.physics.gravity_m_s2");
   const double weight_N = s("rover.mass.total_kg") * gravity_m_s2;
   const double radius_m = s("rover.geometry.wheel_radius_m");
-  const double need_N =
-      weight_N * (std::sin(DegToRad(s("terrain.ground.slope_deg"))) + resistance);
+  const double need_N = weight_N * (std::sin(DegToRad(s("terrain.ground.slope_deg"))) + resistance);
   s.AtLeast("rover.drive.stall_torque_Nm", need_N * radius_m / 6.0,
             fmt::format("the {:.3g} N that keep it moving here", need_N),
             "state the torque at the wheel, behind its gears");
@@ -302,10 +318,9 @@ void DoubtTraction(Settings& s) {
   const double modulus = s("terrain.ground.soil.cohesive_modulus_N_per_mn1") / wide_m +
                          s("terrain.ground.soil.frictional_modulus_N_per_mn2");
   const double pressure_Pa = weight_N / 6.0 / (wide_m * radius_m);
-  const double sinkage_m =
-      modulus > 0.0
-          ? std::pow(pressure_Pa / modulus, 1.0 / s("terrain.ground.soil.sinkage_exponent"))
-          : 0.0;
+  const double sinkage_m = modulus > 0.0 ? std::pow(pressure_Pa / modulus,
+                                                    1.0 / s("terrain.ground.soil.sinkage_exponent"))
+                                         : 0.0;
   s.Doubt(sinkage_m > 0.5 * radius_m, "terrain.ground.soil",
           fmt::format("wheels of {:g} m sink {:.2g} m into it", 2.0 * radius_m, sinkage_m),
           "check the units of its moduli: N, not kN");
@@ -313,12 +328,36 @@ void DoubtTraction(Settings& s) {
   // Between Mars, 3.72, and Earth, 9.81.
   const bool drift = s.Is("terrain.ground.soil.preset", "mars_drift");
   const bool arena = s.Is("terrain.ground.soil.preset", "landscaping_sand");
-  s.Within("rover.physics.gravity_m_s2", arena ? 6.0 : 0.0, drift ? 6.0 : kNone,
+  s.Within("rover.physics.gravity_m_s2", arena ? 6.0 : 0.0, drift ? 6.0 : kUnbounded,
            drift ? "the soil of Mars" : "the sand of an arena on Earth",
            "choose soil and gravity of one place");
 }
 
-void DoubtSteering(Settings& s) {
+void DoubtMotors(Values& s) {
+  const double per_ampere = s("sensors.vehicle.motor_current.torque_per_ampere_Nm_A");
+  const double stall_A =
+      s("rover.drive.stall_torque_Nm") / per_ampere + s("sensors.vehicle.motor_current.no_load_A");
+  if (s.On("sensors.vehicle.motor_current.enabled")) {
+    s.AtMost("perception.vehicle_hazard.max_current_A", 1.5 * stall_A,
+             fmt::format("motors that stall at {:.3g} A: it is never passed", stall_A),
+             "use less than the motors can draw");
+  }
+  if (!s.Is("navigation.on_board_stuck.reaction", "off")) {
+    s.Within("perception.stuck_detector.strain_current_A",
+             s("sensors.vehicle.motor_current.no_load_A"), stall_A,
+             fmt::format("motors of {:g} A without load and {:.3g} A at rest",
+                         s("sensors.vehicle.motor_current.no_load_A"), stall_A),
+             "use what rolling over rocks draws");
+  }
+  if (s.Is("rover.fidelity", "quasi_static")) {
+    s.AtMost("rover.quasi_static.settle_distance_m", s("rover.geometry.wheel_radius_m"),
+             fmt::format("wheels of {:g} m: it steps over rocks",
+                         2.0 * s("rover.geometry.wheel_radius_m")),
+             "use a fraction of a wheel's radius");
+  }
+}
+
+void DoubtSteering(Values& s) {
   const double told_deg_s = s("navigation.wheel_driver.steer_rate_deg_s");
   s.AtLeast("rover.drive.steer_rate_deg_s", 0.2 * told_deg_s,
             fmt::format("a navigation.wheel_driver that reckons with {:g} deg/s", told_deg_s),
@@ -333,6 +372,15 @@ void DoubtSteering(Settings& s) {
           fmt::format("{:g} deg give arcs of {:.3g} m at least, and the navigator drives {:.3g} m",
                       s("rover.drive.max_steer_deg"), turn_m, arc_m),
           "let the wheels turn as far as its tightest arc");
+  // Corners that turn in place stand across the way to the middle.
+  const double across_deg =
+      math::RadToDeg(std::atan2(s("rover.geometry.wheelbase_m"),
+                                s("rover.geometry.width_m") - s("rover.geometry.wheel_width_m")));
+  s.Doubt(Uses(s, "pathfinder") && s("rover.drive.max_steer_deg") < across_deg - 2.0,
+          "rover.drive.max_steer_deg",
+          fmt::format("{:g} deg, and to turn in place takes {:.3g}", s("rover.drive.max_steer_deg"),
+                      across_deg),
+          "let the wheels turn so far");
   s.Doubt(arc_m > 5.0 * length_m, path,
           fmt::format("arcs of {:.3g} m and more lead a rover {:g} m long around no rock", arc_m,
                       length_m),
@@ -342,14 +390,15 @@ void DoubtSteering(Settings& s) {
 // ---- What it sees
 
 // Between two looks, or two commands, the rover is blind.
-void DoubtPace(Settings& s) {
+void DoubtPace(Values& s) {
   const double speed_m_s = s("rover.drive.speed_m_s");
   const double tick_m = speed_m_s / s("clock.control_rate_hz");
   s.Doubt(tick_m > s("rover.geometry.wheel_radius_m"), "rover.drive.speed_m_s",
           fmt::format("it comes {:.2g} m far between two commands (clock.control_rate_hz {:g})",
                       tick_m, s("clock.control_rate_hz")),
           "drive slower, or command more often");
-  const double seen_m = Uses(s, "gestalt") ? s("sensors.stereo.max_range_m") : Seen(s).x_high_m;
+  const double seen_m =
+      Uses(s, "gestalt") ? s("sensors.stereo.max_range_m") : ReportedZone(s).x_high_m;
   const double ahead_m = seen_m - Front_m(s);
   const double stop_m = speed_m_s * (0.5 * s("rover.drive.ramp_s") + s("clock.stop_time_s"));
   s.Doubt(stop_m > ahead_m, "rover.drive.ramp_s",
@@ -359,12 +408,12 @@ void DoubtPace(Settings& s) {
 }
 
 // Looks and drives from start to goal, one after the other.
-void DoubtTime(Settings& s) {
+void DoubtTime(Values& s) {
   if (Uses(s, "route") || (Uses(s, "pathfinder") && !s.On("perception.hazard.enabled"))) return;
   const double speed_m_s = s("rover.drive.speed_m_s");
   const double look_s = trial::MakeLookTime(s.drive).total_s();
-  const bool continuous = Uses(s, "gestalt") &&
-                          !s.Is("navigation.gestalt.continuous.cycle", "stop_and_look");
+  const bool continuous =
+      Uses(s, "gestalt") && !s.Is("navigation.gestalt.continuous.cycle", "stop_and_look");
   const double step_m = continuous ? s("navigation.gestalt.continuous.motion_m")
                                    : s(OfNavigator(s, "drive.step_m", "scan_interval_m"));
   const double limit_s = s.drive.referee.time_limit_s;
@@ -377,6 +426,19 @@ void DoubtTime(Settings& s) {
                       "after {:g} s",
                       look_s, needed_s, limit_s),
           "check the units, or state referee.time_limit_s");
+  for (const std::string_view aid : {"lander_fix", "sun", "beacon"}) {
+    const std::string group = fmt::format("sensors.aids.{}", aid);
+    if (!s.On(group + ".enabled") || s(group + ".every_m") > 0.0) continue;
+    s.AtMost(group + ".every_s", needed_s, fmt::format("a drive of {:.3g} s", needed_s),
+             "let it come on the way");
+  }
+  if (continuous) {
+    const double rest_s =
+        (1.0 - s("navigation.gestalt.continuous.replan_fraction")) * step_m / speed_m_s;
+    s.AtMost("clock.compute.acquisition_s", rest_s > 0.0 ? rest_s : kUnbounded,
+             fmt::format("the {:.3g} s until the next plan is due", rest_s),
+             "use a camera that keeps up, or stop and look");
+  }
   s.Doubt(continuous && look_s > 1.2 * step_m / speed_m_s, "clock.compute.computer",
           fmt::format("a look takes {:.3g} s, and a motion of {:g} m {:.3g} s: it stands and waits",
                       look_s, step_m, step_m / speed_m_s),
@@ -384,9 +446,9 @@ void DoubtTime(Settings& s) {
 }
 
 // The array of elevations of the pathfinder, fitted to a rover.
-void DoubtArray(Settings& s) {
+void DoubtArray(Values& s) {
   if (!DrivesByArray(s)) return;
-  const trial::Zone seen = Seen(s);
+  const trial::Zone seen = ReportedZone(s);
   const double width_m = s("rover.geometry.width_m");
   const double radius_m = s("rover.geometry.wheel_radius_m");
   const double clearance_m = s("rover.geometry.belly_clearance_m");
@@ -434,21 +496,21 @@ void DoubtArray(Settings& s) {
            fmt::format("a belly {:g} m above the ground", clearance_m), "state the clearance");
 }
 
-void DoubtLightStripe(Settings& s) {
+void DoubtLightStripe(Values& s) {
   if (!SeesBy(s, "light_stripe")) return;
   const double front_m = s("sensors.light_stripe.front_x_m");
   s.Doubt(std::abs(front_m - Front_m(s)) > 0.15 * s("rover.geometry.length_m"),
           "sensors.light_stripe.front_x_m",
           fmt::format("the front of this rover is at {:g} m, not at {:g} m", Front_m(s), front_m),
           "use half of its length");
-  const double slant_m = std::hypot(Seen(s).x_high_m - s("sensors.light_stripe.camera_x_m"),
+  const double slant_m = std::hypot(ReportedZone(s).x_high_m - s("sensors.light_stripe.camera_x_m"),
                                     s("sensors.light_stripe.camera_height_m"));
   s.AtLeast("sensors.light_stripe.max_range_m", slant_m,
             fmt::format("a farthest row {:.2g} m from the camera", slant_m),
             "let the farthest row be bright");
 }
 
-void DoubtStereo(Settings& s) {
+void DoubtStereo(Values& s) {
   if (!SeesBy(s, "stereo")) return;
   const double ahead_m = s("sensors.stereo.front.ahead_m");
   const double high_m = s("sensors.stereo.front.height_m");
@@ -467,12 +529,13 @@ void DoubtStereo(Settings& s) {
             "turn them down, and check that it is in degrees");
   const double upper_deg = pitch_deg - 0.5 * tall_deg;
   const double end_m =
-      upper_deg > 0.0 ? ahead_m + high_m / std::tan(DegToRad(upper_deg)) : kNone;
-  s.Doubt(end_m < Front_m(s) + 0.25 * length_m, "sensors.stereo.front.pitch_deg",
-          fmt::format("the ground is seen up to {:.2g} m ahead of the rover's middle, and its front "
-                      "is at {:.2g} m",
-                      end_m, Front_m(s)),
-          "turn the cameras up");
+      upper_deg > 0.0 ? ahead_m + high_m / std::tan(DegToRad(upper_deg)) : kUnbounded;
+  s.Doubt(
+      end_m < Front_m(s) + 0.25 * length_m, "sensors.stereo.front.pitch_deg",
+      fmt::format("the ground is seen up to {:.2g} m ahead of the rover's middle, and its front "
+                  "is at {:.2g} m",
+                  end_m, Front_m(s)),
+      "turn the cameras up");
   s.Within("sensors.stereo.baseline_m", 0.02 * width_m, width_m,
            fmt::format("a rover {:g} m wide", width_m), "check the unit");
   // The ground half a length ahead of the front.
@@ -490,10 +553,18 @@ void DoubtStereo(Settings& s) {
             "search farther: disparities grow with columns and baseline");
   const double path_m = s("navigation.gestalt.plan.plan_max_dist_m");
   const double range_m = s("sensors.stereo.max_range_m");
-  const double used_m = Uses(s, "gestalt") ? std::min(range_m, path_m)
-                                           : s("perception.cloud_elevations.far_m");
+  const double used_m =
+      Uses(s, "gestalt") ? std::min(range_m, path_m) : s("perception.cloud_elevations.far_m");
   s.AtMost("sensors.stereo.min_disparity_px", product_px_m / (0.6 * used_m),
            fmt::format("depths up to {:.2g} m", used_m), "use less, or a longer baseline");
+  if (s.Is("sensors.stereo.fidelity", "image")) {
+    s.AtMost("perception.stereo.filters.blob_min_px",
+             0.1 * s("sensors.stereo.columns") * s("sensors.stereo.rows"),
+             "images of that size: whole rocks are regions", "use a hundredth of the image");
+    s.Doubt(s("sensors.look.soil_graininess") == 0.0 && s("sensors.look.drift.contrast") == 0.0,
+            "sensors.look", "soil without grain and contrast has nothing that matches",
+            "leave it some texture");
+  }
   if (Uses(s, "gestalt")) {
     s.AtLeast("sensors.stereo.max_range_m", 0.5 * path_m,
               fmt::format("paths that are judged for {:g} m", path_m),
@@ -503,7 +574,7 @@ void DoubtStereo(Settings& s) {
 
 // ---- GESTALT (Goldberg 2002, table 1), which is told what vehicle it drives
 
-void DoubtVehicle(Settings& s) {
+void DoubtVehicle(Values& s) {
   struct Told {
     std::string_view path;
     std::string_view of;
@@ -519,17 +590,18 @@ void DoubtVehicle(Settings& s) {
     const double believed = s(fmt::format("{}.{}", kGroup, told.path));
     const double real = s(fmt::format("rover.geometry.{}", told.of));
     if (std::abs(believed - real) < told.alike * real) continue;
-    differing += fmt::format("{}{} {:g} for {:g}", differing.empty() ? "" : ", ", told.path,
-                             believed, real);
+    differing +=
+        fmt::format("{}{} {:g} for {:g}", differing.empty() ? "" : ", ", told.path, believed, real);
   }
   s.Doubt(!differing.empty(), kGroup, "it drives another vehicle: " + differing,
           "state length_m, width_m, wheel_radius_m, clearance_m and obst_height_m");
   const double clearance_m = s("rover.geometry.belly_clearance_m");
   s.Within("navigation.gestalt.map.rover.obst_height_m", 0.25 * clearance_m, 1.25 * clearance_m,
-           fmt::format("a belly {:g} m above the ground", clearance_m), "use what this rover climbs");
+           fmt::format("a belly {:g} m above the ground", clearance_m),
+           "use what this rover climbs");
 }
 
-void DoubtMap(Settings& s) {
+void DoubtMap(Values& s) {
   const double length_m = s("rover.geometry.length_m");
   const double width_m = s("rover.geometry.width_m");
   const double path_m = s("navigation.gestalt.plan.plan_max_dist_m");
@@ -553,8 +625,8 @@ void DoubtMap(Settings& s) {
   for (const char* name : {"votes.min_fwd_threshold", "votes.min_allowed_goodness",
                            "votes.min_vote_goodness", "waypoints.waypoint_certainty"}) {
     const std::string path = fmt::format("navigation.gestalt.{}", name);
-    s.Doubt(s(path) > 0.0 && s(path) < 1.5, path, fmt::format("{:g} of 255 is next to none", s(path)),
-            "count to 255, not to 1");
+    s.Doubt(s(path) > 0.0 && s(path) < 1.5, path,
+            fmt::format("{:g} of 255 is next to none", s(path)), "count to 255, not to 1");
   }
   s.AtMost("navigation.gestalt.votes.min_allowed_goodness", 180.0,
            "cells of 255: those beside an obstacle and unknown ones are below",
@@ -570,7 +642,7 @@ void DoubtMap(Settings& s) {
 
 // ---- What it believes
 
-void DoubtLocalization(Settings& s) {
+void DoubtLocalization(Values& s) {
   const std::string course = OfCourse(s);
   s.Within("sensors.gyro.scale", 0.75, 1.25, "a gyro that measures turns", "use a share near 1");
   const double bias_deg_s = s("sensors.gyro.bias_sd_deg_per_s");
@@ -580,15 +652,25 @@ void DoubtLocalization(Settings& s) {
           "check the unit: gyros of this kind keep 0.01 deg/s");
   s.AtMost("sensors.gyro.heading_variance_deg2_per_m", 45.0 * 45.0 / Course_m(s), course,
            "check the unit: it is a variance");
+  const double speed_m_s = s("rover.drive.speed_m_s");
   if (s.Is("localization.estimator", "error_state")) {
+    const double reference_m_s = s("sensors.gyro.reference_speed_m_s");
+    s.Within("localization.error_state.drift.reference_speed_m_s", reference_m_s / 5.0,
+             5.0 * reference_m_s,
+             fmt::format("a gyro whose variance is of {:g} m/s", reference_m_s),
+             "state that of the gyro");
+    s.Doubt(s.On("sensors.gyro.accumulates_at_rest") &&
+                !s.On("localization.error_state.drift.drifts_at_rest"),
+            "localization.error_state.drift.drifts_at_rest", "the gyro drifts at rest",
+            "tell the filter, too");
     const double error = std::abs(s("sensors.gyro.scale") - 1.0);
     s.AtLeast("localization.error_state.prior.gyro_scale_sd", error / 4.0,
               fmt::format("a gyro whose scale is off by {:.2g}", error),
               "use how well the scale is known");
     const double drift = s("sensors.gyro.heading_variance_deg2_per_m");
     s.Within("localization.error_state.drift.heading_variance_deg2_per_m", drift / 10.0,
-             std::max(100.0 * drift, 2.0),
-              fmt::format("a gyro of {:g}", drift), "use that of the gyro, or somewhat more");
+             std::max(100.0 * drift, 2.0), fmt::format("a gyro of {:g}", drift),
+             "use that of the gyro, or somewhat more");
   }
   s.AtMost("sensors.gyro.scrape.min_sliding_speed_m_s", 0.8 * s("rover.drive.speed_m_s"),
            fmt::format("a rover that drives {:g} m/s: no scrape would count",
@@ -603,18 +685,27 @@ void DoubtLocalization(Settings& s) {
              0.6 * s("sensors.stereo.horizontal_fov_deg"),
              fmt::format("images {:g} deg wide", s("sensors.stereo.horizontal_fov_deg")),
              "let images show common ground");
+    const double every_s = std::max(s("sensors.visual_odometry.schedule.every_s"),
+                                    s("sensors.visual_odometry.schedule.every_m") / speed_m_s);
+    s.AtMost("clock.compute.visual_cpu_s", every_s,
+             fmt::format("images that are due every {:.3g} s", every_s), "check the unit");
     const double range_m = s("sensors.stereo.max_range_m");
     s.AtMost("sensors.visual_odometry.schedule.every_m", 0.5 * range_m,
              fmt::format("images that show the ground up to {:g} m", range_m),
              "use less than a metre");
   }
   if (s.On("perception.visual_odometry.slip_check.enabled")) {
-    s.AtMost("perception.visual_odometry.slip_check.min_way_m", Course_m(s) / 3.0, course,
+    const double keyframe_m = s.Is("sensors.visual_odometry.fidelity", "image")
+                                  ? s("perception.visual_odometry.keyframe.max_way_m")
+                                  : s("sensors.visual_odometry.error_model.keyframe_m");
+    const double together_m = keyframe_m + s("sensors.visual_odometry.schedule.every_m");
+    s.AtMost("perception.visual_odometry.slip_check.min_way_m", together_m,
+             fmt::format("keyframes of {:.3g} m: so far none is kept", together_m),
              "use some revolutions of a wheel");
   }
 }
 
-void DoubtAids(Settings& s) {
+void DoubtAids(Values& s) {
   const std::string course = OfCourse(s);
   for (const std::string_view aid : {"lander_fix", "sun", "beacon"}) {
     const std::string group = fmt::format("sensors.aids.{}", aid);
@@ -643,7 +734,7 @@ void DoubtAids(Settings& s) {
 
 // Whether something that is chosen or enabled reads the parameter. Not those of the rover itself,
 // nor the current that its motors take: their ranges are of one rover's size.
-bool IsUsed(const Settings& s, const std::string& path) {
+bool IsUsed(const Values& s, const std::string& path) {
   if (path == "perception.vehicle_hazard.max_current_A") return false;
   const std::string_view parts[] = {"terrain.", "sensors.", "perception.", "navigation.",
                                     "course.",  "referee.", "clock.",      "localization."};
@@ -656,7 +747,8 @@ bool IsUsed(const Settings& s, const std::string& path) {
     if (in(fmt::format("sensors.{}.", sensor)) && !SeesBy(s, sensor)) return false;
   }
   if (in("terrain.ground.soil.") && s.Is("terrain.ground.soil.preset", "hard_ground")) return false;
-  if (in("localization.error_state.") && !s.Is("localization.estimator", "error_state")) return false;
+  if (in("localization.error_state.") && !s.Is("localization.estimator", "error_state"))
+    return false;
   if (in("perception.visual_odometry.") && !s.On("sensors.visual_odometry.enabled")) return false;
   for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1)) {
     if (s.IsOff(path.substr(0, dot) + ".enabled")) return false;
@@ -677,20 +769,22 @@ constexpr Usual kUsual[] = {
     {"terrain.rocks.max_height_ratio", 0.3, 4.0, "rocks as heights over diameters go"},
     {"rover.drive.speed_m_s", 0.002, 2.0, "a planetary rover"},
     {"rover.drive.ramp_s", 0.0, 10.0, "a motor that starts"},
-    {"rover.physics.gravity_m_s2", 1.0, 12.0, "a place with ground: Moon 1.62, Mars 3.72, Earth 9.81"},
+    {"rover.physics.gravity_m_s2", 1.0, 12.0,
+     "a place with ground: Moon 1.62, Mars 3.72, Earth 9.81"},
     {"rover.contact.wheel_rock_friction", 0.3, 1.5, "wheels on rock"},
     {"rover.contact.body_rock_friction", 0.1, 1.2, "a body on rock"},
     {"rover.geometry.rocker_limit_deg", 8.0, 80.0, "rockers that follow the ground"},
     {"sensors.light_stripe.wrong_place_probability", 0.0, 0.2, "points that hazards are found in"},
     {"sensors.light_stripe.missed_probability", 0.0, 0.7, "points that hazards are found in"},
     {"sensors.light_stripe.column_noise_px", 0.0, 20.0, "stripes that are found"},
-    {"sensors.stereo.columns", 48.0, kNone, "matching"},
-    {"sensors.stereo.rows", 32.0, kNone, "matching"},
+    {"sensors.stereo.columns", 48.0, kUnbounded, "matching"},
+    {"sensors.stereo.rows", 32.0, kUnbounded, "matching"},
     {"sensors.stereo.dropout_probability", 0.0, 0.85, "ground that is seen"},
     {"sensors.stereo.mismatch_probability", 0.0, 0.2, "ground that is seen"},
+    {"sensors.visual_odometry.pyramid_level", 0.0, 2.0, "images that keep their features"},
     {"sensors.gyro.level_sand_gain", 0.2, 5.0, "a gyro"},
     {"sensors.gyro.scrape.jump_deg", 0.0, 30.0, "a scrape of a rock"},
-    {"sensors.encoders.distance_variance_m2_per_m", 0.0, 0.1, "wheels that roll"},
+    {"sensors.encoders.distance_variance_m2_per_m", 0.0, 0.03, "wheels that roll"},
     {"sensors.aids.lander_fix.heading_sd_deg", 0.0, 30.0, "an aid"},
     {"sensors.aids.lander_fix.range_sd_fraction", 0.0, 0.3, "an aid"},
     {"sensors.aids.lander_fix.bearing_sd_rad", 0.0, 0.1, "an aid"},
@@ -698,37 +792,40 @@ constexpr Usual kUsual[] = {
     {"sensors.aids.beacon.bearing_sd_deg", 0.0, 30.0, "an aid"},
     {"sensors.aids.sun.half_field_of_view_deg", 10.0, 90.0, "a camera that finds the sun"},
     {"perception.attitude.filter_s", 0.0, 10.0, "a rover that tilts in seconds"},
-    {"localization.error_state.prior.position_sd_m", 0.0, 5.0, "a rover that begins beside its lander"},
-    {"localization.error_state.prior.heading_sd_deg", 0.0, 45.0, "a rover that begins beside its lander"},
+    {"localization.error_state.prior.position_sd_m", 0.0, 5.0,
+     "a rover that begins beside its lander"},
+    {"localization.error_state.prior.heading_sd_deg", 0.0, 45.0,
+     "a rover that begins beside its lander"},
     {"localization.error_state.prior.wheel_scale_sd", 0.0, 0.3, "wheels of known size"},
     {"localization.error_state.gate.chance", 0.0, 0.1, "fixes that are mostly right"},
     {"localization.error_state.stretch_m", 0.0, 1.0, "a filter"},
-    {"navigation.pathfinder.scan_interval_m", 0.02, kNone, "looks of many seconds"},
+    {"navigation.pathfinder.scan_interval_m", 0.02, kUnbounded, "looks of many seconds"},
     {"navigation.pathfinder.turn_increment_deg", 2.0, 60.0, "a turn around a rock"},
-    {"navigation.pathfinder.turn_give_up_deg", 90.0, kNone, "a rover that looks around"},
+    {"navigation.pathfinder.turn_give_up_deg", 90.0, kUnbounded, "a rover that looks around"},
     {"navigation.pathfinder.heading_deadband_deg", 0.0, 30.0, "driving to a goal"},
     {"navigation.pathfinder.clear_distance_m", 0.0, 3.0, "a rock to pass"},
-    {"navigation.gestalt.arcs.num_forward_arcs", 3.0, kNone, "a choice"},
-    {"navigation.gestalt.map.max_idles", 10.0, kNone, "a map that is kept"},
+    {"navigation.gestalt.arcs.num_forward_arcs", 3.0, kUnbounded, "a choice"},
+    {"navigation.gestalt.map.max_idles", 10.0, kUnbounded, "a map that is kept"},
     {"navigation.gestalt.map.min_cell_points", 0.0, 50.0, "cells that stereo fills"},
     {"navigation.gestalt.map.roughness_fraction", 0.05, 10.0, "a share of the obstacle height"},
     {"navigation.gestalt.map.rover.max_pitch_deg", 5.0, 60.0, "ground that a rover climbs"},
-    {"navigation.gestalt.waypoints.vote_index_variance", 1.0, 10000.0, "arcs counted from -11 to 11"},
+    {"navigation.gestalt.waypoints.vote_index_variance", 1.0, 10000.0,
+     "arcs counted from -11 to 11"},
     {"navigation.gestalt.continuous.motion_m", 0.1, 5.0, "a motion between plans"},
     {"navigation.gestalt.speed.min_speed_share", 0.05, 1.0, "a rover that goes on"},
-    {"navigation.gestalt.splines.max_curvature_per_m", 0.1, kNone, "a way around rocks"},
+    {"navigation.gestalt.splines.max_curvature_per_m", 0.1, kUnbounded, "a way around rocks"},
     {"navigation.route.corner_tolerance_m", 0.0, 0.5, "a route between rocks"},
     {"navigation.route.steer_interval_m", 0.005, 1.0, "a route between rocks"},
     {"navigation.route.heading_deadband_deg", 0.0, 20.0, "a route between rocks"},
     {"course.tracking.half_field_of_view_deg", 5.0, 180.0, "a camera that keeps a goal in view"},
     {"course.tracking.range_sd_fraction", 0.0, 0.3, "a goal that is tracked"},
     {"clock.scan_time_s", 0.0, 300.0, "a look"},
-    {"clock.scan_speed_factor", 0.2, kNone, "a scan of today: above 1 is faster"},
+    {"clock.scan_speed_factor", 0.2, kUnbounded, "a scan of today: above 1 is faster"},
     {"clock.control_rate_hz", 1.0, 1000.0, "a control loop"},
     {"clock.stop_time_s", 0.0, 10.0, "wheels that stop"},
 };
 
-void DoubtUnusual(Settings& s) {
+void DoubtUnusual(Values& s) {
   for (const Usual& usual : kUsual) {
     const std::string path(usual.path);
     if (IsUsed(s, path) || path.starts_with("rover.")) {
@@ -737,7 +834,7 @@ void DoubtUnusual(Settings& s) {
   }
 }
 
-void DoubtUnits(Settings& s) {
+void DoubtUnits(Values& s) {
   constexpr double kFar = 5.0;  // times the range's end; units differ by 57 and more
   for (const core::ParameterInfo& each : s.parameters) {
     if (!each.HasStudyRange() || each.study_low < 0.0 || !IsUsed(s, each.path)) continue;
@@ -745,8 +842,9 @@ void DoubtUnits(Settings& s) {
     const double value = each.value.number();
     const double low = each.study_low / kFar;
     if (value == 0.0 || (value >= low && value <= kFar * each.study_high)) continue;  // 0: off
-    const bool told = std::any_of(s.doubts.begin(), s.doubts.end(),
-                                  [&](const core::Problem& doubt) { return doubt.path == each.path; });
+    const bool told =
+        std::any_of(s.doubts.begin(), s.doubts.end(),
+                    [&](const core::Problem& doubt) { return doubt.path == each.path; });
     s.Doubt(!told, each.path,
             fmt::format("{:g} is far from {:g} to {:g}, where studies have it", value,
                         each.study_low, each.study_high),
@@ -757,10 +855,10 @@ void DoubtUnits(Settings& s) {
 }  // namespace
 
 std::vector<core::Problem> DoubtsOfSettings(const scenario::Scenario& scenario) {
-  Settings s(scenario);
+  Values s(scenario);
   for (const auto rule : {DoubtGoal, DoubtField, DoubtReferee, DoubtShape, DoubtTraction,
-                          DoubtSteering, DoubtPace, DoubtTime, DoubtArray, DoubtLightStripe, DoubtStereo,
-                          DoubtLocalization, DoubtAids}) {
+                          DoubtMotors, DoubtSteering, DoubtPace, DoubtTime, DoubtArray,
+                          DoubtLightStripe, DoubtStereo, DoubtLocalization, DoubtAids}) {
     rule(s);
   }
   if (Uses(s, "gestalt")) {

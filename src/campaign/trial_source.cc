@@ -38,6 +38,9 @@ TrialSource FromRun(const TrialRequest& request) {
   const auto found = std::find_if(run.records.begin(), run.records.end(), [&](const auto& record) {
     return record.trial == request.trial;
   });
+  if (found == run.records.end() && request.trial < static_cast<std::uint64_t>(run.planned)) {
+    return StoredTrial(request, run.identity, run.builds, std::nullopt);  // pending
+  }
   if (found == run.records.end()) {
     throw core::UserError(
         "--trial", fmt::format("trial {} is not stored in {}", request.trial, run.Label()),
@@ -70,7 +73,7 @@ TrialSource FindTrial(const TrialRequest& request) {
 }
 
 TrialSource StoredTrial(const TrialRequest& request, const batch::CellIdentity& cell,
-                        std::vector<std::string> builds, truth::Record stored) {
+                        std::vector<std::string> builds, std::optional<truth::Record> stored) {
   TrialSource source;
   source.scenario = scenario::ReadScenario(core::ParseJson(cell.resolved, request.source));
   source.seed = cell.seed;

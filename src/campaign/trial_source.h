@@ -34,10 +34,11 @@ struct TrialSource {
 // Throws core::UserError: no such scenario, run or trial, or --seed or --set with a run.
 TrialSource FindTrial(const TrialRequest& request);
 
-// The same of a run that has been read already: the trial `stored` of `cell`. `request` tells where
-// they are from. Throws core::UserError where the scenario is of another version of the program.
+// The same of a run that has been read already: the trial `stored` of `cell`, or nothing where it
+// is pending. `request` tells where they are from. Throws core::UserError where the scenario is of
+// another version of the program.
 TrialSource StoredTrial(const TrialRequest& request, const batch::CellIdentity& cell,
-                        std::vector<std::string> builds, truth::Record stored);
+                        std::vector<std::string> builds, std::optional<truth::Record> stored);
 
 // "rockyard replay ..." of that trial, as a shell reads it.
 std::string ReplayCommandLine(const TrialSource& source, std::uint64_t trial);

@@ -2,6 +2,7 @@
 // has `void Visit(core::FieldVisitor&)`.
 #pragma once
 
+#include <initializer_list>
 #include <string_view>
 #include <vector>
 
@@ -13,10 +14,11 @@
 namespace rockyard::core {
 
 // Reads what `json` gives over the present values of `params`. Throws UserError with every problem;
-// `params` is then partly read.
+// `params` is then partly read. `others` are keys beside these that somebody else reads.
 template <typename Params>
-void ReadParams(const JsonValue& json, Params& params) {
-  FieldReader reader(json);
+void ReadParams(const JsonValue& json, Params& params,
+                std::initializer_list<std::string_view> others = {}) {
+  FieldReader reader(json, others);
   params.Visit(reader);
   reader.Finish();
 }

@@ -38,8 +38,8 @@ std::string BoundsText(const FieldInfo& info, std::string_view path) {
 
 }  // namespace
 
-FieldReader::FieldReader(const JsonValue& root) {
-  levels_.push_back({&root, "", {}, 0});
+FieldReader::FieldReader(const JsonValue& root, std::initializer_list<std::string_view> others) {
+  levels_.push_back({&root, "", others, 0});
   if (!root.Is(Type::kObject)) {
     AddWrongType("(root)", "an object", root);
     levels_.back().object = nullptr;

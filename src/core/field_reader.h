@@ -1,6 +1,7 @@
 // Reads parameter structs from a JSON object and collects everything that is wrong with it.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,7 +21,8 @@ namespace rockyard::core {
 class FieldReader final : public FieldVisitor {
  public:
   // `root` must outlive the reader.
-  explicit FieldReader(const JsonValue& root);
+  // `others` are keys of the root that somebody else reads.
+  explicit FieldReader(const JsonValue& root, std::initializer_list<std::string_view> others = {});
 
   // Call after visiting: looks for unknown keys at the root. Throws UserError with all problems, if
   // there are any; at most 100 are listed.

@@ -16,8 +16,8 @@ namespace rockyard::core {
 // over the one before. An object's own members are resolved before it is
 // merged, so that {"rover": {"extends": "mfex.json"}} also works in a file that extends another.
 // Throws UserError: file missing, unreadable, no regular file or too large, JSON errors, a file or
-// base that is no object, cycles, more than 16 files in a chain or 64 in all. Problems of "extends" are
-// named by their path in the document, such as "rover.extends".
+// base that is no object, cycles, more than 16 files in a chain or 64 in all. Problems of "extends"
+// are named by their path in the document, such as "rover.extends".
 JsonValue LoadJsonFile(const std::filesystem::path& path);
 
 // Returns the file and those that it extends, as LoadJsonFile reads them: without links and each as
@@ -32,8 +32,8 @@ JsonValue LoadJsonFileAlone(const std::filesystem::path& path);
 JsonValue ResolveExtends(JsonValue value, const std::filesystem::path& folder);
 
 // Sets the member at a dotted path, e.g. "terrain.rocks.k", making the objects on the way. Whether
-// the path means anything is found by the reader. Throws UserError where the path has empty parts or
-// leads through what is no object, which is never replaced.
+// the path means anything is found by the reader. Throws UserError where the path has empty parts
+// or leads through what is no object, which is never replaced.
 void SetPath(JsonValue& document, std::string_view path, JsonValue value);
 
 // Applies "PATH=VALUE". VALUE is read as JSON; what is no JSON is taken as a text, unless it starts

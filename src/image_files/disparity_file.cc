@@ -33,7 +33,7 @@ vision::Image<float> ReadDisparity(const std::filesystem::path& path, double sam
   if (IsPfm(bytes)) {
     if (samples_a_pixel != 1.0) {
       FailUnsupported(name, "is a PFM file, which holds disparities in pixels",
-                      "leave the scale out");
+                      "leave --reference-samples out");
     }
     return DecodePfm(bytes, name, limits);
   }

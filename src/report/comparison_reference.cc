@@ -33,7 +33,7 @@ class Parser {
   statistics::PublishedReference Parse(const JsonValue& json) {
     statistics::PublishedReference reference;
     HeadFields head{reference};
-    Read(Without(json, {"values", "misprints", "scenarios"}), head, "");
+    Read(json, head, "", {"values", "misprints", "scenarios"});
     if (json.Is(Type::kObject) && json.Find("schema_version") == nullptr) {
       Add("schema_version", "is missing", "write 1");
     }
@@ -69,20 +69,15 @@ class Parser {
   }
 
   template <typename Fields>
-  void Read(const JsonValue& json, Fields& fields, const std::string& path) {
+  void Read(const JsonValue& json, Fields& fields, const std::string& path,
+            std::initializer_list<std::string_view> others = {}) {
     try {
-      core::ReadParams(json, fields);
+      core::ReadParams(json, fields, others);
     } catch (const core::UserError& error) {
       for (const Problem& problem : error.problems()) {
         Add(path + problem.path, problem.reason, problem.suggestion);
       }
     }
-  }
-
-  static JsonValue Without(JsonValue json, std::initializer_list<std::string_view> keys) {
-    if (!json.Is(Type::kObject)) return json;
-    for (const std::string_view key : keys) json.Erase(key);
-    return json;
   }
 
   // Elements of a list member; none where it is missing.
@@ -126,11 +121,11 @@ class Parser {
     PublishedValue value;
     ValueFields fields{value};
     const std::size_t problems_before = problems_.size();
-    Read(Without(json, {"outcomes", "kinds", "where", "terms"}), fields, path);
+    Read(json, fields, path, {"outcomes", "kinds", "where", "terms"});
     value.outcomes = ParseOutcomes(json, path);
     for (const auto& [kind_path, item] : Items(json, "kinds", path)) {
       KindFields kind{value.kinds.emplace_back()};
-      Read(Without(*item, {"outcomes"}), kind, kind_path);
+      Read(*item, kind, kind_path, {"outcomes"});
       kind.kind.outcomes = ParseOutcomes(*item, kind_path);
       Require(!kind.kind.name.empty(), kind_path + "name", "is missing", "name the kind");
       Require(!kind.kind.outcomes.empty(), kind_path + "outcomes", "lists no outcome",
@@ -152,7 +147,7 @@ class Parser {
   statistics::RatioTerm ParseTerm(const JsonValue& json, const std::string& path) {
     statistics::RatioTerm term;
     TermFields fields{term};
-    Read(Without(json, {"columns"}), fields, path);
+    Read(json, fields, path, {"columns"});
     for (const auto& [item_path, item] : Items(json, "columns", path)) {
       if (item->Is(Type::kText)) {
         term.columns.push_back(item->text());
@@ -201,7 +196,7 @@ class Parser {
     Require(needs_other == (!value.other_scenario.empty() && value.other_sample_size >= 1),
             path + "other_scenario",
             "and other_sample_size belong to median_offset, and only there",
-            "give both or neither");
+            "give both there, and leave both out elsewhere");
   }
 
   void CheckNumber(const PublishedValue& value, const std::string& path) {

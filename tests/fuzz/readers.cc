@@ -94,10 +94,8 @@ constexpr Reader kReaders[] = {
     {"poses", [](std::string_view bytes) { campaign::ReadPoses(MemoryFile(bytes).path()); }},
     {"times", [](std::string_view bytes) { campaign::ReadTimes(MemoryFile(bytes).path()); }},
     {"list", [](std::string_view bytes) { campaign::FindSequence(MemoryFile(bytes).path()); }},
-    {"journal",
-     [](std::string_view bytes) { campaign::PathJournal(MemoryFile(bytes).path()); }},
-    {"image",
-     [](std::string_view bytes) { image_files::DecodeImage(bytes, "bytes", kSmall); }},
+    {"journal", [](std::string_view bytes) { campaign::PathJournal(MemoryFile(bytes).path()); }},
+    {"image", [](std::string_view bytes) { image_files::DecodeImage(bytes, "bytes", kSmall); }},
     {"disparity",
      [](std::string_view bytes) {
        image_files::ReadDisparity(MemoryFile(bytes).path(), 1.0, kSmall);

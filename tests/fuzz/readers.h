@@ -8,7 +8,8 @@ namespace rockyard {
 
 struct Reader {
   std::string_view name;  // of its folder of tests/data/readers
-  // Reads the bytes. Throws core::UserError where they are refused; all else that it throws is wrong.
+  // Reads the bytes. Throws core::UserError where they are refused; all else that it throws is
+  // wrong.
   void (*read)(std::string_view bytes);
 };
 

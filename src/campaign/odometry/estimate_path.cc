@@ -63,7 +63,7 @@ std::vector<std::int64_t> WantedPairs(const OdometryRequest& request, std::int64
     throw core::UserError(request.sequence.string(),
                           fmt::format("leaves {} of its {} pairs, from --first {} on every {}",
                                       wanted.size(), there, request.first, request.every),
-                          "a motion needs two pairs");
+                          "a motion needs two pairs: use a smaller --first or a smaller --every");
   }
   return wanted;
 }

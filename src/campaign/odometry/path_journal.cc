@@ -119,9 +119,9 @@ PairEntry EntryOf(const fs::path& file, std::size_t line, std::string_view text)
   try {
     return EntryReader(core::ParseJson(text, file.string())).Read();
   } catch (const std::exception& error) {
-    throw core::UserError(file.string(),
-                          fmt::format("line {} is no pair of a path: {}", line, error.what()),
-                          "begin anew in another folder, or set this one aside by --force");
+    throw core::UserError(
+        file.string(), fmt::format("line {} is no pair of a path: {}", line, error.what()),
+        "begin anew in another folder, or set this one aside by --force in place of --resume");
   }
 }
 

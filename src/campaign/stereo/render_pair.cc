@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string_view>
 
+#include "campaign/run_source.h"
 #include "campaign/stereo/stereo_products.h"
 #include "core/json_text.h"
 #include "image_files/pfm_file.h"
 #include "image_files/png_file.h"
-#include "scenario/load.h"
 #include "sensing/stereo_imager.h"
 #include "terrain/field.h"
 #include "trial/layout.h"
@@ -68,7 +68,7 @@ void Write(const sensing::StereoImages& images, const vision::StereoRig& rig,
 scenario::Scenario LoadWithImages(const RenderRequest& request) {
   std::vector<std::string> overrides = request.overrides;
   overrides.emplace_back("sensors.stereo.fidelity=image");
-  return scenario::LoadScenario(request.scenario, overrides);
+  return LoadScenarioFrom(request.scenario, overrides);
 }
 
 core::TrialKey KeyOf(const RenderRequest& request, const scenario::Scenario& scenario) {
