@@ -37,7 +37,7 @@ ExitCode WriteReplay(const ReplayOptions& options) {
   Print(fmt::format("  {}\n", report::Printable(fmt::format("{}: {}, {}", result.title,
                                                             truth::Name(result.record.outcome),
                                                             result.record.detail))));
-  PrintRepetition(result.repeats_stored);
+  PrintRepetition(result.repeats_stored, options.request.source);
   for (const campaign::ReplayFile& file : result.files) {
     Print(fmt::format("  {} in {}\n", file.what, report::Printable(file.path.string())));
   }

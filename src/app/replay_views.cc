@@ -81,7 +81,9 @@ ExitCode ShowViews(const ReplayOptions& options) {
                                     .folder = options.out},
                                    observer);
   }();
-  PrintRepetition(result.repeats_stored);
+  if (result.outcome == ExitCode::kDone || result.outcome == ExitCode::kDiffers) {
+    PrintRepetition(result.repeats_stored, options.request.source);
+  }
   if (options.draws()) {
     PrintDrawn(result);
   } else if (result.outcome != ExitCode::kBadInput && result.outcome != ExitCode::kFailed) {

@@ -76,9 +76,10 @@ ExitCode Trace(const StoryOptions& options) {
   std::vector<core::Problem> differences;
   if (source.stored) {
     differences = campaign::CompareWithStore(options.request, source, traced.schema, traced.record);
-    PrintRepetition(differences.empty());
     PrintProblems(differences);
   }
+  PrintRepetition(source.stored ? std::optional(differences.empty()) : std::nullopt,
+                  options.request.source);
   try {
     WriteOutputs(options, source, recording);
   } catch (const core::UserError& failure) {

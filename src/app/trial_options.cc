@@ -1,7 +1,9 @@
 #include "app/trial_options.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <span>
+#include <system_error>
 
 #include "app/console.h"
 #include "app/run_folders.h"
@@ -26,8 +28,13 @@ void FindSource(campaign::TrialRequest& request) {
   RequireRuns(std::span(&request.source, 1));
 }
 
-void PrintRepetition(std::optional<bool> repeats_stored) {
-  if (repeats_stored.value_or(false)) Print("  same as the stored record, bit for bit\n");
+void PrintRepetition(std::optional<bool> repeats_stored, const std::string& source) {
+  std::error_code error;
+  if (repeats_stored.value_or(false)) {
+    Print("  same as the stored record, bit for bit\n");
+  } else if (!repeats_stored && std::filesystem::is_directory(source, error)) {
+    Print("  pending in the run: compared with nothing\n");
+  }
 }
 
 }  // namespace rockyard::app

@@ -19,7 +19,8 @@ void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request);
 // run.
 void FindSource(campaign::TrialRequest& request);
 
-// Says that a trial repeats its stored record, where it does.
-void PrintRepetition(std::optional<bool> repeats_stored);
+// Says that a trial repeats its stored record, where it does, and of one of a run (`source` is its
+// folder) that has none yet that it is compared with nothing.
+void PrintRepetition(std::optional<bool> repeats_stored, const std::string& source);
 
 }  // namespace rockyard::app

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "campaign/run_source.h"
-#include "campaign/setting_doubts.h"
+#include "campaign/doubts/setting_doubts.h"
 #include "core/archive.h"
 #include "core/json_text.h"
 #include "rover/rover.h"

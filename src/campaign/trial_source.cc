@@ -38,7 +38,8 @@ TrialSource FromRun(const TrialRequest& request) {
   const auto found = std::find_if(run.records.begin(), run.records.end(), [&](const auto& record) {
     return record.trial == request.trial;
   });
-  if (found == run.records.end() && request.trial < static_cast<std::uint64_t>(run.planned)) {
+  const auto trial = static_cast<std::int64_t>(request.trial);
+  if (found == run.records.end() && trial < run.planned && run.shard.Has(trial)) {
     return StoredTrial(request, run.identity, run.builds, std::nullopt);  // pending
   }
   if (found == run.records.end()) {

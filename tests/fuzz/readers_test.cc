@@ -1,5 +1,4 @@
-// What the fuzzer kept of each reader (tests/fuzz/README.md), read once more: refused or read, no
-// more.
+// The corpus of each reader (tests/fuzz/README.md): read or refused, no more.
 #include "fuzz/readers.h"
 
 #include <gtest/gtest.h>
