@@ -573,8 +573,8 @@ RUNS = [
         [instead(f"run nominal.json {RUN} --out a")], "nominal.json"),
     Row("terrain two.json --out a.svg", r".*rockyard sweep.*", [swap("two.json", "nominal.json")],
         "two.json nominal.json"),
-    Row("run two.json --quiet", r"`rockyard sweep FILE --dry-run` writes the scenario of each cell, .*", [instead("sweep two.json --quiet --threads 1 --out a")],
-        "two.json nominal.json"),
+    Row("run two.json --quiet", r"`rockyard sweep FILE --dry-run` writes the scenario of each cell, .*",
+        [instead("sweep two.json --quiet --threads 1 --out a")], "two.json nominal.json"),
 ]
 
 # ---- Images, cameras, sequences and boards
@@ -1163,7 +1163,8 @@ VALUES = [
     (but(LEAST, outcomes=["no_path"]), r"leave it out", LEAST),
     (but(LEAST, column=None), COLUMN, LEAST),
     (but(COUNT, column="true_distance_m"), r"leave it out", COUNT),
-    (but(COUNT, other_scenario="nominal", other_sample_size=3), r"give both there, and leave both out elsewhere", COUNT),
+    (but(COUNT, other_scenario="nominal", other_sample_size=3), r"give both there, and leave both out elsewhere",
+     COUNT),
     (but(OFFSET, other_scenario=None), r"give both there, and leave both out elsewhere", OFFSET),
     (but(COUNT, value=None), r"give the published number", COUNT),
     (but(KINDS, value=2), r"leave it out", KINDS),
@@ -1904,7 +1905,8 @@ class AdviceTest(unittest.TestCase):
         for (head, says), result in zip(HEADS, heads):
             with self.subTest(head=head):
                 self.assertEqual(result.returncode, 2)
-                self.assertTrue(any(re.fullmatch(says, advice) for _, advice in problems_in(result.stderr)), result.stderr)
+                told = [advice for _, advice in problems_in(result.stderr)]
+                self.assertTrue(any(re.fullmatch(says, advice) for advice in told), result.stderr)
 
 
 if __name__ == "__main__":
