@@ -68,7 +68,7 @@ void RemarkFolder(const RunRequest& request, Journal& journal) {
 void WarnOfDoubts(const RunRequest& request, Journal& journal) {
   if (!IsFirstRank()) return;
   for (const core::Problem& doubt : DoubtsOf(request.source, OverridesOf(request))) {
-    journal.Warn("doubtful: " + TextOf(doubt));
+    journal.Warn("doubtful: " + campaign::TextOf(doubt));
   }
 }
 
