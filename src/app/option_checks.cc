@@ -154,7 +154,7 @@ void CheckEveryValue(CLI::App& app) {
 std::string HelpOf(const CLI::App& command) {
   std::string words = "--help";
   for (const CLI::App* at = &command; at->get_parent() != nullptr; at = at->get_parent()) {
-    words = at->get_name() + " " + words;
+    words = fmt::format("{} {}", at->get_name(), words);
   }
   return "rockyard " + words;
 }

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <utility>
 
-#include "campaign/run_source.h"
 #include "campaign/doubts/setting_doubts.h"
+#include "campaign/run_source.h"
 #include "core/archive.h"
 #include "core/json_text.h"
 #include "rover/rover.h"

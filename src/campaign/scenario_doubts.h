@@ -13,11 +13,11 @@
 namespace rockyard::campaign {
 
 // Each with the path of the value, what of it is doubtful, and what would be right. Only what the
-// scenario comes to counts, not who stated what: equal fingerprints, equal doubts. Of limits against
-// the course, mass and goal against size, the odometer's scale against the slip of these wheels in
-// this soil, gravity and sand of Earth against a name that says Mars; and of what settings say of
-// each other (doubts/setting_doubts.h). None that the scenario calls accepted, word by word: of
-// other numbers it is another doubt.
+// scenario comes to counts, not who stated what: equal fingerprints, equal doubts. Of limits
+// against the course, mass and goal against size, the odometer's scale against the slip of these
+// wheels in this soil, gravity and sand of Earth against a name that says Mars; and of what
+// settings say of each other (doubts/setting_doubts.h). None that the scenario calls accepted, word
+// by word: of other numbers it is another doubt.
 std::vector<core::Problem> Doubts(const scenario::Scenario& scenario);
 
 // Of a scenario file, or the folder of a run, with overrides. Throws core::UserError.

@@ -43,7 +43,8 @@ CampaignPlan PlanOfCells(const SweepRequest& request, const scenario::Sweep& swe
 }
 
 void WarnOfDoubts(const scenario::Sweep& sweep, Journal& journal) {
-  for (const core::Problem& doubt : DoubtsOf(sweep)) journal.Warn("doubtful: " + campaign::TextOf(doubt));
+  for (const core::Problem& doubt : DoubtsOf(sweep))
+    journal.Warn("doubtful: " + campaign::TextOf(doubt));
 }
 
 }  // namespace

@@ -123,7 +123,8 @@ TEST_F(CliDryRun, NoLogarithmicFitOverZero) {
 TEST_F(CliDryRun, SweepsAndScenariosAreToldApart) {
   const CommandResult sweep = RunTo(2, {"sweep", Scenario("nominal")});
   EXPECT_THAT(sweep.err, HasSubstr("use rockyard run"));
-  EXPECT_THAT(RunTo(2, {"run", "small.json"}).err, HasSubstr("use rockyard sweep"));
+  EXPECT_THAT(RunTo(2, {"run", "small.json"}).err,
+              HasSubstr("`rockyard sweep FILE --dry-run` writes"));
 }
 
 }  // namespace

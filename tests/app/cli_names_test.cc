@@ -133,8 +133,8 @@ TEST_F(CliNames, AFolderOfRunsListsThem) {
                                                 {"run", "runs"}}) {
     const CommandResult result = Run(words);
     EXPECT_EQ(result.exit_code, 2) << words[0];
-    EXPECT_THAT(result.err, testing::ContainsRegex("b .other, 3 trials, 20..-..-...; a .nominal, 2 "
-                                                   "trials, 20..-..-...\n"))
+    EXPECT_THAT(result.err, testing::ContainsRegex("runs/b .other, 3 trials, 20..-..-...; runs/a "
+                                                   ".nominal, 2 trials, 20..-..-...\n"))
         << words[0];
   }
   for (int i = 0; i < 10; ++i) fs::copy(work() / "runs/a", work() / ("runs/c" + std::to_string(i)));

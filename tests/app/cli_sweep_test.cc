@@ -174,7 +174,8 @@ TEST_F(CliSweep, BadFilesAreRefusedAndNothingIsWritten) {
 TEST_F(CliSweep, OtherCommandsKnowSweeps) {
   EXPECT_THAT(RunTo(0, {"validate", "small.json"}).out, HasSubstr("a sweep of 4 cells"));
   EXPECT_THAT(Run({"list", "."}).out, HasSubstr("sweep of 4 cells: small"));
-  EXPECT_THAT(RunTo(2, {"run", "small.json"}).err, HasSubstr("use rockyard sweep"));
+  EXPECT_THAT(RunTo(2, {"run", "small.json"}).err,
+              HasSubstr("`rockyard sweep FILE --dry-run` writes"));
 }
 
 TEST_F(CliSweep, JsonIsTheSummary) {

@@ -195,8 +195,7 @@ void DoubtTime(Values& s) {
   const double needed_s = s.course_m() / step_m * (look_s + step_m / speed_m_s);
   // Shorter ones are doubted as limits (scenario_doubts.cc), or meant as durations.
   const bool is_for_course = limit_s >= 800.0 * s.course_m();
-  s.Doubt(limit_s > 0.0 && (limit_s < look_s || (is_for_course && limit_s < 0.75 * needed_s)),
-          limit_s < look_s ? "referee.time_limit_s" : "clock",
+  s.Doubt(is_for_course && limit_s < 0.75 * needed_s, "clock",
           fmt::format("a look takes {:.3g} s, the way with its looks {:.3g} s, and the drive ends "
                       "after {:g} s",
                       look_s, needed_s, limit_s),
