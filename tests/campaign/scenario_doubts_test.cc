@@ -202,7 +202,7 @@ TEST(ScenarioDoubts, NoneOfWhatDoesNothing) {
         "referee.time_limit_s=null", "referee.no_path_progress_m=null", "energy.battery_wh=0"}},
       {"localization/map_oracle",
        {"sensors.light_stripe.column_noise_px=90", "sensors.light_stripe.front_x_m=0.5",
-        "sensors.light_stripe.wrong_place_probability=0.9"}},
+        "sensors.light_stripe.wrong_place_probability=0.9", "rover.drive.ramp_s=9"}},
       {"gestalt/abundance",
        {"perception.hazard.agree_m=0.5", "clock.scan_time_s=3000",
         "navigation.gestalt.continuous.motion_m=4", "navigation.pathfinder.scan_interval_m=5"}},

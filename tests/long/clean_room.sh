@@ -29,11 +29,12 @@ fail() {
 "$project/scripts/install_dependencies.sh" clean_room
 if [ -z "$root" ]; then
   root=$(mktemp -d)
+  chmod 755 "$root" # tests become nobody, who has to get to /tmp
   keep=no
 fi
 
 leave() {
-  for point in proc sys dev; do
+  for point in proc sys dev/pts dev; do
     if mountpoint -q "$root/$point"; then umount "$root/$point"; fi
   done
   if [ "$keep" = no ]; then
@@ -58,6 +59,7 @@ for item in resolv.conf hosts ssl/certs/ca-certificates.crt; do
 done
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
+mount -t devpts devpts "$root/dev/pts" # terminals, which the bound folder has not
 mount -t sysfs sys "$root/sys" 2> /dev/null || true
 
 if [ -d "$root/srv/rockyard" ]; then

@@ -73,10 +73,7 @@ void DoubtTraction(Values& s) {
                    soil.frictional_modulus_N_per_mn2 != as_it_is.frictional_modulus_N_per_mn2;
   const bool of_mars = soil.preset == terrain::SoilPreset::kMarsDrift;
   s.Doubt(!own && of_mars == (gravity_m_s2 > kBetween_m_s2), "terrain.ground.soil.preset",
-          fmt::format("{} under {:g} m/s2",
-                      of_mars ? "the soil of Mars"
-                              : "the sand of an arena on "
-                                "Earth",
+          fmt::format("{} under {:g} m/s2", of_mars ? "the soil of Mars" : "the sand of an arena",
                       gravity_m_s2),
           "choose another preset, or state the moduli of the place");
 }

@@ -21,7 +21,9 @@ void DoubtPace(Values& s) {
           fmt::format("it comes {:.2g} m far between two commands (clock.control_rate_hz {:g})",
                       tick_m, s("clock.control_rate_hz")),
           "drive slower, or command more often");
-  const double seen_m = s.Uses("gestalt") ? s("sensors.stereo.max_range_m") : s.zone().x_high_m;
+  if (!s.Looks()) return;
+  const double seen_m =
+      s.Uses("gestalt") && s.SeesBy("stereo") ? s("sensors.stereo.max_range_m") : s.zone().x_high_m;
   const double ahead_m = seen_m - s.front_m();
   const double stop_m = speed_m_s * (0.5 * s("rover.drive.ramp_s") + s("clock.stop_time_s"));
   s.Doubt(stop_m > ahead_m, "rover.drive.ramp_s",
@@ -86,11 +88,6 @@ void DoubtLightStripe(Values& s) {
           "sensors.light_stripe.front_x_m",
           fmt::format("the front of this rover is at {:g} m, not at {:g} m", s.front_m(), front_m),
           "use half of its length");
-  const double slant_m = std::hypot(s.zone().x_high_m - s("sensors.light_stripe.camera_x_m"),
-                                    s("sensors.light_stripe.camera_height_m"));
-  s.AtLeast("sensors.light_stripe.max_range_m", slant_m,
-            fmt::format("a farthest row {:.2g} m from the camera", slant_m),
-            "let the farthest row be bright");
 }
 
 void DoubtStereo(Values& s) {
