@@ -14,8 +14,8 @@ messages::PoseFix PlaceFromBeacon(const messages::BeaconReading& reading) {
   messages::PoseFix fix;
   fix.capture = reading.capture;
   fix.measured.set(kX).set(kY);
-  fix.pose_W[kX] = reading.station_x_m + reading.range_m * std::cos(reading.bearing_rad);
-  fix.pose_W[kY] = reading.station_y_m + reading.range_m * std::sin(reading.bearing_rad);
+  fix.pose[kX] = reading.station_x_m + reading.range_m * std::cos(reading.bearing_rad);
+  fix.pose[kY] = reading.station_y_m + reading.range_m * std::sin(reading.bearing_rad);
   fix.covariance.topLeftCorner<2, 2>() = math::PolarCovariance(
       reading.bearing_rad, reading.range_sd_m, reading.range_m * reading.bearing_sd_rad);
   return fix;
@@ -40,7 +40,7 @@ messages::PoseFix HeadingFromSun(const messages::SunSighting& sighting,
   messages::PoseFix fix;
   fix.capture = sighting.capture;
   fix.measured.set(kHeading);
-  fix.pose_W[kHeading] =
+  fix.pose[kHeading] =
       math::WrapAngle(std::atan2(sun_W.y(), sun_W.x()) - std::atan2(sun_L.y(), sun_L.x()));
   // cos(elevation) = level, tan(elevation) = tangent.
   const double across_rad = sighting.direction_sd_rad / level;

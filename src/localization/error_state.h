@@ -8,7 +8,8 @@
 namespace rockyard::localization {
 
 // Rows of the error, which is true less believed. The first six are those of
-// messages::PoseCoordinate, in W, m and rad; the others say how wrong the sensors are read.
+// messages::PoseCoordinate, in W, m and rad; the others say how wrong sensors are read, the
+// rover's own and the pan axis of the lander's mast.
 namespace error {
 
 enum Row : int {
@@ -21,12 +22,13 @@ enum Row : int {
   kGyroBias,    // rad/s
   kGyroScale,   // of measured over true turn
   kWheelScale,  // of true over believed way
+  kPan,         // rad, of the lander's frame about the lander, in W
 };
 static_assert(kHeading == messages::Index(messages::PoseCoordinate::kHeading));
 
 }  // namespace error
 
-inline constexpr int kErrorCoordinates = 9;
+inline constexpr int kErrorCoordinates = 10;
 
 using ErrorVector = Eigen::Matrix<double, kErrorCoordinates, 1>;
 using ErrorMatrix = Eigen::Matrix<double, kErrorCoordinates, kErrorCoordinates>;

@@ -1,10 +1,12 @@
 #include "localization/error_state_filter.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "localization/dead_reckoning.h"
@@ -18,12 +20,14 @@ using messages::PoseVector;
 
 double Squared(double value) { return value * value; }
 
-ErrorMatrix PriorCovariance(const ErrorStateFilterParams& params) {
+ErrorMatrix PriorCovariance(const ErrorStateFilterParams& params,
+                            const std::optional<LanderFrame>& lander) {
   const PriorParams& prior = params.prior;
   ErrorVector deviations;
   deviations << prior.position_sd_m, prior.position_sd_m, prior.position_sd_m,
       params.drift.tilt_sd_rad, params.drift.tilt_sd_rad, prior.heading_sd_rad,
-      prior.gyro_bias_sd_rad_s, prior.gyro_scale_sd, prior.wheel_scale_sd;
+      prior.gyro_bias_sd_rad_s, prior.gyro_scale_sd, prior.wheel_scale_sd,
+      lander ? lander->pan_sd_rad : 0.0;
   return deviations.cwiseAbs2().asDiagonal();
 }
 
@@ -40,8 +44,8 @@ void Add(const PoseVector& change, PoseVector& pose) { pose = Wrapped(pose + cha
 // `remembered` of the errors that a night leaves as they were, `prior` of those that begin anew,
 // which have nothing in common with any other.
 ErrorMatrix AfterNight(const ErrorMatrix& remembered, const ErrorMatrix& prior) {
-  constexpr std::array kKept{error::kX, error::kY, error::kHeading, error::kGyroScale,
-                             error::kWheelScale};
+  constexpr std::array kKept{error::kX,         error::kY,          error::kHeading,
+                             error::kGyroScale, error::kWheelScale, error::kPan};
   ErrorMatrix covariance = prior;
   for (const int row : kKept) {
     for (const int column : kKept) covariance(row, column) = remembered(row, column);
@@ -56,24 +60,26 @@ ErrorStateFilter::ErrorStateFilter(const ErrorStateFilterParams& params,
     : params_(params),
       calibration_(setup.calibration),
       dead_reckoning_(setup.dead_reckoning),
+      lander_(setup.lander),
       attitude_(setup.attitude),
-      gate_(params.gate),
       motion_gate_(params.gate),
-      errors_(PriorCovariance(params)) {
-  estimate_.pose.x_m = setup.start.x_m;
-  estimate_.pose.y_m = setup.start.y_m;
-  estimate_.pose.heading_rad = math::WrapAngle(setup.start.heading_rad);
-  estimate_.odometry = estimate_.pose;
-  felt_odometry_ = estimate_.odometry;
+      errors_(PriorCovariance(params, setup.lander)) {
   if (setup.memory) Recall(*setup.memory);
+  math::Pose2 start_W = setup.start;
+  if (lander_) start_W = math::TurnedAbout(start_W, lander_->x_m, lander_->y_m, -pan_rad_);
+  pose_W_ = {start_W.x_m, start_W.y_m, math::WrapAngle(start_W.heading_rad)};
+  estimate_.odometry = {setup.start.x_m, setup.start.y_m, math::WrapAngle(setup.start.heading_rad)};
+  felt_odometry_ = estimate_.odometry;
+  TellPose();
   TellCovariance();
 }
 
 void ErrorStateFilter::Recall(const EstimatorMemory& memory) {
   gyro_scale_ = memory.gyro_scale;
   wheel_scale_ = memory.wheel_scale;
+  pan_rad_ = memory.pan_rad;
   if (!memory.covariance) return;
-  errors_ = ClonedCovariance(AfterNight(*memory.covariance, PriorCovariance(params_)));
+  errors_ = ClonedCovariance(AfterNight(*memory.covariance, PriorCovariance(params_, lander_)));
 }
 
 TickNoise ErrorStateFilter::NoiseOf(const messages::MotionMeasurement& motion,
@@ -100,15 +106,16 @@ void ErrorStateFilter::Propagate(const messages::MotionMeasurement& motion) {
   const TickNoise noise = NoiseOf(motion, forward_m);
   stretch_.Add({.forward_m = forward_m,
                 .turn_rad = turn_rad,
-                .along_rad = estimate_.pose.heading_rad + share * turn_rad,
+                .along_rad = pose_W_.heading_rad + share * turn_rad,
                 .turn_share = share,
                 .pitch_rad = estimate_.attitude.pitch_rad,
                 .duration_s = motion.duration_s,
                 .gyro_scale = gyro_scale_,
                 .wheel_scale = wheel_scale_},
                noise);
-  Advance(forward_m, turn_rad, dead_reckoning_.step_heading, estimate_.pose);
+  Advance(forward_m, turn_rad, dead_reckoning_.step_heading, pose_W_);
   Advance(forward_m, turn_rad, dead_reckoning_.step_heading, estimate_.odometry);
+  TellPose();
   roll_correction_rad_ *= noise.tilt_kept;
   pitch_correction_rad_ *= noise.tilt_kept;
   way_since_place_m_ += std::abs(forward_m);
@@ -134,19 +141,20 @@ void ErrorStateFilter::Place(const messages::PoseUpdate& update) {
     for (const int mirrored : {error::kY, error::kRoll, error::kHeading}) sign[mirrored] = -1.0;
     before = sign.asDiagonal() * before * sign.asDiagonal();
   } else {
-    ErrorMatrix told = PriorCovariance(params_);
+    ErrorMatrix told = PriorCovariance(params_, lander_);
     constexpr int kSensors = kErrorCoordinates - kPoseCoordinates;
     told.bottomRightCorner<kSensors, kSensors>() = before.bottomRightCorner<kSensors, kSensors>();
     before = told;
   }
   errors_ = ClonedCovariance(before);
   moments_.clear();
-  gate_.Restart();
+  gates_.clear();
   motion_gate_.Restart();
   way_since_place_m_ = 0.0;
-  estimate_.pose.x_m = update.x_m;
-  estimate_.pose.y_m = update.y_m;
-  estimate_.pose.heading_rad = math::WrapAngle(update.heading_rad);
+  pose_W_.x_m = update.x_m;
+  pose_W_.y_m = update.y_m;
+  pose_W_.heading_rad = math::WrapAngle(update.heading_rad);
+  TellPose();
   estimate_.odometry = estimate_.pose;
   attitude_.Restart();
   felt_odometry_ = estimate_.odometry;
@@ -163,7 +171,8 @@ EstimatorMemory ErrorStateFilter::Remember() const {
   return {.pose = {estimate_.pose.x_m, estimate_.pose.y_m, estimate_.pose.heading_rad},
           .covariance = covariance,
           .gyro_scale = gyro_scale_,
-          .wheel_scale = wheel_scale_};
+          .wheel_scale = wheel_scale_,
+          .pan_rad = pan_rad_};
 }
 
 void ErrorStateFilter::Capture(messages::CaptureNumber capture) {
@@ -184,18 +193,23 @@ AidUse ErrorStateFilter::Update(const messages::PoseFix& fix) {
   if (values == 0) return AidUse::kNoInterest;
   EndStretch();
   // The rows that pick the measured coordinates.
-  Eigen::MatrixXd picks = Eigen::MatrixXd::Zero(values, kErrorCoordinates);
+  Eigen::MatrixXd picks = Eigen::MatrixXd::Zero(values, kPoseCoordinates);
   Eigen::Index row = 0;
   for (int coordinate = 0; coordinate < kPoseCoordinates; ++coordinate) {
     if (fix.measured[static_cast<std::size_t>(coordinate)]) picks(row++, coordinate) = 1.0;
   }
-  const auto of_pose = picks.leftCols<kPoseCoordinates>();
-  const PoseVector difference = Wrapped(fix.pose_W - moment->second);
-  return Take({.parts = {{fix.capture, picks}},
-               .values = of_pose * difference,
-               .noise = of_pose * fix.covariance * of_pose.transpose(),
-               .of_place = fix.measured[error::kX] || fix.measured[error::kY]},
-              of_pose.transpose() * (of_pose * difference));
+  const InFrame believed =
+      fix.in_lander_frame && lander_ ? InLanderFrame(moment->second) : InWorld(moment->second);
+  const PoseVector difference = Wrapped(fix.pose - believed.pose);
+  const unsigned long kind =
+      fix.measured.to_ulong() | (fix.in_lander_frame ? 1UL << kPoseCoordinates : 0UL);
+  const auto gate = gates_.try_emplace(kind, params_.gate).first;
+  return Take({.parts = {{fix.capture, picks * believed.by_error}},
+               .values = picks * difference,
+               .noise = picks * fix.covariance * picks.transpose(),
+               .of_place = fix.measured[error::kX] || fix.measured[error::kY],
+               .gate = &gate->second},
+              picks.transpose() * (picks * difference));
 }
 
 AidUse ErrorStateFilter::Update(const messages::RelativeMotion& motion) {
@@ -222,7 +236,8 @@ AidUse ErrorStateFilter::Update(const messages::RelativeMotion& motion) {
                     {.parts = {{motion.from, H_from}, {motion.to, H_to}},
                      .values = difference,
                      .noise = motion.covariance,
-                     .of_place = false},
+                     .of_place = false,
+                     .gate = &motion_gate_},
                     to_F.transpose() * difference);
 }
 
@@ -231,7 +246,7 @@ AidUse ErrorStateFilter::TakeMotion(const messages::RelativeMotion& motion,
   const double distance =
       errors_.MahalanobisSquared(residual.parts, residual.values, residual.noise);
   const bool believed =
-      motion_gate_.Ask(distance, static_cast<int>(residual.values.size())) == GateAnswer::kIn;
+      residual.gate->Ask(distance, static_cast<int>(residual.values.size())) == GateAnswer::kIn;
   if (!believed) {
     if (params_.motion_disagreement == MotionDisagreement::kTurnAway) return AidUse::kGatedOut;
     DoubtWheels(motion, difference);
@@ -263,7 +278,7 @@ AidUse ErrorStateFilter::Take(const Residual& residual, const PoseVector& doubt)
   const double distance =
       errors_.MahalanobisSquared(residual.parts, residual.values, residual.noise);
   AidUse use = AidUse::kUsed;
-  switch (gate_.Ask(distance, static_cast<int>(residual.values.size()))) {
+  switch (residual.gate->Ask(distance, static_cast<int>(residual.values.size()))) {
     case GateAnswer::kIn:
       break;
     case GateAnswer::kOut:
@@ -291,9 +306,9 @@ void ErrorStateFilter::Correct(const Eigen::MatrixXd& changes) {
   const ErrorVector now = changes.col(0);
   PoseVector pose = PoseNow();
   Add(now.head<kPoseCoordinates>(), pose);
-  estimate_.pose.x_m = pose[error::kX];
-  estimate_.pose.y_m = pose[error::kY];
-  estimate_.pose.heading_rad = pose[error::kHeading];
+  pose_W_.x_m = pose[error::kX];
+  pose_W_.y_m = pose[error::kY];
+  pose_W_.heading_rad = pose[error::kHeading];
   z_correction_m_ += now[error::kZ];
   roll_correction_rad_ += now[error::kRoll];
   pitch_correction_rad_ += now[error::kPitch];
@@ -303,18 +318,44 @@ void ErrorStateFilter::Correct(const Eigen::MatrixXd& changes) {
   gyro_bias_rad_s_ += now[error::kGyroBias];
   gyro_scale_ += now[error::kGyroScale];
   wheel_scale_ += now[error::kWheelScale];
+  pan_rad_ += now[error::kPan];
   Eigen::Index column = 1;
   for (const std::int64_t clone : errors_.clones()) {
     Add(changes.col(column++).head<kPoseCoordinates>(), moments_.at(clone));
   }
+  TellPose();
   TellCovariance();
 }
 
 PoseVector ErrorStateFilter::PoseNow() const {
   PoseVector pose;
-  pose << estimate_.pose.x_m, estimate_.pose.y_m, estimate_.attitude.z_m,
-      estimate_.attitude.roll_rad, estimate_.attitude.pitch_rad, estimate_.pose.heading_rad;
+  pose << pose_W_.x_m, pose_W_.y_m, estimate_.attitude.z_m, estimate_.attitude.roll_rad,
+      estimate_.attitude.pitch_rad, pose_W_.heading_rad;
   return pose;
+}
+
+ErrorStateFilter::InFrame ErrorStateFilter::InWorld(const PoseVector& pose_W) const {
+  InFrame world;
+  world.pose = pose_W;
+  world.by_error.setIdentity();
+  return world;
+}
+
+// p_L = l + R(pan) (p_W - l), and the heading is turned as well, so that an error of the pan angle
+// shows as dp_L = across(p_L - l) e_pan and dh_L = e_pan.
+ErrorStateFilter::InFrame ErrorStateFilter::InLanderFrame(const PoseVector& pose_W) const {
+  InFrame lander = InWorld(pose_W);
+  const math::Pose2 turned =
+      math::TurnedAbout({pose_W[error::kX], pose_W[error::kY], pose_W[error::kHeading]},
+                        lander_->x_m, lander_->y_m, pan_rad_);
+  lander.pose[error::kX] = turned.x_m;
+  lander.pose[error::kY] = turned.y_m;
+  lander.pose[error::kHeading] = turned.heading_rad;
+  lander.by_error.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(pan_rad_).toRotationMatrix();
+  lander.by_error(error::kX, error::kPan) = lander_->y_m - turned.y_m;
+  lander.by_error(error::kY, error::kPan) = turned.x_m - lander_->x_m;
+  lander.by_error(error::kHeading, error::kPan) = 1.0;
+  return lander;
 }
 
 void ErrorStateFilter::EndStretch() {
@@ -324,8 +365,24 @@ void ErrorStateFilter::EndStretch() {
   TellCovariance();
 }
 
+void ErrorStateFilter::TellPose() {
+  estimate_.pose = pose_W_;
+  if (!lander_) return;
+  const math::Pose2 turned = math::TurnedAbout({pose_W_.x_m, pose_W_.y_m, pose_W_.heading_rad},
+                                               lander_->x_m, lander_->y_m, pan_rad_);
+  estimate_.pose.x_m = turned.x_m;
+  estimate_.pose.y_m = turned.y_m;
+  estimate_.pose.heading_rad = turned.heading_rad;
+  if (estimate_.world) estimate_.world->pose = pose_W_;
+}
+
 void ErrorStateFilter::TellCovariance() {
-  estimate_.covariance = errors_.now().topLeftCorner<kPoseCoordinates, kPoseCoordinates>();
+  const ErrorMatrix errors = errors_.now();
+  estimate_.covariance = errors.topLeftCorner<kPoseCoordinates, kPoseCoordinates>();
+  if (!lander_) return;
+  estimate_.world = {.pose = pose_W_, .covariance = *estimate_.covariance};
+  const auto by_error = InLanderFrame(PoseNow()).by_error;
+  estimate_.covariance = by_error * errors * by_error.transpose();
 }
 
 EstimatorDescription<ErrorStateFilterParams> DescribeErrorStateFilter() {

@@ -8,6 +8,12 @@
 // corrects the state of now and of every kept moment (cloned_covariance.h). gate.h decides which
 // are believed.
 //
+// Goals, and the fixes of the mast that designates them, are wrong by one pan angle. It is one of
+// the errors: a fix in the lander's frame tells of pose and pan together, one in the world frame
+// (sun, beacon) of the pose alone, so that both at once tell the pan. estimate().pose is the
+// rover's pose in the lander's frame, in which its goal was told, estimate().world that in the
+// world's.
+//
 // Roll and pitch come from accelerometers; a correction of them is forgotten along the way as their
 // errors are. Corrections of bias and scales bend the way that is laid off afterwards, in the
 // odometry frame as well, which never jumps.
@@ -19,6 +25,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "localization/attitude.h"
 #include "localization/cloned_covariance.h"
@@ -53,6 +60,7 @@ class ErrorStateFilter final : public Estimator {
   double gyro_bias_rad_s() const { return gyro_bias_rad_s_; }
   double gyro_scale() const { return gyro_scale_; }    // measured over true turn
   double wheel_scale() const { return wheel_scale_; }  // true over rolled way
+  double pan_rad() const { return pan_rad_; }          // of the lander's frame, in W
   // The covariance of all that is kept account of, of the last stretch's end.
   ErrorMatrix covariance() const { return errors_.now(); }
 
@@ -63,12 +71,20 @@ class ErrorStateFilter final : public Estimator {
     Eigen::VectorXd values;
     Eigen::MatrixXd noise;
     bool of_place = false;  // x or y are among the values
+    Gate* gate = nullptr;
   };
 
   // Begins with what is known of place, heading and scales. A gyro that is switched on has a new
   // bias; roll, pitch and height are of the new day.
   void Recall(const EstimatorMemory& memory);
   messages::PoseVector PoseNow() const;
+  // A pose of W in the frame of a fix, and how an error of pose and pan shows there.
+  struct InFrame {
+    messages::PoseVector pose;
+    Eigen::Matrix<double, messages::kPoseCoordinates, kErrorCoordinates> by_error;
+  };
+  InFrame InWorld(const messages::PoseVector& pose_W) const;
+  InFrame InLanderFrame(const messages::PoseVector& pose_W) const;
   TickNoise NoiseOf(const messages::MotionMeasurement& motion, double forward_m) const;
   // Carries the covariance on over the stretch so far.
   void EndStretch();
@@ -79,15 +95,22 @@ class ErrorStateFilter final : public Estimator {
   // Between the two moments the pose may have gone wrong by `difference`.
   void DoubtWheels(const messages::RelativeMotion& motion, const messages::PoseVector& difference);
   void Correct(const Eigen::MatrixXd& changes);
+  // What estimate() says of the pose, and of its covariance as of the last stretch.
+  void TellPose();
   void TellCovariance();
 
   ErrorStateFilterParams params_;
   messages::DriveCalibration calibration_;
   DeadReckoningParams dead_reckoning_;
+  std::optional<LanderFrame> lander_;
   AttitudeEstimator attitude_;
-  Gate gate_;
+  // Of fixes by what they measure in which frame: what the sun says of the heading is no word for
+  // the place, nor a coarse beacon one for the mast.
+  std::map<unsigned long, Gate> gates_;
   Gate motion_gate_;
 
+  messages::PoseEstimate pose_W_;
+  double pan_rad_ = 0.0;
   double gyro_bias_rad_s_ = 0.0;
   double gyro_scale_ = 1.0;
   double wheel_scale_ = 1.0;

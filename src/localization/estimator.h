@@ -16,11 +16,12 @@ namespace rockyard::localization {
 // place where the rover stood. Odometer, roll, pitch and height begin anew, and data that aids took
 // before are of no use any more.
 struct EstimatorMemory {
-  math::Pose2 pose;  // as believed, in W
+  math::Pose2 pose;  // as believed, in the frame in which goals are told
   // Of estimators that keep account of their error; empty for others.
   std::optional<ErrorMatrix> covariance;  // rows as in error_state.h
   double gyro_scale = 1.0;                // measured over true turn, as believed
   double wheel_scale = 1.0;               // true over rolled way, as believed
+  double pan_rad = 0.0;                   // by which the lander's frame is turned, as believed
 };
 
 // What became of an aid's data.

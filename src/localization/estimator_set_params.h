@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -17,6 +18,14 @@ namespace rockyard::localization {
 class Estimator;
 struct EstimatorMemory;
 
+// The lander, in whose frame goals are told: where it stands, in W, and how well its mast's pan
+// angle is known, a standard deviation.
+struct LanderFrame {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double pan_sd_rad = 0.0;
+};
+
 // What an estimator gets at the start of a drive, beside its parameters: how wheels, gyro and
 // accelerometers are read is the same for all of them.
 struct EstimatorSetup {
@@ -24,6 +33,7 @@ struct EstimatorSetup {
   DeadReckoningParams dead_reckoning{};
   AttitudeParams attitude{};
   math::Pose2 start{};  // where operators put the rover down, in the world frame; as remembered
+  std::optional<LanderFrame> lander{};  // empty: goals are told in the world frame
   // Of the day before, where the rover was not put down but goes on (localization/estimator.h).
   const EstimatorMemory* memory = nullptr;
 };

@@ -4,8 +4,9 @@
 // 1 - chance with m degrees of freedom: a filter that knows its own error turns away one good
 // measurement in 1 / chance. One that does not (wheels that slipped, a gyro that was shaken) turns
 // all of them away, for ever. So the `patience`-th measurement that is turned away in a row is let
-// in, after the filter has doubted itself by as much as that measurement asks for. Wrong
-// measurements that come singly, with probability p each, are let in so with p^patience.
+// in, after the filter has doubted itself by as much as that measurement asks for. Each kind of
+// measurement has a gate of its own: good ones of the heading do not excuse those of the place.
+// Wrong measurements that come singly, with probability p each, are let in so with p^patience.
 #pragma once
 
 #include <array>

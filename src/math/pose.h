@@ -34,6 +34,18 @@ inline Pose2 ToPose2(const Transform& X_WR) {
   return {X_WR.translation().x(), X_WR.translation().y(), Heading(X_WR)};
 }
 
+// Returns the pose turned about a place by `angle_rad`, positive from +x towards +y; bit for bit as
+// it was where that is 0.
+inline Pose2 TurnedAbout(const Pose2& pose, double x_m, double y_m, double angle_rad) {
+  if (angle_rad == 0.0) return pose;
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  const double dx_m = pose.x_m - x_m;
+  const double dy_m = pose.y_m - y_m;
+  return {x_m + c * dx_m - s * dy_m, y_m + s * dx_m + c * dy_m,
+          WrapAngle(pose.heading_rad + angle_rad)};
+}
+
 // Returns the pose of R at p_WoRo_W with the given attitude: heading about z, then pitch about y
 // (positive: nose down), then roll about x (positive: left side up), R_WR = Rz(heading) Ry(pitch)
 // Rx(roll).

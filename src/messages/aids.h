@@ -13,13 +13,15 @@ namespace rockyard::messages {
 // drive; each moment has a number of its own.
 using CaptureNumber = std::int64_t;
 
-// A measured pose in the world frame: a lander's fix, the sun's azimuth, an operator. Coordinates
-// that were not measured are ignored, with their rows and columns.
+// A measured pose: a lander's fix, the sun's azimuth, an operator. Coordinates that were not
+// measured are ignored, with their rows and columns.
 struct PoseFix {
   CaptureNumber capture = 0;
   std::bitset<kPoseCoordinates> measured;  // by Index of a coordinate
-  PoseVector pose_W = PoseVector::Zero();
+  PoseVector pose = PoseVector::Zero();    // in the world frame, or in the lander's
   PoseCovariance covariance = PoseCovariance::Identity();
+  // As seen from the mast by whose angle goals are told, so that it shares their error.
+  bool in_lander_frame = false;
 };
 
 // A measured motion: what the pose coordinates at the second moment are less those at the first

@@ -10,7 +10,7 @@
 
 namespace rockyard::messages {
 
-// Pose in the world frame as estimated on board, and the distance integrated on the way.
+// Pose as estimated on board, and the distance integrated on the way.
 struct PoseEstimate {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -34,9 +34,17 @@ constexpr int Index(PoseCoordinate coordinate) { return static_cast<int>(coordin
 using PoseVector = Eigen::Matrix<double, kPoseCoordinates, 1>;
 using PoseCovariance = Eigen::Matrix<double, kPoseCoordinates, kPoseCoordinates>;
 
+// Where the rover is in the world frame, beside the lander's frame that it drives in.
+struct WorldEstimate {
+  PoseEstimate pose;
+  PoseCovariance covariance = PoseCovariance::Zero();
+};
+
 // All that the rover believes of where it is, in six degrees of freedom.
 struct LocalizationEstimate {
-  // Corrected, in the world frame: what a goal is reached by. Aids make it jump.
+  // Corrected, in the frame in which goals are told: what a goal is reached by. Aids make it jump.
+  // That is the world frame, or the lander's: the world's, turned about the lander by what its mast
+  // is wrong by (Matthies 1995, section 4, eq. 3).
   PoseEstimate pose;
   AttitudeEstimate attitude;
   // In the frame of its own odometry, which aids leave alone: what a map and a manoeuvre go by.
@@ -44,6 +52,8 @@ struct LocalizationEstimate {
   PoseEstimate odometry;
   // Of pose and attitude; empty where the rover keeps no account of its error.
   std::optional<PoseCovariance> covariance;
+  // Empty where the rover does not tell the two frames apart.
+  std::optional<WorldEstimate> world;
 };
 
 // Where operators say that the rover is after they moved it by hand.
@@ -56,7 +66,7 @@ struct PoseUpdate {
   bool mirrored = false;
 };
 
-// Where the rover is to go, in the world frame.
+// Where the rover is to go, in the frame in which goals are told.
 struct Goal {
   double x_m = 0.0;
   double y_m = 0.0;

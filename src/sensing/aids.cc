@@ -158,13 +158,14 @@ std::optional<messages::PoseFix> LanderFix::Observe(const math::Transform& X_WR,
   const double range_m = true_range_m * outcome->range_factor;
   const double bearing_rad = true_bearing_rad + outcome->bearing_rad + lander_.pan_error_rad;
   messages::PoseFix fix;
+  fix.in_lander_frame = params_.shares_pan_error;
   for (const auto coordinate : {PoseCoordinate::kX, PoseCoordinate::kY, PoseCoordinate::kHeading}) {
     fix.measured.set(static_cast<std::size_t>(messages::Index(coordinate)));
   }
-  fix.pose_W[messages::Index(PoseCoordinate::kX)] = lander_.x_m + range_m * std::cos(bearing_rad);
-  fix.pose_W[messages::Index(PoseCoordinate::kY)] = lander_.y_m + range_m * std::sin(bearing_rad);
+  fix.pose[messages::Index(PoseCoordinate::kX)] = lander_.x_m + range_m * std::cos(bearing_rad);
+  fix.pose[messages::Index(PoseCoordinate::kY)] = lander_.y_m + range_m * std::sin(bearing_rad);
   constexpr int kHeading = messages::Index(PoseCoordinate::kHeading);
-  fix.pose_W[kHeading] =
+  fix.pose[kHeading] =
       math::WrapAngle(math::Heading(X_WR) + outcome->heading_rad + lander_.pan_error_rad);
   fix.covariance.topLeftCorner<2, 2>() = math::PolarCovariance(
       bearing_rad, range_m * outcome->sd.range, range_m * outcome->sd.bearing_rad);

@@ -15,9 +15,16 @@ struct Belief {
   bool inside_95 = false;  // nees is at most that distribution's 95 % quantile
 };
 
-// Nothing where the estimate has no covariance, or one that is not positive definite: an oracle's,
-// and that of a rover that has not moved.
+// The believed pose in the world frame.
+const messages::PoseEstimate& WorldPose(const messages::LocalizationEstimate& estimate);
+
+// Of the world frame. Nothing where the estimate has no covariance, or one that is not positive
+// definite: an oracle's, and that of a rover that has not moved.
 std::optional<Belief> BeliefOf(const messages::LocalizationEstimate& estimate,
-                               const math::Pose2& truth);
+                               const math::Pose2& truth_W);
+
+// The same of the frame in which goals are told, and the true pose in it.
+std::optional<Belief> GoalFrameBeliefOf(const messages::LocalizationEstimate& estimate,
+                                        const math::Pose2& truth);
 
 }  // namespace rockyard::trial

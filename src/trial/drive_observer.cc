@@ -6,6 +6,7 @@
 
 #include "math/angles.h"
 #include "rover/rover_layout_params.h"
+#include "trial/belief.h"
 
 namespace rockyard::trial {
 namespace {
@@ -71,7 +72,7 @@ void DriveObserver::OnSeenMotion() {
 }
 
 void DriveObserver::ObserveErrors() {
-  const messages::PoseEstimate& estimate = parts_.estimate().pose;
+  const messages::PoseEstimate& estimate = WorldPose(parts_.estimate());
   const double heading_rad = math::Heading(parts_.state().X_WR);
   const double distance_m = monitor_.distance_m();
   heading_growth_.Observe(distance_m,

@@ -1,5 +1,7 @@
 #include "trial/make_estimator.h"
 
+#include <cmath>
+
 #include "trial/onboard_calibration.h"
 #include "trial/oracle_estimator.h"
 
@@ -12,6 +14,11 @@ localization::EstimatorSetup EstimatorSetupOf(const DriveParams& drive,
       .dead_reckoning = drive.perception.dead_reckoning,
       .attitude = drive.perception.attitude,
       .start = drive.course.Start()};
+  if (const DesignationParams& designation = drive.course.designation; designation.enabled) {
+    const messages::Goal lander = drive.course.LanderPlace();
+    setup.lander = {
+        .x_m = lander.x_m, .y_m = lander.y_m, .pan_sd_rad = std::abs(designation.pan_error_rad)};
+  }
   if (memory != nullptr) {
     setup.start = memory->pose;
     setup.memory = memory;

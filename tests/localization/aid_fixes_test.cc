@@ -23,8 +23,8 @@ TEST(BeaconFix, LiesAtRangeAndBearingFromTheStation) {
                                     .bearing_sd_rad = math::DegToRad(3.0)});
   EXPECT_EQ(fix.capture, 5);
   EXPECT_EQ(fix.measured.to_ulong(), 3u);  // x and y
-  EXPECT_NEAR(fix.pose_W[0], 1.0 + 10.0 * std::cos(math::DegToRad(30.0)), 1e-12);
-  EXPECT_NEAR(fix.pose_W[1], -2.0 + 5.0, 1e-12);
+  EXPECT_NEAR(fix.pose[0], 1.0 + 10.0 * std::cos(math::DegToRad(30.0)), 1e-12);
+  EXPECT_NEAR(fix.pose[1], -2.0 + 5.0, 1e-12);
 }
 
 // Against the spread of places that noisy readings give; 20000 of them know a variance to 1 %.
@@ -41,7 +41,7 @@ TEST(BeaconFix, HasTheSpreadOfItsReadings) {
     messages::BeaconReading reading = truth;
     reading.range_m = core::SampleNormal(stream, truth.range_m, truth.range_sd_m);
     reading.bearing_rad = core::SampleNormal(stream, truth.bearing_rad, truth.bearing_sd_rad);
-    const Eigen::Vector2d place = PlaceFromBeacon(reading).pose_W.head<2>();
+    const Eigen::Vector2d place = PlaceFromBeacon(reading).pose.head<2>();
     sum += place;
     squares += place * place.transpose();
   }
@@ -72,7 +72,7 @@ TEST(SunCompass, FindsTheHeadingOfATiltedRover) {
     const auto fix =
         HeadingFromSun(SightedBy(X_WR, sun_W),
                        {.roll_rad = DegToRad(-11.0), .pitch_rad = DegToRad(8.0)}, sun_W, 0.0);
-    EXPECT_NEAR(math::WrapAngle(fix.pose_W[kHeading] - DegToRad(heading_deg)), 0.0, 1e-12);
+    EXPECT_NEAR(math::WrapAngle(fix.pose[kHeading] - DegToRad(heading_deg)), 0.0, 1e-12);
     EXPECT_EQ(fix.measured.count(), 1u);
     EXPECT_TRUE(fix.measured[kHeading]);
     EXPECT_EQ(fix.capture, 3);
@@ -90,8 +90,8 @@ TEST(SunCompass, ErrsByTheTiltTimesTheTangentOfTheElevation) {
     const auto pitched = math::MakePose(math::Vector3::Zero(), 0.0, kTilt_rad, 0.0);
     const auto by_roll = HeadingFromSun(SightedBy(rolled, sun_W), {}, sun_W, 0.0);
     const auto by_pitch = HeadingFromSun(SightedBy(pitched, sun_W), {}, sun_W, 0.0);
-    EXPECT_NEAR(std::abs(by_roll.pose_W[kHeading]), kTilt_rad * std::tan(elevation_rad), 1e-7);
-    EXPECT_NEAR(by_pitch.pose_W[kHeading], 0.0, 1e-7);
+    EXPECT_NEAR(std::abs(by_roll.pose[kHeading]), kTilt_rad * std::tan(elevation_rad), 1e-7);
+    EXPECT_NEAR(by_pitch.pose[kHeading], 0.0, 1e-7);
   }
 }
 

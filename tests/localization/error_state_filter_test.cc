@@ -38,7 +38,7 @@ messages::PoseFix FixOf(int coordinate, messages::CaptureNumber capture, double 
   messages::PoseFix fix;
   fix.capture = capture;
   fix.measured.set(static_cast<std::size_t>(coordinate));
-  fix.pose_W[coordinate] = value;
+  fix.pose[coordinate] = value;
   fix.covariance(coordinate, coordinate) = sd * sd;
   return fix;
 }
@@ -276,6 +276,22 @@ TEST_F(WayBack, IsFoundWhenGoodFixesWereTurnedAway) {
   // It knows that its heading may be off by as much as it came aside: 1.12 m over 1 m.
   EXPECT_GT(filter_.covariance()(kHeading, kHeading), 0.2);
   EXPECT_EQ(Tell(1.5, -1.0), AidUse::kUsed);
+}
+
+// As of a compass that is right all the time, while the wheels spun.
+TEST_F(WayBack, IsFoundWhateverAnotherKindOfFixSays) {
+  int turned_away = 0;
+  AidUse use = AidUse::kGatedOut;
+  while (use == AidUse::kGatedOut && turned_away < 10) {
+    use = Tell(1.5, -1.0);
+    turned_away += use == AidUse::kGatedOut ? 1 : 0;
+    filter_.Capture(next_);
+    const double heading_rad = filter_.estimate().pose.heading_rad;
+    EXPECT_EQ(filter_.Update(FixOf(kHeading, next_, heading_rad, 0.01)), AidUse::kUsed);
+    filter_.Forget(next_++);
+  }
+  EXPECT_EQ(use, AidUse::kUsedInDoubt);
+  EXPECT_EQ(turned_away, 2);
 }
 
 TEST_F(WayBack, IsNotTakenForOneWrongFix) {

@@ -13,7 +13,7 @@ namespace {
 // What is believed of one drive: a pose and how its sensors are read.
 struct Rover {
   double x = 0.3, y = -0.2, z = 0.0, heading = 0.4, pitch = 0.1;
-  double bias = 0.01, gyro_scale = 0.95, wheel_scale = 1.03;
+  double bias = 0.01, gyro_scale = 0.95, wheel_scale = 1.03, pan = 0.0;
 
   MotionTick Believed(double wheels_m, double gyro_rad, double share, double duration_s) const {
     const double turn = (gyro_rad - bias * duration_s) / gyro_scale;
@@ -34,7 +34,7 @@ struct Rover {
   }
   ErrorVector Values() const {
     ErrorVector values;
-    values << x, y, z, 0.0, pitch, heading, bias, gyro_scale, wheel_scale;
+    values << x, y, z, 0.0, pitch, heading, bias, gyro_scale, wheel_scale, pan;
     return values;
   }
   // Off by `step` in one row of the error.
@@ -48,6 +48,7 @@ struct Rover {
     if (row == error::kGyroBias) off.bias += step;
     if (row == error::kGyroScale) off.gyro_scale += step;
     if (row == error::kWheelScale) off.wheel_scale += step;
+    if (row == error::kPan) off.pan += step;
     return off;
   }
 };
@@ -68,8 +69,9 @@ TEST(ErrorStretch, CarriesEveryErrorOnAsDeadReckoningDoes) {
   for (const double share : {0.5, 0.0}) {
     ErrorStretch stretch;
     DriveCurve(Rover{}, share, &stretch);
-    for (const error::Row row : {error::kX, error::kY, error::kZ, error::kPitch, error::kHeading,
-                                 error::kGyroBias, error::kGyroScale, error::kWheelScale}) {
+    for (const error::Row row :
+         {error::kX, error::kY, error::kZ, error::kPitch, error::kHeading, error::kGyroBias,
+          error::kGyroScale, error::kWheelScale, error::kPan}) {
       const ErrorVector difference = (DriveCurve(Rover{}.Off(row, kStep), share) -
                                       DriveCurve(Rover{}.Off(row, -kStep), share)) /
                                      (2.0 * kStep);

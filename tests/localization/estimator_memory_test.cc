@@ -71,6 +71,30 @@ TEST_F(FilterMemoryTest, TheFilterGoesOnWhereItWas) {
   }
 }
 
+// What the mast's and the world's fixes told of the pan angle is the mission's.
+TEST(EstimatorMemoryTest, HoldsThePanAngle) {
+  EstimatorSetup setup = FilterSetup();
+  setup.lander = {.x_m = -8.0, .y_m = 3.0, .pan_sd_rad = math::DegToRad(2.0)};
+  ErrorStateFilter evening(Uncertain(), setup);
+  DriveInACurve(evening, 300);
+  evening.Capture(0);
+  messages::PoseFix mast = PlaceFix(0, evening.estimate().pose.x_m + 0.1, -1.0, 0.05);
+  mast.in_lander_frame = true;
+  ASSERT_EQ(evening.Update(mast), AidUse::kUsed);
+  EXPECT_GT(std::abs(evening.pan_rad()), 1e-4);
+  const EstimatorMemory memory = evening.Remember();
+  setup.start = memory.pose;
+  setup.memory = &memory;
+  const ErrorStateFilter morning(Uncertain(), setup);
+  EXPECT_EQ(morning.pan_rad(), evening.pan_rad());
+  EXPECT_NEAR(morning.estimate().pose.x_m, evening.estimate().pose.x_m, 1e-12);
+  EXPECT_NEAR(morning.estimate().world->pose.x_m, evening.estimate().world->pose.x_m, 1e-12);
+  EXPECT_NE(morning.estimate().pose.x_m, morning.estimate().world->pose.x_m);
+  for (const int row : {error::kX, error::kHeading, error::kPan}) {
+    EXPECT_EQ(morning.covariance()(row, error::kPan), evening.covariance()(row, error::kPan));
+  }
+}
+
 // The gyro is switched on anew; tilt and height are of the new day.
 TEST_F(FilterMemoryTest, WhatANightEndsBeginsAsAtFirst) {
   EXPECT_NE(evening_.gyro_bias_rad_s(), 0.0);

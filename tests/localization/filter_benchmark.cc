@@ -55,9 +55,9 @@ void BM_Update(benchmark::State& state) {
   fix.covariance *= 0.01;
   for (auto _ : state) {
     filter.Capture(fix.capture);
-    fix.pose_W[error::kX] = filter.estimate().pose.x_m;
-    fix.pose_W[error::kY] = filter.estimate().pose.y_m;
-    fix.pose_W[error::kHeading] = filter.estimate().pose.heading_rad;
+    fix.pose[error::kX] = filter.estimate().pose.x_m;
+    fix.pose[error::kY] = filter.estimate().pose.y_m;
+    fix.pose[error::kHeading] = filter.estimate().pose.heading_rad;
     benchmark::DoNotOptimize(filter.Update(fix));
     filter.Forget(fix.capture++);
   }

@@ -3,6 +3,10 @@
 // Kirubarajan 2001, section 5.4), with controls in which it is wrong.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "core/distributions.h"
 #include "localization/filter_rover.h"
 
@@ -41,8 +45,8 @@ Consistency DriveMany(const ErrorStateFilterParams& belief, std::uint64_t seed) 
         const double y_m = rover.pose().y_m + rover.Normal(kFixSd_m);
         fix = PlaceFix(i, x_m, y_m, kFixSd_m);
         filter.Capture(i);
-        const Eigen::Vector2d r(fix.pose_W[0] - filter.estimate().pose.x_m,
-                                fix.pose_W[1] - filter.estimate().pose.y_m);
+        const Eigen::Vector2d r(fix.pose[0] - filter.estimate().pose.x_m,
+                                fix.pose[1] - filter.estimate().pose.y_m);
         const Eigen::Matrix2d S = filter.covariance().topLeftCorner<2, 2>() +
                                   Eigen::Matrix2d::Identity() * kFixSd_m * kFixSd_m;
         sums.nis += r.dot(S.inverse() * r);
@@ -103,6 +107,111 @@ TEST(FilterConsistency, BreaksWhereTheFilterBelievesTooLittle) {
   const Consistency found = DriveMany(belief, 11);
   EXPECT_FALSE(Holds(found.nees, kRuns, 3));
   EXPECT_LT(found.nees, 2.6);
+}
+
+// What a mast tells whose pan angle is wrong by another angle in each run, and a beacon that knows
+// the world.
+struct Aids {
+  bool mast = false;
+  bool beacon = false;
+  bool told_apart = true;  // the filter knows that they are of two frames
+};
+
+struct InTwoFrames {
+  double world_nees = 0.0;  // mean of x, y and heading
+  double goal_nees = 0.0;   // in the mast's frame, in which goals are told
+  double world_m = 0.0;     // rms
+  double goal_m = 0.0;
+};
+
+constexpr LanderFrame kMast{.x_m = -18.0, .y_m = 5.0, .pan_sd_rad = math::DegToRad(1.5)};
+
+double Nees(const messages::PoseEstimate& pose, const messages::PoseCovariance& covariance,
+            const math::Pose2& truth) {
+  constexpr std::array kPlanar{error::kX, error::kY, error::kHeading};
+  const Eigen::Vector3d e(truth.x_m - pose.x_m, truth.y_m - pose.y_m,
+                          math::WrapAngle(truth.heading_rad - pose.heading_rad));
+  const Eigen::Matrix3d P = covariance(kPlanar, kPlanar);
+  return e.dot(P.inverse() * e);
+}
+
+double SquaredError_m2(const messages::PoseEstimate& pose, const math::Pose2& truth) {
+  return (pose.x_m - truth.x_m) * (pose.x_m - truth.x_m) +
+         (pose.y_m - truth.y_m) * (pose.y_m - truth.y_m);
+}
+
+messages::PoseFix MastFix(int capture, FilterRover& rover, double pan_rad, bool told_apart) {
+  constexpr double kPlaceSd_m = 0.05;
+  constexpr double kHeadingSd_rad = 0.03;
+  const math::Pose2 seen = math::TurnedAbout(rover.pose(), kMast.x_m, kMast.y_m, pan_rad);
+  const double x_m = seen.x_m + rover.Normal(kPlaceSd_m);
+  const double y_m = seen.y_m + rover.Normal(kPlaceSd_m);
+  messages::PoseFix fix = PlaceFix(capture, x_m, y_m, kPlaceSd_m);
+  fix.measured.set(error::kHeading);
+  fix.pose[error::kHeading] = math::WrapAngle(seen.heading_rad + rover.Normal(kHeadingSd_rad));
+  fix.covariance(error::kHeading, error::kHeading) = kHeadingSd_rad * kHeadingSd_rad;
+  fix.in_lander_frame = told_apart;
+  return fix;
+}
+
+// Put down somewhere near, so that nothing but the beacon tells of the world.
+InTwoFrames DriveBy(const Aids& aids) {
+  constexpr double kBeaconSd_m = 0.3;
+  ErrorStateFilterParams belief = World();
+  belief.prior.position_sd_m = 0.4;
+  belief.prior.heading_sd_rad = 0.1;
+  InTwoFrames sums;
+  for (std::uint32_t run = 0; run < kRuns; ++run) {
+    EstimatorSetup setup = FilterSetup();
+    setup.lander = kMast;
+    core::RandomStream draws({29, run}, core::Purpose::kTest, 1);
+    math::Pose2 start = setup.start;
+    start.x_m += core::SampleNormal(draws, 0.0, belief.prior.position_sd_m);
+    start.y_m += core::SampleNormal(draws, 0.0, belief.prior.position_sd_m);
+    start.heading_rad += core::SampleNormal(draws, 0.0, belief.prior.heading_sd_rad);
+    const double pan_rad = core::SampleNormal(draws, 0.0, kMast.pan_sd_rad);
+    FilterRover rover(World(), start, {29, run});
+    ErrorStateFilter filter(belief, setup);
+    for (int i = 0; i < 1200; ++i) {
+      filter.Propagate(rover.Drive(0.005, i / 200 % 2 == 0 ? 0.002 : -0.002, 0.05));
+      if (i % 100 != 99) continue;
+      filter.Capture(i);
+      const auto fix = MastFix(i, rover, pan_rad, aids.told_apart);
+      const double x_m = rover.pose().x_m + rover.Normal(kBeaconSd_m);
+      const double y_m = rover.pose().y_m + rover.Normal(kBeaconSd_m);
+      if (aids.mast) filter.Update(fix);
+      if (aids.beacon) filter.Update(PlaceFix(i, x_m, y_m, kBeaconSd_m));
+      filter.Forget(i);
+    }
+    const messages::LocalizationEstimate& found = filter.estimate();
+    const math::Pose2 told = math::TurnedAbout(rover.pose(), kMast.x_m, kMast.y_m, pan_rad);
+    sums.world_nees += Nees(found.world->pose, found.world->covariance, rover.pose()) / kRuns;
+    sums.goal_nees += Nees(found.pose, *found.covariance, told) / kRuns;
+    sums.world_m += SquaredError_m2(found.world->pose, rover.pose()) / kRuns;
+    sums.goal_m += SquaredError_m2(found.pose, told) / kRuns;
+  }
+  sums.world_m = std::sqrt(sums.world_m);
+  sums.goal_m = std::sqrt(sums.goal_m);
+  return sums;
+}
+
+// All arms meet the same noise.
+TEST(FilterConsistency, HoldsInTheFrameOfGoalsAndInTheWorlds) {
+  const InTwoFrames mast = DriveBy({.mast = true});
+  const InTwoFrames beacon = DriveBy({.beacon = true});
+  const InTwoFrames both = DriveBy({.mast = true, .beacon = true});
+  for (const InTwoFrames& found : {DriveBy({}), mast, beacon, both}) {
+    EXPECT_TRUE(Holds(found.world_nees, kRuns, 3)) << found.world_nees;
+    EXPECT_TRUE(Holds(found.goal_nees, kRuns, 3)) << found.goal_nees;
+  }
+  // Another aid makes it no worse in either frame, and the two together tell the pan angle.
+  EXPECT_LT(both.world_m, 0.8 * std::min(mast.world_m, beacon.world_m));
+  EXPECT_LT(both.goal_m, 1.02 * std::min(mast.goal_m, beacon.goal_m));
+}
+
+TEST(FilterConsistency, BreaksInTheWorldWhereTheMastIsTakenForRight) {
+  const InTwoFrames found = DriveBy({.mast = true, .beacon = true, .told_apart = false});
+  EXPECT_GT(found.world_nees, 30.0);
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ inline messages::PoseFix PlaceFix(messages::CaptureNumber capture, double x_m, d
   messages::PoseFix fix;
   fix.capture = capture;
   fix.measured.set(error::kX).set(error::kY);
-  fix.pose_W[error::kX] = x_m;
-  fix.pose_W[error::kY] = y_m;
+  fix.pose[error::kX] = x_m;
+  fix.pose[error::kY] = y_m;
   fix.covariance *= sd_m * sd_m;
   return fix;
 }

@@ -34,7 +34,7 @@ class LateAid : public testing::Test {
     messages::PoseFix fix;
     fix.capture = capture;
     fix.measured.set(kX);
-    fix.pose_W[kX] = x_m;
+    fix.pose[kX] = x_m;
     fix.covariance *= kR;
     return fix;
   }

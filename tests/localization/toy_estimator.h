@@ -60,7 +60,7 @@ class ToyEstimator final : public Estimator {
   AidUse Update(const messages::PoseFix& fix) override {
     if (!fix.measured[kX]) return AidUse::kNoInterest;
     if (!errors_.Has(fix.capture)) return AidUse::kUnknown;
-    return Take({{fix.capture, One(1.0)}}, fix.pose_W[kX] - kept_x_m_[fix.capture],
+    return Take({{fix.capture, One(1.0)}}, fix.pose[kX] - kept_x_m_[fix.capture],
                 fix.covariance(kX, kX));
   }
   AidUse Update(const messages::RelativeMotion& motion) override {

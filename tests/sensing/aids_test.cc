@@ -39,10 +39,10 @@ std::vector<std::vector<double>> FixErrors(const LanderFixParams& params,
   const LanderFix camera(params, lander, kKey);
   for (int i = 0; i < kMany; ++i) {
     const auto fix = camera.Observe(Rover(), Flat(), i);
-    const Eigen::Vector2d from(fix->pose_W[0] - 2.0, fix->pose_W[1] - 1.0);
+    const Eigen::Vector2d from(fix->pose[0] - 2.0, fix->pose[1] - 1.0);
     errors[0].push_back((from.norm() / 10.0 - 1.0) / 0.05);
     errors[1].push_back((std::atan2(from.y(), from.x()) - std::atan2(6.0, 8.0)) / 0.001);
-    errors[2].push_back(math::WrapAngle(fix->pose_W[kHeading] - DegToRad(40.0)) / DegToRad(5.0));
+    errors[2].push_back(math::WrapAngle(fix->pose[kHeading] - DegToRad(40.0)) / DegToRad(5.0));
   }
   return errors;
 }
@@ -60,7 +60,7 @@ TEST(LanderFixTest, ErrsAsPublished) {
 
 TEST(LanderFixTest, TellsItsCovarianceAboutTheLineOfSight) {
   const auto fix = LanderFix({}, kLander, kKey).Observe(Rover(), Flat(), 0);
-  const Eigen::Vector2d from(fix->pose_W[0] - 2.0, fix->pose_W[1] - 1.0);
+  const Eigen::Vector2d from(fix->pose[0] - 2.0, fix->pose[1] - 1.0);
   const Eigen::Vector2d along = from.normalized();
   const Eigen::Vector2d across(-along.y(), along.x());
   const Eigen::Matrix2d P = fix->covariance.topLeftCorner<2, 2>();
@@ -77,24 +77,24 @@ TEST(LanderFixTest, IsTurnedByThePanError) {
   const auto wrong = LanderFix({}, turned, kKey).Observe(Rover(), Flat(), 3);
   const Eigen::Rotation2Dd turn(DegToRad(1.0));
   const Eigen::Vector2d station(2.0, 1.0);
-  const Eigen::Vector2d expected = station + turn * (right->pose_W.head<2>() - station);
-  EXPECT_LT((wrong->pose_W.head<2>() - expected).norm(), 1e-9);
-  EXPECT_NEAR(wrong->pose_W[kHeading] - right->pose_W[kHeading], DegToRad(1.0), 1e-9);
+  const Eigen::Vector2d expected = station + turn * (right->pose.head<2>() - station);
+  EXPECT_LT((wrong->pose.head<2>() - expected).norm(), 1e-9);
+  EXPECT_NEAR(wrong->pose[kHeading] - right->pose[kHeading], DegToRad(1.0), 1e-9);
 }
 
 // What fixes have in common stays from number to number; all of it with a share of 1.
 TEST(LanderFixTest, SharesWhatItIsTold) {
   LanderFixParams params{.common_share = 1.0};
   const LanderFix same(params, kLander, kKey);
-  EXPECT_EQ(same.Observe(Rover(), Flat(), 0)->pose_W, same.Observe(Rover(), Flat(), 1)->pose_W);
+  EXPECT_EQ(same.Observe(Rover(), Flat(), 0)->pose, same.Observe(Rover(), Flat(), 1)->pose);
   // A half: fixes of one trial correlate by a half over trials.
   params.common_share = 0.5;
   double product = 0.0;
   double square = 0.0;
   for (std::uint32_t trial = 0; trial < kMany; ++trial) {
     const LanderFix camera(params, kLander, {5, trial});
-    const double a = camera.Observe(Rover(), Flat(), 0)->pose_W[kHeading] - DegToRad(40.0);
-    const double b = camera.Observe(Rover(), Flat(), 1)->pose_W[kHeading] - DegToRad(40.0);
+    const double a = camera.Observe(Rover(), Flat(), 0)->pose[kHeading] - DegToRad(40.0);
+    const double b = camera.Observe(Rover(), Flat(), 1)->pose[kHeading] - DegToRad(40.0);
     product += a * b;
     square += a * a;
   }

@@ -136,10 +136,10 @@ std::optional<messages::PoseFix> FixOf(const LanderFixParams& params, double hea
 
 // What a fix tells of the range over the true one, and its error of the heading.
 double RangeShare(const messages::PoseFix& fix) {
-  return std::hypot(fix.pose_W[0] - kPlace.x_m, fix.pose_W[1] - kPlace.y_m) / 10.0;
+  return std::hypot(fix.pose[0] - kPlace.x_m, fix.pose[1] - kPlace.y_m) / 10.0;
 }
 double HeadingError(const messages::PoseFix& fix, double rover_heading_deg) {
-  return math::WrapAngle(fix.pose_W[kHeadingRow] - DegToRad(rover_heading_deg));
+  return math::WrapAngle(fix.pose[kHeadingRow] - DegToRad(rover_heading_deg));
 }
 
 // With the constant law's deviations and nothing missed or wrong both laws draw the same.
@@ -199,7 +199,7 @@ TEST(CylinderFixTest, ErrsByItsDeviationsAndBiases) {
   for (int i = 0; i < kFixes; ++i) {
     const double heading_deg = kToLander_deg - theta_deg;
     const auto fix = FixOf(params, heading_deg, i);
-    const double bearing_rad = std::atan2(fix->pose_W[1] - kPlace.y_m, fix->pose_W[0] - kPlace.x_m);
+    const double bearing_rad = std::atan2(fix->pose[1] - kPlace.y_m, fix->pose[0] - kPlace.x_m);
     errors[0].push_back((RangeShare(*fix) - 0.96) / sd.range);
     errors[1].push_back((bearing_rad - std::atan2(6.0, 8.0)) / sd.bearing_rad);
     errors[2].push_back((HeadingError(*fix, heading_deg) - DegToRad(3.0)) / sd.heading_rad);

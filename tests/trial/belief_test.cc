@@ -48,6 +48,18 @@ TEST(BeliefTest, TakesCorrelationsIntoAccount) {
   EXPECT_NEAR(across, 2.0 / 0.1, 1e-9);
 }
 
+TEST(BeliefTest, IsOfEitherFrameWhereTheRoverTellsThemApart) {
+  auto estimate = EstimateWith(1.0, 1.0, 0.1);
+  estimate.world = {.pose = {5.0, 6.0, 0.0, 0.0},
+                    .covariance = 4.0 * messages::PoseCovariance::Identity()};
+  EXPECT_NEAR(BeliefOf(estimate, {7.0, 6.0, 0.0})->nees, 1.0, 1e-12);
+  EXPECT_NEAR(GoalFrameBeliefOf(estimate, {3.0, 2.0, math::DegToRad(179.0)})->nees, 4.0, 1e-12);
+  EXPECT_EQ(WorldPose(estimate).x_m, 5.0);
+  estimate.world.reset();
+  EXPECT_EQ(WorldPose(estimate).x_m, 1.0);
+  EXPECT_NEAR(BeliefOf(estimate, {3.0, 2.0, math::DegToRad(179.0)})->nees, 4.0, 1e-12);
+}
+
 TEST(BeliefTest, IsNothingWithoutACovariance) {
   messages::LocalizationEstimate estimate;
   EXPECT_FALSE(BeliefOf(estimate, {}));

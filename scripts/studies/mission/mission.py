@@ -27,7 +27,7 @@ SCENARIOS = study.ROOT / "scenarios/mission"
 AIDS = (("no_aid", "none"), ("tour", "lander, evening"), ("lander_noon", "lander, noon"), ("sun", "sun sensor"),
         ("lander_and_sun", "lander, evening, and sun sensor"), ("vision", "visual odometry"),
         ("beacon", "radio beacon"))
-SOL_ENDS = ("goal", "time", "energy", "stuck", "no_path", "slip", "tipped", "no_command")
+SOL_ENDS = ("goal", "time", "energy", "stuck", "no_path", "slip", "tipped", "no_command", "patience")
 MISSION_ENDS = ("sols_done", "goals_done", "no_power", "tipped", "stuck", "lost", "left_field")
 SOURCES = ("sun", "battery", "overdrawn")
 SINKS = ("drive", "turn", "steer", "scan", "stall", "imaging", "compute", "overhead", "idle", "transmit", "sleep")
@@ -61,7 +61,9 @@ def summary_rows(missions):
             errors = columns[f"after_{sols}_position_m"]
             row[f"median_{sols}_m"], row[f"p95_{sols}_m"] = median(errors), study.quantile(errors, 0.95)
             row[f"median_{sols}_deg"] = median(columns[f"after_{sols}_heading_deg"])
-            row[f"inside_{sols}"] = ratio(columns, f"after_{sols}_inside_95", f"after_{sols}_judged")[0]
+            row[f"median_{sols}_told_m"] = median(columns[f"after_{sols}_goal_frame_m"])
+            for frame, name in (("", "inside"), ("goal_frame_", "inside_told")):
+                row[f"{name}_{sols}"] = ratio(columns, f"after_{sols}_{frame}inside_95", f"after_{sols}_judged")[0]
         row["battery_left_wh"] = study.mean_interval(columns["battery_left_wh"])[0]
         row["closure"] = max(abs(sum(columns[f"{s}_wh"][i] for s in SOURCES) - sum(columns[f"{s}_wh"][i] for s in SINKS))
                              / sum(columns[f"{s}_wh"][i] for s in SINKS) for i in range(row["missions"]))
@@ -81,10 +83,13 @@ def missions_table(rows):
                       f"{row['median_7_m']:.2f} / {row['p95_7_m']:.2f}",
                       f"{row['median_30_m']:.2f} / {row['p95_30_m']:.2f}",
                       f"{row['median_7_deg']:.0f}, {row['median_30_deg']:.0f}",
-                      f"{100 * row['inside_7']:.0f}, {100 * row['inside_30']:.0f}"])
+                      f"{row['median_7_told_m']:.2f}, {row['median_30_told_m']:.2f}",
+                      f"{100 * row['inside_7']:.0f}, {100 * row['inside_30']:.0f}",
+                      f"{100 * row['inside_told_7']:.0f}, {100 * row['inside_told_30']:.0f}"])
     return study.table(["aid", "goals reached of 30", "believed", "of these wrong (%)", "given up", "way (m)",
                         "longest sol (m)", "error after 7 sols (m, median / 95 %)", "after 30", "heading (deg), 7, 30",
-                        "inside its 95 % (%), 7, 30"], lines)
+                        "error in the frame of goals (m), 7, 30", "inside its 95 % (%), 7, 30",
+                        "in the frame of goals"], lines)
 
 
 def pairs_table(missions):

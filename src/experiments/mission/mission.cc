@@ -18,6 +18,7 @@
 #include "trial/layout.h"
 #include "trial/make_estimator.h"
 #include "trial/power_budget.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::experiments {
 namespace {
@@ -179,7 +180,6 @@ Sol Mission::RunSol(std::int64_t number, const Window& window, messages::Goal& t
   sol.energy = books.energy();
   battery_wh_ = sol.battery_left_wh = books.battery_wh();
   sol.truth = truth_;
-  sol.believed = memory_.pose;
   TellBelief(sol);
   return sol;
 }
@@ -190,13 +190,14 @@ trial::DriveEnd Mission::DriveOn(std::int64_t number, const Window& window, Sol&
   const trial::DriveResult result =
       trial::RunTrial(drive, SolKey(key_, number),
                       {.memory = memory_, .field = field_, .sun = SunFrom(number, window.begin_s)});
-  sol.end = SolEndOf(result.outcome);
+  sol.end = SolEndOf(result.outcome, truth::EndedByLimit({0, result.outcome, result.detail, {}}));
   sol.distance_m = result.record.true_distance_m;
   sol.drive_time_s = result.record.sim_time_s;
   told = {result.record.told_goal_x_m, result.record.told_goal_y_m};
   truth_ = math::ToPose2(result.end.X_WR);
   memory_ = result.end.memory;
-  sol.unaided_error_m = std::hypot(memory_.pose.x_m - truth_.x_m, memory_.pose.y_m - truth_.y_m);
+  const math::Pose2 believed = BelievedInWorld();
+  sol.unaided_error_m = std::hypot(believed.x_m - truth_.x_m, believed.y_m - truth_.y_m);
   const bool noon = params_.lander_update == LanderUpdate::kNoon;
   if (noon && sol.drive_time_s >= 0.5 * window.length_s) {
     sol.sight = LanderSight::kOnTheWay;
@@ -214,15 +215,14 @@ LanderSight Mission::UpdateByLander(std::int64_t number, const math::Transform& 
 }
 
 void Mission::Believe(const messages::PoseFix& fix) {
-  const localization::EstimatorKind& kind = drive_.localization.estimators.chosen();
-  if (!kind.takes_fixes()) {
+  if (!drive_.localization.estimators.chosen().takes_fixes()) {
     constexpr auto kX = messages::Index(messages::PoseCoordinate::kX);
     constexpr auto kY = messages::Index(messages::PoseCoordinate::kY);
     constexpr auto kHeading = messages::Index(messages::PoseCoordinate::kHeading);
-    memory_.pose = {fix.pose_W[kX], fix.pose_W[kY], fix.pose_W[kHeading]};
+    memory_.pose = {fix.pose[kX], fix.pose[kY], fix.pose[kHeading]};
     return;
   }
-  const auto estimator = kind.Make(trial::EstimatorSetupOf(drive_, &memory_));
+  const auto estimator = Awake();
   estimator->Capture(fix.capture);
   // A filter that turns a fix away doubts itself after a few: operators who saw the rover insist.
   for (int i = 0; i < kInsistence; ++i) {
@@ -232,18 +232,33 @@ void Mission::Believe(const messages::PoseFix& fix) {
   memory_ = estimator->Remember();
 }
 
+std::unique_ptr<localization::Estimator> Mission::Awake() const {
+  localization::EstimatorSetup setup = trial::EstimatorSetupOf(drive_, &memory_);
+  if (setup.lander) {
+    setup.lander->x_m = params_.lander_x_m;
+    setup.lander->y_m = params_.lander_y_m;
+  }
+  return drive_.localization.estimators.chosen().Make(setup);
+}
+
+math::Pose2 Mission::BelievedInWorld() const {
+  return math::TurnedAbout(memory_.pose, params_.lander_x_m, params_.lander_y_m, -memory_.pan_rad);
+}
+
 void Mission::TellBelief(Sol& sol) const {
+  sol.believed = BelievedInWorld();
+  const math::Pose2 truth =
+      math::TurnedAbout(truth_, params_.lander_x_m, params_.lander_y_m, pan_error_rad_);
+  sol.goal_frame_error_m = std::hypot(memory_.pose.x_m - truth.x_m, memory_.pose.y_m - truth.y_m);
   if (!memory_.covariance) return;
-  messages::LocalizationEstimate estimate;
-  estimate.pose.x_m = memory_.pose.x_m;
-  estimate.pose.y_m = memory_.pose.y_m;
-  estimate.pose.heading_rad = memory_.pose.heading_rad;
-  estimate.covariance =
-      memory_.covariance->topLeftCorner<messages::kPoseCoordinates, messages::kPoseCoordinates>();
-  const auto belief = trial::BeliefOf(estimate, truth_);
-  if (!belief) return;
-  sol.position_sd_m = belief->position_sd_m;
-  sol.inside_95 = belief->inside_95;
+  const auto estimator = Awake();
+  if (const auto belief = trial::BeliefOf(estimator->estimate(), truth_)) {
+    sol.position_sd_m = belief->position_sd_m;
+    sol.inside_95 = belief->inside_95;
+  }
+  if (const auto belief = trial::GoalFrameBeliefOf(estimator->estimate(), truth)) {
+    sol.goal_frame_inside_95 = belief->inside_95;
+  }
 }
 
 void Mission::JudgeGoal(const messages::Goal& told, Sol& sol, MissionCourse& course) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -74,6 +75,9 @@ class Mission {
   // What a fix makes of the rover's memory: an estimator that weighs fixes weighs it, another one
   // is told the place.
   void Believe(const messages::PoseFix& fix);
+  // The estimator that goes on by what is remembered.
+  std::unique_ptr<localization::Estimator> Awake() const;
+  math::Pose2 BelievedInWorld() const;
   void TellBelief(Sol& sol) const;
   // Whether operators hold the goal for reached, and whether they go on to the next one.
   void JudgeGoal(const messages::Goal& told, Sol& sol, MissionCourse& course);

@@ -18,7 +18,9 @@ Checkpoint CheckpointAfter(std::int64_t sols, const MissionCourse& course) {
           .heading_error_deg = math::RadToDeg(sol.HeadingError_rad()),
           .position_sd_m = sol.position_sd_m.value_or(0.0),
           .judged = sol.inside_95.has_value(),
-          .inside_95 = sol.inside_95.value_or(false)};
+          .inside_95 = sol.inside_95.value_or(false),
+          .goal_frame_error_m = sol.goal_frame_error_m,
+          .goal_frame_inside_95 = sol.goal_frame_inside_95.value_or(false)};
 }
 
 }  // namespace

@@ -26,6 +26,8 @@ struct Checkpoint {
   double position_sd_m = 0.0;  // as believed
   bool judged = false;         // the rover keeps account of its error
   bool inside_95 = false;
+  double goal_frame_error_m = 0.0;
+  bool goal_frame_inside_95 = false;
 };
 
 struct MissionRecord {
@@ -103,6 +105,13 @@ void ForEachCheckpointColumn(const MissionRecord& r, Visitor visit) {
                 "with 95 %",
                 after + "_judged"),
           flag(point.inside_95));
+    visit(Sum(after + "_goal_frame_m", "m",
+              "position error in the lander's frame, in which goals are told," + when),
+          point.goal_frame_error_m);
+    visit(Count(after + "_goal_frame_inside_95",
+                "of these, the true pose lies in that region in the lander's frame",
+                after + "_judged"),
+          flag(point.goal_frame_inside_95));
   }
 }
 
@@ -164,7 +173,8 @@ void ForEachSolColumn(std::int64_t number, const Sol* sol, Visitor visit) {
     visit(truth::ValueInfo{prefix + name, unit, meaning}, sol == nullptr ? kNothing : x);
   };
   const auto flag = [](bool yes) { return yes ? 1.0 : 0.0; };
-  value("end", "1", "0 goal, 1 time, 2 energy, 3 stuck, 4 no path, 5 slip, 6 tipped, 7 no command",
+  value("end", "1",
+        "0 goal, 1 time, 2 energy, 3 stuck, 4 no path, 5 slip, 6 tipped, 7 no command, 8 patience",
         static_cast<double>(s.end));
   value("goal", "1", "number of its goal, from 0", static_cast<double>(s.goal));
   value("believed", "1", "operators believed the goal reached", flag(s.believed_reached));

@@ -65,17 +65,18 @@ enum class SolEnd {
   kTime,       // the window closed
   kEnergy,     // batteries empty, and the sun did not suffice
   kStuck,      // jammed or high-centred
-  kNoPath,     // the navigator gave up, or its operator's patience was at an end
+  kNoPath,     // the navigator gave up
   kSlip,       // stopped, as its wheels were seen to slip
   kTipped,     // fell over
   kNoCommand,  // there was no drive: the command had not come
+  kPatience,   // the operator's was at an end, as it came no nearer
 };
-inline constexpr std::size_t kSolEnds = 8;
+inline constexpr std::size_t kSolEnds = 9;
 inline constexpr std::array<std::string_view, kSolEnds> kSolEndNames{
-    "goal", "time", "energy", "stuck", "no_path", "slip", "tipped", "no_command"};
+    "goal", "time", "energy", "stuck", "no_path", "slip", "tipped", "no_command", "patience"};
 
 // Throws std::logic_error for outcomes that drives of a mission do not have.
-SolEnd SolEndOf(truth::TrialOutcome outcome);
+SolEnd SolEndOf(truth::TrialOutcome outcome, bool ended_by_limit);
 
 // What became of the lander's image of the day.
 enum class LanderSight {
@@ -91,10 +92,13 @@ struct Sol {
   double distance_m = 0.0;              // true path
   double drive_time_s = 0.0;            // from the start of the drive to its end
   math::Pose2 truth;                    // in the evening
-  math::Pose2 believed;                 // then, after the lander's update
+  math::Pose2 believed;                 // then, after the lander's update, in W
   double unaided_error_m = 0.0;         // of the believed position before that update
   std::optional<double> position_sd_m;  // as believed then; empty without an account of errors
   std::optional<bool> inside_95;        // whether its 95 % region of x, y, heading holds the truth
+  // The same in the lander's frame, in which goals are told.
+  double goal_frame_error_m = 0.0;
+  std::optional<bool> goal_frame_inside_95;
   LanderSight sight = LanderSight::kNotTaken;
   bool believed_reached = false;  // the goal, by operators
   bool truly_reached = false;

@@ -18,6 +18,8 @@ def missions(reached, errors_m):
         columns[f"after_{sols}_heading_deg"] = [3.0] * count
         columns[f"after_{sols}_judged"] = [1.0] * count
         columns[f"after_{sols}_inside_95"] = [1.0] + [0.0] * (count - 1)
+        columns[f"after_{sols}_goal_frame_inside_95"] = [1.0] * count
+        columns[f"after_{sols}_goal_frame_m"] = [0.5] * count
     for end in mission.SOL_ENDS:
         columns[f"sols_{end}"] = [0.0] * count
     columns["sols_goal"] = [15.0] * count
@@ -46,6 +48,7 @@ class Counting(unittest.TestCase):
         self.assertEqual((row["median_7_m"], row["longest_sol_m"]), (3.0, 2))
         self.assertAlmostEqual(row["p95_30_m"], 3.0 + 0.9 * 5.0)
         self.assertAlmostEqual(row["inside_30"], 1.0 / 3.0)
+        self.assertEqual((row["inside_told_30"], row["median_7_told_m"]), (1.0, 0.5))
         self.assertEqual(row["closure"], 0.0)
 
     def test_energy_that_does_not_close_is_seen(self):
