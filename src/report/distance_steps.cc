@@ -4,6 +4,7 @@
 
 #include "statistics/clustered_rate.h"
 #include "statistics/drive_summary.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::report {
 
@@ -22,6 +23,12 @@ std::vector<DistanceStep> DistanceSteps(const truth::RecordSchema& schema,
   const double share = records.empty() ? 1.0 : layouts / static_cast<double>(records.size());
   const auto steps = statistics::CumulativeIncidence(durations, statistics::kConfidence, share);
 
+  std::vector<double> limits;
+  for (const truth::Record& record : records) {
+    if (truth::EndedByLimit(record)) limits.push_back(record.values[*column]);
+  }
+  limits = statistics::SortedFinite(limits);
+
   // Before the first step nothing has happened.
   statistics::IncidenceStep now;
   std::size_t next = 0;
@@ -31,7 +38,12 @@ std::vector<DistanceStep> DistanceSteps(const truth::RecordSchema& schema,
        statistics::Ecdf(values, statistics::kConfidence, statistics::BandMethod::kSimultaneous,
                         share * static_cast<double>(sorted.size()))) {
     while (next < steps.size() && steps[next].at <= point.value) now = steps[next++];
-    distances.push_back({.all = point, .goal = now, .at_risk = sorted.size() - passed});
+    const auto ended = std::upper_bound(limits.begin(), limits.end(), point.value);
+    distances.push_back(
+        {.all = point,
+         .goal = now,
+         .limit = static_cast<double>(ended - limits.begin()) / static_cast<double>(sorted.size()),
+         .at_risk = sorted.size() - passed});
     while (passed < sorted.size() && sorted[passed] <= point.value) ++passed;
   }
   return distances;

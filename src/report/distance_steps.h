@@ -15,6 +15,7 @@ namespace rockyard::report {
 struct DistanceStep {
   statistics::EcdfPoint all;       // of the distance of all runs, however they ended
   statistics::IncidenceStep goal;  // declared arrival, failures competing
+  double limit = 0.0;              // share of all that a limit of the run ended so far
   std::size_t at_risk = 0;         // just before
 };
 

@@ -66,7 +66,7 @@ struct CdfColumn {
 
 std::string PageCdfJson(std::span<const DistanceStep> steps) {
   if (steps.empty()) return "null";
-  const std::array<CdfColumn, 9> columns{{
+  const std::array<CdfColumn, 10> columns{{
       {"distance_m", [](const DistanceStep& s) { return s.all.value; }},
       {"ecdf", [](const DistanceStep& s) { return s.all.fraction; }},
       {"ecdf_low", [](const DistanceStep& s) { return s.all.band.low; }},
@@ -75,6 +75,7 @@ std::string PageCdfJson(std::span<const DistanceStep> steps) {
       {"goal_low", [](const DistanceStep& s) { return s.goal.band.low; }},
       {"goal_high", [](const DistanceStep& s) { return s.goal.band.high; }},
       {"failure", [](const DistanceStep& s) { return s.goal.competing; }},
+      {"limit", [](const DistanceStep& s) { return s.limit; }},
       {"at_risk", [](const DistanceStep& s) { return static_cast<double>(s.at_risk); }},
   }};
   const std::vector<std::size_t> kept = KeptSteps(steps);

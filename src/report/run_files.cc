@@ -14,7 +14,7 @@ namespace rockyard::report {
 namespace {
 
 constexpr const char* kCdfHeader =
-    "distance_m,ecdf,ecdf_low,ecdf_high,goal,goal_low,goal_high,failure,at_risk\n";
+    "distance_m,ecdf,ecdf_low,ecdf_high,goal,goal_low,goal_high,failure,at_risk,limit\n";
 
 }  // namespace
 
@@ -81,7 +81,7 @@ void DistanceCdfCsv(const truth::RecordSchema& schema, std::span<const truth::Re
         CsvNumber(step.all.value), CsvNumber(step.all.fraction), CsvNumber(step.all.band.low),
         CsvNumber(step.all.band.high), CsvNumber(step.goal.event), CsvNumber(step.goal.band.low),
         CsvNumber(step.goal.band.high), CsvNumber(step.goal.competing),
-        std::to_string(step.at_risk)}));
+        std::to_string(step.at_risk), CsvNumber(step.limit)}));
   }
 }
 

@@ -48,6 +48,8 @@ void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record>
 //                                with a pointwise 95 % band; its end is the success rate
 //   failure                      cumulative incidence of failure
 //   at_risk                      runs still under way just before this distance
+//   limit                        share that patience or time had ended, which neither arrived nor
+//                                failed: goal + limit is the most that could have arrived so far
 // `records` must be a contiguous prefix. Only the header where there is no column true_distance_m.
 // Memory: 250 bytes a record.
 void DistanceCdfCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,

@@ -212,6 +212,8 @@ JsonValue SummaryValue(const RunDescription& run, const DriveSummary& summary) {
   json.Set("true_success", RateJson(summary.true_success));
   json.Set("outcomes", Outcomes(summary));
   json.Set("causes", Causes(summary));
+  json.Set("ended_by_limit", RateJson(summary.ended_by_limit));
+  json.Set("declared_success_without_limits", EndsOf(summary.SuccessWithoutLimits()));
   AddColumns(summary, json);
   json.Set("metrics", MetricsJson(summary.metrics));
   json.Set("metrics_by_outcome", MetricsByOutcome(summary));

@@ -81,6 +81,17 @@ std::string RateLine(std::string_view name, const statistics::Proportion& rate) 
                      100.0 * rate.interval.high);
 }
 
+// No headline hangs on how long a run was allowed to go on.
+std::string LimitLines(const DriveSummary& summary) {
+  if (summary.ended_by_limit.count == 0) return "";
+  const statistics::Interval success = summary.SuccessWithoutLimits();
+  return RateLine("ended by a limit", summary.ended_by_limit) +
+         fmt::format(
+             "    neither arrived nor failed: without limits {:.1f} .. {:.1f} % would have "
+             "declared success\n",
+             100.0 * success.low, 100.0 * success.high);
+}
+
 std::string_view ColourOf(TrialOutcome outcome) {
   if (outcome == TrialOutcome::kGoalReached) return kGreen;
   return outcome == TrialOutcome::kFalseGoal ? kYellow : kRed;
@@ -239,9 +250,9 @@ std::string SoilLine(const DriveSummary& summary) {
 
 std::string SummaryText(const RunDescription& run, const DriveSummary& summary, TextStyle style) {
   return Head(run, summary, style) + RateLine("declared success", summary.declared_success) +
-         RateLine("true success", summary.true_success) + OutcomeLines(summary, style) +
-         ColumnTable(summary, style) + MetricLines(summary) + SoilLine(summary) +
-         fmt::format("  trial hash {}\n", run.trial_hash);
+         RateLine("true success", summary.true_success) + LimitLines(summary) +
+         OutcomeLines(summary, style) + ColumnTable(summary, style) + MetricLines(summary) +
+         SoilLine(summary) + fmt::format("  trial hash {}\n", run.trial_hash);
 }
 
 }  // namespace rockyard::report

@@ -52,6 +52,7 @@ Fields CellFields(std::size_t index, const Sweep& sweep, const SweepCellSummary&
   } else {
     fields.resize(fields.size() + 4);
   }
+  fields.push_back(std::to_string(cell.ended_by_limit.count));
   return fields;
 }
 
@@ -105,7 +106,7 @@ std::string SweepCellsCsv(const Sweep& sweep, const SweepSummary& summary) {
     }
   }
   for (const char* name : {"trial_hash", "pending", "infrastructure_faults", "stopped",
-                           "stopped_at", "stop_low", "stop_high"}) {
+                           "stopped_at", "stop_low", "stop_high", "ended_by_limit"}) {
     head.emplace_back(name);
   }
   std::string csv = CsvLine(head);

@@ -64,6 +64,7 @@ JsonValue Cell(const Sweep& sweep, std::size_t index, const SweepCellSummary& ce
                                       {"declared_success", Rate(cell.declared_success)},
                                       {"true_success", Rate(cell.true_success)},
                                       {"outcomes", Outcomes(cell)}});
+  json.Set("ended_by_limit", JsonValue(cell.ended_by_limit.count));
   json.Set("metrics", Metrics(cell));
   json.Set("trial_hash", JsonValue(cell.trial_hash));
   json.Update(AccountingJson(cell.accounting, cell.stopping));

@@ -51,6 +51,7 @@ struct SweepCellSummary {
   std::int64_t faults = 0;     // simulator faults: in no rate and in no metric
   SweepRate declared_success;
   SweepRate true_success;
+  statistics::Proportion ended_by_limit;  // neither arrived nor failed
   std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
   std::vector<statistics::MetricSummary> metrics;
   std::string trial_hash;

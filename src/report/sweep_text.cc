@@ -98,6 +98,24 @@ std::string AxisNames(const Sweep& sweep) {
   return names;
 }
 
+// Below the table: how much of the rates hangs on how long drives were allowed to go on.
+std::string LimitLine(const Sweep& sweep, const SweepSummary& summary) {
+  std::size_t most = 0;
+  std::size_t cells = 0;
+  for (std::size_t i = 0; i < summary.cells.size(); ++i) {
+    const statistics::Proportion& ended = summary.cells[i].ended_by_limit;
+    if (ended.count == 0) continue;
+    if (cells++ == 0 || ended.rate > summary.cells[most].ended_by_limit.rate) most = i;
+  }
+  if (cells == 0) return "";
+  return Wrapped(fmt::format(
+      "  (in {} of {} cells drives were ended by a limit, patience or time, and had neither "
+      "arrived "
+      "nor failed: up to {:.1f} %, in {}; without it success may be higher by as much)\n",
+      cells, summary.cells.size(), 100.0 * summary.cells[most].ended_by_limit.rate,
+      Cut(Label(sweep, most), kLabelWidth)));
+}
+
 std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle style) {
   std::string head = fmt::format(
       "  {:<{}} {:>5} {:>22} {:>22} {:>6} {:>7} {:>6}", Cut(AxisNames(sweep), kLabelWidth),
@@ -117,7 +135,8 @@ std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle
   }
   return text +
          "  (intervals of 95 % for a cell alone; path ratio, time [s] and energy [Wh]: means of "
-         "arrivals)\n";
+         "arrivals)\n" +
+         LimitLine(sweep, summary);
 }
 
 // Where the rule ended each cell.

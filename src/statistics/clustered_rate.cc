@@ -138,10 +138,15 @@ std::vector<CountOfRun> SumsByGroup(std::span<const double> values,
 
 std::vector<double> OnesWhere(std::span<const truth::Record> records,
                               bool (*succeeded)(truth::TrialOutcome)) {
+  return OnesWhere(records, [&](const truth::Record& record) { return succeeded(record.outcome); });
+}
+
+std::vector<double> OnesWhere(std::span<const truth::Record> records,
+                              const std::function<bool(const truth::Record&)>& holds) {
   std::vector<double> values;
   values.reserve(records.size());
   for (const truth::Record& record : records) {
-    const double value = succeeded(record.outcome) ? 1.0 : 0.0;
+    const double value = holds(record) ? 1.0 : 0.0;
     values.push_back(IsFault(record) ? std::numeric_limits<double>::quiet_NaN() : value);
   }
   return values;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,8 @@ std::vector<std::size_t> DependentGroups(const truth::RecordSchema& schema,
 // values, where values alone have one.
 std::vector<double> OnesWhere(std::span<const truth::Record> records,
                               bool (*succeeded)(truth::TrialOutcome));
+std::vector<double> OnesWhere(std::span<const truth::Record> records,
+                              const std::function<bool(const truth::Record&)>& holds);
 Proportion RateOfTrials(std::span<const double> values, std::span<const std::size_t> groups,
                         double confidence = kConfidence,
                         IntervalMethod method = IntervalMethod::kWilson);

@@ -77,11 +77,12 @@ DriveSummary Summarize(const truth::RecordSchema& schema, std::span<const truth:
   summary.faults = summary.outcome(truth::TrialOutcome::kSimulatorFault);
   const std::vector<std::size_t> groups = DependentGroups(schema, records);
   summary.shared_layouts = !groups.empty();
-  const auto rate = [&](const auto& succeeded) {
-    return RateOfTrials(OnesWhere(records, succeeded), groups, kConfidence, method);
+  const auto rate = [&](const std::vector<double>& ones) {
+    return RateOfTrials(ones, groups, kConfidence, method);
   };
-  summary.declared_success = rate(truth::DeclaredSuccess);
-  summary.true_success = rate(truth::TrueSuccess);
+  summary.declared_success = rate(OnesWhere(records, truth::DeclaredSuccess));
+  summary.true_success = rate(OnesWhere(records, truth::TrueSuccess));
+  summary.ended_by_limit = rate(OnesWhere(records, truth::EndedByLimit));
   for (std::size_t i = 0; i < schema.size(); ++i) {
     if (schema[i].name == kPathRatio) continue;
     summary.columns.push_back(

@@ -41,6 +41,7 @@ struct DriveSummary {
   std::int64_t faults = 0;      // simulator faults: in no rate and in no column
   Proportion declared_success;  // goal_reached and false_goal
   Proportion true_success;      // goal_reached
+  Proportion ended_by_limit;    // neither arrived nor failed (truth::IsLimit)
   bool shared_layouts = false;  // trials share rocks, which every interval allows for
   std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
   std::array<std::int64_t, truth::kEndCauses.size()> causes{};  // of records that tell theirs
@@ -53,6 +54,11 @@ struct DriveSummary {
 
   std::int64_t outcome(truth::TrialOutcome kind) const {
     return outcomes[static_cast<std::size_t>(kind)];
+  }
+  // Of declared success, whatever drives that a limit ended would have come to: none of them would
+  // have arrived, or all.
+  Interval SuccessWithoutLimits() const {
+    return {declared_success.rate, declared_success.rate + ended_by_limit.rate};
   }
   std::int64_t cause(truth::EndCause kind) const { return causes[static_cast<std::size_t>(kind)]; }
   const ColumnSummary* Find(std::string_view name) const;  // nullptr where there is none

@@ -14,6 +14,12 @@ std::optional<EndCause> CauseOf(const Record& record) {
   return std::nullopt;
 }
 
+bool EndedByLimit(const Record& record) {
+  if (record.outcome == TrialOutcome::kTimeLimit) return true;  // whatever the sentence
+  const auto cause = CauseOf(record);
+  return cause && IsLimit(*cause);
+}
+
 std::string_view CauseName(const Record& record) {
   const auto cause = CauseOf(record);
   return cause ? Info(*cause).name : std::string_view();

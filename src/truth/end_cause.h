@@ -83,6 +83,14 @@ constexpr const EndCauseInfo& Info(EndCause cause) {
   return kEndCauses[static_cast<std::size_t>(cause)];
 }
 
+// Whether a limit of the run ended the drive, the operator's patience or the time. It had neither
+// arrived nor failed: what it would have come to is not known.
+constexpr bool IsLimit(EndCause cause) {
+  return cause == EndCause::kPatienceDistance || cause == EndCause::kPatienceTurning ||
+         cause == EndCause::kPatienceTime || cause == EndCause::kTimeLimit;
+}
+bool EndedByLimit(const Record& record);
+
 // By the record's outcome and sentence. Nothing for what is no drive, for a fault, and for a
 // sentence of another version.
 std::optional<EndCause> CauseOf(const Record& record);

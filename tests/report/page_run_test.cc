@@ -209,14 +209,14 @@ std::vector<truth::Record> Distances(int count) {
   std::vector<truth::Record> records;
   for (int i = 0; i < count; ++i) {
     const auto outcome =
-        i % 3 == 0 ? truth::TrialOutcome::kNoPath : truth::TrialOutcome::kGoalReached;
+        i % 3 == 0 ? truth::TrialOutcome::kTimeLimit : truth::TrialOutcome::kGoalReached;
     records.push_back({static_cast<std::uint64_t>(i), outcome, "", {5.0 + 0.001 * i}});
   }
   return records;
 }
 
 constexpr const char* kCdfColumns[] = {"distance_m", "ecdf",      "ecdf_low", "ecdf_high", "goal",
-                                       "goal_low",   "goal_high", "failure",  "at_risk"};
+                                       "goal_low",   "goal_high", "failure",  "at_risk",   "limit"};
 
 void ExpectRow(const json& cdf, std::size_t at, const std::vector<double>& row) {
   ASSERT_EQ(row.size(), std::size(kCdfColumns));

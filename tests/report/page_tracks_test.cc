@@ -87,11 +87,11 @@ TEST(PageTracks, TheCourseIsWhereDrivesLead) {
 
 TEST(PageEndings, CountOutcomesWithTheirDetailsMostFirst) {
   EXPECT_EQ(json::parse(PageEndingsJson(SampleRecords())), json::parse(R"([
-    {"outcome": "goal_reached", "detail": "arrived", "count": 2},
-    {"outcome": "false_goal", "detail": "believed, \"only\"", "count": 1},
-    {"outcome": "no_path", "detail": "nowhere to go", "count": 1},
-    {"outcome": "time_limit", "detail": "too long", "count": 1},
-    {"outcome": "simulator_fault", "detail": "blew up", "count": 1}])"));
+    {"outcome": "goal_reached", "detail": "arrived", "count": 2, "limit": false},
+    {"outcome": "false_goal", "detail": "believed, \"only\"", "count": 1, "limit": false},
+    {"outcome": "no_path", "detail": "nowhere to go", "count": 1, "limit": false},
+    {"outcome": "time_limit", "detail": "too long", "count": 1, "limit": true},
+    {"outcome": "simulator_fault", "detail": "blew up", "count": 1, "limit": false}])"));
 }
 
 }  // namespace

@@ -105,6 +105,7 @@ TEST(DistanceCdfCsv, ByHand) {
   const double goal[] = {0.0, 0.0, 0.4, 0.6};
   const double failure[] = {0.2, 0.4, 0.4, 0.4};
   const char* at_risk[] = {"5", "4", "3", "1"};
+  const double limit[] = {0.0, 0.2, 0.2, 0.2};  // time was over at 6
   for (std::size_t i = 0; i < 4; ++i) {
     const Row& row = rows[i + 1];
     EXPECT_EQ(Number(row[0]), distance[i]);
@@ -114,6 +115,7 @@ TEST(DistanceCdfCsv, ByHand) {
     EXPECT_NEAR(Number(row[4]), goal[i], 1e-12);
     EXPECT_NEAR(Number(row[7]), failure[i], 1e-12);
     EXPECT_EQ(row[8], at_risk[i]);
+    EXPECT_DOUBLE_EQ(Number(row[9]), limit[i]);
   }
 }
 

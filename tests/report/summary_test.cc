@@ -179,6 +179,9 @@ TEST(SummaryJson, CountsCausesAndHasTheirRates) {
                                      {"no_motion", 1},
                                      {"arrived", 1}}));
   EXPECT_EQ(summary["outcomes"]["no_path"], 4);
+  EXPECT_EQ(summary["ended_by_limit"]["count"], 2);
+  EXPECT_EQ(summary["ended_by_limit"]["trials"], 6);
+  EXPECT_EQ(summary["declared_success_without_limits"], json({1.0 / 6.0, 3.0 / 6.0}));
   const auto rate = [&](const char* name) {
     return summary["metrics"].at(name)["mean"].get<double>();
   };
@@ -211,6 +214,8 @@ TEST(SummaryText, TellsCausesBelowOutcomesThatHaveSeveral) {
   const std::string text =
       SummaryText(SampleDescription(), statistics::Summarize(SampleSchema(), WithCauses()));
   EXPECT_THAT(text, HasSubstr("  no_path                 4             66.7 %"));
+  EXPECT_THAT(text, HasSubstr("  ended by a limit        2 of 6        33.3 %   95 % interval"));
+  EXPECT_THAT(text, HasSubstr("without limits 16.7 .. 50.0 % would have declared success\n"));
   EXPECT_THAT(
       text,
       HasSubstr("    patience: distance         2       33.3 %   referee.no_path_distance_m\n"));

@@ -103,6 +103,30 @@ TEST(SweepSummaryTest, ACellWithoutTrialsIsNoProblem) {
   EXPECT_FALSE(SweepSvg(sweep, summary).empty());
 }
 
+// How long drives may go on is a choice: where it decided, the table says how much hangs on it.
+TEST(SweepFilesTest, SaysHowManyDrivesALimitEnded) {
+  const scenario::Sweep sweep = TestSweep();
+  const SweepSummary summary = SummarizeSweep(
+      sweep,
+      [&](std::size_t cell) {
+        SweepCellTrials trials = Trials(10, 9.0);
+        for (std::size_t i = 20; i < 20 + 2 * cell; ++i) {
+          trials.prefix[i].outcome = truth::TrialOutcome::kNoPath;
+          trials.prefix[i].detail =
+              truth::Info(i % 2 == 0 ? truth::EndCause::kPatienceTime : truth::EndCause::kGaveUp)
+                  .sentence;
+        }
+        return trials;
+      },
+      statistics::IntervalMethod::kWilson);
+  EXPECT_EQ(summary.cells[7].ended_by_limit.count, 7);
+  const std::string text = SweepText(sweep, summary, {}, TextStyle::kPlain);
+  EXPECT_THAT(text, core::Says("in 7 of 8 cells drives were ended by a limit", "up to 17.9 %"));
+  EXPECT_TRUE(Lines(SweepCellsCsv(sweep, summary))[8].ends_with(",7"));
+  EXPECT_THAT(SweepText(sweep, Summary(sweep), {}, TextStyle::kPlain),
+              Not(HasSubstr("ended by a limit")));
+}
+
 TEST(SweepFilesTest, TheTableFitsTheTerminal) {
   const scenario::Sweep sweep = TestSweep();
   const std::string text =

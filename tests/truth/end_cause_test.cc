@@ -51,6 +51,17 @@ TEST(EndCause, TableIsInOrder) {
   EXPECT_EQ(outcomes.size(), kTrialOutcomeNames.size() - 2);  // simulator_fault and measured
 }
 
+TEST(EndCause, LimitsOfTheRunAreApartFromWhatTheRoverDid) {
+  std::set<std::string_view> limits;
+  for (const EndCauseInfo& info : kEndCauses) {
+    if (EndedByLimit(RecordOf(info))) limits.insert(info.name);
+  }
+  EXPECT_EQ(limits, (std::set<std::string_view>{"patience_distance", "patience_turning",
+                                                "patience_time", "time_limit"}));
+  EXPECT_TRUE(EndedByLimit({0, TrialOutcome::kTimeLimit, "of an older version", {}}));
+  EXPECT_FALSE(EndedByLimit({0, TrialOutcome::kNoPath, "of an older version", {}}));
+}
+
 TEST(EndCause, SomeOutcomesLeaveItOpen) {
   EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kNoPath));
   EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kJammed));

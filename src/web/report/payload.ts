@@ -37,7 +37,8 @@ export interface Run {
   /** Trials share layouts of rocks: intervals allow for it. */
   shared_layouts: boolean;
   /** How the trials of the rates ended, the commonest way first. */
-  endings: { outcome: string; detail: string; count: number }[];
+  /** `limit`: patience or time was at an end, and the drive had neither arrived nor failed. */
+  endings: { outcome: string; detail: string; count: number; limit?: boolean }[];
   /** What all drives share; null of a measurement, or where another version of the program made the run. */
   course: Course | null;
   /** Of each outcome the trial of median true distance, of the commonest outcome first; absent of cells of a sweep. */

@@ -18,6 +18,8 @@ export interface Steps {
   points: Step[];
   /** Trials that still drove when they came to x: as many numbers as points. */
   atRisk: number[];
+  /** The curve if every drive that a limit ended so far had had the event then; empty where that is none. */
+  ceiling: { x: number; y: number }[];
 }
 
 export interface Step {
@@ -35,18 +37,21 @@ export function stepsOf(shown: ShownRun, name: "ecdf" | "goal"): Steps | null {
   if (!x || columns.some((column) => !column)) return null;
   const points: Step[] = [];
   const atRisk: number[] = [];
+  const ceiling: { x: number; y: number }[] = [];
+  const limits = name === "goal" ? cdf?.["limit"] : undefined;
   x.forEach((value, i) => {
     const [at, lower, upper] = columns.map((column) => column![i]);
     if (!isNumber(value) || !isNumber(at) || !isNumber(lower) || !isNumber(upper)) return;
     const banded = upper > lower;
     points.push({ x: value, y: at, low: banded ? lower : null, high: banded ? upper : null });
     atRisk.push(cdf?.["at_risk"]?.[i] ?? NaN);
+    if (limits?.some((share) => isNumber(share) && share > 0)) ceiling.push({ x: value, y: at + (limits[i] ?? 0) });
   });
   const first = points[0];
   if (!first) return null;
   // The band of the distribution function has one width everywhere.
   const startHigh = name === "ecdf" ? Math.max(0, first.high! - first.y) : null;
-  return { shown, points, startHigh, complete: name === "ecdf", atRisk };
+  return { shown, points, startHigh, complete: name === "ecdf", atRisk, ceiling };
 }
 
 /** How many trials still drove at x; null where that is not known. */
@@ -81,6 +86,7 @@ function seriesMarks(steps: Steps, domain: [number, number], opacity: number): P
       x: "x", y: "y", curve: "step-after", stroke: style.colour, strokeWidth: 2, strokeDasharray: style.dash,
       tip: { format: { x: (x: number) => `${number(x)} m`, y: (y: number) => percent(y), stroke: false } },
     }),
+    Plot.lineY(steps.ceiling, { x: "x", y: "y", curve: "step-after", stroke: style.colour, strokeWidth: 1.5, strokeDasharray: "2 3" }),
   ];
 }
 
@@ -155,9 +161,11 @@ export function stepTable(steps: Steps, what: string): HTMLElement {
   return table({
     caption: `${steps.shown.run.label}: ${what}`,
     captionShown: true,
-    head: ["distance [m]", what, "band from", "band to", "still driving"].map((content) => ({ content, numeric: true })),
+    head: ["distance [m]", what, "band from", "band to", "still driving", ...(steps.ceiling.length > 0 ? ["with those that a limit ended"] : [])]
+      .map((content) => ({ content, numeric: true })),
     rows: steps.points.map((point, i) =>
-      [point.x, point.y, point.low, point.high, steps.atRisk[i]].map((value) => numeric(number(value), value)),
+      [point.x, point.y, point.low, point.high, steps.atRisk[i], ...(steps.ceiling.length > 0 ? [steps.ceiling[i]!.y] : [])]
+        .map((value) => numeric(number(value), value)),
     ),
   });
 }

@@ -31,9 +31,22 @@ function sentence(run: Run): HTMLElement {
 // The last of five is named rather than called another way.
 const NAMED_CAUSES = 4;
 
+/** Drives that a limit ended have not failed: what they would have come to is told as a range. */
+function limits(run: Run): HTMLElement | null {
+  const ended = failuresOf(run).filter(({ limit }) => limit);
+  const { count, trials } = run.summary.ended_by_limit ?? {};
+  const [low, high] = run.summary.declared_success_without_limits ?? [];
+  if (!count) return null;
+  return el("p", { class: "answer-limits" },
+    el("strong", { "data-value": count }, number(count)), ` of ${number(trials)} were ended by a limit of the run before they had arrived or failed (`,
+    ended.map(({ count: of, words: cause }) => `${number(of)} ${cause}`).join("; "), "). Without limits, between ",
+    exact(low, percent(low, 0)), " and ", exact(high, percent(high, 0)), " would have declared arrival.");
+}
+
 function causes(run: Run): HTMLElement | null {
-  const failures = failuresOf(run);
+  const failures = failuresOf(run).filter(({ limit }) => !limit);
   const failed = failures.reduce((sum, { count }) => sum + count, 0);
+  if (failed === 0 && failuresOf(run).length > 0) return null;
   if (failed === 0) return el("p", {}, "Every drive reached the goal.");
   const named = failures.length === NAMED_CAUSES + 1 ? NAMED_CAUSES + 1 : NAMED_CAUSES;
   const more = failures.slice(named).reduce((sum, { count }) => sum + count, 0);
@@ -66,6 +79,6 @@ export const answer: Section = {
   render: (context: Context) => {
     const [run] = context.runs;
     if (context.runs.length !== 1 || !run?.summary?.declared_success?.trials) return null;
-    return [sentence(run), causes(run), how(run)];
+    return [sentence(run), limits(run), causes(run), how(run)];
   },
 };

@@ -43,6 +43,13 @@ function remarks(all: Steps[]): string {
   );
 }
 
+/** What a limit of the run leaves open. */
+const ceilings = (all: Steps[]): string =>
+  all.some(({ ceiling }) => ceiling.length > 0)
+    ? " Dotted: the same if every drive that a limit of the run ended (patience, time) had arrived there; they had neither arrived nor failed, so that " +
+      "without limits the curve would end between the two."
+    : "";
+
 function distances(all: Steps[], marks: Mark[]): HTMLElement {
   const shown = marks.length > 0
     ? " Dashed uprights are values that the published text and tables state; the published figure of this curve (figure 17) " +
@@ -67,7 +74,7 @@ function arrivals(all: Steps[]): HTMLElement {
     title: "Declared arrivals at the goal",
     caption:
       "At a distance x the curve gives the share of trials that believed by then to be at the goal, whether or not they were. Failures compete: they never " +
-      "arrive, so the curve ends below 100 %. The band is a 95 % interval at each distance by itself (pointwise); where it would have no width, as before the first arrival, none is drawn. Below the axis: how many trials still drove at that distance." + remarks(all),
+      "arrive, so the curve ends below 100 %." + ceilings(all) + " The band is a 95 % interval at each distance by itself (pointwise); where it would have no width, as before the first arrival, none is drawn. Below the axis: how many trials still drove at that distance." + remarks(all),
     alternative: `Share of trials that had arrived, by true distance. ${endsOf(all, "the share")}.`,
     key: key(all),
     draw: (width) => drawSteps({ all, marks: [], yLabel: "share that declared arrival", atRisk: true }, width),

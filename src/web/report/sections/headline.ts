@@ -1,10 +1,11 @@
 // Success of every run with its interval.
 
 import { breakable, el, type Child } from "../../shared/dom";
-import { MISSING, number, percent, percentInterval, words } from "../../shared/format";
+import { MISSING, number, percent, percentInterval } from "../../shared/format";
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import { rateBar } from "../charts/glyphs";
 import type { Context } from "../context";
+import { failuresOf } from "../endings";
 import type { Run } from "../payload";
 import { methodName, SHARED_LAYOUTS } from "../words";
 import { hasUnrated, ratedTrials } from "../prefix";
@@ -39,11 +40,8 @@ function rateCells(rate: Rate | undefined): Cell[] {
 }
 
 function commonest(run: Run): Cell {
-  const failures = Object.entries((run.summary?.outcomes ?? {}) as Record<string, number>)
-    .filter(([name, count]) => count > 0 && name !== "goal_reached" && name !== "simulator_fault")
-    .sort((a, b) => b[1] - a[1]);
-  const [first] = failures;
-  return { content: first ? `${words(first[0])} (${number(first[1])})` : "none" };
+  const [first] = failuresOf(run);
+  return { content: first ? `${first.words} (${number(first.count)}${first.limit ? ", by a limit of the run" : ""})` : "none" };
 }
 
 function trialsCell(run: Run): Cell {
@@ -111,7 +109,7 @@ export const headline: Section = {
           { content: "True success", numeric: true },
           "True, 95 % interval",
           { content: "Median distance [m]", numeric: true },
-          "Commonest failure",
+          "Commonest end without arrival",
         ],
         rows: runs.map(row),
       }),
