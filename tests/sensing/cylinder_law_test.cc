@@ -147,7 +147,7 @@ TEST(CylinderFixTest, DrawsAsTheConstantLaw) {
   for (int number = 0; number < 20; ++number) {
     const auto constant = FixOf({}, 40.0, number);
     const auto cylinder = FixOf(Certain(), 40.0, number);
-    EXPECT_LT((constant->pose_W - cylinder->pose_W).norm(), 1e-9);
+    EXPECT_LT((constant->pose - cylinder->pose).norm(), 1e-9);
     EXPECT_LT((constant->covariance - cylinder->covariance).norm(), 1e-9);
   }
 }
@@ -157,8 +157,8 @@ TEST(CylinderFixTest, LeavesTheConstantLawAlone) {
   params.law = LanderFixLaw::kConstant;
   params.cylinder.found.intercept = -1000.0;
   params.cylinder.range_bias = 0.5;
-  EXPECT_EQ(FixOf(params, 40.0)->pose_W, FixOf({}, 40.0)->pose_W);
-  EXPECT_EQ(FixOf(params, 40.0, 0, -0.1)->pose_W, FixOf({}, 40.0)->pose_W);
+  EXPECT_EQ(FixOf(params, 40.0)->pose, FixOf({}, 40.0)->pose);
+  EXPECT_EQ(FixOf(params, 40.0, 0, -0.1)->pose, FixOf({}, 40.0)->pose);
 }
 
 // theta = direction to the cameras less the rover's heading less the mounting.
