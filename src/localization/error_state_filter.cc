@@ -62,7 +62,7 @@ ErrorStateFilter::ErrorStateFilter(const ErrorStateFilterParams& params,
       dead_reckoning_(setup.dead_reckoning),
       lander_(setup.lander),
       attitude_(setup.attitude),
-      motion_gate_(params.gate),
+      motions_{.gate = Gate(params.gate)},
       errors_(PriorCovariance(params, setup.lander)) {
   if (setup.memory) Recall(*setup.memory);
   math::Pose2 start_W = setup.start;
@@ -118,7 +118,7 @@ void ErrorStateFilter::Propagate(const messages::MotionMeasurement& motion) {
   TellPose();
   roll_correction_rad_ *= noise.tilt_kept;
   pitch_correction_rad_ *= noise.tilt_kept;
-  way_since_place_m_ += std::abs(forward_m);
+  way_m_ += std::abs(forward_m);
   if (stretch_.way_m() >= params_.stretch_m) EndStretch();
 }
 
@@ -148,9 +148,9 @@ void ErrorStateFilter::Place(const messages::PoseUpdate& update) {
   }
   errors_ = ClonedCovariance(before);
   moments_.clear();
-  gates_.clear();
-  motion_gate_.Restart();
-  way_since_place_m_ = 0.0;
+  kinds_.clear();
+  motions_.gate.Restart();
+  way_m_ = 0.0;
   pose_W_.x_m = update.x_m;
   pose_W_.y_m = update.y_m;
   pose_W_.heading_rad = math::WrapAngle(update.heading_rad);
@@ -203,12 +203,12 @@ AidUse ErrorStateFilter::Update(const messages::PoseFix& fix) {
   const PoseVector difference = Wrapped(fix.pose - believed.pose);
   const unsigned long kind =
       fix.measured.to_ulong() | (fix.in_lander_frame ? 1UL << kPoseCoordinates : 0UL);
-  const auto gate = gates_.try_emplace(kind, params_.gate).first;
+  const auto of_kind = kinds_.try_emplace(kind, Kind{.gate = Gate(params_.gate)}).first;
   return Take({.parts = {{fix.capture, picks * believed.by_error}},
                .values = picks * difference,
                .noise = picks * fix.covariance * picks.transpose(),
                .of_place = fix.measured[error::kX] || fix.measured[error::kY],
-               .gate = &gate->second},
+               .kind = &of_kind->second},
               picks.transpose() * (picks * difference));
 }
 
@@ -237,7 +237,7 @@ AidUse ErrorStateFilter::Update(const messages::RelativeMotion& motion) {
                      .values = difference,
                      .noise = motion.covariance,
                      .of_place = false,
-                     .gate = &motion_gate_},
+                     .kind = &motions_},
                     to_F.transpose() * difference);
 }
 
@@ -245,8 +245,8 @@ AidUse ErrorStateFilter::TakeMotion(const messages::RelativeMotion& motion,
                                     const Residual& residual, const PoseVector& difference) {
   const double distance =
       errors_.MahalanobisSquared(residual.parts, residual.values, residual.noise);
-  const bool believed =
-      residual.gate->Ask(distance, static_cast<int>(residual.values.size())) == GateAnswer::kIn;
+  const bool believed = residual.kind->gate.Ask(
+                            distance, static_cast<int>(residual.values.size())) == GateAnswer::kIn;
   if (!believed) {
     if (params_.motion_disagreement == MotionDisagreement::kTurnAway) return AidUse::kGatedOut;
     DoubtWheels(motion, difference);
@@ -278,7 +278,7 @@ AidUse ErrorStateFilter::Take(const Residual& residual, const PoseVector& doubt)
   const double distance =
       errors_.MahalanobisSquared(residual.parts, residual.values, residual.noise);
   AidUse use = AidUse::kUsed;
-  switch (residual.gate->Ask(distance, static_cast<int>(residual.values.size()))) {
+  switch (residual.kind->gate.Ask(distance, static_cast<int>(residual.values.size()))) {
     case GateAnswer::kIn:
       break;
     case GateAnswer::kOut:
@@ -287,8 +287,9 @@ AidUse ErrorStateFilter::Take(const Residual& residual, const PoseVector& doubt)
       use = AidUse::kUsedInDoubt;
       PoseVector variances = doubt.cwiseAbs2();
       // A place is mostly wrong because the heading was on the way to it.
-      if (residual.of_place && way_since_place_m_ > 0.0) {
-        const double off_rad = std::hypot(doubt[error::kX], doubt[error::kY]) / way_since_place_m_;
+      const double way_m = way_m_ - residual.kind->believed_at_m;
+      if (residual.of_place && way_m > 0.0) {
+        const double off_rad = std::hypot(doubt[error::kX], doubt[error::kY]) / way_m;
         variances[error::kHeading] += Squared(std::min(off_rad, std::numbers::pi));
       }
       ErrorVector all = ErrorVector::Zero();
@@ -297,7 +298,7 @@ AidUse ErrorStateFilter::Take(const Residual& residual, const PoseVector& doubt)
       break;
     }
   }
-  if (residual.of_place) way_since_place_m_ = 0.0;
+  residual.kind->believed_at_m = way_m_;
   Correct(errors_.Update(residual.parts, residual.values, residual.noise).changes);
   return use;
 }

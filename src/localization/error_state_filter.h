@@ -65,13 +65,18 @@ class ErrorStateFilter final : public Estimator {
   ErrorMatrix covariance() const { return errors_.now(); }
 
  private:
+  // What there is of each kind of fix.
+  struct Kind {
+    Gate gate;
+    double believed_at_m = 0.0;  // of the way, the last one
+  };
   // One measurement: r = sum of the parts' jacobians times errors, and noise.
   struct Residual {
     std::vector<ClonedCovariance::Part> parts;
     Eigen::VectorXd values;
     Eigen::MatrixXd noise;
     bool of_place = false;  // x or y are among the values
-    Gate* gate = nullptr;
+    Kind* kind = nullptr;
   };
 
   // Begins with what is known of place, heading and scales. A gyro that is switched on has a new
@@ -106,8 +111,8 @@ class ErrorStateFilter final : public Estimator {
   AttitudeEstimator attitude_;
   // Of fixes by what they measure in which frame: what the sun says of the heading is no word for
   // the place, nor a coarse beacon one for the mast.
-  std::map<unsigned long, Gate> gates_;
-  Gate motion_gate_;
+  std::map<unsigned long, Kind> kinds_;
+  Kind motions_;
 
   messages::PoseEstimate pose_W_;
   double pan_rad_ = 0.0;
@@ -123,7 +128,7 @@ class ErrorStateFilter final : public Estimator {
   ErrorStretch stretch_;
   ClonedCovariance errors_;
   std::map<messages::CaptureNumber, messages::PoseVector> moments_;  // believed poses of clones
-  double way_since_place_m_ = 0.0;  // since a measurement of the place was believed
+  double way_m_ = 0.0;  // since the beginning or the last Place
 
   messages::LocalizationEstimate estimate_;
 };

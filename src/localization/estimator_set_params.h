@@ -32,7 +32,8 @@ struct EstimatorSetup {
   messages::DriveCalibration calibration{};
   DeadReckoningParams dead_reckoning{};
   AttitudeParams attitude{};
-  math::Pose2 start{};  // where operators put the rover down, in the world frame; as remembered
+  math::Pose2 start{};  // where operators put the rover down, in the world frame; as
+                        // remembered, in the frame in which goals are told
   std::optional<LanderFrame> lander{};  // empty: goals are told in the world frame
   // Of the day before, where the rover was not put down but goes on (localization/estimator.h).
   const EstimatorMemory* memory = nullptr;

@@ -56,7 +56,7 @@ struct LocalizationEstimate {
   std::optional<WorldEstimate> world;
 };
 
-// Where operators say that the rover is after they moved it by hand.
+// Where operators say that the rover is after they moved it by hand, in the world frame.
 struct PoseUpdate {
   double x_m = 0.0;
   double y_m = 0.0;

@@ -25,7 +25,9 @@ std::vector<DistanceStep> DistanceSteps(const truth::RecordSchema& schema,
 
   std::vector<double> limits;
   for (const truth::Record& record : records) {
-    if (truth::EndedByLimit(record)) limits.push_back(record.values[*column]);
+    if (*column < record.values.size() && truth::EndedByLimit(record)) {
+      limits.push_back(record.values[*column]);
+    }
   }
   limits = statistics::SortedFinite(limits);
 

@@ -40,6 +40,14 @@ std::string ReasonOf(const statistics::MeanEstimate& estimate) {
   return "";
 }
 
+JsonValue RateJson(const statistics::Proportion& rate) {
+  return JsonValue::Object({{"count", rate.count},
+                            {"trials", rate.trials},
+                            {"rate", NumberOrNull(rate.rate)},
+                            {"ci95", EndsOf(rate.interval)},
+                            {"ci_method", std::string(MethodName(rate.method))}});
+}
+
 JsonValue MetricJson(const statistics::MetricSummary& summary) {
   JsonValue json = JsonValue::Object({{"count", summary.count},
                                       {"mean", NumberOrNull(summary.mean)},

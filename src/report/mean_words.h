@@ -20,6 +20,9 @@ std::string ReasonOf(const statistics::MeanEstimate& estimate);
 // wilson, clopper_pearson or skewed_t (statistics/mean_interval.h); null where there is none.
 core::JsonValue MetricJson(const statistics::MetricSummary& summary);
 
+// {count, trials, rate, ci95, ci_method}.
+core::JsonValue RateJson(const statistics::Proportion& rate);
+
 // Of summary.json and its like.
 inline constexpr int kSchemaVersion = 2;
 

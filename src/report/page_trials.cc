@@ -55,21 +55,19 @@ std::vector<std::size_t> PageTrials(std::span<const Record> records,
 
 std::string PageEndingsJson(std::span<const Record> records) {
   std::map<std::pair<truth::TrialOutcome, std::string>, std::int64_t> counts;
-  const auto ended_by_limit = [](const auto& ending) {
-    return truth::EndedByLimit({0, ending.first, ending.second, {}});
-  };
   for (const Record& record : records) ++counts[{record.outcome, record.detail}];
   std::vector<std::pair<std::int64_t, std::pair<truth::TrialOutcome, std::string>>> endings;
   endings.reserve(counts.size());
   for (const auto& [ending, count] : counts) endings.emplace_back(count, ending);
   std::stable_sort(endings.begin(), endings.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  return JsonList(endings, [&](const auto& each) {
+  return JsonList(endings, [](const auto& each) {
     return JsonObject()
         .AddText("outcome", truth::Name(each.second.first))
         .AddText("detail", each.second.second)
         .AddInteger("count", each.first)
-        .Add("limit", ended_by_limit(each.second) ? "true" : "false")
+        .Add("limit",
+             truth::EndedByLimit({0, each.second.first, each.second.second, {}}) ? "true" : "false")
         .Text();
   });
 }

@@ -17,14 +17,6 @@ using statistics::DriveSummary;
 
 constexpr const char* kModeMethod = "half-sample mode; range by subsampling, no coverage claimed";
 
-JsonValue RateJson(const statistics::Proportion& rate) {
-  return JsonValue::Object({{"count", rate.count},
-                            {"trials", rate.trials},
-                            {"rate", NumberOrNull(rate.rate)},
-                            {"ci95", EndsOf(rate.interval)},
-                            {"ci_method", std::string(MethodName(rate.method))}});
-}
-
 JsonValue Column(const ColumnSummary* column) {
   if (column == nullptr) return JsonValue();
   return JsonValue::Object({{"count", column->count},

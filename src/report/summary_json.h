@@ -15,7 +15,8 @@ namespace rockyard::report {
 // the way from the file; null where that is not known), localization, ablations (in force), trials
 // (planned, stored, completed: the contiguous prefix that all else is about, faults), accounting
 // and, where the run has them, stopping and shard (accounting.h), declared_success and true_success
-// (count, trials, rate, ci95, ci_method), outcomes (every kind), causes (those that happened,
+// (count, trials, rate, ci95, ci_method), outcomes (every kind), ended_by_limit (a rate),
+// declared_success_without_limits (two ends), causes (those that happened,
 // truth/end_cause.h), distance_m, path_ratio, dead_reckoning, sim_time_s, energy_wh, columns (all
 // others), metrics and metrics_by_outcome, trial_hash, provenance (as below, with threads, ranks,
 // builds). A column is {count, min, p05, median, mean, mode, mode_range, mode_method, p95, max,

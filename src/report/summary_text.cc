@@ -81,14 +81,13 @@ std::string RateLine(std::string_view name, const statistics::Proportion& rate) 
                      100.0 * rate.interval.high);
 }
 
-// No headline hangs on how long a run was allowed to go on.
+// How much of the rates above hangs on how long drives were allowed to go on.
 std::string LimitLines(const DriveSummary& summary) {
   if (summary.ended_by_limit.count == 0) return "";
   const statistics::Interval success = summary.SuccessWithoutLimits();
   return RateLine("ended by a limit", summary.ended_by_limit) +
          fmt::format(
-             "    neither arrived nor failed: without limits {:.1f} .. {:.1f} % would have "
-             "declared success\n",
+             "    without patience and time limit {:.1f} .. {:.1f} % of these declare success\n",
              100.0 * success.low, 100.0 * success.high);
 }
 

@@ -64,7 +64,8 @@ JsonValue Cell(const Sweep& sweep, std::size_t index, const SweepCellSummary& ce
                                       {"declared_success", Rate(cell.declared_success)},
                                       {"true_success", Rate(cell.true_success)},
                                       {"outcomes", Outcomes(cell)}});
-  json.Set("ended_by_limit", JsonValue(cell.ended_by_limit.count));
+  json.Set("ended_by_limit", RateJson(cell.ended_by_limit));
+  json.Set("declared_success_without_limits", EndsOf(cell.success_without_limits));
   json.Set("metrics", Metrics(cell));
   json.Set("trial_hash", JsonValue(cell.trial_hash));
   json.Update(AccountingJson(cell.accounting, cell.stopping));

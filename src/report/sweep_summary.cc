@@ -66,6 +66,7 @@ SweepCellSummary SummarizeCell(const SweepCellTrials& trials, const CellOutcomes
       RateOf(trials, outcomes, SuccessKind::kDeclared, drive.declared_success, cells);
   summary.true_success = RateOf(trials, outcomes, SuccessKind::kTrue, drive.true_success, cells);
   summary.ended_by_limit = drive.ended_by_limit;
+  summary.success_without_limits = drive.SuccessWithoutLimits();
   summary.outcomes = drive.outcomes;
   summary.metrics = statistics::SummarizeMetrics(trials.schema, trials.prefix, method);
   summary.trial_hash = trials.trial_hash;

@@ -52,6 +52,7 @@ struct SweepCellSummary {
   SweepRate declared_success;
   SweepRate true_success;
   statistics::Proportion ended_by_limit;  // neither arrived nor failed
+  statistics::Interval success_without_limits;
   std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
   std::vector<statistics::MetricSummary> metrics;
   std::string trial_hash;

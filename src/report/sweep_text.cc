@@ -111,7 +111,8 @@ std::string LimitLine(const Sweep& sweep, const SweepSummary& summary) {
   return Wrapped(fmt::format(
       "  (in {} of {} cells drives were ended by a limit, patience or time, and had neither "
       "arrived "
-      "nor failed: up to {:.1f} %, in {}; without it success may be higher by as much)\n",
+      "nor failed: up to {:.1f} %, in {}; without limits declared success may be higher by as "
+      "much)\n",
       cells, summary.cells.size(), 100.0 * summary.cells[most].ended_by_limit.rate,
       Cut(Label(sweep, most), kLabelWidth)));
 }

@@ -63,6 +63,18 @@ std::vector<double> ColumnValues(std::span<const truth::Record> records, std::si
   return values;
 }
 
+Interval DriveSummary::SuccessWithoutLimits() const {
+  std::int64_t untold = outcome(truth::TrialOutcome::kNoPath);
+  for (std::size_t i = 0; i < truth::kEndCauses.size(); ++i) {
+    if (truth::kEndCauses[i].outcome == truth::TrialOutcome::kNoPath) untold -= causes[i];
+  }
+  const auto rate = [&](std::int64_t count) {
+    return static_cast<double>(count) / static_cast<double>(declared_success.trials);
+  };
+  return {rate(declared_success.count),
+          rate(declared_success.count + ended_by_limit.count + untold)};
+}
+
 DriveSummary Summarize(const truth::RecordSchema& schema, std::span<const truth::Record> records,
                        std::int64_t planned, IntervalMethod method) {
   DriveSummary summary;

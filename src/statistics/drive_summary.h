@@ -55,11 +55,9 @@ struct DriveSummary {
   std::int64_t outcome(truth::TrialOutcome kind) const {
     return outcomes[static_cast<std::size_t>(kind)];
   }
-  // Of declared success, whatever drives that a limit ended would have come to: none of them would
-  // have arrived, or all.
-  Interval SuccessWithoutLimits() const {
-    return {declared_success.rate, declared_success.rate + ended_by_limit.rate};
-  }
+  // Of declared success of these trials, whatever those that a limit ended would have come to: none
+  // of them would have arrived, or all, and all that found no path of which no cause is told.
+  Interval SuccessWithoutLimits() const;
   std::int64_t cause(truth::EndCause kind) const { return causes[static_cast<std::size_t>(kind)]; }
   const ColumnSummary* Find(std::string_view name) const;  // nullptr where there is none
 };

@@ -1,8 +1,17 @@
 #include "trial/designation_params.h"
 
+#include <cmath>
+#include <numbers>
+
 namespace rockyard::trial {
 
 using core::Origin;
+
+double DesignationParams::PanSd_rad() const {
+  if (stated_pan_sd_rad) return *stated_pan_sd_rad;
+  return pan_kind == PanError::kFixed ? std::abs(pan_error_rad)
+                                      : std::abs(pan_error_rad) / std::numbers::sqrt3;
+}
 
 DesignationErrors DesignationParams::ErrorsAt(double range_m) const {
   return {pixel_sd_px * pixel_rad * range_m,

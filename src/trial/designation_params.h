@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "core/fields.h"
@@ -33,6 +34,13 @@ struct DesignationParams {
   double baseline_m = 0.15;
   PanError pan_kind = PanError::kFixed;
   double pan_error_rad = math::DegToRad(1.0);
+  // No parameter: of a course whose pan error was drawn elsewhere, what is known of it all the
+  // same.
+  std::optional<double> stated_pan_sd_rad = std::nullopt;
+
+  // What the calibration states of the pan error, a standard deviation: of a fixed one its size, of
+  // a uniform one the third of its bound's square.
+  double PanSd_rad() const;
 
   // Matthies 1995, eqs. (1) to (3), for pixels of pixel_rad, goals picked to pixel_sd_px and
   // disparities known to disparity_sd_px:

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "perception/tracked_feature.h"
+#include "trial/belief.h"
 #include "trial/look_time.h"
 #include "trial/onboard_calibration.h"
 #include "trial/tick_guard.h"
@@ -257,7 +258,8 @@ void Drive::ReflectAtMirrorLine(int direction) {
   if (!parts_.mirror || !has_rolled_ || !parts_.mirror->Reaches(y_m)) return;
   const messages::PoseEstimate before = parts_.estimate().pose;
   const auto reflection =
-      parts_.mirror->Reflect(math::ToPose2(parts_.state().X_WR), direction, before);
+      parts_.mirror->Reflect(math::ToPose2(parts_.state().X_WR), direction,
+                             WorldPose(parts_.estimate()));
   if (!reflection) return;
   has_rolled_ = false;
   // What it saw lay around a rover that stood elsewhere.

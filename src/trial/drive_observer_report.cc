@@ -50,7 +50,7 @@ void DriveObserver::ReportGoals(truth::DriveRecord& record) const {
 
 void DriveObserver::ReportPoses(truth::DriveRecord& record) const {
   const math::Pose2 truth = math::ToPose2(parts_.state().X_WR);
-  const messages::PoseEstimate& estimate = WorldPose(parts_.estimate());
+  const messages::PoseEstimate& estimate = parts_.estimate().pose;
   const messages::Goal goal = parts_.params.course.GoalAt(parts_.ledger.time_s());
   record.true_goal_distance_m = std::hypot(goal.x_m - truth.x_m, goal.y_m - truth.y_m);
   record.final_x_m = truth.x_m;

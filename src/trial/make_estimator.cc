@@ -1,7 +1,5 @@
 #include "trial/make_estimator.h"
 
-#include <cmath>
-
 #include "trial/onboard_calibration.h"
 #include "trial/oracle_estimator.h"
 
@@ -16,8 +14,7 @@ localization::EstimatorSetup EstimatorSetupOf(const DriveParams& drive,
       .start = drive.course.Start()};
   if (const DesignationParams& designation = drive.course.designation; designation.enabled) {
     const messages::Goal lander = drive.course.LanderPlace();
-    setup.lander = {
-        .x_m = lander.x_m, .y_m = lander.y_m, .pan_sd_rad = std::abs(designation.pan_error_rad)};
+    setup.lander = {.x_m = lander.x_m, .y_m = lander.y_m, .pan_sd_rad = designation.PanSd_rad()};
   }
   if (memory != nullptr) {
     setup.start = memory->pose;

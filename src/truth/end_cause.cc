@@ -4,10 +4,10 @@
 
 namespace rockyard::truth {
 
-std::optional<EndCause> CauseOf(const Record& record) {
+std::optional<EndCause> CauseOf(TrialOutcome outcome, std::string_view detail) {
   for (std::size_t i = 0; i < kEndCauses.size(); ++i) {
     const EndCauseInfo& info = kEndCauses[i];
-    if (info.outcome == record.outcome && info.sentence == record.detail) {
+    if (info.outcome == outcome && info.sentence == detail) {
       return static_cast<EndCause>(i);
     }
   }

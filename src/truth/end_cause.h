@@ -91,9 +91,12 @@ constexpr bool IsLimit(EndCause cause) {
 }
 bool EndedByLimit(const Record& record);
 
-// By the record's outcome and sentence. Nothing for what is no drive, for a fault, and for a
-// sentence of another version.
-std::optional<EndCause> CauseOf(const Record& record);
+// By outcome and sentence. Nothing for what is no drive, for a fault, and for a sentence of another
+// version.
+std::optional<EndCause> CauseOf(TrialOutcome outcome, std::string_view detail);
+inline std::optional<EndCause> CauseOf(const Record& record) {
+  return CauseOf(record.outcome, record.detail);
+}
 // Its name; "" where there is none.
 std::string_view CauseName(const Record& record);
 

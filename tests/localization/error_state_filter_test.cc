@@ -294,6 +294,24 @@ TEST_F(WayBack, IsFoundWhateverAnotherKindOfFixSays) {
   EXPECT_EQ(turned_away, 2);
 }
 
+// A coarse place a moment before is no reason to take the heading for right all the way.
+TEST_F(WayBack, DoubtsTheHeadingByTheWayOfItsOwnKind) {
+  messages::PoseFix fix = PlaceFix(0, 0.0, 0.0, 0.02);
+  fix.in_lander_frame = true;  // another kind, though no lander is told apart here
+  AidUse use = AidUse::kUsed;
+  for (int i = 0; i < 3; ++i) {
+    filter_.Capture(next_);
+    EXPECT_EQ(filter_.Update(PlaceFix(next_, 2.0, -2.0, 2.0)), AidUse::kUsed);
+    fix.capture = next_;
+    fix.pose[kX] = 1.5;
+    fix.pose[kY] = -1.0;
+    use = filter_.Update(fix);
+    filter_.Forget(next_++);
+  }
+  EXPECT_EQ(use, AidUse::kUsedInDoubt);
+  EXPECT_GT(filter_.covariance()(kHeading, kHeading), 0.2);
+}
+
 TEST_F(WayBack, IsNotTakenForOneWrongFix) {
   EXPECT_EQ(Tell(5.0, 3.0), AidUse::kGatedOut);
   EXPECT_EQ(Tell(2.0, -2.0), AidUse::kUsed);
@@ -333,6 +351,28 @@ TEST(ErrorStateFilter, KeepsItsErrorWhereItWasMirrored) {
   EXPECT_DOUBLE_EQ(after(kX, kHeading), -before(kX, kHeading));
   EXPECT_DOUBLE_EQ(after(kHeading, error::kGyroScale), -before(kHeading, error::kGyroScale));
   EXPECT_EQ(filter.estimate().pose.y_m, 3.0);
+}
+
+// Operators turn the rover in the world; what the mast and the world told of each other stays.
+TEST(ErrorStateFilter, KeepsThePanAngleWhereItWasMirrored) {
+  EstimatorSetup setup = AlongX();
+  setup.lander = {.x_m = -8.0, .y_m = 1.0, .pan_sd_rad = 0.05};
+  ErrorStateFilter filter({}, setup);
+  DriveStraight(filter, 1.0);
+  filter.Capture(1);
+  messages::PoseFix mast = PlaceFix(1, 2.0, -1.8, 0.02);
+  mast.in_lander_frame = true;
+  ASSERT_EQ(filter.Update(mast), AidUse::kUsed);
+  const double pan_rad = filter.pan_rad();
+  EXPECT_GT(pan_rad, 0.01);
+  const messages::PoseEstimate world = filter.estimate().world->pose;
+  filter.Place({world.x_m, 2.0 * 0.5 - world.y_m, -world.heading_rad, true});
+  EXPECT_EQ(filter.pan_rad(), pan_rad);
+  EXPECT_EQ(filter.estimate().world->pose.y_m, 1.0 - world.y_m);
+  const math::Pose2 told =
+      math::TurnedAbout({world.x_m, 1.0 - world.y_m, -world.heading_rad}, -8.0, 1.0, pan_rad);
+  EXPECT_DOUBLE_EQ(filter.estimate().pose.y_m, told.y_m);
+  EXPECT_DOUBLE_EQ(filter.estimate().odometry.y_m, told.y_m);
 }
 
 // Noise at rest, and scrapes that it reckons with.

@@ -80,6 +80,10 @@ TEST(LanderFixTest, IsTurnedByThePanError) {
   const Eigen::Vector2d expected = station + turn * (right->pose.head<2>() - station);
   EXPECT_LT((wrong->pose.head<2>() - expected).norm(), 1e-9);
   EXPECT_NEAR(wrong->pose[kHeading] - right->pose[kHeading], DegToRad(1.0), 1e-9);
+  EXPECT_TRUE(wrong->in_lander_frame);
+  EXPECT_FALSE(LanderFix({.shares_pan_error = false}, turned, kKey)
+                   .Observe(Rover(), Flat(), 3)
+                   ->in_lander_frame);
 }
 
 // What fixes have in common stays from number to number; all of it with a share of 1.

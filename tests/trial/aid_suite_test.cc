@@ -156,6 +156,15 @@ TEST(AidSuite, SharesThePanErrorOfDesignatedGoals) {
   // 4 deg at 7.6 m are 0.53 m.
   EXPECT_LT(shared.record.true_goal_distance_m, 0.25);
   EXPECT_GT(own.record.true_goal_distance_m, 0.35);
+  // It began at a known place of the world, so that the first fixes tell the pan angle: the rover
+  // knows where it is in either frame, half a metre apart.
+  for (const truth::DriveRecord& record : {shared.record, own.record}) {
+    EXPECT_LT(record.position_error_m, 0.15);
+    EXPECT_EQ(record.inside_95, 1.0);
+  }
+  EXPECT_GT(std::hypot(shared.record.believed_x_m - shared.record.final_x_m,
+                       shared.record.believed_y_m - shared.record.final_y_m),
+            0.35);
 }
 
 // In the mirrored arena nobody measures where the rover is turned: its belief stays as wide.

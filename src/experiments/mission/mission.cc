@@ -146,7 +146,8 @@ trial::DriveParams Mission::DriveOf(const Window& window) const {
   const double dy_m = params_.lander_y_m - truth_.y_m;
   course.designation.lander_ahead_m = dx_m * along_x + dy_m * along_y;
   course.designation.lander_left_m = dy_m * along_x - dx_m * along_y;
-  // The mast is wrong by one angle in all the mission.
+  // The mast is wrong by one angle in all the mission, which the rover does not know.
+  course.designation.stated_pan_sd_rad = drive_.course.designation.PanSd_rad();
   course.designation.pan_kind = trial::PanError::kFixed;
   course.designation.pan_error_rad = pan_error_rad_;
   drive.energy.battery_wh = battery_wh_;
@@ -190,7 +191,7 @@ trial::DriveEnd Mission::DriveOn(std::int64_t number, const Window& window, Sol&
   const trial::DriveResult result =
       trial::RunTrial(drive, SolKey(key_, number),
                       {.memory = memory_, .field = field_, .sun = SunFrom(number, window.begin_s)});
-  sol.end = SolEndOf(result.outcome, truth::EndedByLimit({0, result.outcome, result.detail, {}}));
+  sol.end = SolEndOf(result.outcome, truth::CauseOf(result.outcome, result.detail));
   sol.distance_m = result.record.true_distance_m;
   sol.drive_time_s = result.record.sim_time_s;
   told = {result.record.told_goal_x_m, result.record.told_goal_y_m};

@@ -58,7 +58,7 @@ void SolBooks::AddLoad(double load_W, double begin_s, double end_s, double& sink
   sink_wh += sun_wh + from_battery_wh;
 }
 
-SolEnd SolEndOf(truth::TrialOutcome outcome, bool ended_by_limit) {
+SolEnd SolEndOf(truth::TrialOutcome outcome, std::optional<truth::EndCause> cause) {
   using truth::TrialOutcome;
   switch (outcome) {
     case TrialOutcome::kGoalReached:
@@ -70,7 +70,7 @@ SolEnd SolEndOf(truth::TrialOutcome outcome, bool ended_by_limit) {
     case TrialOutcome::kJammed:
       return SolEnd::kStuck;
     case TrialOutcome::kNoPath:
-      return ended_by_limit ? SolEnd::kPatience : SolEnd::kNoPath;
+      return cause && truth::IsLimit(*cause) ? SolEnd::kPatience : SolEnd::kNoPath;
     case TrialOutcome::kEnergyDepleted:
       return SolEnd::kEnergy;
     case TrialOutcome::kTimeLimit:

@@ -13,6 +13,7 @@
 #include "trial/power_budget.h"
 #include "trial/run_trial.h"
 #include "trial/solar_supply.h"
+#include "truth/end_cause.h"
 #include "truth/record.h"
 
 namespace rockyard::experiments {
@@ -76,7 +77,7 @@ inline constexpr std::array<std::string_view, kSolEnds> kSolEndNames{
     "goal", "time", "energy", "stuck", "no_path", "slip", "tipped", "no_command", "patience"};
 
 // Throws std::logic_error for outcomes that drives of a mission do not have.
-SolEnd SolEndOf(truth::TrialOutcome outcome, bool ended_by_limit);
+SolEnd SolEndOf(truth::TrialOutcome outcome, std::optional<truth::EndCause> cause);
 
 // What became of the lander's image of the day.
 enum class LanderSight {
@@ -92,7 +93,7 @@ struct Sol {
   double distance_m = 0.0;              // true path
   double drive_time_s = 0.0;            // from the start of the drive to its end
   math::Pose2 truth;                    // in the evening
-  math::Pose2 believed;                 // then, after the lander's update, in W
+  math::Pose2 believed;                 // then, after the lander's update, in W as far as it knows
   double unaided_error_m = 0.0;         // of the believed position before that update
   std::optional<double> position_sd_m;  // as believed then; empty without an account of errors
   std::optional<bool> inside_95;        // whether its 95 % region of x, y, heading holds the truth

@@ -19,7 +19,7 @@ export function causesOf(run: Run): Cause[] {
   for (const { outcome, detail, count, limit = false } of endingsOf(run)) {
     const words = causeWords(outcome, detail);
     const key = `${outcome}: ${words}`;
-    causes.set(key, { outcome, words, limit, count: (causes.get(key)?.count ?? 0) + count });
+    causes.set(key, { outcome, words, limit: limit || (causes.get(key)?.limit ?? false), count: (causes.get(key)?.count ?? 0) + count });
   }
   return [...causes.values()].sort((a, b) => b.count - a.count);
 }
@@ -30,5 +30,5 @@ export const failuresOf = (run: Run): Cause[] => causesOf(run).filter(({ outcome
 function endingsOf(run: Run): Run["endings"] {
   if ((run.endings ?? []).length > 0) return run.endings;
   const outcomes = Object.entries((run.summary?.outcomes ?? {}) as Record<string, number>);
-  return outcomes.filter(([, count]) => count > 0).map(([outcome, count]) => ({ outcome, detail: "", count }));
+  return outcomes.filter(([, count]) => count > 0).map(([outcome, count]) => ({ outcome, detail: "", count, limit: outcome === "time_limit" }));
 }

@@ -38,14 +38,15 @@ export function stepsOf(shown: ShownRun, name: "ecdf" | "goal"): Steps | null {
   const points: Step[] = [];
   const atRisk: number[] = [];
   const ceiling: { x: number; y: number }[] = [];
-  const limits = name === "goal" ? cdf?.["limit"] : undefined;
+  const shares = name === "goal" ? cdf?.["limit"] : undefined;
+  const limits = shares?.some((share) => isNumber(share) && share > 0) ? shares : undefined;
   x.forEach((value, i) => {
     const [at, lower, upper] = columns.map((column) => column![i]);
     if (!isNumber(value) || !isNumber(at) || !isNumber(lower) || !isNumber(upper)) return;
     const banded = upper > lower;
     points.push({ x: value, y: at, low: banded ? lower : null, high: banded ? upper : null });
     atRisk.push(cdf?.["at_risk"]?.[i] ?? NaN);
-    if (limits?.some((share) => isNumber(share) && share > 0)) ceiling.push({ x: value, y: at + (limits[i] ?? 0) });
+    if (limits) ceiling.push({ x: value, y: at + (limits[i] ?? 0) });
   });
   const first = points[0];
   if (!first) return null;

@@ -38,9 +38,9 @@ function limits(run: Run): HTMLElement | null {
   const [low, high] = run.summary.declared_success_without_limits ?? [];
   if (!count) return null;
   return el("p", { class: "answer-limits" },
-    el("strong", { "data-value": count }, number(count)), ` of ${number(trials)} were ended by a limit of the run before they had arrived or failed (`,
-    ended.map(({ count: of, words: cause }) => `${number(of)} ${cause}`).join("; "), "). Without limits, between ",
-    exact(low, percent(low, 0)), " and ", exact(high, percent(high, 0)), " would have declared arrival.");
+    el("strong", { "data-value": count }, number(count)), ` of ${number(trials)} ended by a limit of the run before they had arrived or failed (`,
+    ended.map(({ count: of, words: cause }) => `${number(of)} ${cause}`).join("; "), "). Without patience and time limit, between ",
+    exact(low, percent(low, 0)), " and ", exact(high, percent(high, 0)), " of these drives declare arrival.");
 }
 
 function causes(run: Run): HTMLElement | null {

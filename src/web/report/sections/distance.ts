@@ -73,8 +73,8 @@ function arrivals(all: Steps[]): HTMLElement {
     id: "goal-incidence",
     title: "Declared arrivals at the goal",
     caption:
-      "At a distance x the curve gives the share of trials that believed by then to be at the goal, whether or not they were. Failures compete: they never " +
-      "arrive, so the curve ends below 100 %." + ceilings(all) + " The band is a 95 % interval at each distance by itself (pointwise); where it would have no width, as before the first arrival, none is drawn. Below the axis: how many trials still drove at that distance." + remarks(all),
+      "At a distance x the curve gives the share of trials that believed by then to be at the goal, whether or not they were. All other ends compete: who ended so " +
+      "does not arrive, so the curve ends below 100 %." + ceilings(all) + " The band is a 95 % interval at each distance by itself (pointwise); where it would have no width, as before the first arrival, none is drawn. Below the axis: how many trials still drove at that distance." + remarks(all),
     alternative: `Share of trials that had arrived, by true distance. ${endsOf(all, "the share")}.`,
     key: key(all),
     draw: (width) => drawSteps({ all, marks: [], yLabel: "share that declared arrival", atRisk: true }, width),

@@ -109,7 +109,7 @@ export const headline: Section = {
           { content: "True success", numeric: true },
           "True, 95 % interval",
           { content: "Median distance [m]", numeric: true },
-          "Commonest end without arrival",
+          "Commonest other end",
         ],
         rows: runs.map(row),
       }),
