@@ -172,9 +172,14 @@ void OutputFolder::SetAside() {
   std::error_code error;
   for (const std::string& name : plan_.names) {
     if (!IsThere(path_ / name)) continue;
-    fs::create_directory(aside, error);
-    if (!error) fs::rename(path_ / name, aside / name, error);
-    if (error) core::FailOnDisk(path_ / name, "cannot be set aside", error);
+    Change([&] {
+      fs::create_directory(aside, error);
+      if (!error) fs::rename(path_ / name, aside / name, error);
+      if (!error) return;
+      std::error_code ignored;
+      fs::remove(aside, ignored);  // where it is empty
+      core::FailOnDisk(path_ / name, "cannot be set aside", error);
+    });
   }
   if (IsThere(aside)) files_.push_back({"what was there", aside});
 }
@@ -186,11 +191,21 @@ std::string OutputFolder::Maker(bool finished) const {
   return core::DumpJson(maker);
 }
 
+void OutputFolder::Change(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const core::UserError& error) {
+    if (!changed_ || core::IsMachineFailure(error)) throw;
+    throw core::MachineError(error.problems());
+  }
+  changed_ = true;
+}
+
 void OutputFolder::Begin() {
   if (std::exchange(begun_, true)) return;
   if (set_aside_) SetAside();
   if (!IsNull(plan_.request)) {
-    report::WriteFileAtomically(path_ / kMadeByFile, Maker(false));
+    Change([&] { report::WriteFileAtomically(path_ / kMadeByFile, Maker(false)); });
   }
 }
 
@@ -210,17 +225,33 @@ void OutputFolder::WriteNow(std::string_view name, std::string_view bytes) {
   const fs::path file = name;
   EXPECT(std::find(plan_.names.begin(), plan_.names.end(), *file.begin()) != plan_.names.end());
   Begin();
-  std::error_code error;
-  if (file.has_parent_path()) fs::create_directory(path_ / file.parent_path(), error);
-  if (error) core::FailOnDisk(path_ / file.parent_path(), "cannot be made", error);
-  report::WriteFileAtomically(path_ / file, bytes);
+  Change([&] {
+    std::error_code error;
+    if (file.has_parent_path()) fs::create_directory(path_ / file.parent_path(), error);
+    if (error) core::FailOnDisk(path_ / file.parent_path(), "cannot be made", error);
+    report::WriteFileAtomically(path_ / file, bytes);
+  });
 }
 
 void OutputFolder::Finish(bool finished) {
   Begin();
-  Stage(kMadeByFile, Maker(finished));
-  for (const auto& file : staged_) file->Commit();
+  Change([&] {
+    Stage(kMadeByFile, Maker(finished));
+    CommitAll();
+  });
   staged_.clear();
+}
+
+// All of them or none: names of before were set aside, or are of the work that is gone on with.
+void OutputFolder::CommitAll() {
+  std::size_t committed = 0;
+  try {
+    for (; committed < staged_.size(); ++committed) staged_[committed]->Commit();
+  } catch (...) {
+    std::error_code ignored;
+    while (committed > 0) fs::remove(staged_[--committed]->path(), ignored);
+    throw;
+  }
 }
 
 }  // namespace rockyard::campaign

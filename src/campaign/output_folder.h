@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -53,7 +54,7 @@ inline constexpr const char* kMadeByFile = "made_by.json";
 
 // Nothing is changed before the first WriteNow, or Finish: a folder that was made for work that
 // throws earlier is gone again. Every failure of the machine is a core::MachineError or a
-// batch::StoreError of that kind.
+// batch::StoreError of that kind, and once something was changed, so is a lack of rights.
 class OutputFolder {
  public:
   // Makes the folder and claims it (batch::FolderClaim). Throws core::UserError: it holds what is
@@ -93,6 +94,9 @@ class OutputFolder {
   void ReadContents(ExistingFiles existing);
   void RequireSame(const core::JsonValue& maker) const;
   void SetAside();
+  // Does what changes the folder; where something was changed before, a failure is the machine's.
+  void Change(const std::function<void()>& action);
+  void CommitAll();
   void Stage(std::string_view name, std::string_view bytes);
   std::string Maker(bool finished) const;
 
@@ -105,6 +109,7 @@ class OutputFolder {
   bool set_aside_ = false;  // before anything is written
   bool resumes_ = false;
   bool begun_ = false;
+  bool changed_ = false;
 };
 
 }  // namespace rockyard::campaign

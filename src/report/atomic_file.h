@@ -31,6 +31,7 @@ class AtomicFile {
   void Sync();
   // Once, after the last Write.
   void Commit();
+  const std::filesystem::path& path() const { return path_; }
 
  private:
   void Flush();

@@ -257,9 +257,8 @@ void Drive::ReflectAtMirrorLine(int direction) {
   const double y_m = parts_.state().X_WR.translation().y();
   if (!parts_.mirror || !has_rolled_ || !parts_.mirror->Reaches(y_m)) return;
   const messages::PoseEstimate before = parts_.estimate().pose;
-  const auto reflection =
-      parts_.mirror->Reflect(math::ToPose2(parts_.state().X_WR), direction,
-                             WorldPose(parts_.estimate()));
+  const auto reflection = parts_.mirror->Reflect(math::ToPose2(parts_.state().X_WR), direction,
+                                                 WorldPose(parts_.estimate()));
   if (!reflection) return;
   has_rolled_ = false;
   // What it saw lay around a rover that stood elsewhere.

@@ -79,7 +79,7 @@ class CliCalibrate : public KillRuns {
 TEST_F(CliCalibrate, AFullDiskHoldsAllOrNothing) {
   const std::vector<std::string> words =
       With(With({"calibrate"}, Names("left")), {"--target", "board.json", "--out", "a"});
-  ExpectFullDisksAreTold(words, words, 1, true);
+  ExpectLacksAreTold(words, words, 1, true);
 }
 
 // Of the truth, over the middle of the image, at half a metre.

@@ -43,7 +43,7 @@ TEST_F(CylinderOnFullDisk, AllOrNothingIsWritten) {
   campaign::WritePaintedPair(work());
   const std::vector<std::string> words = {"cylinder",     "left.png", "right.png", "--cameras",
                                           "cameras.json", "--out",    "a"};
-  ExpectFullDisksAreTold(words, words, 1, true);
+  ExpectLacksAreTold(words, words, 1, true);
 }
 
 TEST_F(CliCylinder, AFoundOneIsToldWithItsUnits) {

@@ -16,7 +16,7 @@ TEST_F(CliKillLong, SweepAnywhere) { ExpectOfSweeps(1); }
 
 TEST_F(CliKillLong, SequenceAnywhere) { ExpectOfSequences(1); }
 
-TEST_F(CliKillLong, DiskFullAnywhere) { ExpectOfFullDisks(1); }
+TEST_F(CliKillLong, NoRoomOrRightsAnywhere) { ExpectOfLacks(1); }
 
 TEST_F(CliKillLong, MergeAnywhere) { ExpectOfMerges(1); }
 

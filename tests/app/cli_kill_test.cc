@@ -18,7 +18,7 @@ TEST_F(CliKill, SweepAnywhere) { ExpectOfSweeps(kStep); }
 
 TEST_F(CliKill, SequenceAnywhere) { ExpectOfSequences(8); }
 
-TEST_F(CliKill, DiskFullAnywhere) { ExpectOfFullDisks(11); }
+TEST_F(CliKill, NoRoomOrRightsAnywhere) { ExpectOfLacks(11); }
 
 TEST_F(CliKill, MergeAnywhere) { ExpectOfMerges(kStep); }
 

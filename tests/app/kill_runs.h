@@ -1,6 +1,7 @@
 // A command that is killed before any one of the calls that change the disk can be repeated: it
 // goes on, to the same bytes, and leaves nothing behind. Where the disk is full from such a call
-// on, it says so by exit code 5 (or has all that it needs), and can be repeated as well.
+// on, or nothing may be made there any more, it says so by exit code 5 (or has all that it needs),
+// and can be repeated as well. By exit code 2 it says so only where it has changed nothing.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -103,6 +104,18 @@ class KillRuns : public WatchedRunTest {
 
   static constexpr const char* kKill = "ROCKYARD_KILL_AT";
   static constexpr const char* kFull = "ROCKYARD_FULL_AT";
+  static constexpr const char* kDenied = "ROCKYARD_DENIED_AT";
+
+  void ExpectTold(const char* what, const CommandResult& result,
+                  const std::map<std::string, std::string>& before) const {
+    if (what == kKill) {
+      EXPECT_EQ(result.exit_code, -SIGKILL) << result.err;
+    } else if (what == kDenied && result.exit_code == 2) {
+      EXPECT_EQ(Bytes(work()), before) << result.err;
+    } else {
+      EXPECT_EQ(result.exit_code, 5) << result.err;
+    }
+  }
 
   // `prepare` makes what is there before. Killed at each call (or each `step`th), or on a disk that
   // is full from there on, the command ends well or is repeated as `again`, with the contents of
@@ -112,6 +125,7 @@ class KillRuns : public WatchedRunTest {
                                  const std::function<void()>& prepare = {}) {
     ExpectOvercome(kKill, words, again, step, prepare);
     ExpectOvercome(kFull, words, again, step, prepare);
+    ExpectOvercome(kDenied, words, again, step, prepare);
   }
 
   void ExpectOvercome(const char* what, const std::vector<std::string>& words,
@@ -123,19 +137,20 @@ class KillRuns : public WatchedRunTest {
       SCOPED_TRACE(std::string(what) + "=" + std::to_string(call));
       std::filesystem::remove_all(work() / "a");
       if (prepare) prepare();
+      const auto before = Bytes(work());
       CommandResult result = RunShimmed(what, call, words);
       if (!WasStruck()) break;
       ++kills;
       // What a repeated merge finds whole it leaves as it is.
       const bool is_left = result.exit_code == 0 || words.front() == "merge";
       if (result.exit_code != 0) {
-        ASSERT_EQ(result.exit_code, what == kKill ? -SIGKILL : 5) << result.err;
+        ExpectTold(what, result, before);
         result = RunShimmed(what, 0, again);
       }
       ASSERT_EQ(result.exit_code, 0) << result.err;
       auto contents = Contents("a");
-      if (what == kFull && is_left) {
-        // A store that found no room at its very end is whole with its log beside it.
+      if (what != kKill && is_left) {
+        // A store that is stopped at its very end is whole with its log beside it.
         std::erase_if(contents,
                       [](const auto& file) { return file.first.starts_with("results.sqlite-"); });
       }
@@ -147,40 +162,42 @@ class KillRuns : public WatchedRunTest {
 
   // `words` write what begins with "a" and nothing else; `again` is the command once there is room.
   // `at_once`: all is written or nothing.
-  void ExpectFullDisksAreTold(const std::vector<std::string>& words,
-                              const std::vector<std::string>& again, int step,
-                              bool at_once = false) {
+  void ExpectLacksAreTold(const std::vector<std::string>& words,
+                          const std::vector<std::string>& again, int step, bool at_once = false) {
     SCOPED_TRACE(testing::PrintToString(words));
     const auto before = Bytes(work());
     RunTo(0, words);
     const auto whole = Bytes(work());
     ASSERT_GT(whole.size(), before.size());
-    int calls = 0;
-    for (int call = 1; !HasFailure(); call += step, ++calls) {
-      SCOPED_TRACE("full from call " + std::to_string(call));
-      RemoveOutput();
-      const CommandResult result = RunShimmed(kFull, call, words);
-      if (!WasStruck()) break;
-      EXPECT_EQ(result.exit_code, 5) << result.err;
-      EXPECT_THAT(result.err, testing::HasSubstr("No space left on device"));
-      if (at_once) {
-        EXPECT_EQ(Bytes(work()), before);
-        EXPECT_FALSE(std::filesystem::exists(work() / "a"));
+    for (const auto& [what, sentence] :
+         {std::pair{kFull, "No space left on device"}, {kDenied, "Permission denied"}}) {
+      int calls = 0;
+      for (int call = 1; !HasFailure(); call += step, ++calls) {
+        SCOPED_TRACE(sentence + (" from call " + std::to_string(call)));
+        RemoveOutput();
+        const CommandResult result = RunShimmed(what, call, words);
+        if (!WasStruck()) break;
+        ExpectTold(what, result, before);
+        EXPECT_THAT(result.err, testing::HasSubstr(sentence));
+        if (at_once) {
+          EXPECT_EQ(Bytes(work()), before);
+          EXPECT_FALSE(std::filesystem::exists(work() / "a"));
+        }
+        RunTo(0, again);
+        EXPECT_EQ(Bytes(work()), whole);
       }
-      RunTo(0, again);
-      EXPECT_EQ(Bytes(work()), whole);
+      RemoveOutput();
+      EXPECT_GT(calls, 2 / step) << "the command is not under the shim";
     }
-    RemoveOutput();
-    EXPECT_GT(calls, 2 / step) << "the command is not under the shim";
   }
 
-  void ExpectOfFullDisks(int step) {
+  void ExpectOfLacks(int step) {
     RunTo(0, Render("way", {"--pairs", "3", "--step-m", "0.1"}));
     RunTo(0, Render("pair", {}));
     RunTo(0, Drive("run", 2, {}));
     const std::vector<std::string> sequence = Render("a", {"--pairs", "3", "--step-m", "0.1"});
-    ExpectFullDisksAreTold(sequence, With(sequence, {"--resume"}), step);
-    ExpectFullDisksAreTold(Vo("a"), With(Vo("a"), {"--resume"}), step);
+    ExpectLacksAreTold(sequence, With(sequence, {"--resume"}), step);
+    ExpectLacksAreTold(Vo("a"), With(Vo("a"), {"--resume"}), step);
     const std::vector<std::string> stereo = {"stereo",
                                              "pair/left.png",
                                              "pair/right.png",
@@ -196,12 +213,12 @@ class KillRuns : public WatchedRunTest {
           {"trace", "run", "--trial", "0", "--csv", "a.csv"},
           {"compare", "run", "run", "--csv", "a.csv"},
           {"baseline", "run", "--reason", "full disks", "--out", "a.json"}}) {
-      ExpectFullDisksAreTold(words, words, step, true);
+      ExpectLacksAreTold(words, words, step, true);
     }
     const std::vector<std::string> replay = {"replay", "run", "--trial", "0", "--out", "a.html"};
-    ExpectFullDisksAreTold(replay, replay, step);
+    ExpectLacksAreTold(replay, replay, step);
     const std::vector<std::string> report = {"report", "run", "--out", "a.html"};
-    ExpectFullDisksAreTold(report, report, step);
+    ExpectLacksAreTold(report, report, step);
   }
 
   // Both are killed and gone on with.

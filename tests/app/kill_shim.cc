@@ -1,10 +1,11 @@
 // Preloaded into the command: ends the process by SIGKILL before its Nth durable call, one of those
-// that change what a later process finds on the disk, or has a full disk from that call on. What is
-// to be brought to the disk at once stays in the memory of the machine, which outlives processes:
-// that makes hundreds of runs fast.
+// that change what a later process finds on the disk, or has a full disk or no rights from that
+// call on. What is to be brought to the disk at once stays in the memory of the machine, which
+// outlives processes: that makes hundreds of runs fast.
 //
 // ROCKYARD_KILL_AT    N, counted from 1 over the process and those that it forks; 0: none
 // ROCKYARD_FULL_AT    the same: this call and those after it that need room fail with ENOSPC
+// ROCKYARD_DENIED_AT  the same: those that give something a name fail with EACCES
 // ROCKYARD_KILL_MARK  a file that is made where that many calls came
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -55,14 +56,31 @@ long CountCall() {
   return call;
 }
 
-// Counts a call that needs room: whether there is none by now.
-bool IsFull() {
-  static const long full_at = Wanted("ROCKYARD_FULL_AT");
-  const long call = CountCall();
-  if (full_at == 0 || call < full_at) return false;
+// Whether that call fails: `at` is where it began, 0: never.
+bool Fails(long call, long at, int error) {
+  if (at == 0 || call < at) return false;
   LeaveMark();
-  errno = ENOSPC;
+  errno = error;
   return true;
+}
+
+bool LacksRoom(long call) {
+  static const long at = Wanted("ROCKYARD_FULL_AT");
+  return Fails(call, at, ENOSPC);
+}
+
+bool LacksRights(long call) {
+  static const long at = Wanted("ROCKYARD_DENIED_AT");
+  return Fails(call, at, EACCES);
+}
+
+// Counts a call that needs room: whether there is none by now.
+bool IsFull() { return LacksRoom(CountCall()); }
+
+// Counts a call that makes a file or a folder: whether it cannot by now.
+bool CannotMake() {
+  const long call = CountCall();
+  return LacksRoom(call) || LacksRights(call);
 }
 
 template <typename Function>
@@ -89,7 +107,7 @@ int open(const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = ModeOf(flags, arguments);
   va_end(arguments);
-  if ((flags & O_CREAT) != 0 && IsFull()) return -1;
+  if ((flags & O_CREAT) != 0 && CannotMake()) return -1;
   return Next(&open, "open")(path, flags, mode);
 }
 
@@ -98,7 +116,7 @@ int open64(const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = ModeOf(flags, arguments);
   va_end(arguments);
-  if ((flags & O_CREAT) != 0 && IsFull()) return -1;
+  if ((flags & O_CREAT) != 0 && CannotMake()) return -1;
   return Next(&open64, "open64")(path, flags, mode);
 }
 
@@ -157,18 +175,18 @@ int rmdir(const char* path) noexcept {
 }
 
 int mkdir(const char* path, mode_t mode) noexcept {
-  if (IsFull()) return -1;
+  if (CannotMake()) return -1;
   return Next(&mkdir, "mkdir")(path, mode);
 }
 
 int rename(const char* from, const char* to) noexcept {
-  CountCall();
+  if (LacksRights(CountCall())) return -1;
   return Next(&rename, "rename")(from, to);
 }
 
 int renameat2(int from_folder, const char* from, int to_folder, const char* to,
               unsigned flags) noexcept {
-  CountCall();
+  if (LacksRights(CountCall())) return -1;
   return Next(&renameat2, "renameat2")(from_folder, from, to_folder, to, flags);
 }
 

@@ -2,13 +2,17 @@
 """Runs the fuzzer of every reader from its corpus: does one crash, hang, leak or throw what is no refusal?
 
 Usage: tests/fuzz/run_fuzzers.py [--runs 1000000] [--slow-runs 100000] [--seed 1] [--jobs 1] [--keep] [READER]...
+       tests/fuzz/run_fuzzers.py --coverage BUILD
 Wants the preset fuzz: cmake --preset fuzz && cmake --build --preset fuzz --target reader_fuzz
 What is found new goes to build/fuzz/corpus/READER, inputs that fail to build/fuzz/findings. --keep then adds to
-tests/data/readers what of it reaches code that nothing there reaches.
-Exit code: 0, or 1 with any finding.
+tests/data/readers what of it reaches code that nothing there reaches. --coverage runs no fuzzer but all inputs, and
+tells how many lines of each source of the readers they reach, with a fuzzer that counts them:
+cmake --preset fuzz -B BUILD -DCMAKE_CXX_FLAGS="-fprofile-instr-generate -fcoverage-mapping" && cmake --build BUILD --target reader_fuzz
+Exit code: 0, or 1 with any finding, or where fewer than nine lines of ten are reached.
 """
 
 import argparse
+import json
 import os
 import re
 import subprocess
@@ -22,6 +26,17 @@ FUZZER = ROOT / "build/fuzz/tests/fuzz/reader_fuzz"
 KEPT = ROOT / "tests/data/readers"
 SLOW = ("scenario", "sweep")  # a resolved scenario has a thousand parameters
 LONGEST = {"image": 16384, "scenario": 16384, "sweep": 16384}  # bytes of an input; 4096 of the others
+# What turns bytes into values or refusals, of all that the readers call.
+SOURCES = ("campaign/odometry/image_sequence.cc", "campaign/odometry/path_journal.cc", "campaign/odometry/pose_text.cc",
+           "core/field_reader.cc", "core/json_file.cc", "core/json_parse.cc", "core/utf8.cc", "core/whole_file.cc",
+           "image_files/disparity_file.cc", "image_files/header_text.cc", "image_files/jpeg_reader.cc",
+           "image_files/pfm_file.cc", "image_files/planetary.cc", "image_files/png_reader.cc", "image_files/pnm_reader.cc",
+           "image_files/read_image.cc", "report/baseline_read.cc", "report/comparison_reference.cc",
+           "report/tolerance_reference.cc", "scenario/former_keys.cc", "scenario/load.cc", "scenario/sweep.cc",
+           "scenario/sweep_axes.cc", "scenario/sweep_cell.cc", "scenario/sweep_keys.cc", "scenario/sweep_parts.cc",
+           "vision/calibration/target_file.cc", "vision/cameras/camera_fields.cc", "vision/cameras/camera_file.cc",
+           "vision/cameras/camera_text.cc", "vision/cameras/camera_text_lines.cc")
+ENOUGH = 0.9
 # One input: bounds of what is read, not of a quick machine.
 LIMITS = ["-timeout=120", "-rss_limit_mb=3000", "-malloc_limit_mb=1500"]
 
@@ -53,6 +68,28 @@ def run(reader, options):
     return f"{told}, nothing found, {len(list(KEPT.joinpath(reader).iterdir()))} inputs kept", True
 
 
+def coverage(build):
+    """Prints the lines of SOURCES that all inputs reach; whether these are enough."""
+    counting = ROOT / build / "tests/fuzz/reader_fuzz"
+    profiles = []
+    for reader in sorted(folder.name for folder in KEPT.iterdir()):
+        inputs = [folder for folder in (KEPT / reader, ROOT / "build/fuzz/corpus" / reader) if folder.is_dir()]
+        profiles.append(counting.with_name(f"{reader}.profraw"))
+        subprocess.run([counting, "-runs=0", *LIMITS, *inputs], cwd=ROOT, capture_output=True, check=True,
+                       env={**os.environ, "ROCKYARD_READER": reader, "LLVM_PROFILE_FILE": str(profiles[-1])})
+    merged = counting.with_name("all.profdata")
+    subprocess.run(["llvm-profdata", "merge", *profiles, "-o", merged], check=True)
+    told = subprocess.run(["llvm-cov", "export", "-summary-only", counting, f"-instr-profile={merged}",
+                           *(ROOT / "src" / source for source in SOURCES)], capture_output=True, text=True, check=True)
+    files = {str(Path(file["filename"]).relative_to(ROOT / "src")): file["summary"]["lines"]
+             for file in json.loads(told.stdout)["data"][0]["files"]}
+    for source in SOURCES:
+        print(f"{source}: {files[source]['covered']} of {files[source]['count']} lines")
+    reached, lines = (sum(files[source][part] for source in SOURCES) for part in ("covered", "count"))
+    print(f"{reached} of {lines} lines, {100 * reached / lines:.1f} %")
+    return reached >= ENOUGH * lines
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=1_000_000)
@@ -60,8 +97,11 @@ def main(arguments):
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--keep", action="store_true")
+    parser.add_argument("--coverage", metavar="BUILD")
     parser.add_argument("readers", metavar="READER", nargs="*")
     options = parser.parse_args(arguments)
+    if options.coverage:
+        return 0 if coverage(options.coverage) else 1
     known = sorted(folder.name for folder in KEPT.iterdir())
     if unknown := set(options.readers) - set(known):
         parser.error(f"no reader {', '.join(sorted(unknown))}; there are {', '.join(known)}")

@@ -6,7 +6,8 @@ Each trial of this study starts a campaign of quick drives in a folder of its ow
 after a random time within what an undisturbed one takes, repeats the command (with --resume; a merge
 as it was) until it ends by itself, sometimes under another kill, and compares the bytes of the CSV
 files and the hash of the records with those of a campaign that nobody disturbed; of 40 pairs of
-images and the path through them the bytes of all files but the times.
+images and the path through them the bytes of all files but the times, and that of what was on disk
+when it was killed no more than one pair is done again.
 
     what     run, sweep, shards (both are killed, then merged), merge, render, vo
     whom     worker: the process that runs the trials; supervisor: the one that was started;
@@ -129,7 +130,7 @@ class Study:
         told = process.stderr.read()
         return True, told, process.wait()
 
-    def disturbed(self, what, whom, words, again):
+    def disturbed(self, what, whom, words, again, out):
         """Kills the command, repeats it until it ends by itself. Whether the first kill struck a
         running command, and what is wrong."""
         struck, told, code = self.kill(whom, words, self.chance.uniform(0, self.seconds[what]))
@@ -139,12 +140,15 @@ class Study:
                 return struck, None
             if code > 0:
                 return struck, f"{' '.join(words)} ends with {code}: {told}"
+            done = finished(out)
             if self.chance.random() < KILLED_AGAIN:
                 _, told, code = self.kill(whom, again,
                                           self.chance.uniform(0, self.seconds[what]))
             else:
                 result = subprocess.run(again, capture_output=True, text=True, check=False)
                 told, code = result.stderr, result.returncode
+            if len(done - finished(out)) > 1:
+                return struck, f"{' '.join(again)} does {len(done - finished(out))} pairs again"
             words = again
         return struck, f"{' '.join(words)} never ends"
 
@@ -152,16 +156,16 @@ class Study:
         """One disturbed campaign in the folder: whether a kill struck, and what is wrong."""
         if what == "merge":
             words = self.merge_words(self.shards, out / "all")
-            struck, wrong = self.disturbed("merge", whom, words, words)
+            struck, wrong = self.disturbed("merge", whom, words, words, out / "all")
             return struck, wrong or self.difference("merge", out / "all")
         if what != "shards":
             words = self.words(what, out / "all", threads, "")
-            struck, wrong = self.disturbed(what, whom, words, [*words, "--resume"])
+            struck, wrong = self.disturbed(what, whom, words, [*words, "--resume"], out / "all")
             return struck, wrong or self.difference(what, out / "all")
         struck = False
         for index in (1, 2):
             words = self.words("shard", out / f"s{index}", threads, f"{index}/2")
-            hit, wrong = self.disturbed("shard", whom, words, [*words, "--resume"])
+            hit, wrong = self.disturbed("shard", whom, words, [*words, "--resume"], out / f"s{index}")
             struck = struck or hit
             if wrong:
                 return struck, wrong
@@ -196,6 +200,15 @@ def contents(folder):
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     files["trial_hash"] = summary.get("trial_hash")
     return files
+
+
+def finished(folder):
+    """The pairs of images that are done, each as what it would be no more if it were done again."""
+    journal = folder / "journal.jsonl"
+    if journal.is_file():
+        return {line for line in journal.read_bytes().splitlines(keepends=True) if line.endswith(b"\n")}
+    return {(path.name, path.stat().st_ino, path.stat().st_mtime_ns)
+            for path in folder.rglob("*") if path.parent.name == "left"}
 
 
 def children(process):

@@ -215,7 +215,8 @@ TEST(SummaryText, TellsCausesBelowOutcomesThatHaveSeveral) {
       SummaryText(SampleDescription(), statistics::Summarize(SampleSchema(), WithCauses()));
   EXPECT_THAT(text, HasSubstr("  no_path                 4             66.7 %"));
   EXPECT_THAT(text, HasSubstr("  ended by a limit        2 of 6        33.3 %   95 % interval"));
-  EXPECT_THAT(text, HasSubstr("without patience and time limit 16.7 .. 50.0 % of these declare success\n"));
+  EXPECT_THAT(
+      text, HasSubstr("without patience and time limit 16.7 .. 50.0 % of these declare success\n"));
   EXPECT_THAT(
       text,
       HasSubstr("    patience: distance         2       33.3 %   referee.no_path_distance_m\n"));

@@ -148,7 +148,10 @@ void PathJournal::Add(const PairEntry& entry) {
 }
 
 void PathJournal::FailToWrite() const {
-  core::FailOnDisk(path_, "cannot be written", {errno, std::generic_category()});
+  // Of a path that was begun: also where it has no right to.
+  const std::error_code error(errno, std::generic_category());
+  throw core::MachineError(path_.string(), "cannot be written: " + error.message(),
+                           "check the free space and the permissions of its folder");
 }
 
 }  // namespace rockyard::campaign

@@ -30,7 +30,7 @@ class PathJournal {
 
   const std::vector<PairEntry>& entries() const { return entries_; }
 
-  // Throws core::FailOnDisk's errors where it cannot be written.
+  // Throws core::MachineError where it cannot be written.
   void Add(const PairEntry& entry);
 
  private:
