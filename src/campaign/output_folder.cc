@@ -191,13 +191,17 @@ std::string OutputFolder::Maker(bool finished) const {
   return core::DumpJson(maker);
 }
 
-void OutputFolder::Change(const std::function<void()>& action) {
+void OutputFolder::Try(const std::function<void()>& action) const {
   try {
     action();
   } catch (const core::UserError& error) {
     if (!changed_ || core::IsMachineFailure(error)) throw;
     throw core::MachineError(error.problems());
   }
+}
+
+void OutputFolder::Change(const std::function<void()>& action) {
+  Try(action);
   changed_ = true;
 }
 
@@ -216,9 +220,11 @@ void OutputFolder::Write(std::string_view what, std::string_view name, std::stri
 
 void OutputFolder::Stage(std::string_view name, std::string_view bytes) {
   EXPECT(std::find(plan_.names.begin(), plan_.names.end(), name) != plan_.names.end());
-  staged_.push_back(std::make_unique<report::AtomicFile>(path_ / name));
-  staged_.back()->Write(bytes);
-  staged_.back()->Sync();
+  Try([&] {
+    staged_.push_back(std::make_unique<report::AtomicFile>(path_ / name));
+    staged_.back()->Write(bytes);
+    staged_.back()->Sync();
+  });
 }
 
 void OutputFolder::WriteNow(std::string_view name, std::string_view bytes) {

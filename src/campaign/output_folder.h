@@ -94,7 +94,9 @@ class OutputFolder {
   void ReadContents(ExistingFiles existing);
   void RequireSame(const core::JsonValue& maker) const;
   void SetAside();
-  // Does what changes the folder; where something was changed before, a failure is the machine's.
+  // Where something was changed before, a failure is the machine's.
+  void Try(const std::function<void()>& action) const;
+  // The same of what changes the folder.
   void Change(const std::function<void()>& action);
   void CommitAll();
   void Stage(std::string_view name, std::string_view bytes);

@@ -312,6 +312,28 @@ TEST_F(WayBack, DoubtsTheHeadingByTheWayOfItsOwnKind) {
   EXPECT_GT(filter_.covariance()(kHeading, kHeading), 0.2);
 }
 
+// The heading has gone wrong since the last place that was believed, not before.
+TEST_F(WayBack, DoubtsTheHeadingByTheWaySinceTheLastPlace) {
+  const auto doubt = [&](double x_m) {
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(Tell(x_m, -1.0), AidUse::kGatedOut);
+    EXPECT_EQ(Tell(x_m, -1.0), AidUse::kUsedInDoubt);
+    return filter_.covariance()(kHeading, kHeading);
+  };
+  ASSERT_EQ(Tell(2.0, -2.0), AidUse::kUsed);
+  DriveStraight(filter_, 1.0);
+  const double after_a_metre = doubt(2.5);
+  ErrorStateFilter fresh({}, AlongX());
+  filter_ = fresh;
+  DriveStraight(filter_, 2.0);
+  EXPECT_GT(after_a_metre, 2.0 * doubt(2.5));
+}
+
+TEST_F(WayBack, BeginsAnewWhereOperatorsPlacedTheRover) {
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(Tell(1.5, -1.0), AidUse::kGatedOut);
+  filter_.Place({2.0, -2.0, 0.0});
+  EXPECT_EQ(Tell(1.5, -1.0), AidUse::kGatedOut);
+}
+
 TEST_F(WayBack, IsNotTakenForOneWrongFix) {
   EXPECT_EQ(Tell(5.0, 3.0), AidUse::kGatedOut);
   EXPECT_EQ(Tell(2.0, -2.0), AidUse::kUsed);
@@ -365,6 +387,10 @@ TEST(ErrorStateFilter, KeepsThePanAngleWhereItWasMirrored) {
   ASSERT_EQ(filter.Update(mast), AidUse::kUsed);
   const double pan_rad = filter.pan_rad();
   EXPECT_GT(pan_rad, 0.01);
+  const double before_m = filter.estimate().world->pose.x_m;
+  filter.Propagate(Rolled(0.001, 0.0, 0.05));  // less than a stretch
+  EXPECT_NEAR(filter.estimate().world->pose.x_m, before_m + 0.001, 1e-4);
+  EXPECT_GT(filter.estimate().world->pose.x_m, before_m + 0.0009);
   const messages::PoseEstimate world = filter.estimate().world->pose;
   filter.Place({world.x_m, 2.0 * 0.5 - world.y_m, -world.heading_rad, true});
   EXPECT_EQ(filter.pan_rad(), pan_rad);
