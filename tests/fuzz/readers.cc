@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <variant>
 
 #include "campaign/odometry/image_sequence.h"
 #include "campaign/odometry/path_journal.h"
@@ -64,9 +65,35 @@ void ReadScenario(std::string_view bytes) {
   }
 }
 
+// A camera that is read maps pixels to finite rays and back, or to nothing, and, written, reads
+// back.
+void Use(const vision::CameraModel& camera) {
+  const vision::ImageSize& size = camera.size;
+  for (const vision::Pixel& pixel :
+       {vision::MiddleOf(size), vision::Pixel(0.0, 0.0), vision::Pixel(size.columns - 1.0, 0.0)}) {
+    const auto ray = vision::BackProject(camera, pixel);
+    if (!ray) continue;
+    const auto back = vision::Project(camera, ray->origin + 3.0 * ray->direction);
+    if (!ray->direction.allFinite() || !ray->origin.allFinite() || (back && !back->allFinite())) {
+      throw std::logic_error("a camera whose rays or pixels are not finite");
+    }
+  }
+  const auto read_back = [&](const std::string& text) {
+    if (vision::ParseCamera(text, "what was written").size != size) {
+      throw std::logic_error("a camera does not read back");
+    }
+  };
+  read_back(core::DumpJson(vision::CameraJson(camera)));
+  if (!std::holds_alternative<vision::BrownPinhole>(camera.lens)) {
+    read_back(vision::CameraText(camera));
+  }
+}
+
 void ReadCameras(std::string_view bytes) {
   const vision::CameraPair pair = vision::ParseCameraPair(bytes, "bytes");
   vision::ParseCameraPair(core::DumpJson(vision::CameraPairJson(pair)), "what was written");
+  Use(pair.left);
+  Use(pair.right);
 }
 
 void ReadReference(std::string_view bytes) {
@@ -88,7 +115,7 @@ constexpr Reader kReaders[] = {
      }},
     {"sweep", [](std::string_view bytes) { scenario::ParseSweep(bytes); }},
     {"reference", ReadReference},
-    {"camera", [](std::string_view bytes) { vision::ParseCamera(bytes, "bytes"); }},
+    {"camera", [](std::string_view bytes) { Use(vision::ParseCamera(bytes, "bytes")); }},
     {"cameras", ReadCameras},
     {"target", [](std::string_view bytes) { vision::LoadTarget(MemoryFile(bytes).path()); }},
     {"poses", [](std::string_view bytes) { campaign::ReadPoses(MemoryFile(bytes).path()); }},
