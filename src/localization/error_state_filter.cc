@@ -203,7 +203,10 @@ AidUse ErrorStateFilter::Update(const messages::PoseFix& fix) {
   const PoseVector difference = Wrapped(fix.pose - believed.pose);
   const unsigned long kind =
       fix.measured.to_ulong() | (fix.in_lander_frame ? 1UL << kPoseCoordinates : 0UL);
-  const auto of_kind = kinds_.try_emplace(kind, Kind{.gate = Gate(params_.gate)}).first;
+  auto of_kind = kinds_.find(kind);
+  if (of_kind == kinds_.end()) {
+    of_kind = kinds_.emplace(kind, Kind{.gate = Gate(params_.gate)}).first;
+  }
   return Take({.parts = {{fix.capture, picks * believed.by_error}},
                .values = picks * difference,
                .noise = picks * fix.covariance * picks.transpose(),

@@ -46,10 +46,10 @@ void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record>
 //   goal, goal_low, goal_high    cumulative incidence of declared arrival, all other ends
 //   competing,
 //                                with a pointwise 95 % band; its end is the success rate
-//   failure                      cumulative incidence of every other end, those of `limit` among
-//   them at_risk                      runs still under way just before this distance limit share
-//   that patience or time had ended, which neither arrived nor
-//                                failed: goal + limit is the most that could have arrived so far
+//   failure                      cumulative incidence of every other end, `limit` among them
+//   at_risk                      runs still under way just before this distance
+//   limit                        share that patience or time had ended: neither arrived nor failed,
+//                                so that at most goal + limit could have arrived so far
 // `records` must be a contiguous prefix. Only the header where there is no column true_distance_m.
 // Memory: 250 bytes a record.
 void DistanceCdfCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,

@@ -39,7 +39,7 @@ struct DesignationParams {
   std::optional<double> stated_pan_sd_rad = std::nullopt;
 
   // What the calibration states of the pan error, a standard deviation: of a fixed one its size, of
-  // a uniform one the third of its bound's square.
+  // a uniform one its bound over the root of 3.
   double PanSd_rad() const;
 
   // Matthies 1995, eqs. (1) to (3), for pixels of pixel_rad, goals picked to pixel_sd_px and
