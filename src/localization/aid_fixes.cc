@@ -4,11 +4,28 @@
 
 #include "core/check.h"
 #include "math/angles.h"
-#include "math/polar.h"
 
 namespace rockyard::localization {
+namespace {
 
-messages::PoseFix PlaceFromBeacon(const messages::BeaconReading& reading) {
+// Mean of d d', where d leads from the station to the rover, as it was believed before the reading.
+Eigen::Matrix2d BelievedPlace_m2(const messages::BeaconReading& reading,
+                                 const messages::LocalizationEstimate& believed) {
+  const messages::PoseEstimate& pose = believed.world ? believed.world->pose : believed.pose;
+  const Eigen::Vector2d d(pose.x_m - reading.station_x_m, pose.y_m - reading.station_y_m);
+  Eigen::Matrix2d mean = d * d.transpose();
+  if (believed.world) {
+    mean += believed.world->covariance.topLeftCorner<2, 2>();
+  } else if (believed.covariance) {
+    mean += believed.covariance->topLeftCorner<2, 2>();
+  }
+  return mean;
+}
+
+}  // namespace
+
+messages::PoseFix PlaceFromBeacon(const messages::BeaconReading& reading,
+                                  const messages::LocalizationEstimate& believed) {
   constexpr int kX = messages::Index(messages::PoseCoordinate::kX);
   constexpr int kY = messages::Index(messages::PoseCoordinate::kY);
   messages::PoseFix fix;
@@ -16,8 +33,15 @@ messages::PoseFix PlaceFromBeacon(const messages::BeaconReading& reading) {
   fix.measured.set(kX).set(kY);
   fix.pose[kX] = reading.station_x_m + reading.range_m * std::cos(reading.bearing_rad);
   fix.pose[kY] = reading.station_y_m + reading.range_m * std::sin(reading.bearing_rad);
-  fix.covariance.topLeftCorner<2, 2>() = math::PolarCovariance(
-      reading.bearing_rad, reading.range_sd_m, reading.range_m * reading.bearing_sd_rad);
+  const Eigen::Matrix2d place_m2 = BelievedPlace_m2(reading, believed);
+  const double range_m2 = place_m2.trace();
+  const Eigen::Matrix2d along = range_m2 > 0.0 ? Eigen::Matrix2d(place_m2 / range_m2)
+                                               : Eigen::Matrix2d(0.5 * Eigen::Matrix2d::Identity());
+  const Eigen::Matrix2d across = Eigen::Matrix2d::Identity() - along;
+  const double range_variance_m2 = reading.range_sd_m * reading.range_sd_m;
+  const double bearing_variance = reading.bearing_sd_rad * reading.bearing_sd_rad;
+  fix.covariance.topLeftCorner<2, 2>() =
+      range_variance_m2 * along + (range_m2 + range_variance_m2) * bearing_variance * across;
   return fix;
 }
 

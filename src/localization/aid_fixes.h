@@ -8,10 +8,14 @@
 namespace rockyard::localization {
 
 // Returns the place in polar coordinates about the station, p = s + r (cos b, sin b), with the
-// covariance J diag(sd_r^2, sd_b^2) J', J = (u, r u_across). First order in the bearing's error:
-// for 3 deg the place is 0.14 % of the range too far out, within a twentieth of its deviation
-// across.
-messages::PoseFix PlaceFromBeacon(const messages::BeaconReading& reading);
+// covariance sd_r^2 along and (range^2 + sd_r^2) sd_b^2 across, both in the mean over where the
+// rover was believed to be before (in the world, at the reading). Taken at the measured range and
+// bearing instead, the weight of a place would depend on its error: one whose range came out short
+// would count as nearly exact, and all of them would lie towards the station by sd_r^2 over the
+// range (Bordonaro, Willett and Bar-Shalom 2014, decorrelated converted measurements). First order
+// in the bearing's error: for 3 deg the place is 0.14 % of the range too far out.
+messages::PoseFix PlaceFromBeacon(const messages::BeaconReading& reading,
+                                  const messages::LocalizationEstimate& believed);
 
 // The heading from the sun: what on-board software makes of a sun sensor, an almanac and the
 // believed tilt.

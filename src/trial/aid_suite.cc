@@ -64,7 +64,7 @@ void AidSuite::MeasureAll(const math::Transform& X_WR, double time_s,
     Take(LookForSun(X_WR, time_s, estimator), time_s + params_.sun.schedule.delay_s, estimator);
   }
   if (beacon_schedule_.IsDue(way_m, time_s)) {
-    Take(AskBeacon(X_WR), time_s + params_.beacon.schedule.delay_s, estimator);
+    Take(AskBeacon(X_WR, estimator), time_s + params_.beacon.schedule.delay_s, estimator);
   }
 }
 
@@ -82,10 +82,11 @@ std::optional<messages::PoseFix> AidSuite::LookForSun(const math::Transform& X_W
                                       params_.sun.tilt_sd_rad);
 }
 
-std::optional<messages::PoseFix> AidSuite::AskBeacon(const math::Transform& X_WR) {
+std::optional<messages::PoseFix> AidSuite::AskBeacon(const math::Transform& X_WR,
+                                                     const localization::Estimator& estimator) {
   const auto reading = beacon_.Observe(X_WR, beacon_number_++);
   if (!reading) return std::nullopt;
-  return localization::PlaceFromBeacon(*reading);
+  return localization::PlaceFromBeacon(*reading, estimator.estimate());
 }
 
 void AidSuite::Take(std::optional<messages::PoseFix> fix, double ready_s,

@@ -93,7 +93,8 @@ class AidSuite {
   std::optional<double> SunElevation_rad(double time_s) const;
   std::optional<messages::PoseFix> LookForSun(const math::Transform& X_WR, double time_s,
                                               const localization::Estimator& estimator);
-  std::optional<messages::PoseFix> AskBeacon(const math::Transform& X_WR);
+  std::optional<messages::PoseFix> AskBeacon(const math::Transform& X_WR,
+                                             const localization::Estimator& estimator);
   bool HandIn(const messages::PoseFix& fix, localization::Estimator& estimator);
 
   const terrain::Terrain& terrain_;

@@ -20,37 +20,64 @@ TEST(BeaconFix, LiesAtRangeAndBearingFromTheStation) {
                                     .range_m = 10.0,
                                     .bearing_rad = math::DegToRad(30.0),
                                     .range_sd_m = 1.0,
-                                    .bearing_sd_rad = math::DegToRad(3.0)});
+                                    .bearing_sd_rad = math::DegToRad(3.0)},
+                                   {});
   EXPECT_EQ(fix.capture, 5);
   EXPECT_EQ(fix.measured.to_ulong(), 3u);  // x and y
   EXPECT_NEAR(fix.pose[0], 1.0 + 10.0 * std::cos(math::DegToRad(30.0)), 1e-12);
   EXPECT_NEAR(fix.pose[1], -2.0 + 5.0, 1e-12);
 }
 
-// Against the spread of places that noisy readings give; 20000 of them know a variance to 1 %.
-TEST(BeaconFix, HasTheSpreadOfItsReadings) {
+// Mean squares, along and across the believed direction, of what places are off by whose rover is
+// somewhere about (range_m, 0) and whose readings err; 20000 of them know a variance to 1 %.
+Eigen::Array2d MeanSquaresOfPlaces_m2(double range_m, double place_sd_m, double bearing_sd_rad) {
   constexpr int kReadings = 20000;
-  const messages::BeaconReading truth{.range_m = 40.0,
-                                      .bearing_rad = math::DegToRad(125.0),
-                                      .range_sd_m = 1.0,
-                                      .bearing_sd_rad = math::DegToRad(3.0)};
   core::RandomStream stream({5, 0}, core::Purpose::kTest);
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  Eigen::Array2d squares = Eigen::Array2d::Zero();
   for (int i = 0; i < kReadings; ++i) {
-    messages::BeaconReading reading = truth;
-    reading.range_m = core::SampleNormal(stream, truth.range_m, truth.range_sd_m);
-    reading.bearing_rad = core::SampleNormal(stream, truth.bearing_rad, truth.bearing_sd_rad);
-    const Eigen::Vector2d place = PlaceFromBeacon(reading).pose.head<2>();
-    sum += place;
-    squares += place * place.transpose();
+    const Eigen::Vector2d truth(core::SampleNormal(stream, range_m, place_sd_m),
+                                core::SampleNormal(stream, 0.0, place_sd_m));
+    const messages::BeaconReading reading{
+        .range_m = core::SampleNormal(stream, truth.norm(), 1.0),
+        .bearing_rad =
+            core::SampleNormal(stream, std::atan2(truth.y(), truth.x()), bearing_sd_rad)};
+    squares += (PlaceFromBeacon(reading, {}).pose.head<2>() - truth).array().square();
   }
-  const Eigen::Vector2d mean = sum / kReadings;
-  const Eigen::Matrix2d spread = squares / kReadings - mean * mean.transpose();
-  const Eigen::Matrix2d told = PlaceFromBeacon(truth).covariance.topLeftCorner<2, 2>();
-  EXPECT_LT((spread - told).norm() / told.norm(), 0.04);
-  // The control: the axes the wrong way round.
-  EXPECT_GT((spread - Eigen::Matrix2d(told.reverse())).norm() / told.norm(), 0.3);
+  return squares / kReadings;
+}
+
+TEST(BeaconFix, HasTheSpreadOfItsReadings) {
+  struct Case {
+    double range_m, place_sd_m, bearing_sd_deg;
+  };
+  for (const Case& at : {Case{40.0, 0.0, 3.0}, Case{40.0, 5.0, 1.0}, Case{3.0, 0.5, 8.0}}) {
+    const double bearing_sd_rad = math::DegToRad(at.bearing_sd_deg);
+    messages::LocalizationEstimate believed;
+    believed.pose.x_m = at.range_m;
+    believed.covariance = at.place_sd_m * at.place_sd_m * messages::PoseCovariance::Identity();
+    const messages::BeaconReading reading{.range_m = 1.0,
+                                          .bearing_rad = 2.0,  // neither is reckoned with
+                                          .range_sd_m = 1.0,
+                                          .bearing_sd_rad = bearing_sd_rad};
+    const messages::PoseCovariance told = PlaceFromBeacon(reading, believed).covariance;
+    const Eigen::Array2d found = MeanSquaresOfPlaces_m2(at.range_m, at.place_sd_m, bearing_sd_rad);
+    EXPECT_NEAR(told(0, 0) / found[0], 1.0, 0.05) << at.range_m << " m, along";
+    EXPECT_NEAR(told(1, 1) / found[1], 1.0, 0.05) << at.range_m << " m, across";
+    EXPECT_NEAR(told(0, 1), 0.0, 1e-12);
+
+    // Where the goals' frame is another one, the world's counts.
+    believed.world = {.pose = believed.pose, .covariance = *believed.covariance};
+    believed.pose = {.x_m = -7.0, .y_m = 90.0};
+    EXPECT_EQ(PlaceFromBeacon(reading, believed).covariance, told);
+  }
+}
+
+TEST(BeaconFix, IsOfNoDirectionAtTheStation) {
+  const auto fix = PlaceFromBeacon(
+      {.range_m = 0.5, .bearing_rad = 0.3, .range_sd_m = 1.0, .bearing_sd_rad = 0.1}, {});
+  EXPECT_NEAR(fix.covariance(0, 0), 0.5 * (1.0 + 0.01), 1e-12);
+  EXPECT_NEAR(fix.covariance(1, 1), fix.covariance(0, 0), 1e-12);
+  EXPECT_NEAR(fix.covariance(0, 1), 0.0, 1e-12);
 }
 
 constexpr int kHeading = messages::Index(messages::PoseCoordinate::kHeading);
