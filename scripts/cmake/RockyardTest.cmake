@@ -28,7 +28,7 @@ set(ROCKYARD_TEST_OPTIMIZATION $<$<CONFIG:Release>:-Og>)
 
 # Files of tests are compiled in batches of this many (join_tests.py), for the headers that they share.
 # 0: every file by itself, which is what one wants who works on one of them.
-set(ROCKYARD_TEST_BATCH 24 CACHE STRING "Files of tests compiled together; 0: none")
+set(ROCKYARD_TEST_BATCH 40 CACHE STRING "Files of tests compiled together; 0: none")
 
 set(ROCKYARD_TEST_KINDS UNIT PROPERTY PHYSICS DIFFERENTIAL STATISTICAL DETERMINISM FUZZ CLI)
 

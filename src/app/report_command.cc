@@ -117,7 +117,7 @@ void AddReportCommand(CLI::App& app, ExitCode& exit_code) {
                       "name the scenarios)");
   command->add_option("--cell", options->cell,
                       "one cell of a campaign alone: its name, or number from 0");
-  command->add_option("--title", options->title, "title of the page");
+  command->add_option("--title", options->title, "title of the page (default: the scenarios)");
   command->add_option("--data", options->data, "write the numbers of the page to this file (JSON)");
   command->callback([options, command, &exit_code] {
     options->command = CommandText(*command);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "campaign/campaign_process.h"
 #include "campaign/output_file.h"
 #include "campaign/report_build.h"
@@ -23,17 +21,6 @@ std::string PageFile(const ReportRequest& request) {
                               : request.page;
 }
 
-std::string Title(const ReportRequest& request, const std::vector<ReportInput>& inputs) {
-  constexpr std::size_t kNamed = 3;
-  if (!request.title.empty()) return request.title;
-  std::string title;
-  for (std::size_t i = 0; i < std::min(inputs.size(), kNamed); ++i) {
-    title += (i == 0 ? "" : ", ") + inputs[i].label;
-  }
-  if (inputs.size() > kNamed) title += fmt::format(" and {} more", inputs.size() - kNamed);
-  return title;
-}
-
 // Before the work: what cannot be meant.
 void CheckFile(const char* option, const std::string& file, const char* extension) {
   CheckOutputFile(option, file);
@@ -51,7 +38,7 @@ void WritePage(const ReportRequest& request, const PageRequest& page, const Repo
     report::WriteFileAtomically(request.data, report.json);
     result.data_bytes = report.json.size();
   }
-  const std::string html = web::MakePage(web::Page::kReport, page.title, report.json);
+  const std::string html = web::MakePage(web::Page::kReport, report.title, report.json);
   report::WriteFileAtomically(page.page, html);
   result.page_bytes = html.size();
 }
@@ -59,7 +46,7 @@ void WritePage(const ReportRequest& request, const PageRequest& page, const Repo
 Outcome Write(const ReportRequest& request, const ReportObserver& observer, const Contact& contact,
               ReportResult& result) {
   PageRequest page{.inputs = FindReportInputs(request.runs, request.cell),
-                   .title = {},
+                   .title = request.title,
                    .command = request.command,
                    .against = request.against,
                    .replays = request.replays,
@@ -68,7 +55,6 @@ Outcome Write(const ReportRequest& request, const ReportObserver& observer, cons
                    .tracks = request.tracks,
                    .track_progress = observer.tracks};
   CheckFiles(request);
-  page.title = Title(request, page.inputs);
   result.page = page.page;
   const Report report = BuildReport(page, contact);
   result.runs = report.runs;

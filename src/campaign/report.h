@@ -20,7 +20,7 @@ struct ReportRequest {
   std::string page = {};          // empty: report.html in the folder that is named first
   std::string data = {};          // the numbers of the page as JSON; empty: no such file
   std::string against = {};       // reference file; empty: those of results/reference
-  std::string title = {};         // empty: the labels of the runs
+  std::string title = {};         // empty: the scenarios of the runs
   std::string command = {};       // that makes the page, as the page shows it
   std::size_t replays = 5;   // of the worst failed trials of each run, or of each sweep; above 0, a
                              // run gets one of each outcome too

@@ -64,6 +64,7 @@ class Builder {
   void AddPlain(const ReportInput& input) {
     StoredRun run = ReadRun(input.folder, input.cell);
     if (run.records.empty()) FailEmpty(input.folder);
+    names_.push_back(run.identity.scenario);
     const std::vector<std::uint64_t> examples = ExamplesOf(run);
     std::vector<ChosenTrial> chosen = FindWorst(run, request_.replays);
     if (request_.replays > 0) AddChosen(run, examples, chosen);
@@ -142,6 +143,7 @@ class Builder {
   void AddSweep(const ReportInput& input) {
     const batch::ResultStore store = batch::ResultStore::Read(input.folder);
     const scenario::Sweep sweep = SweepOf(store, input.folder);
+    names_.push_back(sweep.name);
     const CellReader reader(input.folder, store);
     std::vector<batch::CellHash> hashes;
     std::vector<ChosenTrial> others = std::exchange(worst_, {});
@@ -203,7 +205,23 @@ class Builder {
     return published_.WhyNone();
   }
 
+  // The scenarios and sweeps of the inputs, with the label where several have one name.
+  std::string Title() const {
+    constexpr std::size_t kNamed = 3;
+    if (!request_.title.empty()) return request_.title;
+    std::string title;
+    for (std::size_t i = 0; i < std::min(names_.size(), kNamed); ++i) {
+      title += (i == 0 ? "" : ", ") + names_[i];
+      if (std::ranges::count(names_, names_[i]) > 1) {
+        title += fmt::format(" ({})", request_.inputs[i].label);
+      }
+    }
+    if (names_.size() > kNamed) title += fmt::format(" and {} more", names_.size() - kNamed);
+    return title;
+  }
+
   Report Finish() {
+    report_.title = Title();
     report_.replays = WriteReplays(request_.page, worst_, runs_.size(), batch::ThreadCount({}),
                                    contact_, request_.progress);
     std::vector<std::string> runs;
@@ -218,7 +236,7 @@ class Builder {
       comparisons.push_back(report::PageComparisonJson(each, adjusted));
     }
     report_.runs = runs.size();
-    report_.json = report::PageJson({.title = request_.title,
+    report_.json = report::PageJson({.title = report_.title,
                                      .command = request_.command,
                                      .why_none_published = WhyNonePublished(),
                                      .provenance = core::CurrentProvenance()},
@@ -231,6 +249,7 @@ class Builder {
   PublishedTables published_;
   // To compare: no cells of a sweep, without the values of their records; and their labels.
   std::vector<std::pair<StoredRun, std::string>> drives_;
+  std::vector<std::string> names_;  // of the scenario or sweep of each input
   std::vector<core::JsonObject> runs_;
   std::vector<std::string> sweeps_;
   std::vector<report::PageComparison> comparisons_;

@@ -14,7 +14,7 @@ namespace rockyard::campaign {
 
 struct PageRequest {
   std::vector<ReportInput> inputs;
-  std::string title;
+  std::string title;  // empty: what the inputs are of
   std::string command;
   std::string against;         // reference file; "" for those of results/reference
   std::size_t replays = 0;     // of the worst of each run, and of each sweep in all
@@ -25,6 +25,7 @@ struct PageRequest {
 };
 
 struct Report {
+  std::string title;
   std::string json;  // ReportPayload of src/web/report/payload.ts
   std::size_t runs = 0;
   std::size_t trials = 0;

@@ -5,7 +5,7 @@ Following it ends the problem, or at least changes nothing: it leads into no fur
 that was there is there afterwards with the same bytes, under its name or set aside. Commands and options that
 it names are taken from the printed line.
 
-Usage: advice_test.py ROCKYARD PROJECT [unittest's arguments]
+Usage: advice_test.py ROCKYARD PROJECT SHARE [unittest's arguments]
 
 Rows of the tables: what is typed or written, the advice, and the ways to follow it. What a row may leave
 changed is named in it; a run or sequence that is gone on with by --resume grows.
@@ -35,6 +35,7 @@ from pathlib import Path
 import numpy as np
 
 ROCKYARD, PROJECT = (Path(word).resolve() for word in sys.argv[1:3])
+SHARE = int(sys.argv[3])  # of the rows that take a run or an image one of so many
 RUN = "--trials 2 --threads 1 --quiet --no-supervisor --set referee.time_limit_s=1 --set rover.fidelity=quasi_static"
 # What a command changes where it goes on by --resume, of the folder that --out names.
 SAME_RUN = ("results.sqlite*", "summary.json", "trials.csv", "distance_cdf.csv", "scenario.resolved.json", "sweep.json",
@@ -1732,7 +1733,7 @@ class AdviceTest(unittest.TestCase):
         return fitting[0]
 
     def carry_out(self, rows):
-        for row in rows:
+        for row in rows[::SHARE]:
             words = words_of(row.fails)
             with self.subTest(words=" ".join(map(str, words))[:110]):
                 if row.then is NOBODY and not self.nobody_can:
@@ -1910,4 +1911,4 @@ class AdviceTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

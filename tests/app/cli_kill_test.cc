@@ -16,9 +16,9 @@ TEST_F(CliKill, ResumeAnywhere) { ExpectOfResumedRuns(kStep); }
 
 TEST_F(CliKill, SweepAnywhere) { ExpectOfSweeps(kStep); }
 
-TEST_F(CliKill, SequenceAnywhere) { ExpectOfSequences(8); }
+TEST_F(CliKill, SequenceAnywhere) { ExpectOfSequences(20); }
 
-TEST_F(CliKill, NoRoomOrRightsAnywhere) { ExpectOfLacks(11); }
+TEST_F(CliKill, NoRoomOrRightsAnywhere) { ExpectOfLacks(24); }
 
 TEST_F(CliKill, MergeAnywhere) { ExpectOfMerges(kStep); }
 

@@ -25,7 +25,7 @@ TEST_F(CliReport, HoldsTheNumbersOfSummaryJson) {
   const json& run = data["runs"][0];
   EXPECT_EQ(run["summary"], Summary("a"));
   EXPECT_EQ(run["label"], "a");
-  EXPECT_EQ(data["title"], "a");
+  EXPECT_EQ(data["title"], "nominal");
   EXPECT_EQ(run["folder"], "a");
   EXPECT_EQ(run["kind"], "drive");
   EXPECT_EQ(run["replay_command"], "rockyard replay a --trial {trial}");
@@ -57,6 +57,7 @@ TEST_F(CliReport, RunsAndSweepsMayBeMixed) {
   ASSERT_EQ(data["runs"].size(), 3u);
   ASSERT_EQ(data["sweeps"].size(), 1u);
   EXPECT_EQ(data["sweeps"][0]["summary"], Summary("s"));
+  EXPECT_EQ(data["title"], "nominal, two");
   EXPECT_EQ(data["sweeps"][0]["curves"][0]["points"].size(), 2u);
   EXPECT_TRUE(data["runs"][0]["sweep"].is_null());
   EXPECT_EQ(data["runs"][2]["sweep"], 0);
@@ -90,6 +91,7 @@ TEST_F(CliReport, RunsAreComparedWithTheFirst) {
   ASSERT_EQ(Drive("b", 6, {"--set", "referee.time_limit_s=200"}).exit_code, 0);
   ASSERT_EQ(Drive("c", 6, {"--seed", "9"}).exit_code, 0);
   ASSERT_EQ(Report({"a", "b", "c"}).exit_code, 0);
+  EXPECT_EQ(Data()["title"], "nominal (a), nominal (b), nominal (c)");
   const json comparisons = Data()["comparisons"];
   ASSERT_EQ(comparisons.size(), 2u);
   EXPECT_EQ(comparisons[0]["first"], "a");
