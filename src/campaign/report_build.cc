@@ -211,9 +211,10 @@ class Builder {
     if (!request_.title.empty()) return request_.title;
     std::string title;
     for (std::size_t i = 0; i < std::min(names_.size(), kNamed); ++i) {
-      title += (i == 0 ? "" : ", ") + names_[i];
-      if (std::ranges::count(names_, names_[i]) > 1) {
-        title += fmt::format(" ({})", request_.inputs[i].label);
+      const std::string& label = request_.inputs[i].label;
+      title += (i == 0 ? "" : ", ") + (names_[i].empty() ? label : names_[i]);
+      if (!names_[i].empty() && std::ranges::count(names_, names_[i]) > 1) {
+        title += fmt::format(" ({})", label);
       }
     }
     if (names_.size() > kNamed) title += fmt::format(" and {} more", names_.size() - kNamed);

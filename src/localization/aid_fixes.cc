@@ -8,7 +8,8 @@
 namespace rockyard::localization {
 namespace {
 
-// Mean of d d', where d leads from the station to the rover, as it was believed before the reading.
+// The mean of d d', where d leads from the station to the rover, as it was believed before the
+// reading.
 Eigen::Matrix2d BelievedPlace_m2(const messages::BeaconReading& reading,
                                  const messages::LocalizationEstimate& believed) {
   const messages::PoseEstimate& pose = believed.world ? believed.world->pose : believed.pose;

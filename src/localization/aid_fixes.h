@@ -8,12 +8,14 @@
 namespace rockyard::localization {
 
 // Returns the place in polar coordinates about the station, p = s + r (cos b, sin b), with the
-// covariance sd_r^2 along and (range^2 + sd_r^2) sd_b^2 across, both in the mean over where the
-// rover was believed to be before (in the world, at the reading). Taken at the measured range and
-// bearing instead, the weight of a place would depend on its error: one whose range came out short
-// would count as nearly exact, and all of them would lie towards the station by sd_r^2 over the
-// range (Bordonaro, Willett and Bar-Shalom 2014, decorrelated converted measurements). First order
-// in the bearing's error: for 3 deg the place is 0.14 % of the range too far out.
+// covariance sd_r^2 along and (range^2 + sd_r^2) sd_b^2 across, for where the rover was believed to
+// be before (in the world, at the reading). Taken at the measured range and bearing instead, the
+// weight of a place would depend on its error: one whose range came out short would count as nearly
+// exact across, and all of them would lie towards the station by sd_r^2 over the range (Bordonaro,
+// Willett and Bar-Shalom 2014, decorrelated converted measurements). Limits: directions are weighed
+// by range squared, which is narrow across where the belief is much wider along than the range; a
+// wrong belief turns the ellipse; the place is too near by sd_b^2 / 2 of the range (0.14 % for 3
+// deg).
 messages::PoseFix PlaceFromBeacon(const messages::BeaconReading& reading,
                                   const messages::LocalizationEstimate& believed);
 

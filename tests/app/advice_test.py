@@ -35,7 +35,7 @@ from pathlib import Path
 import numpy as np
 
 ROCKYARD, PROJECT = (Path(word).resolve() for word in sys.argv[1:3])
-SHARE = int(sys.argv[3])  # of the rows that take a run or an image one of so many
+SHARE = int(sys.argv[3])  # of the commands that are typed, one of so many
 RUN = "--trials 2 --threads 1 --quiet --no-supervisor --set referee.time_limit_s=1 --set rover.fidelity=quasi_static"
 # What a command changes where it goes on by --resume, of the folder that --out names.
 SAME_RUN = ("results.sqlite*", "summary.json", "trials.csv", "distance_cdf.csv", "scenario.resolved.json", "sweep.json",

@@ -13,6 +13,7 @@ import argparse
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -43,10 +44,10 @@ def profile(reader):
     return FUZZER.with_name(f"{reader}.profraw")
 
 
-def fuzzer(reader, *words):
+def fuzzer(reader, *words, counts=True):
     environment = {**os.environ, "ROCKYARD_READER": reader,
                    "ASAN_OPTIONS": "allocator_may_return_null=1:detect_leaks=1",
-                   "LLVM_PROFILE_FILE": str(profile(reader))}
+                   "LLVM_PROFILE_FILE": str(profile(reader)) if counts else os.devnull}
     return subprocess.run([FUZZER, *map(str, words)], cwd=ROOT, env=environment, text=True, errors="replace",
                           capture_output=True, check=False)
 
@@ -59,6 +60,7 @@ def run(reader, options):
     findings.mkdir(parents=True, exist_ok=True)
     runs = options.slow_runs if reader in SLOW else options.runs
     longest = f"-max_len={LONGEST.get(reader, 4096)}"
+    profile(reader).unlink(missing_ok=True)  # a reader that crashes leaves none
     start = time.monotonic()
     done = fuzzer(reader, f"-runs={runs}", f"-seed={options.seed}", longest, *LIMITS,
                   f"-artifact_prefix={findings}/{reader}-", grown, KEPT / reader)
@@ -67,13 +69,16 @@ def run(reader, options):
     if done.returncode != 0:
         return f"{told}, FOUND\n{done.stderr[-3000:]}", False
     if options.keep:
-        fuzzer(reader, "-merge=1", longest, *LIMITS, KEPT / reader, grown)
+        fuzzer(reader, "-merge=1", longest, *LIMITS, KEPT / reader, grown, counts=False)
     return f"{told}, nothing found, {len(list(KEPT.joinpath(reader).iterdir()))} inputs kept", True
 
 
 def coverage(readers):
     """Prints how many lines of SOURCES the runs and inputs of these readers have reached, and returns their share."""
     merged = FUZZER.with_name("all.profdata")
+    if missing := [reader for reader in readers if not profile(reader).is_file()]:
+        print(f"lines not counted: no profile of {', '.join(missing)}")
+        return 0.0
     subprocess.run(["llvm-profdata", "merge", *map(profile, readers), "-o", merged], check=True)
     told = subprocess.run(["llvm-cov", "export", "-summary-only", FUZZER, f"-instr-profile={merged}",
                            *(ROOT / "src" / source for source in SOURCES)], capture_output=True, text=True, check=True)
@@ -98,6 +103,8 @@ def main(arguments):
     known = sorted(folder.name for folder in KEPT.iterdir())
     if unknown := set(options.readers) - set(known):
         parser.error(f"no reader {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+    if not all(map(shutil.which, ("llvm-profdata", "llvm-cov"))):
+        parser.error("llvm-profdata and llvm-cov are not there (scripts/install_dependencies.sh tsan)")
     if not FUZZER.is_file():
         parser.error(f"{FUZZER} is not there (see --help)")
     readers = options.readers or known

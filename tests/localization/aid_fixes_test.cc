@@ -28,48 +28,79 @@ TEST(BeaconFix, LiesAtRangeAndBearingFromTheStation) {
   EXPECT_NEAR(fix.pose[1], -2.0 + 5.0, 1e-12);
 }
 
-// Mean squares, along and across the believed direction, of what places are off by whose rover is
-// somewhere about (range_m, 0) and whose readings err; 20000 of them know a variance to 1 %.
-Eigen::Array2d MeanSquaresOfPlaces_m2(double range_m, double place_sd_m, double bearing_sd_rad) {
-  constexpr int kReadings = 20000;
-  core::RandomStream stream({5, 0}, core::Purpose::kTest);
-  Eigen::Array2d squares = Eigen::Array2d::Zero();
-  for (int i = 0; i < kReadings; ++i) {
-    const Eigen::Vector2d truth(core::SampleNormal(stream, range_m, place_sd_m),
-                                core::SampleNormal(stream, 0.0, place_sd_m));
-    const messages::BeaconReading reading{
-        .range_m = core::SampleNormal(stream, truth.norm(), 1.0),
-        .bearing_rad =
-            core::SampleNormal(stream, std::atan2(truth.y(), truth.x()), bearing_sd_rad)};
-    squares += (PlaceFromBeacon(reading, {}).pose.head<2>() - truth).array().square();
+// Somewhere about `range_m` from the station in that direction, off by so much along it and across.
+struct Somewhere {
+  double range_m, along_sd_m, across_sd_m, bearing_sd_deg;
+
+  static constexpr double kStationX_m = 3.0;
+  static constexpr double kStationY_m = -7.0;
+
+  Eigen::Matrix2d turn() const { return Eigen::Rotation2Dd(DegToRad(125.0)).toRotationMatrix(); }
+  messages::BeaconReading Reading() const {
+    return {.station_x_m = kStationX_m,
+            .station_y_m = kStationY_m,
+            .range_m = 1.0,
+            .bearing_rad = 0.0,  // neither is reckoned with
+            .range_sd_m = 1.0,
+            .bearing_sd_rad = DegToRad(bearing_sd_deg)};
   }
-  return squares / kReadings;
-}
+  messages::LocalizationEstimate Belief() const {
+    const Eigen::Vector2d place = turn() * Eigen::Vector2d(range_m, 0.0);
+    const Eigen::Vector2d variances(along_sd_m * along_sd_m, across_sd_m * across_sd_m);
+    messages::LocalizationEstimate belief;
+    belief.pose.x_m = kStationX_m + place.x();
+    belief.pose.y_m = kStationY_m + place.y();
+    belief.covariance = messages::PoseCovariance::Zero();
+    belief.covariance->topLeftCorner<2, 2>() = turn() * variances.asDiagonal() * turn().transpose();
+    return belief;
+  }
+  // What is told, along and across.
+  Eigen::Matrix2d Told(const messages::LocalizationEstimate& belief) const {
+    return turn().transpose() *
+           PlaceFromBeacon(Reading(), belief).covariance.topLeftCorner<2, 2>() * turn();
+  }
+  // Mean squares of what places are off by, along and across; 20000 know a variance to 1 %.
+  Eigen::Array2d Found_m2() const {
+    constexpr int kReadings = 20000;
+    core::RandomStream stream({5, 0}, core::Purpose::kTest);
+    Eigen::Array2d squares = Eigen::Array2d::Zero();
+    for (int i = 0; i < kReadings; ++i) {
+      const Eigen::Vector2d truth =
+          turn() * Eigen::Vector2d(core::SampleNormal(stream, range_m, along_sd_m),
+                                   core::SampleNormal(stream, 0.0, across_sd_m));
+      messages::BeaconReading reading = Reading();
+      reading.range_m = core::SampleNormal(stream, truth.norm(), reading.range_sd_m);
+      reading.bearing_rad =
+          core::SampleNormal(stream, std::atan2(truth.y(), truth.x()), reading.bearing_sd_rad);
+      const Eigen::Vector2d place = PlaceFromBeacon(reading, {}).pose.head<2>();
+      const Eigen::Vector2d off = place - Eigen::Vector2d(kStationX_m, kStationY_m) - truth;
+      squares += (turn().transpose() * off).array().square();
+    }
+    return squares / kReadings;
+  }
+};
 
 TEST(BeaconFix, HasTheSpreadOfItsReadings) {
-  struct Case {
-    double range_m, place_sd_m, bearing_sd_deg;
-  };
-  for (const Case& at : {Case{40.0, 0.0, 3.0}, Case{40.0, 5.0, 1.0}, Case{3.0, 0.5, 8.0}}) {
-    const double bearing_sd_rad = math::DegToRad(at.bearing_sd_deg);
-    messages::LocalizationEstimate believed;
-    believed.pose.x_m = at.range_m;
-    believed.covariance = at.place_sd_m * at.place_sd_m * messages::PoseCovariance::Identity();
-    const messages::BeaconReading reading{.range_m = 1.0,
-                                          .bearing_rad = 2.0,  // neither is reckoned with
-                                          .range_sd_m = 1.0,
-                                          .bearing_sd_rad = bearing_sd_rad};
-    const messages::PoseCovariance told = PlaceFromBeacon(reading, believed).covariance;
-    const Eigen::Array2d found = MeanSquaresOfPlaces_m2(at.range_m, at.place_sd_m, bearing_sd_rad);
+  for (const Somewhere& at : {Somewhere{40.0, 0.0, 0.0, 3.0}, Somewhere{40.0, 8.0, 3.0, 1.0},
+                              Somewhere{3.0, 0.2, 0.5, 8.0}}) {
+    messages::LocalizationEstimate belief = at.Belief();
+    const Eigen::Matrix2d told = at.Told(belief);
+    const Eigen::Array2d found = at.Found_m2();
     EXPECT_NEAR(told(0, 0) / found[0], 1.0, 0.05) << at.range_m << " m, along";
     EXPECT_NEAR(told(1, 1) / found[1], 1.0, 0.05) << at.range_m << " m, across";
-    EXPECT_NEAR(told(0, 1), 0.0, 1e-12);
+    EXPECT_NEAR(told(0, 1), 0.0, 1e-9);
 
     // Where the goals' frame is another one, the world's counts.
-    believed.world = {.pose = believed.pose, .covariance = *believed.covariance};
-    believed.pose = {.x_m = -7.0, .y_m = 90.0};
-    EXPECT_EQ(PlaceFromBeacon(reading, believed).covariance, told);
+    belief.world = {.pose = belief.pose, .covariance = *belief.covariance};
+    belief.pose = {.x_m = -7.0, .y_m = 90.0};
+    belief.covariance = messages::PoseCovariance::Identity();
+    EXPECT_EQ(at.Told(belief), told);
   }
+  // The control: a belief that takes itself for exact.
+  const Somewhere near{3.0, 0.2, 0.5, 8.0};
+  messages::LocalizationEstimate sure = near.Belief();
+  sure.covariance.reset();
+  EXPECT_LT(near.Told(sure)(1, 1) / near.Found_m2()[1], 0.9);
 }
 
 TEST(BeaconFix, IsOfNoDirectionAtTheStation) {
