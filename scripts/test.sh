@@ -125,8 +125,8 @@ done
 # shellcheck disable=SC2086  # a list of words
 cmake --build --preset "$preset" -j "$jobs" ${targets:+--target $targets}
 
-# Browsers and the command's processes wait for each other now and then: half as many again keep all busy.
-set -- --preset "$preset" -j "$((jobs + jobs / 2))"
+# Browsers and the command's processes wait for each other: twice as many tests keep all processors busy.
+set -- --preset "$preset" -j "$((2 * jobs))"
 if [ -n "$wanted" ]; then set -- "$@" -L "^($wanted)\$"; fi
 if [ "$tier" != full ]; then set -- "$@" -L "^$tier\$"; fi
 if [ -n "$label" ]; then set -- "$@" -L "$label"; fi

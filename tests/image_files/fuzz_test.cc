@@ -1,5 +1,4 @@
-// Damaged image files are read or refused in words, and nothing else. The study of many cases is
-// fuzz_study.cc.
+// Damaged image files are read or refused in words, and nothing else. tests/fuzz has a million.
 #include <gtest/gtest.h>
 
 #include <map>

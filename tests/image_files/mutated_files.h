@@ -1,5 +1,5 @@
-// Image files with damage of many kinds, and a judge of what the readers make of them. Shared by
-// the test of a few hundred cases and by the study of as many as are wanted.
+// Image files with damage of many kinds, and a judge of what the readers make of them. Shared with
+// the tests of the finder of cylinders.
 #pragma once
 
 #include <cstdint>

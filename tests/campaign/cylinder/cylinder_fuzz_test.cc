@@ -1,5 +1,4 @@
-// Damaged images of a cylinder are refused or missed in words, or it is found. The study of many
-// cases is cylinder_fuzz_study.cc.
+// Damaged images of a cylinder are refused or missed in words, or it is found.
 #include <gtest/gtest.h>
 
 #include <map>
