@@ -96,7 +96,7 @@ class TestScript(ScriptTest):
         self.assertEqual(self.run_script("test.sh", "--jobs", "2").returncode, 0)
         self.assertEqual(self.called("install_dependencies.sh"), ["build mpi pages test figures"])
         self.assertEqual(self.called("ctest"),
-                         ["--preset test -j 3 -LE ^long$ --no-tests=error --output-on-failure"])
+                         ["--preset test -j 4 -LE ^long$ --no-tests=error --output-on-failure"])
 
     def test_label_and_lint(self):
         self.run_script("test.sh", "--label", "statistical", "--no-lint")
