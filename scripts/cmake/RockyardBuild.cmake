@@ -16,15 +16,6 @@ if(ROCKYARD_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${ROCKYARD_CCACHE})
 endif()
 
-# A tenth of the time of GCC goes into collecting its garbage. Where memory suffices for as many compilers as
-# there are processors, up to a gigabyte of it may lie in each.
-cmake_host_system_information(RESULT memory_MiB QUERY TOTAL_PHYSICAL_MEMORY)
-cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
-math(EXPR memory_MiB "${memory_MiB} / ${processors}")
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND memory_MiB GREATER 4000)
-  add_compile_options(--param=ggc-min-heapsize=1000000)
-endif()
-
 if(ROCKYARD_SANITIZE)
   if(ROCKYARD_SANITIZE MATCHES "thread" AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     # gcc's OpenMP runtime is not instrumented, so every parallel loop looks like a race. Clang's

@@ -36,6 +36,12 @@ TEST_F(CliReport, HoldsTheNumbersOfSummaryJson) {
   EXPECT_TRUE(data["comparisons"].empty());
 }
 
+TEST_F(CliReport, OfAScenarioWithoutANameIsTitledByItsFolder) {
+  ASSERT_EQ(Drive("a", 1, {"--set", "name="}).exit_code, 0);
+  ASSERT_EQ(Report({"a"}).exit_code, 0);
+  EXPECT_EQ(Data()["title"], "a");
+}
+
 // As after an interrupted run, or where a trial was left out: what lies behind the gap is biased to
 // trials that end early.
 TEST_F(CliReport, TellsWhichTrialsAreInTheRates) {

@@ -1,4 +1,5 @@
-// Damaged image files are read or refused in words, and nothing else. tests/fuzz has a million.
+// Damaged image files are read or refused in words, and nothing else. tests/fuzz has a million, but
+// no planetary ones.
 #include <gtest/gtest.h>
 
 #include <map>
