@@ -9,6 +9,9 @@
 #   its tier, `full` where it is listed under SLOW too, `long` under LONG, `fast` where neither; and
 #   its folder, as in tests/navigation. HELPERS are compiled but hold no tests.
 #
+# rockyard_test_helpers(NAME SOURCES file ... [DEPENDS module ...])
+#   Helpers of several programs, compiled once: an object library to name under their LIBRARIES.
+#
 # rockyard_command_test(NAME KIND TIER COMMAND...)
 #   A test that is no GoogleTest, with the same labels: KIND in capitals, TIER is FAST, FULL or LONG.
 #   The run records what it took (record_times.py).
@@ -120,6 +123,15 @@ function(rockyard_test NAME)
   file(WRITE ${include} "if(EXISTS \"${list}\")\n  include(\"${list}\")\nelse()\n"
     "  add_test(${NAME}_NOT_BUILT ${NAME}_NOT_BUILT)\nendif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${include})
+endfunction()
+
+function(rockyard_test_helpers NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
+  add_library(${NAME} OBJECT EXCLUDE_FROM_ALL ${ARG_SOURCES})
+  target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS} ${ROCKYARD_TEST_OPTIMIZATION})
+  target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(${NAME} PRIVATE ${dependencies})
 endfunction()
 
 function(rockyard_command_test NAME KIND TIER PROGRAM)

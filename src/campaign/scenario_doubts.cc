@@ -142,12 +142,20 @@ void DoubtOdometer(const trial::DriveParams& drive, LevelScales& scales,
                    std::vector<Problem>& doubts) {
   constexpr double kMore = 0.015;  // a tenth of a metre over the Pathfinder course
   constexpr double kLess = 0.05;
+  constexpr double kStuck = 0.5;
   const double scale = drive.perception.dead_reckoning.distance_scale;
   if (scale == 1.0) return;
   const double level = scales.Of(drive);
   const double share = ShareOfTerrain(drive.terrain);
   const double least = level * share * (1.0 - (share == 1.0 ? kMore : kLess));
   if (scale >= least && scale <= level * (1.0 + kMore)) return;
+  if (level < kStuck) {
+    doubts.push_back(
+        {"rover.drive",
+         fmt::format("wheels spin: on level ground it goes {:.3f} of what they roll", level),
+         "check soil, mass and motors"});
+    return;
+  }
   doubts.push_back({"perception.dead_reckoning.distance_scale",
                     fmt::format("{:g} does not suit these wheels: {:.3f} does on level ground, and "
                                 "{:.3f} where they roll over its rocks",
@@ -186,13 +194,14 @@ std::string WhatOf(const Problem& doubt) { return fmt::format("{}: {}", doubt.pa
 
 std::vector<Problem> DoubtsWith(const scenario::Scenario& scenario, LevelScales& scales) {
   std::vector<Problem> doubts;
-  if (scenario.experiment.kind != experiments::ExperimentKind::kDrive) return doubts;
-  DoubtLimits(scenario.drive, doubts);
-  DoubtMass(scenario.drive, doubts);
-  DoubtSizes(scenario.drive, doubts);
-  DoubtOdometer(scenario.drive, scales, doubts);
-  DoubtGravity(scenario, doubts);
-  DoubtSoil(scenario, doubts);
+  if (scenario.experiment.kind == experiments::ExperimentKind::kDrive) {
+    DoubtLimits(scenario.drive, doubts);
+    DoubtMass(scenario.drive, doubts);
+    DoubtSizes(scenario.drive, doubts);
+    DoubtOdometer(scenario.drive, scales, doubts);
+    DoubtGravity(scenario, doubts);
+    DoubtSoil(scenario, doubts);
+  }
   std::ranges::move(DoubtsOfSettings(scenario), std::back_inserter(doubts));
   std::erase_if(doubts, [&](const Problem& doubt) {
     return scenario.accepted.find(WhatOf(doubt)) != std::string::npos;

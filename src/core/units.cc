@@ -18,7 +18,7 @@ struct Unit {
   std::string_view text;   // for people
 };
 
-constexpr std::array<Unit, 35> kUnits = {{{"m", "m"},
+constexpr std::array<Unit, 37> kUnits = {{{"m", "m"},
                                           {"m2", "m2"},
                                           {"m3", "m3"},
                                           {"mm", "mm"},
@@ -49,6 +49,8 @@ constexpr std::array<Unit, 35> kUnits = {{{"m", "m"},
                                           {"Pa", "Pa"},
                                           {"px", "px"},
                                           {"e", "e"},  // electrons
+                                          {"bit", "bit"},
+                                          {"bits", "bit"},
                                           {"percent", "%"},
                                           {"K", "K"},
                                           // Powers of Bekker's sinkage exponent n.
@@ -75,6 +77,7 @@ std::vector<std::string_view> Split(std::string_view name) {
 }  // namespace
 
 std::string UnitOf(std::string_view name) {
+  if (name.ends_with("_min")) return "min";  // before a unit it is the least value
   const std::vector<std::string_view> tokens = Split(name);
   std::size_t first = tokens.size();
   while (first > 1 && (!UnitText(tokens[first - 1]).empty() || tokens[first - 1] == "per")) --first;

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <iostream>
 #include <map>
 
 #include "app/watched_run.h"
@@ -24,6 +25,12 @@ class KillRuns : public WatchedRunTest {
     WriteFile(work() / "sweep.json", R"({
       "name": "kills", "trials": 1, "set": {"referee.time_limit_s": 1},
       "axes": [{"path": "terrain.rocks.k_per_m2", "values": [0.001, 0.004]}]})");
+  }
+
+  // ctest tells it with --verbose.
+  void TearDown() override {
+    std::cout << cases_ << " cases of a kill, a full disk or no rights\n";
+    WatchedRunTest::TearDown();
   }
 
   std::vector<std::string> Drive(const std::string& out, int trials,
@@ -153,6 +160,7 @@ class KillRuns : public WatchedRunTest {
       CommandResult result = RunShimmed(what, call, words);
       if (!WasStruck()) break;
       ++kills;
+      ++cases_;
       // What a repeated merge finds whole it leaves as it is.
       const bool is_left = result.exit_code == 0 || words.front() == "merge";
       if (result.exit_code != 0) {
@@ -189,6 +197,7 @@ class KillRuns : public WatchedRunTest {
         RemoveOutput();
         const CommandResult result = RunShimmed(what, call, words);
         if (!WasStruck()) break;
+        ++cases_;
         ExpectTold(what, result, before);
         EXPECT_THAT(result.err, testing::HasSubstr(sentence));
         if (at_once) {
@@ -285,6 +294,8 @@ class KillRuns : public WatchedRunTest {
   }
 
  private:
+  int cases_ = 0;
+
   void RemoveOutput() const {
     for (const std::string& name : NamesIn(work())) {
       if (name.starts_with("a")) std::filesystem::remove_all(work() / name);

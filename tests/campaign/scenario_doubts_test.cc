@@ -190,7 +190,7 @@ TEST_P(Misfits, AreNamedAtTheirPlace) {
 
 INSTANTIATE_TEST_SUITE_P(Hands, Misfits,
                          testing::Values(List{"first", 49}, List{"second", 47}, List{"third", 48},
-                                         List{"fourth", 46}),
+                                         List{"fourth", 46}, List{"fifth", 46}),
                          [](const auto& list) { return std::string(list.param.name); });
 
 // What nothing reads, what follows the course, and what is stated of another place.

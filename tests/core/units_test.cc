@@ -11,6 +11,10 @@ TEST(UnitsTest, SuffixesNameUnits) {
   EXPECT_EQ(UnitOf("wheel_radius_m"), "m");
   EXPECT_EQ(UnitOf("slope_deg"), "deg");
   EXPECT_EQ(UnitOf("speed_m_s"), "m/s");
+  EXPECT_EQ(UnitOf("radio_bit_s"), "bit/s");
+  EXPECT_EQ(UnitOf("image_bits"), "bit");
+  EXPECT_EQ(UnitOf("latency_min"), "min");
+  EXPECT_EQ(UnitOf("x_min_m"), "m");
   EXPECT_EQ(UnitOf("variance_deg2_per_m"), "deg2/m");
   EXPECT_EQ(UnitOf("rocks_per_m2"), "1/m2");
   EXPECT_EQ(UnitOf("stall_torque_Nm"), "Nm");

@@ -3,7 +3,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
@@ -16,7 +19,11 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "core/test_folder.h"
 #include "image_files/disparity_file.h"
+#include "image_files/luminance.h"
+#include "image_files/planetary.h"
+#include "image_files/png_bytes.h"
 #include "image_files/read_image.h"
 #include "report/baseline.h"
 #include "report/comparison_reference.h"
@@ -27,6 +34,8 @@
 
 namespace rockyard {
 namespace {
+
+namespace fs = std::filesystem;
 
 // A few bytes must not ask for gigabytes.
 constexpr image_files::ImageLimits kSmall{.max_side = 4096, .max_pixels = 1 << 20};
@@ -49,6 +58,42 @@ class MemoryFile {
   int file_;
 };
 
+// Files that name each other, in a folder: the name of the one to read, or nothing for the folder
+// itself, then each file's name and what it holds, with a zero byte after each.
+class FileTree {
+ public:
+  explicit FileTree(std::string_view bytes) {
+    first_ = Inside(Next(bytes));
+    for (int files = 0; files < kMaxFiles && !bytes.empty(); ++files) {
+      const fs::path path = Inside(Next(bytes));
+      std::error_code refused;  // a name that the disk does not take is a file that is missing
+      fs::create_directories(path.parent_path(), refused);
+      std::ofstream(path, std::ios::binary) << Next(bytes);
+    }
+  }
+
+  const fs::path& path() const { return first_; }
+
+ private:
+  static constexpr int kMaxFiles = 30;
+
+  static std::string_view Next(std::string_view& bytes) {
+    const std::size_t end = std::min(bytes.find('\0'), bytes.size());
+    const std::string_view part = bytes.substr(0, end);
+    bytes.remove_prefix(std::min(end + 1, bytes.size()));
+    return part;
+  }
+
+  fs::path Inside(std::string_view name) const {
+    const fs::path path = (folder_.path() / name).lexically_normal();
+    const bool inside = path.string().starts_with(folder_.path().string());
+    return inside ? path : folder_.path();
+  }
+
+  core::TestFolder folder_;
+  fs::path first_;
+};
+
 // What is written reads back to the same text.
 void ReadJson(std::string_view bytes) {
   const std::string once = core::DumpJson(core::ParseJson(bytes, "bytes"));
@@ -56,9 +101,58 @@ void ReadJson(std::string_view bytes) {
   if (once != twice) throw std::logic_error("JSON does not read back");
 }
 
+// Gives each chunk of a PNG file the checksum that fits, so that damage gets further than it.
+std::string WithChecksums(std::string_view bytes) {
+  constexpr std::size_t kSignature = 8;
+  constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
+  std::string mended(bytes);
+  for (std::size_t at = kSignature; at + kAround <= bytes.size();) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      length = length << 8 | static_cast<unsigned char>(bytes[at + i]);
+    }
+    if (length > bytes.size() - at - kAround) break;
+    const std::string sum =
+        image_files::BigEndian(image_files::PngCrc(mended.substr(at + 4, 4 + length)));
+    mended.replace(at + 8 + length, 4, sum);
+    at += kAround + length;
+  }
+  return mended;
+}
+
+// Within the limits and its full scale.
+void Use(const image_files::RawImage& image) {
+  bool good = image.planes.size() == 1 || image.planes.size() == 3;
+  for (const image_files::SamplePlane& plane : image.planes) {
+    const bool masked = image.format == "PDS3" || image.format == "PDS4" || image.format == "VICAR";
+    good = good && plane.width() == image.width() && plane.height() == image.height() &&
+           std::int64_t{plane.width()} * plane.height() <= kSmall.max_pixels &&
+           (masked || std::ranges::max(plane.values()) <= image.full_scale);
+  }
+  if (!good || image_files::ToGray(image).image.width() != image.width()) {
+    throw std::logic_error("an image that is none");
+  }
+}
+
+void ReadImage(std::string_view bytes) {
+  const std::string mended = bytes.starts_with("\x89PNG") ? WithChecksums(bytes) : "";
+  Use(image_files::DecodeImage(mended.empty() ? bytes : mended, "bytes", kSmall));
+}
+
+// What rockyard reads of a label; the samples are GDAL's.
+void ReadPlanetary(std::string_view bytes) {
+  const auto kind = image_files::PlanetaryKindOf(bytes);
+  if (!kind) throw core::UserError("bytes", "are no planetary image", "use another reader");
+  const auto samples = [](const fs::path&, const char*, const image_files::ImageLimits&) {
+    return image_files::Raster{.planes = {image_files::SamplePlane(4, 3)}, .bits = 16};
+  };
+  Use(image_files::ReadPlanetary("bytes", bytes, *kind, kSmall, {samples, ""}));
+}
+
 // A resolved scenario is the same scenario.
 void ReadScenario(std::string_view bytes) {
-  const scenario::Scenario read = scenario::ParseScenario(bytes);
+  const scenario::Scenario read =
+      scenario::ParseScenario(bytes, {}, ROCKYARD_SOURCE_DIR "/scenarios/gestalt");
   const scenario::Scenario again = scenario::ParseScenario(scenario::ResolvedJson(read));
   if (scenario::Fingerprint(read) != scenario::Fingerprint(again)) {
     throw std::logic_error("a scenario does not read back");
@@ -113,16 +207,21 @@ constexpr Reader kReaders[] = {
        core::JsonValue document = core::JsonValue::Object();
        core::ApplyOverride(document, bytes);
      }},
-    {"sweep", [](std::string_view bytes) { scenario::ParseSweep(bytes); }},
+    {"sweep",
+     [](std::string_view bytes) {
+       scenario::ParseSweep(bytes, {}, ROCKYARD_SOURCE_DIR "/scenarios/sweeps");
+     }},
+    {"extends", [](std::string_view bytes) { core::LoadJsonFile(FileTree(bytes).path()); }},
     {"reference", ReadReference},
     {"camera", [](std::string_view bytes) { Use(vision::ParseCamera(bytes, "bytes")); }},
     {"cameras", ReadCameras},
     {"target", [](std::string_view bytes) { vision::LoadTarget(MemoryFile(bytes).path()); }},
     {"poses", [](std::string_view bytes) { campaign::ReadPoses(MemoryFile(bytes).path()); }},
     {"times", [](std::string_view bytes) { campaign::ReadTimes(MemoryFile(bytes).path()); }},
-    {"list", [](std::string_view bytes) { campaign::FindSequence(MemoryFile(bytes).path()); }},
+    {"sequence", [](std::string_view bytes) { campaign::FindSequence(FileTree(bytes).path()); }},
     {"journal", [](std::string_view bytes) { campaign::PathJournal(MemoryFile(bytes).path()); }},
-    {"image", [](std::string_view bytes) { image_files::DecodeImage(bytes, "bytes", kSmall); }},
+    {"image", ReadImage},
+    {"planetary", ReadPlanetary},
     {"disparity",
      [](std::string_view bytes) {
        image_files::ReadDisparity(MemoryFile(bytes).path(), 1.0, kSmall);

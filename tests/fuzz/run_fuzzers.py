@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FUZZER = ROOT / "build/fuzz/tests/fuzz/reader_fuzz"
 KEPT = ROOT / "tests/data/readers"
 SLOW = ("scenario", "sweep")  # a resolved scenario has a thousand parameters
-LONGEST = {"image": 16384, "scenario": 16384, "sweep": 16384}  # bytes of an input; 4096 of the others
+LONGEST = {"image": 16384, "reference": 16384, "scenario": 16384, "sweep": 16384}  # bytes; 4096 of the others
 # What turns bytes into values or refusals, of all that the readers call.
 SOURCES = ("campaign/odometry/image_sequence.cc", "campaign/odometry/path_journal.cc", "campaign/odometry/pose_text.cc",
            "core/field_reader.cc", "core/json_file.cc", "core/json_parse.cc", "core/utf8.cc", "core/whole_file.cc",

@@ -47,8 +47,14 @@ void DoubtTraction(Values& s) {
   const double need_N =
       weight_N * (std::sin(math::DegToRad(s("terrain.ground.slope_deg"))) + resistance);
   s.AtLeast("rover.drive.stall_torque_Nm", need_N * radius_m / 6.0,
-            fmt::format("the {:.3g} N that keep it moving here", need_N),
+            fmt::format("the {:.3g} N that {} takes here", need_N,
+                        s.HasRocks() ? "climbing rocks" : "rolling"),
             "state the torque at the wheel, behind its gears");
+  // A twentieth of the weight: harder ground than any of these.
+  const double rolling_W = 0.05 * weight_N * s("rover.drive.speed_m_s");
+  s.AtLeast("energy.driving_W", rolling_W,
+            fmt::format("{:.3g} N that roll at {:g} m/s", weight_N, s("rover.drive.speed_m_s")),
+            "state what the drive motors draw, in W");
   s.AtLeast("rover.contact.stiffness_N_m", weight_N / 6.0 / (0.2 * radius_m),
             fmt::format("a load of {:.3g} N a wheel", weight_N / 6.0),
             "use a stiffness for this mass");

@@ -1,5 +1,6 @@
 #include "campaign/doubts/setting_doubts.h"
 
+#include <initializer_list>
 #include <utility>
 
 #include "campaign/doubts/setting_values.h"
@@ -11,9 +12,21 @@ std::vector<core::Problem> DoubtsOfSettings(const scenario::Scenario& scenario) 
   // What another program brings has rules of its own (its parameters' bounds).
   const bool known = s.Uses("pathfinder") || s.Uses("gestalt") || s.Uses("route");
   if (!known || !(s.SeesBy("light_stripe") || s.SeesBy("stereo"))) return {};
-  for (const auto rule :
-       {DoubtTask, DoubtRover, DoubtSensing, DoubtGestalt, DoubtBelief, DoubtUnusual}) {
-    rule(s);
+  const auto ask = [&](std::initializer_list<void (*)(Values&)> rules) {
+    for (const auto rule : rules) rule(s);
+  };
+  switch (scenario.experiment.kind) {
+    case experiments::ExperimentKind::kDrive:
+      ask({DoubtTask, DoubtRover, DoubtSensing, DoubtGestalt, DoubtBelief, DoubtUnusual});
+      break;
+    case experiments::ExperimentKind::kMission:
+      ask({DoubtMission, DoubtRover, DoubtSensing, DoubtGestalt, DoubtUnusual});
+      break;
+    case experiments::ExperimentKind::kHazardDetection:
+      ask({DoubtScenes, DoubtUnusual});
+      break;
+    default:  // the others have no course and no navigator
+      break;
   }
   return std::move(s.doubts);
 }

@@ -1,4 +1,4 @@
-// Settings of a drive that hardly suit each other, by sizes and physics.
+// Settings of a drive, a mission or scenes of hazards that hardly suit each other, by sizes and physics.
 #pragma once
 
 #include <vector>

@@ -14,7 +14,7 @@ namespace rockyard::campaign {
 using core::JsonValue;
 
 Values::Values(const scenario::Scenario& scenario)
-    : drive(scenario.drive), parameters(scenario::ListParameters(scenario)) {
+    : whole(scenario), drive(scenario.drive), parameters(scenario::ListParameters(scenario)) {
   for (const core::ParameterInfo& each : parameters) values_[each.path] = &each.value;
 }
 

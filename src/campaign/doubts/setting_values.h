@@ -59,6 +59,7 @@ class Values {
   void AtMost(std::string_view path, double high, std::string_view what, std::string_view right);
   bool IsDoubted(std::string_view path) const;
 
+  const scenario::Scenario& whole;
   const trial::DriveParams& drive;
   const std::vector<core::ParameterInfo> parameters;
   std::vector<core::Problem> doubts;
@@ -76,6 +77,8 @@ void DoubtRover(Values& s);    // shape, masses, motors, steering, soil
 void DoubtSensing(Values& s);  // what is seen, in time and where the wheels go
 void DoubtGestalt(Values& s);  // the vehicle that it is told, map and paths
 void DoubtBelief(Values& s);   // gyro, filter, visual odometry, aids
+void DoubtMission(Values& s);  // what lander and sun give a rover for its goals
+void DoubtScenes(Values& s);   // of the detection of hazards
 void DoubtUnusual(Values& s);  // one by one: usual values, and studies' ranges
 
 }  // namespace rockyard::campaign

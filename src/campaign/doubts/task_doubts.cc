@@ -162,6 +162,15 @@ void DoubtReferee(Values& s) {
   s.AtLeast("referee.tip_over_deg", 0.6 * stands_deg,
             fmt::format("a rover that stands up to {:.3g} deg", stands_deg),
             "use about where this rover tips");
+  if (!s.Uses("route")) {
+    const std::string clock = s.OfNavigator("drive.time_out_s", "time_out_s");
+    const double fastest_s = s.course_m() / s("rover.drive.speed_m_s");
+    if (s(clock) > 0.0) {
+      s.AtLeast(clock, fastest_s,
+                fmt::format("{}, {:.3g} s at full speed", s.OfCourse(), fastest_s),
+                "let it have time for the way, or 0 for no limit");
+    }
+  }
   DoubtPatience(s);
   const double turn_deg = s("referee.no_path_turn_deg");
   if (turn_deg > 0.0 && s.Uses("pathfinder")) {

@@ -96,6 +96,7 @@ constexpr Usual kUsual[] = {
     {"rover.contact.wheel_rock_friction", 0.3, 1.5, "wheels on rock"},
     {"rover.contact.body_rock_friction", 0.1, 1.2, "a body on rock"},
     {"rover.geometry.rocker_limit_deg", 8.0, 80.0, "rockers that follow the ground"},
+    {"sensors.light_stripe.laser.input_power_w", 0.01, 10.0, "a laser that is seen by day"},
     {"sensors.light_stripe.wrong_place_probability", 0.0, 0.2, "points that hazards are found in"},
     {"sensors.light_stripe.missed_probability", 0.0, 0.7, "points that hazards are found in"},
     {"sensors.light_stripe.column_noise_px", 0.0, 20.0, "stripes that are found"},

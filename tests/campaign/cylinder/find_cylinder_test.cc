@@ -3,9 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
+#include <span>
 
 #include "campaign/cylinder/painted_files.h"
+#include "core/random.h"
 #include "core/refusals.h"
 #include "core/test_folder.h"
 #include "image_files/png_file.h"
@@ -39,6 +42,45 @@ TEST_F(FindCylinderTest, BothFindersFindItInFiles) {
     EXPECT_NEAR(result.finding.sighting->p_LT_L.x(), 2.0, 0.05);
     EXPECT_TRUE(result.files.empty());
   }
+}
+
+// Bands of noise, and pieces of the image in each other's places.
+TEST_F(FindCylinderTest, DamagedPixelsDoNotMoveIt) {
+  std::string what;
+  const vision::ColourImage whole = ReadColour(request_.left, what);
+  request_.left = own_.path() / "damaged.png";
+  int found = 0;
+  int missed = 0;
+  for (std::uint32_t number = 0; number < 30; ++number) {
+    core::RandomStream stream({27, number}, core::Purpose::kTest);
+    vision::ColourImage image = whole;
+    const std::span<vision::Rgb> pixels = image.values();
+    std::array<std::size_t, 3> ends{};
+    for (std::size_t& end : ends) end = stream.NextU64() % pixels.size();
+    std::ranges::sort(ends);
+    if (number % 2 == 0) {
+      std::ranges::rotate(pixels.subspan(ends[0], ends[2] - ends[0]),
+                          pixels.begin() + static_cast<std::ptrdiff_t>(ends[1]));
+    } else {
+      for (vision::Rgb& pixel : pixels.subspan(ends[0], (ends[1] - ends[0]) / 3)) {
+        pixel.red = pixel.green = pixel.blue = static_cast<std::uint8_t>(stream.NextU32() >> 24);
+      }
+    }
+    WriteFile("damaged.png", image_files::EncodePng(image));
+    for (const CylinderFinder finder : {CylinderFinder::kPublished, CylinderFinder::kRobust}) {
+      request_.finder = finder;
+      const vision::CylinderFinding finding = FindCylinderInFiles(request_).finding;
+      EXPECT_NE(finding.sighting.has_value(), finding.miss != vision::CylinderMiss::kNone);
+      EXPECT_NE(finding.sighting.has_value(), !finding.reason.empty());
+      if (finder == CylinderFinder::kPublished) continue;
+      ++(finding.sighting ? found : missed);
+      if (!finding.sighting) continue;
+      EXPECT_NEAR(math::RadToDeg(finding.sighting->orientation_rad), 30.0, 10.0) << number;
+      EXPECT_NEAR(finding.sighting->p_LT_L.x(), 2.0, 0.2) << number;
+    }
+  }
+  EXPECT_GE(found, 5);
+  EXPECT_GE(missed, 5);
 }
 
 TEST_F(FindCylinderTest, WritesAPictureAndASummary) {
