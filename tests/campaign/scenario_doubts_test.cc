@@ -193,6 +193,51 @@ INSTANTIATE_TEST_SUITE_P(Hands, Misfits,
                                          List{"fourth", 46}, List{"fifth", 46}),
                          [](const auto& list) { return std::string(list.param.name); });
 
+TEST(ScenarioDoubts, OfMissionsScenesLightAndClock) {
+  struct Case {
+    const char* scenario;
+    const char* path;
+    const char* doubted;
+    const char* left;
+  };
+  for (const Case& each :
+       {Case{"mission/tour", "mission.radio_range_m", "17", "17.1"},
+        Case{"mission/tour", "sensors.aids.lander_fix.range_m", "8.5", "8.6"},
+        Case{"mission/tour", "mission.day.downlink_bit_s", "195", "196"},
+        Case{"mission/tour", "mission.power.sleep_W", "5.1", "4.9"},
+        Case{"mission/tour", "mission.day.planning_h", "121", "119"},
+        Case{"mission/sun", "sensors.aids.sun.half_field_of_view_deg", "9", "11"},
+        Case{"gestalt/abundance_images", "sensors.sun.elevation_deg", "1.9", "2.1"},
+        Case{"gestalt/abundance_images", "sensors.sun.irradiance_w_m2_nm", "0", "0.01"},
+        Case{"pathfinder/nominal", "navigation.pathfinder.time_out_s", "50", "51"},
+        Case{"gestalt/abundance", "navigation.gestalt.drive.time_out_s", "9", "0"},
+        Case{"pathfinder/nominal", "energy.driving_W", "1.4", "1.5"},
+        Case{"hazard_detection/detection", "hazard_detection.distances_m", "[0.4,3]", "[0.2,3]"},
+        Case{"hazard_detection/detection", "sensors.light_stripe.column_noise_px", "21", "19"}}) {
+    const auto paths = [&](const char* value) {
+      std::vector<std::string> all;
+      for (const core::Problem& doubt :
+           DoubtsOf(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/" + each.scenario + ".json",
+                    std::vector{std::string(each.path) + "=" + value})) {
+        all.push_back(doubt.path);
+      }
+      return all;
+    };
+    EXPECT_THAT(paths(each.doubted), ElementsAre(each.path));
+    EXPECT_THAT(paths(each.left), IsEmpty()) << each.path;
+  }
+}
+
+// An odometer's scale helps no wheels that spin.
+TEST(ScenarioDoubts, WheelsThatSpinAreNoOdometers) {
+  const std::vector<core::Problem> doubts =
+      DoubtsOf(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json",
+               std::vector<std::string>{"terrain.ground.soil.friction_angle_deg=3"});
+  ASSERT_THAT(doubts, SizeIs(2));
+  EXPECT_THAT(TextOf(doubts[0]), HasSubstr("rover.drive: wheels spin"));
+  EXPECT_EQ(doubts[1].path, "terrain.ground.soil.friction_angle_deg");
+}
+
 // What nothing reads, what follows the course, and what is stated of another place.
 TEST(ScenarioDoubts, NoneOfWhatDoesNothing) {
   const std::vector<std::pair<const char*, std::vector<std::string>>> cases = {
@@ -215,6 +260,11 @@ TEST(ScenarioDoubts, NoneOfWhatDoesNothing) {
         "terrain.ground.soil.cohesive_modulus_N_per_mn1=1400",
         "terrain.ground.soil.frictional_modulus_N_per_mn2=820000",
         "terrain.ground.soil.cohesion_Pa=170", "terrain.ground.soil.friction_angle_deg=35"}},
+      {"hazard_detection/detection",
+       {"navigation.pathfinder.scan_interval_m=0.0105", "rover.contact.wheel_rock_friction=0.2"}},
+      {"hazard_detection/detection",
+       {"hazard_detection.distances_m=[1]", "hazard_detection.distance_width_m=1.8"}},
+      {"gestalt/abundance_images", {"sensors.sun.elevation_deg=1", "sensors.sun.optical_depth=0"}},
       {"localization/drive",
        {"localization.error_state.prior.heading_sd_deg=5",
         "localization.error_state.prior.position_sd_m=0.5"}},

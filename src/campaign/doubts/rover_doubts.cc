@@ -50,8 +50,9 @@ void DoubtTraction(Values& s) {
             fmt::format("the {:.3g} N that {} takes here", need_N,
                         s.HasRocks() ? "climbing rocks" : "rolling"),
             "state the torque at the wheel, behind its gears");
-  // A twentieth of the weight: harder ground than any of these.
-  const double rolling_W = 0.05 * weight_N * s("rover.drive.speed_m_s");
+  // Over the weight: on these soils wheels roll harder, on concrete they take 0.01 to 0.02.
+  const double rolling = s.Is("terrain.ground.soil.preset", "hard_ground") ? 0.01 : 0.05;
+  const double rolling_W = rolling * weight_N * s("rover.drive.speed_m_s");
   s.AtLeast("energy.driving_W", rolling_W,
             fmt::format("{:.3g} N that roll at {:g} m/s", weight_N, s("rover.drive.speed_m_s")),
             "state what the drive motors draw, in W");

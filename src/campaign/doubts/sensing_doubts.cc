@@ -139,7 +139,10 @@ void DoubtStereo(Values& s) {
   if (s.Is("sensors.stereo.fidelity", "image")) {
     s.Doubt(s("sensors.sun.irradiance_w_m2_nm") == 0.0, "sensors.sun.irradiance_w_m2_nm",
             "nothing lights the ground that the cameras look at", "give it the light of a place");
-    s.AtLeast("sensors.sun.elevation_deg", 2.0, "cameras that see by its light", "drive by day");
+    if (s("sensors.sun.optical_depth") > 0.0) {
+      s.AtLeast("sensors.sun.elevation_deg", 2.0, "cameras that see by its light through dust",
+                "drive by day");
+    }
     s.AtMost("perception.stereo.filters.blob_min_px",
              0.1 * s("sensors.stereo.columns") * s("sensors.stereo.rows"),
              "images of that size: whole rocks are regions", "use a hundredth of the image");
@@ -161,7 +164,8 @@ void DoubtScenes(Values& s) {
   if (scenes.study != experiments::HazardStudy::kDetection || scenes.distances_m.empty()) return;
   const double end_m = s.zone().x_high_m - s.front_m();
   s.Doubt(
-      std::ranges::min(scenes.distances_m) > end_m, "hazard_detection.distances_m",
+      std::ranges::min(scenes.distances_m) - 0.5 * scenes.distance_width_m > end_m,
+      "hazard_detection.distances_m",
       fmt::format("no rock lies within the {:.2g} m ahead of its front that it looks at", end_m),
       "use distances at which it can see a rock");
 }

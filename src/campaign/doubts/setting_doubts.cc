@@ -19,13 +19,14 @@ std::vector<core::Problem> DoubtsOfSettings(const scenario::Scenario& scenario) 
     case experiments::ExperimentKind::kDrive:
       ask({DoubtTask, DoubtRover, DoubtSensing, DoubtGestalt, DoubtBelief, DoubtUnusual});
       break;
+    // Its sols have courses of their own, and aids that come when operators look.
     case experiments::ExperimentKind::kMission:
       ask({DoubtMission, DoubtRover, DoubtSensing, DoubtGestalt, DoubtUnusual});
       break;
     case experiments::ExperimentKind::kHazardDetection:
       ask({DoubtScenes, DoubtUnusual});
       break;
-    default:  // the others have no course and no navigator
+    default:  // without rules of their own
       break;
   }
   return std::move(s.doubts);

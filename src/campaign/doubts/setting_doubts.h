@@ -1,4 +1,5 @@
-// Settings of a drive, a mission or scenes of hazards that hardly suit each other, by sizes and physics.
+// Settings of a drive, a mission or scenes of hazards that hardly suit each other, by sizes and
+// physics.
 #pragma once
 
 #include <vector>

@@ -21,9 +21,12 @@ struct Unread {
 // course.
 bool IsUsed(const Values& s, const std::string& path) {
   const auto begins = [&](std::string_view group) { return path.starts_with(group); };
-  const std::string_view parts[] = {"terrain.", "sensors.", "perception.", "navigation.",
-                                    "course.",  "referee.", "clock.",      "localization."};
+  const std::string_view parts[] = {"terrain.",    "sensors.",      "perception.",
+                                    "navigation.", "course.",       "referee.",
+                                    "clock.",      "localization.", "mission."};
   if (std::none_of(std::begin(parts), std::end(parts), begins)) return false;
+  const bool scenes = s.whole.experiment.kind == experiments::ExperimentKind::kHazardDetection;
+  if (scenes && !begins("sensors.") && !begins("perception.")) return false;
   const bool stripes = s.Looks() && s.SeesBy("light_stripe");
   const bool stereo = s.Looks() && s.SeesBy("stereo");
   const bool vehicle = s.On("sensors.vehicle.articulation.enabled") ||
@@ -42,6 +45,7 @@ bool IsUsed(const Values& s, const std::string& path) {
       {"clock.compute.stereo_time_factor", false},
       {"terrain.ground.soil.", !s.Is("terrain.ground.soil.preset", "hard_ground")},
       {"terrain.rocks.", s.HasRocks()},
+      {"mission.", s.whole.experiment.kind == experiments::ExperimentKind::kMission},
       {"navigation.pathfinder.", s.Uses("pathfinder")},
       {"navigation.gestalt.", s.Uses("gestalt")},
       {"navigation.gestalt.continuous.", continuous},
@@ -50,7 +54,8 @@ bool IsUsed(const Values& s, const std::string& path) {
       {"navigation.route.", s.Uses("route")},
       {"sensors.light_stripe.", stripes},
       {"sensors.light_stripe.imager.", s.Is("sensors.light_stripe.fidelity", "image")},
-      {"sensors.light_stripe.laser.", s.Is("sensors.light_stripe.fidelity", "image")},
+      {"sensors.light_stripe.laser.",
+       s.Is("sensors.light_stripe.fidelity", "image") && s("sensors.sun.irradiance_w_m2_nm") > 0.0},
       {"sensors.stereo.", stereo},
       {"sensors.stereo.dropout_probability", !stereo_images},
       {"sensors.stereo.mismatch_probability", !stereo_images},
@@ -171,7 +176,8 @@ void DoubtUnits(Values& s) {
 void DoubtUnusual(Values& s) {
   for (const Usual& usual : kUsual) {
     const std::string path(usual.path);
-    if (!path.starts_with("rover.") && !IsUsed(s, path)) continue;
+    const bool drives = s.whole.experiment.kind != experiments::ExperimentKind::kHazardDetection;
+    if (!(drives && path.starts_with("rover.")) && !IsUsed(s, path)) continue;
     s.Within(path, usual.low, usual.high, usual.what, "check the unit, and what it means");
   }
   DoubtUnits(s);

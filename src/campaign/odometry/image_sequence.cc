@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string_view>
@@ -133,7 +134,8 @@ std::map<std::int64_t, fs::path> ListedImages(const fs::path& camera) {
     const std::vector<std::string_view> words = WordsOf(line);
     if (words.empty() || words.front().starts_with('#')) continue;
     double time_ns = 0.0;
-    if (words.size() != 2 || !ParseNumber(words[0], time_ns)) {
+    constexpr double kMost_ns = 9e18;  // of 64 bits
+    if (words.size() != 2 || !ParseNumber(words[0], time_ns) || std::abs(time_ns) > kMost_ns) {
       throw core::UserError(fmt::format("{}: line {}", list.string(), number),
                             "is no time and name of an image",
                             "give \"TIME_NS,NAME\", the name of a file in data");
