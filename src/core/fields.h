@@ -6,10 +6,10 @@
 //     double scale = 0.94;
 //     double noise_rad = 0.0;
 //     void Visit(core::FieldVisitor& v) {
-//       v.Real("scale", scale, {.doc = "estimated over true turn angle", .min = 0.5, .max = 1.5,
-//                               .origin = core::Origin::kPublished, .source = "Matthies 1995 sec.
-//                               8"});
-//       v.Angle("noise_deg", noise_rad, {...});           // degrees in JSON, radians in the struct
+//       v.Real("scale", scale,
+//              core::Published("estimated over true turn angle", "Matthies 1995 sec. 8",
+//              {0.5, 1.5}));
+//       v.Angle("noise_deg", noise_rad, ...);             // degrees in JSON, radians in the struct
 //       v.Require("scale", scale > 0, "must be positive", "use 0.94");   // checks across fields
 //     }
 //   };
@@ -48,6 +48,31 @@ struct FieldInfo {
   // Most entries of a list.
   std::size_t max_entries = 1000;
 };
+
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+struct Bounds {
+  double low = -kUnbounded;
+  double high = kUnbounded;
+};
+
+// A field by the origin of its default. `studied` is the range of study_low and study_high.
+constexpr FieldInfo Assumed(std::string_view doc, std::string_view source, Bounds bounds = {},
+                            Bounds studied = {0.0, 0.0}) {
+  return {doc, bounds.low, bounds.high, Origin::kAssumed, source, studied.low, studied.high};
+}
+constexpr FieldInfo Published(std::string_view doc, std::string_view source, Bounds bounds = {},
+                              Bounds studied = {0.0, 0.0}) {
+  return {doc, bounds.low, bounds.high, Origin::kPublished, source, studied.low, studied.high};
+}
+constexpr FieldInfo Calibrated(std::string_view doc, std::string_view source, Bounds bounds = {},
+                               Bounds studied = {0.0, 0.0}) {
+  return {doc, bounds.low, bounds.high, Origin::kCalibrated, source, studied.low, studied.high};
+}
+constexpr FieldInfo Setting(std::string_view doc, Bounds bounds = {},
+                            std::string_view source = {}) {
+  return {doc, bounds.low, bounds.high, Origin::kSetting, source};
+}
 
 // Names of an enumeration's values, in value order starting at 0. Specialize per enum:
 //   template <> struct core::EnumNames<Arena> { static constexpr std::array<std::string_view, 2>

@@ -59,7 +59,7 @@ struct ExperimentParams {
   // Lists the field "experiment", and the group of each experiment that has parameters of its own,
   // in the group that is being visited.
   void VisitKind(core::FieldVisitor& v) {
-    v.Choice("experiment", kind, {.doc = "what one run is", .origin = core::Origin::kSetting});
+    v.Choice("experiment", kind, core::Setting("what one run is"));
   }
   void VisitGroups(core::FieldVisitor& v) {
     v.Group("hazard_detection", hazard_detection, "the experiment of that name");

@@ -26,23 +26,17 @@ struct AttitudeParams {
   HeightSource height = HeightSource::kIntegrated;
 
   void Visit(core::FieldVisitor& v) {
-    using core::Origin;
-    v.Choice("source", source,
-             {.doc = "what roll and pitch come from; level where the rover has no accelerometers",
-              .origin = Origin::kAssumed,
-              .source = "Goldberg 2002 sec. 4 asks for an attitude estimate without naming one"});
+    v.Choice(
+        "source", source,
+        core::Assumed("what roll and pitch come from; level where the rover has no accelerometers",
+                      "Goldberg 2002 sec. 4 asks for an attitude estimate without naming one"));
     v.Real("filter_s", filter_s,
-           {.doc = "time constant of the low pass on the specific force; 0: none",
-            .min = 0.0,
-            .max = 100.0,
-            .origin = Origin::kAssumed,
-            .source = "longer than a jolt, shorter than the drive over half a wheel diameter",
-            .study_low = 0.0,
-            .study_high = 2.0});
+           core::Assumed("time constant of the low pass on the specific force; 0: none",
+                         "longer than a jolt, shorter than the drive over half a wheel diameter",
+                         {0.0, 100.0}, {0.0, 2.0}));
     v.Choice("height", height,
-             {.doc = "what the height above the start comes from",
-              .origin = Origin::kAssumed,
-              .source = "odometry along the slope is what a rover without visual odometry has"});
+             core::Assumed("what the height above the start comes from",
+                           "odometry along the slope is what a rover without visual odometry has"));
   }
 };
 

@@ -30,23 +30,19 @@ struct DeadReckoningParams {
   StepHeading step_heading = StepHeading::kMidpoint;
 
   void Visit(core::FieldVisitor& v) {
-    using core::Origin;
-    v.Real("distance_scale", distance_scale,
-           {.doc = "distance driven over distance rolled by the wheels, calibrated for slip on "
-                   "level sand",
-            .min = 0.1,
-            .max = 2.0,
-            .origin = Origin::kCalibrated,
-            .source = "Matthies 1995 sec. 5, note 4; straight 7 m runs of the simulated rover on "
-                      "level sand"});
-    v.Choice("wheels", wheels,
-             {.doc = "wheels whose encoders give the distance, and whether their steering counts",
-              .origin = Origin::kAssumed,
-              .source = "the paper names wheel encoders without singling any out"});
+    v.Real(
+        "distance_scale", distance_scale,
+        core::Calibrated(
+            "distance driven over distance rolled by the wheels, calibrated for slip on level sand",
+            "Matthies 1995 sec. 5, note 4; straight 7 m runs of the simulated rover on level sand",
+            {0.1, 2.0}));
+    v.Choice(
+        "wheels", wheels,
+        core::Assumed("wheels whose encoders give the distance, and whether their steering counts",
+                      "the paper names wheel encoders without singling any out"));
     v.Choice("step_heading", step_heading,
-             {.doc = "heading along which a step's distance is laid off",
-              .origin = Origin::kAssumed,
-              .source = "the better of the two approximations at equal cost"});
+             core::Assumed("heading along which a step's distance is laid off",
+                           "the better of the two approximations at equal cost"));
   }
 };
 

@@ -2,14 +2,15 @@
 
 namespace rockyard::localization {
 
+using core::Published;
+
 EstimatorSet::EstimatorSet()
     : KindSet({.group = "localization",
                .key = "estimator",
                .one = "an estimator",
                .others = {},
-               .choice = {.doc = "where the pose that the rover believes comes from; the groups of "
-                                 "other estimators do nothing",
-                          .origin = core::Origin::kPublished,
-                          .source = "Matthies 1995 sec. 7: dead reckoning"}}) {}
+               .choice = Published("where the pose that the rover believes comes from; the groups "
+                                   "of other estimators do nothing",
+                                   "Matthies 1995 sec. 7: dead reckoning")}) {}
 
 }  // namespace rockyard::localization

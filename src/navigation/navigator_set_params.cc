@@ -5,6 +5,8 @@
 namespace rockyard::navigation {
 namespace {
 
+using core::Setting;
+
 constexpr std::array<std::string_view, 3> kOtherKeys{"on_board_stuck", "on_slip", "wheel_driver"};
 
 }  // namespace
@@ -14,8 +16,7 @@ NavigatorSet::NavigatorSet()
                .key = "navigator",
                .one = "a navigator",
                .others = kOtherKeys,
-               .choice = {.doc = "what decides the motions; the groups of other navigators do "
-                                 "nothing",
-                          .origin = core::Origin::kSetting}}) {}
+               .choice = Setting(
+                   "what decides the motions; the groups of other navigators do nothing")}) {}
 
 }  // namespace rockyard::navigation

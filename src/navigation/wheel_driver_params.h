@@ -12,24 +12,15 @@ struct WheelDriverParams {
   double steer_while_driving_rad = math::DegToRad(10.0);
 
   void Visit(core::FieldVisitor& v) {
-    using core::Origin;
     v.Angle("steer_rate_deg_s", steer_rate_rad_s,
-            {.doc = "believed rate of the steering motors",
-             .min = 1.0,
-             .max = 1000.0,
-             .origin = Origin::kAssumed,
-             .source = "as the rate of the steering motors",
-             .study_low = 20.0,
-             .study_high = 90.0});
-    v.Angle("steer_while_driving_deg", steer_while_driving_rad,
-            {.doc = "largest steering change made while driving; larger ones are made at rest",
-             .min = 0.0,
-             .max = 180.0,
-             .origin = Origin::kAssumed,
-             .source = "changes between neighbouring arcs; the power budget allows one major "
-                       "function at a time",
-             .study_low = 5.0,
-             .study_high = 20.0});
+            core::Assumed("believed rate of the steering motors",
+                          "as the rate of the steering motors", {1.0, 1000.0}, {20.0, 90.0}));
+    v.Angle(
+        "steer_while_driving_deg", steer_while_driving_rad,
+        core::Assumed("largest steering change made while driving; larger ones are made at rest",
+                      "changes between neighbouring arcs; the power budget allows one major "
+                      "function at a time",
+                      {0.0, 180.0}, {5.0, 20.0}));
   }
 };
 

@@ -5,18 +5,18 @@
 namespace rockyard::perception {
 namespace {
 
-using core::Origin;
+using core::Setting;
 
 void Percent(core::FieldVisitor& v, std::string_view name, double& value, std::string_view doc) {
-  v.Real(name, value, {.doc = doc, .min = -20.0, .max = 20.0, .origin = Origin::kSetting});
+  v.Real(name, value, Setting(doc, {-20.0, 20.0}));
 }
 
 void Angle(core::FieldVisitor& v, std::string_view name, double& value_rad, std::string_view doc) {
-  v.Angle(name, value_rad, {.doc = doc, .min = -10.0, .max = 10.0, .origin = Origin::kSetting});
+  v.Angle(name, value_rad, Setting(doc, {-10.0, 10.0}));
 }
 
 void Shift(core::FieldVisitor& v, std::string_view name, double& value_m, std::string_view doc) {
-  v.Real(name, value_m, {.doc = doc, .min = -0.1, .max = 0.1, .origin = Origin::kSetting});
+  v.Real(name, value_m, Setting(doc, {-0.1, 0.1}));
 }
 
 }  // namespace

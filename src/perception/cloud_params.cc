@@ -5,19 +5,12 @@
 namespace rockyard::perception {
 namespace {
 
-using core::Origin;
+using core::Assumed;
 
 void VisitGround(CloudElevationParams& p, core::FieldVisitor& v) {
   const auto length = [&v](std::string_view name, double& value, std::string_view doc,
                            std::string_view reason, double study_low, double study_high) {
-    v.Real(name, value,
-           {.doc = doc,
-            .min = 0.0,
-            .max = 20.0,
-            .origin = Origin::kAssumed,
-            .source = reason,
-            .study_low = study_low,
-            .study_high = study_high});
+    v.Real(name, value, Assumed(doc, reason, {0.0, 20.0}, {study_low, study_high}));
   };
   length("near_m", p.near_m, "nearest edge of the ground, from the chassis centre, as they look",
          "where the light stripe array begins on Rocky 3.2", 0.4, 0.8);
@@ -33,44 +26,24 @@ void VisitGround(CloudElevationParams& p, core::FieldVisitor& v) {
 
 void CloudElevationParams::Visit(core::FieldVisitor& v) {
   v.Integer("rows", rows,
-            {.doc = "rows of bins, from near to far",
-             .min = 2,
-             .max = static_cast<double>(messages::kMaxStripeRows),
-             .origin = Origin::kAssumed,
-             .source = "as many as the light stripe array has",
-             .study_low = 4,
-             .study_high = 7});
+            Assumed("rows of bins, from near to far", "as many as the light stripe array has",
+                    {2, static_cast<double>(messages::kMaxStripeRows)}, {4, 7}));
   v.Integer("stripes", stripes,
-            {.doc = "bins of a row, from left to right",
-             .min = 3,
-             .max = static_cast<double>(messages::kMaxStripes),
-             .origin = Origin::kAssumed,
-             .source = "as many as the light stripe array has",
-             .study_low = 5,
-             .study_high = 9});
+            Assumed("bins of a row, from left to right", "as many as the light stripe array has",
+                    {3, static_cast<double>(messages::kMaxStripes)}, {5, 9}));
   VisitGround(*this, v);
-  v.Real("quantile", quantile,
-         {.doc = "share of a bin's points that lie no higher than its elevation; 1: the highest "
-                 "point",
-          .min = 0.0,
-          .max = 1.0,
-          .origin = Origin::kAssumed,
-          .source = "the highest point: what noise adds is much the same in all bins, and less "
-                    "shows a rock that fills a tenth of one",
-          .study_low = 0.5,
-          .study_high = 1.0});
+  v.Real(
+      "quantile", quantile,
+      Assumed("share of a bin's points that lie no higher than its elevation; 1: the highest point",
+              "the highest point: what noise adds is much the same in all bins, and less shows a "
+              "rock that fills a tenth of one",
+              {0.0, 1.0}, {0.5, 1.0}));
   v.Integer("min_points", min_points,
-            {.doc = "points from which a bin counts as seen",
-             .min = 1,
-             .max = 100000,
-             .origin = Origin::kAssumed,
-             .source = "one stray point is no ground",
-             .study_low = 1,
-             .study_high = 10});
+            Assumed("points from which a bin counts as seen", "one stray point is no ground",
+                    {1, 100000}, {1, 10}));
   v.Choice("frame", frame,
-           {.doc = "frame in which heights count",
-            .origin = Origin::kAssumed,
-            .source = "over a metre, a pitch of 7 deg is as high as the clearance"});
+           Assumed("frame in which heights count",
+                   "over a metre, a pitch of 7 deg is as high as the clearance"));
 }
 
 }  // namespace rockyard::perception

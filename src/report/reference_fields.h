@@ -32,9 +32,9 @@ struct rockyard::core::EnumNames<rockyard::statistics::ValueRole> {
 
 namespace rockyard::report {
 
-inline constexpr core::FieldInfo kReferenceText{.doc = "text", .origin = core::Origin::kPublished};
-inline constexpr core::FieldInfo kReferenceCount{
-    .doc = "published runs", .min = 0.0, .max = 1e5, .origin = core::Origin::kPublished};
+inline constexpr core::FieldInfo kReferenceText = core::Published("text", {});
+inline constexpr core::FieldInfo kReferenceCount =
+    core::Published("published runs", {}, {0.0, 1e5});
 
 struct ValueFields {
   statistics::PublishedValue& value;
@@ -50,7 +50,7 @@ struct ValueFields {
     v.Integer("arrived", value.arrived, kReferenceCount);
     v.Real("value", value.value, kReferenceText);
     v.Real("rounding", value.rounding,
-           {.doc = "step of the last printed digit", .min = 0.0, .max = 1e9});
+           core::Assumed("step of the last printed digit", {}, {0.0, 1e9}));
     v.Text("unit", value.unit, kReferenceText);
     v.Real("lower_limit", value.lower_limit, kReferenceText);
     v.Text("column", value.column, kReferenceText);
@@ -62,7 +62,7 @@ struct ValueFields {
     v.Text("of", value.of, kReferenceText);
     v.Real("factor", value.factor, kReferenceText);
     v.Text("along", value.along, kReferenceText);
-    v.Real("level", value.level, {.doc = "rate at a crossing", .min = 0.0, .max = 1.0});
+    v.Real("level", value.level, core::Assumed("rate at a crossing", {}, {0.0, 1.0}));
     v.Choice("formula", value.formula, kReferenceText);
     v.Reals("inputs", value.inputs, kReferenceText);
   }
@@ -118,7 +118,7 @@ struct HeadFields {
 
   void Visit(core::FieldVisitor& v) {
     v.Integer("schema_version", schema_version,
-              {.doc = "version of this schema", .min = 1.0, .max = 1.0});
+              core::Assumed("version of this schema", {}, {1.0, 1.0}));
     v.Text("title", reference.title, kReferenceText);
     v.Text("citation", reference.citation, kReferenceText);
   }

@@ -8,7 +8,9 @@
 namespace rockyard::rover {
 namespace {
 
-using core::Origin;
+using core::Assumed;
+using core::Published;
+using core::Setting;
 
 // Rim speed up to which motion counts as quasi-static, m/s. Inertia tells against weight by the
 // Froude number v^2 / (g r), which is held at that of the comparison in README.md of this folder:
@@ -51,184 +53,94 @@ void RequireSlowMotion(const RoverParams& params, core::FieldVisitor& v) {
 }  // namespace
 
 void QuasiStaticParams::Visit(core::FieldVisitor& v) {
-  v.Real("step_s", step_s,
-         {.doc = "time of one step", .min = 1e-3, .max = 1.0, .origin = Origin::kSetting});
+  v.Real("step_s", step_s, Setting("time of one step", {1e-3, 1.0}));
   v.Real("settle_distance_m", settle_distance_m,
-         {.doc = "way between two poses that are settled on the terrain; interpolated between",
-          .min = 1e-3,
-          .max = 0.1,
-          .origin = Origin::kSetting});
+         Setting("way between two poses that are settled on the terrain; interpolated between",
+                 {1e-3, 0.1}));
   v.Angle("settle_turn_deg", settle_turn_rad,
-          {.doc = "turn between two settled poses",
-           .min = 0.1,
-           .max = 15.0,
-           .origin = Origin::kSetting});
+          Setting("turn between two settled poses", {0.1, 15.0}));
   v.Real("rock_settle_share", rock_settle_share,
-         {.doc = "share of both while a rock or a wall bears a part of the rover",
-          .min = 0.05,
-          .max = 1.0,
-          .origin = Origin::kSetting});
+         Setting("share of both while a rock or a wall bears a part of the rover", {0.05, 1.0}));
 }
 
 void RoverMassParams::Visit(core::FieldVisitor& v) {
   v.Real("total_kg", total_kg,
-         {.doc = "mass of the rover",
-          .min = 0.5,
-          .max = 2000.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 2.1: Rocky 3.2 weighs about 20 kg"});
+         Published("mass of the rover", "Matthies 1995 sec. 2.1: Rocky 3.2 weighs about 20 kg",
+                   {0.5, 2000.0}));
   v.Real("wheel_kg", wheel_kg,
-         {.doc = "mass of a wheel with its motor",
-          .min = 0.05,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .source = "Rocky 7",
-          .study_low = 0.3,
-          .study_high = 0.8});
+         Assumed("mass of a wheel with its motor", "Rocky 7", {0.05, 100.0}, {0.3, 0.8}));
   v.Real("rocker_kg", rocker_kg,
-         {.doc = "mass of a rocker, concentrated about its pivot",
-          .min = 0.05,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .source = "structure of about a tenth of the rover",
-          .study_low = 0.4,
-          .study_high = 1.2});
+         Assumed("mass of a rocker, concentrated about its pivot",
+                 "structure of about a tenth of the rover", {0.05, 100.0}, {0.4, 1.2}));
   v.Real("bogie_kg", bogie_kg,
-         {.doc = "mass of a bogie, concentrated about its pivot",
-          .min = 0.05,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .source = "structure of about a tenth of the rover",
-          .study_low = 0.25,
-          .study_high = 0.8});
+         Assumed("mass of a bogie, concentrated about its pivot",
+                 "structure of about a tenth of the rover", {0.05, 100.0}, {0.25, 0.8}));
   v.Real("chassis_com_x_m", chassis_com_x_m,
-         {.doc = "centre of mass of the chassis with what it carries",
-          .min = -1.0,
-          .max = 1.0,
-          .origin = Origin::kAssumed,
-          .source = "equal load on all wheels within a tenth",
-          .study_low = -0.03,
-          .study_high = 0.03});
+         Assumed("centre of mass of the chassis with what it carries",
+                 "equal load on all wheels within a tenth", {-1.0, 1.0}, {-0.03, 0.03}));
   v.Real("chassis_com_z_m", chassis_com_z_m,
-         {.doc = "height of the centre of mass of the chassis with what it carries",
-          .min = 0.02,
-          .max = 2.0,
-          .origin = Origin::kAssumed,
-          .source = "batteries low in the box, panel and sensors on top (Rocky 7: 0.155)",
-          .study_low = 0.155,
-          .study_high = 0.22});
+         Assumed("height of the centre of mass of the chassis with what it carries",
+                 "batteries low in the box, panel and sensors on top (Rocky 7: 0.155)", {0.02, 2.0},
+                 {0.155, 0.22}));
   v.Require("total_kg", total_kg > 6.0 * wheel_kg + 2.0 * (rocker_kg + bogie_kg),
             "is less than wheels, rockers and bogies together", "raise it or reduce the parts");
 }
 
 void RoverDriveParams::Visit(core::FieldVisitor& v) {
   v.Real("speed_m_s", speed_m_s,
-         {.doc = "rim speed of the fastest wheel",
-          .min = 0.001,
-          .max = 1.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 5"});
+         Published("rim speed of the fastest wheel", "Matthies 1995 sec. 5", {0.001, 1.0}));
   v.Real("ramp_s", ramp_s,
-         {.doc = "time in which the drive motors come from rest to speed_m_s, or from it to rest, "
+         Assumed("time in which the drive motors come from rest to speed_m_s, or from it to rest, "
                  "at constant acceleration; 0: at once",
-          .min = 0.0,
-          .max = 10.0,
-          .origin = Origin::kAssumed,
-          .source = "not known of Rocky 3.2: between motors that are switched on and off, as "
-                    "MFEX's are, and the gentle profiles of later research rovers; the middle of "
-                    "the range",
-          .study_low = 0.0,
-          .study_high = 0.2});
+                 "not known of Rocky 3.2: between motors that are switched on and off, as MFEX's "
+                 "are, and the gentle profiles of later research rovers; the middle of the range",
+                 {0.0, 10.0}, {0.0, 0.2}));
   v.Real("stall_torque_Nm", stall_torque_Nm,
-         {.doc = "largest torque of a drive motor at the wheel",
-          .min = 0.01,
-          .max = 1000.0,
-          .origin = Origin::kAssumed,
-          .source = "enough to climb the published 1.5 wheel diameters by friction",
-          .study_low = 2.0,
-          .study_high = 8.0});
+         Assumed("largest torque of a drive motor at the wheel",
+                 "enough to climb the published 1.5 wheel diameters by friction", {0.01, 1000.0},
+                 {2.0, 8.0}));
   v.Angle("steer_rate_deg_s", steer_rate_rad_s,
-          {.doc = "rate of the steering motors",
-           .min = 1.0,
-           .max = 1000.0,
-           .origin = Origin::kAssumed,
-           .source = "a turn in place begins within a second",
-           .study_low = 20.0,
-           .study_high = 90.0});
+          Assumed("rate of the steering motors", "a turn in place begins within a second",
+                  {1.0, 1000.0}, {20.0, 90.0}));
   v.Angle("max_steer_deg", max_steer_rad,
-          {.doc = "stop of the steering on either side",
-           .min = 0.0,
-           .max = 90.0,
-           .origin = Origin::kAssumed,
-           .source = "a turn about the chassis centre needs 52",
-           .study_low = 55.0,
-           .study_high = 70.0});
+          Assumed("stop of the steering on either side", "a turn about the chassis centre needs 52",
+                  {0.0, 90.0}, {55.0, 70.0}));
 }
 
 void RoverContactParams::Visit(core::FieldVisitor& v) {
   v.Real("wheel_rock_friction", wheel_rock_friction,
-         {.doc = "friction of cleated wheels on rock",
-          .min = 0.0,
-          .max = 3.0,
-          .origin = Origin::kAssumed,
-          .source = "rocker-bogie climbing analyses use 0.5 to 1",
-          .study_low = 0.5,
-          .study_high = 1.0});
+         Assumed("friction of cleated wheels on rock",
+                 "rocker-bogie climbing analyses use 0.5 to 1", {0.0, 3.0}, {0.5, 1.0}));
   v.Real(
       "body_rock_friction", body_rock_friction,
-      {.doc = "friction of chassis, arms, hubs and panel on rock and ground, and of all on walls",
-       .min = 0.0,
-       .max = 3.0,
-       .origin = Origin::kAssumed,
-       .source = "metal on stone",
-       .study_low = 0.2,
-       .study_high = 0.6});
+      Assumed("friction of chassis, arms, hubs and panel on rock and ground, and of all on walls",
+              "metal on stone", {0.0, 3.0}, {0.2, 0.6}));
   v.Real("stiffness_N_m", stiffness_N_m,
-         {.doc = "stiffness of each contact",
-          .min = 1e3,
-          .max = 1e8,
-          .origin = Origin::kAssumed,
-          .source = "a wheel at rest sinks in by 0.7 mm",
-          .study_low = 2e4,
-          .study_high = 2e5});
+         Assumed("stiffness of each contact", "a wheel at rest sinks in by 0.7 mm", {1e3, 1e8},
+                 {2e4, 2e5}));
   v.Real("damping_Ns_m", damping_Ns_m,
-         {.doc = "damping of each contact",
-          .min = 1.0,
-          .max = 1e7,
-          .origin = Origin::kAssumed,
-          .source = "about critical for a sixth of the rover",
-          .study_low = 400.0,
-          .study_high = 1600.0});
+         Assumed("damping of each contact", "about critical for a sixth of the rover", {1.0, 1e7},
+                 {400.0, 1600.0}));
 }
 
 void RoverPhysicsParams::Visit(core::FieldVisitor& v) {
-  v.Real("step_s", step_s,
-         {.doc = "physics step", .min = 1e-4, .max = 0.02, .origin = Origin::kSetting});
+  v.Real("step_s", step_s, Setting("physics step", {1e-4, 0.02}));
   v.Integer("solver_iterations", solver_iterations,
-            {.doc = "sweeps over the constraint rows in each step",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kSetting});
+            Setting("sweeps over the constraint rows in each step", {1, 1000}));
   v.Real("gravity_m_s2", gravity_m_s2,
-         {.doc = "gravity; 9.81 on Earth, 3.72 on Mars",
-          .min = 0.1,
-          .max = 30.0,
-          .origin = Origin::kSetting});
-  v.Real("time_scale", time_scale,
-         {.doc = "multibody: rates are simulated so many times faster than real, and times and "
-                 "velocities reported as real; for rovers that drive slowly enough to be at rest "
-                 "along the way",
-          .min = 1.0,
-          .max = 1000.0,
-          .origin = Origin::kSetting});
+         Setting("gravity; 9.81 on Earth, 3.72 on Mars", {0.1, 30.0}));
+  v.Real(
+      "time_scale", time_scale,
+      Setting(
+          "multibody: rates are simulated so many times faster than real, and times and velocities "
+          "reported as real; for rovers that drive slowly enough to be at rest along the way",
+          {1.0, 1000.0}));
 }
 
 void RoverParams::Visit(core::FieldVisitor& v) {
-  v.Choice(
-      "fidelity", fidelity,
-      {.doc = "multibody: articulated dynamics in steps of physics.step_s; quasi_static: poses "
-              "at rest along the way, some fifteen times cheaper",
-       .origin = Origin::kSetting});
+  v.Choice("fidelity", fidelity,
+           Setting("multibody: articulated dynamics in steps of physics.step_s; quasi_static: "
+                   "poses at rest along the way, some fifteen times cheaper"));
   v.Group("geometry", geometry, "dimensions");
   v.Group("mass", mass, "masses");
   v.Group("drive", drive, "drive and steering motors");

@@ -2,21 +2,17 @@
 
 namespace rockyard::scenario {
 
+using core::Setting;
+
 void Scenario::Visit(core::FieldVisitor& v) {
-  using core::Origin;
-  v.Integer("schema_version", schema_version,
-            {.doc = "version of this format", .min = 1, .max = 1, .origin = Origin::kSetting});
-  v.Text("name", name, {.doc = "short name, used in reports", .origin = Origin::kSetting});
-  v.Text("description", description, {.doc = "what it stands for", .origin = Origin::kSetting});
+  v.Integer("schema_version", schema_version, Setting("version of this format", {1, 1}));
+  v.Text("name", name, Setting("short name, used in reports"));
+  v.Text("description", description, Setting("what it stands for"));
   v.Text("accepted", accepted,
-         {.doc = "doubts of `rockyard validate` that are meant so, in its words up to the advice",
-          .origin = Origin::kSetting});
+         Setting("doubts of `rockyard validate` that are meant so, in its words up to the advice"));
   experiment.VisitKind(v);
-  v.Integer("trials", trials,
-            {.doc = "number of runs", .min = 1, .max = 1e9, .origin = Origin::kSetting});
-  v.Integer(
-      "seed", seed,
-      {.doc = "seed of every random stream", .min = 0, .max = 9e18, .origin = Origin::kSetting});
+  v.Integer("trials", trials, Setting("number of runs", {1, 1e9}));
+  v.Integer("seed", seed, Setting("seed of every random stream", {0, 9e18}));
   drive.Visit(v);
   experiment.VisitGroups(v);
   experiment.RequireConsistency(drive, v);

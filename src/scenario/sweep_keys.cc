@@ -5,14 +5,14 @@
 namespace rockyard::scenario {
 namespace {
 
-using core::Origin;
+using core::Setting;
 
 // The reader hands free keys over as empty texts, so that they are known and can be suggested.
 void VisitFree(core::FieldVisitor& v, std::span<const std::string_view> keys,
                std::span<const std::string_view> docs) {
   for (std::size_t i = 0; i < keys.size(); ++i) {
     std::string ignored;
-    v.Text(keys[i], ignored, {.doc = docs[i], .origin = Origin::kSetting});
+    v.Text(keys[i], ignored, Setting(docs[i]));
   }
 }
 
@@ -20,44 +20,29 @@ void VisitFree(core::FieldVisitor& v, std::span<const std::string_view> keys,
 
 void DesignParams::Visit(core::FieldVisitor& v) {
   v.Choice("kind", kind,
-           {.doc = "grid: every combination of levels; list: the given cells; latin_hypercube and "
-                   "sobol: points that cover ranges evenly",
-            .origin = Origin::kSetting});
+           Setting("grid: every combination of levels; list: the given cells; latin_hypercube and "
+                   "sobol: points that cover ranges evenly"));
   v.Integer("points", points,
-            {.doc = "cells of latin_hypercube and sobol; best a power of 2 for sobol",
-             .min = 1,
-             .max = static_cast<double>(kMaxSweepCells),
-             .origin = Origin::kSetting});
+            Setting("cells of latin_hypercube and sobol; best a power of 2 for sobol",
+                    {1, static_cast<double>(kMaxSweepCells)}));
 }
 
 void FitParams::Visit(core::FieldVisitor& v) {
   v.Text("axis", axis,
-         {.doc = "name of the axis against whose numbers success is fitted; absent: the first "
-                 "numeric one",
-          .origin = Origin::kSetting});
+         Setting("name of the axis against whose numbers success is fitted; absent: the first "
+                 "numeric one"));
   v.Choice("scale", scale,
-           {.doc = "whether the logit of success is linear in the number or in its logarithm",
-            .origin = Origin::kSetting});
+           Setting("whether the logit of success is linear in the number or in its logarithm"));
 }
 
 void SweepParams::Visit(core::FieldVisitor& v) {
-  v.Text("name", name, {.doc = "what the campaign is called", .origin = Origin::kSetting});
-  v.Text("description", description, {.doc = "for people", .origin = Origin::kSetting});
-  v.Integer("trials", trials,
-            {.doc = "trials per cell; --trials overrides",
-             .min = 1,
-             .max = 1e9,
-             .origin = Origin::kSetting});
-  v.Integer("seed", seed,
-            {.doc = "seed of the campaign; --seed overrides",
-             .min = 0,
-             .max = 9e18,
-             .origin = Origin::kSetting});
-  v.Boolean(
-      "common_random_numbers", common_random_numbers,
-      {.doc = "whether trials of equal number meet the same rocks and the same noise in every "
-              "cell, so that cells can be compared in pairs",
-       .origin = Origin::kSetting});
+  v.Text("name", name, Setting("what the campaign is called"));
+  v.Text("description", description, Setting("for people"));
+  v.Integer("trials", trials, Setting("trials per cell; --trials overrides", {1, 1e9}));
+  v.Integer("seed", seed, Setting("seed of the campaign; --seed overrides", {0, 9e18}));
+  v.Boolean("common_random_numbers", common_random_numbers,
+            Setting("whether trials of equal number meet the same rocks and the same noise in "
+                    "every cell, so that cells can be compared in pairs"));
   v.Group("design", design, "which combinations of levels are cells");
   v.Group("fit", fit, "logistic fit of success");
   constexpr std::array<std::string_view, 4> kDocs{
@@ -67,22 +52,15 @@ void SweepParams::Visit(core::FieldVisitor& v) {
 }
 
 void AxisParams::Visit(core::FieldVisitor& v) {
-  v.Text("name", name,
-         {.doc = "in tables; absent: the last part of the path", .origin = Origin::kSetting});
-  v.Text("path", path, {.doc = "parameter that is varied", .origin = Origin::kSetting});
-  v.Real("from", from, {.doc = "first value of a range", .origin = Origin::kSetting});
-  v.Real("to", to, {.doc = "last value of a range", .origin = Origin::kSetting});
-  v.Integer("steps", steps,
-            {.doc = "number of values from first to last",
-             .min = 2,
-             .max = static_cast<double>(kMaxSweepCells),
-             .origin = Origin::kSetting});
-  v.Choice(
-      "scale", scale,
-      {.doc = "whether steps are equal differences or equal ratios", .origin = Origin::kSetting});
-  v.Text("ablation", ablation,
-         {.doc = "two levels: without and with this change of the scenario",
-          .origin = Origin::kSetting});
+  v.Text("name", name, Setting("in tables; absent: the last part of the path"));
+  v.Text("path", path, Setting("parameter that is varied"));
+  v.Real("from", from, Setting("first value of a range"));
+  v.Real("to", to, Setting("last value of a range"));
+  v.Integer(
+      "steps", steps,
+      Setting("number of values from first to last", {2, static_cast<double>(kMaxSweepCells)}));
+  v.Choice("scale", scale, Setting("whether steps are equal differences or equal ratios"));
+  v.Text("ablation", ablation, Setting("two levels: without and with this change of the scenario"));
   constexpr std::array<std::string_view, 3> kDocs{"list of values of the parameter",
                                                   "list of {name, set, scenario}",
                                                   "list of scenario files, each a level"};
@@ -90,7 +68,7 @@ void AxisParams::Visit(core::FieldVisitor& v) {
 }
 
 void LevelParams::Visit(core::FieldVisitor& v) {
-  v.Text("name", name, {.doc = "in tables", .origin = Origin::kSetting});
+  v.Text("name", name, Setting("in tables"));
   constexpr std::array<std::string_view, 2> kDocs{
       "PATH: value", "file with a scenario that takes the place of the base"};
   VisitFree(v, kFreeLevelKeys, kDocs);

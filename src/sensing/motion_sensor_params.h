@@ -29,61 +29,30 @@ struct ScrapeParams {
   double episode_gap_m = 0.05;
 
   void Visit(core::FieldVisitor& v) {
-    using core::Origin;
     v.Boolean("enabled", enabled,
-              {.doc = "scraping a rock makes the measured heading jump",
-               .origin = Origin::kPublished,
-               .source = "Matthies 1995 sec. 5, 8"});
+              core::Published("scraping a rock makes the measured heading jump",
+                              "Matthies 1995 sec. 5, 8"));
     v.Angle("jump_deg", jump_rad,
-            {.doc = "size of the jump",
-             .min = 0.0,
-             .max = 90.0,
-             .origin = Origin::kPublished,
-             .source = "Matthies 1995 sec. 8: about 5 deg"});
+            core::Published("size of the jump", "Matthies 1995 sec. 8: about 5 deg", {0.0, 90.0}));
     v.Angle("jump_spread_deg", jump_spread_rad,
-            {.doc = "standard deviation of the jump's size",
-             .min = 0.0,
-             .max = 30.0,
-             .origin = Origin::kAssumed,
-             .source = "the paper gives one size",
-             .study_low = 0.0,
-             .study_high = 2.5});
+            core::Assumed("standard deviation of the jump's size", "the paper gives one size",
+                          {0.0, 30.0}, {0.0, 2.5}));
     v.Choice("sign", sign,
-             {.doc = "which way the measured heading jumps",
-              .origin = Origin::kAssumed,
-              .source = "the paper shows no rule"});
+             core::Assumed("which way the measured heading jumps", "the paper shows no rule"));
     v.Real("min_force_N", min_force_N,
-           {.doc = "normal force of body on rock from which a sliding contact counts as a scrape",
-            .min = 0.0,
-            .max = 1e3,
-            .origin = Origin::kAssumed,
-            .source = "leaves grazing contacts out",
-            .study_low = 0.1,
-            .study_high = 10.0});
+           core::Assumed(
+               "normal force of body on rock from which a sliding contact counts as a scrape",
+               "leaves grazing contacts out", {0.0, 1e3}, {0.1, 10.0}));
     v.Real("min_sliding_speed_m_s", min_sliding_speed_m_s,
-           {.doc = "sliding speed from which a contact counts as a scrape",
-            .min = 0.0,
-            .max = 1.0,
-            .origin = Origin::kAssumed,
-            .source = "leaves resting contacts out",
-            .study_low = 0.002,
-            .study_high = 0.05});
+           core::Assumed("sliding speed from which a contact counts as a scrape",
+                         "leaves resting contacts out", {0.0, 1.0}, {0.002, 0.05}));
     v.Real("episode_gap_s", episode_gap_s,
-           {.doc = "time without scraping a rock before scraping it is a new episode",
-            .min = 0.0,
-            .max = 1e3,
-            .origin = Origin::kAssumed,
-            .source = "one jump a scrape",
-            .study_low = 0.3,
-            .study_high = 5.0});
-    v.Real("episode_gap_m", episode_gap_m,
-           {.doc = "travel since the last scrape of a rock before scraping it is a new episode",
-            .min = 0.0,
-            .max = 10.0,
-            .origin = Origin::kAssumed,
-            .source = "one jump a scrape",
-            .study_low = 0.02,
-            .study_high = 0.3});
+           core::Assumed("time without scraping a rock before scraping it is a new episode",
+                         "one jump a scrape", {0.0, 1e3}, {0.3, 5.0}));
+    v.Real(
+        "episode_gap_m", episode_gap_m,
+        core::Assumed("travel since the last scrape of a rock before scraping it is a new episode",
+                      "one jump a scrape", {0.0, 10.0}, {0.02, 0.3}));
   }
 };
 
@@ -105,51 +74,36 @@ struct GyroParams {
   }
 
   void Visit(core::FieldVisitor& v) {
-    using core::Origin;
     v.Real("scale", scale,
-           {.doc = "measured over true turn",
-            .min = 0.5,
-            .max = 1.5,
-            .origin = Origin::kPublished,
-            .source = "Matthies 1995 sec. 8: turns underestimated by about 6 %"});
-    v.Real("heading_variance_deg2_per_m", heading_variance_deg2_per_m,
-           {.doc = "growth of the heading error's variance per metre at reference_speed_m_s on "
-                   "level sand; over level_sand_gain it is a rate noise in time",
-            .min = 0.0,
-            .max = 1e4,
-            .origin = Origin::kPublished,
-            .source = "Matthies 1995 sec. 5"});
-    v.Real("level_sand_gain", level_sand_gain,
-           {.doc = "growth of the squared heading error along runs on level sand, the slope of "
-                   "fig. 5, over that of the noise alone: slip slows the rover, whose noise runs "
-                   "in time, and a wrong scale adds what it turns to correct",
-            .min = 0.1,
-            .max = 10.0,
-            .origin = Origin::kCalibrated,
-            .source = "straight 7 m runs of the simulated rover on level sand; 1: the noise alone "
-                      "has the published growth"});
+           core::Published("measured over true turn",
+                           "Matthies 1995 sec. 8: turns underestimated by about 6 %", {0.5, 1.5}));
+    v.Real(
+        "heading_variance_deg2_per_m", heading_variance_deg2_per_m,
+        core::Published("growth of the heading error's variance per metre at reference_speed_m_s "
+                        "on level sand; over level_sand_gain it is a rate noise in time",
+                        "Matthies 1995 sec. 5", {0.0, 1e4}));
+    v.Real(
+        "level_sand_gain", level_sand_gain,
+        core::Calibrated("growth of the squared heading error along runs on level sand, the slope "
+                         "of fig. 5, over that of the noise alone: slip slows the rover, whose "
+                         "noise runs in time, and a wrong scale adds what it turns to correct",
+                         "straight 7 m runs of the simulated rover on level sand; 1: the noise "
+                         "alone has the published growth",
+                         {0.1, 10.0}));
     v.Real("reference_speed_m_s", reference_speed_m_s,
-           {.doc = "speed at which that growth was measured",
-            .min = 1e-4,
-            .max = 10.0,
-            .origin = Origin::kPublished,
-            .source = "Matthies 1995 sec. 5"});
+           core::Published("speed at which that growth was measured", "Matthies 1995 sec. 5",
+                           {1e-4, 10.0}));
     v.Boolean(
         "accumulates_at_rest", accumulates_at_rest,
-        {.doc = "the rate noise goes on while the rover stands still",
-         .origin = Origin::kAssumed,
-         .source =
-             "the paper ties the drift to driving; a scan of 20 s at rest would add 2.1 deg2"});
+        core::Assumed(
+            "the rate noise goes on while the rover stands still",
+            "the paper ties the drift to driving; a scan of 20 s at rest would add 2.1 deg2"));
     v.Angle("bias_sd_deg_per_s", bias_sd_rad_s,
-            {.doc = "standard deviation of a rate that the gyro adds all through a trial, drawn "
-                    "once; it counts whenever the noise does, deg/s",
-             .min = 0.0,
-             .max = 10.0,
-             .origin = Origin::kAssumed,
-             .source = "none in the paper, whose runs were begun anew; gyros of this kind keep "
-                       "0.002 to 0.01 deg/s over an hour",
-             .study_low = 0.0,
-             .study_high = 0.01});
+            core::Assumed("standard deviation of a rate that the gyro adds all through a trial, "
+                          "drawn once; it counts whenever the noise does, deg/s",
+                          "none in the paper, whose runs were begun anew; gyros of this kind keep "
+                          "0.002 to 0.01 deg/s over an hour",
+                          {0.0, 10.0}, {0.0, 0.01}));
     v.Group("scrape", scrape, "heading jumps when the rover's body scrapes a rock");
   }
 };
@@ -168,38 +122,27 @@ struct EncoderParams {
   }
 
   void Visit(core::FieldVisitor& v) {
-    using core::Origin;
-    v.Real("distance_variance_m2_per_m", distance_variance_m2_per_m,
-           {.doc = "growth of the dead-reckoned distance's variance on level, rock-free sand",
-            .min = 0.0,
-            .max = 1.0,
-            .origin = Origin::kPublished,
-            .source = "Matthies 1995 sec. 5"});
+    v.Real(
+        "distance_variance_m2_per_m", distance_variance_m2_per_m,
+        core::Published("growth of the dead-reckoned distance's variance on level, rock-free sand",
+                        "Matthies 1995 sec. 5", {0.0, 1.0}));
     v.Real("physics_variance_m2_per_m", physics_variance_m2_per_m,
-           {.doc = "share of it that the simulated wheels already yield on level sand",
-            .min = 0.0,
-            .max = 1.0,
-            .origin = Origin::kCalibrated,
-            .source = "straight 7 m runs of the simulated rover on level sand"});
+           core::Calibrated("share of it that the simulated wheels already yield on level sand",
+                            "straight 7 m runs of the simulated rover on level sand", {0.0, 1.0}));
     v.Require("physics_variance_m2_per_m", physics_variance_m2_per_m <= distance_variance_m2_per_m,
               "is larger than distance_variance_m2_per_m, so that no encoder noise could bring the "
               "sum to the published value",
               "use a value up to distance_variance_m2_per_m");
     v.Real("level_sand_gain", level_sand_gain,
-           {.doc = "growth of the dead-reckoned distance's variance on level sand over that of the "
-                   "noise per metre rolled: an odometer of scale s takes s^2 of the variance, over "
-                   "1 / s as many metres, so that it is s",
-            .min = 0.1,
-            .max = 10.0,
-            .origin = Origin::kCalibrated,
-            .source = "closed form: perception.dead_reckoning.distance_scale; 1: what wheels roll "
-                      "is taken for distance"});
+           core::Calibrated("growth of the dead-reckoned distance's variance on level sand over "
+                            "that of the noise per metre rolled: an odometer of scale s takes s^2 "
+                            "of the variance, over 1 / s as many metres, so that it is s",
+                            "closed form: perception.dead_reckoning.distance_scale; 1: what wheels "
+                            "roll is taken for distance",
+                            {0.1, 10.0}));
     v.Real("noise_stretch_m", noise_stretch_m,
-           {.doc = "travel over which the distance error keeps its rate",
-            .min = 0.001,
-            .max = 100.0,
-            .origin = Origin::kPublished,
-            .source = "Matthies 1995 sec. 5: steps of 6.7 cm"});
+           core::Published("travel over which the distance error keeps its rate",
+                           "Matthies 1995 sec. 5: steps of 6.7 cm", {0.001, 100.0}));
   }
 };
 

@@ -7,7 +7,9 @@
 namespace rockyard::sensing {
 namespace {
 
-using core::Origin;
+using core::Assumed;
+using core::Published;
+using core::Setting;
 
 constexpr std::string_view kFido = "FIDO rover's Hazcam, WUSTL data sheet: 110 x 90 deg, 12 cm";
 constexpr std::string_view kArray =
@@ -36,41 +38,19 @@ bool SeesWindow(const StereoMountParams& mount, const StereoParams& p) {
 
 void VisitImage(StereoParams& p, core::FieldVisitor& v) {
   v.Integer("columns", p.columns,
-            {.doc = "range points in an image row",
-             .min = 8,
-             .max = 512,
-             .origin = Origin::kPublished,
-             .source = "Goldberg 2002 table 2: 512 x 512 down to 128 x 128"});
+            Published("range points in an image row",
+                      "Goldberg 2002 table 2: 512 x 512 down to 128 x 128", {8, 512}));
   v.Integer("rows", p.rows,
-            {.doc = "range points in an image column",
-             .min = 8,
-             .max = 512,
-             .origin = Origin::kPublished,
-             .source = "Goldberg 2002 table 2: 512 x 512 down to 128 x 128"});
+            Published("range points in an image column",
+                      "Goldberg 2002 table 2: 512 x 512 down to 128 x 128", {8, 512}));
   v.Angle("horizontal_fov_deg", p.horizontal_fov_rad,
-          {.doc = "field of view from the left to the right edge of the rectified image",
-           .min = 1.0,
-           .max = 150.0,
-           .origin = Origin::kAssumed,
-           .source = kFido,
-           .study_low = 60.0,
-           .study_high = 124.0});
+          Assumed("field of view from the left to the right edge of the rectified image", kFido,
+                  {1.0, 150.0}, {60.0, 124.0}));
   v.Angle("vertical_fov_deg", p.vertical_fov_rad,
-          {.doc = "field of view from its upper to its lower edge",
-           .min = 1.0,
-           .max = 150.0,
-           .origin = Origin::kAssumed,
-           .source = kFido,
-           .study_low = 45.0,
-           .study_high = 124.0});
+          Assumed("field of view from its upper to its lower edge", kFido, {1.0, 150.0},
+                  {45.0, 124.0}));
   v.Real("baseline_m", p.baseline_m,
-         {.doc = "distance between the two cameras of a pair",
-          .min = 1e-3,
-          .max = 2.0,
-          .origin = Origin::kAssumed,
-          .source = kFido,
-          .study_low = 0.08,
-          .study_high = 0.2});
+         Assumed("distance between the two cameras of a pair", kFido, {1e-3, 2.0}, {0.08, 0.2}));
 }
 
 // Each eye keeps 50 bytes a pixel.
@@ -89,48 +69,27 @@ void VisitImageSize(StereoParams& p, core::FieldVisitor& v) {
 
 void VisitMatching(StereoParams& p, core::FieldVisitor& v) {
   v.Real("disparity_noise_px", p.disparity_noise_px,
-         {.doc = "standard deviation of a matched disparity",
-          .min = 0.0,
-          .max = 5.0,
-          .origin = Origin::kAssumed,
-          .source = "FLIR stereo accuracy note: 0.18 px with a 7 px window, the size in Goldberg "
-                    "2002 sec. 2; Xiong and Matthies 1997: errors exceed 0.3 px",
-          .study_low = 0.05,
-          .study_high = 0.35});
+         Assumed("standard deviation of a matched disparity",
+                 "FLIR stereo accuracy note: 0.18 px with a 7 px window, the size in Goldberg 2002 "
+                 "sec. 2; Xiong and Matthies 1997: errors exceed 0.3 px",
+                 {0.0, 5.0}, {0.05, 0.35}));
   v.Integer("noise_window_px", p.noise_window_px,
-            {.doc = "side of the square of pixels over which errors are alike: each is the mean of "
+            Assumed("side of the square of pixels over which errors are alike: each is the mean of "
                     "independent numbers over such a window, of the same deviation; 1: independent",
-             .min = 1,
-             .max = 31,
-             .origin = Origin::kAssumed,
-             .source = "Goldberg 2002 sec. 2 matches 7 x 7 windows, whose errors are alike as far "
-                       "as they overlap; the simplest choice",
-             .study_low = 1,
-             .study_high = 7});
+                    "Goldberg 2002 sec. 2 matches 7 x 7 windows, whose errors are alike as far as "
+                    "they overlap; the simplest choice",
+                    {1, 31}, {1, 7}));
   v.Real("disparity_step_px", p.disparity_step_px,
-         {.doc = "disparities are rounded to a multiple of this; 0: not rounded",
-          .min = 0.0,
-          .max = 4.0,
-          .origin = Origin::kAssumed,
-          .source = "Goldberg 2002 sec. 2: fitted to subpixel precision, resolution not given",
-          .study_low = 0.0,
-          .study_high = 0.25});
+         Assumed("disparities are rounded to a multiple of this; 0: not rounded",
+                 "Goldberg 2002 sec. 2: fitted to subpixel precision, resolution not given",
+                 {0.0, 4.0}, {0.0, 0.25}));
   v.Real("min_disparity_px", p.min_disparity_px,
-         {.doc = "smallest disparity that the matching searches: limits depth",
-          .min = 1e-3,
-          .max = 1000.0,
-          .origin = Origin::kAssumed,
-          .source = "no match with the horizon",
-          .study_low = 0.1,
-          .study_high = 2.0});
+         Assumed("smallest disparity that the matching searches: limits depth",
+                 "no match with the horizon", {1e-3, 1000.0}, {0.1, 2.0}));
   v.Real("max_disparity_px", p.max_disparity_px,
-         {.doc = "largest disparity that the matching searches: the near blind zone",
-          .min = 2e-3,
-          .max = 1000.0,
-          .origin = Origin::kAssumed,
-          .source = "Goldberg 2002 sec. 3: 32 disparities in images 256 wide; half of it at 128",
-          .study_low = 8.0,
-          .study_high = 32.0});
+         Assumed("largest disparity that the matching searches: the near blind zone",
+                 "Goldberg 2002 sec. 3: 32 disparities in images 256 wide; half of it at 128",
+                 {2e-3, 1000.0}, {8.0, 32.0}));
   v.Require("max_disparity_px", p.max_disparity_px > p.min_disparity_px,
             "is not larger than min_disparity_px", "use a larger value");
   v.Require("max_disparity_px",
@@ -141,79 +100,40 @@ void VisitMatching(StereoParams& p, core::FieldVisitor& v) {
 }
 
 void VisitDropouts(StereoParams& p, core::FieldVisitor& v) {
-  v.Real(
-      "mismatch_probability", p.mismatch_probability,
-      {.doc = "chance that a point is matched with anything in the searched range of disparities",
-       .min = 0.0,
-       .max = 0.999,
-       .origin = Origin::kAssumed,
-       .source = "Goldberg 2002 sec. 2 removes small blobs of wrong matches; what is left is "
-                 "not given",
-       .study_low = 0.0,
-       .study_high = 0.02});
+  v.Real("mismatch_probability", p.mismatch_probability,
+         Assumed(
+             "chance that a point is matched with anything in the searched range of disparities",
+             "Goldberg 2002 sec. 2 removes small blobs of wrong matches; what is left is not given",
+             {0.0, 0.999}, {0.0, 0.02}));
   v.Real("dropout_probability", p.dropout_probability,
-         {.doc = "chance that a point finds no match that holds from left to right and back",
-          .min = 0.0,
-          .max = 0.999,
-          .origin = Origin::kAssumed,
-          .source = "Goldberg 2002 sec. 2 names the check without a rate",
-          .study_low = 0.0,
-          .study_high = 0.4});
+         Assumed("chance that a point finds no match that holds from left to right and back",
+                 "Goldberg 2002 sec. 2 names the check without a rate", {0.0, 0.999}, {0.0, 0.4}));
   v.Real("edge_dropout_probability", p.edge_dropout_probability,
-         {.doc = "the same beside a jump in depth, where a matching window holds two surfaces",
-          .min = 0.0,
-          .max = 0.999,
-          .origin = Origin::kAssumed,
-          .source = "half of such a window belongs to either surface",
-          .study_low = 0.0,
-          .study_high = 0.9});
+         Assumed("the same beside a jump in depth, where a matching window holds two surfaces",
+                 "half of such a window belongs to either surface", {0.0, 0.999}, {0.0, 0.9}));
   v.Integer("edge_reach_px", p.edge_reach_px,
-            {.doc = "columns on both sides of the jump where that holds; 0: nowhere",
-             .min = 0,
-             .max = 100,
-             .origin = Origin::kPublished,
-             .source = "Goldberg 2002 sec. 2: half of a 7 x 7 window"});
+            Published("columns on both sides of the jump where that holds; 0: nowhere",
+                      "Goldberg 2002 sec. 2: half of a 7 x 7 window", {0, 100}));
   v.Real("edge_disparity_px", p.edge_disparity_px,
-         {.doc = "difference in disparity between columns from which depth jumps",
-          .min = 0.01,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .source = "more than sloping ground has",
-          .study_low = 0.5,
-          .study_high = 2.0});
-  v.Real(
-      "edge_mismatch_probability", p.edge_mismatch_probability,
-      {.doc =
-           "chance that a point beside a jump in depth, within edge_reach_px, is matched as if it "
-           "were of the surface on the other side",
-       .min = 0.0,
-       .max = 0.999,
-       .origin = Origin::kAssumed,
-       .source = "the simplest choice: edges are sharp; fit_stereo_errors.py counts it in "
-                 "images",
-       .study_low = 0.0,
-       .study_high = 0.9});
-  v.Real(
-      "shadow_dropout_probability", p.shadow_dropout_probability,
-      {.doc = "chance that a point outside of the sun drops out for that, whatever else may drop "
-              "it; above 0 each point costs a ray",
-       .min = 0.0,
-       .max = 0.999,
-       .origin = Origin::kAssumed,
-       .source = "the simplest choice: light does not matter; fit_stereo_errors.py "
-                 "counts it in images",
-       .study_low = 0.0,
-       .study_high = 0.9});
+         Assumed("difference in disparity between columns from which depth jumps",
+                 "more than sloping ground has", {0.01, 100.0}, {0.5, 2.0}));
+  v.Real("edge_mismatch_probability", p.edge_mismatch_probability,
+         Assumed("chance that a point beside a jump in depth, within edge_reach_px, is matched as "
+                 "if it were of the surface on the other side",
+                 "the simplest choice: edges are sharp; fit_stereo_errors.py counts it in images",
+                 {0.0, 0.999}, {0.0, 0.9}));
+  v.Real("shadow_dropout_probability", p.shadow_dropout_probability,
+         Assumed(
+             "chance that a point outside of the sun drops out for that, whatever else may drop "
+             "it; above 0 each point costs a ray",
+             "the simplest choice: light does not matter; fit_stereo_errors.py counts it in images",
+             {0.0, 0.999}, {0.0, 0.9}));
   v.Integer(
       "margin_px", p.margin_px,
-      {.doc = "rows and columns at the edges of both images without matches",
-       .min = 0,
-       .max = 100,
-       .origin = Origin::kAssumed,
-       .source = "the simplest choice; a 7 x 7 window (Goldberg 2002 sec. 2) reaches 3 beyond "
-                 "its pixel",
-       .study_low = 0,
-       .study_high = 4});
+      Assumed(
+          "rows and columns at the edges of both images without matches",
+          "the simplest choice; a 7 x 7 window (Goldberg 2002 sec. 2) reaches 3 beyond its pixel",
+          {0, 100}, {0, 4}));
 }
 
 }  // namespace
@@ -228,12 +148,9 @@ double StereoParams::focal_rows_px() const {
 
 void StereoImageParams::Visit(core::FieldVisitor& v) {
   v.Integer("pyramid_level", pyramid_level,
-            {.doc = "images have 2^level times columns and rows, and are reduced to them on board; "
-                    "disparities are those of the reduced images",
-             .min = 0,
-             .max = 4,
-             .origin = Origin::kPublished,
-             .source = "Goldberg 2002 table 2: 512 x 512 reduced to 128 x 128"});
+            Published("images have 2^level times columns and rows, and are reduced to them on "
+                      "board; disparities are those of the reduced images",
+                      "Goldberg 2002 table 2: 512 x 512 reduced to 128 x 128", {0, 4}));
   v.Group("drift", drift,
           "how far the cameras of a pair have drifted apart since they were calibrated, which the "
           "rover does not know; drawn once a trial for either pair");
@@ -242,35 +159,20 @@ void StereoImageParams::Visit(core::FieldVisitor& v) {
 
 void StereoMountParams::Visit(core::FieldVisitor& v) {
   v.Real("ahead_m", ahead_m,
-         {.doc = "distance of the cameras from the chassis centre in the direction they look",
-          .min = -5.0,
-          .max = 5.0,
-          .origin = Origin::kAssumed,
-          .source = "front of a body of 0.8 m between wheels 1.04 m long",
-          .study_low = 0.3,
-          .study_high = 0.52});
+         Assumed("distance of the cameras from the chassis centre in the direction they look",
+                 "front of a body of 0.8 m between wheels 1.04 m long", {-5.0, 5.0}, {0.3, 0.52}));
   v.Real("height_m", height_m,
-         {.doc = "height of the cameras above R's origin",
-          .min = 0.01,
-          .max = 10.0,
-          .origin = Origin::kAssumed,
-          .source = "below the deck of FIDO, 0.53 m high; MER: 0.52 m (Maki et al. 2003)",
-          .study_low = 0.3,
-          .study_high = 0.55});
+         Assumed("height of the cameras above R's origin",
+                 "below the deck of FIDO, 0.53 m high; MER: 0.52 m (Maki et al. 2003)",
+                 {0.01, 10.0}, {0.3, 0.55}));
   v.Angle("pitch_deg", pitch_rad,
-          {.doc = "optical axes below the horizontal",
-           .min = -90.0,
-           .max = 90.0,
-           .origin = Origin::kAssumed,
-           .source = "MER: 45 deg (Maki et al. 2003)",
-           .study_low = 25.0,
-           .study_high = 50.0});
+          Assumed("optical axes below the horizontal", "MER: 45 deg (Maki et al. 2003)",
+                  {-90.0, 90.0}, {25.0, 50.0}));
 }
 
 void StripeWindowParams::Visit(core::FieldVisitor& v) {
   const auto length = [&v](std::string_view name, double& value, std::string_view doc) {
-    v.Real(name, value,
-           {.doc = doc, .min = 0.0, .max = 20.0, .origin = Origin::kPublished, .source = kArray});
+    v.Real(name, value, Published(doc, kArray, {0.0, 20.0}));
   };
   length("near_m", near_m, "nearest row of points from the chassis centre");
   length("far_m", far_m, "farthest row of points from the chassis centre");
@@ -281,24 +183,18 @@ void StripeWindowParams::Visit(core::FieldVisitor& v) {
 
 void StereoParams::Visit(core::FieldVisitor& v) {
   v.Choice("fidelity", fidelity,
-           {.doc = "ideal: exact range points; error_model: those of a camera pair; image: the "
-                   "pair's images are rendered and matched on board (perception.stereo)",
-            .origin = Origin::kSetting});
+           Setting("ideal: exact range points; error_model: those of a camera pair; image: the "
+                   "pair's images are rendered and matched on board (perception.stereo)"));
   v.Choice("field_of_view", field_of_view,
-           {.doc = "full, or stripe: only points over stripe_window, for telling a navigator from "
-                   "its sensor",
-            .origin = Origin::kSetting});
+           Setting("full, or stripe: only points over stripe_window, for telling a navigator from "
+                   "its sensor"));
   VisitImage(*this, v);
   v.Group("front", front, "the pair that looks ahead");
   v.Group("rear", rear, "the pair that looks behind");
   v.Real("max_range_m", max_range_m,
-         {.doc = "distance from the cameras up to which surfaces give points",
-          .min = 0.05,
-          .max = 20.0,
-          .origin = Origin::kAssumed,
-          .source = "grid-dist-timeout of 3 m (Goldberg 2002 table 1) and half a rover more",
-          .study_low = 3.0,
-          .study_high = 8.0});
+         Assumed("distance from the cameras up to which surfaces give points",
+                 "grid-dist-timeout of 3 m (Goldberg 2002 table 1) and half a rover more",
+                 {0.05, 20.0}, {3.0, 8.0}));
   VisitMatching(*this, v);
   VisitDropouts(*this, v);
   v.Group("stripe_window", stripe_window, "ground under the light stripe array");

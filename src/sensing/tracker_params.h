@@ -14,35 +14,18 @@ struct TrackerParams {
   double random_heading_rad = math::DegToRad(0.2);
 
   void Visit(core::FieldVisitor& v) {
-    using core::Origin;
     constexpr std::string_view kSection3 = "Matthies 1995 sec. 3";
     v.Boolean("enabled", enabled,
-              {.doc = "report errors against the tracked instead of the true pose",
-               .origin = Origin::kSetting});
+              core::Setting("report errors against the tracked instead of the true pose"));
     v.Real("systematic_position_m", systematic_position_m,
-           {.doc = "largest systematic position error",
-            .min = 0.0,
-            .max = 1.0,
-            .origin = Origin::kPublished,
-            .source = kSection3});
+           core::Published("largest systematic position error", kSection3, {0.0, 1.0}));
     v.Angle("systematic_heading_deg", systematic_heading_rad,
-            {.doc = "largest systematic heading error",
-             .min = 0.0,
-             .max = 90.0,
-             .origin = Origin::kPublished,
-             .source = kSection3});
+            core::Published("largest systematic heading error", kSection3, {0.0, 90.0}));
     v.Real("random_position_m", random_position_m,
-           {.doc = "root mean square of the random position error",
-            .min = 0.0,
-            .max = 1.0,
-            .origin = Origin::kPublished,
-            .source = kSection3});
-    v.Angle("random_heading_deg", random_heading_rad,
-            {.doc = "root mean square of the random heading error",
-             .min = 0.0,
-             .max = 90.0,
-             .origin = Origin::kPublished,
-             .source = kSection3});
+           core::Published("root mean square of the random position error", kSection3, {0.0, 1.0}));
+    v.Angle(
+        "random_heading_deg", random_heading_rad,
+        core::Published("root mean square of the random heading error", kSection3, {0.0, 90.0}));
   }
 };
 

@@ -5,7 +5,9 @@
 namespace rockyard::sensing {
 namespace {
 
-using core::Origin;
+using core::Calibrated;
+using core::Published;
+using core::Setting;
 
 constexpr const char* kFit =
     "fitted to rendered steps (fit_visual_motion.py; results/visual_odometry.md)";
@@ -23,75 +25,45 @@ double VisualFailureParams::Probability(double way_m, double angle_rad) const {
 }
 
 void VisualScheduleParams::Visit(core::FieldVisitor& v) {
-  v.Real("every_m", every_m,
-         {.doc = "way by the rover's odometer from one pair of images to the next; 0: not by way",
-          .min = 0.0,
-          .max = 1e4,
-          .origin = Origin::kPublished,
-          .source = "Howard 2012 sec. 1: with visual odometry each motion of MER is limited to 75 "
-                    "cm"});
+  v.Real(
+      "every_m", every_m,
+      Published("way by the rover's odometer from one pair of images to the next; 0: not by way",
+                "Howard 2012 sec. 1: with visual odometry each motion of MER is limited to 75 cm",
+                {0.0, 1e4}));
   v.Angle(
       "every_deg", every_rad,
-      {.doc = "turn by the rover's estimate from one pair of images to the next; 0: not by turn",
-       .min = 0.0,
-       .max = 360.0,
-       .origin = Origin::kPublished,
-       .source = "Howard 2012 sec. 1: or to a turn in place of no more than 18 degrees"});
+      Published("turn by the rover's estimate from one pair of images to the next; 0: not by turn",
+                "Howard 2012 sec. 1: or to a turn in place of no more than 18 degrees",
+                {0.0, 360.0}));
   v.Real("every_s", every_s,
-         {.doc = "simulated time from one pair of images to the next while the rover moves; 0: not "
+         Setting("simulated time from one pair of images to the next while the rover moves; 0: not "
                  "by time. 0.2: the 5 Hz of Howard 2012",
-          .min = 0.0,
-          .max = 1e6,
-          .origin = Origin::kSetting});
+                 {0.0, 1e6}));
 }
 
 void PlaceErrorParams::Visit(core::FieldVisitor& v) {
   v.Real("still_m", still,
-         {.doc = "standard deviation where the rover has not moved",
-          .min = 0.0,
-          .max = 10.0,
-          .origin = Origin::kCalibrated,
-          .source = kFit});
-  v.Real("per_m", per_m,
-         {.doc = "what a metre of way adds to it, root of the summed squares",
-          .min = 0.0,
-          .max = 10.0,
-          .origin = Origin::kCalibrated,
-          .source = kFit});
+         Calibrated("standard deviation where the rover has not moved", kFit, {0.0, 10.0}));
+  v.Real(
+      "per_m", per_m,
+      Calibrated("what a metre of way adds to it, root of the summed squares", kFit, {0.0, 10.0}));
   v.Real("per_turn_m", per_rad,
-         {.doc = "what a radian of turning adds to it, likewise; m",
-          .min = 0.0,
-          .max = 10.0,
-          .origin = Origin::kCalibrated,
-          .source = kFit});
+         Calibrated("what a radian of turning adds to it, likewise; m", kFit, {0.0, 10.0}));
 }
 
 void TurnErrorParams::Visit(core::FieldVisitor& v) {
   v.Angle("still_deg", still,
-          {.doc = "standard deviation where the rover has not moved",
-           .min = 0.0,
-           .max = 180.0,
-           .origin = Origin::kCalibrated,
-           .source = kFit});
-  v.Angle("metre_deg", per_m,
-          {.doc = "what a metre of way adds to it, root of the summed squares",
-           .min = 0.0,
-           .max = 180.0,
-           .origin = Origin::kCalibrated,
-           .source = kFit});
+          Calibrated("standard deviation where the rover has not moved", kFit, {0.0, 180.0}));
+  v.Angle(
+      "metre_deg", per_m,
+      Calibrated("what a metre of way adds to it, root of the summed squares", kFit, {0.0, 180.0}));
   v.Real("per_turn", per_rad,
-         {.doc = "what a radian of turning adds to it, likewise",
-          .min = 0.0,
-          .max = 3.0,
-          .origin = Origin::kCalibrated,
-          .source = kFit});
+         Calibrated("what a radian of turning adds to it, likewise", kFit, {0.0, 3.0}));
 }
 
 void VisualFailureParams::Visit(core::FieldVisitor& v) {
   const auto field = [&](std::string_view name, double& value, std::string_view doc) {
-    v.Real(
-        name, value,
-        {.doc = doc, .min = -1000.0, .max = 1000.0, .origin = Origin::kCalibrated, .source = kFit});
+    v.Real(name, value, Calibrated(doc, kFit, {-1000.0, 1000.0}));
   };
   field("intercept", intercept,
         "log odds that no motion is found where the rover has not moved; -1000: one always is");
@@ -102,16 +74,10 @@ void VisualFailureParams::Visit(core::FieldVisitor& v) {
 void VisualErrorModelParams::Visit(core::FieldVisitor& v) {
   v.Real(
       "keyframe_m", keyframe_m,
-      {.doc = "way from a keyframe from which on another one takes its place, as "
+      Setting("way from a keyframe from which on another one takes its place, as "
               "perception.visual_odometry.keyframe.max_way_m; one without a motion does so as well",
-       .min = 0.0,
-       .max = 1e3,
-       .origin = Origin::kSetting});
-  v.Angle("keyframe_deg", keyframe_rad,
-          {.doc = "turn from a keyframe, likewise",
-           .min = 0.0,
-           .max = 180.0,
-           .origin = Origin::kSetting});
+              {0.0, 1e3}));
+  v.Angle("keyframe_deg", keyframe_rad, Setting("turn from a keyframe, likewise", {0.0, 180.0}));
   v.Group("failure", failure, "chance that no motion is found");
   v.Group("along", along, "error of the way, forward");
   v.Group("across", across, "error of the way, to the left");
@@ -122,19 +88,15 @@ void VisualErrorModelParams::Visit(core::FieldVisitor& v) {
 
 void VisualMotionParams::Visit(core::FieldVisitor& v) {
   v.Boolean("enabled", enabled,
-            {.doc = "the cameras ahead (sensors.stereo) measure how the rover moves; the estimator "
-                    "is to take it (localization.estimator visual_odometry or error_state)",
-             .origin = Origin::kSetting});
+            Setting("the cameras ahead (sensors.stereo) measure how the rover moves; the estimator "
+                    "is to take it (localization.estimator visual_odometry or error_state)"));
   v.Choice("fidelity", fidelity,
-           {.doc = "error_model: the true motion, late and with fitted errors; image: rendered "
-                   "images, whose features are matched on board (perception.visual_odometry)",
-            .origin = Origin::kSetting});
+           Setting("error_model: the true motion, late and with fitted errors; image: rendered "
+                   "images, whose features are matched on board (perception.visual_odometry)"));
   v.Group("schedule", schedule, "when images are taken");
   v.Integer("pyramid_level", pyramid_level,
-            {.doc = "images that the cameras take (sensors.stereo.images) are reduced by 2^level",
-             .min = 0,
-             .max = 4,
-             .origin = Origin::kSetting});
+            Setting("images that the cameras take (sensors.stereo.images) are reduced by 2^level",
+                    {0, 4}));
   v.Group("error_model", error_model, "what comes out where no images are matched");
   v.Require(
       "schedule",

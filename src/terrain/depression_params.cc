@@ -11,35 +11,24 @@
 namespace rockyard::terrain {
 namespace {
 
-using core::Origin;
+using core::Setting;
 
 void VisitPlaces(std::vector<double>& x_m, std::vector<double>& y_m, core::FieldVisitor& v) {
-  v.Reals("x_m", x_m,
-          {.doc = "x of every middle", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
-  v.Reals("y_m", y_m,
-          {.doc = "y of every middle", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
+  v.Reals("x_m", x_m, Setting("x of every middle", {-1000.0, 1000.0}));
+  v.Reals("y_m", y_m, Setting("y of every middle", {-1000.0, 1000.0}));
 }
 
 void VisitProfile(std::string_view width_name, std::vector<double>& width_m,
                   std::vector<double>& depth_m, std::vector<double>& flank_m,
                   core::FieldVisitor& v) {
   v.Reals(width_name, width_m,
-          {.doc = "width of every one at the top, from edge to edge",
-           .min = 0.05,
-           .max = 100.0,
-           .origin = Origin::kSetting});
+          Setting("width of every one at the top, from edge to edge", {0.05, 100.0}));
   v.Reals("depth_m", depth_m,
-          {.doc = "depth of every one below the ground around it",
-           .min = 0.001,
-           .max = 10.0,
-           .origin = Origin::kSetting});
-  v.Reals(
-      "flank_m", flank_m,
-      {.doc = "horizontal width of every flank, from the edge to the level floor; an empty list: "
-              "half of the width, no floor",
-       .min = 0.01,
-       .max = 50.0,
-       .origin = Origin::kSetting});
+          Setting("depth of every one below the ground around it", {0.001, 10.0}));
+  v.Reals("flank_m", flank_m,
+          Setting("horizontal width of every flank, from the edge to the level floor; an empty "
+                  "list: half of the width, no floor",
+                  {0.01, 50.0}));
 }
 
 // One list against x_m.
@@ -87,15 +76,10 @@ bool DitchesParams::IsSound() const {
 void DitchesParams::Visit(core::FieldVisitor& v) {
   VisitPlaces(x_m, y_m, v);
   v.Reals("direction_deg", direction_deg,
-          {.doc = "direction of every ditch, from +x towards +y",
-           .min = -360.0,
-           .max = 360.0,
-           .origin = Origin::kSetting});
+          Setting("direction of every ditch, from +x towards +y", {-360.0, 360.0}));
   v.Reals("length_m", length_m,
-          {.doc = "length of every ditch at the top, round ends included; 0 for one without an end",
-           .min = 0.0,
-           .max = 2000.0,
-           .origin = Origin::kSetting});
+          Setting("length of every ditch at the top, round ends included; 0 for one without an end",
+                  {0.0, 2000.0}));
   VisitProfile("width_m", width_m, depth_m, flank_m, v);
   RequireLength("y_m", y_m.size(), x_m.size(), v);
   RequireLength("direction_deg", direction_deg.size(), x_m.size(), v);

@@ -60,37 +60,18 @@ struct GroundParams {
   bool IsLevel() const { return slope_rad == 0.0 && roughness_rms_m == 0.0 && !HasDepressions(); }
 
   void Visit(core::FieldVisitor& v) {
-    v.Angle("slope_deg", slope_rad,
-            {.doc = "inclination of the ground plane",
-             .min = 0.0,
-             .max = 45.0,
-             .origin = core::Origin::kSetting});
+    v.Angle("slope_deg", slope_rad, core::Setting("inclination of the ground plane", {0.0, 45.0}));
     v.Angle("slope_direction_deg", slope_direction_rad,
-            {.doc = "uphill direction, from +x towards +y",
-             .min = -360.0,
-             .max = 360.0,
-             .origin = core::Origin::kSetting});
+            core::Setting("uphill direction, from +x towards +y", {-360.0, 360.0}));
     v.Real("roughness_rms_m", roughness_rms_m,
-           {.doc = "root mean square height of the fractal roughness; 0 leaves a plane",
-            .min = 0.0,
-            .max = 0.5,
-            .origin = core::Origin::kSetting});
+           core::Setting("root mean square height of the fractal roughness; 0 leaves a plane",
+                         {0.0, 0.5}));
     v.Real("hurst_exponent", hurst_exponent,
-           {.doc = "Hurst exponent of the roughness",
-            .min = 0.05,
-            .max = 1.0,
-            .origin = core::Origin::kAssumed,
-            .source = "no effect at the default RMS of 0",
-            .study_low = 0.5,
-            .study_high = 1.0});
+           core::Assumed("Hurst exponent of the roughness", "no effect at the default RMS of 0",
+                         {0.05, 1.0}, {0.5, 1.0}));
     v.Real("roughness_wavelength_m", roughness_wavelength_m,
-           {.doc = "longest wavelength of the roughness",
-            .min = 0.2,
-            .max = 100.0,
-            .origin = core::Origin::kAssumed,
-            .source = "no effect at the default RMS of 0",
-            .study_low = 1.0,
-            .study_high = 8.0});
+           core::Assumed("longest wavelength of the roughness", "no effect at the default RMS of 0",
+                         {0.2, 100.0}, {1.0, 8.0}));
     v.Group("ditches", ditches, "straight trenches with round ends, one by one");
     v.Group("pits", pits, "round holes, one by one");
     v.Group("soil", soil, "what the ground does to wheels");

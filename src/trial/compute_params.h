@@ -51,89 +51,59 @@ struct ComputeParams {
   }
 
   void Visit(core::FieldVisitor& v) {
-    using core::Origin;
     v.Choice("computer", computer,
-             {.doc = "whose times of stereo, map and votes a look takes; the time of light stripe "
-                     "scans is clock.scan_time_s, whichever computer",
-              .origin = Origin::kSetting});
+             core::Setting("whose times of stereo, map and votes a look takes; the time of light "
+                           "stripe scans is clock.scan_time_s, whichever computer"));
     v.Real("acquisition_s", acquisition_s,
-           {.doc = "time to take a pair of stereo images; r3000_12mhz has its own in table 2, "
-                   "the tables of the others have no such row. Left open it is 0.1 s (10 Hz) with "
-                   "virtex_5_fpga, athena_2012 and sapphire_rapids_core",
-            .min = 0.0,
-            .max = 3600.0,
-            .origin = Origin::kAssumed,
-            .source = "as on the Athena SDM (Goldberg 2002 table 2, six rows): the grab of the "
-                      "images takes most of it",
-            .study_low = 0.5,
-            .study_high = 10.0});
+           core::Assumed("time to take a pair of stereo images; r3000_12mhz has its own in table "
+                         "2, the tables of the others have no such row. Left open it is 0.1 s (10 "
+                         "Hz) with virtex_5_fpga, athena_2012 and sapphire_rapids_core",
+                         "as on the Athena SDM (Goldberg 2002 table 2, six rows): the grab of the "
+                         "images takes most of it",
+                         {0.0, 3600.0}, {0.5, 10.0}));
     v.Real("stereo_time_factor", stereo_time_factor,
-           {.doc = "time of stereo over that of the computer's profile",
-            .min = 0.0,
-            .max = 100.0,
-            .origin = Origin::kAssumed,
-            .source = "the middle of what is published: the 24 to 30 s of MER, and with them "
-                      "MSL's 1.32 to 1.65 s (Howard 2012 section 3), are 0.89 to 1.11 of it",
-            .study_low = 0.89,
-            .study_high = 1.11});
+           core::Assumed("time of stereo over that of the computer's profile",
+                         "the middle of what is published: the 24 to 30 s of MER, and with them "
+                         "MSL's 1.32 to 1.65 s (Howard 2012 section 3), are 0.89 to 1.11 of it",
+                         {0.0, 100.0}, {0.89, 1.11}));
     v.Real("navigation_time_factor", navigation_time_factor,
-           {.doc = "time of map and votes over that of the computer's profile",
-            .min = 0.0,
-            .max = 100.0,
-            .origin = Origin::kAssumed,
-            .source = "profiles that go by clock, by instructions a second or by orders of "
-                      "magnitude are known to a factor of three (Goldberg 2002 section 6, Howard "
-                      "2012 section 3)",
-            .study_low = 0.316,
-            .study_high = 3.16});
+           core::Assumed(
+               "time of map and votes over that of the computer's profile",
+               "profiles that go by clock, by instructions a second or by orders of magnitude are "
+               "known to a factor of three (Goldberg 2002 section 6, Howard 2012 section 3)",
+               {0.0, 100.0}, {0.316, 3.16}));
     v.Real("virtex_4_time_factor", virtex_4_time_factor,
-           {.doc = "with athena_2012, time of stereo, features and matches in its Virtex 4 over "
-                   "that in the Virtex 5",
-            .min = 0.0,
-            .max = 100.0,
-            .origin = Origin::kAssumed,
-            .source = "Howard 2012 drove with a Virtex 4 and times a Virtex 5 (sec. 3); the design "
-                      "is the same, the clock is not told",
-            .study_low = 1.0,
-            .study_high = 2.0});
-    v.Real("behaviour_s", behaviour_s,
-           {.doc = "time in which the behaviour controller judges the elevations of a stereo look, "
-                   "beyond stereo's own; not spent with computer none",
-            .min = 0.0,
-            .max = 3600.0,
-            .origin = Origin::kAssumed,
-            .source = "some tens of numbers against two thresholds, where table 2's shortest rows "
-                      "take 13 ms",
-            .study_low = 0.0,
-            .study_high = 1.0});
+           core::Assumed("with athena_2012, time of stereo, features and matches in its Virtex 4 "
+                         "over that in the Virtex 5",
+                         "Howard 2012 drove with a Virtex 4 and times a Virtex 5 (sec. 3); the "
+                         "design is the same, the clock is not told",
+                         {0.0, 100.0}, {1.0, 2.0}));
+    v.Real(
+        "behaviour_s", behaviour_s,
+        core::Assumed(
+            "time in which the behaviour controller judges the elevations of a stereo look, beyond "
+            "stereo's own; not spent with computer none",
+            "some tens of numbers against two thresholds, where table 2's shortest rows take 13 ms",
+            {0.0, 3600.0}, {0.0, 1.0}));
     v.Real("move_overhead_s", move_overhead_s,
-           {.doc = "time at rest that every move takes beyond the motion of its wheels, whichever "
-                   "computer and navigator: command, brakes, settling; at the power of computing",
-            .min = 0.0,
-            .max = 3600.0,
-            .origin = Origin::kCalibrated,
-            .source = "0 for a rover that moves on at once; 7.3 s for the Athena SDM: 15 s a move "
-                      "(Goldberg 2002 table 2) less the 7.66 s that the simulated rover's wheels "
-                      "turn for 35 cm of level sand"});
+           core::Calibrated(
+               "time at rest that every move takes beyond the motion of its wheels, whichever "
+               "computer and navigator: command, brakes, settling; at the power of computing",
+               "0 for a rover that moves on at once; 7.3 s for the Athena SDM: 15 s a move "
+               "(Goldberg 2002 table 2) less the 7.66 s that the simulated rover's wheels turn for "
+               "35 cm of level sand",
+               {0.0, 3600.0}));
     v.Real("visual_cpu_s", visual_cpu_s,
-           {.doc = "with virtex_5_fpga and athena_2012, the computer's part of a step of visual "
-                   "odometry: selection and motion",
-            .min = 0.0,
-            .max = 3600.0,
-            .origin = Origin::kAssumed,
-            .source = "some 10 Hz on a Pentium-class computer (Howard 2012 sec. 3), 0.1 s, less "
-                      "the 16 ms of the FPGA; a RAD6000 beside it is much slower",
-            .study_low = 0.05,
-            .study_high = 10.0});
+           core::Assumed("with virtex_5_fpga and athena_2012, the computer's part of a step of "
+                         "visual odometry: selection and motion",
+                         "some 10 Hz on a Pentium-class computer (Howard 2012 sec. 3), 0.1 s, less "
+                         "the 16 ms of the FPGA; a RAD6000 beside it is much slower",
+                         {0.0, 3600.0}, {0.05, 10.0}));
     v.Real("visual_time_factor", visual_time_factor,
-           {.doc = "time of a step of visual odometry over that of the computer's profile",
-            .min = 0.0,
-            .max = 100.0,
-            .origin = Origin::kAssumed,
-            .source = "two to three minutes on MER (Howard 2012 sec. 1) are 0.75 to 1.125 of its "
-                      "160 s",
-            .study_low = 0.75,
-            .study_high = 1.125});
+           core::Assumed(
+               "time of a step of visual odometry over that of the computer's profile",
+               "two to three minutes on MER (Howard 2012 sec. 1) are 0.75 to 1.125 of its 160 s",
+               {0.0, 100.0}, {0.75, 1.125}));
   }
 };
 

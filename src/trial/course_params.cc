@@ -6,38 +6,27 @@
 
 namespace rockyard::trial {
 
-using core::Origin;
+using core::Assumed;
+using core::Published;
+using core::Setting;
 
 void RouteMapParams::Visit(core::FieldVisitor& v) {
   v.Choice("source", source,
-           {.doc = "the rocks that a route is planned among: all as they are (oracle), or those "
-                   "that the lander's cameras show (course.lander_map)",
-            .origin = Origin::kSetting});
+           Setting("the rocks that a route is planned among: all as they are (oracle), or those "
+                   "that the lander's cameras show (course.lander_map)"));
   v.Choice("use", use,
-           {.doc = "navigator: for navigation.navigator route alone; waypoints: its corners are "
-                   "waypoints of a rover that looks for hazards itself",
-            .origin = Origin::kSetting});
+           Setting("navigator: for navigation.navigator route alone; waypoints: its corners are "
+                   "waypoints of a rover that looks for hazards itself"));
   v.Real("spacing_m", spacing_m,
-         {.doc = "use waypoints: a corner nearer than this to the one before, or to the goal, is "
+         Assumed("use waypoints: a corner nearer than this to the one before, or to the goal, is "
                  "no waypoint",
-          .min = 0.1,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .source = "about a vehicle length; nearer ones are one bend",
-          .study_low = 0.3,
-          .study_high = 2.0});
+                 "about a vehicle length; nearer ones are one bend", {0.1, 100.0}, {0.3, 2.0}));
   v.Real("passing_m", passing_m,
-         {.doc = "use waypoints: believed distance at which a corner is passed; it is too where it "
+         Assumed("use waypoints: believed distance at which a corner is passed; it is too where it "
                  "lies behind",
-          .min = 0.0,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .source = "half a vehicle length: a corner is a bend of a way, no place to be at",
-          .study_low = 0.1,
-          .study_high = 0.6});
+                 "half a vehicle length: a corner is a bend of a way, no place to be at",
+                 {0.0, 100.0}, {0.1, 0.6}));
 }
-
-using core::Origin;
 
 std::vector<messages::Goal> LocalSearchParams::Places(const messages::Goal& told) const {
   std::vector<messages::Goal> places;
@@ -53,56 +42,36 @@ std::vector<messages::Goal> LocalSearchParams::Places(const messages::Goal& told
 
 void LocalSearchParams::Visit(core::FieldVisitor& v) {
   v.Integer("squares", squares,
-            {.doc = "squares around the told place whose corners a rover drives to that has not "
+            Setting("squares around the told place whose corners a rover drives to that has not "
                     "found the rock there; 0: it ends its drive there",
-             .min = 0,
-             .max = 100,
-             .origin = Origin::kSetting});
+                    {0, 100}));
   v.Real("spacing_m", spacing_m,
-         {.doc = "half the side of the first square, and what each later one adds to it",
-          .min = 0.1,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .source = "about the width that the light stripe's array sweeps on either side (2 x 0.26 "
-                    "m); Matthies 1995 sec. 5 names a local search and describes none",
-          .study_low = 0.3,
-          .study_high = 1.0});
+         Assumed("half the side of the first square, and what each later one adds to it",
+                 "about the width that the light stripe's array sweeps on either side (2 x 0.26 "
+                 "m); Matthies 1995 sec. 5 names a local search and describes none",
+                 {0.1, 100.0}, {0.3, 1.0}));
 }
 
 void GoalRockParams::Visit(core::FieldVisitor& v) {
   v.Boolean("enabled", enabled,
-            {.doc = "a rock stands at the true goal, and the drive has reached its goal once the "
+            Setting("a rock stands at the true goal, and the drive has reached its goal once the "
                     "rover has found it: once a hazard is believed while the rock is within the "
-                    "array's reach, or the rover's body touches it",
-             .origin = Origin::kSetting});
-  v.Real("diameter_m", diameter_m,
-         {.doc = "diameter of that rock, which is round and has the field's profile",
-          .min = 0.02,
-          .max = 10.0,
-          .origin = Origin::kAssumed,
-          .source = "'a rock of any reasonable size' (Matthies 1995 sec. 5)",
-          .study_low = 0.15,
-          .study_high = 0.6});
+                    "array's reach, or the rover's body touches it"));
+  v.Real(
+      "diameter_m", diameter_m,
+      Assumed("diameter of that rock, which is round and has the field's profile",
+              "'a rock of any reasonable size' (Matthies 1995 sec. 5)", {0.02, 10.0}, {0.15, 0.6}));
   v.Real("height_m", height_m,
-         {.doc = "its height above the ground",
-          .min = 0.01,
-          .max = 10.0,
-          .origin = Origin::kAssumed,
-          .source = "'a rock of any reasonable size' (Matthies 1995 sec. 5), high enough for a "
-                    "hazard",
-          .study_low = 0.1,
-          .study_high = 0.4});
+         Assumed("its height above the ground",
+                 "'a rock of any reasonable size' (Matthies 1995 sec. 5), high enough for a hazard",
+                 {0.01, 10.0}, {0.1, 0.4}));
   v.Real("recognition_m", recognition_m,
-         {.doc = "distance from the rover's front to the rock's outline within which the rover "
+         Setting("distance from the rover's front to the rock's outline within which the rover "
                  "recognizes it and drives to where it sees it, measured as course.tracking says "
                  "(0: never); Matthies 1995 sec. 8: 'about a vehicle length', 0.6 m",
-          .min = 0.0,
-          .max = 20.0,
-          .origin = Origin::kSetting});
+                 {0.0, 20.0}));
   v.Group("search", search, "what the rover does where it was told and finds no rock");
 }
-
-using core::Origin;
 
 std::vector<messages::Goal> WaypointParams::Places() const {
   std::vector<messages::Goal> places;
@@ -114,13 +83,9 @@ std::vector<messages::Goal> WaypointParams::Places() const {
 
 void WaypointParams::Visit(core::FieldVisitor& v) {
   v.Reals("x_m", x_m,
-          {.doc = "x of every waypoint, in the order of driving; none leads straight to the goal",
-           .min = -1000.0,
-           .max = 1000.0,
-           .origin = Origin::kSetting});
-  v.Reals(
-      "y_m", y_m,
-      {.doc = "y of every waypoint", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
+          Setting("x of every waypoint, in the order of driving; none leads straight to the goal",
+                  {-1000.0, 1000.0}));
+  v.Reals("y_m", y_m, Setting("y of every waypoint", {-1000.0, 1000.0}));
   v.Require("x_m", x_m.size() == y_m.size(), "names another number of waypoints than y_m",
             "give every waypoint one entry of each list");
 }
@@ -145,8 +110,6 @@ bool HasLegs(const CourseParams& course) {
 }
 
 }  // namespace
-
-using core::Origin;
 
 std::vector<messages::Goal> CourseParams::Goals() const {
   std::vector<messages::Goal> goals = waypoints.Places();
@@ -182,51 +145,31 @@ double CourseParams::DesignationRange_m(const messages::Goal& place) const {
 }
 
 void CourseParams::Visit(core::FieldVisitor& v) {
-  v.Real("start_x_m", start_x_m,
-         {.doc = "start position", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
-  v.Real("start_y_m", start_y_m,
-         {.doc = "start position", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
+  v.Real("start_x_m", start_x_m, Setting("start position", {-1000.0, 1000.0}));
+  v.Real("start_y_m", start_y_m, Setting("start position", {-1000.0, 1000.0}));
   v.Angle("start_heading_deg", start_heading_rad,
-          {.doc = "start heading, from +x towards +y",
-           .min = -180.0,
-           .max = 180.0,
-           .origin = Origin::kSetting});
-  v.Real("goal_x_m", goal_x_m,
-         {.doc = "goal position",
-          .min = -1000.0,
-          .max = 1000.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 7: 7.6 m from the start"});
-  v.Real("goal_y_m", goal_y_m,
-         {.doc = "goal position", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
+          Setting("start heading, from +x towards +y", {-180.0, 180.0}));
+  v.Real(
+      "goal_x_m", goal_x_m,
+      Published("goal position", "Matthies 1995 sec. 7: 7.6 m from the start", {-1000.0, 1000.0}));
+  v.Real("goal_y_m", goal_y_m, Setting("goal position", {-1000.0, 1000.0}));
   v.Real("goal_radius_m", goal_radius_m,
-         {.doc = "true distance to the goal within which a declared arrival is true: about one "
+         Assumed("true distance to the goal within which a declared arrival is true: about one "
                  "vehicle length, from where the rover recognises its target",
-          .min = 0.01,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .source = "about one vehicle length, from where the rover recognises prominent rocks "
-                    "(Matthies 1995 sec. 8)",
-          .study_low = 0.3,
-          .study_high = 1.5});
-  v.Real("target_speed_m_s", target_speed_m_s,
-         {.doc = "speed at which the goal itself moves, from the start of the trial on, whatever "
-                 "stands in its way; a rover that does not track it (tracking) is told where it "
-                 "began",
-          .min = 0.0,
-          .max = 1.0,
-          .origin = Origin::kSetting});
+                 "about one vehicle length, from where the rover recognises prominent rocks "
+                 "(Matthies 1995 sec. 8)",
+                 {0.01, 100.0}, {0.3, 1.5}));
+  v.Real(
+      "target_speed_m_s", target_speed_m_s,
+      Setting("speed at which the goal itself moves, from the start of the trial on, whatever "
+              "stands in its way; a rover that does not track it (tracking) is told where it began",
+              {0.0, 1.0}));
   v.Angle("target_heading_deg", target_heading_rad,
-          {.doc = "heading in which it moves, from +x towards +y",
-           .min = -180.0,
-           .max = 180.0,
-           .origin = Origin::kSetting});
+          Setting("heading in which it moves, from +x towards +y", {-180.0, 180.0}));
   v.Integer("trials_per_layout", trials_per_layout,
-            {.doc = "consecutive trials that meet the same rock field; the paper does not say "
+            Setting("consecutive trials that meet the same rock field; the paper does not say "
                     "whether the runs of a set did",
-             .min = 1,
-             .max = 1e6,
-             .origin = Origin::kSetting});
+                    {1, 1e6}));
   v.Group("waypoints", waypoints, "where the rover drives to before the goal");
   v.Group("designation", designation, "the goal and the waypoints that the rover is told");
   v.Group("tracking", tracking, "a sensor that follows the goal, where it is seen");

@@ -5,6 +5,8 @@
 namespace rockyard::trial {
 namespace {
 
+using core::Setting;
+
 // The groups of light_stripe and stereo are of those kinds.
 constexpr std::array<std::string_view, 6> kOtherGroups{"sun",      "look",    "gyro",
                                                        "encoders", "tracker", "vehicle"};
@@ -16,8 +18,7 @@ TerrainSensorSet::TerrainSensorSet()
                .key = "terrain_sensor",
                .one = "a terrain sensor",
                .others = kOtherGroups,
-               .choice = {.doc = "what the rover looks at the terrain with; the groups of other "
-                                 "sensors do nothing",
-                          .origin = core::Origin::kSetting}}) {}
+               .choice = Setting("what the rover looks at the terrain with; the groups of other "
+                                 "sensors do nothing")}) {}
 
 }  // namespace rockyard::trial

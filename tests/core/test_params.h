@@ -47,29 +47,22 @@ struct rockyard::core::EnumNames<rockyard::core::Colour> {
 namespace rockyard::core {
 
 inline void InnerParams::Visit(FieldVisitor& v) {
-  v.Real("low_m", low_m, {.doc = "lower end", .min = 0.0, .max = 10.0});
-  v.Real("high_m", high_m, {.doc = "upper end", .min = 0.0, .max = 10.0});
-  v.Choice("colour", colour, {.doc = "paint", .origin = Origin::kSetting});
+  v.Real("low_m", low_m, Assumed("lower end", {}, {0.0, 10.0}));
+  v.Real("high_m", high_m, Assumed("upper end", {}, {0.0, 10.0}));
+  v.Choice("colour", colour, Setting("paint"));
   v.Require("high_m", low_m <= high_m, "is below low_m", "use a larger high_m");
 }
 
 inline void TestParams::Visit(FieldVisitor& v) {
-  v.Real("radius_m", radius_m,
-         {.doc = "radius",
-          .min = 0.01,
-          .max = 2.0,
-          .origin = Origin::kPublished,
-          .source = "Author 1995 sec. 1",
-          .study_low = 0.4,
-          .study_high = 0.6});
-  v.Angle("heading_deg", heading_rad, {.doc = "heading", .min = -180.0, .max = 180.0});
-  v.Integer("count", count, {.doc = "how many", .min = 0, .max = 1000});
-  v.Boolean("enabled", enabled, {.doc = "whether"});
-  v.Text("label", label, {.doc = "name"});
-  v.Reals("weights", weights, {.doc = "weights", .min = 0.0, .max = 100.0});
-  v.FixedReals("axes_m", axes_m, {.doc = "axes", .min = 0.0, .max = 1.0});
-  v.Integers("stripes", stripes, {.doc = "stripes", .min = 0, .max = 4});
-  v.Real("unbounded", unbounded, {.doc = "any finite number"});
+  v.Real("radius_m", radius_m, Published("radius", "Author 1995 sec. 1", {0.01, 2.0}, {0.4, 0.6}));
+  v.Angle("heading_deg", heading_rad, Assumed("heading", {}, {-180.0, 180.0}));
+  v.Integer("count", count, Assumed("how many", {}, {0, 1000}));
+  v.Boolean("enabled", enabled, Assumed("whether", {}));
+  v.Text("label", label, Assumed("name", {}));
+  v.Reals("weights", weights, Assumed("weights", {}, {0.0, 100.0}));
+  v.FixedReals("axes_m", axes_m, Assumed("axes", {}, {0.0, 1.0}));
+  v.Integers("stripes", stripes, Assumed("stripes", {}, {0, 4}));
+  v.Real("unbounded", unbounded, Assumed("any finite number", {}));
   v.Group("inner", inner, "a nested group");
 }
 

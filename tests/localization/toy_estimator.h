@@ -17,7 +17,7 @@ struct ToyParams {
   double variance_m = 0.01;  // m2 a metre
 
   void Visit(core::FieldVisitor& v) {
-    v.Real("variance_m", variance_m, {.doc = "variance that a metre adds, m2", .min = 0, .max = 1});
+    v.Real("variance_m", variance_m, core::Assumed("variance that a metre adds, m2", {}, {0, 1}));
   }
 };
 

@@ -15,6 +15,8 @@
 namespace rockyard::navigation {
 namespace {
 
+using core::Assumed;
+
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -23,8 +25,8 @@ struct ToyParams {
   double tolerance_m = 0.2;
 
   void Visit(core::FieldVisitor& v) {
-    v.Real("patience_s", patience_s, {.doc = "until it gives up", .min = 0, .max = 10});
-    v.Real("tolerance_m", tolerance_m, {.doc = "at the goal", .min = 0, .max = 1});
+    v.Real("patience_s", patience_s, Assumed("until it gives up", {}, {0, 10}));
+    v.Real("tolerance_m", tolerance_m, Assumed("at the goal", {}, {0, 1}));
   }
 };
 

@@ -15,6 +15,8 @@
 namespace rockyard::trial {
 namespace {
 
+using core::Assumed;
+
 using navigation::CostOfJudgement;
 using navigation::CostOfLook;
 using navigation::CostOfMap;
@@ -39,7 +41,7 @@ struct ToyParams {
   std::shared_ptr<Seen> seen = std::make_shared<Seen>();
 
   void Visit(core::FieldVisitor& v) {
-    v.Integer("looks", looks, {.doc = "before it gives up", .min = 0, .max = 100});
+    v.Integer("looks", looks, Assumed("before it gives up", {}, {0, 100}));
   }
 };
 

@@ -24,8 +24,8 @@ struct ToySensorParams {
       std::make_shared<std::vector<math::Transform>>();
 
   void Visit(core::FieldVisitor& v) {
-    v.Real("imaging_s", imaging_s, {.doc = "time for images", .min = 0, .max = 100});
-    v.Real("computing_s", computing_s, {.doc = "time to compute", .min = 0, .max = 100});
+    v.Real("imaging_s", imaging_s, core::Assumed("time for images", {}, {0, 100}));
+    v.Real("computing_s", computing_s, core::Assumed("time to compute", {}, {0, 100}));
   }
 };
 

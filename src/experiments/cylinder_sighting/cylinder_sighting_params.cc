@@ -7,56 +7,39 @@
 namespace rockyard::experiments {
 namespace {
 
-using core::Origin;
+using core::Published;
+using core::Setting;
 
 void VisitCells(CylinderSightingParams& p, core::FieldVisitor& v) {
-  v.Reals("distances_m", p.distances_m,
-          {.doc = "from the cameras' centre of rotation along the ground to the cylinder's axis",
-           .min = 0.5,
-           .max = 25.0,
-           .origin = Origin::kPublished,
-           .source = "Matthies 1995 sec. 5: 0.914, 1.829, 4.572 and 10.058 m, and 15 m"});
+  v.Reals(
+      "distances_m", p.distances_m,
+      Published("from the cameras' centre of rotation along the ground to the cylinder's axis",
+                "Matthies 1995 sec. 5: 0.914, 1.829, 4.572 and 10.058 m, and 15 m", {0.5, 25.0}));
   v.Reals("orientations_deg", p.orientations_deg,
-          {.doc = "theta of app. A.1; an empty list: each view has one of its own, of all alike",
-           .min = -360.0,
-           .max = 360.0,
-           .origin = Origin::kSetting});
+          Setting("theta of app. A.1; an empty list: each view has one of its own, of all alike",
+                  {-360.0, 360.0}));
   v.Reals("sun_elevations_deg", p.sun_elevations_deg,
-          {.doc = "values of picture.light.elevation_deg",
-           .min = 1.0,
-           .max = 90.0,
-           .origin = Origin::kSetting});
+          Setting("values of picture.light.elevation_deg", {1.0, 90.0}));
   v.Reals("clutter_levels", p.clutter_levels,
-          {.doc = "factors of picture.clutter.rocks and hardware",
-           .min = 0.0,
-           .max = 10.0,
-           .origin = Origin::kSetting});
+          Setting("factors of picture.clutter.rocks and hardware", {0.0, 10.0}));
   v.Reals("third_colours", p.third_colours,
-          {.doc = "the quadrant opposite to blue: 0 orange, 1 green",
-           .min = 0.0,
-           .max = 1.0,
-           .origin = Origin::kSetting});
+          Setting("the quadrant opposite to blue: 0 orange, 1 green", {0.0, 1.0}));
 }
 
 void VisitDraws(CylinderSightingParams& p, core::FieldVisitor& v) {
   v.Boolean("any_sun_azimuth", p.any_sun_azimuth,
-            {.doc = "each view has a sun's azimuth of its own, of all alike, in place of "
-                    "picture.light.azimuth_deg",
-             .origin = Origin::kSetting});
-  v.Angle("largest_bearing_deg", p.largest_bearing_rad,
-          {.doc = "the cylinder stands to the left or right of the line of sight by up to this, "
-                  "uniformly",
-           .min = 0.0,
-           .max = 60.0,
-           .origin = Origin::kSetting});
-  v.Real("distance_spread", p.distance_spread,
-         {.doc = "distances are drawn uniformly within this share of that of the cell",
-          .min = 0.0,
-          .max = 0.5,
-          .origin = Origin::kSetting});
+            Setting("each view has a sun's azimuth of its own, of all alike, in place of "
+                    "picture.light.azimuth_deg"));
+  v.Angle(
+      "largest_bearing_deg", p.largest_bearing_rad,
+      Setting(
+          "the cylinder stands to the left or right of the line of sight by up to this, uniformly",
+          {0.0, 60.0}));
+  v.Real(
+      "distance_spread", p.distance_spread,
+      Setting("distances are drawn uniformly within this share of that of the cell", {0.0, 0.5}));
   v.Boolean("present", p.present,
-            {.doc = "the cylinder is there; without it every finding is wrong",
-             .origin = Origin::kSetting});
+            Setting("the cylinder is there; without it every finding is wrong"));
 }
 
 }  // namespace
@@ -75,17 +58,13 @@ std::vector<CellFactor> CylinderSightingParams::Factors() const {
 
 void CylinderSightingParams::Visit(core::FieldVisitor& v) {
   v.Integer("views_per_run", views_per_run,
-            {.doc = "views of one run, all of one cell, each with surroundings of its own; run i "
+            Setting("views of one run, all of one cell, each with surroundings of its own; run i "
                     "belongs to cell i modulo their number",
-             .min = 1,
-             .max = 100000,
-             .origin = Origin::kSetting});
+                    {1, 100000}));
   v.Integer("measurements_per_view", measurements_per_view,
-            {.doc = "pairs of images of one view, which differ in their noise",
-             .min = 1,
-             .max = 10000,
-             .origin = Origin::kPublished,
-             .source = "Matthies 1995 sec. 5: ten measurements at each position and orientation"});
+            Published("pairs of images of one view, which differ in their noise",
+                      "Matthies 1995 sec. 5: ten measurements at each position and orientation",
+                      {1, 10000}));
   VisitCells(*this, v);
   VisitDraws(*this, v);
   v.Group("picture", picture, "what the cameras see");

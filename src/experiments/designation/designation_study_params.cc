@@ -5,43 +5,28 @@
 
 namespace rockyard::experiments {
 
-using core::Origin;
+using core::Published;
+using core::Setting;
 
 void DesignationStudyParams::Visit(core::FieldVisitor& v) {
   v.Integer("designations_per_run", designations_per_run,
-            {.doc = "goals that are designated in one run, all at one range; run i belongs to cell "
+            Setting("goals that are designated in one run, all at one range; run i belongs to cell "
                     "i modulo their number",
-             .min = 1,
-             .max = 1000000,
-             .origin = Origin::kSetting});
-  v.Reals("ranges_m", ranges_m,
-          {.doc = "true ranges of the goals along the ground, from the lander's mast",
-           .min = 0.1,
-           .max = 10000.0,
-           .origin = Origin::kSetting});
+                    {1, 1000000}));
+  v.Reals(
+      "ranges_m", ranges_m,
+      Setting("true ranges of the goals along the ground, from the lander's mast", {0.1, 10000.0}));
   v.Integer("image_side_px", image_side_px,
-            {.doc = "columns and rows of the lander's images",
-             .min = 16,
-             .max = 16384,
-             .origin = Origin::kPublished,
-             .source = "Matthies 1995 sec. 2.1.1: 256 by 256 pixels"});
+            Published("columns and rows of the lander's images",
+                      "Matthies 1995 sec. 2.1.1: 256 by 256 pixels", {16, 16384}));
   v.Real("mast_height_m", mast_height_m,
-         {.doc = "height of the lander's cameras above the ground that the goals lie on",
-          .min = 0.0,
-          .max = 100.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 2.1.1: about 1.5 m above the ground"});
+         Published("height of the lander's cameras above the ground that the goals lie on",
+                   "Matthies 1995 sec. 2.1.1: about 1.5 m above the ground", {0.0, 100.0}));
   v.Real("goal_height_m", goal_height_m,
-         {.doc = "height of the designated point above that ground",
-          .min = -100.0,
-          .max = 100.0,
-          .origin = Origin::kSetting});
+         Setting("height of the designated point above that ground", {-100.0, 100.0}));
   v.Real("near_enough_m", near_enough_m,
-         {.doc = "goals that are told nearer than this to where they lie are counted",
-          .min = 0.001,
-          .max = 1000.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 4: half of the vehicle's width of 48 cm"});
+         Published("goals that are told nearer than this to where they lie are counted",
+                   "Matthies 1995 sec. 4: half of the vehicle's width of 48 cm", {0.001, 1000.0}));
   v.Require("ranges_m", !ranges_m.empty(), "is empty", "list at least one range, e.g. 10");
   v.Require("ranges_m", Cells() <= kMaxCells, "names more than 2000 cells", "shorten the list");
 }

@@ -14,10 +14,12 @@
 namespace rockyard::experiments {
 namespace {
 
+using core::Assumed;
 using core::FieldInfo;
-using core::Origin;
-
 using core::kMatthiesSection6;
+using core::Published;
+using core::Setting;
+
 // Nearer emitters are looked at by the camera of the other side (sensing/stripe_layout_params.h).
 constexpr double kMinBaseline_m = 0.05;
 constexpr double kLeastHeight_m = 0.001;  // far below what any sensor tells from the ground
@@ -40,44 +42,28 @@ void VisitList(core::FieldVisitor& v, std::string_view name, std::vector<double>
 
 void VisitRocks(HazardDetectionParams& p, core::FieldVisitor& v) {
   v.Choice("proportions", p.proportions,
-           {.doc = "listed: every height with every diameter; natural: the diameter follows from "
-                   "the height by terrain.rocks' ratios, diameters_m is not used",
-            .origin = Origin::kSetting});
+           Setting("listed: every height with every diameter; natural: the diameter follows from "
+                   "the height by terrain.rocks' ratios, diameters_m is not used"));
   VisitList(v, "heights_m", p.heights_m,
-            {.doc = "heights of the rock above the ground; 0 is no rock",
-             .min = 0.0,
-             .max = 2.0,
-             .origin = Origin::kSetting});
+            Setting("heights of the rock above the ground; 0 is no rock", {0.0, 2.0}));
   v.Require("heights_m", AreNoneOrAtLeast(p.heights_m, kLeastHeight_m),
             fmt::format("has a height between 0 and {} m", kLeastHeight_m),
             fmt::format("use 0 for no rock, or at least {}", kLeastHeight_m));
   VisitList(v, "diameters_m", p.diameters_m,
-            {.doc = "largest horizontal diameters of the rock",
-             .min = 0.01,
-             .max = 5.0,
-             .origin = Origin::kSetting});
+            Setting("largest horizontal diameters of the rock", {0.01, 5.0}));
   VisitList(v, "lateral_offsets_m", p.lateral_offsets_m,
-            {.doc = "middle of the rock beside the rover's course, to the left or to the right",
-             .min = 0.0,
-             .max = 5.0,
-             .origin = Origin::kSetting});
+            Setting("middle of the rock beside the rover's course, to the left or to the right",
+                    {0.0, 5.0}));
   VisitList(v, "distances_m", p.distances_m,
-            {.doc = "from the rover's front to the nearest end of the rock; study detection",
-             .min = -10.0,
-             .max = 10.0,
-             .origin = Origin::kSetting});
+            Setting("from the rover's front to the nearest end of the rock; study detection",
+                    {-10.0, 10.0}));
   v.Real("lateral_width_m", p.lateral_width_m,
-         {.doc = "width of a cell of offsets: the offset is uniform within half of it on each side",
-          .min = 0.0,
-          .max = 5.0,
-          .origin = Origin::kSetting});
-  v.Real("distance_width_m", p.distance_width_m,
-         {.doc = "the same for distances", .min = 0.0, .max = 5.0, .origin = Origin::kSetting});
+         Setting("width of a cell of offsets: the offset is uniform within half of it on each side",
+                 {0.0, 5.0}));
+  v.Real("distance_width_m", p.distance_width_m, Setting("the same for distances", {0.0, 5.0}));
   v.Angle("heading_jitter_deg", p.heading_jitter_rad,
-          {.doc = "the rover's heading is uniform within this on each side of its course",
-           .min = 0.0,
-           .max = 90.0,
-           .origin = Origin::kSetting});
+          Setting("the rover's heading is uniform within this on each side of its course",
+                  {0.0, 90.0}));
   v.Require("distances_m", AtLeast(p.distances_m, 0.5 * p.distance_width_m),
             "puts a rock inside the rover: a cell reaches behind the rover's front",
             "use distances of at least half of distance_width_m");
@@ -85,19 +71,11 @@ void VisitRocks(HazardDetectionParams& p, core::FieldVisitor& v) {
 
 void VisitApproach(HazardDetectionParams& p, core::FieldVisitor& v) {
   v.Real("scan_interval_m", p.scan_interval_m,
-         {.doc = "distance driven between scans, at a random phase",
-          .min = 0.001,
-          .max = 10.0,
-          .origin = Origin::kPublished,
-          .source = kMatthiesSection6});
+         Published("distance driven between scans, at a random phase", kMatthiesSection6,
+                   {0.001, 10.0}));
   v.Real("first_scan_m", p.first_scan_m,
-         {.doc = "scans start this far before a rock",
-          .min = 0.0,
-          .max = 10.0,
-          .origin = Origin::kAssumed,
-          .source = "beyond the farthest row at 0.3 m",
-          .study_low = 0.35,
-          .study_high = 0.6});
+         Assumed("scans start this far before a rock", "beyond the farthest row at 0.3 m",
+                 {0.0, 10.0}, {0.35, 0.6}));
   v.Require("first_scan_m", p.first_scan_m >= p.scan_interval_m,
             "is shorter than scan_interval_m, so that some drives hold no scan",
             "start at least one interval before the rock");
@@ -105,66 +83,41 @@ void VisitApproach(HazardDetectionParams& p, core::FieldVisitor& v) {
 
 void VisitAlarms(HazardDetectionParams& p, core::FieldVisitor& v) {
   v.Reals("wrong_place_probabilities", p.wrong_place_probabilities,
-          {.doc = "values of sensors.light_stripe.wrong_place_probability, geometric level only; "
+          Setting("values of sensors.light_stripe.wrong_place_probability, geometric level only; "
                   "empty: the sensor's own; study false_alarm",
-           .min = 0.0,
-           .max = 1.0,
-           .origin = Origin::kSetting});
+                  {0.0, 1.0}));
   v.Reals("outlier_persistences", p.outlier_persistences,
-          {.doc = "values of sensors.light_stripe.outlier_persistence, geometric level only; "
+          Setting("values of sensors.light_stripe.outlier_persistence, geometric level only; "
                   "empty: the sensor's own",
-           .min = 0.0,
-           .max = 0.99,
-           .origin = Origin::kSetting});
+                  {0.0, 0.99}));
   v.Reals("sun_elevations_deg", p.sun_elevations_deg,
-          {.doc = "elevations of the sun, image level only; empty: the sensor's own",
-           .min = 0.0,
-           .max = 90.0,
-           .origin = Origin::kSetting});
+          Setting("elevations of the sun, image level only; empty: the sensor's own", {0.0, 90.0}));
   v.Reals("laser_powers_w", p.laser_powers_w,
-          {.doc = "electrical inputs of a laser, image level only; empty: the sensor's own",
-           .min = 1e-6,
-           .max = 100.0,
-           .origin = Origin::kSetting});
+          Setting("electrical inputs of a laser, image level only; empty: the sensor's own",
+                  {1e-6, 100.0}));
 }
 
 void VisitFields(HazardDetectionParams& p, core::FieldVisitor& v) {
   VisitList(v, "rock_k_per_m2", p.rock_k_per_m2,
-            {.doc = "values of terrain.rocks.k_per_m2; study missed",
-             .min = 0.0,
-             .max = 0.1,
-             .origin = Origin::kSetting});
-  v.Real("hazard_height_m", p.hazard_height_m,
-         {.doc = "a rock in the way is a hazard from this height",
-          .min = 0.001,
-          .max = 10.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 6: the undercarriage is 13 cm off the ground"});
+            Setting("values of terrain.rocks.k_per_m2; study missed", {0.0, 0.1}));
+  v.Real(
+      "hazard_height_m", p.hazard_height_m,
+      Published("a rock in the way is a hazard from this height",
+                "Matthies 1995 sec. 6: the undercarriage is 13 cm off the ground", {0.001, 10.0}));
 }
 
 void VisitPlanes(HazardDetectionParams& p, core::FieldVisitor& v) {
-  VisitList(v, "baselines_m", p.baselines_m,
-            {.doc = "camera-to-emitter baselines to which the emitters are moved; study precision",
-             .min = kMinBaseline_m,
-             .max = 1.0,
-             .origin = Origin::kPublished,
-             .source = "Matthies 1995 table 3: 5 to 10 cm; cameras 12 cm apart"});
+  VisitList(
+      v, "baselines_m", p.baselines_m,
+      Published("camera-to-emitter baselines to which the emitters are moved; study precision",
+                "Matthies 1995 table 3: 5 to 10 cm; cameras 12 cm apart", {kMinBaseline_m, 1.0}));
   VisitList(v, "plane_heights_m", p.plane_heights_m,
-            {.doc = "heights of the plane against the wheels",
-             .min = -5.0,
-             .max = 5.0,
-             .origin = Origin::kSetting});
-  VisitList(v, "rows", p.rows,
-            {.doc = "rows of the array, 0 is the nearest",
-             .min = 0.0,
-             .max = 6.0,
-             .origin = Origin::kSetting});
+            Setting("heights of the plane against the wheels", {-5.0, 5.0}));
+  VisitList(v, "rows", p.rows, Setting("rows of the array, 0 is the nearest", {0.0, 6.0}));
   v.Real("plane_width_m", p.plane_width_m,
-         {.doc = "the height is uniform within half of this on each side: without it a plane meets "
+         Setting("the height is uniform within half of this on each side: without it a plane meets "
                  "one part of a pixel only",
-          .min = 0.0,
-          .max = 1.0,
-          .origin = Origin::kSetting});
+                 {0.0, 1.0}));
 }
 
 // A list that takes the place of terrain.rocks.k_per_m2 keeps the condition of that field.
@@ -271,13 +224,12 @@ std::vector<CellFactor> HazardDetectionParams::Factors() const {
 }
 
 void HazardDetectionParams::Visit(core::FieldVisitor& v) {
-  v.Choice("study", study, {.doc = "what is measured", .origin = Origin::kSetting});
-  v.Integer("scenes_per_run", scenes_per_run,
-            {.doc = "independent scenes of one cell in one run; run i belongs to cell i modulo "
-                    "their number",
-             .min = 1,
-             .max = 100000,
-             .origin = Origin::kSetting});
+  v.Choice("study", study, Setting("what is measured"));
+  v.Integer(
+      "scenes_per_run", scenes_per_run,
+      Setting(
+          "independent scenes of one cell in one run; run i belongs to cell i modulo their number",
+          {1, 100000}));
   VisitRocks(*this, v);
   VisitApproach(*this, v);
   VisitAlarms(*this, v);

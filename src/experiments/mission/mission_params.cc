@@ -7,7 +7,9 @@
 
 namespace rockyard::experiments {
 
-using core::Origin;
+using core::Assumed;
+using core::Published;
+using core::Setting;
 
 std::vector<messages::Goal> MissionGoalsParams::Places() const {
   std::vector<messages::Goal> places;
@@ -19,26 +21,15 @@ std::vector<messages::Goal> MissionGoalsParams::Places() const {
 
 void MissionGoalsParams::Visit(core::FieldVisitor& v) {
   v.Reals("x_m", x_m,
-          {.doc = "true places of the goal rocks in the world frame, in the order in which they "
+          Setting("true places of the goal rocks in the world frame, in the order in which they "
                   "are visited",
-           .min = -1000.0,
-           .max = 1000.0,
-           .origin = Origin::kSetting});
-  v.Reals("y_m", y_m,
-          {.doc = "the same, one for each x_m",
-           .min = -1000.0,
-           .max = 1000.0,
-           .origin = Origin::kSetting});
+                  {-1000.0, 1000.0}));
+  v.Reals("y_m", y_m, Setting("the same, one for each x_m", {-1000.0, 1000.0}));
   v.Integer("attempts", attempts,
-            {.doc = "sols that end at a goal without its having been reached, or before it by a "
-                    "stop of the rover, after which operators go on to the next one; sols that "
-                    "run out of time or energy do not count",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kAssumed,
-             .source = "the paper does not say how often a goal is tried again",
-             .study_low = 1,
-             .study_high = 10});
+            Assumed("sols that end at a goal without its having been reached, or before it by a "
+                    "stop of the rover, after which operators go on to the next one; sols that run "
+                    "out of time or energy do not count",
+                    "the paper does not say how often a goal is tried again", {1, 1000}, {1, 10}));
   v.Require("x_m", !x_m.empty() && x_m.size() == y_m.size(),
             "is empty, or has another number of entries than y_m",
             "list x and y of every goal, one at least");
@@ -49,183 +40,95 @@ double MissionDayParams::RoverBits() const {
 }
 
 void MissionDayParams::Visit(core::FieldVisitor& v) {
-  v.Real(
-      "window_h", window_h,
-      {.doc = "hours (of 3600 s) in which the rover may drive, centred on local noon",
-       .min = 0.01,
-       .max = 12.0,
-       .origin = Origin::kPublished,
-       .source = "Matthies 1995 sec. 2.1.2: approximately four hours a day, centred around noon"});
+  v.Real("window_h", window_h,
+         Published("hours (of 3600 s) in which the rover may drive, centred on local noon",
+                   "Matthies 1995 sec. 2.1.2: approximately four hours a day, centred around noon",
+                   {0.01, 12.0}));
   v.Real("latency_min", latency_min,
-         {.doc = "one-way light time to the Earth",
-          .min = 0.0,
-          .max = 60.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 2.1.1"});
+         Published("one-way light time to the Earth", "Matthies 1995 sec. 2.1.1", {0.0, 60.0}));
   v.Real("downlink_bit_s", downlink_bit_s,
-         {.doc = "rate from the lander to the Earth",
-          .min = 1.0,
-          .max = 1e9,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 2.1.1"});
-  v.Real("downlink_h", downlink_h,
-         {.doc = "hours of it a sol",
-          .min = 0.01,
-          .max = 24.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 2.1.1: roughly 2 to 3 hours; the middle",
-          .study_low = 2.0,
-          .study_high = 3.0});
+         Published("rate from the lander to the Earth", "Matthies 1995 sec. 2.1.1", {1.0, 1e9}));
+  v.Real(
+      "downlink_h", downlink_h,
+      Published("hours of it a sol", "Matthies 1995 sec. 2.1.1: roughly 2 to 3 hours; the middle",
+                {0.01, 24.0}, {2.0, 3.0}));
   v.Real("planning_h", planning_h,
-         {.doc = "hours that operators take from the last image to the command",
-          .min = 0.0,
-          .max = 1000.0,
-          .origin = Origin::kAssumed,
-          .source = "a night shift; the paper says once a day only",
-          .study_low = 4.0,
-          .study_high = 24.0});
+         Assumed("hours that operators take from the last image to the command",
+                 "a night shift; the paper says once a day only", {0.0, 1000.0}, {4.0, 24.0}));
   v.Real("lander_image_bits", lander_image_bits,
-         {.doc = "bits of one image of the lander's cameras, before compression",
-          .min = 0.0,
-          .max = 1e9,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 2.1.1: 256 x 256 pixels; 8 bits each assumed"});
+         Published("bits of one image of the lander's cameras, before compression",
+                   "Matthies 1995 sec. 2.1.1: 256 x 256 pixels; 8 bits each assumed", {0.0, 1e9}));
   v.Integer("lander_images", lander_images,
-            {.doc = "images of the lander that a command needs: the pair that shows the rover, and "
+            Assumed("images of the lander that a command needs: the pair that shows the rover, and "
                     "a pair towards the next goal",
-             .min = 0,
-             .max = 10000,
-             .origin = Origin::kAssumed,
-             .source = "sec. 2.1.2: a stereo pair of the rover at the end of each day; pairs in "
-                       "which waypoints are designated",
-             .study_low = 2,
-             .study_high = 16});
+                    "sec. 2.1.2: a stereo pair of the rover at the end of each day; pairs in which "
+                    "waypoints are designated",
+                    {0, 10000}, {2, 16}));
   v.Real("rover_image_bits", rover_image_bits,
-         {.doc = "bits of one image of the rover, before compression",
-          .min = 0.0,
-          .max = 1e9,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 table 3: 768 x 484 pixels; 8 bits each assumed"});
+         Published("bits of one image of the rover, before compression",
+                   "Matthies 1995 table 3: 768 x 484 pixels; 8 bits each assumed", {0.0, 1e9}));
   v.Integer("rover_images", rover_images,
-            {.doc = "images of the rover that a command needs",
-             .min = 0,
-             .max = 10000,
-             .origin = Origin::kAssumed,
-             .source = "what stands before the rover; the paper does not tell",
-             .study_low = 0,
-             .study_high = 3});
+            Assumed("images of the rover that a command needs",
+                    "what stands before the rover; the paper does not tell", {0, 10000}, {0, 3}));
   v.Real("telemetry_bits", telemetry_bits,
-         {.doc = "what else the rover says of a sol",
-          .min = 0.0,
-          .max = 1e9,
-          .origin = Origin::kAssumed,
-          .source = "some 600 scans of 20 elevations at 16 bits",
-          .study_low = 2e4,
-          .study_high = 2e6});
+         Assumed("what else the rover says of a sol", "some 600 scans of 20 elevations at 16 bits",
+                 {0.0, 1e9}, {2e4, 2e6}));
   v.Real("compression", compression,
-         {.doc = "how many times smaller images become",
-          .min = 1.0,
-          .max = 1000.0,
-          .origin = Origin::kAssumed,
-          .source = "the paper speaks of none",
-          .study_low = 1.0,
-          .study_high = 6.0});
+         Assumed("how many times smaller images become", "the paper speaks of none", {1.0, 1000.0},
+                 {1.0, 6.0}));
   v.Real("radio_bit_s", radio_bit_s,
-         {.doc = "rate from the rover to the lander",
-          .min = 1.0,
-          .max = 1e9,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 2.1.2: 2000 bits/second"});
+         Published("rate from the rover to the lander",
+                   "Matthies 1995 sec. 2.1.2: 2000 bits/second", {1.0, 1e9}));
 }
 
 void MissionPowerParams::Visit(core::FieldVisitor& v) {
   v.Real("noon_W", noon_W,
-         {.doc = "power of the solar cells at noon of the first sol; over the day it follows the "
-                 "sun's arc of the site and season of sensors.aids.sun",
-          .min = 0.0,
-          .max = 1e4,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 2.1.2: a peak output of 16 W at noon"});
+         Published("power of the solar cells at noon of the first sol; over the day it follows the "
+                   "sun's arc of the site and season of sensors.aids.sun",
+                   "Matthies 1995 sec. 2.1.2: a peak output of 16 W at noon", {0.0, 1e4}));
   v.Real("dust_loss_per_sol", dust_loss_per_sol,
-         {.doc = "share of that power that dust takes from one sol to the next",
-          .min = 0.0,
-          .max = 0.5,
-          .origin = Origin::kAssumed,
-          .source = "0.28 % a sol, as later measured on Sojourner (Landis and Jenkins 2000)",
-          .study_low = 0.0,
-          .study_high = 0.01});
+         Assumed("share of that power that dust takes from one sol to the next",
+                 "0.28 % a sol, as later measured on Sojourner (Landis and Jenkins 2000)",
+                 {0.0, 0.5}, {0.0, 0.01}));
   v.Real("battery_wh", battery_wh,
-         {.doc = "energy of the batteries at the start, which nothing recharges",
-          .min = 0.0,
-          .max = 1e5,
-          .origin = Origin::kAssumed,
-          .source = "the paper calls them non-rechargeable and gives no capacity; about that of "
-                    "Sojourner's lithium cells",
-          .study_low = 50.0,
-          .study_high = 300.0});
+         Assumed("energy of the batteries at the start, which nothing recharges",
+                 "the paper calls them non-rechargeable and gives no capacity; about that of "
+                 "Sojourner's lithium cells",
+                 {0.0, 1e5}, {50.0, 300.0}));
   v.Real("modem_W", modem_W,
-         {.doc = "the modem while it transmits, beside idle_W",
-          .min = 0.0,
-          .max = 1e4,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 table 1"});
+         Published("the modem while it transmits, beside idle_W", "Matthies 1995 table 1",
+                   {0.0, 1e4}));
   v.Real("idle_W", idle_W,
-         {.doc = "of a rover that is awake and does nothing, from the end of its drive to the end "
+         Assumed("of a rover that is awake and does nothing, from the end of its drive to the end "
                  "of window_h, and while it transmits",
-          .min = 0.0,
-          .max = 1e4,
-          .origin = Origin::kAssumed,
-          .source = "computer and I/O of table 1, everything else off",
-          .study_low = 0.5,
-          .study_high = 5.0});
+                 "computer and I/O of table 1, everything else off", {0.0, 1e4}, {0.5, 5.0}));
   v.Real("sleep_W", sleep_W,
-         {.doc = "of a rover that sleeps: clock, and heating beyond its radioisotope units",
-          .min = 0.0,
-          .max = 1e4,
-          .origin = Origin::kAssumed,
-          .source = "150 Wh through the 28 nights of the mission's goal (sec. 2.1.1: four weeks), "
-                    "16.5 hours each",
-          .study_low = 0.05,
-          .study_high = 1.0});
+         Assumed("of a rover that sleeps: clock, and heating beyond its radioisotope units",
+                 "150 Wh through the 28 nights of the mission's goal (sec. 2.1.1: four weeks), "
+                 "16.5 hours each",
+                 {0.0, 1e4}, {0.05, 1.0}));
 }
 
 void MissionParams::Visit(core::FieldVisitor& v) {
   v.Integer("sols", sols,
-            {.doc = "most sols of a mission",
-             .min = 1,
-             .max = kMostSols,
-             .origin = Origin::kPublished,
-             .source = "Matthies 1995 sec. 2.1.1: one week, with a goal of four"});
-  v.Choice(
-      "lander_update", lander_update,
-      {.doc = "when operators find the rover in the lander's images of a day, with the errors "
-              "of sensors.aids.lander_fix",
-       .origin = Origin::kPublished,
-       .source = "Matthies 1995 sec. 2.1.2, 5: once daily, by images from the end of the day"});
+            Published("most sols of a mission",
+                      "Matthies 1995 sec. 2.1.1: one week, with a goal of four", {1, kMostSols}));
+  v.Choice("lander_update", lander_update,
+           Published("when operators find the rover in the lander's images of a day, with the "
+                     "errors of sensors.aids.lander_fix",
+                     "Matthies 1995 sec. 2.1.2, 5: once daily, by images from the end of the day"));
   v.Real("lander_x_m", lander_x_m,
-         {.doc = "where the lander's cameras stand, in the world frame",
-          .min = -1000.0,
-          .max = 1000.0,
-          .origin = Origin::kSetting});
-  v.Real("lander_y_m", lander_y_m,
-         {.doc = "the same", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
+         Setting("where the lander's cameras stand, in the world frame", {-1000.0, 1000.0}));
+  v.Real("lander_y_m", lander_y_m, Setting("the same", {-1000.0, 1000.0}));
   v.Real("radio_range_m", radio_range_m,
-         {.doc = "distance from the lander beyond which the rover hears no command: it is lost",
-          .min = 0.1,
-          .max = 1e5,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 2.1.2: a clear-field radial range of 500 m"});
-  v.Integer("stuck_sols", stuck_sols,
-            {.doc = "sols in a row that end jammed or high-centred, after which operators give "
-                    "the rover up",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kAssumed,
-             .source = "the paper does not tell",
-             .study_low = 1,
-             .study_high = 10});
-  v.Boolean("sol_columns", sol_columns,
-            {.doc = "a record tells of every sol as well", .origin = Origin::kSetting});
+         Published("distance from the lander beyond which the rover hears no command: it is lost",
+                   "Matthies 1995 sec. 2.1.2: a clear-field radial range of 500 m", {0.1, 1e5}));
+  v.Integer(
+      "stuck_sols", stuck_sols,
+      Assumed(
+          "sols in a row that end jammed or high-centred, after which operators give the rover up",
+          "the paper does not tell", {1, 1000}, {1, 10}));
+  v.Boolean("sol_columns", sol_columns, Setting("a record tells of every sol as well"));
   v.Group("goals", goals, "where the rover is to go");
   v.Group("day", day, "the hours of a sol, and what a command needs");
   v.Group("power", power, "sun, batteries and what draws on them beside the drive");

@@ -10,31 +10,23 @@
 namespace rockyard::experiments {
 namespace {
 
-using core::Origin;
+using core::Assumed;
+using core::Published;
+using core::Setting;
 
 void VisitFactors(StereoSensingParams& p, core::FieldVisitor& v) {
   v.Reals("soil_graininess", p.soil_graininess,
-          {.doc = "values of sensors.look.soil_graininess, which acts on images only; empty: the "
+          Setting("values of sensors.look.soil_graininess, which acts on images only; empty: the "
                   "scenario's own",
-           .min = 0.0,
-           .max = 1.0,
-           .origin = Origin::kSetting});
+                  {0.0, 1.0}));
   v.Reals("sun_elevations_deg", p.sun_elevations_deg,
-          {.doc = "elevations of the sun; empty: the scenario's own",
-           .min = 0.0,
-           .max = 90.0,
-           .origin = Origin::kSetting});
+          Setting("elevations of the sun; empty: the scenario's own", {0.0, 90.0}));
   v.Reals("baselines_m", p.baselines_m,
-          {.doc = "values of sensors.stereo.baseline_m; empty: the scenario's own",
-           .min = 1e-3,
-           .max = 2.0,
-           .origin = Origin::kSetting});
+          Setting("values of sensors.stereo.baseline_m; empty: the scenario's own", {1e-3, 2.0}));
   v.Reals("distances_m", p.distances_m,
-          {.doc = "edges of the bins of distance from the left camera: a cell holds what lies from "
+          Setting("edges of the bins of distance from the left camera: a cell holds what lies from "
                   "one edge to the next",
-           .min = 0.0,
-           .max = 20.0,
-           .origin = Origin::kSetting});
+                  {0.0, 20.0}));
   v.Require("distances_m", p.distances_m.size() >= 2, "names fewer than two edges of bins",
             "list at least a nearest and a farthest distance");
   v.Require("distances_m",
@@ -85,34 +77,21 @@ double StereoSensingParams::FarthestOf(double nearest_m) const {
 }
 
 void StereoSensingParams::Visit(core::FieldVisitor& v) {
-  v.Integer(
-      "looks_per_run", looks_per_run,
-      {.doc = "looks of one pair of cameras in one run, each at a random pose on a terrain of "
-              "its own; run i belongs to cell i modulo their number",
-       .min = 1,
-       .max = 100000,
-       .origin = Origin::kSetting});
+  v.Integer("looks_per_run", looks_per_run,
+            Setting("looks of one pair of cameras in one run, each at a random pose on a terrain "
+                    "of its own; run i belongs to cell i modulo their number",
+                    {1, 100000}));
   VisitFactors(*this, v);
   v.Real("hazard_height_m", hazard_height_m,
-         {.doc = "rocks are counted by their height in halves of this, from one half on",
-          .min = 0.01,
-          .max = 10.0,
-          .origin = Origin::kPublished,
-          .source = "Goldberg 2002 table 1: rover-obst-height 0.20 m"});
-  v.Real(
-      "hazard_goodness", hazard_goodness,
-      {.doc = "cells of the navigator's map of this goodness or less count as hazards",
-       .min = 0.0,
-       .max = 254.0,
-       .origin = Origin::kAssumed,
-       .source = "Goldberg 2002 sec. 4 step 3: 127 (1 - e/h) is 42 for a step of two thirds of h",
-       .study_low = 0.0,
-       .study_high = 84.0});
+         Published("rocks are counted by their height in halves of this, from one half on",
+                   "Goldberg 2002 table 1: rover-obst-height 0.20 m", {0.01, 10.0}));
+  v.Real("hazard_goodness", hazard_goodness,
+         Assumed("cells of the navigator's map of this goodness or less count as hazards",
+                 "Goldberg 2002 sec. 4 step 3: 127 (1 - e/h) is 42 for a step of two thirds of h",
+                 {0.0, 254.0}, {0.0, 84.0}));
   v.Integer("min_rock_pixels", min_rock_pixels,
-            {.doc = "a rock is in view where both cameras see it in at least as many pixels",
-             .min = 1,
-             .max = 10000,
-             .origin = Origin::kSetting});
+            Setting("a rock is in view where both cameras see it in at least as many pixels",
+                    {1, 10000}));
   v.Require("distances_m", Cells() <= kMaxCells, "and the other lists span more than 2000 cells",
             "shorten the lists");
 }

@@ -7,17 +7,14 @@
 namespace rockyard::experiments {
 namespace {
 
-using core::Origin;
+using core::Published;
+using core::Setting;
 
 void VisitRange(core::FieldVisitor& v, std::string_view name, UniformRange& range,
                 const core::FieldInfo& info) {
   v.FixedReals(name, range, info);
   v.Require(name, range[0] <= range[1], "ends below its start",
             "give the lowest value first, then the highest");
-}
-
-core::FieldInfo Assumed(std::string_view doc, double min, double max, std::string_view reason) {
-  return {.doc = doc, .min = min, .max = max, .origin = Origin::kAssumed, .source = reason};
 }
 
 }  // namespace
@@ -27,70 +24,54 @@ void RockPrior::Visit(core::FieldVisitor& v) {
       v, "along_m", along_m,
       Assumed("rock A: from the rover's front to its near end where told.a_path_m is driven; "
               "B: path at which the rover's centre would come to it; C: path from B to it",
-              0.0, 100.0,
               "A: the light stripe's array spans 0.3 m ahead; B: after the way around A; C: "
-              "after a straight stretch (Matthies 1995 sec. 5)"));
+              "after a straight stretch (Matthies 1995 sec. 5)",
+              {0.0, 100.0}));
   VisitRange(v, "offset_m", offset_m,
-             Assumed("centre beside the rover's way, to the left", -5.0, 5.0,
+             Assumed("centre beside the rover's way, to the left",
                      "half of the array's width, or of the body's with some of the rock's radius: "
-                     "farther out a rock is neither seen nor scraped"));
+                     "farther out a rock is neither seen nor scraped",
+                     {-5.0, 5.0}));
   VisitRange(v, "height_m", height_m,
-             Assumed("height above the ground", 0.01, 5.0,
-                     "around what is detected (0.075 m); B from the underside of a hub (0.04 m)"));
+             Assumed("height above the ground",
+                     "around what is detected (0.075 m); B from the underside of a hub (0.04 m)",
+                     {0.01, 5.0}));
   VisitRange(v, "diameter_m", diameter_m,
-             Assumed("diameter", 0.02, 5.0,
+             Assumed("diameter",
                      "usual rocks of nominal terrain; B up to the stripes' distance (0.185 m), "
-                     "beyond which some stripe meets it"));
+                     "beyond which some stripe meets it",
+                     {0.02, 5.0}));
 }
 
 void ThreeRockPrior::Visit(core::FieldVisitor& v) {
-  VisitRange(v, "goal_m", goal_m,
-             Assumed("start to goal, straight", 3.0, 100.0,
-                     "below the 8.1 m that were driven, around the 7.6 m of section 7"));
+  VisitRange(
+      v, "goal_m", goal_m,
+      Assumed("start to goal, straight",
+              "below the 8.1 m that were driven, around the 7.6 m of section 7", {3.0, 100.0}));
   v.Group("a", a, "the first rock, beside the line to the goal");
   v.Group("b", b, "the second rock, beside the way that the rover takes past A");
   v.Group("c", c, "the third rock, beside the way that the rover takes past B");
   v.Integer("tries", tries,
-            {.doc = "most places of B, and of C, that one run tries until the drive goes as told",
-             .min = 1,
-             .max = 1000000,
-             .origin = Origin::kSetting});
+            Setting("most places of B, and of C, that one run tries until the drive goes as told",
+                    {1, 1000000}));
 }
 
 void ThreeRockTold::Visit(core::FieldVisitor& v) {
   v.Real("length_m", length_m,
-         {.doc = "true length of the run",
-          .min = 0.1,
-          .max = 1000.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 5"});
-  v.Real("length_tolerance_m", length_tolerance_m,
-         {.doc = "either way", .min = 0.0, .max = 1000.0, .origin = Origin::kSetting});
+         Published("true length of the run", "Matthies 1995 sec. 5", {0.1, 1000.0}));
+  v.Real("length_tolerance_m", length_tolerance_m, Setting("either way", {0.0, 1000.0}));
   v.Real("a_path_m", a_path_m,
-         {.doc = "path at which the rover turns in place to avoid rock A",
-          .min = 0.1,
-          .max = 1000.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 5"});
-  v.Real("a_path_tolerance_m", a_path_tolerance_m,
-         {.doc = "either way", .min = 0.0, .max = 1000.0, .origin = Origin::kSetting});
+         Published("path at which the rover turns in place to avoid rock A", "Matthies 1995 sec. 5",
+                   {0.1, 1000.0}));
+  v.Real("a_path_tolerance_m", a_path_tolerance_m, Setting("either way", {0.0, 1000.0}));
   v.Angle("c_turn_deg", c_turn_rad,
-          {.doc = "turn in place at rock C",
-           .min = 0.0,
-           .max = 360.0,
-           .origin = Origin::kPublished,
-           .source = "Matthies 1995 sec. 5: about 20 deg"});
-  v.Angle("c_turn_tolerance_deg", c_turn_tolerance_rad,
-          {.doc = "either way", .min = 0.0, .max = 360.0, .origin = Origin::kSetting});
+          Published("turn in place at rock C", "Matthies 1995 sec. 5: about 20 deg", {0.0, 360.0}));
+  v.Angle("c_turn_tolerance_deg", c_turn_tolerance_rad, Setting("either way", {0.0, 360.0}));
   v.Integer("b_scrapes", b_scrapes,
-            {.doc = "fewest scrapes of rock B, which was scraped considerably",
-             .min = 1,
-             .max = 100,
-             .origin = Origin::kSetting});
+            Setting("fewest scrapes of rock B, which was scraped considerably", {1, 100}));
   v.Boolean("false_alarm", false_alarm,
-            {.doc = "a hazard is believed where there is none before rock A is detected, as in "
-                    "the published run",
-             .origin = Origin::kSetting});
+            Setting("a hazard is believed where there is none before rock A is detected, as in the "
+                    "published run"));
 }
 
 void RequireThreeRockRun(const ThreeRockRunParams& run, const trial::DriveParams& drive,

@@ -2,6 +2,9 @@
 
 namespace rockyard::experiments {
 
+using core::Assumed;
+using core::Setting;
+
 std::vector<CellFactor> VisualMotionStudyParams::Factors() const {
   std::vector<CellFactor> factors{{"step_m", steps_m}, {"turn_deg", turns_deg}};
   const auto add = [&](std::string_view column, const std::vector<double>& values) {
@@ -14,60 +17,31 @@ std::vector<CellFactor> VisualMotionStudyParams::Factors() const {
 }
 
 void VisualMotionStudyParams::Visit(core::FieldVisitor& v) {
-  using core::Origin;
   v.Integer("steps_per_run", steps_per_run,
-            {.doc = "motions of one cell in one run, each at a place of its own; run i belongs to "
+            Setting("motions of one cell in one run, each at a place of its own; run i belongs to "
                     "cell i modulo their number",
-             .min = 1,
-             .max = 100000,
-             .origin = Origin::kSetting});
-  v.Reals("steps_m", steps_m,
-          {.doc = "lengths of the way of a motion",
-           .min = 0.0,
-           .max = 100.0,
-           .origin = Origin::kSetting});
-  v.Reals("turns_deg", turns_deg,
-          {.doc = "turns of a motion, to either side; the way is an arc of that turn",
-           .min = 0.0,
-           .max = 180.0,
-           .origin = Origin::kSetting});
+                    {1, 100000}));
+  v.Reals("steps_m", steps_m, Setting("lengths of the way of a motion", {0.0, 100.0}));
+  v.Reals(
+      "turns_deg", turns_deg,
+      Setting("turns of a motion, to either side; the way is an arc of that turn", {0.0, 180.0}));
   v.Reals("soil_graininess", soil_graininess,
-          {.doc = "values of sensors.look.soil_graininess",
-           .min = 0.0,
-           .max = 1.0,
-           .origin = Origin::kSetting});
+          Setting("values of sensors.look.soil_graininess", {0.0, 1.0}));
   v.Reals("sun_elevations_deg", sun_elevations_deg,
-          {.doc = "values of sensors.sun.elevation_deg",
-           .min = 0.0,
-           .max = 90.0,
-           .origin = Origin::kSetting});
+          Setting("values of sensors.sun.elevation_deg", {0.0, 90.0}));
   v.Reals("baselines_m", baselines_m,
-          {.doc = "values of sensors.stereo.baseline_m",
-           .min = 0.001,
-           .max = 10.0,
-           .origin = Origin::kSetting});
+          Setting("values of sensors.stereo.baseline_m", {0.001, 10.0}));
   v.Real("hazard_height_m", hazard_height_m,
-         {.doc = "no rock of this height or more lies under the rover at the beginning",
-          .min = 0.0,
-          .max = 100.0,
-          .origin = Origin::kSetting});
-  v.Angle("tilt_sd_deg", tilt_sd_rad,
-          {.doc = "standard deviation of the rover's roll and pitch at either moment, on level "
-                  "ground",
-           .min = 0.0,
-           .max = 20.0,
-           .origin = Origin::kAssumed,
-           .source = "among rocks that wheels climb",
-           .study_low = 0.0,
-           .study_high = 6.0});
+         Setting("no rock of this height or more lies under the rover at the beginning",
+                 {0.0, 100.0}));
+  v.Angle(
+      "tilt_sd_deg", tilt_sd_rad,
+      Assumed("standard deviation of the rover's roll and pitch at either moment, on level ground",
+              "among rocks that wheels climb", {0.0, 20.0}, {0.0, 6.0}));
   v.Real("prediction_error", prediction_error,
-         {.doc = "standard deviation of the predicted way and turn, as shares of the true ones",
-          .min = 0.0,
-          .max = 1.0,
-          .origin = Origin::kAssumed,
-          .source = "slip of some per cent, a gyro of 6 % (Matthies 1995 sec. 8)",
-          .study_low = 0.0,
-          .study_high = 0.3});
+         Assumed("standard deviation of the predicted way and turn, as shares of the true ones",
+                 "slip of some per cent, a gyro of 6 % (Matthies 1995 sec. 8)", {0.0, 1.0},
+                 {0.0, 0.3}));
   v.Require("steps_m", !steps_m.empty() && !turns_deg.empty(), "or turns_deg is empty",
             "give both at least one value, 0 for no way or no turn");
   v.Require("steps_m", Cells() <= kMaxCells, "and the other lists span more than 2000 cells",

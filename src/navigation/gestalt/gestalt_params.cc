@@ -2,184 +2,113 @@
 
 namespace rockyard::navigation {
 
-using core::Origin;
+using core::Assumed;
+using core::Published;
+using core::Setting;
 
 void GestaltContinuousParams::Visit(core::FieldVisitor& v) {
-  v.Choice(
-      "cycle", cycle,
-      {.doc = "whether the rover stops to look (stop_and_look), looks and plans while it drives "
-              "arcs and stands to steer (csod), or drives clothoid splines and stands for "
-              "nothing (csad); the last two need clock.overlap",
-       .origin = Origin::kSetting});
-  v.Real(
-      "motion_m", motion_m,
-      {.doc = "length of the motion that is driven of a plan, as measured on board, where no "
-              "later plan replaces it; with csod or csad",
-       .min = 0.05,
-       .max = 5.0,
-       .origin = Origin::kAssumed,
-       .source = "Howard 2012 sec. 2: it \"does not execute the entire path that was selected\", "
-                 "3 m; about a vehicle's length",
-       .study_low = 0.35,
-       .study_high = 3.0});
+  v.Choice("cycle", cycle,
+           Setting("whether the rover stops to look (stop_and_look), looks and plans while it "
+                   "drives arcs and stands to steer (csod), or drives clothoid splines and stands "
+                   "for nothing (csad); the last two need clock.overlap"));
+  v.Real("motion_m", motion_m,
+         Assumed("length of the motion that is driven of a plan, as measured on board, where no "
+                 "later plan replaces it; with csod or csad",
+                 "Howard 2012 sec. 2: it \"does not execute the entire path that was selected\", 3 "
+                 "m; about a vehicle's length",
+                 {0.05, 5.0}, {0.35, 3.0}));
   v.Real("replan_fraction", replan_fraction,
-         {.doc = "share of motion_m after which the rover looks for its next plan",
-          .min = 0.01,
-          .max = 1.0,
-          .origin = Origin::kAssumed,
-          .source = "Howard 2012 sec. 2: \"once a fraction of the executed motion is complete\"; "
-                    "which is not told",
-          .study_low = 0.1,
-          .study_high = 1.0});
+         Assumed("share of motion_m after which the rover looks for its next plan",
+                 "Howard 2012 sec. 2: \"once a fraction of the executed motion is complete\"; "
+                 "which is not told",
+                 {0.01, 1.0}, {0.1, 1.0}));
   v.Choice("plan_start", plan_start,
-           {.doc = "where a plan that is made on the move begins",
-            .origin = Origin::kAssumed,
-            .source = "Howard 2012 sec. 2: curvature matches \"at the point where the command is "
-                      "executed\", which is ahead of where the rover looked"});
-  v.Choice(
-      "no_safe_plan", no_safe_plan,
-      {.doc = "what the rover does on the move where no new plan is safe",
-       .origin = Origin::kAssumed,
-       .source = "Howard 2012 does not tell; what was seen last says that the way is not safe"});
-  v.Choice(
-      "late_plan", late_plan,
-      {.doc = "what the rover does at the end of its motion where the next plan is not ready",
-       .origin = Origin::kAssumed,
-       .source = "Howard 2012 does not tell; what was seen is still true of a rover that waits"});
+           Assumed("where a plan that is made on the move begins",
+                   "Howard 2012 sec. 2: curvature matches \"at the point where the command is "
+                   "executed\", which is ahead of where the rover looked"));
+  v.Choice("no_safe_plan", no_safe_plan,
+           Assumed("what the rover does on the move where no new plan is safe",
+                   "Howard 2012 does not tell; what was seen last says that the way is not safe"));
+  v.Choice("late_plan", late_plan,
+           Assumed("what the rover does at the end of its motion where the next plan is not ready",
+                   "Howard 2012 does not tell; what was seen is still true of a rover that waits"));
 }
 
 namespace {
 
-using core::Origin;
-
 void VisitChoices(GestaltDriveParams& p, core::FieldVisitor& v) {
   v.Real("step_m", p.step_m,
-         {.doc = "drive along the chosen arc before looking again, as measured on board",
-          .min = 0.01,
-          .max = 5.0,
-          .origin = Origin::kPublished,
-          .source = "Goldberg 2002 sec. 4, \"e.g., 35 cm\""});
+         Published("drive along the chosen arc before looking again, as measured on board",
+                   "Goldberg 2002 sec. 4, \"e.g., 35 cm\"", {0.01, 5.0}));
   v.Boolean(
       "rear_cameras", p.rear_cameras,
-      {.doc = "look behind too where the best forward vote is below min_fwd_threshold; without "
-              "backward arcs this can only show forward ones what they would turn into",
-       .origin = Origin::kPublished,
-       .source = "Goldberg 2002 sec. 5"});
-  v.Choice("backward_arcs", p.backward_arcs,
-           {.doc = "when a backward arc may be chosen",
-            .origin = Origin::kAssumed,
-            .source = "Goldberg 2002 step 7: the highest vote of all arcs, but backward ones merge "
-                      "to 200 on seen ground and would win over forward votes that are good enough "
-                      "not to look behind"});
+      Published("look behind too where the best forward vote is below min_fwd_threshold; without "
+                "backward arcs this can only show forward ones what they would turn into",
+                "Goldberg 2002 sec. 5"));
+  v.Choice(
+      "backward_arcs", p.backward_arcs,
+      Assumed(
+          "when a backward arc may be chosen",
+          "Goldberg 2002 step 7: the highest vote of all arcs, but backward ones merge to 200 on "
+          "seen ground and would win over forward votes that are good enough not to look behind"));
   v.Choice("point_turns", p.point_turns,
-           {.doc = "when turning in place is chosen over an arc",
-            .origin = Origin::kAssumed,
-            .source = "below min_vote_goodness an arc is blocked or unseen: a turn shows more"});
+           Assumed("when turning in place is chosen over an arc",
+                   "below min_vote_goodness an arc is blocked or unseen: a turn shows more"));
   v.Real("point_turn_margin", p.point_turn_margin,
-         {.doc = "votes by which a turn in place has to be better than every arc where point_turns "
+         Assumed("votes by which a turn in place has to be better than every arc where point_turns "
                  "is candidates",
-          .min = 0.0,
-          .max = 255.0,
-          .origin = Origin::kAssumed,
-          .source = "a turn takes time and brings the rover no nearer; Howard 2012 sec. 3 names no "
-                    "price of it",
-          .study_low = 0.0,
-          .study_high = 40.0});
+                 "a turn takes time and brings the rover no nearer; Howard 2012 sec. 3 names no "
+                 "price of it",
+                 {0.0, 255.0}, {0.0, 40.0}));
   v.Real("min_drive_goodness", p.min_drive_goodness,
-         {.doc = "an arc whose hazard vote is not above is never driven",
-          .min = 0.0,
-          .max = 255.0,
-          .origin = Origin::kAssumed,
-          .source = "as min_allowed_goodness for cells: unknown ground, 11, is the last resort",
-          .study_low = 0.0,
-          .study_high = 26.0});
+         Assumed("an arc whose hazard vote is not above is never driven",
+                 "as min_allowed_goodness for cells: unknown ground, 11, is the last resort",
+                 {0.0, 255.0}, {0.0, 26.0}));
   v.Choice("arrival_check", p.arrival_check,
-           {.doc = "when the rover asks whether it is at the goal",
-            .origin = Origin::kAssumed,
-            .source = "Goldberg 2002 sec. 4: \"first checks\" when invoked, between steps"});
+           Assumed("when the rover asks whether it is at the goal",
+                   "Goldberg 2002 sec. 4: \"first checks\" when invoked, between steps"));
 }
 
 void VisitEndings(GestaltDriveParams& p, core::FieldVisitor& v) {
   v.Real("step_time_out_s", p.step_time_out_s,
-         {.doc = "time after which a drive or turn that is not measured as done ends all the same",
-          .min = 1.0,
-          .max = 1e6,
-          .origin = Origin::kAssumed,
-          .source = "twenty times the 15 s of a step (Goldberg 2002 table 2): keeps a rover that "
-                    "measures no motion from waiting for ever",
-          .study_low = 60.0,
-          .study_high = 600.0});
+         Assumed("time after which a drive or turn that is not measured as done ends all the same",
+                 "twenty times the 15 s of a step (Goldberg 2002 table 2): keeps a rover that "
+                 "measures no motion from waiting for ever",
+                 {1.0, 1e6}, {60.0, 600.0}));
   v.Angle("search_turn_deg", p.search_turn_rad,
-          {.doc = "measured turning in place, look by look, after which no more is to be seen",
-           .min = 90.0,
-           .max = 3600.0,
-           .origin = Origin::kAssumed,
-           .source = "a full turn shows all there is",
-           .study_low = 180.0,
-           .study_high = 720.0});
+          Assumed("measured turning in place, look by look, after which no more is to be seen",
+                  "a full turn shows all there is", {90.0, 3600.0}, {180.0, 720.0}));
   v.Integer("max_fruitless_cycles", p.max_fruitless_cycles,
-            {.doc = "cycles in a row without progress_m of progress before the rover gives up",
-             .min = 1,
-             .max = 100000,
-             .origin = Origin::kAssumed,
-             .source = "35 m of steps, twice round an obstacle of 5 m; the paper names none",
-             .study_low = 25,
-             .study_high = 400});
+            Assumed("cycles in a row without progress_m of progress before the rover gives up",
+                    "35 m of steps, twice round an obstacle of 5 m; the paper names none",
+                    {1, 100000}, {25, 400}));
   v.Real("progress_m", p.progress_m,
-         {.doc = "gain in the believed distance to the goal that counts as progress",
-          .min = 0.001,
-          .max = 10.0,
-          .origin = Origin::kAssumed,
-          .source = "most of a step",
-          .study_low = 0.1,
-          .study_high = 0.5});
+         Assumed("gain in the believed distance to the goal that counts as progress",
+                 "most of a step", {0.001, 10.0}, {0.1, 0.5}));
   v.Real("time_out_s", p.time_out_s,
-         {.doc = "on-board time after which the rover gives the goal up; 0 is off",
-          .min = 0.0,
-          .max = 1e7,
-          .origin = Origin::kSetting});
+         Setting("on-board time after which the rover gives the goal up; 0 is off", {0.0, 1e7}));
 }
 
 void VisitFeltHazards(GestaltDriveParams& p, core::FieldVisitor& v) {
   v.Real("back_off_m", p.back_off_m,
-         {.doc = "after a felt hazard the rover drives back along its arc, up to this far",
-          .min = 0.0,
-          .max = 5.0,
-          .origin = Origin::kAssumed,
-          .source = "a whole step: back to where it last looked",
-          .study_low = 0.1,
-          .study_high = 0.5});
+         Assumed("after a felt hazard the rover drives back along its arc, up to this far",
+                 "a whole step: back to where it last looked", {0.0, 5.0}, {0.1, 0.5}));
   v.Real("felt_radius_m", p.felt_radius_m,
-         {.doc = "radius of the obstacle that a felt hazard leaves in the map, at the end of the "
+         Assumed("radius of the obstacle that a felt hazard leaves in the map, at the end of the "
                  "vehicle that was driven into it; 0 marks one cell",
-          .min = 0.0,
-          .max = 5.0,
-          .origin = Origin::kAssumed,
-          .source = "a wheel radius: smaller rocks are climbed",
-          .study_low = 0.0,
-          .study_high = 0.4});
+                 "a wheel radius: smaller rocks are climbed", {0.0, 5.0}, {0.0, 0.4}));
   v.Real("felt_again_m", p.felt_again_m,
-         {.doc = "drive after which a hazard that was felt already when the step began counts",
-          .min = 0.0,
-          .max = 5.0,
-          .origin = Origin::kAssumed,
-          .source = "a wheel radius: the rover may have to drive to get rid of a tilt",
-          .study_low = 0.05,
-          .study_high = 0.35});
+         Assumed("drive after which a hazard that was felt already when the step began counts",
+                 "a wheel radius: the rover may have to drive to get rid of a tilt", {0.0, 5.0},
+                 {0.05, 0.35}));
   v.Boolean("veto_felt", p.veto_felt,
-            {.doc = "an arc on which the rover felt a hazard is not chosen again until the rover "
+            Assumed("an arc on which the rover felt a hazard is not chosen again until the rover "
                     "has driven or turned as far as it meant to",
-             .origin = Origin::kAssumed,
-             .source = "it would end where it ended before; the paper has no rule"});
+                    "it would end where it ended before; the paper has no rule"));
   v.Integer(
       "max_felt", p.max_felt,
-      {.doc = "felt hazards in a row without progress_m of progress before the rover gives up",
-       .min = 1,
-       .max = 1000,
-       .origin = Origin::kAssumed,
-       .source = "as for the behaviour controller",
-       .study_low = 2,
-       .study_high = 20});
+      Assumed("felt hazards in a row without progress_m of progress before the rover gives up",
+              "as for the behaviour controller", {1, 1000}, {2, 20}));
 }
 
 }  // namespace

@@ -8,10 +8,11 @@
 namespace rockyard::navigation {
 namespace {
 
-using core::FieldInfo;
-using core::Origin;
-
+using core::Assumed;
 using core::kGoldbergTable1;
+using core::Published;
+using core::Setting;
+
 // Keeps the memory of a map below 10 MB, whatever is set.
 constexpr double kMaxCells = 40000.0;
 // Distances of cells from planes in the search for outliers, in one evaluation: a fifth of a
@@ -23,42 +24,28 @@ int Cells(double extent_m, double step_m) {
   return static_cast<int>(std::ceil(extent_m / step_m - 1e-6));
 }
 
-FieldInfo Published(std::string_view doc, double min, double max) {
-  return {
-      .doc = doc, .min = min, .max = max, .origin = Origin::kPublished, .source = kGoldbergTable1};
-}
-
-FieldInfo PublishedFlag(std::string_view doc) {
-  return {.doc = doc, .origin = Origin::kPublished, .source = kGoldbergTable1};
-}
-
 void VisitValidity(GestaltMapParams& p, core::FieldVisitor& v) {
   v.Integer("outliers_per_cell", p.outliers_per_cell,
             Published("cells of a patch left out of its plane, one after the other, the farthest "
                       "from the plane first; coverage and data are tested before",
-                      0, 8));
+                      kGoldbergTable1, {0, 8}));
   v.Real("eigen_ratio", p.eigen_ratio,
          Published("ratio of the middle to the smallest eigenvalue of a patch's covariance from "
                    "which its plane is valid",
-                   1.0, 1e9));
+                   kGoldbergTable1, {1.0, 1e9}));
   v.Real("min_cell_coverage", p.min_cell_coverage,
          Published("share of the columns of a patch, and of its rows, that must hold range data "
                    "for its plane to be valid: the reading here of the fraction of a cell in each "
                    "of X and Y; up to min_patch_share it is always met",
-                   0.0, 1.0));
-  v.Real("min_patch_share", p.min_patch_share,
-         {.doc = "share of the cells of a patch that must hold min_cell_points; below it the cell "
-                 "is unknown",
-          .min = 0.0,
-          .max = 1.0,
-          .origin = Origin::kPublished,
-          .source = "Goldberg 2002 sec. 4 step 3: at least half the cells, as an example"});
+                   kGoldbergTable1, {0.0, 1.0}));
+  v.Real(
+      "min_patch_share", p.min_patch_share,
+      Published("share of the cells of a patch that must hold min_cell_points; below it the cell "
+                "is unknown",
+                "Goldberg 2002 sec. 4 step 3: at least half the cells, as an example", {0.0, 1.0}));
   v.Integer("min_cell_points", p.min_cell_points,
-            {.doc = "points with which a cell counts for min_patch_share",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kPublished,
-             .source = "Goldberg 2002 sec. 4 step 3: more than 1 point"});
+            Published("points with which a cell counts for min_patch_share",
+                      "Goldberg 2002 sec. 4 step 3: more than 1 point", {1, 1000}));
 }
 
 // Cells that a patch has at most, with a cell more on every side than the square of the vehicle.
@@ -89,46 +76,34 @@ void RequireUse(GestaltMapParams& p, core::FieldVisitor& v) {
 
 void VisitFormulas(GestaltMapParams& p, core::FieldVisitor& v) {
   v.Choice("hazard_height", p.hazard_height,
-           {.doc = "the height h of the step and roughness formulas",
-            .origin = Origin::kAssumed,
-            .source = "Goldberg 2002 sec. 4 says clearance, table 1 has obst-height alone"});
+           Assumed("the height h of the step and roughness formulas",
+                   "Goldberg 2002 sec. 4 says clearance, table 1 has obst-height alone"));
   v.Choice("step_reference", p.step_reference,
-           {.doc = "what the elevations of the step test count from: the level, or the patch's "
+           Assumed("what the elevations of the step test count from: the level, or the patch's "
                    "plane; with the latter nothing but tests.pitch keeps the rover from a slope",
-            .origin = Origin::kAssumed,
-            .source = "Goldberg 2002 sec. 4 step 3 prints differences of elevation, which make an "
-                      "obstacle of a smooth slope of 14 deg; max-pitch of table 1 is 25 deg"});
+                   "Goldberg 2002 sec. 4 step 3 prints differences of elevation, which make an "
+                   "obstacle of a smooth slope of 14 deg; max-pitch of table 1 is 25 deg"));
   v.Choice("roughness_formula", p.roughness_formula,
-           {.doc = "how the roughness fraction f enters the goodness: 255 (1 - f r/h) as printed, "
-                   "or 255 (1 - r/(f h)) divided",
-            .origin = Origin::kPublished,
-            .source = "Goldberg 2002 sec. 4 step 3 prints the product"});
-  v.Real("roughness_fraction", p.roughness_fraction,
-         {.doc = "residual above roughness_fraction h/3 is a hazard",
-          .min = 0.01,
-          .max = 10.0,
-          .origin = Origin::kAssumed,
-          .source = "Goldberg 2002 gives no value; at 1 both formulas agree",
-          .study_low = 0.25,
-          .study_high = 1.0});
+           Published("how the roughness fraction f enters the goodness: 255 (1 - f r/h) as "
+                     "printed, or 255 (1 - r/(f h)) divided",
+                     "Goldberg 2002 sec. 4 step 3 prints the product"));
+  v.Real(
+      "roughness_fraction", p.roughness_fraction,
+      Assumed("residual above roughness_fraction h/3 is a hazard",
+              "Goldberg 2002 gives no value; at 1 both formulas agree", {0.01, 10.0}, {0.25, 1.0}));
   v.Choice("patch", p.patch,
-           {.doc = "side of the square of cells that stands for the vehicle",
-            .origin = Origin::kPublished,
-            .source = "Goldberg 2002 sec. 4: obstacles grow by half the vehicle width"});
+           Published("side of the square of cells that stands for the vehicle",
+                     "Goldberg 2002 sec. 4: obstacles grow by half the vehicle width"));
+  v.Choice("failed_fit", p.failed_fit,
+           Assumed("what a plane that fails min_cell_coverage or eigen_ratio leads to",
+                   "without a plane nothing is known, but unknown cells may be crossed: a step "
+                   "must not become unknown because it fits no plane; the paper says neither"));
   v.Choice(
-      "failed_fit", p.failed_fit,
-      {.doc = "what a plane that fails min_cell_coverage or eigen_ratio leads to",
-       .origin = Origin::kAssumed,
-       .source = "without a plane nothing is known, but unknown cells may be crossed: a step must "
-                 "not become unknown because it fits no plane; the paper says neither"});
-  v.Choice("certainty", p.certainty,
-           {.doc = "certainty of an evaluated cell: always 255, or that of the hazard that decides",
-            .origin = Origin::kPublished,
-            .source = "Goldberg 2002 sec. 4 step 3: 255; table 1 has certainties by hazard"});
+      "certainty", p.certainty,
+      Published("certainty of an evaluated cell: always 255, or that of the hazard that decides",
+                "Goldberg 2002 sec. 4 step 3: 255; table 1 has certainties by hazard"));
   v.Choice("border_neighbours", p.border_neighbours,
-           {.doc = "which cells a cell borders",
-            .origin = Origin::kAssumed,
-            .source = "the cautious reading of bordering"});
+           Assumed("which cells a cell borders", "the cautious reading of bordering"));
 }
 
 }  // namespace
@@ -139,19 +114,21 @@ int GestaltGridParams::ny() const { return Cells(yN_m - y0_m, ystep_m); }
 void GestaltGridParams::Visit(core::FieldVisitor& v) {
   constexpr double kFar_m = 1000.0;
   v.Real("x0_m", x0_m,
-         Published("lower bound in x: cells end at multiples of xstep_m from it", -kFar_m, kFar_m));
+         Published("lower bound in x: cells end at multiples of xstep_m from it", kGoldbergTable1,
+                   {-kFar_m, kFar_m}));
   v.Real("y0_m", y0_m,
-         Published("lower bound in y: cells end at multiples of ystep_m from it", -kFar_m, kFar_m));
+         Published("lower bound in y: cells end at multiples of ystep_m from it", kGoldbergTable1,
+                   {-kFar_m, kFar_m}));
   v.Real("xN_m", xN_m,
          Published("upper bound in x; only its distance from x0_m matters, as the grid follows the "
                    "rover",
-                   -kFar_m, kFar_m));
+                   kGoldbergTable1, {-kFar_m, kFar_m}));
   v.Real("yN_m", yN_m,
          Published("upper bound in y; only its distance from y0_m matters, as the grid follows the "
                    "rover",
-                   -kFar_m, kFar_m));
-  v.Real("xstep_m", xstep_m, Published("size of a cell in x", 0.05, 2.0));
-  v.Real("ystep_m", ystep_m, Published("size of a cell in y", 0.05, 2.0));
+                   kGoldbergTable1, {-kFar_m, kFar_m}));
+  v.Real("xstep_m", xstep_m, Published("size of a cell in x", kGoldbergTable1, {0.05, 2.0}));
+  v.Real("ystep_m", ystep_m, Published("size of a cell in y", kGoldbergTable1, {0.05, 2.0}));
   const double columns = (xN_m - x0_m) / xstep_m;
   const double rows = (yN_m - y0_m) / ystep_m;
   v.Require("xN_m", columns >= 2.0, "leaves less than two cells in x", "enlarge xN_m - x0_m");
@@ -161,15 +138,17 @@ void GestaltGridParams::Visit(core::FieldVisitor& v) {
 }
 
 void GestaltTestParams::Visit(core::FieldVisitor& v) {
-  v.Boolean("step", step, PublishedFlag("whether steps are hazards"));
-  v.Boolean("rough", rough, PublishedFlag("whether roughness is a hazard"));
-  v.Boolean("pitch", pitch, PublishedFlag("whether slopes are hazards"));
-  v.Boolean("border", border, PublishedFlag("whether bordering an unknown cell is a hazard"));
+  v.Boolean("step", step, Published("whether steps are hazards", kGoldbergTable1));
+  v.Boolean("rough", rough, Published("whether roughness is a hazard", kGoldbergTable1));
+  v.Boolean("pitch", pitch, Published("whether slopes are hazards", kGoldbergTable1));
+  v.Boolean("border", border,
+            Published("whether bordering an unknown cell is a hazard", kGoldbergTable1));
 }
 
 void GoodnessPair::Visit(core::FieldVisitor& v) {
-  v.Integer("goodness", goodness, Published("how safe; 255 is best", 0, 255));
-  v.Integer("certainty", certainty, Published("how sure that is; 255 is best", 0, 255));
+  v.Integer("goodness", goodness, Published("how safe; 255 is best", kGoldbergTable1, {0, 255}));
+  v.Integer("certainty", certainty,
+            Published("how sure that is; 255 is best", kGoldbergTable1, {0, 255}));
 }
 
 void GestaltPairParams::Visit(core::FieldVisitor& v) {
@@ -183,23 +162,19 @@ void GestaltPairParams::Visit(core::FieldVisitor& v) {
 
 void GestaltRoverParams::Visit(core::FieldVisitor& v) {
   v.Boolean("modelled", modelled,
-            {.doc = "whether there is a rover model; without one every cell has unknown_rovers",
-             .origin = Origin::kSetting});
-  v.Real("length_m", length_m, Published("length of the vehicle", 0.1, 3.0));
-  v.Real("width_m", width_m, Published("width of the vehicle", 0.1, 3.0));
+            Setting("whether there is a rover model; without one every cell has unknown_rovers"));
+  v.Real("length_m", length_m, Published("length of the vehicle", kGoldbergTable1, {0.1, 3.0}));
+  v.Real("width_m", width_m, Published("width of the vehicle", kGoldbergTable1, {0.1, 3.0}));
   v.Real("obst_height_m", obst_height_m,
-         Published("tallest obstacle that the vehicle traverses", 0.01, 2.0));
+         Published("tallest obstacle that the vehicle traverses", kGoldbergTable1, {0.01, 2.0}));
   v.Real("wheel_radius_m", wheel_radius_m,
-         Published("radius of a wheel; read where hazard_height is wheel_diameter", 0.01, 1.0));
-  v.Angle("max_pitch_deg", max_pitch_rad, Published("slope that is a pitch obstacle", 1.0, 80.0));
+         Published("radius of a wheel; read where hazard_height is wheel_diameter", kGoldbergTable1,
+                   {0.01, 1.0}));
+  v.Angle("max_pitch_deg", max_pitch_rad,
+          Published("slope that is a pitch obstacle", kGoldbergTable1, {1.0, 80.0}));
   v.Real("clearance_m", clearance_m,
-         {.doc = "height of the vehicle's underside; read where hazard_height is clearance",
-          .min = 0.01,
-          .max = 2.0,
-          .origin = Origin::kAssumed,
-          .source = "as obst-height; Goldberg 2002 gives none",
-          .study_low = 0.13,
-          .study_high = 0.3});
+         Assumed("height of the vehicle's underside; read where hazard_height is clearance",
+                 "as obst-height; Goldberg 2002 gives none", {0.01, 2.0}, {0.13, 0.3}));
 }
 
 double GestaltMapParams::HazardHeight_m() const {
@@ -225,10 +200,12 @@ double GestaltMapParams::Reach_m() const {
 
 void GestaltMapParams::Visit(core::FieldVisitor& v) {
   v.Group("grid", grid, "bounds and resolution of the map");
-  v.Integer("max_idles", max_idles,
-            Published("cycles without data after which a cell is zeroed", 1, 1e9));
+  v.Integer(
+      "max_idles", max_idles,
+      Published("cycles without data after which a cell is zeroed", kGoldbergTable1, {1, 1e9}));
   v.Real("grid_dist_timeout_m", grid_dist_timeout_m,
-         Published("cells whose centre is farther from the rover are thrown out", 0.1, 1000.0));
+         Published("cells whose centre is farther from the rover are thrown out", kGoldbergTable1,
+                   {0.1, 1000.0}));
   v.Group("tests", tests, "traversability tests that run");
   VisitValidity(*this, v);
   VisitFormulas(*this, v);

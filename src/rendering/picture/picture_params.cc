@@ -5,7 +5,9 @@
 namespace rockyard::rendering {
 namespace {
 
-using core::Origin;
+using core::Assumed;
+using core::Published;
+using core::Setting;
 
 double Mix(double a, double b, double share) { return a + share * (b - a); }
 
@@ -36,54 +38,33 @@ void GravelParams::Visit(core::FieldVisitor& v) {
 }
 
 void TextureParams::VisitAs(core::FieldVisitor& v, std::string_view calibrated_to) {
-  const auto field = [&v](std::string_view name, double& value, core::FieldInfo info) {
-    info.origin = Origin::kAssumed;
-    v.Real(name, value, info);
-  };
   const auto fitted = [&](std::string_view name, double& value, core::FieldInfo info) {
-    if (calibrated_to.empty()) return field(name, value, info);
-    info.origin = Origin::kCalibrated;
-    info.source = calibrated_to;
+    if (!calibrated_to.empty()) {
+      info.origin = core::Origin::kCalibrated;
+      info.source = calibrated_to;
+    }
     v.Real(name, value, info);
   };
   fitted("contrast", contrast,
-         {.doc = "standard deviation of the albedo over its mean, at the finest scale",
-          .min = 0.0,
-          .max = 0.5,
-          .source = "Mars from the ground: some percent where dust lies, more among stones",
-          .study_low = 0.0,
-          .study_high = 0.25});
+         Assumed("standard deviation of the albedo over its mean, at the finest scale",
+                 "Mars from the ground: some percent where dust lies, more among stones",
+                 {0.0, 0.5}, {0.0, 0.25}));
   fitted("spectral_exponent", spectral_exponent,
-         {.doc = "the power spectrum of the albedo over the plane falls as frequency to minus this",
-          .min = 0.0,
-          .max = 6.0,
-          .source = "natural images have about 2 (Field 1987)",
-          .study_low = 1.5,
-          .study_high = 4.0});
-  field("longest_wavelength_m", longest_wavelength_m,
-        {.doc = "of the octaves of albedo and relief",
-         .min = 0.01,
-         .max = 10.0,
-         .source = "larger patches do not help stereo",
-         .study_low = 0.1,
-         .study_high = 3.0});
-  field("finest_wavelength_m", finest_wavelength_m,
-        {.doc = "of the octaves of albedo and relief",
-         .min = 0.001,
-         .max = 1.0,
-         .source = "below what the pixels of rover cameras see of the ground",
-         .study_low = 0.002,
-         .study_high = 0.1});
+         Assumed("the power spectrum of the albedo over the plane falls as frequency to minus this",
+                 "natural images have about 2 (Field 1987)", {0.0, 6.0}, {1.5, 4.0}));
+  v.Real("longest_wavelength_m", longest_wavelength_m,
+         Assumed("of the octaves of albedo and relief", "larger patches do not help stereo",
+                 {0.01, 10.0}, {0.1, 3.0}));
+  v.Real("finest_wavelength_m", finest_wavelength_m,
+         Assumed("of the octaves of albedo and relief",
+                 "below what the pixels of rover cameras see of the ground", {0.001, 1.0},
+                 {0.002, 0.1}));
   v.Require("finest_wavelength_m", finest_wavelength_m <= longest_wavelength_m,
             "is above longest_wavelength_m", "use a value of longest_wavelength_m or less");
-  field("relief_slope", relief_slope,
-        {.doc = "standard deviation of the slope along an axis of the relief that goes with the "
-                "albedo, bright where high; it shades, but hides and moves nothing",
-         .min = 0.0,
-         .max = 1.0,
-         .source = "grains and clods that the terrain does not hold",
-         .study_low = 0.0,
-         .study_high = 0.5});
+  v.Real("relief_slope", relief_slope,
+         Assumed("standard deviation of the slope along an axis of the relief that goes with the "
+                 "albedo, bright where high; it shades, but hides and moves nothing",
+                 "grains and clods that the terrain does not hold", {0.0, 1.0}, {0.0, 0.5}));
 }
 
 // 600 to 800 nm and signal to noise above 200 (Lakdawalla 2018, table 7.1; Schwochert and Maki
@@ -111,111 +92,62 @@ ImagerParams PictureCameraParams::EngineeringImager() {
 
 void LookParams::Visit(core::FieldVisitor& v) {
   v.Real("soil_graininess", soil_graininess,
-         {.doc = "texture of the soil: 0 is drift, 1 is gravel, between them each value is mixed",
-          .min = 0.0,
-          .max = 1.0,
-          .origin = Origin::kSetting});
+         Setting("texture of the soil: 0 is drift, 1 is gravel, between them each value is mixed",
+                 {0.0, 1.0}));
   v.Group("drift", drift, "the smooth end of the family of soils");
   v.Group("gravel", gravel, "the rough end of the family of soils");
   v.Group("rock", rock, "surface of rocks");
   v.Real("rock_albedo_spread", rock_albedo_spread,
-         {.doc = "standard deviation of the albedos of rocks over their mean",
-          .min = 0.0,
-          .max = 0.3,
-          .origin = Origin::kAssumed,
-          .source = "dusty and bare rocks side by side",
-          .study_low = 0.0,
-          .study_high = 0.3});
+         Assumed("standard deviation of the albedos of rocks over their mean",
+                 "dusty and bare rocks side by side", {0.0, 0.3}, {0.0, 0.3}));
   v.Real("lommel_seeliger_share", lommel_seeliger_share,
-         {.doc = "share of the law of Lommel and Seeliger in the light that surfaces send back; "
+         Assumed("share of the law of Lommel and Seeliger in the light that surfaces send back; "
                  "the rest is Lambert's: the lunar-Lambert law",
-          .min = 0.0,
-          .max = 1.0,
-          .origin = Origin::kAssumed,
-          .source = "McEwen 1991 (Icarus 92, 298) has the law; 0: as in the light stripe images",
-          .study_low = 0.0,
-          .study_high = 0.8});
+                 "McEwen 1991 (Icarus 92, 298) has the law; 0: as in the light stripe images",
+                 {0.0, 1.0}, {0.0, 0.8}));
   v.Angle("sun_diameter_deg", sun_diameter_rad,
-          {.doc = "of the sun's disc, which makes the edges of shadows soft; 0 for a point",
-           .min = 0.0,
-           .max = 5.0,
-           .origin = Origin::kPublished,
-           .source = "0.533 deg at 1 AU, seen from 1.52 AU"});
+          Published("of the sun's disc, which makes the edges of shadows soft; 0 for a point",
+                    "0.533 deg at 1 AU, seen from 1.52 AU", {0.0, 5.0}));
   v.Integer("edge_samples", edge_samples,
-            {.doc = "pixels in which a surface or the sunlight ends are split in this many parts "
+            Setting("pixels in which a surface or the sunlight ends are split in this many parts "
                     "each way; 1 leaves edges jagged",
-             .min = 1,
-             .max = 16,
-             .origin = Origin::kSetting});
+                    {1, 16}));
   v.Integer("texture_taps", texture_taps,
-            {.doc = "most places along what a pixel covers of a surface at which its texture is "
+            Setting("most places along what a pixel covers of a surface at which its texture is "
                     "looked up; longer footprints are blurred across",
-             .min = 1,
-             .max = 16,
-             .origin = Origin::kSetting});
+                    {1, 16}));
 }
 
 void PictureCameraParams::Visit(core::FieldVisitor& v) {
   imager.VisitOptics(v);
-  v.Real(
-      "pixel_pitch_m", pixel_pitch_m,
-      {.doc = "side of a pixel",
-       .min = 1e-6,
-       .max = 1e-4,
-       .origin = Origin::kAssumed,
-       .source = "1024 x 1024 pixels of 0.82 mrad (Maki et al. 2003, abstract) through a lens of "
+  v.Real("pixel_pitch_m", pixel_pitch_m,
+         Assumed("side of a pixel",
+                 "1024 x 1024 pixels of 0.82 mrad (Maki et al. 2003, abstract) through a lens of "
                  "14.6 mm, which is not at hand",
-       .study_low = 7e-6,
-       .study_high = 15e-6});
+                 {1e-6, 1e-4}, {7e-6, 15e-6}));
   v.Real("wavelength_m", wavelength_m,
-         {.doc = "in the middle of the passband",
-          .min = 3e-7,
-          .max = 1.1e-6,
-          .origin = Origin::kAssumed,
-          .source = "Navcams see 600 to 800 nm (Lakdawalla 2018, table 7.1), or are centred at 650 "
-                    "nm (Maki et al. 2012, abstract)",
-          .study_low = 650e-9,
-          .study_high = 700e-9});
+         Assumed("in the middle of the passband",
+                 "Navcams see 600 to 800 nm (Lakdawalla 2018, table 7.1), or are centred at 650 nm "
+                 "(Maki et al. 2012, abstract)",
+                 {3e-7, 1.1e-6}, {650e-9, 700e-9}));
   v.Real("spread_px", blur_px,
-         {.doc = "standard deviation of the image of a point, in pixels both ways: lens, and "
+         Assumed("standard deviation of the image of a point, in pixels both ways: lens, and "
                  "charge that strays; pixels integrate over their area besides",
-          .min = 0.0,
-          .max = 10.0,
-          .origin = Origin::kAssumed,
-          .source = "a sharp lens, matched to its pixels",
-          .study_low = 0.0,
-          .study_high = 1.5});
-  v.Choice("vignetting", vignetting,
-           {.doc = "how light falls off from the axis outwards", .origin = Origin::kSetting});
+                 "a sharp lens, matched to its pixels", {0.0, 10.0}, {0.0, 1.5}));
+  v.Choice("vignetting", vignetting, Setting("how light falls off from the axis outwards"));
   v.Real("vignetting_c2", vignetting_c2,
-         {.doc = "of polynomial vignetting, 1 + c2 x^2 + c4 x^4 with x = 1 in the corners",
-          .min = -1.0,
-          .max = 1.0,
-          .origin = Origin::kAssumed,
-          .source = "small lenses that are stopped down",
-          .study_low = -0.5,
-          .study_high = 0.0});
-  v.Real("vignetting_c4", vignetting_c4,
-         {.doc = "see vignetting_c2",
-          .min = -1.0,
-          .max = 1.0,
-          .origin = Origin::kAssumed,
-          .source = "small lenses that are stopped down",
-          .study_low = -0.3,
-          .study_high = 0.0});
+         Assumed("of polynomial vignetting, 1 + c2 x^2 + c4 x^4 with x = 1 in the corners",
+                 "small lenses that are stopped down", {-1.0, 1.0}, {-0.5, 0.0}));
+  v.Real(
+      "vignetting_c4", vignetting_c4,
+      Assumed("see vignetting_c2", "small lenses that are stopped down", {-1.0, 1.0}, {-0.3, 0.0}));
   v.Require("vignetting_c2", 1.0 + vignetting_c2 + vignetting_c4 > 0.0,
             "leaves the corners of the image without light", "use c2 + c4 above -1");
   v.Choice("flat_field", flat_field,
-           {.doc = "whether vignetting and the pixels' responses are divided out on board",
-            .origin = Origin::kSetting});
+           Setting("whether vignetting and the pixels' responses are divided out on board"));
   v.Real("stuck_share", stuck_share,
-         {.doc = "share of pixels that always show the least or the largest count",
-          .min = 0.0,
-          .max = 0.1,
-          .origin = Origin::kAssumed,
-          .source = "some pixels of a megapixel after years of radiation",
-          .study_low = 0.0,
-          .study_high = 1e-3});
+         Assumed("share of pixels that always show the least or the largest count",
+                 "some pixels of a megapixel after years of radiation", {0.0, 0.1}, {0.0, 1e-3}));
   imager.VisitDetectors(v);
 }
 

@@ -2,15 +2,12 @@
 
 namespace rockyard::vision {
 
+using core::Setting;
+
 void ChessboardParams::Visit(core::FieldVisitor& v) {
-  v.Integer(
-      "rows", rows,
-      {.doc = "rows of inner corners", .min = 0, .max = 100, .origin = core::Origin::kSetting});
-  v.Integer(
-      "columns", columns,
-      {.doc = "columns of inner corners", .min = 0, .max = 100, .origin = core::Origin::kSetting});
-  v.Real("spacing_m", spacing_m,
-         {.doc = "side of a square", .min = 0.0, .max = 100.0, .origin = core::Origin::kSetting});
+  v.Integer("rows", rows, Setting("rows of inner corners", {0, 100}));
+  v.Integer("columns", columns, Setting("columns of inner corners", {0, 100}));
+  v.Real("spacing_m", spacing_m, Setting("side of a square", {0.0, 100.0}));
   v.Require("rows", rows >= 3, "is missing or below 3",
             "count the corners where four squares meet");
   v.Require("columns", columns >= 3, "is missing or below 3",

@@ -17,22 +17,16 @@ namespace {
 
 using core::JsonValue;
 using core::Problem;
+using core::Setting;
 
 struct BoardPose {
   std::array<double, 3> position_m = {core::kNaN, core::kNaN, core::kNaN};
   std::array<double, 4> rotation_wxyz = {core::kNaN, core::kNaN, core::kNaN, core::kNaN};
 
   void Visit(core::FieldVisitor& v) {
-    v.FixedReals("position_m", position_m,
-                 {.doc = "origin of the board in A, m",
-                  .min = -1e6,
-                  .max = 1e6,
-                  .origin = core::Origin::kSetting});
+    v.FixedReals("position_m", position_m, Setting("origin of the board in A, m", {-1e6, 1e6}));
     v.FixedReals("rotation_wxyz", rotation_wxyz,
-                 {.doc = "unit quaternion of X_AT",
-                  .min = -1.001,
-                  .max = 1.001,
-                  .origin = core::Origin::kSetting});
+                 Setting("unit quaternion of X_AT", {-1.001, 1.001}));
     v.Require("position_m", std::isfinite(position_m[0]), "is missing", "give x, y and z in m");
     double squared = 0.0;
     for (const double part : rotation_wxyz) squared += part * part;

@@ -12,6 +12,8 @@ namespace {
 
 using core::FieldInfo;
 using core::FieldVisitor;
+using core::Setting;
+
 using math::Vector3;
 
 enum ModelIndex { kCahvModel, kCahvorModel, kCahvoreModel, kBrownModel };
@@ -23,9 +25,7 @@ constexpr double kUnitTolerance = 1e-3;
 // The sine of the angle between rows and columns: they are square to each other but for the skew.
 constexpr double kSmallestSine = 0.1;
 
-FieldInfo Within(std::string_view doc, double limit) {
-  return {.doc = doc, .min = -limit, .max = limit, .origin = core::Origin::kSetting};
-}
+FieldInfo Within(std::string_view doc, double limit) { return core::Setting(doc, {-limit, limit}); }
 
 bool AllKnown(std::span<const double> values) {
   for (const double value : values) {
@@ -58,17 +58,13 @@ class CalibrationFields {
   }
 
   void Side(std::string_view name, std::int64_t& value) {
-    v_.Integer(name, value,
-               {.doc = "size of the image, pixels",
-                .min = 1,
-                .max = kLongestSide_px,
-                .origin = core::Origin::kSetting});
+    v_.Integer(name, value, Setting("size of the image, pixels", {1, kLongestSide_px}));
     Note(name, value > 0);
   }
 
   void Choose(std::string_view name, int& index, std::span<const std::string_view> names,
               std::string_view doc) {
-    v_.ChoiceOf(name, index, names, {.doc = doc, .origin = core::Origin::kSetting});
+    v_.ChoiceOf(name, index, names, Setting(doc));
     Note(name, index >= 0);
   }
 
@@ -144,9 +140,7 @@ void VisitPupil(CalibrationFields& v, CameraFields& fields) {
 void VisitBrown(CalibrationFields& v, CameraFields& fields) {
   v.Numbers("position_m", fields.position_m, Within("centre, m", 1e7));
   v.UnitVector("rotation_wxyz", fields.rotation_wxyz, "unit quaternion of X_AC");
-  v.Numbers(
-      "focal_px", fields.focal_px,
-      {.doc = "fx and fy, pixels", .min = 1e-3, .max = 1e7, .origin = core::Origin::kSetting});
+  v.Numbers("focal_px", fields.focal_px, Setting("fx and fy, pixels", {1e-3, 1e7}));
   v.Numbers("centre_px", fields.centre_px, Within("cx and cy, pixels", 1e7));
   v.Numbers("radial", fields.radial, Within("k1, k2 and k3", 1e4));
   v.Numbers("tangential", fields.tangential, Within("p1 and p2", 1e4));

@@ -4,16 +4,11 @@
 
 namespace rockyard::vision {
 
+using core::Assumed;
+
 void RigDriftParams::Visit(core::FieldVisitor& v) {
   const auto angle = [&](std::string_view name, double& sd_rad, std::string_view doc) {
-    v.Angle(name, sd_rad,
-            {.doc = doc,
-             .min = 0.0,
-             .max = 2.0,
-             .origin = core::Origin::kAssumed,
-             .source = "no published value",
-             .study_low = 0.0,
-             .study_high = 0.1});
+    v.Angle(name, sd_rad, Assumed(doc, "no published value", {0.0, 2.0}, {0.0, 0.1}));
   };
   angle("roll_sd_deg", roll_sd_rad,
         "standard deviation of the right camera's turn about its axis since calibration");
@@ -22,21 +17,11 @@ void RigDriftParams::Visit(core::FieldVisitor& v) {
   angle("yaw_sd_deg", yaw_sd_rad,
         "standard deviation of its turn in or out: all disparities change alike");
   v.Real("baseline_sd_m", baseline_sd_m,
-         {.doc = "standard deviation of the change of the cameras' distance",
-          .min = 0.0,
-          .max = 0.02,
-          .origin = core::Origin::kAssumed,
-          .source = "no published value",
-          .study_low = 0.0,
-          .study_high = 0.001});
+         Assumed("standard deviation of the change of the cameras' distance", "no published value",
+                 {0.0, 0.02}, {0.0, 0.001}));
   v.Real("focal_sd_percent", focal_sd_percent,
-         {.doc = "standard deviation of the change of the right camera's focal length",
-          .min = 0.0,
-          .max = 5.0,
-          .origin = core::Origin::kAssumed,
-          .source = "no published value",
-          .study_low = 0.0,
-          .study_high = 0.2});
+         Assumed("standard deviation of the change of the right camera's focal length",
+                 "no published value", {0.0, 5.0}, {0.0, 0.2}));
 }
 
 }  // namespace rockyard::vision

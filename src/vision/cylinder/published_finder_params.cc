@@ -3,28 +3,23 @@
 namespace rockyard::vision {
 namespace {
 
+using core::Assumed;
+using core::Published;
+
 constexpr std::string_view kRatioSource =
     "Matthies 1995 A.3 calls the ranges experimentally determined and does not tell them; chosen "
     "about the surface colours of published_finder_params.h";
 
 void VisitRatio(core::FieldVisitor& v, std::string_view name, double& value, std::string_view doc) {
-  v.Real(name, value,
-         {.doc = doc,
-          .min = 0.0,
-          .max = 255.0,
-          .origin = core::Origin::kAssumed,
-          .source = kRatioSource,
-          .study_low = 0.0,
-          .study_high = 1.5});
+  v.Real(name, value, Assumed(doc, kRatioSource, {0.0, 255.0}, {0.0, 1.5}));
 }
 
 }  // namespace
 
 void ColourRatioParams::Visit(core::FieldVisitor& v) {
   v.Choice("over", over,
-           {.doc = "the primary that the two others are divided by",
-            .origin = core::Origin::kPublished,
-            .source = "Matthies 1995 A.3: over red for red and magenta, over blue for blue"});
+           Published("the primary that the two others are divided by",
+                     "Matthies 1995 A.3: over red for red and magenta, over blue for blue"));
   VisitRatio(v, "first_low", first_low, "least ratio of the first of the two other primaries");
   VisitRatio(v, "first_high", first_high, "largest ratio of the first of the two other primaries");
   VisitRatio(v, "second_low", second_low, "least ratio of the second of the two other primaries");
@@ -39,88 +34,47 @@ void ColourClassParams::Visit(core::FieldVisitor& v) {
   v.Group("magenta", magenta, "the class magenta: pink");
   v.Group("red", red, "the third class: orange, or green in its place");
   v.Real("darkest", darkest,
-         {.doc = "grey levels of the primary below which a pixel is background",
-          .min = 1.0,
-          .max = 255.0,
-          .origin = core::Origin::kAssumed,
-          .source = "not in Matthies 1995; noise of 2 grey levels moves a ratio by 0.1 there",
-          .study_low = 5.0,
-          .study_high = 40.0});
+         Assumed("grey levels of the primary below which a pixel is background",
+                 "not in Matthies 1995; noise of 2 grey levels moves a ratio by 0.1 there",
+                 {1.0, 255.0}, {5.0, 40.0}));
 }
 
 ColourRatioParams GreenRatios() { return {PrimaryColour::kGreen, 0.0, 0.50, 0.0, 0.60}; }
 
 void PublishedFinderParams::Visit(core::FieldVisitor& v) {
-  using core::Origin;
   v.Group("classes", classes, "the classes of colours");
   v.Integer("longest_gap_px", longest_gap_px,
-            {.doc = "background pixels between two colours in a row that are filled from both",
-             .min = 0,
-             .max = 100,
-             .origin = Origin::kPublished,
-             .source = "Matthies 1995 A.3: one to four"});
+            Published("background pixels between two colours in a row that are filled from both",
+                      "Matthies 1995 A.3: one to four", {0, 100}));
   v.Real("sky_share", sky_share,
-         {.doc = "share of the image, from its top, outside of the area of interest",
-          .min = 0.0,
-          .max = 0.95,
-          .origin = Origin::kAssumed,
-          .source = "Matthies 1995 A.3 leaves the sky out and does not say how; where the horizon "
-                    "is depends on the cameras",
-          .study_low = 0.0,
-          .study_high = 0.6});
+         Assumed("share of the image, from its top, outside of the area of interest",
+                 "Matthies 1995 A.3 leaves the sky out and does not say how; where the horizon is "
+                 "depends on the cameras",
+                 {0.0, 0.95}, {0.0, 0.6}));
   v.Choice("measure", measure,
-           {.doc = "what is seen of a quadrant: pixels, or the columns of its bounding box",
-            .origin = Origin::kAssumed,
-            .source = "Matthies 1995 A.3 ends with both"});
+           Assumed("what is seen of a quadrant: pixels, or the columns of its bounding box",
+                   "Matthies 1995 A.3 ends with both"));
   v.Integer("least_whole_px", least_whole_px,
-            {.doc = "pixels of the largest region below which there is no cylinder",
-             .min = 1,
-             .max = 1000000,
-             .origin = Origin::kAssumed,
-             .source = "a quarter of the cylinder at 15 m",
-             .study_low = 5,
-             .study_high = 100});
+            Assumed("pixels of the largest region below which there is no cylinder",
+                    "a quarter of the cylinder at 15 m", {1, 1000000}, {5, 100}));
   v.Integer("least_quadrant_px", least_quadrant_px,
-            {.doc = "pixels of a region beside the middle one below which it is not seen",
-             .min = 1,
-             .max = 1000000,
-             .origin = Origin::kAssumed,
-             .source = "more than stray pixels at the rim",
-             .study_low = 1,
-             .study_high = 20});
+            Assumed("pixels of a region beside the middle one below which it is not seen",
+                    "more than stray pixels at the rim", {1, 1000000}, {1, 20}));
   v.Real("box_difference_px", box_difference_px,
-         {.doc = "difference of the sides of both eyes' bounding boxes, and of their upper and "
+         Assumed("difference of the sides of both eyes' bounding boxes, and of their upper and "
                  "lower rows, that is allowed at any size",
-          .min = 0.0,
-          .max = 1000.0,
-          .origin = Origin::kAssumed,
-          .source = "a pixel of either rim",
-          .study_low = 1.0,
-          .study_high = 5.0});
+                 "a pixel of either rim", {0.0, 1000.0}, {1.0, 5.0}));
   v.Real("box_difference_share", box_difference_share,
-         {.doc = "the same as a share of the larger side, in addition",
-          .min = 0.0,
-          .max = 1.0,
-          .origin = Origin::kAssumed,
-          .source = "Matthies 1995 A.3: the boxes are similar to each other",
-          .study_low = 0.1,
-          .study_high = 0.5});
+         Assumed("the same as a share of the larger side, in addition",
+                 "Matthies 1995 A.3: the boxes are similar to each other", {0.0, 1.0}, {0.1, 0.5}));
   v.Angle("largest_turn_between_eyes_deg", largest_turn_between_eyes_rad,
-          {.doc = "difference of both eyes' orientations up to which they are consistent",
-           .min = 0.0,
-           .max = 180.0,
-           .origin = Origin::kAssumed,
-           .source = "four times the coarsest step at 10 m, less than a quadrant and a half",
-           .study_low = 20.0,
-           .study_high = 90.0});
+          Assumed("difference of both eyes' orientations up to which they are consistent",
+                  "four times the coarsest step at 10 m, less than a quadrant and a half",
+                  {0.0, 180.0}, {20.0, 90.0}));
   v.Real("pixel_error_px", pixel_error_px,
-         {.doc = "standard deviation of boundary, width and disparity, for the covariance",
-          .min = 0.01,
-          .max = 10.0,
-          .origin = Origin::kPublished,
-          .source = "Matthies 1995 sec. 5: usually less than one or two pixels",
-          .study_low = 0.5,
-          .study_high = 2.0});
+         Published("standard deviation of boundary, width and disparity, for the covariance",
+                   "Matthies 1995 sec. 5: usually less than one or two pixels", {0.01, 10.0},
+                   {0.5, 2.0}));
 }
 
 }  // namespace rockyard::vision

@@ -11,6 +11,8 @@
 
 namespace {
 
+using core::Assumed;
+
 using namespace rockyard;
 
 struct BeelineParams {
@@ -18,7 +20,7 @@ struct BeelineParams {
 
   void Visit(core::FieldVisitor& v) {
     v.Real("tolerance_m", tolerance_m,
-           {.doc = "believed distance from the goal at which it has arrived", .min = 0, .max = 1});
+           Assumed("believed distance from the goal at which it has arrived", {}, {0, 1}));
   }
 };
 

@@ -30,6 +30,8 @@
 namespace rockyard::rendering {
 namespace {
 
+using core::Assumed;
+
 struct PairSettings {
   PictureParams picture;
   SunParams sun;
@@ -46,15 +48,15 @@ struct PairSettings {
   void Visit(core::FieldVisitor& v) {
     v.Group("picture", picture, "appearance and camera");
     v.Group("sun", sun, "sun and albedos");
-    v.Integer("columns", columns, {.doc = "of the square images", .min = 16, .max = 4096});
-    v.Integer("trial", trial, {.doc = "of the scenario's seed", .min = 0, .max = 1e6});
-    v.Angle("view_deg", view_rad, {.doc = "field of view", .min = 5, .max = 150});
-    v.Angle("pitch_deg", pitch_rad, {.doc = "of the cameras, down", .min = -90, .max = 90});
-    v.Real("height_m", height_m, {.doc = "of the cameras", .min = 0.01, .max = 100});
-    v.Real("baseline_m", baseline_m, {.doc = "from left to right", .min = 0.001, .max = 10});
-    v.Real("x_m", x_m, {.doc = "of the rover", .min = -1000, .max = 1000});
-    v.Real("y_m", y_m, {.doc = "of the rover", .min = -1000, .max = 1000});
-    v.Angle("heading_deg", heading_rad, {.doc = "of the rover", .min = -360, .max = 360});
+    v.Integer("columns", columns, Assumed("of the square images", {}, {16, 4096}));
+    v.Integer("trial", trial, Assumed("of the scenario's seed", {}, {0, 1e6}));
+    v.Angle("view_deg", view_rad, Assumed("field of view", {}, {5, 150}));
+    v.Angle("pitch_deg", pitch_rad, Assumed("of the cameras, down", {}, {-90, 90}));
+    v.Real("height_m", height_m, Assumed("of the cameras", {}, {0.01, 100}));
+    v.Real("baseline_m", baseline_m, Assumed("from left to right", {}, {0.001, 10}));
+    v.Real("x_m", x_m, Assumed("of the rover", {}, {-1000, 1000}));
+    v.Real("y_m", y_m, Assumed("of the rover", {}, {-1000, 1000}));
+    v.Angle("heading_deg", heading_rad, Assumed("of the rover", {}, {-360, 360}));
   }
 };
 
