@@ -7,14 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/random.h"
 #include "localization/aid_fixes.h"
 #include "localization/estimator.h"
 #include "messages/aids.h"
 #include "sensing/aid_params.h"
-#include "sensing/aids.h"
-#include "terrain/terrain.h"
-#include "trial/drive_params.h"
+#include "trial/aid_exchange.h"
 
 namespace rockyard::trial {
 
@@ -63,16 +60,21 @@ struct AidCounts {
   std::int64_t unanswered = 0;  // was due, and saw or heard nothing
 };
 
+localization::SunAlmanac AlmanacOf(const sensing::SunSensorParams& sun);
+
 // The moment of a measurement is captured as it is taken; what on-board software makes of it is
-// handed to the estimator `delay_s` later. The sensors see the truth, the estimator messages.
+// handed to the estimator `delay_s` later.
 class AidSuite {
  public:
-  // `terrain` and `captures` outlive it.
-  AidSuite(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain,
-           CaptureCounter& captures);
+  // `captures` outlives it.
+  AidSuite(const sensing::AidParams& params, CaptureCounter& captures);
 
-  // Once a control tick, after the estimator took it. Returns whether the estimate was corrected.
-  bool Tick(const math::Transform& X_WR, double time_s, localization::Estimator& estimator);
+  // Once a control tick, after the estimator took it: what is to be measured now.
+  AidRequest Due(const localization::Estimator& estimator, double time_s);
+  // Takes what was measured of that, and hands in what is ready. Returns whether the estimate was
+  // corrected.
+  bool Take(const AidRequest& request, const AidAnswer& answer, double time_s,
+            localization::Estimator& estimator);
 
   // What was taken before operators moved the rover is of no use any more.
   void OnPlaced() { waiting_.clear(); }
@@ -85,25 +87,14 @@ class AidSuite {
     messages::PoseFix fix;
   };
 
-  void MeasureAll(const math::Transform& X_WR, double time_s, localization::Estimator& estimator);
   // Captures the moment of `fix`, or counts that there is none.
-  void Take(std::optional<messages::PoseFix> fix, double ready_s,
+  void Keep(std::optional<messages::PoseFix> fix, double ready_s,
             localization::Estimator& estimator);
-  // Of the sun of `sensors.aids.sun` where that aid is there.
-  std::optional<double> SunElevation_rad(double time_s) const;
-  std::optional<messages::PoseFix> LookForSun(const math::Transform& X_WR, double time_s,
-                                              const localization::Estimator& estimator);
-  std::optional<messages::PoseFix> AskBeacon(const math::Transform& X_WR,
-                                             const localization::Estimator& estimator);
   bool HandIn(const messages::PoseFix& fix, localization::Estimator& estimator);
 
-  const terrain::Terrain& terrain_;
-  CaptureCounter& captures_;
+  CaptureCounter* captures_;
   sensing::AidParams params_;
   localization::SunAlmanac almanac_;
-  sensing::LanderFix lander_fix_;
-  sensing::SunSensor sun_;
-  sensing::RadioBeacon beacon_;
   AidSchedule lander_schedule_;
   AidSchedule sun_schedule_;
   AidSchedule beacon_schedule_;

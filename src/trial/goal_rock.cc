@@ -51,4 +51,12 @@ double GoalRock::FrontDistance_m(const math::Transform& X_WR) const {
   return std::max(centre_m - rock().semi_axes_m.x(), 0.0);
 }
 
+std::optional<GoalRock> GoalRockOf(const DriveParams& drive, const terrain::Terrain& terrain) {
+  if (!drive.course.goal_rock.enabled) return std::nullopt;
+  // Terrains list it last.
+  return GoalRock(terrain, static_cast<int>(terrain.rocks().size()) - 1,
+                  drive.sensors.terrain_sensors.chosen().reported_zone(drive),
+                  drive.rover.geometry);
+}
+
 }  // namespace rockyard::trial

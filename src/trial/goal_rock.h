@@ -1,9 +1,12 @@
 // Whether a rover has found the rock at its goal.
 #pragma once
 
+#include <optional>
+
 #include "math/pose.h"
 #include "rover/rover_geometry_params.h"
 #include "terrain/terrain.h"
+#include "trial/drive_params.h"
 #include "trial/hazard_watch.h"
 #include "truth/rover_state.h"
 
@@ -48,5 +51,8 @@ class GoalRock {
   Zone footprint_;
   RockSign sign_ = RockSign::kNone;
 };
+
+// The rock at the goal of a drive that has one.
+std::optional<GoalRock> GoalRockOf(const DriveParams& drive, const terrain::Terrain& terrain);
 
 }  // namespace rockyard::trial

@@ -26,7 +26,7 @@ class SlipAlarms {
     ++count_;
   }
   // The rover was moved by hand.
-  void Drop() { raised_ = false; }
+  void OnPlaced() { raised_ = false; }
 
   // Whether the drive ends by the alarm that is raised.
   bool EndsDrive() const {

@@ -25,4 +25,11 @@ void SlipOnset::Observe(const messages::PoseEstimate& odometry, const math::Pose
   if (slip && slip->exceeded) path_m_ = path_m;
 }
 
+bool SlipOnset::TrulyExceeded(const SlipReading& reading) {
+  const auto slip = perception::SlipOf(
+      reading.rolled_m, TrueMotion(looks_.at(reading.from), looks_.at(reading.to)), params_);
+  looks_.erase(looks_.begin(), looks_.find(reading.from));
+  return slip->exceeded;
+}
+
 }  // namespace rockyard::trial

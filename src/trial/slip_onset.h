@@ -1,12 +1,15 @@
-// Where the wheels first slipped more than the limit of the slip check, in truth.
+// What the slip check of a drive had to find, in truth.
 #pragma once
 
+#include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 
 #include "math/pose.h"
 #include "messages/estimates.h"
 #include "perception/visual_motion.h"
+#include "trial/visual_aid.h"
 
 namespace rockyard::trial {
 
@@ -24,6 +27,14 @@ class SlipOnset {
   // True path length at which the limit was first exceeded.
   const std::optional<double>& path_m() const { return path_m_; }
 
+  // Visual odometry looks from there.
+  void OnLook(std::int64_t number, const math::Pose2& truth) {
+    if (params_.enabled) looks_[number] = truth;
+  }
+  // Whether the wheels truly slipped that much between the two looks of a reading. Readings come in
+  // the order of their looks.
+  bool TrulyExceeded(const SlipReading& reading);
+
  private:
   struct Tick {
     messages::PoseEstimate odometry;
@@ -33,6 +44,7 @@ class SlipOnset {
   perception::SlipCheckParams params_;
   std::deque<Tick> ticks_;
   std::optional<double> path_m_;
+  std::map<std::int64_t, math::Pose2> looks_;
 };
 
 // The true motion in the plane from one pose to another as a check of slip takes it, without error.

@@ -1,31 +1,32 @@
 #include "trial/terrain_sensing.h"
 
+#include <utility>
+
 namespace rockyard::trial {
 
 using messages::LookDirection;
 
-TerrainSensing::TerrainSensing(const DriveParams& drive, core::TrialKey key,
-                               const Watchers& watchers)
-    : kind_(drive.sensors.terrain_sensors.chosen()),
+TerrainSensing::TerrainSensing(const DriveParams& drive)
+    : takes_image_sets_(drive.sensors.terrain_sensors.chosen().takes_image_sets()),
       reads_points_(drive.navigation.navigators.chosen().traits().reads ==
                     navigation::LookReading::kPoints),
-      sensor_(kind_.Make(drive, key, watchers)),
       hazard_detector_(drive.perception.hazard),
       look_time_(MakeLookTime(drive)) {}
 
-Percept TerrainSensing::Look(LookDirection direction, const terrain::Terrain& terrain,
-                             const math::Transform& X_WR,
-                             const messages::AttitudeEstimate& attitude) {
+LookOrder TerrainSensing::Order(LookDirection direction,
+                                const messages::AttitudeEstimate& attitude) {
   if (looks_again_) ++rescans_;
-  const bool behind = direction == LookDirection::kBehind;
-  const TerrainLook look{terrain, X_WR, direction, attitude, looks_};
-  if (behind && !sensor_->LooksBehind()) {
-    return {.cloud = messages::PointCloud{looks_, direction, {}}};
+  return {direction, attitude, looks_, reads_points_};
+}
+
+Percept TerrainSensing::Take(const LookOrder& order, LookAnswer answer) {
+  if (!answer.points && !answer.elevations) {
+    return {.cloud = messages::PointCloud{order.number, order.direction, {}}};
   }
   ++looks_;
-  if (behind) ++looks_behind_;
-  if (reads_points_) return {.time = look_time_, .cloud = sensor_->Points(look)};
-  return Judge(sensor_->Elevations(look));
+  if (order.direction == LookDirection::kBehind) ++looks_behind_;
+  if (answer.points) return {.time = look_time_, .cloud = std::move(answer.points)};
+  return Judge(*answer.elevations);
 }
 
 Percept TerrainSensing::Judge(const messages::ElevationScan& elevations) {

@@ -1,22 +1,17 @@
-// How a rover of a trial looks at the terrain: whichever sensor it has, and what on-board
-// perception makes of it for its navigator.
+// What a rover asks of its terrain sensor, and what on-board perception makes of the answer for its
+// navigator.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
-#include "core/random.h"
-#include "math/pose.h"
 #include "messages/estimates.h"
 #include "messages/point_cloud.h"
 #include "perception/hazard_detector.h"
-#include "terrain/terrain.h"
 #include "trial/drive_params.h"
 #include "trial/look_time.h"
 #include "trial/terrain_sensor_model.h"
 #include "trial/terrain_sensor_set_params.h"
-#include "trial/watchers.h"
 
 namespace rockyard::trial {
 
@@ -35,22 +30,23 @@ struct Percept {
 //   light stripe, map: the triangulated points as a cloud; nothing is seen behind, at no cost.
 class TerrainSensing {
  public:
-  TerrainSensing(const DriveParams& drive, core::TrialKey key, const Watchers& watchers);
+  explicit TerrainSensing(const DriveParams& drive);
 
   // The next look is from a new pose.
   void Begin() { hazard_detector_.Reset(); }
 
-  // Looks from X_WR; `attitude` is how the rover believes to stand. Noise is indexed by the number
-  // of the look, counted over the trial.
-  Percept Look(messages::LookDirection direction, const terrain::Terrain& terrain,
-               const math::Transform& X_WR, const messages::AttitudeEstimate& attitude);
+  // The next look, by a rover that believes to stand like that. Noise is indexed by its number,
+  // counted over the trial.
+  LookOrder Order(messages::LookDirection direction, const messages::AttitudeEstimate& attitude);
+  // Takes what came of it.
+  Percept Take(const LookOrder& order, LookAnswer answer);
 
   std::int64_t looks() const { return looks_; }  // so far: the number of the next one
   // Looks are scans or sets of images, by the kind of the sensor.
-  std::int64_t scans() const { return kind_.takes_image_sets() ? 0 : looks_; }
+  std::int64_t scans() const { return takes_image_sets_ ? 0 : looks_; }
   std::int64_t rescans() const { return rescans_; }  // looks again at one pose, of any sensor
-  std::int64_t image_sets() const { return kind_.takes_image_sets() ? looks_ : 0; }
-  std::int64_t rear_image_sets() const { return kind_.takes_image_sets() ? looks_behind_ : 0; }
+  std::int64_t image_sets() const { return takes_image_sets_ ? looks_ : 0; }
+  std::int64_t rear_image_sets() const { return takes_image_sets_ ? looks_behind_ : 0; }
   const LookTime& look_time() const { return look_time_; }
 
   // Whether a look can be taken from a rover on the move: images in one moment, for points. A light
@@ -60,9 +56,8 @@ class TerrainSensing {
  private:
   Percept Judge(const messages::ElevationScan& elevations);
 
-  const TerrainSensorKind& kind_;
-  bool reads_points_;  // the navigator
-  std::unique_ptr<TerrainSensorModel> sensor_;
+  bool takes_image_sets_;  // else scans
+  bool reads_points_;      // the navigator
   perception::HazardDetector hazard_detector_;
   LookTime look_time_;
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 
-#include "math/pose.h"
 #include "messages/point_cloud.h"
 #include "trial/clock_params.h"
 #include "trial/ledger.h"
@@ -23,7 +22,6 @@ struct SeenLook {
 
   Percept percept;
   messages::LookMoment moment;
-  math::Transform X_WR = math::Transform::Identity();  // where the rover truly was
 };
 
 // The rover as a whole does one thing at a time: it drives, steers, rests. Looks may be under way

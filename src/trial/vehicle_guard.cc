@@ -45,18 +45,16 @@ perception::WheelTurns TurnsOf(const messages::WheelCommand& command,
 
 }  // namespace
 
-VehicleGuard::VehicleGuard(const DriveParams& drive, core::TrialKey key)
-    : on_(drive.sensors.vehicle.any()),
-      sensors_(drive.sensors.vehicle, drive.rover, key),
-      detector_(drive.perception.vehicle_hazard) {}
+VehicleGuard::VehicleGuard(const DriveParams& drive)
+    : on_(drive.sensors.vehicle.any()), detector_(drive.perception.vehicle_hazard) {}
 
-std::vector<messages::VehicleHazard> VehicleGuard::Feel(const truth::RoverState& state,
+std::vector<messages::VehicleHazard> VehicleGuard::Feel(const messages::VehicleState& felt,
                                                         const messages::WheelCommand& command,
                                                         const messages::MotionMeasurement& motion) {
   std::vector<messages::VehicleHazard> appeared;
   if (!on_) return appeared;
   const perception::FeltHazards before = felt_;
-  measured_ = sensors_.Measure(state, command, motion.duration_s);
+  measured_ = felt;
   felt_ = detector_.Observe(measured_, TurnsOf(command, motion));
   const bool avoided_before = hazard_.has_value();
   hazard_ = perception::HazardToAvoid(felt_);
@@ -69,8 +67,7 @@ std::vector<messages::VehicleHazard> VehicleGuard::Feel(const truth::RoverState&
   return appeared;
 }
 
-void VehicleGuard::Restart(const truth::RoverState& state) {
-  if (on_) sensors_.Restart(state);
+void VehicleGuard::OnPlaced() {
   detector_.Reset();
   felt_ = {};
   hazard_.reset();

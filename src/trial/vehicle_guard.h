@@ -1,4 +1,4 @@
-// What the rover feels, as the closed loop uses it: the vehicle sensors and their hazard criteria.
+// What the rover makes of what it feels: the hazard criteria of the vehicle sensors, and counts.
 #pragma once
 
 #include <array>
@@ -7,35 +7,27 @@
 #include <string>
 #include <vector>
 
-#include "core/random.h"
 #include "messages/commands.h"
 #include "messages/measurements.h"
 #include "perception/vehicle_hazards.h"
-#include "sensing/vehicle_sensors.h"
 #include "trial/drive_params.h"
-#include "truth/rover_state.h"
 
 namespace rockyard::trial {
 
 // Costs nothing where the rover has none of these sensors.
 class VehicleGuard {
  public:
-  VehicleGuard(const DriveParams& drive, core::TrialKey key);
+  explicit VehicleGuard(const DriveParams& drive);
 
-  // Once a physics step.
-  void Observe(const truth::RoverState& state) {
-    if (on_) sensors_.Observe(state);
-  }
-
-  // Once a control tick, with what the wheels were told and what was measured of their motion
-  // meanwhile. The hazards of kinds that were not felt at the tick before.
-  std::vector<messages::VehicleHazard> Feel(const truth::RoverState& state,
+  // Once a control tick, with what was felt, what the wheels were told and what was measured of
+  // their motion meanwhile. The hazards of kinds that were not felt at the tick before.
+  std::vector<messages::VehicleHazard> Feel(const messages::VehicleState& felt,
                                             const messages::WheelCommand& command,
                                             const messages::MotionMeasurement& motion);
 
   // Operators moved the rover by hand: nothing is felt, and nothing of what was felt before counts
   // towards a hazard.
-  void Restart(const truth::RoverState& state);
+  void OnPlaced();
 
   // Of the last tick: what the rover has to get away from, null where there is nothing.
   const messages::VehicleHazard* hazard() const { return hazard_ ? &*hazard_ : nullptr; }
@@ -53,7 +45,6 @@ class VehicleGuard {
 
  private:
   bool on_;
-  sensing::VehicleSensors sensors_;
   perception::VehicleHazardDetector detector_;
   messages::VehicleState measured_;
   perception::FeltHazards felt_;

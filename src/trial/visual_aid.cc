@@ -7,7 +7,6 @@
 #include "math/angles.h"
 #include "perception/visual_motion.h"
 #include "trial/compute_profile.h"
-#include "trial/slip_onset.h"
 
 namespace rockyard::trial {
 namespace {
@@ -20,19 +19,16 @@ math::Transform OdometryPose(const messages::PoseEstimate& odometry,
 
 }  // namespace
 
-VisualAid::VisualAid(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain,
-                     CaptureCounter& captures)
+VisualAid::VisualAid(const DriveParams& drive, CaptureCounter& captures)
     : params_(drive.sensors.visual_odometry),
       slip_params_(drive.perception.visual_odometry.slip_check),
       tilt_sd_rad_(drive.perception.visual_odometry.tilt_sd_rad),
       imaging_s_(VisualTimeOf(drive.clock.compute).imaging_s),
       computing_s_(VisualTimeOf(drive.clock.compute).computing_s),
-      captures_(captures) {
-  if (params_.enabled) eyes_ = MakeVisualEyes(drive, key, terrain);
-}
+      captures_(&captures) {}
 
 bool VisualAid::IsDue(const messages::LocalizationEstimate& believed, double time_s) const {
-  if (!eyes_ || waiting_) return false;
+  if (!params_.enabled || waiting_) return false;
   if (!keyframe_) return true;
   const sensing::VisualScheduleParams& every = params_.schedule;
   const auto passed = [](double value, double limit) { return limit > 0.0 && value >= limit; };
@@ -43,22 +39,20 @@ bool VisualAid::IsDue(const messages::LocalizationEstimate& believed, double tim
          passed(time_s - last_time_s_, every.every_s);
 }
 
-math::Transform VisualAid::Predicted(const Moment& now) const {
+math::Transform VisualAid::Expected(const messages::LocalizationEstimate& believed) const {
   if (!keyframe_) return math::Transform::Identity();
   return OdometryPose(keyframe_->odometry, keyframe_->attitude).inverse() *
-         OdometryPose(now.odometry, now.attitude);
+         OdometryPose(believed.odometry, believed.attitude);
 }
 
-bool VisualAid::Look(const math::Transform& X_WR, double time_s, double ready_s,
+bool VisualAid::Take(const VisualStep& step, double time_s, double ready_s,
                      localization::Estimator& estimator) {
-  EXPECT(eyes_ != nullptr && !waiting_);
+  EXPECT(params_.enabled && !waiting_);
   const messages::LocalizationEstimate& believed = estimator.estimate();
-  Moment now{.capture = captures_.Next(),
-             .attitude = believed.attitude,
-             .odometry = believed.odometry,
-             .truth = math::ToPose2(X_WR)};
-  const VisualStep step = eyes_->Look(X_WR, Predicted(now));
-  now.look = step.number;
+  const Moment now{.look = step.number,
+                   .capture = captures_->Next(),
+                   .attitude = believed.attitude,
+                   .odometry = believed.odometry};
   estimator.Capture(now.capture);
   last_odometry_ = now.odometry;
   last_time_s_ = time_s;
@@ -71,7 +65,6 @@ bool VisualAid::Look(const math::Transform& X_WR, double time_s, double ready_s,
   ENSURE(step.reference == keyframe_->look);
   waiting_ = Waiting{ready_s, step, *keyframe_, now};
   if (step.keyframe) keyframe_ = now;
-  last_ = step;
   ++counts_.steps;
   if (!step.result.motion) ++counts_.failures;
   return true;
@@ -116,23 +109,18 @@ void VisualAid::CheckSlip(const Waiting& waiting, const messages::RelativeMotion
   const Eigen::Vector2d rolled = perception::RolledWay(waiting.from.odometry, waiting.to.odometry);
   const auto measured = perception::SlipOf(rolled, seen, slip_params_);
   if (!measured) return;
-  const auto truth =
-      perception::SlipOf(rolled, TrueMotion(waiting.from.truth, waiting.to.truth), slip_params_);
-  slip_ = SlipReading{*measured, truth->exceeded};
+  slip_ = SlipReading{*measured, rolled, waiting.from.look, waiting.to.look};
 }
 
 std::optional<SlipReading> VisualAid::TakeSlip() { return std::exchange(slip_, std::nullopt); }
 
 void VisualAid::BeginAnew(localization::Estimator& estimator) {
-  EXPECT(eyes_ != nullptr && !waiting_);
-  eyes_->Renew();
+  EXPECT(params_.enabled && !waiting_);
   if (keyframe_) estimator.Forget(keyframe_->capture);
   keyframe_.reset();
 }
 
 void VisualAid::OnPlaced() {
-  if (!eyes_) return;
-  eyes_->Renew();
   keyframe_.reset();
   waiting_.reset();
 }

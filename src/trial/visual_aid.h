@@ -3,13 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
-#include "core/random.h"
 #include "localization/estimator.h"
 #include "perception/visual_motion.h"
-#include "terrain/terrain.h"
 #include "trial/aid_suite.h"
 #include "trial/drive_params.h"
 #include "trial/visual_eyes.h"
@@ -25,20 +22,21 @@ struct VisualCounts {
   std::int64_t gated_out = 0;  // or turned away
 };
 
-// What the check of slip made of one motion, and what is true of the same stretch.
+// What the check of slip made of one motion, between two looks.
 struct SlipReading {
   perception::MeasuredSlip seen;
-  bool truly_exceeded = false;
+  Eigen::Vector2d rolled_m = Eigen::Vector2d::Zero();  // by the wheels, as RolledWay has it
+  std::int64_t from = 0;
+  std::int64_t to = 0;
 };
 
 // A pair of images is due at the start, and then by way, turn or time since the last one
 // (sensors.visual_odometry.schedule), whatever the navigator does. While the computer still works
-// on one, no other is taken. The cameras see the truth, the estimator gets messages.
+// on one, no other is taken.
 class VisualAid {
  public:
-  // `terrain` and `captures` outlive it.
-  VisualAid(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain,
-            CaptureCounter& captures);
+  // `captures` outlives it.
+  VisualAid(const DriveParams& drive, CaptureCounter& captures);
 
   // Whether images are to be taken now.
   bool IsDue(const messages::LocalizationEstimate& believed, double time_s) const;
@@ -47,9 +45,11 @@ class VisualAid {
   double imaging_s() const { return imaging_s_; }
   double computing_s() const { return computing_s_; }
 
-  // Takes images now. What comes of them is ready at `ready_s`. Returns whether a motion is worked
-  // out, which takes computing_s.
-  bool Look(const math::Transform& X_WR, double time_s, double ready_s,
+  // Where R is now, as believed, in R of the keyframe.
+  math::Transform Expected(const messages::LocalizationEstimate& believed) const;
+  // Takes the pair of images of now, and what comes of it, which is ready at `ready_s`. Returns
+  // whether a motion is worked out, which takes computing_s.
+  bool Take(const VisualStep& step, double time_s, double ready_s,
             localization::Estimator& estimator);
 
   // Hands in what is ready. Returns whether the estimate was corrected.
@@ -59,15 +59,13 @@ class VisualAid {
   void OnPlaced();
 
   // After an alarm of slip: the way that raised it counts once, and what follows is compared with
-  // images that are due at once. No images are under way.
+  // images that are due at once. No images are under way; the eyes are renewed.
   void BeginAnew(localization::Estimator& estimator);
 
   // The slip of the last motion that was handed in, once; nothing where it is not checked.
   std::optional<SlipReading> TakeSlip();
 
   const VisualCounts& counts() const { return counts_; }
-  // The last pair that was compared, for the trace.
-  const std::optional<VisualStep>& last() const { return last_; }
 
  private:
   // A pair whose moment is kept.
@@ -76,7 +74,6 @@ class VisualAid {
     messages::CaptureNumber capture = 0;
     messages::AttitudeEstimate attitude;  // believed then
     messages::PoseEstimate odometry;
-    math::Pose2 truth;
   };
   struct Waiting {
     double ready_s = 0.0;
@@ -85,7 +82,6 @@ class VisualAid {
     Moment to;
   };
 
-  math::Transform Predicted(const Moment& now) const;
   bool HandIn(const Waiting& waiting, localization::Estimator& estimator);
   void CheckSlip(const Waiting& waiting, const messages::RelativeMotion& seen);
 
@@ -94,15 +90,13 @@ class VisualAid {
   double tilt_sd_rad_;
   double imaging_s_;
   double computing_s_;
-  CaptureCounter& captures_;
-  std::unique_ptr<VisualEyes> eyes_;  // none where it is not enabled
+  CaptureCounter* captures_;
 
   std::optional<Moment> keyframe_;
   std::optional<Waiting> waiting_;
   messages::PoseEstimate last_odometry_;  // at the last look
   double last_time_s_ = 0.0;
   VisualCounts counts_;
-  std::optional<VisualStep> last_;
   std::optional<SlipReading> slip_;
 };
 

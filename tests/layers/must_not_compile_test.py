@@ -5,6 +5,7 @@ INCLUDE_PATHS has one line per module: its name and its include directories, sep
 """
 
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -78,7 +79,7 @@ class CheatingSources(unittest.TestCase):
 
     SOURCES = (("navigation", HERE / "navigator.cc"), ("localization", ROOT / "src/localization/gate.cc"))
     HEADERS = ("terrain/terrain.h", "truth/rover_state.h", "rover/rover.h",
-               "rendering/image_scene.h", "sensing/stereo_sensor.h", "trial/drive.h")
+               "rendering/image_scene.h", "sensing/stereo_sensor.h", "trial/drive/drive.h")
 
     def test_control_compiles(self):
         for module, source in self.SOURCES:
@@ -93,6 +94,36 @@ class CheatingSources(unittest.TestCase):
                     result = compile_source(module, ["-include", header, str(source)])
                     self.assertNotEqual(result.returncode, 0, f"{module} could include {header}")
                     self.assertRegex(result.stderr, rf"{header}.*(No such file|file not found)")
+
+
+class SidesOfADrive(unittest.TestCase):
+    """World, rover and referee of src/trial/drive."""
+
+    TRUTH = r"\bstate\(\)|\bX_WR\b|RoverState|Terrain\b"
+    BELIEF = r"\bestimate\(\)|\bPoseEstimate\b|\bEstimator\b|\bRemember\("
+
+    def names(self, side, *files):
+        """Those of `files` whose code, comments apart, names a side."""
+        texts = ((name, (ROOT / "src/trial/drive" / name).read_text(encoding="utf-8")) for name in files)
+        return [name for name, text in texts if re.search(side, re.sub("//.*", "", text))]
+
+    def test_only_those_who_referee_name_truth_and_belief(self):
+        self.assertEqual(self.names(self.TRUTH, "onboard.h", "onboard.cc"), [])
+        self.assertEqual(self.names(self.BELIEF, "world.h", "world.cc", "aid_sensors.h", "aid_sensors.cc"), [])
+        self.assertEqual(self.names(self.BELIEF, "drive.h", "drive.cc", "drive_looks.cc"), [])
+
+    def test_control_they_do(self):
+        referees = ("drive_observer.cc", "drive_tracer.cc", "operators.h")
+        for side in (self.TRUTH, self.BELIEF):
+            self.assertEqual(self.names(side, *referees), list(referees))
+
+    def test_a_part_says_what_it_does_when_the_rover_is_put_down(self):
+        for body, compiles in (("void OnPlaced() {}", True), ("", False)):
+            result = compile_source("trial", [], f"""
+                #include "trial/drive/part_set.h"
+                struct Part {{ {body} }};
+                void Placed(rockyard::trial::PartSet<Part>& parts) {{ parts.OnPlaced(); }}""")
+            self.assertEqual(result.returncode == 0, compiles, result.stderr)
 
 
 class Reach(unittest.TestCase):

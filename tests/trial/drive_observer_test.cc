@@ -1,7 +1,11 @@
-#include "trial/drive_observer.h"
+#include "trial/drive/drive_observer.h"
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <vector>
+
+#include "trial/make_estimator.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
@@ -17,25 +21,38 @@ const Overrides kRockAhead = {
 class DriveObserverTest : public testing::Test {
  protected:
   DriveObserverTest() {
-    parts_.Begin();
+    world_.Begin();
+    onboard_.Begin(MakeEstimator(drive_, world_.rover(), nullptr));
     observer_.OnPlaced();
   }
 
   // The rover goes straight to x, y = `y_m`.
   void GoTo(double x_m, double y_m = 0.0) {
-    parts_.rover->Place({x_m, y_m, 0.0});
+    world_.Place({x_m, y_m, 0.0});
     observer_.OnTick(false);
   }
-  truth::DriveRecord Report() const { return observer_.Report(false, {}); }
+  // It looks there, and is told whether a hazard is ahead.
+  void Look(bool hazard) {
+    observer_.OnSeen(0);
+    observer_.OnReport(hazard, 0);
+  }
+  truth::DriveRecord Report() const { return observer_.Report(false, {}, referee_); }
 
   const DriveParams drive_ = Pathfinder("nominal", kRockAhead);
-  DriveParts parts_{drive_, {1, 0}, {}};
-  DriveObserver observer_{parts_};
+  World world_{drive_, {1, 0}, {}};
+  const std::vector<messages::Goal> told_ = drive_.course.Goals();
+  Onboard onboard_{drive_, told_,
+                   drive_.navigation.navigators.chosen().Make({.goal = told_.front()}),
+                   world_.ramp_s()};
+  Ledger ledger_{MakePowerBudget(drive_), drive_.energy.battery_wh};
+  Referee referee_{drive_.referee, drive_.course, told_.front(), std::nullopt,
+                   drive_.rover.geometry.wheel_radius_m};
+  DriveObserver observer_{world_, onboard_, ledger_, told_};
 };
 
 TEST_F(DriveObserverTest, AReportOfAHazardCreditsTheRocksWithinReach) {
   GoTo(1.0);
-  observer_.OnReport(true, parts_.state().X_WR);
+  Look(true);
   GoTo(1.6);
   EXPECT_EQ(Report().hazards_met, 1.0);
   EXPECT_EQ(Report().hazards_missed, 0.0);
@@ -44,7 +61,7 @@ TEST_F(DriveObserverTest, AReportOfAHazardCreditsTheRocksWithinReach) {
 
 TEST_F(DriveObserverTest, AReportWithoutOneCreditsNone) {
   GoTo(1.0);
-  observer_.OnReport(false, parts_.state().X_WR);
+  Look(false);
   GoTo(1.6);
   EXPECT_EQ(Report().hazards_met, 1.0);
   EXPECT_EQ(Report().hazards_missed, 1.0);
@@ -54,9 +71,9 @@ TEST_F(DriveObserverTest, AReportWithoutOneCreditsNone) {
 // Data that arrive late are of the place where they were taken.
 TEST_F(DriveObserverTest, AReportCreditsWhatWasInReachWhereItWasTaken) {
   GoTo(0.0);
-  const math::Transform far_away = parts_.state().X_WR;
+  observer_.OnSeen(0);
   GoTo(1.0);
-  observer_.OnReport(true, far_away);
+  observer_.OnReport(true, 0);
   GoTo(1.6);
   EXPECT_EQ(Report().hazards_missed, 1.0);
 }
@@ -78,7 +95,7 @@ TEST_F(DriveObserverTest, SteeringIsThatOfTheTrueMotorsAtRestToo) {
     messages::WheelCommand command;
     command.steer_rad = {left_rad, left_rad, left_rad, right_rad, right_rad, right_rad};
     for (int tick = 0; tick < 20; ++tick) {
-      parts_.rover->Step(command);
+      world_.Step(command, 0.0);
       observer_.OnTick(false);
     }
   };
@@ -90,7 +107,7 @@ TEST_F(DriveObserverTest, SteeringIsThatOfTheTrueMotorsAtRestToo) {
   EXPECT_NEAR(Report().steer_turned_rad, 0.35, 1e-12);
   EXPECT_NEAR(Report().steer_turned_max_rad, 0.5, 1e-12);
   // Operators put the rover down with straight wheels.
-  parts_.rover->Place({1.0, 0.0, 0.0});
+  world_.Place({1.0, 0.0, 0.0});
   observer_.OnPlaced();
   observer_.OnTick(false);
   EXPECT_NEAR(Report().steer_turned_rad, 0.35, 1e-12);

@@ -1,6 +1,6 @@
-#include "trial/mirror_arena.h"
-
 #include <gtest/gtest.h>
+
+#include "trial/drive/operators.h"
 
 namespace rockyard::trial {
 namespace {

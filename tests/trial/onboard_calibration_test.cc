@@ -188,8 +188,12 @@ terrain::Terrain Flat() { return {terrain::Ground(), {}, {}}; }
 
 // What the navigator gets of a first look over flat ground, from a level rover.
 Points Seen(const Overrides& overrides, LookDirection direction) {
-  TerrainSensing terrain_sensing(Gestalt("abundance", overrides), kKey, {});
-  const Percept percept = terrain_sensing.Look(direction, Flat(), math::Transform::Identity(), {});
+  const DriveParams drive = Gestalt("abundance", overrides);
+  TerrainSensing terrain_sensing(drive);
+  const auto sensor = drive.sensors.terrain_sensors.chosen().Make(drive, kKey, {});
+  const LookOrder order = terrain_sensing.Order(direction, {});
+  const Percept percept =
+      terrain_sensing.Take(order, sensor->Answer(order, Flat(), math::Transform::Identity()));
   return percept.cloud ? percept.cloud->points_R : Points{};
 }
 

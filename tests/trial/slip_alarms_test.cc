@@ -58,11 +58,11 @@ TEST(SlipAlarmsTest, OneMoreThanTheMostEndsTheDrive) {
 TEST(SlipAlarmsTest, AMoveByHandDropsWhatIsRaisedAndNotTheCount) {
   SlipAlarms alarms({SlipResponse::kReplan, 1});
   alarms.Raise();
-  alarms.Drop();
+  alarms.OnPlaced();
   EXPECT_FALSE(alarms.Take());
   alarms.Raise();
   EXPECT_TRUE(alarms.EndsDrive());
-  alarms.Drop();
+  alarms.OnPlaced();
   EXPECT_FALSE(alarms.EndsDrive());
 }
 

@@ -124,9 +124,11 @@ TEST(StereoEyesTest, OnlyTheWindowIsHandedOnWhereItIsAskedFor) {
 // The calibration is on board: what is photographed does not know of it.
 TEST(StereoEyesTest, AWrongCalibrationMovesThePointsRigidly) {
   const auto cloud = [](const Overrides& overrides) {
-    TerrainSensing sensing(Gestalt("abundance", kImages + overrides), kKey, {});
-    return sensing.Look(LookDirection::kAhead, Flat(), math::Transform::Identity(), {})
-        .cloud->points_R;
+    const DriveParams drive = Gestalt("abundance", kImages + overrides);
+    return drive.sensors.terrain_sensors.chosen()
+        .Make(drive, kKey, {})
+        ->Points({Flat(), math::Transform::Identity(), LookDirection::kAhead, {}, 0})
+        .points_R;
   };
   const Points right = cloud({});
   const Points wrong = cloud({"perception.calibration.stereo_front.z_m=0.02"});

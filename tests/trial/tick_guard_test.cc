@@ -1,4 +1,4 @@
-#include "trial/tick_guard.h"
+#include "trial/drive/tick_guard.h"
 
 #include <gtest/gtest.h>
 

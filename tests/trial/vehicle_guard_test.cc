@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "math/angles.h"
+#include "sensing/vehicle_sensors.h"
 
 namespace rockyard::trial {
 namespace {
@@ -38,24 +39,39 @@ truth::RoverState Touching(const rover::RoverGeometryParams& size, double end) {
   return state;
 }
 
-// One control tick at a state. True where something has appeared.
-bool Feel(VehicleGuard& guard, const truth::RoverState& state) {
-  guard.Observe(state);
-  return !guard.Feel(state, {}, {.duration_s = kTick_s}).empty();
-}
+// Sensors and what the rover makes of them.
+struct Feeler {
+  explicit Feeler(const DriveParams& drive)
+      : sensors(drive.sensors.vehicle, drive.rover, {1, 0}), guard(drive) {}
+
+  // One control tick at a state. True where something has appeared.
+  bool Feel(const truth::RoverState& state) {
+    sensors.Observe(state);
+    const messages::VehicleState felt = sensors.Measure(state, {}, kTick_s);
+    return !guard.Feel(felt, {}, {.duration_s = kTick_s}).empty();
+  }
+  void Place(const truth::RoverState& state) {
+    sensors.Restart(state);
+    guard.OnPlaced();
+  }
+
+  sensing::VehicleSensors sensors;
+  VehicleGuard guard;
+};
 
 TEST(VehicleGuardTest, TouchesFromBeforeAHandMoveAreForgotten) {
   for (const std::int64_t latency : {0, 1, 3}) {
     const DriveParams drive = Feeling(latency);
-    VehicleGuard guard(drive, {1, 0});
+    Feeler feeler(drive);
+    const VehicleGuard& guard = feeler.guard;
     const truth::RoverState touching = Touching(drive.rover.geometry, +1.0);
-    EXPECT_TRUE(Feel(guard, touching));
-    for (int tick = 0; tick < 4; ++tick) EXPECT_FALSE(Feel(guard, touching));
+    EXPECT_TRUE(feeler.Feel(touching));
+    for (int tick = 0; tick < 4; ++tick) EXPECT_FALSE(feeler.Feel(touching));
     ASSERT_NE(guard.hazard(), nullptr);
-    guard.Restart({});
+    feeler.Place({});
     EXPECT_EQ(guard.hazard(), nullptr);
     for (int tick = 0; tick < 6; ++tick) {
-      EXPECT_FALSE(Feel(guard, {})) << latency;
+      EXPECT_FALSE(feeler.Feel({})) << latency;
       EXPECT_EQ(guard.hazard(), nullptr) << latency;
     }
     EXPECT_EQ(guard.count(VehicleHazardKind::kContact), 1);
@@ -66,10 +82,11 @@ TEST(VehicleGuardTest, TouchesFromBeforeAHandMoveAreForgotten) {
 TEST(VehicleGuardTest, CountsEachKindWhenItAppears) {
   const DriveParams drive = Feeling(0);
   for (const double end : {+1.0, -1.0}) {  // touches ahead, behind
-    VehicleGuard guard(drive, {1, 0});
+    Feeler feeler(drive);
+    const VehicleGuard& guard = feeler.guard;
     truth::RoverState state = Touching(drive.rover.geometry, end);
     state.X_WR.linear() = Leaning(math::DegToRad(35.0)).X_WR.linear();
-    for (int tick = 0; tick < 5; ++tick) Feel(guard, state);
+    for (int tick = 0; tick < 5; ++tick) feeler.Feel(state);
     EXPECT_EQ(guard.count(VehicleHazardKind::kContact), 1);
     EXPECT_EQ(guard.count(VehicleHazardKind::kTilt), 1);
     EXPECT_EQ(guard.touches_behind(), end < 0.0);
@@ -77,20 +94,20 @@ TEST(VehicleGuardTest, CountsEachKindWhenItAppears) {
     EXPECT_EQ(guard.hazard()->kind,
               end < 0.0 ? VehicleHazardKind::kTilt : VehicleHazardKind::kContact);
     // Nothing appears where the touch ends and the tilt lasts.
-    EXPECT_FALSE(Feel(guard, Leaning(math::DegToRad(35.0))));
+    EXPECT_FALSE(feeler.Feel(Leaning(math::DegToRad(35.0))));
     EXPECT_EQ(guard.count(VehicleHazardKind::kTilt), 1);
   }
 }
 
 TEST(VehicleGuardTest, TicksFromBeforeAHandMoveDoNotCount) {
-  VehicleGuard guard(Feeling(0), {1, 0});
+  Feeler feeler(Feeling(0));
   const truth::RoverState steep = Leaning(math::DegToRad(35.0));
-  EXPECT_FALSE(Feel(guard, steep));
-  EXPECT_FALSE(Feel(guard, steep));
-  guard.Restart(steep);
-  EXPECT_FALSE(Feel(guard, steep));
-  EXPECT_FALSE(Feel(guard, steep));
-  EXPECT_TRUE(Feel(guard, steep));  // the third in a row, as tilt_ticks asks
+  EXPECT_FALSE(feeler.Feel(steep));
+  EXPECT_FALSE(feeler.Feel(steep));
+  feeler.Place(steep);
+  EXPECT_FALSE(feeler.Feel(steep));
+  EXPECT_FALSE(feeler.Feel(steep));
+  EXPECT_TRUE(feeler.Feel(steep));  // the third in a row, as tilt_ticks asks
 }
 
 }  // namespace

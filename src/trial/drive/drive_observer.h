@@ -2,57 +2,68 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <vector>
 
 #include "math/pose.h"
 #include "messages/commands.h"
+#include "trial/drive/onboard.h"
+#include "trial/drive/world.h"
 #include "trial/drive_counters.h"
 #include "trial/drive_monitor.h"
-#include "trial/drive_parts.h"
 #include "trial/hazard_watch.h"
 #include "trial/referee.h"
+#include "trial/run_trial.h"
 #include "trial/slip_onset.h"
 #include "trial/visual_aid.h"
 #include "truth/drive_record.h"
 
 namespace rockyard::trial {
 
-// Sees the truth and changes nothing.
+// Holds what the rover believes against what is true, for the referee and for the record. Changes
+// nothing.
 class DriveObserver {
  public:
-  // `parts` outlives it.
-  explicit DriveObserver(const DriveParts& parts);
+  // All outlive it. `told`: the waypoints, then the goal, as the rover is told.
+  DriveObserver(const World& world, const Onboard& onboard, const Ledger& ledger,
+                std::vector<messages::Goal> told);
 
   // The rover stands at the start, or where operators have put it.
-  void OnPlaced() {
-    monitor_.Restart(parts_.state());
-    steering_.Restart(parts_.state().steer_rad);
-    slip_onset_.Restart();
-    seen_at_ = parts_.estimate().pose;
-  }
+  void OnPlaced();
   void OnReflection() { ++reflections_; }
   // The navigator told a motion. Returns whether a new move begins with it.
   bool OnMotion(const messages::MotionCommand& motion);
   // The rover stops for a look; what it believed of it.
   void OnLook() { moves_.OnLook(); }
-  // `X_WR`: where the rover was when it looked.
-  void OnReport(bool hazard, const math::Transform& X_WR);
+  // The look of that number is taken here.
+  void OnSeen(std::int64_t look) { looked_from_X_WR_[look] = world_.state().X_WR; }
+  // Where the rover truly was when it took the look. Forgets the looks before it.
+  math::Transform LookedFrom(std::int64_t look);
+  // What is reported of a look.
+  void OnReport(bool hazard, std::int64_t look);
   void OnWheels(bool moving) { stops_.Observe(moving); }
   void OnScrape();
   void OnStuckNoticed() { ++stuck_noticed_; }
   void OnRecognized() { recognized_ = true; }
+  // A pair of images for visual odometry is taken.
+  void OnMotionSeen(const VisualStep& step);
   void OnSlip(const SlipReading& slip);
   // Visual odometry corrected the estimate.
   void OnSeenMotion();
   // Once a control tick, after the estimate.
   void OnTick(bool turning_in_place);
 
-  // For the referee.
-  double distance_m() const { return monitor_.distance_m(); }
-  double turned_in_place_rad() const { return monitor_.turned_in_place_rad(); }
+  // For the referee: truth and belief of now.
+  Observation Observed(Activity activity, int direction, double duration_s) const;
+  // Looks whether the rover has found the rock at its goal, where there is one.
+  bool FoundRock();
 
   // All columns that a drive has. `stall`: of a rover that was found stuck.
-  truth::DriveRecord Report(bool declared_success, const Stall& stall) const;
+  truth::DriveRecord Report(bool declared_success, const Stall& stall,
+                            const Referee& referee) const;
+  // What the drive leaves to the next one.
+  DriveEnd End() const;
 
  private:
   // What the rover believes, against what the monitor saw.
@@ -64,12 +75,18 @@ class DriveObserver {
   void ReportBelief(truth::DriveRecord& record) const;
   void ReportVision(truth::DriveRecord& record) const;
   void ReportLedger(truth::DriveRecord& record, const Stall& stall) const;
-  void ReportCounts(truth::DriveRecord& record) const;
+  void ReportCounts(truth::DriveRecord& record, const Referee& referee) const;
   void ReportHazards(truth::DriveRecord& record) const;
   void ReportGoalRock(truth::DriveRecord& record) const;
   void ReportPlans(truth::DriveRecord& record) const;
 
-  const DriveParts& parts_;
+  const World& world_;
+  const Onboard& onboard_;
+  const Ledger& ledger_;
+  const DriveParams& params_;
+  std::vector<messages::Goal> told_places_;
+  std::optional<GoalRock> goal_rock_;
+  std::map<std::int64_t, math::Transform> looked_from_X_WR_;
   DriveMonitor monitor_;
   ErrorGrowth heading_growth_;   // deg
   ErrorGrowth distance_growth_;  // m

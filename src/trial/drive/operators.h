@@ -8,6 +8,9 @@
 
 #include "math/pose.h"
 #include "messages/estimates.h"
+#include "trial/belief.h"
+#include "trial/drive/onboard.h"
+#include "trial/drive/world.h"
 
 namespace rockyard::trial {
 
@@ -44,5 +47,34 @@ inline std::optional<Reflection> MirrorArena::Reflect(
                     {estimate.x_m, 2.0 * line_m - estimate.y_m, -estimate.heading_rad, true},
                     line_m};
 }
+
+// The operators of one drive. They let a rover drive before they turn it again.
+class Operators {
+ public:
+  // All outlive it.
+  Operators(const World& world, const Onboard& onboard) : world_(world), onboard_(onboard) {
+    const terrain::ArenaParams& arena = world.params().terrain.arena;
+    if (arena.kind == terrain::ArenaKind::kVirtualReflected) mirror_.emplace(arena.MirrorLine());
+  }
+
+  // Once a control tick: whether the rover rolls.
+  void OnWheels(bool moving) { has_rolled_ = has_rolled_ || moving; }
+
+  // What they do with a rover that drives in that direction, if anything.
+  std::optional<Reflection> Reflect(int direction) {
+    const math::Transform& X_WR = world_.state().X_WR;
+    if (!mirror_ || !has_rolled_ || !mirror_->Reaches(X_WR.translation().y())) return std::nullopt;
+    const auto reflection =
+        mirror_->Reflect(math::ToPose2(X_WR), direction, WorldPose(onboard_.estimate()));
+    if (reflection) has_rolled_ = false;
+    return reflection;
+  }
+
+ private:
+  const World& world_;
+  const Onboard& onboard_;
+  std::optional<MirrorArena> mirror_;
+  bool has_rolled_ = true;  // since they turned it
+};
 
 }  // namespace rockyard::trial

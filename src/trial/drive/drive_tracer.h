@@ -9,7 +9,8 @@
 #include "math/pose.h"
 #include "messages/commands.h"
 #include "messages/navigation_view.h"
-#include "trial/drive_parts.h"
+#include "trial/drive/onboard.h"
+#include "trial/drive/world.h"
 #include "trial/power_budget.h"
 #include "trial/terrain_sensing.h"
 #include "truth/trace.h"
@@ -18,8 +19,9 @@ namespace rockyard::trial {
 
 class DriveTracer {
  public:
-  // Without a trace it does nothing. `parts` outlives it.
-  DriveTracer(const DriveParts& parts, truth::Trace* trace);
+  // Without a trace it does nothing. All outlive it; `told` as the observer's.
+  DriveTracer(const World& world, const Onboard& onboard, const Ledger& ledger,
+              std::vector<messages::Goal> told, truth::Trace* trace);
 
   void Event(std::string kind, std::string detail);
   // Reports of hazards that are believed, and every look that shows points.
@@ -40,7 +42,10 @@ class DriveTracer {
   void Rocks();
   truth::TraceSample Now(std::string activity) const;
 
-  const DriveParts& parts_;
+  const World& world_;
+  const Onboard& onboard_;
+  const Ledger& ledger_;
+  std::vector<messages::Goal> told_places_;
   truth::Trace* trace_;
   std::vector<math::Vector3> rock_centers_;  // where the trace knows rocks that can move
 };

@@ -1,4 +1,4 @@
-#include "trial/drive_tracer.h"
+#include "trial/drive/drive_tracer.h"
 
 #include <fmt/format.h>
 
@@ -56,15 +56,20 @@ std::string Describe(const messages::MotionVote& vote) {
 
 }  // namespace
 
-DriveTracer::DriveTracer(const DriveParts& parts, truth::Trace* trace)
-    : parts_(parts), trace_(trace) {
+DriveTracer::DriveTracer(const World& world, const Onboard& onboard, const Ledger& ledger,
+                         std::vector<messages::Goal> told, truth::Trace* trace)
+    : world_(world),
+      onboard_(onboard),
+      ledger_(ledger),
+      told_places_(std::move(told)),
+      trace_(trace) {
   if (trace_ != nullptr) Rocks();
 }
 
 void DriveTracer::Event(std::string kind, std::string detail) {
   if (trace_ == nullptr) return;
-  trace_->events.push_back({parts_.ledger.time_s(), math::ToPose2(parts_.state().X_WR),
-                            std::move(kind), std::move(detail)});
+  trace_->events.push_back(
+      {ledger_.time_s(), math::ToPose2(world_.state().X_WR), std::move(kind), std::move(detail)});
 }
 
 void DriveTracer::Look(messages::LookDirection direction, const Percept& percept) {
@@ -94,15 +99,15 @@ void DriveTracer::Vision(const VisualStep& step) {
 void DriveTracer::Waypoint(std::size_t index) {
   if (trace_ == nullptr) return;
   // Where somebody named them, how far their true places are; corners of a route have none.
-  const CourseParams& course = parts_.params.course;
+  const CourseParams& course = world_.params().course;
   const bool named = course.route_map.use != RouteUse::kWaypoints;
-  const std::vector<messages::Goal> goals = named ? course.Goals() : parts_.told_places;
+  const std::vector<messages::Goal> goals = named ? course.Goals() : told_places_;
   // The told goal, and what a local search tries after it.
   const std::size_t waypoints = goals.size() - 1;
   if (index >= waypoints) {
     return Event("waypoint", fmt::format("place {} of the search", index - waypoints + 1));
   }
-  const math::Pose2 rover = math::ToPose2(parts_.state().X_WR);
+  const math::Pose2 rover = math::ToPose2(world_.state().X_WR);
   Event("waypoint",
         fmt::format("{} of {}, {:.2f} m from it", index + 1, waypoints,
                     std::hypot(goals[index].x_m - rover.x_m, goals[index].y_m - rover.y_m)));
@@ -118,11 +123,11 @@ void DriveTracer::Votes(const messages::NavigationView& view) {
 }
 
 truth::TraceSample DriveTracer::Now(std::string activity) const {
-  const truth::RoverState& state = parts_.state();
-  return {parts_.ledger.time_s(),
+  const truth::RoverState& state = world_.state();
+  return {ledger_.time_s(),
           math::ToPose2(state.X_WR),
           math::Tilt(state.X_WR),
-          parts_.estimate().pose,
+          onboard_.estimate().pose,
           std::move(activity),
           {state.X_WR, state.left_rocker_rad, state.right_rocker_rad, state.left_bogie_rad,
            state.right_bogie_rad, state.steer_rad, state.wheel_angle_rad}};
@@ -142,8 +147,8 @@ void DriveTracer::Rest(std::optional<Activity> activity, bool set_back) {
 }
 
 void DriveTracer::Rocks() {
-  if (parts_.params.terrain.rocks.mobility == terrain::RockMobility::kFixed) return;
-  const auto rocks = parts_.field.terrain.rocks();
+  if (world_.params().terrain.rocks.mobility == terrain::RockMobility::kFixed) return;
+  const auto rocks = world_.field().terrain.rocks();
   const bool first = rock_centers_.empty();
   rock_centers_.resize(rocks.size());
   for (std::size_t i = 0; i < rocks.size(); ++i) {
@@ -151,7 +156,7 @@ void DriveTracer::Rocks() {
     const bool moved = !first && center_W != rock_centers_[i];
     rock_centers_[i] = center_W;
     if (moved) {
-      trace_->rock_moves.push_back({parts_.ledger.time_s(), static_cast<int>(i), center_W});
+      trace_->rock_moves.push_back({ledger_.time_s(), static_cast<int>(i), center_W});
     }
   }
 }

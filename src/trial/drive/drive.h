@@ -1,47 +1,60 @@
 // The closed loop of one trial. See run_trial.h for the entry point.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/random.h"
-#include "trial/drive_observer.h"
+#include "trial/drive/drive_observer.h"
+#include "trial/drive/drive_tracer.h"
+#include "trial/drive/onboard.h"
+#include "trial/drive/operators.h"
+#include "trial/drive/world.h"
 #include "trial/drive_params.h"
-#include "trial/drive_parts.h"
-#include "trial/drive_tracer.h"
+#include "trial/ledger.h"
 #include "trial/referee.h"
 #include "trial/run_trial.h"
-#include "trial/slip_alarms.h"
 #include "trial/timeline.h"
 #include "trial/watchers.h"
 
 namespace rockyard::trial {
 
-// One drive from the start to its end. Every control tick the navigator decides from what is
-// measured; the drive applies wheel commands for a few physics steps, hands the measurements to the
-// localizer, and shows the truth to the monitor and the referee. Looks may be under way meanwhile
-// (timeline.h).
+// What is asked for in seconds happens in whole steps of the rover: a control tick of 1/25 s takes
+// two steps of 1/60 s. duration_s is the time of these steps, and all that steers, measures or
+// keeps books goes by it, never by the time asked for.
+struct Stretch {
+  std::int64_t steps = 1;
+  double duration_s = 0.0;
+};
+
+// The nearest whole number of steps, one at least.
+Stretch WholeSteps(double asked_s, double step_s);
+
+// One drive from the start to its end. Every control tick what runs on board decides from what the
+// world measures; the world holds its wheel commands for a few physics steps; observer and referee,
+// who see both, say when the drive is over. What the drive itself hands from one to another are
+// measurements, commands and verdicts: it knows neither where the rover is nor where it believes to
+// be. Looks may be under way meanwhile (timeline.h).
 class Drive {
  public:
   Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace, const Watchers& watchers,
         const DriveStart* start = nullptr);
 
-  DriveResult Run();
+  // One decision, and what follows from it. The verdict, once the drive is over.
+  std::optional<Verdict> Step();
+  // Ends a drive by its verdict, once.
+  DriveResult Finish(const Verdict& verdict);
+
+  double time_s() const { return ledger_.time_s(); }
+  double tick_s() const { return tick_.duration_s; }
 
  private:
-  std::optional<Verdict> Tick();
-  // Shows the tracked goal to the navigator, where there is one and it is in view.
+  // Shows the navigator where the tracker sees the goal, or the rock at it.
   void TrackGoal();
-  // Whether the tracker looks now: where it is time for its next measurement, whose number it is.
-  std::optional<std::int64_t> NextSighting();
-  // Shows the goal rock to the navigator, where it is near and in view.
-  void RecognizeRock();
-  // The verdict on a rover that has found the rock at its goal.
-  std::optional<Verdict> FindRock();
-  // The navigator has gone on from its goal number `first`, and perhaps from more.
-  void OnWaypoints(std::size_t first);
+  // The navigator has done with so many goals.
+  void OnWaypoints(std::size_t passed);
   // Whether the rover goes on meanwhile.
   bool LooksOnTheMove(const navigation::NavigatorDecision& decision) const;
   // Stops and looks.
@@ -69,39 +82,38 @@ class Drive {
 
   // Holds the command for so many physics steps.
   void ApplyCommand(const messages::WheelCommand& command, std::int64_t steps);
-  // The pose that the rover believes takes one stretch of encoders and gyro.
-  messages::MotionMeasurement UpdateEstimate(double duration_s, bool moving);
+  // The estimator takes one stretch of encoders and gyro.
+  messages::MotionMeasurement Propagate(double duration_s, bool moving);
   // Aids measure, and what they measured before reaches the estimator.
   void UseAids();
   // A stretch in which the wheels stood; a gyro may drift in it.
-  void UpdateEstimateAtRest(double duration_s);
-  // Asks whether the rover gets on, where it looks for that.
-  void NoticeStuck(const messages::WheelCommand& command,
-                   const messages::MotionMeasurement& motion);
+  void PropagateAtRest(double duration_s);
   void ReflectAtMirrorLine(int direction);
-  Observation Observed(Activity activity, int direction, double duration_s) const;
   std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);
-  DriveResult Finish(const Verdict& verdict);
-  DriveEnd End() const;
   // What a stuck rover would still take, and with referee.stuck_rover run_on takes.
   void Strand();
   // Spends time at rest.
   void Rest(Activity activity, double duration_s);
 
-  DriveParts parts_;
+  const DriveParams& params_;
+  World world_;
+  std::vector<messages::Goal> told_places_;  // waypoints, then the goal, as the rover is told
+  Onboard onboard_;
+
+  Stretch tick_;  // of control
+  Stretch stop_;  // before a scan
+  Ledger ledger_;
+  Timeline timeline_;
+
+  Operators operators_;
+  Referee referee_;
   DriveObserver observer_;
   DriveTracer tracer_;
   StepWatcher step_watcher_;
 
   std::unique_ptr<SeenLook> seen_;  // to be told at the next tick
-  bool notices_stuck_ = false;      // at the last tick
-  SlipAlarms slip_alarms_;
-  bool rolling_ = false;  // in the last stretch
-  // Since operators turned it: they let a rover drive before they turn it again.
-  bool has_rolled_ = true;
-  std::int64_t next_sighting_ = 0;  // of the tracked goal: number of its next measurement
-  bool sees_goal_ = false;          // at the last one
-  bool recognized_rock_ = false;    // ever
+  bool rolling_ = false;            // in the last stretch
+  bool sees_goal_ = false;          // at the tracker's last look; of a goal rock: ever
   Stall stall_;                     // of a rover that was found stuck
 };
 

@@ -1,0 +1,288 @@
+#include "trial/drive/drive.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "navigation/stuck_reaction.h"
+#include "terrain/arena.h"
+#include "trial/drive/tick_guard.h"
+#include "trial/goal_designation.h"
+#include "trial/look_time.h"
+#include "trial/make_estimator.h"
+
+namespace rockyard::trial {
+namespace {
+
+using messages::MotionKind;
+
+std::string Describe(perception::StuckSign sign) {
+  return sign == perception::StuckSign::kNoTurn ? "stuck: no turn" : "stuck: strained motors";
+}
+
+Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
+  if (steering) return Activity::kSteering;
+  return motion.kind == MotionKind::kTurnInPlace ? Activity::kTurning : Activity::kDriving;
+}
+
+// Open fields go on; every other arena ends where its layout ends.
+std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
+  if (arena.kind == terrain::ArenaKind::kOpen) return std::nullopt;
+  const terrain::Rectangle bounds = terrain::DrivableBounds(arena);
+  return ArenaBounds{bounds.x_min_m, bounds.x_max_m};
+}
+
+// The navigator of the scenario. A route that it is told to follow is planned on the ground as it
+// is before anything moves.
+std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
+                                                     const terrain::Terrain& terrain,
+                                                     core::TrialKey key,
+                                                     const messages::Goal& goal) {
+  const navigation::NavigatorKind& chosen = drive.navigation.navigators.chosen();
+  navigation::NavigatorSetup setup{.goal = goal,
+                                   .judges_hazards = drive.perception.hazard.enabled,
+                                   .full_speed_m_s = drive.rover.drive.speed_m_s};
+  if (chosen.traits().follows_route) setup.route = ToldRoute(drive, terrain, key, goal);
+  std::unique_ptr<navigation::Navigator> navigator = chosen.Make(setup);
+  const navigation::StuckReactionParams& stuck = drive.navigation.on_board_stuck;
+  if (stuck.reaction == navigation::StuckResponse::kOff) return navigator;
+  return std::make_unique<navigation::StuckReaction>(stuck, std::move(navigator));
+}
+
+}  // namespace
+
+Stretch WholeSteps(double asked_s, double step_s) {
+  const std::int64_t steps = std::max<std::int64_t>(1, std::llround(asked_s / step_s));
+  return {steps, static_cast<double>(steps) * step_s};
+}
+
+Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
+             const Watchers& watchers, const DriveStart* start)
+    : params_(drive),
+      world_(drive, key, watchers, start != nullptr ? &start->field : nullptr),
+      told_places_(ToldPlaces(drive, world_.field().terrain, key)),
+      onboard_(drive, told_places_,
+               MakeNavigator(drive, world_.field().terrain, key, told_places_.front()),
+               world_.ramp_s()),
+      tick_(WholeSteps(1.0 / drive.clock.control_rate_hz, world_.step_s())),
+      stop_(WholeSteps(world_.ramp_s() + drive.clock.stop_time_s, world_.step_s())),
+      ledger_(MakePowerBudget(drive), drive.energy.battery_wh,
+              start != nullptr ? start->sun : std::nullopt),
+      timeline_(drive.clock.overlap, ledger_),
+      operators_(world_, onboard_),
+      referee_(drive.referee, drive.course, told_places_.front(), Bounds(drive.terrain.arena),
+               drive.rover.geometry.wheel_radius_m),
+      observer_(world_, onboard_, ledger_, told_places_),
+      tracer_(world_, onboard_, ledger_, told_places_, trace),
+      step_watcher_(watchers.step) {
+  world_.Begin();
+  onboard_.Begin(MakeEstimator(drive, world_.rover(), start != nullptr ? &start->memory : nullptr));
+  observer_.OnPlaced();
+  tracer_.Rest({});
+  Rest(Activity::kComputing, StartUpTime(drive));
+}
+
+std::optional<Verdict> Drive::Step() {
+  if (onboard_.EndsBySlip()) return Verdict{truth::EndCause::kExcessiveSlip};
+  if (onboard_.SeesMotionNow(time_s())) return SeeMotion();
+  TrackGoal();
+  if (!seen_) seen_ = timeline_.TakeReady();
+  const Decided decided = onboard_.Decide(time_s(), seen_.get());
+  const navigation::NavigatorDecision& decision = decided.decision;
+  if (decided.passed > 0) OnWaypoints(decided.passed);
+  if (!decision.stops_to_look()) ShowStep();
+  seen_.reset();
+  if (decision.status != navigation::NavigatorStatus::kDriving) {
+    // If the navigator gives up because of a slip alarm, the cause is slip.
+    const bool arrived = decision.status == navigation::NavigatorStatus::kArrived;
+    if (decided.told_slip && !arrived) return Verdict{truth::EndCause::kExcessiveSlip};
+    return referee_.OnNavigatorStop(decision.status, world_.state(), time_s());
+  }
+  if (decision.looks()) {
+    if (!LooksOnTheMove(decision)) return Look(*decision.look);
+    if (auto verdict = LookOnTheMove(*decision.look)) return verdict;
+  }
+  if (observer_.OnMotion(decision.motion)) SpendOverhead();
+  return Follow(decision.motion);
+}
+
+std::optional<Verdict> Drive::Follow(const messages::MotionCommand& told) {
+  if (const auto rest = timeline_.MustRest()) return RestFor(*rest);
+  const messages::MotionCommand motion = onboard_.Follow(told, tick_.duration_s);
+  if (motion.kind != MotionKind::kStop) return Move(motion, tick_);
+  RestBetweenMoves(tick_.duration_s);
+  return AskReferee(Activity::kOverhead, 0, tick_.duration_s);
+}
+
+void Drive::TrackGoal() {
+  const bool rock = params_.course.goal_rock.enabled;
+  if (!world_.tracks_goal() || (!rock && !onboard_.navigator().IsOnLastLeg())) return;
+  const std::optional<GoalLook> look = world_.LookForGoal(time_s());
+  if (!look) return;
+  const bool sees = look->sighting.has_value();
+  if (rock && sees && !sees_goal_) {
+    tracer_.Event("tracker", "goal rock recognized");
+    observer_.OnRecognized();
+  }
+  if (!rock && sees != sees_goal_) {
+    tracer_.Event("tracker", sees ? "goal in view" : "goal out of view");
+  }
+  sees_goal_ = sees || (rock && sees_goal_);
+  if (sees) referee_.OnGoalMoved(onboard_.TakeSighting(*look->sighting, rock));
+}
+
+void Drive::OnWaypoints(std::size_t passed) {
+  const std::size_t reached = onboard_.navigator().reached();
+  for (std::size_t i = reached - passed; i < reached; ++i) tracer_.Waypoint(i);
+  referee_.OnNextGoal(onboard_.navigator().goal(), observer_.Observed(Activity::kDriving, 0, 0.0),
+                      time_s());
+}
+
+void Drive::Rest(Activity activity, double duration_s) {
+  timeline_.Pass(activity, duration_s);
+  if (duration_s > 0.0) tracer_.Rest(activity);
+}
+
+void Drive::SpendOverhead() {
+  const double overhead_s = params_.clock.compute.move_overhead_s;
+  if (overhead_s > 0.0) RestBetweenMoves(overhead_s);
+}
+
+void Drive::RestBetweenMoves(double duration_s) {
+  // A rover that comes from another move brakes first.
+  if (rolling_) Move({}, stop_);
+  Rest(Activity::kOverhead, duration_s);
+  PropagateAtRest(duration_s);
+}
+
+std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const Stretch& stretch) {
+  const messages::WheelCommand command = onboard_.Drive(motion, stretch.duration_s);
+  const bool steering = onboard_.wheel_driver().steering();
+  const Activity activity = ActivityOf(motion, steering);
+  rolling_ = motion.kind != MotionKind::kStop && !steering;
+  operators_.OnWheels(rolling_);
+  observer_.OnWheels(rolling_);
+  ApplyCommand(command, stretch.steps);
+  const messages::MotionMeasurement measured = Propagate(stretch.duration_s, rolling_);
+  timeline_.Pass(activity, stretch.duration_s);
+  if (params_.clock.overlap.steering) {
+    ledger_.SpendBeside(Activity::kSteering, onboard_.wheel_driver().steered_s());
+  }
+  const messages::VehicleState felt = world_.Feel(command, measured.duration_s);
+  for (const auto& hazard : onboard_.Feel(felt, command, measured)) {
+    tracer_.Event("felt", Describe(hazard));
+  }
+  if (const auto sign = onboard_.NoticeStuck(command, measured)) {
+    observer_.OnStuckNoticed();
+    tracer_.Event("felt", Describe(*sign));
+  }
+  onboard_.FeelStance(stretch.duration_s);
+  UseAids();
+  observer_.OnTick(activity == Activity::kTurning);
+  tracer_.Sample(activity);
+  // Operators turn a rover whose position reaches the line; one that turns in place stays its own
+  // master, also beyond the line.
+  if (motion.kind == MotionKind::kArc) ReflectAtMirrorLine(motion.direction);
+  if (motion.kind == MotionKind::kStop) return std::nullopt;
+  return AskReferee(activity, motion.direction, stretch.duration_s);
+}
+
+void Drive::ApplyCommand(const messages::WheelCommand& command, std::int64_t steps) {
+  for (std::int64_t i = 0; i < steps; ++i) {
+    const double end_s = time_s() + static_cast<double>(i + 1) * world_.step_s();
+    if (!world_.Step(command, end_s)) continue;
+    observer_.OnScrape();
+    tracer_.Event("scrape", "");
+  }
+}
+
+messages::MotionMeasurement Drive::Propagate(double duration_s, bool moving) {
+  const messages::MotionMeasurement motion = world_.MeasureMotion(duration_s, moving);
+  onboard_.Propagate(motion);
+  return motion;
+}
+
+void Drive::PropagateAtRest(double duration_s) {
+  if (params_.sensors.gyro.accumulates_at_rest) Propagate(duration_s, false);
+}
+
+void Drive::UseAids() {
+  const AidRequest request = onboard_.DueAids(time_s());
+  const AidNews news = onboard_.TakeAids(request, world_.AskAids(request, time_s()), time_s());
+  if (news.saw_motion) observer_.OnSeenMotion();
+  if (!news.slip) return;
+  observer_.OnSlip(*news.slip);
+  const perception::MeasuredSlip& seen = news.slip->seen;
+  if (!seen.exceeded) return;
+  world_.RenewEyes();
+  tracer_.Event("slip",
+                fmt::format("{:.0f} % +- {:.0f} % of the way", 100.0 * seen.slip, 100.0 * seen.sd));
+}
+
+void Drive::ReflectAtMirrorLine(int direction) {
+  const auto reflection = operators_.Reflect(direction);
+  if (!reflection) return;
+  // What it saw lay around a rover that stood elsewhere.
+  timeline_.Drop();
+  observer_.OnReflection();
+  tracer_.Event("reflection", "");
+  world_.Place(reflection->pose);
+  onboard_.Place(reflection->update);
+  observer_.OnPlaced();
+  referee_.OnReflection(world_.state(), reflection->line_m);
+  tracer_.Rest({}, true);
+}
+
+std::optional<Verdict> Drive::AskReferee(Activity activity, int direction, double duration_s) {
+  if (observer_.FoundRock()) return Verdict{truth::EndCause::kFoundRock};
+  return referee_.Observe(observer_.Observed(activity, direction, duration_s), ledger_);
+}
+
+void Drive::Strand() {
+  stall_ = ledger_.StallUntilEmpty();
+  if (params_.referee.stuck_rover == StuckRover::kEnd) return tracer_.Rest({});
+  ledger_.Spend(Activity::kStalled, stall_.time_s);
+  tracer_.Rest(Activity::kStalled);
+}
+
+DriveResult Drive::Finish(const Verdict& verdict) {
+  if (truth::IsStuck(verdict.outcome())) {
+    Strand();
+  } else {
+    tracer_.Rest({});
+  }
+  const truth::EndCauseInfo& end = truth::Info(verdict.cause);
+  tracer_.Event("end", std::string(end.sentence));
+  return {end.outcome, std::string(end.sentence),
+          observer_.Report(truth::DeclaredSuccess(end.outcome), stall_, referee_), observer_.End()};
+}
+
+namespace {
+
+DriveResult RunToEnd(Drive& drive, const DriveParams& params) {
+  TickGuard guard(params.referee.time_limit_s, drive.tick_s());
+  std::optional<Verdict> verdict;
+  while (!verdict) {
+    guard.Observe(drive.time_s());
+    verdict = drive.Step();
+  }
+  return drive.Finish(*verdict);
+}
+
+}  // namespace
+
+DriveResult RunTrial(const DriveParams& params, core::TrialKey key, truth::Trace* trace,
+                     const Watchers& watchers) {
+  Drive drive(params, key, trace, watchers);
+  return RunToEnd(drive, params);
+}
+
+DriveResult RunTrial(const DriveParams& params, core::TrialKey key, const DriveStart& start) {
+  Drive drive(params, key, nullptr, {}, &start);
+  return RunToEnd(drive, params);
+}
+
+}  // namespace rockyard::trial

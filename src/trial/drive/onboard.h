@@ -1,0 +1,143 @@
+// What runs on board: measurements in, commands out. It has never seen a truth.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "localization/estimator.h"
+#include "messages/commands.h"
+#include "messages/estimates.h"
+#include "messages/measurements.h"
+#include "messages/vehicle_state.h"
+#include "navigation/motion_follower.h"
+#include "navigation/waypoint_sequence.h"
+#include "navigation/wheel_driver.h"
+#include "perception/stuck_detector.h"
+#include "trial/aid_suite.h"
+#include "trial/drive/part_set.h"
+#include "trial/drive_params.h"
+#include "trial/slip_alarms.h"
+#include "trial/terrain_sensing.h"
+#include "trial/timeline.h"
+#include "trial/vehicle_guard.h"
+#include "trial/visual_aid.h"
+
+namespace rockyard::trial {
+
+// From motions to wheels.
+struct Locomotion {
+  navigation::MotionFollower follower;
+  navigation::WheelDriver driver;
+
+  void OnPlaced() { driver.Straighten(); }
+};
+
+// Looks whether the rover gets on, where navigation.on_board_stuck asks for that.
+class StuckWatch {
+ public:
+  explicit StuckWatch(const DriveParams& drive);
+
+  std::optional<perception::StuckSign> Observe(const messages::WheelCommand& command,
+                                               const messages::MotionMeasurement& motion,
+                                               const messages::VehicleState& felt);
+  bool noticed() const { return noticed_; }  // at the last tick
+  void OnPlaced();
+
+ private:
+  std::optional<perception::StuckDetector> detector_;
+  bool noticed_ = false;
+};
+
+// What the navigator decided.
+struct Decided {
+  navigation::NavigatorDecision decision;
+  bool told_slip = false;  // an alarm of slip was among what it went by
+  std::size_t passed = 0;  // goals that it has done with at this decision
+};
+
+// What the aids brought at one tick.
+struct AidNews {
+  bool saw_motion = false;  // visual odometry corrected the estimate
+  std::optional<SlipReading> slip = {};
+};
+
+class Onboard {
+ public:
+  // `goals`: what the rover is told to drive to, in the order of driving. `navigator` has the first
+  // for its goal. ramp_s: of its motors.
+  Onboard(const DriveParams& drive, std::vector<messages::Goal> goals,
+          std::unique_ptr<navigation::Navigator> navigator, double ramp_s);
+  Onboard(const Onboard&) = delete;
+  Onboard& operator=(const Onboard&) = delete;
+
+  // The estimator begins where the rover believes to stand.
+  void Begin(std::unique_ptr<localization::Estimator> estimator) {
+    estimator_ = std::move(estimator);
+  }
+  // Operators moved the rover by hand, and say where it is.
+  void Place(const messages::PoseUpdate& update);
+
+  const messages::LocalizationEstimate& estimate() const { return estimator_->estimate(); }
+  localization::EstimatorMemory Remember() const { return estimator_->Remember(); }
+
+  // The decision of a control tick; `seen` answers the oldest look without an answer, or is null.
+  Decided Decide(double time_s, const SeenLook* seen);
+  // The motion of the next tick: along the command, to rest before its end.
+  messages::MotionCommand Follow(const messages::MotionCommand& told, double tick_s);
+  // What the wheels do for the next tick.
+  messages::WheelCommand Drive(const messages::MotionCommand& motion, double tick_s);
+  const navigation::WheelDriver& wheel_driver() const { return parts_.get<Locomotion>().driver; }
+
+  // Takes what was measured over one tick. A rover that stands has one too, and feels nothing then.
+  void Propagate(const messages::MotionMeasurement& motion) { estimator_->Propagate(motion); }
+  // Takes what was felt over it. Returns the hazards that appeared.
+  std::vector<messages::VehicleHazard> Feel(const messages::VehicleState& felt,
+                                            const messages::WheelCommand& command,
+                                            const messages::MotionMeasurement& motion);
+  // Looks whether the rover gets on.
+  std::optional<perception::StuckSign> NoticeStuck(const messages::WheelCommand& command,
+                                                   const messages::MotionMeasurement& motion);
+  void FeelStance(double duration_s);
+
+  TerrainSensing& terrain_sensing() { return terrain_sensing_; }
+  const TerrainSensing& terrain_sensing() const { return terrain_sensing_; }
+  // A look as it is taken now: its order, and what came of it.
+  LookOrder OrderLook(messages::LookDirection direction) {
+    return terrain_sensing_.Order(direction, estimate().attitude);
+  }
+  std::unique_ptr<SeenLook> TakeLook(const LookOrder& order, LookAnswer answer, double time_s);
+
+  // Aids: what is due, and what was measured of that.
+  AidRequest DueAids(double time_s) { return parts_.get<AidSuite>().Due(*estimator_, time_s); }
+  AidNews TakeAids(const AidRequest& request, const AidAnswer& answer, double time_s);
+
+  // Visual odometry.
+  bool SeesMotionNow(double time_s) const { return vision().IsDue(estimate(), time_s); }
+  math::Transform ExpectedMotion() const { return vision().Expected(estimate()); }
+  bool TakeMotion(const VisualStep& step, double time_s, double ready_s) {
+    return parts_.get<VisualAid>().Take(step, time_s, ready_s, *estimator_);
+  }
+
+  // The goal is seen there. Returns where that is believed to be. A rover that recognizes its goal
+  // (`leaves_rest`) leaves out what lies between.
+  messages::Goal TakeSighting(const messages::FeatureSighting& sighting, bool leaves_rest);
+
+  bool EndsBySlip() const { return parts_.get<SlipAlarms>().EndsDrive(); }
+
+  const navigation::WaypointSequence& navigator() const { return navigator_; }
+  const VehicleGuard& guard() const { return parts_.get<VehicleGuard>(); }
+  const AidSuite& aids() const { return parts_.get<AidSuite>(); }
+  const VisualAid& vision() const { return parts_.get<VisualAid>(); }
+
+ private:
+  std::unique_ptr<localization::Estimator> estimator_;  // from Begin on
+  navigation::WaypointSequence navigator_;
+  TerrainSensing terrain_sensing_;
+  CaptureCounter captures_;
+  PartSet<Locomotion, VehicleGuard, StuckWatch, SlipAlarms, AidSuite, VisualAid> parts_;
+};
+
+}  // namespace rockyard::trial
