@@ -10,7 +10,7 @@
 #include "batch/store_meta.h"
 #include "core/error.h"
 #include "core/json_text.h"
-#include "experiments/experiment.h"
+#include "experiments/make_experiment.h"
 
 namespace rockyard::batch {
 namespace {

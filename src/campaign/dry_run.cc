@@ -8,7 +8,7 @@
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
 #include "campaign/run_campaign.h"
-#include "experiments/experiment.h"
+#include "experiments/make_experiment.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -20,7 +20,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_text.h"
-#include "experiments/experiment.h"
+#include "experiments/make_experiment.h"
 #include "scenario/load.h"
 
 namespace rockyard::campaign {

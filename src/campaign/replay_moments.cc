@@ -11,7 +11,7 @@
 #include "campaign/scan_capture.h"
 #include "core/error.h"
 #include "experiments/drive/drive_experiment.h"
-#include "experiments/experiment.h"
+#include "experiments/make_experiment.h"
 #include "image_files/png_file.h"
 #include "messages/point_cloud.h"
 #include "report/atomic_file.h"

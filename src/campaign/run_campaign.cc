@@ -10,7 +10,7 @@
 #include "batch/run_folder.h"
 #include "campaign/heeded_work.h"
 #include "core/error.h"
-#include "experiments/experiment.h"
+#include "experiments/make_experiment.h"
 
 namespace rockyard::campaign {
 namespace {

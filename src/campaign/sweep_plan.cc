@@ -12,7 +12,7 @@
 #include "core/hash.h"
 #include "core/json_text.h"
 #include "core/machine_error.h"
-#include "experiments/experiment.h"
+#include "experiments/make_experiment.h"
 #include "report/atomic_file.h"
 #include "report/csv.h"
 #include "scenario/load.h"

@@ -1,5 +1,7 @@
 // The registry of experiments: how each is made, and the columns by which a store knows its
 // records.
+#include "experiments/make_experiment.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
@@ -9,7 +11,6 @@
 #include "experiments/dead_reckoning/dead_reckoning.h"
 #include "experiments/designation/designation.h"
 #include "experiments/drive/drive_experiment.h"
-#include "experiments/experiment.h"
 #include "experiments/hazard_detection/hazard_detection.h"
 #include "experiments/mission/mission_experiment.h"
 #include "experiments/stereo_sensing/stereo_sensing.h"

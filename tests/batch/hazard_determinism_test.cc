@@ -7,7 +7,7 @@
 #include "batch/executor.h"
 #include "batch/trial_hash.h"
 #include "core/test_folder.h"
-#include "experiments/experiment.h"
+#include "experiments/make_experiment.h"
 #include "fake_experiment.h"
 #include "scenario/shipped.h"
 

@@ -15,7 +15,7 @@
 #include "batch/trial_hash.h"
 #include "batch/work_source.h"
 #include "core/error.h"
-#include "experiments/experiment.h"
+#include "experiments/make_experiment.h"
 #include "scenario/load.h"
 
 namespace rockyard::batch {

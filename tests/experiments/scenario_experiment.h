@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/experiment.h"
+#include "experiments/make_experiment.h"
 #include "scenario/scenario.h"
 #include "statistics/drive_summary.h"
 #include "truth/record.h"

@@ -1,0 +1,24 @@
+// How an experiment is made of its parameters, and what its columns are.
+#pragma once
+
+#include <memory>
+
+#include "experiments/experiment.h"
+#include "experiments/experiment_params.h"
+#include "trial/watchers.h"
+
+namespace rockyard::experiments {
+
+// Makes the experiment that `experiment` names, on `drive`. `watchers` are shown what
+// runs see and decide, without any influence on the records; they must stand calls from several
+// threads where Run is called from several.
+std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
+                                           const trial::DriveParams& drive,
+                                           const trial::Watchers& watchers = {});
+
+// The schema of a store, which keeps names and no roles, with the roles of its columns: those of
+// the experiment that knows the most of the names. A column that it does not know (any more) stays
+// a value, which cells do not add up.
+truth::RecordSchema WithRoles(truth::RecordSchema stored);
+
+}  // namespace rockyard::experiments
