@@ -9,23 +9,10 @@
 
 #include "campaign/observer.h"
 #include "campaign/outcome.h"
+#include "campaign/work.h"
 #include "core/error.h"
 
 namespace rockyard::campaign {
-
-struct TrialCounts {
-  std::int64_t planned = 0;
-  std::int64_t finished = 0;
-  std::int64_t faults = 0;
-};
-
-// All that a journal holds.
-struct Account {
-  std::vector<Note> notes;
-  std::vector<core::Problem> problems;
-  std::filesystem::path folder;
-  TrialCounts trials;
-};
 
 // Kept in memory that processes share: what a forked worker writes is there when it has ended,
 // however it did. Not for several threads at once. Limit: an entry that a process is killed over
@@ -53,12 +40,6 @@ class Journal {
 
   const Observer& observer_;
   int file_;
-};
-
-// What came of a piece of work, whichever process did it. `problems` of kBadInput: what was wrong
-// with the request; of other outcomes: what went wrong meanwhile.
-struct WorkResult : Account {
-  Outcome outcome = Outcome::kDone;
 };
 
 // What `action` returns. An exception out of it fails in the journal: kBadInput for

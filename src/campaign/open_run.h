@@ -15,19 +15,11 @@
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
 #include "batch/stopping_rule.h"
+#include "campaign/work.h"
 #include "scenario/scenario.h"
 #include "truth/record.h"
 
 namespace rockyard::campaign {
-
-// What to do with a run that lies in the folder already. No choice deletes a store.
-enum class ExistingRun {
-  kRefuse,            // the default
-  kResume,            // go on; refuse where scenario, seed or build differ
-  kSetAside,          // --force: rename its store and start anew
-  kResumeOrSetAside,  // --resume --force: go on where it fits, otherwise set aside
-  kOwn,               // an earlier process of this command made it, or was about to
-};
 
 // A cell as it is to be run; its scenario says how many trials.
 struct CampaignCell {

@@ -7,19 +7,12 @@
 #include <vector>
 
 #include "batch/result_store.h"
+#include "campaign/work.h"
 #include "core/error.h"
 #include "scenario/scenario.h"
 #include "truth/record.h"
 
 namespace rockyard::campaign {
-
-struct TrialRequest {
-  std::string source;     // scenario file, scenario.resolved.json, or the folder of a run
-  std::string cell = {};  // of a campaign: its name, or number from 0
-  std::uint32_t trial = 0;
-  std::optional<std::int64_t> seed = {};
-  std::vector<std::string> overrides = {};
-};
 
 // The trial, and what a finished run says of it.
 struct TrialSource {

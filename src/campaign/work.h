@@ -1,0 +1,56 @@
+/// @file
+/// What pieces of work are asked alike, and what came of one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/observer.h"
+#include "campaign/outcome.h"
+#include "core/error.h"
+
+namespace rockyard::campaign {
+
+/// What to do with a run that lies in the folder already. No choice deletes a store.
+enum class ExistingRun {
+  kRefuse,            ///< the default
+  kResume,            ///< go on; refuse where scenario, seed or build differ
+  kSetAside,          ///< --force: rename its store and start anew
+  kResumeOrSetAside,  ///< --resume --force: go on where it fits, otherwise set aside
+  kOwn,               ///< for this library alone: an earlier process of the same work made it
+};
+
+/// One trial to run again: of a scenario, or of a finished run whose record it must repeat.
+struct TrialRequest {
+  std::string source;       ///< scenario file, scenario.resolved.json, or the folder of a run
+  std::string cell = {};    ///< of a campaign: its name, or number from 0
+  std::uint32_t trial = 0;  ///< index in the campaign
+  std::optional<std::int64_t> seed = {};    ///< absent: the scenario's; an error with a run
+  std::vector<std::string> overrides = {};  ///< "PATH=VALUE"; an error with a run
+};
+
+/// How many trials of a campaign there are.
+struct TrialCounts {
+  std::int64_t planned = 0;
+  std::int64_t finished = 0;  ///< of those planned, also in earlier sessions
+  std::int64_t faults = 0;    ///< of those finished: simulator faults
+};
+
+/// All that was told while a piece of work went on.
+struct Account {
+  std::vector<Note> notes;
+  std::vector<core::Problem> problems;
+  std::filesystem::path folder;  ///< of a campaign: where its store is
+  TrialCounts trials;            ///< of a campaign
+};
+
+/// What came of a piece of work, whichever process did it. `problems` of kBadInput: what was wrong
+/// with the request; of other outcomes: what went wrong meanwhile.
+struct WorkResult : Account {
+  Outcome outcome = Outcome::kDone;
+};
+
+}  // namespace rockyard::campaign
