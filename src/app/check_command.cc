@@ -14,7 +14,6 @@
 #include "campaign/output_file.h"
 #include "report/comparison_table.h"
 #include "report/regression_report.h"
-#include "report/result_json.h"
 
 namespace rockyard::app {
 namespace {
@@ -60,7 +59,7 @@ ExitCode Show(const campaign::BaselineCheck& check, const CheckOptions& options)
   const auto rows =
       options.all_rows ? report::ReportedRows::kAll : report::ReportedRows::kThatMatter;
   if (options.json) {
-    PrintJson(report::BaselineCheckJson(found, static_cast<int>(check.outcome)));
+    PrintJson(campaign::CheckJson(check));
   } else {
     Print(Wrapped(report::RegressionText(found, rows)));
   }
@@ -71,8 +70,7 @@ ExitCode Show(const campaign::PublishedCheck& check, const CheckOptions& options
   WriteFiles(options, report::ComparisonJUnit(check.reference, check.result),
              report::ComparisonCsv(check.result));
   if (options.json) {
-    PrintJson(
-        report::PublishedCheckJson(check.reference, check.result, static_cast<int>(check.outcome)));
+    PrintJson(campaign::CheckJson(check));
   } else {
     Print(report::ComparisonText(check.reference, check.result));
   }

@@ -20,7 +20,6 @@
 #include "report/cell_comparison_text.h"
 #include "report/line_text.h"
 #include "report/paired_comparison.h"
-#include "report/result_json.h"
 
 namespace rockyard::app {
 namespace {
@@ -56,28 +55,18 @@ std::string SettingsText(const std::vector<batch::ScenarioDifference>& differenc
   return text + "\n";
 }
 
-std::string DriveJson(const campaign::Comparison& told, const report::RunComparison& drives) {
-  report::PageComparison page{told.first.Label(), told.second.Label(), drives, {}};
-  for (const batch::ScenarioDifference& each : told.settings) {
-    page.settings.push_back({each.path, each.first, each.second});
-  }
-  return report::DriveComparisonJson(page);
-}
-
 void Show(const campaign::Comparison& told, const CompareOptions& options) {
   const report::ComparedRun a = campaign::ComparedView(told.first);
   const report::ComparedRun b = campaign::ComparedView(told.second);
   if (const auto* drives = std::get_if<report::RunComparison>(&told.found)) {
     WriteCsv(options, report::RunComparisonCsv(*drives));
-    if (options.json) return PrintJson(DriveJson(told, *drives));
+    if (options.json) return PrintJson(campaign::ComparisonJson(told));
     return Print(
         report::RunComparisonText(a, b, *drives, SettingsText(told.settings), options.all));
   }
   const auto& cells = std::get<statistics::CellComparison>(told.found);
   WriteCsv(options, report::CellComparisonCsv(cells));
-  if (options.json) {
-    return PrintJson(report::CellComparisonJson(a, b, cells, static_cast<int>(told.outcome)));
-  }
+  if (options.json) return PrintJson(campaign::ComparisonJson(told));
   Print(SettingsText(told.settings) + report::CellComparisonText(a, b, cells));
 }
 

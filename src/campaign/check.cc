@@ -13,6 +13,7 @@
 #include "core/json_file.h"
 #include "report/baseline.h"
 #include "report/comparison_reference.h"
+#include "report/result_json.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -77,6 +78,14 @@ core::Result<CheckResult> Check(const CheckRequest& request, const Observer& obs
                                            .record_change = request.record_change,
                                            .options = request.regression});
   });
+}
+
+std::string CheckJson(const PublishedCheck& check) {
+  return report::PublishedCheckJson(check.reference, check.result, static_cast<int>(check.outcome));
+}
+
+std::string CheckJson(const BaselineCheck& check) {
+  return report::BaselineCheckJson(check.report, static_cast<int>(check.outcome));
 }
 
 }  // namespace rockyard::campaign

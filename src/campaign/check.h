@@ -40,4 +40,8 @@ using CheckResult = std::variant<PublishedCheck, BaselineCheck>;
 // resampling, some seconds.
 core::Result<CheckResult> Check(const CheckRequest& request, const Observer& observer = {});
 
+// One object, as report/README.md describes it.
+std::string CheckJson(const PublishedCheck& check);
+std::string CheckJson(const BaselineCheck& check);
+
 }  // namespace rockyard::campaign

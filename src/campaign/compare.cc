@@ -7,6 +7,7 @@
 #include "campaign/run_views.h"
 #include "core/error.h"
 #include "core/json_text.h"
+#include "report/result_json.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::campaign {
@@ -80,10 +81,27 @@ Comparison CompareStored(const CompareRequest& request) {
   return comparison;
 }
 
+std::string DriveJson(const Comparison& told, const report::RunComparison& drives) {
+  report::PageComparison page{told.first.Label(), told.second.Label(), drives, {}};
+  for (const batch::ScenarioDifference& each : told.settings) {
+    page.settings.push_back({each.path, each.first, each.second});
+  }
+  return report::DriveComparisonJson(page);
+}
+
 }  // namespace
 
 core::Result<Comparison> Compare(const CompareRequest& request) {
   return core::Attempt([&] { return CompareStored(request); });
+}
+
+std::string ComparisonJson(const Comparison& comparison) {
+  if (const auto* drives = std::get_if<report::RunComparison>(&comparison.found)) {
+    return DriveJson(comparison, *drives);
+  }
+  return report::CellComparisonJson(ComparedView(comparison.first), ComparedView(comparison.second),
+                                    std::get<statistics::CellComparison>(comparison.found),
+                                    static_cast<int>(comparison.outcome));
 }
 
 }  // namespace rockyard::campaign

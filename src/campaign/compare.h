@@ -35,4 +35,7 @@ struct Comparison {
 // measurements the records of both runs.
 core::Result<Comparison> Compare(const CompareRequest& request);
 
+// One object, as report/README.md describes it.
+std::string ComparisonJson(const Comparison& comparison);
+
 }  // namespace rockyard::campaign
