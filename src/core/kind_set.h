@@ -1,5 +1,6 @@
-// A set of kinds of one thing, such as navigators: each with a name that a scenario can choose and
-// with parameters of its own.
+/// @file
+/// A set of kinds of one thing, such as navigators: each with a name that a scenario can choose and
+/// with parameters of its own.
 #pragma once
 
 #include <cstddef>
@@ -16,32 +17,37 @@
 
 namespace rockyard::core {
 
-// How a set appears in a scenario. Views of literals.
+/// How a set appears in a scenario. Views of literals.
 struct KindSetWords {
-  std::string_view group;                    // "navigation": where it is listed
-  std::string_view key;                      // "navigator": the choice
-  std::string_view one;                      // "a navigator", in messages
-  std::span<const std::string_view> others;  // the group's other keys, which no kind may have
-  FieldInfo choice;
+  std::string_view group;                    ///< "navigation": where it is listed
+  std::string_view key;                      ///< "navigator": the choice
+  std::string_view one;                      ///< "a navigator", in messages
+  std::span<const std::string_view> others;  ///< the group's other keys, which no kind may have
+  FieldInfo choice;                          ///< what the choice means
 };
 
-// Parameters of a kind that has none.
+/// Parameters of a kind that has none.
 struct NoParams {
+  /// Lists nothing.
   void Visit(FieldVisitor& /*v*/) {}
 };
 
-// One of a set, whatever its parameters. A base of it has Clone() too, which returns a pointer to
-// that base.
+/// One of a set, whatever its parameters. A base of it has Clone() too, which returns a pointer to
+/// that base.
 class Kind {
  public:
-  // Literals: the name, and what the group of its parameters is for.
+  /// Literals: the name, and what the group of its parameters is for.
   Kind(std::string_view name, std::string_view doc) : name_(name), doc_(doc) {}
   virtual ~Kind() = default;
 
+  /// Returns the name by which a scenario chooses it.
   std::string_view name() const { return name_; }
+  /// Returns what the group of its parameters is for.
   std::string_view doc() const { return doc_; }
 
+  /// Returns whether it has a group of parameters.
   virtual bool has_params() const = 0;
+  /// Lists its parameters.
   virtual void Visit(FieldVisitor& v) = 0;
 
  protected:
@@ -52,10 +58,11 @@ class Kind {
   std::string_view doc_;
 };
 
-// Apart from how the thing is made, which needs the whole of it: who reads parameters sees no more
-// of it than its name.
+/// Apart from how the thing is made, which needs the whole of it: who reads parameters sees no more
+/// of it than its name.
 template <typename Base, typename Params>
 struct KindWithParams : Base {
+  /// Name and doc are literals, as of Kind.
   KindWithParams(std::string_view name, std::string_view doc, Params values)
       : Base(name, doc), params(std::move(values)) {}
 
@@ -65,20 +72,21 @@ struct KindWithParams : Base {
   Params params;
 };
 
-// Throws UserError where the name is taken, by a kind or by another key of the group, or is no key
-// at all (lower case, digits, underscores).
+/// Throws UserError where the name is taken, by a kind or by another key of the group, or is no key
+/// at all (lower case, digits, underscores).
 void RequireNewKind(const KindSetWords& words, std::span<const std::string_view> names,
                     std::string_view name);
 
-// The place of a name. Throws UserError where it is not there.
+/// The place of a name. Throws UserError where it is not there.
 int FindKind(const KindSetWords& words, std::span<const std::string_view> names,
              std::string_view name);
 
-// A value: a copy has parameters of its own. The first kind that is added is chosen until another
-// one is.
+/// A value: a copy has parameters of its own. The first kind that is added is chosen until another
+/// one is.
 template <typename Base>
 class KindSet {
  public:
+  /// An empty set.
   explicit KindSet(const KindSetWords& words) : words_(words) {}
   KindSet(const KindSet& other)
       : words_(other.words_), names_(other.names_), chosen_(other.chosen_) {
@@ -93,18 +101,22 @@ class KindSet {
   KindSet& operator=(KindSet&&) noexcept = default;
   ~KindSet() = default;
 
+  /// Returns the names of all kinds, in the order in which they were added; valid until one is
+  /// added.
   std::span<const std::string_view> names() const { return names_; }
+  /// Returns the kinds, in the same order.
   std::span<const std::unique_ptr<Base>> kinds() const { return kinds_; }
 
-  // Throws UserError where no kind has that name.
+  /// Chooses a kind. Throws UserError where none has that name.
   void Choose(std::string_view name) { chosen_ = FindKind(words_, names_, name); }
-  // Throws UserError where no kind has that name.
+  /// Returns a kind. Throws UserError where none has that name.
   const Base& Named(std::string_view name) const {
     return *kinds_.at(static_cast<std::size_t>(FindKind(words_, names_, name)));
   }
+  /// Returns the kind that is chosen. Requires at least one kind.
   const Base& chosen() const { return *kinds_.at(static_cast<std::size_t>(chosen_)); }
 
-  // The parameters of the kind that has such; there must be one.
+  /// The parameters of the kind that has such; there must be one.
   template <typename Params>
   Params& params() {
     return Find<KindWithParams<Base, Params>>(*this).params;
@@ -114,8 +126,8 @@ class KindSet {
     return Find<const KindWithParams<Base, Params>>(*this).params;
   }
 
-  // Lists the choice, then a group for each kind with parameters, in the group that is being
-  // visited.
+  /// Lists the choice, then a group for each kind with parameters, in the group that is being
+  /// visited.
   void Visit(FieldVisitor& v) {
     v.ChoiceOf(words_.key, chosen_, names_, words_.choice);
     for (const auto& kind : kinds_) {
@@ -124,7 +136,7 @@ class KindSet {
   }
 
  protected:
-  // Throws as RequireNewKind.
+  /// Throws as RequireNewKind.
   void AddKind(std::unique_ptr<Base> kind) {
     RequireNewKind(words_, names_, kind->name());
     names_.push_back(kind->name());
@@ -144,7 +156,7 @@ class KindSet {
 
   KindSetWords words_;
   std::vector<std::unique_ptr<Base>> kinds_;
-  std::vector<std::string_view> names_;  // in the same order
+  std::vector<std::string_view> names_;  ///< in the same order
   int chosen_ = 0;
 };
 

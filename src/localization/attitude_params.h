@@ -1,4 +1,5 @@
-// Parameters of the attitude that the rover believes.
+/// @file
+/// Parameters of the attitude that the rover believes.
 #pragma once
 
 #include <array>
@@ -8,23 +9,25 @@
 
 namespace rockyard::localization {
 
-// Where roll and pitch come from.
+/// Where roll and pitch come from.
 enum class AttitudeSource {
-  kLevel,           // the rover takes itself to be level
-  kAccelerometers,  // where it has them; level where not
+  kLevel,           ///< the rover takes itself to be level
+  kAccelerometers,  ///< where it has them; level where not
 };
 
-// Where the height above the start comes from.
+/// Where the height above the start comes from.
 enum class HeightSource {
-  kLevel,       // the ground is taken to be flat: z = 0
-  kIntegrated,  // z grows by the distance driven times the sine of the climb
+  kLevel,       ///< the ground is taken to be flat: z = 0
+  kIntegrated,  ///< z grows by the distance driven times the sine of the climb
 };
 
+/// How roll, pitch and height become what the rover believes of its stance.
 struct AttitudeParams {
   AttitudeSource source = AttitudeSource::kAccelerometers;
-  double filter_s = 0.5;
+  double filter_s = 0.5;  ///< time constant of a low pass on the specific force; 0: none
   HeightSource height = HeightSource::kIntegrated;
 
+  /// Lists every field with its meaning, bounds and source.
   void Visit(core::FieldVisitor& v) {
     v.Choice(
         "source", source,
@@ -42,11 +45,13 @@ struct AttitudeParams {
 
 }  // namespace rockyard::localization
 
+/// The names of its values in a scenario.
 template <>
 struct rockyard::core::EnumNames<rockyard::localization::AttitudeSource> {
   static constexpr std::array<std::string_view, 2> kNames{"level", "accelerometers"};
 };
 
+/// The names of its values in a scenario.
 template <>
 struct rockyard::core::EnumNames<rockyard::localization::HeightSource> {
   static constexpr std::array<std::string_view, 2> kNames{"level", "integrated"};

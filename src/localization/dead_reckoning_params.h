@@ -1,4 +1,5 @@
-// Parameters of dead reckoning.
+/// @file
+/// Parameters of dead reckoning.
 #pragma once
 
 #include <array>
@@ -8,27 +9,28 @@
 
 namespace rockyard::localization {
 
-// Whose encoders give the distance.
+/// Whose encoders give the distance.
 enum class OdometryWheels {
-  kAll,        // mean of all six; too long on arcs, where corner wheels run wider circles: 1 to 4 %
-               // on those of Rocky 3.2, 27 % on the tightest of GESTALT with the Athena SDM
-  kUnsteered,  // mean of the wheels that are not steered: exact on arcs
-  kForward,  // mean over all six of what they roll times the cosine of their steering angle: exact
-             // on arcs where all wheels are steered
+  kAll,  ///< mean of all six; too long on arcs, where corner wheels run wider circles: 1 to 4 %
+         ///< on those of Rocky 3.2, 27 % on the tightest of GESTALT with the Athena SDM
+  kUnsteered,  ///< mean of the wheels that are not steered: exact on arcs
+  kForward,    ///< mean over all six of what they roll times the cosine of their steering angle:
+               ///< exact on arcs where all wheels are steered
 };
 
-// The heading along which a step's distance is laid off.
+/// The heading along which a step's distance is laid off.
 enum class StepHeading {
-  kMidpoint,  // half of the step's turn is added first
-  kStart,     // the heading at the start of the step, as in the equations of section 5
+  kMidpoint,  ///< half of the step's turn is added first
+  kStart,     ///< the heading at the start of the step, as in the equations of section 5
 };
 
-// How wheel turns become a pose.
+/// How wheel turns become a pose.
 struct DeadReckoningParams {
-  double distance_scale = 1.0;
+  double distance_scale = 1.0;  ///< distance driven over distance rolled
   OdometryWheels wheels = OdometryWheels::kAll;
   StepHeading step_heading = StepHeading::kMidpoint;
 
+  /// Lists every field with its meaning, bounds and source.
   void Visit(core::FieldVisitor& v) {
     v.Real(
         "distance_scale", distance_scale,
@@ -48,11 +50,13 @@ struct DeadReckoningParams {
 
 }  // namespace rockyard::localization
 
+/// The names of its values in a scenario.
 template <>
 struct rockyard::core::EnumNames<rockyard::localization::OdometryWheels> {
   static constexpr std::array<std::string_view, 3> kNames{"all", "unsteered", "forward"};
 };
 
+/// The names of its values in a scenario.
 template <>
 struct rockyard::core::EnumNames<rockyard::localization::StepHeading> {
   static constexpr std::array<std::string_view, 2> kNames{"midpoint", "start"};

@@ -1,4 +1,5 @@
-// Angles in radians; degrees appear only in JSON and in reports.
+/// @file
+/// Angles in radians; degrees appear only in JSON and in reports.
 #pragma once
 
 #include <cmath>
@@ -6,11 +7,12 @@
 
 namespace rockyard::math {
 
+/// Returns the angle in the other unit.
 constexpr double DegToRad(double degrees) { return degrees * std::numbers::pi / 180.0; }
 constexpr double RadToDeg(double radians) { return radians * 180.0 / std::numbers::pi; }
 
-// Returns the equivalent angle in [-pi, pi]. Angles within are their own remainder, and the usual
-// ones: they skip the division.
+/// Returns the equivalent angle in [-pi, pi]. Angles within are their own remainder, and the usual
+/// ones: they skip the division.
 inline double WrapAngle(double radians) {
   if (std::abs(radians) <= std::numbers::pi) return radians;
   return std::remainder(radians, 2.0 * std::numbers::pi);

@@ -1,6 +1,7 @@
-// Rigid transforms in monogram notation: X_AB is the pose of frame B in frame A, so that
-// p_A = X_AB * p_B. World W: x along the course, y left, z up. Rover R: x forward, y left, z up,
-// origin on the ground under the chassis centre.
+/// @file
+/// Rigid transforms in monogram notation: X_AB is the pose of frame B in frame A, so that
+/// p_A = X_AB * p_B. World W: x along the course, y left, z up. Rover R: x forward, y left, z up,
+/// origin on the ground under the chassis centre.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,33 +10,35 @@
 
 namespace rockyard::math {
 
+/// A vector or a point, m where it is a place, and a rigid transform, both in double precision.
 using Vector3 = Eigen::Vector3d;
 using Transform = Eigen::Isometry3d;
 
-// A pose in the ground plane of W.
+/// A pose in the ground plane of W.
 struct Pose2 {
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double heading_rad = 0.0;  // from +x towards +y
+  double x_m = 0.0;          ///< along the course
+  double y_m = 0.0;          ///< to its left
+  double heading_rad = 0.0;  ///< from +x towards +y
 };
 
-// Returns the heading of X_WR, rad: the direction of the rover's x axis projected on the ground.
+/// Returns the heading of X_WR, rad: the direction of the rover's x axis projected on the ground.
 inline double Heading(const Transform& X_WR) {
   const Vector3 forward = X_WR.linear().col(0);
   return std::atan2(forward.y(), forward.x());
 }
 
-// Returns the angle between the rover's z axis and the world's, rad.
+/// Returns the angle between the rover's z axis and the world's, rad.
 inline double Tilt(const Transform& X_WR) {
   return std::acos(std::fmin(1.0, std::fmax(-1.0, X_WR.linear()(2, 2))));
 }
 
+/// Returns the place and the heading of X_WR; height and tilt are left out.
 inline Pose2 ToPose2(const Transform& X_WR) {
   return {X_WR.translation().x(), X_WR.translation().y(), Heading(X_WR)};
 }
 
-// Returns the pose turned about a place by `angle_rad`, positive from +x towards +y; bit for bit as
-// it was where that is 0.
+/// Returns the pose turned about a place by `angle_rad`, positive from +x towards +y; bit for bit
+/// as it was where that is 0.
 inline Pose2 TurnedAbout(const Pose2& pose, double x_m, double y_m, double angle_rad) {
   if (angle_rad == 0.0) return pose;
   const double c = std::cos(angle_rad);
@@ -46,9 +49,9 @@ inline Pose2 TurnedAbout(const Pose2& pose, double x_m, double y_m, double angle
           WrapAngle(pose.heading_rad + angle_rad)};
 }
 
-// Returns the pose of R at p_WoRo_W with the given attitude: heading about z, then pitch about y
-// (positive: nose down), then roll about x (positive: left side up), R_WR = Rz(heading) Ry(pitch)
-// Rx(roll).
+/// Returns the pose of R at p_WoRo_W with the given attitude: heading about z, then pitch about y
+/// (positive: nose down), then roll about x (positive: left side up), R_WR = Rz(heading) Ry(pitch)
+/// Rx(roll).
 inline Transform MakePose(const Vector3& p_WoRo_W, double heading_rad, double pitch_rad,
                           double roll_rad) {
   Transform X_WR = Transform::Identity();

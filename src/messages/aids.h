@@ -1,4 +1,5 @@
-// What aids of localization measure: poses, and motions between two of them.
+/// @file
+/// What aids of localization measure: poses, and motions between two of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,45 +10,46 @@
 
 namespace rockyard::messages {
 
-// The moment at which data of an aid were taken, which may arrive much later. Counts from 0 in a
-// drive; each moment has a number of its own.
+/// The moment at which data of an aid were taken, which may arrive much later. Counts from 0 in a
+/// drive; each moment has a number of its own.
 using CaptureNumber = std::int64_t;
 
-// A measured pose: a lander's fix, the sun's azimuth, an operator. Coordinates that were not
-// measured are ignored, with their rows and columns.
+/// A measured pose: a lander's fix, the sun's azimuth, an operator. Coordinates that were not
+/// measured are ignored, with their rows and columns.
 struct PoseFix {
   CaptureNumber capture = 0;
-  std::bitset<kPoseCoordinates> measured;  // by Index of a coordinate
-  PoseVector pose = PoseVector::Zero();    // in the world frame, or in the lander's
-  PoseCovariance covariance = PoseCovariance::Identity();
-  // As seen from the mast by whose angle goals are told, so that it shares their error.
+  std::bitset<kPoseCoordinates> measured;  ///< by Index of a coordinate
+  PoseVector pose = PoseVector::Zero();    ///< in the world frame, or in the lander's
+  PoseCovariance covariance =
+      PoseCovariance::Identity();  ///< m, rad; in the order of PoseCoordinate
+  /// As seen from the mast by whose angle goals are told, so that it shares their error.
   bool in_lander_frame = false;
 };
 
-// A measured motion: what the pose coordinates at the second moment are less those at the first
-// one, in the levelled frame of the first (x along its heading). By visual odometry.
+/// A measured motion: what the pose coordinates at the second moment are less those at the first
+/// one, in the levelled frame of the first (x along its heading). By visual odometry.
 struct RelativeMotion {
-  CaptureNumber from = 0;
-  CaptureNumber to = 0;
-  PoseVector motion_F = PoseVector::Zero();
+  CaptureNumber from = 0;                    ///< the first moment
+  CaptureNumber to = 0;                      ///< the second one, later
+  PoseVector motion_F = PoseVector::Zero();  ///< F: the levelled frame at the first moment
   PoseCovariance covariance = PoseCovariance::Identity();
 };
 
-// The sun as a sun sensor sees it.
+/// The sun as a sun sensor sees it.
 struct SunSighting {
   CaptureNumber capture = 0;
-  Eigen::Vector3d sun_R = Eigen::Vector3d::UnitZ();  // unit vector to the sun, in R
-  double direction_sd_rad = 0.0;                     // of either angle across it
+  Eigen::Vector3d sun_R = Eigen::Vector3d::UnitZ();  ///< unit vector to the sun, in R
+  double direction_sd_rad = 0.0;                     ///< of either angle across it
 };
 
-// What a radio beacon on the lander and its answerer on the rover measure of one another.
+/// What a radio beacon on the lander and its answerer on the rover measure of one another.
 struct BeaconReading {
   CaptureNumber capture = 0;
-  double station_x_m = 0.0;  // of the beacon, in W
+  double station_x_m = 0.0;  ///< of the beacon, in W
   double station_y_m = 0.0;
-  double range_m = 0.0;      // horizontal
-  double bearing_rad = 0.0;  // of the rover as seen from the station, from +x towards +y
-  double range_sd_m = 0.0;
+  double range_m = 0.0;      ///< horizontal
+  double bearing_rad = 0.0;  ///< of the rover as seen from the station, from +x towards +y
+  double range_sd_m = 0.0;   ///< standard deviations of both
   double bearing_sd_rad = 0.0;
 };
 

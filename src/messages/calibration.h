@@ -1,5 +1,6 @@
-// What the rover believes of its own geometry. On-board code uses these copies; the simulated
-// hardware has its own, so that a scenario can make a calibration wrong on purpose.
+/// @file
+/// What the rover believes of its own geometry. On-board code uses these copies; the simulated
+/// hardware has its own, so that a scenario can make a calibration wrong on purpose.
 #pragma once
 
 #include <array>
@@ -12,40 +13,43 @@
 
 namespace rockyard::messages {
 
-// Drive geometry for steering and odometry.
+/// Drive geometry for steering and odometry.
 struct DriveCalibration {
   double wheel_radius_m = 0.065;
-  PerWheel<double> radius_ratio{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  // of each wheel to wheel_radius_m
-  PerWheel<double> wheel_x_m{};                                 // contact point in R
-  PerWheel<double> wheel_y_m{};
-  PerWheel<bool> steered{};
-  // Added to the set point of every steered wheel, positive left: where its straight lies.
+  PerWheel<double> radius_ratio{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  ///< of each wheel to wheel_radius_m
+  PerWheel<double> wheel_x_m{};                                 ///< contact point in R
+  PerWheel<double> wheel_y_m{};                                 ///< positive left
+  PerWheel<bool> steered{};                                     ///< whether the wheel is steered
+  /// Added to the set point of every steered wheel, positive left: where its straight lies.
   double steering_offset_rad = 0.0;
-  double max_steer_rad = 1.0;
-  double max_wheel_speed_m_s = 0.15;  // rim speed of the fastest wheel
+  double max_steer_rad = 1.0;         ///< largest steering angle, either way
+  double max_wheel_speed_m_s = 0.15;  ///< rim speed of the fastest wheel
 };
 
-// One laser fan: the directions from the emitter within half_fan of axis_R, in the light plane
-// n . (p - e) = 0 with the normal n and the emitter e.
+/// One laser fan: the directions from the emitter within half_fan of axis_R, in the light plane
+/// n . (p - e) = 0 with the normal n and the emitter e.
 struct StripeLaser {
-  math::Vector3 p_RoE_R = math::Vector3::Zero();    // emitter
-  math::Vector3 normal_R = math::Vector3::UnitY();  // of the light plane
-  math::Vector3 axis_R = math::Vector3::UnitX();    // centre ray of the fan
-  double half_fan_rad = 0.5;
-  int camera = 0;  // index of the camera that finds this stripe
-  int group = 0;   // lasers of one group are on in the same image
+  math::Vector3 p_RoE_R = math::Vector3::Zero();    ///< emitter
+  math::Vector3 normal_R = math::Vector3::UnitY();  ///< of the light plane
+  math::Vector3 axis_R = math::Vector3::UnitX();    ///< centre ray of the fan
+  double half_fan_rad = 0.5;                        ///< half of its opening angle
+  int camera = 0;                                   ///< index of the camera that finds this stripe
+  int group = 0;  ///< lasers of one group are on in the same image
 };
 
+/// What the rover believes of its light stripe sensor.
 struct StripeCalibration {
+  /// By StripeLaser::camera.
   std::array<Camera, 2> cameras{};
-  std::vector<StripeLaser> lasers;  // left to right
-  // Image row of each scanline, below the optical axis; nearest first.
+  std::vector<StripeLaser> lasers;  ///< left to right
+  /// Image row of each scanline, below the optical axis; nearest first.
   std::vector<int> scanline_px;
-  double datum_z_m = 0.0;  // height in R of the plane from which elevations count
-  // Elevations above it between which stripes are looked for.
+  double datum_z_m = 0.0;  ///< height in R of the plane from which elevations count
+  /// Elevations above it between which stripes are looked for.
   double search_low_m = -0.30;
   double search_high_m = 0.20;
 
+  /// Returns rows and stripes of its array.
   StripeArraySize size() const { return {scanline_px.size(), lasers.size()}; }
 };
 

@@ -1,4 +1,5 @@
-// What the sensors report, and a tracker of features.
+/// @file
+/// What the sensors report, and a tracker of features.
 #pragma once
 
 #include <cstdint>
@@ -8,30 +9,31 @@
 
 namespace rockyard::messages {
 
-// Wheel encoders, steering angles and turn-rate gyro over one on-board tick.
+/// Wheel encoders, steering angles and turn-rate gyro over one on-board tick.
 struct MotionMeasurement {
-  double duration_s = 0.0;
-  PerWheel<double> wheel_turn_rad{};  // encoder increment of each drive motor
-  PerWheel<double> steer_rad{};       // at the end of the tick, positive left
-  double turn_rad = 0.0;              // integrated gyro rate, positive left
+  double duration_s = 0.0;            ///< of the tick, > 0
+  PerWheel<double> wheel_turn_rad{};  ///< encoder increment of each drive motor
+  PerWheel<double> steer_rad{};       ///< at the end of the tick, positive left
+  double turn_rad = 0.0;              ///< integrated gyro rate, positive left
 };
 
-// One point as it was found in the image.
+/// One point as it was found in the image.
 struct StripePixel {
-  bool detected = false;
-  double column_px = 0.0;  // on the scanline of its row, of the camera assigned to its stripe
+  bool detected = false;   ///< whether it was found
+  double column_px = 0.0;  ///< on the scanline of its row, of the camera assigned to its stripe
 };
 
+/// One scan of the light stripe sensor, as image positions.
 struct StripeScan {
-  std::int64_t number = 0;  // counts every scan of the trial from 0
+  std::int64_t number = 0;  ///< counts every scan of the trial from 0
   StripeArray<StripePixel> pixels;
 };
 
-// Where the feature lies that the rover drives to, as seen from R's origin in the levelled rover
-// frame.
+/// Where the feature lies that the rover drives to, as seen from R's origin in the levelled rover
+/// frame.
 struct FeatureSighting {
-  double range_m = 0.0;      // horizontal, >= 0
-  double bearing_rad = 0.0;  // from the heading, positive left, within [-pi, pi]
+  double range_m = 0.0;      ///< horizontal, >= 0
+  double bearing_rad = 0.0;  ///< from the heading, positive left, within [-pi, pi]
 };
 
 }  // namespace rockyard::messages

@@ -1,5 +1,6 @@
-// What a map-based navigator shows of a decision: the diagnostic image of Goldberg 2002, figure 3,
-// as data. For people; nothing on board reads it.
+/// @file
+/// What a map-based navigator shows of a decision: the diagnostic image of Goldberg 2002, figure 3,
+/// as data. For people; nothing on board reads it.
 #pragma once
 
 #include <cstddef>
@@ -11,82 +12,86 @@
 
 namespace rockyard::messages {
 
-// A spline of two clothoids (Howard 2012, section 3): the curvature at the start, at the knot in
-// the middle and at the one at the end, positive turns left. Between them it is linear.
+/// A spline of two clothoids (Howard 2012, section 3): the curvature at the start, at the knot in
+/// the middle and at the one at the end, positive turns left. Between them it is linear.
 struct Spline {
-  double start_per_m = 0.0;
-  double first_knot_per_m = 0.0;   // after half of the length
-  double second_knot_per_m = 0.0;  // after all of it, and beyond
-  double length_m = 0.0;
+  double start_per_m = 0.0;        ///< curvature at the start
+  double first_knot_per_m = 0.0;   ///< after half of the length
+  double second_knot_per_m = 0.0;  ///< after all of it, and beyond
+  double length_m = 0.0;           ///< from the start to the second knot
 
   bool operator==(const Spline&) const = default;
 };
 
+/// One cell of a map.
 struct MapCellView {
-  bool has_data = false;     // holds range points
-  double elevation_m = 0.0;  // mean of its points, in the map's frame
-  bool known = false;        // was evaluated
-  std::uint8_t goodness = 0;
-  std::uint8_t certainty = 0;
+  bool has_data = false;       ///< holds range points
+  double elevation_m = 0.0;    ///< mean of its points, in the map's frame
+  bool known = false;          ///< was evaluated
+  std::uint8_t goodness = 0;   ///< 0 (impassable) to 255
+  std::uint8_t certainty = 0;  ///< of the goodness, 0 to 255
 };
 
-// Cells of the map around the rover, unwrapped: [iy][ix], row-major, x ascending with ix.
+/// Cells of the map around the rover, unwrapped: [iy][ix], row-major, x ascending with ix.
 struct MapView {
-  double x0_m = 0.0;  // lower corner of cell (0, 0), in the estimated world frame
+  double x0_m = 0.0;  ///< lower corner of cell (0, 0), in the estimated world frame
   double y0_m = 0.0;
-  double xstep_m = 0.2;
+  double xstep_m = 0.2;  ///< sides of a cell
   double ystep_m = 0.2;
-  int nx = 0;
-  int ny = 0;
+  int nx = 0;  ///< cells along x
+  int ny = 0;  ///< cells along y
   std::vector<MapCellView> cells;
 
+  /// Requires 0 <= ix < nx and 0 <= iy < ny.
   const MapCellView& Cell(int ix, int iy) const {
     return cells[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
                  static_cast<std::size_t>(ix)];
   }
 };
 
-// A candidate motion and its votes. Votes run from 0 to 255.
+/// A candidate motion and its votes. Votes run from 0 to 255.
 struct MotionVote {
   MotionCommand motion;
-  double turn_rad = 0.0;  // of a point turn, positive left
+  double turn_rad = 0.0;  ///< of a point turn, positive left
   double hazard = 0.0;
   double hazard_certainty = 0.0;
   double waypoint = 0.0;
   double merged = 0.0;
-  bool vetoed = false;  // a hazard was felt on it from here
-  bool best = false;    // shares the highest merged vote
-  bool chosen = false;  // the motion that is driven
+  bool vetoed = false;  ///< a hazard was felt on it from here
+  bool best = false;    ///< shares the highest merged vote
+  bool chosen = false;  ///< the motion that is driven
 };
 
-// A spline among which a rover that steers while it drives chooses, and its votes, from 0 to 255.
+/// A spline among which a rover that steers while it drives chooses, and its votes, from 0 to 255.
 struct SplineVote {
   Spline spline;
   double hazard = 0.0;
   double hazard_certainty = 0.0;
   double waypoint = 0.0;
-  double waypoint_error_rad = 0.0;  // from its heading to the goal where the waypoint vote is asked
+  /// From its heading to the goal where the waypoint vote is asked.
+  double waypoint_error_rad = 0.0;
   double merged = 0.0;
-  bool feasible = false;  // the steering motors keep up with it
-  bool chosen = false;    // the spline that is driven
+  bool feasible = false;  ///< the steering motors keep up with it
+  bool chosen = false;    ///< the spline that is driven
 };
 
+/// All that a map-based navigator shows of one decision.
 struct NavigationView {
-  std::int64_t step = 0;  // counts decisions from 0
+  std::int64_t step = 0;  ///< counts decisions from 0
   PoseEstimate estimate;
-  AttitudeEstimate
-      attitude;  // how the rover believes to stand; the map's elevations count as its z
+  /// How the rover believes to stand; the map's elevations count as its z.
+  AttitudeEstimate attitude;
   Goal goal;
   bool looked_behind = false;
   MapView map;
-  // Curvatures from right (most negative) to left (most positive).
+  /// Curvatures from right (most negative) to left (most positive).
   std::vector<MotionVote> forward;
   std::vector<MotionVote> backward;
   std::vector<MotionVote> point_turns;
-  // By the first knot from right (most negative) to left, then by the second one; empty where the
-  // rover chooses among the motions above.
+  /// By the first knot from right (most negative) to left, then by the second one; empty where the
+  /// rover chooses among the motions above.
   std::vector<SplineVote> splines;
-  PoseEstimate spline_start;  // where they begin
+  PoseEstimate spline_start;  ///< where they begin
 };
 
 }  // namespace rockyard::messages

@@ -1,9 +1,10 @@
-// Values per light stripe and per point of the light stripe sensor's array.
-//
-// Rows run from the nearest point (0) to the farthest along each laser, stripes from the rover's
-// left (0) to its right. Matthies 1995, section 6 and figure 13: 4 rows by 5 stripes; denser arrays
-// are among the improvements that the section lists. Sizes are known when a sensor is built, and
-// small, so that values lie in place and no scan allocates memory.
+/// @file
+/// Values per light stripe and per point of the light stripe sensor's array.
+///
+/// Rows run from the nearest point (0) to the farthest along each laser, stripes from the rover's
+/// left (0) to its right. Matthies 1995, section 6 and figure 13: 4 rows by 5 stripes; denser
+/// arrays are among the improvements that the section lists. Sizes are known when a sensor is
+/// built, and small, so that values lie in place and no scan allocates memory.
 #pragma once
 
 #include <array>
@@ -15,11 +16,14 @@
 
 namespace rockyard::messages {
 
-inline constexpr std::size_t kStripeRows = 4;  // published array
+/// Rows of the published array.
+inline constexpr std::size_t kStripeRows = 4;
+/// Stripes of the published array, and the largest array.
 inline constexpr std::size_t kStripes = 5;
 inline constexpr std::size_t kMaxStripeRows = 7;
 inline constexpr std::size_t kMaxStripes = 9;
 
+/// Rows and stripes of an array.
 struct StripeArraySize {
   std::size_t rows = kStripeRows;
   std::size_t stripes = kStripes;
@@ -27,21 +31,24 @@ struct StripeArraySize {
   bool operator==(const StripeArraySize&) const = default;
 };
 
-// One value per stripe, left to right.
+/// One value per stripe, left to right.
 template <typename T>
 class PerStripe {
  public:
   constexpr PerStripe() = default;
+  /// That many stripes, at most kMaxStripes, each with that value.
   constexpr explicit PerStripe(std::size_t stripes, const T& value = T{}) : size_(stripes) {
     EXPECT(stripes <= kMaxStripes);
     for (T& each : *this) each = value;
   }
+  /// One stripe for each value, at most kMaxStripes.
   constexpr PerStripe(std::initializer_list<T> values) : size_(values.size()) {
     EXPECT(values.size() <= kMaxStripes);
     std::size_t stripe = 0;
     for (const T& value : values) values_[stripe++] = value;
   }
 
+  /// Returns how many stripes there are; access is not checked.
   constexpr std::size_t size() const { return size_; }
   constexpr T& operator[](std::size_t stripe) { return values_[stripe]; }
   constexpr const T& operator[](std::size_t stripe) const { return values_[stripe]; }
@@ -51,6 +58,7 @@ class PerStripe {
   constexpr const T* end() const { return values_.data() + size_; }
   constexpr const T& front() const { return values_[0]; }
   constexpr const T& back() const { return values_[size_ - 1]; }
+  /// Gives each stripe that value.
   constexpr void fill(const T& value) {
     for (T& each : *this) each = value;
   }
@@ -67,26 +75,29 @@ class PerStripe {
   std::array<T, kMaxStripes> values_{};
 };
 
-// One value per point, [row][stripe].
+/// One value per point, [row][stripe].
 template <typename T>
 class StripeArray {
  public:
   StripeArray() = default;
+  /// An array of that size, at most kMaxStripeRows by kMaxStripes, of default values.
   explicit StripeArray(StripeArraySize size) : size_(size) {
     EXPECT(size.rows <= kMaxStripeRows && size.stripes <= kMaxStripes);
   }
 
+  /// Return its size.
   const StripeArraySize& size() const { return size_; }
   std::size_t rows() const { return size_.rows; }
   std::size_t stripes() const { return size_.stripes; }
 
+  /// Returns one row, left to right; row < rows() is not checked.
   std::span<T> operator[](std::size_t row) {
     return {values_.data() + row * size_.stripes, size_.stripes};
   }
   std::span<const T> operator[](std::size_t row) const {
     return {values_.data() + row * size_.stripes, size_.stripes};
   }
-  // Every point, row by row.
+  /// Every point, row by row.
   std::span<T> points() { return {values_.data(), size_.rows * size_.stripes}; }
   std::span<const T> points() const { return {values_.data(), size_.rows * size_.stripes}; }
 

@@ -1,4 +1,6 @@
-// What the rover feels of itself: the sensors of Matthies 1995, section 6, beside the light stripe.
+/// @file
+/// What the rover feels of itself: the sensors of Matthies 1995, section 6, beside the light
+/// stripe.
 #pragma once
 
 #include <array>
@@ -10,8 +12,8 @@
 
 namespace rockyard::messages {
 
-// Angles of the passive joints, positive where the front end goes down against the chassis
-// (rockers) or the rocker (bogies): rotations about the rover's y axis.
+/// Angles of the passive joints, positive where the front end goes down against the chassis
+/// (rockers) or the rocker (bogies): rotations about the rover's y axis.
 struct Articulation {
   double left_rocker_rad = 0.0;
   double right_rocker_rad = 0.0;
@@ -19,8 +21,8 @@ struct Articulation {
   double right_bogie_rad = 0.0;
 };
 
-// Strips that close where something presses on the edge of the solar panel or on the leading edge
-// of the undercarriage.
+/// Strips that close where something presses on the edge of the solar panel or on the leading edge
+/// of the undercarriage.
 enum class ContactSwitch : std::size_t {
   kFrontLeft,
   kFrontCentre,
@@ -30,28 +32,34 @@ enum class ContactSwitch : std::size_t {
   kRearEdge,
   kUndercarriage,
 };
+/// How many there are.
 inline constexpr std::size_t kContactSwitchCount = 7;
+/// One value per strip, by Index. True: pressed.
 using ContactSwitches = std::array<bool, kContactSwitchCount>;
 
+/// Returns the place of a strip.
 constexpr std::size_t Index(ContactSwitch contact) { return static_cast<std::size_t>(contact); }
 
-// One on-board tick. What the rover has no sensor for is empty.
+/// One on-board tick. What the rover has no sensor for is empty.
 struct VehicleState {
   std::optional<Articulation> articulation;
-  // Specific force along the rover's axes, m/s2: at rest the upward reaction to gravity, (0, 0, g)
-  // on level ground.
+  /// Specific force along the rover's axes, m/s2: at rest the upward reaction to gravity, (0, 0, g)
+  /// on level ground.
   std::optional<math::Vector3> specific_force_R;
-  std::optional<PerWheel<double>> motor_current_A;  // magnitudes
-  std::optional<ContactSwitches> contact;           // true: pressed
+  std::optional<PerWheel<double>> motor_current_A;  ///< magnitudes
+  std::optional<ContactSwitches> contact;           ///< true: pressed
 };
 
-// The last is no sensor's: wheels that roll farther than the cameras see the rover move.
+/// What the rover feels and has to get away from. The last is no sensor's: wheels that roll farther
+/// than the cameras see the rover move.
 enum class VehicleHazardKind { kContact, kTilt, kArticulation, kMotorCurrent, kSlip };
+/// How many there are.
 inline constexpr std::size_t kVehicleHazardKindCount = 5;
 
-// Where the cause lies, as far as the sensor tells.
+/// Where the cause lies, as far as the sensor tells.
 enum class HazardSide { kLeft, kAhead, kRight, kBehind };
 
+/// A hazard that the rover feels, not sees.
 struct VehicleHazard {
   VehicleHazardKind kind = VehicleHazardKind::kContact;
   HazardSide side = HazardSide::kAhead;

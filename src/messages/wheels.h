@@ -1,4 +1,5 @@
-// The six wheels of a rocker-bogie rover, in the order used by every array over wheels.
+/// @file
+/// The six wheels of a rocker-bogie rover, in the order used by every array over wheels.
 #pragma once
 
 #include <array>
@@ -6,8 +7,10 @@
 
 namespace rockyard::messages {
 
+/// How many wheels there are.
 inline constexpr std::size_t kWheelCount = 6;
 
+/// A wheel, by side and axle.
 enum class Wheel : std::size_t {
   kLeftFront,
   kLeftMiddle,
@@ -17,9 +20,11 @@ enum class Wheel : std::size_t {
   kRightRear,
 };
 
+/// One value per wheel, by Index.
 template <typename T>
 using PerWheel = std::array<T, kWheelCount>;
 
+/// Returns the place of a wheel in arrays over wheels.
 constexpr std::size_t Index(Wheel wheel) { return static_cast<std::size_t>(wheel); }
 
 }  // namespace rockyard::messages

@@ -1,4 +1,6 @@
-// The navigators that a scenario can name: each with its parameters, its traits and how it is made.
+/// @file
+/// The navigators that a scenario can name: each with its parameters, its traits and how it is
+/// made.
 #pragma once
 
 #include <memory>
@@ -15,44 +17,51 @@ namespace rockyard::navigation {
 
 class Navigator;
 
-// What a navigator gets at the start of a drive, beside its parameters.
+/// What a navigator gets at the start of a drive, beside its parameters.
 struct NavigatorSetup {
-  messages::Goal goal;
-  bool judges_hazards = true;    // false: perception reports no hazards, the rover drives blind
-  double full_speed_m_s = 0.07;  // of the fastest rim; Athena's (Howard 2012 sec. 3)
-  messages::Route route = {};    // to the goal, for one that follows it; empty where there is none
+  messages::Goal goal;           ///< in the frame in which goals are told
+  bool judges_hazards = true;    ///< false: perception reports no hazards, the rover drives blind
+  double full_speed_m_s = 0.07;  ///< of the fastest rim; Athena's (Howard 2012 sec. 3)
+  messages::Route route = {};  ///< to the goal, for one that follows it; empty where there is none
 };
 
-// All that is needed to add a navigator. `Params` has `void Visit(core::FieldVisitor&)`.
+/// All that is needed to add a navigator. `Params` has `void Visit(core::FieldVisitor&)`.
 template <typename Params>
 struct NavigatorDescription {
-  std::string_view name;  // in navigation.navigator, and of the group of its parameters; a literal
-  std::string_view doc;   // of that group; a literal
+  /// In navigation.navigator, and of the group of its parameters; a literal.
+  std::string_view name;
+  std::string_view doc;  ///< of that group; a literal
+  /// What a trial has to know of it, and how one is made for a drive.
   NavigatorTraits (*traits)(const Params&) = nullptr;
   std::unique_ptr<Navigator> (*make)(const Params&, const NavigatorSetup&) = nullptr;
 };
 
-// One of a set, whatever its parameters.
+/// One of a set, whatever its parameters.
 class NavigatorKind : public core::Kind {
  public:
   using core::Kind::Kind;
 
-  // Of one of its parameters, in a scenario.
+  /// Of one of its parameters, in a scenario.
   std::string PathOf(std::string_view parameter) const {
     return "navigation." + std::string(name()) + "." + std::string(parameter);
   }
 
+  /// Returns what a trial has to know of it, with the parameters of this kind.
   virtual NavigatorTraits traits() const = 0;
+  /// Makes one for a drive.
   virtual std::unique_ptr<Navigator> Make(const NavigatorSetup& setup) const = 0;
+  /// Returns a copy with parameters of its own.
   virtual std::unique_ptr<NavigatorKind> Clone() const = 0;
 };
 
+/// The navigators that a scenario can name. A value.
 class NavigatorSet : public core::KindSet<NavigatorKind> {
  public:
+  /// An empty set.
   NavigatorSet();
 
-  // Throws core::UserError where the name is taken, by a navigator or by another key of
-  // "navigation", or is no key at all. Needs navigation/navigator.h.
+  /// Throws core::UserError where the name is taken, by a navigator or by another key of
+  /// "navigation", or is no key at all. Needs navigation/navigator.h.
   template <typename Params>
   void Add(const NavigatorDescription<Params>& description, Params params = {}) {
     AddKind(std::make_unique<KindOf<Params>>(description, std::move(params)));
@@ -77,7 +86,7 @@ class NavigatorSet : public core::KindSet<NavigatorKind> {
   };
 };
 
-// The one list of them: pathfinder (chosen), gestalt, route.
+/// The one list of them: pathfinder (chosen), gestalt, route.
 NavigatorSet StandardNavigators();
 
 }  // namespace rockyard::navigation

@@ -1,4 +1,5 @@
-// The record of one finished trial, independent of the experiment that made it.
+/// @file
+/// The record of one finished trial, independent of the experiment that made it.
 #pragma once
 
 #include <array>
@@ -11,10 +12,10 @@
 
 namespace rockyard::truth {
 
-// How a trial ended. Stored by name; append only.
+/// How a trial ended. Stored by name; append only.
 enum class TrialOutcome {
-  kGoalReached,  // believed and truly within tolerance
-  kFalseGoal,    // believed only
+  kGoalReached,  ///< believed and truly within tolerance
+  kFalseGoal,    ///< believed only
   kTipOver,
   kHighCentred,
   kJammed,
@@ -22,68 +23,72 @@ enum class TrialOutcome {
   kEnergyDepleted,
   kTimeLimit,
   kLeftArena,
-  kSimulatorFault,  // NaN, solver blow-up, exception: counted apart, never a failure of the rover
-  kMeasured,        // no drive: the record holds measurements of a sensor
-  kExcessiveSlip,   // stopped, as its wheels were seen to slip too much
+  kSimulatorFault,  ///< NaN, solver blow-up, exception: counted apart, never a failure of the rover
+  kMeasured,        ///< no drive: the record holds measurements of a sensor
+  kExcessiveSlip,   ///< stopped, as its wheels were seen to slip too much
 };
 
+/// Their names in stores and files, in the same order.
 inline constexpr std::array<std::string_view, 12> kTrialOutcomeNames = {
     "goal_reached",    "false_goal", "tip_over",   "high_centred",    "jammed",   "no_path",
     "energy_depleted", "time_limit", "left_arena", "simulator_fault", "measured", "excessive_slip"};
 
+/// Returns the name of an outcome.
 constexpr std::string_view Name(TrialOutcome outcome) {
   return kTrialOutcomeNames[static_cast<std::size_t>(outcome)];
 }
 
-// Believed to have arrived: the success of Matthies 1995, section 7.
+/// Believed to have arrived: the success of Matthies 1995, section 7.
 constexpr bool DeclaredSuccess(TrialOutcome outcome) {
   return outcome == TrialOutcome::kGoalReached || outcome == TrialOutcome::kFalseGoal;
 }
 
+/// Arrived, believed and truly.
 constexpr bool TrueSuccess(TrialOutcome outcome) { return outcome == TrialOutcome::kGoalReached; }
 
-// The rover was found unable to move.
+/// The rover was found unable to move.
 constexpr bool IsStuck(TrialOutcome outcome) {
   return outcome == TrialOutcome::kJammed || outcome == TrialOutcome::kHighCentred;
 }
 
-// What a column is within a cell, where records of one cell add up (measurement_record.h).
+/// What a column is within a cell, where records of one cell add up (truth/measurement_record.h).
 enum class ColumnRole {
-  kValue,      // of one trial: nothing adds it up
-  kFactor,     // constant within a cell
-  kTrials,     // a base: how many independent trials there were
-  kBase,       // how often something could have happened, in trials that depend on each other
-  kCount,      // how often it did: a rate of the base `of`
-  kMainCount,  // the same, and the one to show where there is room for one
-  kSum,        // adds up to a mean per `of`
-  kSquares,    // squares add up to a root mean square per `of`
+  kValue,      ///< of one trial: nothing adds it up
+  kFactor,     ///< constant within a cell
+  kTrials,     ///< a base: how many independent trials there were
+  kBase,       ///< how often something could have happened, in trials that depend on each other
+  kCount,      ///< how often it did: a rate of the base `of`
+  kMainCount,  ///< the same, and the one to show where there is room for one
+  kSum,        ///< adds up to a mean per `of`
+  kSquares,    ///< squares add up to a root mean square per `of`
 };
 
-// One column of a record.
+/// One column of a record.
 struct ValueInfo {
-  std::string name;  // with unit suffix, e.g. "true_distance_m"
-  std::string unit;  // "m", "s", "1", ...
-  std::string meaning;
-  ColumnRole role = ColumnRole::kValue;
-  std::string of = {};  // name of the base, or of the count, that a count or a sum refers to
+  std::string name;                      ///< with unit suffix, e.g. "true_distance_m"
+  std::string unit;                      ///< "m", "s", "1", ...
+  std::string meaning;                   ///< one sentence
+  ColumnRole role = ColumnRole::kValue;  ///< how records of a cell add it up
+  std::string of = {};  ///< name of the base, or of the count, that a count or a sum refers to
 };
 
-// Names, in order, of the values of every record of one experiment.
+/// Names, in order, of the values of every record of one experiment.
 using RecordSchema = std::vector<ValueInfo>;
 
+/// What is kept of a trial.
 struct Record {
-  std::uint64_t trial = 0;
+  std::uint64_t trial = 0;  ///< index in the campaign
   TrialOutcome outcome = TrialOutcome::kSimulatorFault;
-  std::string detail;   // a sentence for people: why it ended
-  RecordValues values;  // as RecordSchema; NaN where undefined; empty for simulator faults
+  std::string detail;   ///< a sentence for people: why it ended
+  RecordValues values;  ///< as RecordSchema; NaN where undefined; empty for simulator faults
 };
 
-// The simulator failed, not the rover.
+/// The simulator failed, not the rover.
 inline bool IsFault(const Record& record) {
   return record.outcome == TrialOutcome::kSimulatorFault;
 }
 
-// The record of a fault; its detail says how to run that trial again.
+/// The record of a fault; its detail says how to run that trial again.
 inline Record MakeFault(std::uint64_t seed, std::uint64_t trial, const std::string& reason) {
   return {trial,
           TrialOutcome::kSimulatorFault,
