@@ -15,6 +15,8 @@ bottom up, and the sentence of rule 2 that says which folder each heavy library 
     TypeScript that import each other, types included;
   * CMakeLists.txt of each module lists every .cc file below it once, one a line, and no other file;
     it links no further than the table, and nothing that no include needs;
+  * src/public_headers.txt lists at most 35 headers, which are what is installed: what they include is
+    listed too, on a side that theirs may see, and their comments are ///;
   * every module has a README.md and no file is longer than 600 lines.
 Exit code 0: kept; 1: violations, one line each; 2: the rules cannot be read.
 """
@@ -25,6 +27,7 @@ from pathlib import Path
 
 from layers.circles import find_circles
 from layers.cmake import check_cmake
+from layers.public import check_public
 from layers.rules import FOR_ALL, HEAVY, RulesError, read_rules
 from layers.sources import (CPP_SUFFIXES, file_graph, import_graph, raise_graph, read_source,
                             room_of)
@@ -171,6 +174,7 @@ def check_tree(root):
         found += [f"src/{source.place}:{line}: {message}"
                   for line, message in check_file(rules, src, source)]
     found += [f"src/{place}:1: {message}" for place, message in check_circles(src, sources)]
+    found += [f"src/{place}:{line}: {message}" for place, line, message in check_public(src, sources)]
     return found, len(paths)
 
 

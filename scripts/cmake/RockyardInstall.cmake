@@ -1,18 +1,40 @@
-# rockyard::rockyard, the library of all modules, and its installation as a CMake package.
+# rockyard::onboard and rockyard::rockyard, the two sides of the truth firewall, and their installation as a
+# CMake package. What is installed of src/ stands in src/public_headers.txt, below one include root a side.
+# The modules behind them are archives without headers.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-get_property(modules GLOBAL PROPERTY ROCKYARD_MODULES)
 get_property(targets GLOBAL PROPERTY ROCKYARD_TARGETS)
 
-add_library(rockyard_all INTERFACE)
-add_library(rockyard::rockyard ALIAS rockyard_all)
-set_target_properties(rockyard_all PROPERTIES EXPORT_NAME rockyard)
-target_link_libraries(rockyard_all INTERFACE ${targets})
+# rockyard_side(SIDE NAME LINKS...): the target rockyard::NAME, which sees the headers of SIDE.
+function(rockyard_side SIDE NAME)
+  add_library(rockyard_side_${SIDE} INTERFACE)
+  add_library(rockyard::${NAME} ALIAS rockyard_side_${SIDE})
+  set_target_properties(rockyard_side_${SIDE} PROPERTIES EXPORT_NAME ${NAME})
+  target_link_libraries(rockyard_side_${SIDE} INTERFACE ${ARGN})
+  target_include_directories(rockyard_side_${SIDE} INTERFACE
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/rockyard/${SIDE}>)
+endfunction()
+
+rockyard_side(onboard onboard
+  rockyard_core rockyard_localization rockyard_math rockyard_messages rockyard_navigation)
+rockyard_side(world rockyard rockyard_side_onboard ${targets})
+
+set(public_headers ${PROJECT_SOURCE_DIR}/src/public_headers.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${public_headers})
+file(STRINGS ${public_headers} lines REGEX "^[^#]")
+foreach(line ${lines})
+  string(REPLACE " " ";" words ${line})
+  list(GET words 0 side)
+  list(GET words 1 header)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/${header}
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rockyard/${side}/${folder})
+endforeach()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/rockyard)
-install(TARGETS ${targets} rockyard_all EXPORT rockyardTargets
+install(TARGETS ${targets} rockyard_side_onboard rockyard_side_world EXPORT rockyardTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT rockyardTargets NAMESPACE rockyard:: DESTINATION ${package_dir})
 if(TARGET rockyard)  # the command, with the scenarios that it finds by name, completion for bash and man pages
@@ -34,10 +56,6 @@ endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
         FILES_MATCHING PATTERN "*.md")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
-foreach(module ${modules})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${module}
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rockyard FILES_MATCHING PATTERN "*.h")
-endforeach()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rockyardConfig.cmake.in
   ${PROJECT_BINARY_DIR}/rockyardConfig.cmake INSTALL_DESTINATION ${package_dir})

@@ -46,8 +46,7 @@ function(rockyard_configure_target target export_name include_root)
   target_compile_options(${target} ${scope} ${ROCKYARD_FLOATING_POINT}
     $<BUILD_INTERFACE:-fmacro-prefix-map=${include_root}/=src/>)
   target_compile_features(${target} ${scope} cxx_std_20)
-  target_include_directories(${target} ${scope}
-    $<BUILD_INTERFACE:${include_root}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/rockyard>)
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${include_root}>)
   if(ROCKYARD_CONTRACTS)
     target_compile_definitions(${target} ${scope} ROCKYARD_CONTRACTS)
   endif()

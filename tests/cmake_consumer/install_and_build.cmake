@@ -1,5 +1,5 @@
 # Installs BUILD_DIR into an empty prefix below WORK_DIR, then configures, builds and runs the
-# project in CONSUMER_DIR against it; then configures SOURCE_DIR without tests and benchmarks. Any step
+# project in CONSUMER_DIR against it, whose cheats must not compile; then configures SOURCE_DIR without tests and benchmarks. Any step
 # that fails ends the script with an error.
 
 file(REMOVE_RECURSE ${WORK_DIR})
@@ -15,8 +15,38 @@ execute_process(COMMAND ${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build
                         -DCMAKE_PREFIX_PATH=${prefix} ${flags}
                 COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/build COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${WORK_DIR}/build/consumer COMMAND_ERROR_IS_FATAL ANY)
+file(MAKE_DIRECTORY ${WORK_DIR}/campaign)
+execute_process(COMMAND ${WORK_DIR}/build/consumer ${WORK_DIR}/campaign COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK_DIR}/build/own_navigator COMMAND_ERROR_IS_FATAL ANY)
+
+# No other header than the listed ones is installed, each below the root of its side.
+file(STRINGS ${SOURCE_DIR}/src/public_headers.txt listed REGEX "^[^#]")
+list(TRANSFORM listed REPLACE " " "/")
+file(GLOB_RECURSE installed RELATIVE ${prefix}/include/rockyard ${prefix}/include/*)
+list(SORT listed)
+list(SORT installed)
+if(NOT listed STREQUAL installed)
+  message(FATAL_ERROR "installed: ${installed}\nlisted: ${listed}")
+endif()
+
+# refuses(CHEAT HEADER): building CHEAT fails, as there is no such header.
+function(refuses cheat header)
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/build --target ${cheat}
+                  RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(result EQUAL 0)
+    message(FATAL_ERROR "a navigator can include ${header} (${cheat})")
+  elseif(NOT output MATCHES "${header}[^\n]*(No such file|file not found)")
+    message(FATAL_ERROR "${cheat} fails for another reason than ${header}:\n${output}")
+  endif()
+endfunction()
+foreach(side cheat cheat_world)
+  refuses(${side}_terrain terrain/terrain.h)
+  refuses(${side}_rover_state truth/rover_state.h)
+endforeach()
+refuses(cheat_record truth/record.h)
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/build --target control_record
+                OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/plain -G ${GENERATOR}
                         -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON
                         -DCMAKE_DISABLE_FIND_PACKAGE_benchmark=ON -DROCKYARD_BUILD_TESTS=OFF

@@ -341,6 +341,91 @@ class NoFalseAlarm(unittest.TestCase):
         self.assertEqual(self.tree.violations(), [])
 
 
+class PublicHeaders(unittest.TestCase):
+    """The list of what is installed, in a tree that is otherwise in order."""
+
+    PUBLIC = {
+        "core/check.h": "/// @file\n/// Contracts.\n#pragma once\n#include <string>\n",
+        "messages/commands.h": """/// @file
+/// Commands: see https://example.org.
+#pragma once
+
+#include "core/check.h"
+
+namespace rockyard::messages {
+
+class Wheel;
+
+/// A motion.
+struct Motion {
+  double speed_m_s = 0.0;  ///< along x
+  // NOLINTNEXTLINE(a-check): reason
+  const char* where = "http://example.org";
+};
+
+}  // namespace rockyard::messages
+""",
+        "truth/state.h": '/// @file\n/// Truth.\n#pragma once\n#include "messages/commands.h"\n',
+    }
+    LISTED = "# what is installed\nonboard core/check.h\nonboard messages/commands.h\nworld truth/state.h\n"
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.tree = Tree(self.folder.name)
+        for name, text in self.PUBLIC.items():
+            self.tree.write(name, text)
+        self.tree.write("public_headers.txt", self.LISTED)
+
+    def assert_caught(self, where, why):
+        found = self.tree.violations()
+        self.assertEqual(len(found), 1, found)
+        self.assertIn(where, found[0])
+        self.assertIn(why, found[0])
+
+    def test_control_is_in_order(self):
+        self.assertEqual(self.tree.violations(), [])
+
+    def test_include_of_a_header_that_is_not_listed(self):
+        self.tree.replace("public_headers.txt", "onboard core/check.h\n", "")
+        self.assert_caught("src/messages/commands.h:5", "not in public_headers.txt")
+
+    def test_on_board_header_includes_the_world(self):
+        self.tree.replace("public_headers.txt", "onboard core/check.h", "world core/check.h")
+        self.assert_caught("src/messages/commands.h:5", "the side onboard does not see world")
+
+    def test_too_many(self):
+        for number in range(33):
+            self.tree.write(f"math/extra{number}.h", "/// @file\n/// More.\n#pragma once\n")
+            if number == 32:
+                self.assertEqual(self.tree.violations(), [], "35 are allowed")
+            self.tree.add_line("public_headers.txt", f"onboard math/extra{number}.h")
+        self.assert_caught("src/public_headers.txt", "lists 36 headers, more than 35")
+
+    def test_lines_that_name_no_header(self):
+        for line, why in (("onboard core/gone.h", "no header"), ("world core/check.h", "twice"),
+                          ("ground core/check.h", "is not"), ("core/check.h", "is not")):
+            with self.subTest(line=line):
+                self.tree.write("public_headers.txt", self.LISTED + line + "\n")
+                self.assert_caught("src/public_headers.txt", why)
+
+    def test_comments_that_a_generator_misses(self):
+        for old, new, line in (("/// A motion.", "// A motion.", 11), ("///< along x", "// along x", 13),
+                               ("/// @file\n", "", 1), ("/// A motion.\n", "", 11)):
+            with self.subTest(old=old, new=new):
+                self.tree.write("messages/commands.h", self.PUBLIC["messages/commands.h"])
+                self.tree.replace("messages/commands.h", old, new)
+                found = [message for message in self.tree.violations() if "///" in message]
+                self.assertIn(f"src/messages/commands.h:{line}: ", " ".join(found))
+
+    def test_comments_of_other_headers_are_free(self):
+        self.tree.write("terrain/terrain.h", '// Ground.\n#pragma once\n#include "core/check.h"\n')
+        self.assertEqual(self.tree.violations(), [])
+
+    def test_the_project_has_such_a_list(self):
+        self.assertTrue((ROOT / "src" / "public_headers.txt").is_file())
+
+
 class Rules(unittest.TestCase):
     def test_missing_table_is_an_error(self):
         with self.assertRaises(layer_rules.RulesError):

@@ -1,0 +1,78 @@
+/// @file
+/// A scenario as other programs hold it: loaded, changed, written, and made into an experiment.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "experiments/experiment.h"
+#include "localization/estimator_set_params.h"
+#include "navigation/navigator_set_params.h"
+
+namespace rockyard::scenario {
+struct Scenario;
+}
+
+namespace rockyard::api {
+
+/// Every parameter of a drive or another experiment, with its number of trials and its seed. A
+/// value: copies are independent. Its fields are those of a scenario file (`rockyard parameters`),
+/// named by their JSON paths, in the units that the paths end in. Not for several threads at once
+/// while it changes.
+class Scenario {
+ public:
+  /// Every parameter at its default.
+  Scenario();
+  Scenario(const Scenario& other);
+  Scenario(Scenario&& other) noexcept;
+  Scenario& operator=(const Scenario& other);
+  Scenario& operator=(Scenario&& other) noexcept;
+  ~Scenario();
+
+  /// Returns the scenario in a JSON file, any object of which may extend another file, with
+  /// "PATH=VALUE" overrides applied in order. Absent keys have the values of `defaults`, and its
+  /// navigators and estimators are those that the file may name. Throws core::UserError with
+  /// everything that is wrong: unknown keys, values out of bounds, conditions across modules.
+  static Scenario Load(const std::filesystem::path& path,
+                       std::span<const std::string> overrides = {}, const Scenario& defaults = {});
+
+  /// The same from JSON text; "extends" is relative to `folder`.
+  static Scenario Parse(std::string_view text, std::span<const std::string> overrides = {},
+                        const std::filesystem::path& folder = ".", const Scenario& defaults = {});
+
+  /// Changes one value: "terrain.rocks.kind=none". Throws core::UserError, and changes nothing
+  /// then.
+  void Set(std::string_view path_and_value);
+
+  /// The navigators that navigation.navigator may name. Add one of another program with
+  /// navigators().Add(description), before the file that names it is loaded.
+  navigation::NavigatorSet& navigators();
+
+  /// The estimators that localization.estimator may name, in the same way.
+  localization::EstimatorSet& estimators();
+
+  const std::string& name() const;
+  /// Returns how many trials a campaign of it has, >= 1.
+  std::int64_t trials() const;
+  /// Returns the seed of its random streams.
+  std::uint64_t seed() const;
+
+  /// Returns every effective value, as a scenario file that reads back to the same scenario, bit
+  /// for bit.
+  std::string ResolvedJson() const;
+
+  /// Returns the experiment that runs single trials of it. Changes of the scenario after the call
+  /// do not reach it.
+  std::unique_ptr<experiments::Experiment> MakeExperiment() const;
+
+ private:
+  explicit Scenario(scenario::Scenario values);
+
+  std::unique_ptr<scenario::Scenario> values_;
+};
+
+}  // namespace rockyard::api
