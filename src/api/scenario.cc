@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "campaign/run_source.h"
 #include "experiments/make_experiment.h"
 #include "scenario/former_keys.h"
 #include "scenario/load.h"
@@ -22,7 +23,7 @@ Scenario::~Scenario() = default;
 
 Scenario Scenario::Load(const std::filesystem::path& path, std::span<const std::string> overrides,
                         const Scenario& defaults) {
-  return Scenario(scenario::LoadScenario(path, overrides, *defaults.values_));
+  return Scenario(campaign::LoadScenarioFrom(path, overrides, "", *defaults.values_));
 }
 
 Scenario Scenario::Parse(std::string_view text, std::span<const std::string> overrides,

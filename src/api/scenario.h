@@ -33,14 +33,15 @@ class Scenario {
   Scenario& operator=(Scenario&& other) noexcept;
   ~Scenario();
 
-  /// Returns the scenario in a JSON file, any object of which may extend another file, with
-  /// "PATH=VALUE" overrides applied in order. Absent keys have the values of `defaults`, and its
-  /// navigators and estimators are those that the file may name. Throws core::UserError with
-  /// everything that is wrong: unknown keys, values out of bounds, conditions across modules.
+  /// Returns the scenario in a scenario file, any object of which may extend another file, in a
+  /// scenario.resolved.json, or of the run in a folder, with "PATH=VALUE" overrides applied in
+  /// order. Absent keys have the values of `defaults`, and its navigators and estimators are those
+  /// that the file may name. Throws core::UserError with everything that is wrong: unknown keys,
+  /// values out of bounds, conditions across modules.
   static Scenario Load(const std::filesystem::path& path,
                        std::span<const std::string> overrides = {}, const Scenario& defaults = {});
 
-  /// The same from JSON text; "extends" is relative to `folder`.
+  /// The same from the JSON text of a scenario file; "extends" is relative to `folder`.
   static Scenario Parse(std::string_view text, std::span<const std::string> overrides = {},
                         const std::filesystem::path& folder = ".", const Scenario& defaults = {});
 

@@ -135,10 +135,10 @@ std::vector<std::filesystem::path> RunsIn(const std::string& path) {
 }  // namespace
 
 scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::string> overrides,
-                                    const std::string& cell) {
+                                    const std::string& cell, const scenario::Scenario& defaults) {
   core::JsonValue document = LoadDocument(path, cell);
   for (const std::string& assignment : overrides) scenario::Override(document, assignment);
-  return scenario::ReadScenario(document);
+  return scenario::ReadScenario(document, defaults);
 }
 
 std::optional<std::vector<std::string>> SettingsOf(const fs::path& path) {

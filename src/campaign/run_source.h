@@ -17,10 +17,12 @@
 namespace rockyard::campaign {
 
 // The scenario in a scenario file, in a scenario.resolved.json, or of the run (and its cell, as
-// ReadRun takes it) in a folder, with "PATH=VALUE" overrides. Throws core::UserError.
+// ReadRun takes it) in a folder, with "PATH=VALUE" overrides. Absent keys keep the values of
+// `defaults`. Throws core::UserError.
 scenario::Scenario LoadScenarioFrom(const std::filesystem::path& path,
                                     std::span<const std::string> overrides = {},
-                                    const std::string& cell = "");
+                                    const std::string& cell = "",
+                                    const scenario::Scenario& defaults = {});
 
 // What the scenario of that source was changed by before: of a run its settings
 // (CampaignIdentity::settings), of a scenario file nothing. Throws core::UserError.
