@@ -37,16 +37,41 @@ inline Pose2 ToPose2(const Transform& X_WR) {
   return {X_WR.translation().x(), X_WR.translation().y(), Heading(X_WR)};
 }
 
+/// Returns X_AC = X_AB X_BC: p_A = p_AB + Rz(heading) p_B.
+inline Pose2 operator*(const Pose2& X_AB, const Pose2& X_BC) {
+  const double c = std::cos(X_AB.heading_rad);
+  const double s = std::sin(X_AB.heading_rad);
+  return {X_AB.x_m + c * X_BC.x_m - s * X_BC.y_m, X_AB.y_m + s * X_BC.x_m + c * X_BC.y_m,
+          WrapAngle(X_AB.heading_rad + X_BC.heading_rad)};
+}
+
+/// Returns X_BC = (X_AB)^-1 X_AC: where C lies as seen from B.
+inline Pose2 SeenFrom(const Pose2& X_AB, const Pose2& X_AC) {
+  const double c = std::cos(X_AB.heading_rad);
+  const double s = std::sin(X_AB.heading_rad);
+  const double dx_m = X_AC.x_m - X_AB.x_m;
+  const double dy_m = X_AC.y_m - X_AB.y_m;
+  return {c * dx_m + s * dy_m, -s * dx_m + c * dy_m,
+          WrapAngle(X_AC.heading_rad - X_AB.heading_rad)};
+}
+
+/// Returns X_AL = X_AR (X_BR)^-1 X_BL: where L lies in A, if R and L are known in B and R in A. As
+/// L keeps its place beside R, this also carries L along where R jumps from X_BR to X_AR.
+inline Pose2 Carried(const Pose2& X_AR, const Pose2& X_BR, const Pose2& X_BL) {
+  const double turn_rad = X_AR.heading_rad - X_BR.heading_rad;
+  const double c = std::cos(turn_rad);
+  const double s = std::sin(turn_rad);
+  const double dx_m = X_BL.x_m - X_BR.x_m;
+  const double dy_m = X_BL.y_m - X_BR.y_m;
+  return {X_AR.x_m + c * dx_m - s * dy_m, X_AR.y_m + s * dx_m + c * dy_m,
+          WrapAngle(X_BL.heading_rad + turn_rad)};
+}
+
 /// Returns the pose turned about a place by `angle_rad`, positive from +x towards +y; bit for bit
 /// as it was where that is 0.
 inline Pose2 TurnedAbout(const Pose2& pose, double x_m, double y_m, double angle_rad) {
   if (angle_rad == 0.0) return pose;
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
-  const double dx_m = pose.x_m - x_m;
-  const double dy_m = pose.y_m - y_m;
-  return {x_m + c * dx_m - s * dy_m, y_m + s * dx_m + c * dy_m,
-          WrapAngle(pose.heading_rad + angle_rad)};
+  return Carried({x_m, y_m, angle_rad}, {x_m, y_m, 0.0}, pose);
 }
 
 /// Returns the pose of R at p_WoRo_W with the given attitude: heading about z, then pitch about y

@@ -1,55 +1,59 @@
 #include "navigation/gestalt/felt.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace rockyard::navigation {
 namespace {
 
 using messages::HazardSide;
+using messages::MotionCommand;
 using messages::PoseEstimate;
-using messages::VehicleHazard;
-using messages::VehicleHazardKind;
+
+math::Pose2 PlanarPose(const PoseEstimate& e) { return {e.x_m, e.y_m, e.heading_rad}; }
 
 // Which side a hazard lies on: +1 left, -1 right, 0 ahead.
-double Aside(const VehicleHazard& hazard) {
+double Aside(const messages::VehicleHazard& hazard) {
   if (hazard.side == HazardSide::kLeft) return 1.0;
   return hazard.side == HazardSide::kRight ? -1.0 : 0.0;
 }
 
 }  // namespace
 
-void FeltPlaces::Feel(const NavigatorInput& input, int direction, const GestaltRoverParams& rover,
-                      double radius_m, GestaltMap& map) {
-  const PoseEstimate& e = input.estimate;
-  const double cosine = std::cos(e.heading_rad);
-  const double sine = std::sin(e.heading_rad);
+void FeltHazards::Feel(const NavigatorInput& input, const MotionCommand& motion, GestaltMap& map) {
+  if (drive_.veto_felt) vetoed_.push_back(motion);
   const auto add = [&](int end, double aside) {
-    // In R: half a vehicle to the end that leads, half a width aside; then by the believed pose
-    // into the world, p_W = p_WR + Rz(heading) p_R.
-    const double x_m = 0.5 * end * rover.length_m;
-    const double y_m = 0.5 * aside * rover.width_m;
-    places_.push_back({e.x_m + cosine * x_m - sine * y_m, e.y_m + sine * x_m + cosine * y_m});
-    map.MarkObstacle(places_.back().x_m, places_.back().y_m, radius_m);
+    // In R: half a vehicle to the end that leads, half a width aside.
+    const math::Pose2 place_R{0.5 * end * rover_.length_m, 0.5 * aside * rover_.width_m, 0.0};
+    places_O_.push_back(PlanarPose(input.estimate) * place_R);
+    Mark(places_O_.back(), map);
   };
   if (input.vehicle_hazard != nullptr) {
-    const bool contact = input.vehicle_hazard->kind == VehicleHazardKind::kContact;
-    add(contact ? 1 : direction, Aside(*input.vehicle_hazard));
+    const bool contact = input.vehicle_hazard->kind == messages::VehicleHazardKind::kContact;
+    add(contact ? 1 : motion.direction, Aside(*input.vehicle_hazard));
   }
-  if (direction < 0 && input.touches_behind) add(-1, 0.0);
+  if (motion.direction < 0 && input.touches_behind) add(-1, 0.0);
 }
 
-void FeltPlaces::Move(const PoseEstimate& before, const PoseEstimate& after, double radius_m,
-                      GestaltMap& map) {
-  // The jump of the estimate as a rigid motion: p' = after + Rz(turn) (p - before).
-  const double turn_rad = after.heading_rad - before.heading_rad;
-  const double cosine = std::cos(turn_rad);
-  const double sine = std::sin(turn_rad);
-  for (Place& place : places_) {
-    const double dx_m = place.x_m - before.x_m;
-    const double dy_m = place.y_m - before.y_m;
-    place = {after.x_m + cosine * dx_m - sine * dy_m, after.y_m + sine * dx_m + cosine * dy_m};
-    map.MarkObstacle(place.x_m, place.y_m, radius_m);
+void FeltHazards::Move(const PoseEstimate& before, const PoseEstimate& after, GestaltMap& map) {
+  for (math::Pose2& place_O : places_O_) {
+    place_O = math::Carried(PlanarPose(after), PlanarPose(before), place_O);
+    Mark(place_O, map);
   }
+}
+
+void FeltHazards::MarkVetoes(MotionVotes& votes) const {
+  for (auto* row : {&votes.forward, &votes.backward}) {
+    for (messages::MotionVote& vote : *row) {
+      vote.vetoed = std::any_of(vetoed_.begin(), vetoed_.end(), [&](const MotionCommand& felt_on) {
+        return felt_on.direction == vote.motion.direction &&
+               felt_on.curvature_per_m == vote.motion.curvature_per_m;
+      });
+    }
+  }
+}
+
+void FeltHazards::Mark(const math::Pose2& place_O, GestaltMap& map) const {
+  map.MarkObstacle(place_O.x_m, place_O.y_m, drive_.felt_radius_m);
 }
 
 }  // namespace rockyard::navigation

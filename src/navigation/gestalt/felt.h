@@ -1,39 +1,46 @@
-// Where the hazards lie that GESTALT felt on its way. No camera has seen them, so they live as long
-// as the navigator wants to go round them, whatever happens to its map.
+// What GESTALT remembers of the hazards that it felt on its way.
 #pragma once
 
 #include <vector>
 
 #include "messages/estimates.h"
 #include "navigation/gestalt/map.h"
+#include "navigation/gestalt/votes.h"
 #include "navigation/navigator.h"
 
 namespace rockyard::navigation {
 
-// Places in the world as estimated on board, m.
-class FeltPlaces {
+// Places of felt hazards, and motions on which one was felt. No camera has seen these hazards, so
+// that no look would find them again. Invariant: places live until the next progress, whatever
+// happens to the map, and are marked in it whenever it is made anew; vetoes live until a manoeuvre
+// ends as it was meant to.
+class FeltHazards {
  public:
-  // Adds what the rover, `length_m` long and `width_m` wide, feels while driving in the direction
-  // (+1 forward, -1 backward): a contact at the front, any other hazard at the end that leads, both
-  // half a width aside if the sensor names a side; a touch behind while driving backward at the
-  // rear. It marks them in the map, as MarkObstacle does.
-  void Feel(const NavigatorInput& input, int direction, const GestaltRoverParams& rover,
-            double radius_m, GestaltMap& map);
+  explicit FeltHazards(const GestaltParams& params)
+      : rover_(params.map.rover), drive_(params.drive) {}
+
+  // Takes what the rover feels during the motion: a contact at the front, any other hazard at the
+  // end that leads, both half a width aside if the sensor names a side; a touch behind while
+  // driving backward at the rear.
+  void Feel(const NavigatorInput& input, const messages::MotionCommand& motion, GestaltMap& map);
 
   // Follows a jump of the estimate: the places keep their distance and bearing from the rover. They
   // are marked in the map, which must have its window around `after`.
   void Move(const messages::PoseEstimate& before, const messages::PoseEstimate& after,
-            double radius_m, GestaltMap& map);
+            GestaltMap& map);
 
-  void Forget() { places_.clear(); }
+  void MarkVetoes(MotionVotes& votes) const;
+
+  void ForgetPlaces() { places_O_.clear(); }
+  void ForgetVetoes() { vetoed_.clear(); }
 
  private:
-  struct Place {
-    double x_m;
-    double y_m;
-  };
+  void Mark(const math::Pose2& place_O, GestaltMap& map) const;
 
-  std::vector<Place> places_;
+  GestaltRoverParams rover_;
+  GestaltDriveParams drive_;
+  std::vector<math::Pose2> places_O_;
+  std::vector<messages::MotionCommand> vetoed_;
 };
 
 }  // namespace rockyard::navigation

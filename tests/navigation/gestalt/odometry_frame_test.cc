@@ -1,12 +1,11 @@
 // The frame in which corrections move the world and not the rover.
-#include "navigation/odometry_frame.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "math/angles.h"
+#include "navigation/gestalt/gestalt.h"
 
 namespace rockyard::navigation {
 namespace {

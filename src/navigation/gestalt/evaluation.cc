@@ -1,0 +1,72 @@
+#include "navigation/gestalt/evaluation.h"
+
+#include <algorithm>
+
+#include "navigation/gestalt/choice.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::LookDirection;
+
+// Of a motion that is replaced on the move a step ends where the next plan is made.
+GestaltParams ForArcVotes(const GestaltParams& params) {
+  GestaltParams voting = params;
+  if (params.continuous.cycle == DriveCycle::kStopAndLook) return voting;
+  voting.drive.step_m = std::max(params.drive.step_m, params.continuous.ReplanDistance_m());
+  return voting;
+}
+
+}  // namespace
+
+Evaluation::Evaluation(const GestaltParams& params, double full_speed_m_s)
+    : params_(params), map_(params.map), voter_(ForArcVotes(params)) {
+  if (params.continuous.cycle == DriveCycle::kCsad) spline_voter_.emplace(params, full_speed_m_s);
+}
+
+void Evaluation::See(const messages::PointCloud& cloud, const math::Transform& X_OR,
+                     const messages::PoseEstimate& rover) {
+  looked_behind_ = cloud.direction == LookDirection::kBehind;
+  if (!looked_behind_) map_.BeginCycle(rover.x_m, rover.y_m);
+  map_.Add(cloud, X_OR);
+}
+
+void Evaluation::Forget(const messages::PoseEstimate& rover) {
+  map_.Clear();
+  map_.BeginCycle(rover.x_m, rover.y_m);
+}
+
+void Evaluation::Vote(const PlanOrigin& origin, const messages::Goal& goal,
+                      const FeltHazards& felt) {
+  const GoodnessGrid& grid = map_.Evaluate();
+  votes_ = voter_.Vote(grid, origin.pose, goal);
+  felt.MarkVetoes(votes_);
+  if (!spline_voter_) return;
+  spline_votes_ = spline_voter_->Vote(grid, origin.pose, origin.curvature_per_m, goal);
+}
+
+const messages::Spline* Evaluation::TakeSafeSpline() {
+  const messages::SplineVote* best = ChooseSpline(spline_votes_, params_);
+  if (best == nullptr || best->merged < params_.votes.min_vote_goodness) return nullptr;
+  messages::SplineVote& chosen =
+      spline_votes_[static_cast<std::size_t>(best - spline_votes_.data())];
+  chosen.chosen = true;
+  return &chosen.spline;
+}
+
+void Evaluation::Show(const PlanOrigin& origin, const messages::AttitudeEstimate& attitude,
+                      const messages::Goal& goal) {
+  view_ = {.step = view_ ? view_->step + 1 : 0,
+           .estimate = origin.pose,
+           .attitude = attitude,
+           .goal = goal,
+           .looked_behind = looked_behind_,
+           .map = map_.View(),
+           .forward = votes_.forward,
+           .backward = votes_.backward,
+           .point_turns = votes_.point_turns,
+           .splines = spline_votes_,
+           .spline_start = origin.pose};
+}
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,73 @@
+// How long GESTALT goes on: progress towards its goal, and the search for a way.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "navigation/gestalt/gestalt_params.h"
+#include "navigation/gestalt/votes.h"
+
+namespace rockyard::navigation {
+
+// Progress towards the goal. Invariant: cycles and felt hazards are counted from the last gain,
+// which is a distance to the goal that is progress_m less than the best one before it.
+class Progress {
+ public:
+  explicit Progress(const GestaltDriveParams& params) : params_(params) {}
+
+  enum class Cycle {
+    kGains,
+    kGoesOn,
+    kGivesUp,  // max_fruitless_cycles are over
+  };
+
+  // Counts a cycle that begins at that distance from the goal. The first distance to a goal is what
+  // progress is counted from, and is no gain itself.
+  Cycle BeginCycle(double goal_distance_m);
+
+  // Counts a felt hazard. Returns false after max_felt.
+  bool GoesOnAfterFelt() { return ++felt_hazards_ <= params_.max_felt; }
+
+  // The next goal.
+  void Restart();
+
+  // The estimate or the goal has jumped: the rover is at that distance, or that much farther.
+  void CountFrom(double goal_distance_m) { best_m_ = goal_distance_m; }
+  void Shift(double change_m) { best_m_ += change_m; }
+
+ private:
+  GestaltDriveParams params_;
+  double best_m_ = std::numeric_limits<double>::infinity();
+  std::int64_t fruitless_cycles_ = 0;
+  std::int64_t felt_hazards_ = 0;
+};
+
+// Turning in place for want of a way. Invariant: a search turns to one side only, as what it has
+// just seen lies on the other, and no farther than search_turn since the last drive.
+class Search {
+ public:
+  explicit Search(const GestaltParams& params);
+
+  // Returns the point turn that competes with arcs: the next one of a search, or the best of all.
+  messages::MotionVote& NextTurn(MotionVotes& votes, double goal_bearing_rad) const;
+
+  bool HasTurnedAround() const;
+
+  // A search goes on to that side: +1 left, -1 right. 0: nothing is searched for.
+  void KeepTo(int side) { side_ = side; }
+  void Count(double turned_rad);
+
+  // The rover drives, or what it has seen is forgotten: all ground may be searched again.
+  void ForgetGround() { turned_rad_ = 0.0; }
+
+  // The next goal.
+  void Restart();
+
+ private:
+  double search_turn_rad_;
+  double step_rad_;
+  double turned_rad_ = 0.0;  // since the last drive
+  int side_ = 0;
+};
+
+}  // namespace rockyard::navigation

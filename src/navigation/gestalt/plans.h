@@ -1,0 +1,63 @@
+// Plans that GESTALT makes on the move (Howard 2012, section 2).
+#pragma once
+
+#include <cstdint>
+
+#include "navigation/gestalt/gestalt_params.h"
+#include "navigation/navigator.h"
+
+namespace rockyard::navigation {
+
+// When the rover looks on the move, and what becomes of the plans. Invariant: one look at most
+// awaits its answer, and it was asked for during the motion under way; the counts are those of
+// looks that were answered.
+class PlansOnTheMove {
+ public:
+  explicit PlansOnTheMove(const GestaltContinuousParams& params) : params_(params) {}
+
+  // A motion begins at that time that the next plan is to replace. Returns its number.
+  std::int64_t Begin(double time_s);
+  // A motion begins that is driven to its end.
+  void Stop() { on_ = false; }
+  bool on() const { return on_; }
+
+  // Measures the speed; is called at each tick of the motion.
+  void Measure(double driven_m, double time_s);
+
+  // Returns whether the rover looks at this tick of a motion of `leg_m`.
+  bool Asks(double leg_m);
+  bool awaits_look() const { return awaits_look_; }
+
+  // The answer is no longer wanted.
+  void Drop() { awaits_look_ = false; }
+
+  // The motion has ended and nothing has replaced it. Returns whether the rover waits for a plan.
+  bool WaitsAtEnd();
+
+  // What came of the look: it was answered, and the plan begins at `origin` where the rover
+  // believes to be at `now`, or there is no safe plan.
+  void Answer();
+  void Start(const messages::PoseEstimate& origin, const messages::PoseEstimate& now);
+  void Refuse() { ++counts_.unsafe; }
+
+  // Returns the way since the look until that time, at the speed that was measured then.
+  double WaySince(const messages::LookMoment& look, double time_s) const {
+    return look_speed_m_s_ * (time_s - look.time_s);
+  }
+
+  const PlanCounts& counts() const { return counts_; }
+
+ private:
+  GestaltContinuousParams params_;
+  bool on_ = false;
+  bool awaits_look_ = false;
+  bool late_ = false;      // the motion ended before the look was answered
+  double driven_m_ = 0.0;  // at the last tick
+  double time_s_ = 0.0;
+  double speed_m_s_ = 0.0;
+  double look_speed_m_s_ = 0.0;
+  std::int64_t moves_ = 0;
+  PlanCounts counts_;
+};
+
+}  // namespace rockyard::navigation
