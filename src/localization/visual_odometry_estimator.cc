@@ -1,33 +1,14 @@
 #include "localization/visual_odometry_estimator.h"
 
-#include <cmath>
 #include <memory>
 
-#include "math/angles.h"
+#include "math/pose.h"
 
 namespace rockyard::localization {
 namespace {
 
 using math::Pose2;
 using messages::PoseCoordinate;
-
-// pose (+) step: x and y of the step along the pose's heading.
-Pose2 Compose(const Pose2& pose, const Pose2& step) {
-  const double c = std::cos(pose.heading_rad);
-  const double s = std::sin(pose.heading_rad);
-  return {pose.x_m + c * step.x_m - s * step.y_m, pose.y_m + s * step.x_m + c * step.y_m,
-          math::WrapAngle(pose.heading_rad + step.heading_rad)};
-}
-
-// The step that leads from one pose to another.
-Pose2 StepBetween(const Pose2& from, const Pose2& to) {
-  const double c = std::cos(from.heading_rad);
-  const double s = std::sin(from.heading_rad);
-  const double dx_m = to.x_m - from.x_m;
-  const double dy_m = to.y_m - from.y_m;
-  return {c * dx_m + s * dy_m, -s * dx_m + c * dy_m,
-          math::WrapAngle(to.heading_rad - from.heading_rad)};
-}
 
 Pose2 PlanarStep(const messages::RelativeMotion& motion) {
   return {motion.motion_F[messages::Index(PoseCoordinate::kX)],
@@ -55,7 +36,7 @@ void VisualOdometryEstimator::Propagate(const messages::MotionMeasurement& motio
   wheels_.Propagate(motion);
   estimate_.odometry = wheels_.estimate().odometry;
   estimate_.pose.distance_m = estimate_.odometry.distance_m;
-  TakePose(Compose(PoseNow(), StepBetween(before, ToPose2(estimate_.odometry))));
+  TakePose(PoseNow() * math::SeenFrom(before, ToPose2(estimate_.odometry)));
 }
 
 void VisualOdometryEstimator::Feel(const messages::VehicleState& felt, double duration_s) {
@@ -80,11 +61,11 @@ AidUse VisualOdometryEstimator::Update(const messages::RelativeMotion& motion) {
   const auto to = moments_.find(motion.to);
   if (from == moments_.end() || to == moments_.end()) return AidUse::kUnknown;
   const Pose2 before = to->second;
-  const Pose2 after = Compose(from->second, PlanarStep(motion));
+  const Pose2 after = from->second * PlanarStep(motion);
   for (auto later = to; later != moments_.end(); ++later) {
-    later->second = Compose(after, StepBetween(before, later->second));
+    later->second = after * math::SeenFrom(before, later->second);
   }
-  TakePose(Compose(after, StepBetween(before, PoseNow())));
+  TakePose(after * math::SeenFrom(before, PoseNow()));
   return AidUse::kUsed;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "math/angles.h"
+#include "navigation/waypoint_sequence.h"
 
 namespace rockyard::navigation {
 
@@ -44,18 +45,11 @@ RouteFollower::Bearing RouteFollower::BearingTo(const messages::Goal& corner,
   return {std::hypot(dx, dy), math::WrapAngle(std::atan2(dy, dx) - estimate.heading_rad)};
 }
 
-// Near it, or beyond the line through it across the leg, (p - corner) . (corner - leg's start) > 0:
-// there is nothing to go back for.
-bool RouteFollower::HasPassed(const messages::Goal& corner, const PoseEstimate& estimate) const {
-  const double beyond = (estimate.x_m - corner.x_m) * (corner.x_m - leg_from_->x_m) +
-                        (estimate.y_m - corner.y_m) * (corner.y_m - leg_from_->y_m);
-  return beyond > 0.0 || BearingTo(corner, estimate).distance_m <= params_.corner_tolerance_m;
-}
-
 void RouteFollower::PassCorners(const PoseEstimate& estimate) {
   // The first leg begins where the rover stands when it first decides.
   if (!leg_from_) leg_from_ = messages::Goal{estimate.x_m, estimate.y_m};
-  while (next_ + 1 < route_.corners.size() && HasPassed(route_.corners[next_], estimate)) {
+  while (next_ + 1 < route_.corners.size() &&
+         HasPassed(route_.corners[next_], *leg_from_, estimate, params_.corner_tolerance_m)) {
     leg_from_ = route_.corners[next_];
     ++next_;
   }

@@ -35,7 +35,6 @@ class RouteFollower final : public Navigator {
   };
 
   Bearing BearingTo(const messages::Goal& corner, const messages::PoseEstimate& estimate) const;
-  bool HasPassed(const messages::Goal& corner, const messages::PoseEstimate& estimate) const;
   void PassCorners(const messages::PoseEstimate& estimate);
   bool NeedsPointTurn(const Bearing& bearing) const;
   NavigatorDecision Steer(const Bearing& bearing, const messages::PoseEstimate& estimate);

@@ -7,6 +7,14 @@
 
 namespace rockyard::navigation {
 
+bool HasPassed(const messages::Goal& corner, const messages::Goal& from,
+               const messages::PoseEstimate& estimate, double within_m) {
+  const double dx = estimate.x_m - corner.x_m;
+  const double dy = estimate.y_m - corner.y_m;
+  const double beyond = dx * (corner.x_m - from.x_m) + dy * (corner.y_m - from.y_m);
+  return beyond > 0.0 || std::hypot(dx, dy) <= within_m;
+}
+
 WaypointSequence::WaypointSequence(std::vector<messages::Goal> goals,
                                    std::unique_ptr<Navigator> navigator,
                                    std::optional<double> pass_within_m)
@@ -34,19 +42,11 @@ void WaypointSequence::PassWaypoints(const messages::PoseEstimate& estimate) {
   // The first leg begins where the rover stands when it first decides.
   if (!leg_from_) leg_from_ = messages::Goal{estimate.x_m, estimate.y_m};
   const std::size_t before = reached_;
-  while (!IsOnLastLeg() && HasPassed(estimate)) {
+  while (!IsOnLastLeg() && HasPassed(goal(), *leg_from_, estimate, *pass_within_m_)) {
     leg_from_ = goal();
     ++reached_;
   }
   if (reached_ != before) navigator_->SetGoal(goal(), GoalChange::kNext);
-}
-
-// Near it, or (p - waypoint) . (waypoint - leg's start) > 0.
-bool WaypointSequence::HasPassed(const messages::PoseEstimate& estimate) const {
-  const double dx = estimate.x_m - goal().x_m;
-  const double dy = estimate.y_m - goal().y_m;
-  const double beyond = dx * (goal().x_m - leg_from_->x_m) + dy * (goal().y_m - leg_from_->y_m);
-  return beyond > 0.0 || std::hypot(dx, dy) <= *pass_within_m_;
 }
 
 void WaypointSequence::OnPoseUpdate(const messages::PoseEstimate& before,

@@ -13,6 +13,13 @@
 
 namespace rockyard::navigation {
 
+// Returns whether a rover at `estimate` is done with the corner of a way at the end of the leg that
+// began at `from`: it is near, or beyond the line through the corner across the leg,
+//   (p - corner) . (corner - from) > 0,
+// so that there is nothing to go back for.
+bool HasPassed(const messages::Goal& corner, const messages::Goal& from,
+               const messages::PoseEstimate& estimate, double within_m);
+
 class WaypointSequence final : public Navigator {
  public:
   // `goals`, in the world frame, are one at least, in the order of driving. `navigator` is not null
@@ -47,7 +54,6 @@ class WaypointSequence final : public Navigator {
 
  private:
   void PassWaypoints(const messages::PoseEstimate& estimate);
-  bool HasPassed(const messages::PoseEstimate& estimate) const;
 
   std::vector<messages::Goal> goals_;
   std::unique_ptr<Navigator> navigator_;

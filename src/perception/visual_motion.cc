@@ -73,11 +73,9 @@ std::optional<MeasuredSlip> SlipOf(const Eigen::Vector2d& rolled_F,
 }
 
 Eigen::Vector2d RolledWay(const messages::PoseEstimate& from, const messages::PoseEstimate& to) {
-  const double c = std::cos(from.heading_rad);
-  const double s = std::sin(from.heading_rad);
-  const double dx_m = to.x_m - from.x_m;
-  const double dy_m = to.y_m - from.y_m;
-  return {c * dx_m + s * dy_m, -s * dx_m + c * dy_m};
+  const math::Pose2 step =
+      math::SeenFrom({from.x_m, from.y_m, from.heading_rad}, {to.x_m, to.y_m, to.heading_rad});
+  return {step.x_m, step.y_m};
 }
 
 }  // namespace rockyard::perception

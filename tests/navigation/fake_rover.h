@@ -194,6 +194,16 @@ inline FeltSource FeltBeyond(double low_m, const messages::VehicleHazard& what =
   return FeltBetween(low_m, std::numeric_limits<double>::infinity(), what);
 }
 
+// Felt for a tick, as soon as the true x has come that far.
+inline FeltSource FeltOnceBeyond(double x_m, const messages::VehicleHazard& what) {
+  return
+      [=, felt = false](const FakeRover& rover) mutable -> std::optional<messages::VehicleHazard> {
+        if (felt || rover.X_WR().x_m < x_m) return std::nullopt;
+        felt = true;
+        return what;
+      };
+}
+
 inline FeltSource Nothing() {
   return [](const FakeRover&) { return std::nullopt; };
 }
@@ -308,6 +318,18 @@ inline MeasuredMotion MotionBetween(const std::vector<Tick>& log, std::size_t fi
         std::abs(math::WrapAngle(log[i + 1].estimate.heading_rad - log[i].estimate.heading_rad));
   }
   return motion;
+}
+
+// How often a log comes to ticks that hold something after one that does not.
+template <typename AnyTick, typename Holds>
+int Stretches(const std::vector<AnyTick>& log, const Holds& holds) {
+  int count = 0;
+  bool held = false;
+  for (const AnyTick& tick : log) {
+    count += holds(tick) && !held;
+    held = holds(tick);
+  }
+  return count;
 }
 
 inline std::vector<std::size_t> ScanTicks(const std::vector<Tick>& log) {

@@ -21,37 +21,20 @@ struct RouteTick {
 };
 
 // The closed loop of a route follower and the fake rover. A pose update may come before any tick.
-class RouteDrive {
+class RouteDrive final : public LoggedDrive<RouteTick, RouteFollower> {
  public:
-  explicit RouteDrive(std::vector<Goal> corners, const FakeRoverConfig& config = {},
-                      const math::Pose2& start = {})
-      : navigator_(RouteParams{}, {std::move(corners)}), rover_(config, start) {}
+  explicit RouteDrive(std::vector<Goal> corners, const FakeRoverConfig& config = {})
+      : LoggedDrive({RouteParams{}, {std::move(corners)}}, {config, {}}) {}
 
-  const RouteTick& Step(const NavigatorInput& felt = {}) {
-    NavigatorInput input = felt;
-    input.estimate = rover_.estimate();
-    log_.push_back({rover_.X_WR(), rover_.estimate(), navigator_.Decide(input)});
+  const RouteTick& Step() override { return Step({}); }
+  const RouteTick& Step(NavigatorInput felt) {
+    felt.estimate = rover_.estimate();
+    log_.push_back({rover_.X_WR(), rover_.estimate(), navigator_.Decide(felt)});
     if (log_.back().decision.status == NavigatorStatus::kDriving) {
       rover_.Move(log_.back().decision.motion);
     }
     return log_.back();
   }
-
-  NavigatorStatus Run(int max_ticks = 20000) {
-    for (int i = 0; i < max_ticks; ++i) {
-      const NavigatorStatus status = Step().decision.status;
-      if (status != NavigatorStatus::kDriving) return status;
-    }
-    return NavigatorStatus::kDriving;
-  }
-
-  void UpdatePose(const messages::PoseUpdate& update) {
-    const messages::PoseEstimate before = rover_.estimate();
-    rover_.SetEstimate(update);
-    navigator_.OnPoseUpdate(before, rover_.estimate());
-  }
-
-  void SetGoal(const Goal& goal) { navigator_.SetGoal(goal, GoalChange::kMoved); }
 
   // Least distance of the believed way to a point.
   double NearestBelieved_m(const Goal& corner) const {
@@ -61,13 +44,6 @@ class RouteDrive {
     }
     return nearest_m;
   }
-
-  const std::vector<RouteTick>& log() const { return log_; }
-
- private:
-  RouteFollower navigator_;
-  FakeRover rover_;
-  std::vector<RouteTick> log_;
 };
 
 const std::vector<Goal> kZigzag{{2.0, 0.0}, {3.0, 1.5}, {5.0, 1.5}, {5.0, -1.0}, {7.6, 0.0}};
@@ -216,12 +192,12 @@ TEST(RouteFollowerTest, SteersAnewOnTheWay) {
 TEST(RouteFollowerTest, AGoalThatMovesIsTheEndOfTheRoute) {
   RouteDrive drive({{2.0, 0.0}, {4.0, 0.0}});
   drive.Step();
-  drive.SetGoal({4.0, 1.0});
+  drive.SetGoal({4.0, 1.0}, GoalChange::kMoved);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
   EXPECT_LE(drive.NearestBelieved_m({2.0, 0.0}), RouteParams{}.corner_tolerance_m);
   EXPECT_LE(drive.NearestBelieved_m({4.0, 1.0}), RouteParams{}.goal_tolerance_m);
   RouteDrive nowhere({});
-  nowhere.SetGoal({1.0, 0.0});
+  nowhere.SetGoal({1.0, 0.0}, GoalChange::kMoved);
   EXPECT_EQ(nowhere.Step().decision.status, NavigatorStatus::kGaveUp);
 }
 

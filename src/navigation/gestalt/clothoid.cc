@@ -63,8 +63,8 @@ Chord QuadratureChord(const Piece& piece) {
 
 }  // namespace
 
-ClothoidPoint AlongClothoid(const ClothoidPoint& from, double curvature_per_m, double rate_per_m2,
-                            double length_m) {
+math::Pose2 AlongClothoid(const math::Pose2& from, double curvature_per_m, double rate_per_m2,
+                          double length_m) {
   EXPECT(length_m >= 0.0);
   const double end_per_m = curvature_per_m + rate_per_m2 * length_m;
   const double turn_rad = length_m * std::max(std::abs(curvature_per_m), std::abs(end_per_m));
@@ -76,7 +76,7 @@ ClothoidPoint AlongClothoid(const ClothoidPoint& from, double curvature_per_m, d
                             : std::max(1.0, std::ceil(std::max(turn_rad, std::sqrt(bend_rad)) /
                                                       kTurnOfQuadrature_rad));
   const double piece_m = length_m / pieces;
-  ClothoidPoint point = from;
+  math::Pose2 point = from;
   for (double k = 0.0; k < pieces; ++k) {
     // theta(s) = c s + c' s^2 / 2 and c(s) = c + c' s at the middle of the piece.
     const double middle_m = (k + 0.5) * piece_m;

@@ -3,6 +3,9 @@
 
 #include <array>
 
+#include "math/pose.h"
+#include "messages/estimates.h"
+
 namespace rockyard::navigation {
 
 // Nodes of Gauss-Legendre quadrature over [-1, 1]: -place and +place, each with the weight.
@@ -17,13 +20,11 @@ inline constexpr std::array<GaussPair, 4> kEightNodes{{{0.1834346424956498, 0.36
                                                        {0.7966664774136267, 0.2223810344533745},
                                                        {0.9602898564975363, 0.1012285362903763}}};
 
-// A place on a path and the way it leads on from there; y is left of x. A path of its own begins at
-// the origin along x.
-struct ClothoidPoint {
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double heading_rad = 0.0;  // with all that it has turned, not wrapped
-};
+// The planar part of an estimate. A path begins there; the headings of its later poses hold all
+// that it has turned and are not wrapped.
+inline math::Pose2 Planar(const messages::PoseEstimate& estimate) {
+  return {estimate.x_m, estimate.y_m, estimate.heading_rad};
+}
 
 // Returns the place after length_m >= 0 on the clothoid of curvature c + c' s that begins at
 // `from`; where that is the origin along x
@@ -33,7 +34,7 @@ struct ClothoidPoint {
 // Error of x and y: below 1e-12 m a metre of length, for any curvatures: the length is cut into
 // pieces over which the integrand hardly turns (clothoid.cc has the bounds). Cost: one sine and
 // cosine if it turns by 1/8 rad or less, otherwise 13 a radian.
-ClothoidPoint AlongClothoid(const ClothoidPoint& from, double curvature_per_m, double rate_per_m2,
-                            double length_m);
+math::Pose2 AlongClothoid(const math::Pose2& from, double curvature_per_m, double rate_per_m2,
+                          double length_m);
 
 }  // namespace rockyard::navigation

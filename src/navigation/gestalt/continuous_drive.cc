@@ -12,8 +12,6 @@ namespace {
 
 using messages::PoseEstimate;
 
-math::Pose2 Planar(const PoseEstimate& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
-
 // Where the rover looked from, in O. Odometry, whose frame is D, says how it moved since: X_OL =
 // X_OR (X_DR)^-1 X_DL.
 PoseEstimate LookedFrom(const NavigatorInput& input) {

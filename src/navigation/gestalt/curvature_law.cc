@@ -118,9 +118,9 @@ double CurvatureLaw::NextEdge(double from_per_m, double to_per_m) const {
   return at_or_above == edges_.begin() ? to_per_m : std::max(*std::prev(at_or_above), to_per_m);
 }
 
-ClothoidPoint CurvatureLaw::AlongSlowing(const ClothoidPoint& from, double from_per_m,
-                                         double to_per_m, double length_m) const {
-  ClothoidPoint end = from;
+math::Pose2 CurvatureLaw::AlongSlowing(const math::Pose2& from, double from_per_m, double to_per_m,
+                                       double length_m) const {
+  math::Pose2 end = from;
   const double half_m = 0.5 * length_m;
   const auto add = [&](double s_m, double weight_m) {
     const double here = Between(from_per_m, to_per_m, s_m / length_m);
@@ -137,8 +137,8 @@ ClothoidPoint CurvatureLaw::AlongSlowing(const ClothoidPoint& from, double from_
   return end;
 }
 
-ClothoidPoint CurvatureLaw::AlongPiece(const ClothoidPoint& from, double from_per_m,
-                                       double to_per_m, double length_m) const {
+math::Pose2 CurvatureLaw::AlongPiece(const math::Pose2& from, double from_per_m, double to_per_m,
+                                     double length_m) const {
   const double middle = 0.5 * std::abs(from_per_m + to_per_m);
   const bool slowing =
       middle > speed_.full_speed_curvature_per_m && middle < speed_.slow_curvature_per_m;
@@ -146,7 +146,7 @@ ClothoidPoint CurvatureLaw::AlongPiece(const ClothoidPoint& from, double from_pe
     return AlongClothoid(from, from_per_m, (to_per_m - from_per_m) / length_m, length_m);
   const double turn_rad = length_m * std::max(std::abs(from_per_m), std::abs(to_per_m));
   const double pieces = std::max(1.0, std::ceil(turn_rad / kTurnOfPiece_rad));
-  ClothoidPoint end = from;
+  math::Pose2 end = from;
   double begin = from_per_m;
   for (double k = 1.0; k <= pieces; ++k) {
     const double next = k < pieces ? Between(from_per_m, to_per_m, k / pieces) : to_per_m;
@@ -156,8 +156,8 @@ ClothoidPoint CurvatureLaw::AlongPiece(const ClothoidPoint& from, double from_pe
   return end;
 }
 
-ClothoidPoint CurvatureLaw::Along(const ClothoidPoint& from, double from_per_m, double to_per_m,
-                                  double length_m) const {
+math::Pose2 CurvatureLaw::Along(const math::Pose2& from, double from_per_m, double to_per_m,
+                                double length_m) const {
   EXPECT(length_m >= 0.0);
   if (length_m == 0.0) return from;
   const double whole = Integral(to_per_m) - Integral(from_per_m);
@@ -167,7 +167,7 @@ ClothoidPoint CurvatureLaw::Along(const ClothoidPoint& from, double from_per_m, 
   if (clothoid) {
     return AlongClothoid(from, from_per_m, (to_per_m - from_per_m) / length_m, length_m);
   }
-  ClothoidPoint end = from;
+  math::Pose2 end = from;
   double begin = from_per_m;
   while (begin != to_per_m) {
     const double next = NextEdge(begin, to_per_m);
@@ -202,18 +202,10 @@ double CurvatureRateAt(const Spline& spline, double driven_m, const CurvatureLaw
                          (driven_m - half_m) / half_m, half_m);
 }
 
-double LargestRateInTime(const Spline& spline, double full_speed_m_s, const CurvatureLaw& law) {
-  const double half_m = 0.5 * spline.length_m;
-  return std::max(
-      law.LargestRateInTime(spline.start_per_m, spline.first_knot_per_m, half_m, full_speed_m_s),
-      law.LargestRateInTime(spline.first_knot_per_m, spline.second_knot_per_m, half_m,
-                            full_speed_m_s));
-}
-
-ClothoidPoint AlongSpline(const ClothoidPoint& from, const Spline& spline, double from_m,
-                          double to_m, const CurvatureLaw& law) {
+math::Pose2 AlongSpline(const math::Pose2& from, const Spline& spline, double from_m, double to_m,
+                        const CurvatureLaw& law) {
   EXPECT(0.0 <= from_m && from_m <= to_m);
-  ClothoidPoint end = from;
+  math::Pose2 end = from;
   double begin_m = from_m;
   // Up to each knot, and beyond the last one, as far as the way leads.
   for (const double knot_m : {0.5 * spline.length_m, spline.length_m, to_m}) {

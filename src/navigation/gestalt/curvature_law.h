@@ -42,8 +42,8 @@ class CurvatureLaw {
   // those of knots, or of places between two knots. With kTime the part on which F is a parabola is
   // integrated over pieces short enough for an error of x and y below 1e-12 m a metre, as that of
   // clothoids.
-  ClothoidPoint Along(const ClothoidPoint& from, double from_per_m, double to_per_m,
-                      double length_m) const;
+  math::Pose2 Along(const math::Pose2& from, double from_per_m, double to_per_m,
+                    double length_m) const;
 
  private:
   double Integral(double curvature_per_m) const;    // F
@@ -51,11 +51,11 @@ class CurvatureLaw {
   double MeanCurvature(double from_per_m, double to_per_m) const;
   double NextEdge(double from_per_m, double to_per_m) const;
   // Between two edges.
-  ClothoidPoint AlongPiece(const ClothoidPoint& from, double from_per_m, double to_per_m,
-                           double length_m) const;
+  math::Pose2 AlongPiece(const math::Pose2& from, double from_per_m, double to_per_m,
+                         double length_m) const;
   // Where the speed falls or rises all the way, within a turn of 1 rad.
-  ClothoidPoint AlongSlowing(const ClothoidPoint& from, double from_per_m, double to_per_m,
-                             double length_m) const;
+  math::Pose2 AlongSlowing(const math::Pose2& from, double from_per_m, double to_per_m,
+                           double length_m) const;
 
   SplineLaw law_;
   SpeedLawParams speed_;
@@ -74,12 +74,9 @@ double CurvatureAt(const Spline& spline, double driven_m, const CurvatureLaw& la
 // there on. 0 before the start and beyond the end.
 double CurvatureRateAt(const Spline& spline, double driven_m, const CurvatureLaw& law);
 
-// Returns the largest change of curvature a second, 1/(m s), at the speed of the speed law.
-double LargestRateInTime(const Spline& spline, double full_speed_m_s, const CurvatureLaw& law);
-
 // Returns the place after to_m >= from_m of a spline that has led to `from` after from_m >= 0.
 // Errors: those of CurvatureLaw::Along.
-ClothoidPoint AlongSpline(const ClothoidPoint& from, const Spline& spline, double from_m,
-                          double to_m, const CurvatureLaw& law);
+math::Pose2 AlongSpline(const math::Pose2& from, const Spline& spline, double from_m, double to_m,
+                        const CurvatureLaw& law);
 
 }  // namespace rockyard::navigation

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "navigation/gestalt/clothoid.h"
+
 namespace rockyard::navigation {
 namespace {
 
 using messages::HazardSide;
 using messages::MotionCommand;
 using messages::PoseEstimate;
-
-math::Pose2 PlanarPose(const PoseEstimate& e) { return {e.x_m, e.y_m, e.heading_rad}; }
 
 // Which side a hazard lies on: +1 left, -1 right, 0 ahead.
 double Aside(const messages::VehicleHazard& hazard) {
@@ -24,7 +24,7 @@ void FeltHazards::Feel(const NavigatorInput& input, const MotionCommand& motion,
   const auto add = [&](int end, double aside) {
     // In R: half a vehicle to the end that leads, half a width aside.
     const math::Pose2 place_R{0.5 * end * rover_.length_m, 0.5 * aside * rover_.width_m, 0.0};
-    places_O_.push_back(PlanarPose(input.estimate) * place_R);
+    places_O_.push_back(Planar(input.estimate) * place_R);
     Mark(places_O_.back(), map);
   };
   if (input.vehicle_hazard != nullptr) {
@@ -36,7 +36,7 @@ void FeltHazards::Feel(const NavigatorInput& input, const MotionCommand& motion,
 
 void FeltHazards::Move(const PoseEstimate& before, const PoseEstimate& after, GestaltMap& map) {
   for (math::Pose2& place_O : places_O_) {
-    place_O = math::Carried(PlanarPose(after), PlanarPose(before), place_O);
+    place_O = math::Carried(Planar(after), Planar(before), place_O);
     Mark(place_O, map);
   }
 }

@@ -28,8 +28,7 @@ void OdometryFrame::Correct(const PoseEstimate& before, const PoseEstimate& afte
 }
 
 PoseEstimate OdometryFrame::FromWorld(const PoseEstimate& estimate_W) const {
-  const math::Pose2 pose_O =
-      X_OW_ * math::Pose2{estimate_W.x_m, estimate_W.y_m, estimate_W.heading_rad};
+  const math::Pose2 pose_O = X_OW_ * Planar(estimate_W);
   return {pose_O.x_m, pose_O.y_m, pose_O.heading_rad, estimate_W.distance_m};
 }
 

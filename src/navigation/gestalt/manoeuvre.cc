@@ -69,10 +69,10 @@ bool Manoeuvre::FeelsAnew(const NavigatorInput& input) const {
 PlanOrigin Manoeuvre::Ahead(const PoseEstimate& from, double way_m) const {
   const double from_m = from.distance_m - began_m_;
   const double to_m = std::clamp(from_m + way_m, from_m, std::max(from_m, leg_));
-  const ClothoidPoint start{from.x_m, from.y_m, from.heading_rad};
-  const ClothoidPoint place =
-      spline_ ? AlongSpline(start, *spline_, from_m, to_m, law_)
-              : AlongClothoid(start, motion_.curvature_per_m, 0.0, to_m - from_m);
+  const math::Pose2 start = Planar(from);
+  const math::Pose2 place = spline_
+                                ? AlongSpline(start, *spline_, from_m, to_m, law_)
+                                : AlongClothoid(start, motion_.curvature_per_m, 0.0, to_m - from_m);
   return {
       {place.x_m, place.y_m, math::WrapAngle(place.heading_rad), from.distance_m + to_m - from_m},
       CommandAt(to_m).curvature_per_m};

@@ -22,8 +22,6 @@ double ArcSpacing(const GestaltArcParams& arcs) {
   return 2.0 * arcs.max_curvature_per_m / static_cast<double>(gaps);
 }
 
-ClothoidPoint AsPoint(const PoseEstimate& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
-
 // The angle by which a rover that heads straight on misses a goal of that radius,
 //   e = max(0, |bearing| - asin(radius / distance)), 0 within it.
 double MissedBy(const GoalDirection& goal, double radius_m) {
@@ -41,18 +39,18 @@ double Steering(const Spline& spline) {
 
 // Where a frame K lies in W.
 struct SplineVoter::Frame {
-  explicit Frame(const ClothoidPoint& place_W)
+  explicit Frame(const math::Pose2& place_W)
       : place(place_W),
         cosine(std::cos(place_W.heading_rad)),
         sine(std::sin(place_W.heading_rad)) {}
 
   // p_W = p_WK + Rz(heading) p_K.
-  ClothoidPoint InW(const ClothoidPoint& p_K) const {
+  math::Pose2 InW(const math::Pose2& p_K) const {
     return {place.x_m + cosine * p_K.x_m - sine * p_K.y_m,
             place.y_m + sine * p_K.x_m + cosine * p_K.y_m, place.heading_rad + p_K.heading_rad};
   }
 
-  ClothoidPoint place;
+  math::Pose2 place;
   double cosine;
   double sine;
 };
@@ -60,7 +58,7 @@ struct SplineVoter::Frame {
 // What is asked of all splines of one Vote.
 struct SplineVoter::Question {
   const GoodnessGrid& grid;
-  ClothoidPoint start_W;
+  math::Pose2 start_W;
   messages::Goal goal_W;
   std::size_t count = 0;    // points that are judged
   double waypoint_m = 0.0;  // where the waypoint vote is asked
@@ -75,7 +73,7 @@ struct SplineVoter::FirstHalf {
   std::size_t count = 0;  // points in the sums
   bool turned_enough = false;
   Frame knot;
-  ClothoidPoint at_waypoint_W;  // if that is before the knot
+  math::Pose2 at_waypoint_W;  // if that is before the knot
   bool feasible = false;
 };
 
@@ -119,7 +117,7 @@ void SplineVoter::AddSecondHalf(double first_knot_per_m, double second_knot_per_
   SecondHalf half;
   half.spline = {first_knot_per_m, first_knot_per_m, second_knot_per_m, splines.length_m};
   half.feasible = IsFeasible(first_knot_per_m, second_knot_per_m);
-  ClothoidPoint point;
+  math::Pose2 point;
   double driven_m = Knot_m();
   for (std::size_t k = first_points_; k < sampling_.distance_m.size(); ++k) {
     point = AlongSpline(point, half.spline, driven_m, sampling_.distance_m[k], law_);
@@ -139,7 +137,7 @@ SplineVotes SplineVoter::Vote(const GoodnessGrid& grid, const PoseEstimate& star
                               double curvature_per_m, const messages::Goal& goal) const {
   const GoalDirection goal_R = TowardsGoal(start, goal);
   const Question question{.grid = grid,
-                          .start_W = AsPoint(start),
+                          .start_W = Planar(start),
                           .goal_W = goal,
                           .count = sampling_.CountWithin(goal_R.distance_m),
                           .waypoint_m = std::min(params_.splines.waypoint_m, goal_R.distance_m),
@@ -162,7 +160,7 @@ SplineVoter::FirstHalf SplineVoter::MakeFirstHalf(const Spline& spline,
                                                   const Question& question) const {
   const double knot_m = Knot_m();
   PathSums sums(params_.plan.unknown_cells);
-  ClothoidPoint point = question.start_W;
+  math::Pose2 point = question.start_W;
   double driven_m = 0.0;
   std::size_t count = 0;
   bool turned_enough = false;
@@ -174,7 +172,7 @@ SplineVoter::FirstHalf SplineVoter::MakeFirstHalf(const Spline& spline,
     if (turned_enough) break;
     sums.Add(question.grid.At(point.x_m, point.y_m), sampling_.weight[count]);
   }
-  ClothoidPoint at_waypoint_W;
+  math::Pose2 at_waypoint_W;
   if (question.waypoint_m < knot_m) {
     at_waypoint_W = AlongSpline(question.start_W, spline, 0.0, question.waypoint_m, law_);
   }
@@ -229,7 +227,7 @@ HazardVote SplineVoter::JudgeWhole(const FirstHalf& first, std::size_t spline, c
                    params_.votes.min_allowed_goodness);
 }
 
-ClothoidPoint SplineVoter::AtWaypoint(std::size_t spline, double waypoint_m) const {
+math::Pose2 SplineVoter::AtWaypoint(std::size_t spline, double waypoint_m) const {
   // From the last of its points on that is not beyond, or from the knot.
   const Spline& knots = second_halves_[spline].spline;
   const std::size_t count = sampling_.CountWithin(waypoint_m);
@@ -264,7 +262,7 @@ void SplineVoter::VoteOn(const FirstHalf& first, std::size_t spline, const Cells
 
 GoalDirection SplineVoter::FromWaypoint(const FirstHalf& first, std::size_t spline,
                                         const Question& question) const {
-  ClothoidPoint place_W = first.at_waypoint_W;
+  math::Pose2 place_W = first.at_waypoint_W;
   if (question.waypoint_m >= Knot_m()) {
     const bool whole = question.waypoint_m == params_.splines.waypoint_m;
     place_W = first.knot.InW(whole ? second_halves_[spline].at_waypoint

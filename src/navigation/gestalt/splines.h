@@ -48,15 +48,12 @@ class SplineVoter {
   SplineVotes Vote(const GoodnessGrid& grid, const messages::PoseEstimate& start,
                    double curvature_per_m, const messages::Goal& goal) const;
 
-  const CurvatureLaw& law() const { return law_; }
-  const PathSampling& sampling() const { return sampling_; }
-
  private:
   // What a spline does after its first knot, in the frame K that it has there.
   struct SecondHalf {
     Spline spline;                  // of any start
     double largest_turn_rad = 0.0;  // |heading| of any of its points
-    ClothoidPoint at_waypoint;      // after waypoint_m, if that is not before the first knot
+    math::Pose2 at_waypoint;        // after waypoint_m, if that is not before the first knot
     bool feasible = false;
   };
   // Points of all second halves, [spline][k], those of the sampling from first_points_ on.
@@ -81,7 +78,7 @@ class SplineVoter {
                           const Question& question) const;
   HazardVote JudgeWhole(const FirstHalf& first, std::size_t spline, const Cells& cells,
                         const Question& question) const;
-  ClothoidPoint AtWaypoint(std::size_t spline, double waypoint_m) const;
+  math::Pose2 AtWaypoint(std::size_t spline, double waypoint_m) const;
   void VoteOn(const FirstHalf& first, std::size_t spline, const Cells& cells,
               const Question& question, messages::SplineVote& vote) const;
   // Returns the goal from where the waypoint vote is asked.

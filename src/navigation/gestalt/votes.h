@@ -114,7 +114,6 @@ class ArcVoter {
   MotionVotes Vote(const GoodnessGrid& grid, const messages::PoseEstimate& estimate,
                    const messages::Goal& goal) const;
 
-  const CandidateMotions& candidates() const { return candidates_; }
   const PathSampling& sampling() const { return sampling_; }
 
  private:

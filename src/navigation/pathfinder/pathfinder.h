@@ -18,10 +18,32 @@
 #include "navigation/navigator.h"
 #include "navigation/navigator_set_params.h"
 #include "navigation/pathfinder/pathfinder_params.h"
-#include "navigation/pathfinder/rules.h"
 #include "navigation/pathfinder/vehicle_reaction.h"
 
 namespace rockyard::navigation {
+
+// Directions of turns in place.
+inline constexpr int kLeft = +1;
+inline constexpr int kRight = -1;
+
+// The sides on which a report shows hazards.
+struct HazardSides {
+  bool left = false;
+  bool centre = false;
+  bool right = false;
+
+  bool any() const { return left || centre || right; }
+};
+
+HazardSides ClassifySides(const messages::HazardReport& report, const PathfinderParams& params);
+
+// Returns the turn direction (+1 left, -1 right) that the rules choose. `goal_bearing_rad` is
+// positive when the goal lies to the left. The report must show a hazard.
+int ChooseTurn(const messages::HazardReport& report, double goal_bearing_rad,
+               const PathfinderParams& params);
+
+// Returns the curvature (1/m, positive left) that leads towards a goal at the given bearing.
+double CurvatureToGoal(double goal_bearing_rad, const PathfinderParams& params);
 
 // The controller of one drive. It draws no random numbers.
 class PathfinderNavigator final : public Navigator {

@@ -19,7 +19,7 @@ inline double Number(const core::JsonValue& known, std::string_view key) {
   return found->number();
 }
 
-inline void ExpectNear(const ClothoidPoint& found, const ClothoidPoint& known, double error) {
+inline void ExpectNear(const math::Pose2& found, const math::Pose2& known, double error) {
   EXPECT_NEAR(found.x_m, known.x_m, error);
   EXPECT_NEAR(found.y_m, known.y_m, error);
   EXPECT_NEAR(found.heading_rad, known.heading_rad, error);

@@ -20,9 +20,9 @@ constexpr double kPi = std::numbers::pi;
 
 // By Simpson's rule with n = 4000 intervals, whose error is L h^4 max |f''''| / 180: below 1e-13 m
 // for what the tests ask.
-ClothoidPoint BySimpson(double curvature, double rate, double length) {
+math::Pose2 BySimpson(double curvature, double rate, double length) {
   constexpr int kIntervals = 4000;
-  ClothoidPoint sum;
+  math::Pose2 sum;
   for (int i = 0; i <= kIntervals; ++i) {
     const double s = length * i / kIntervals;
     const double heading = s * (curvature + 0.5 * rate * s);
@@ -42,7 +42,7 @@ TEST(Clothoid, IsAFresnelIntegral) {
     SCOPED_TRACE(z);
     // Both are odd in z.
     const double side = z < 0.0 ? -1.0 : 1.0;
-    const ClothoidPoint point = AlongClothoid({}, 0.0, kPi, std::abs(z));
+    const math::Pose2 point = AlongClothoid({}, 0.0, kPi, std::abs(z));
     const double error = 1e-12 * std::max(1.0, std::abs(z));
     EXPECT_NEAR(point.x_m, side * Number(known, "C"), error);
     EXPECT_NEAR(point.y_m, side * Number(known, "S"), error);
@@ -90,8 +90,8 @@ TEST(Clothoid, KeepsItsErrorForAnyCurvatureAndLength) {
 
 TEST(Clothoid, MirroredCurvatureGivesTheMirroredPlace) {
   for (const double length : {0.1, 2.9}) {
-    const ClothoidPoint left = AlongClothoid({}, 0.4, -0.7, length);
-    const ClothoidPoint right = AlongClothoid({}, -0.4, 0.7, length);
+    const math::Pose2 left = AlongClothoid({}, 0.4, -0.7, length);
+    const math::Pose2 right = AlongClothoid({}, -0.4, 0.7, length);
     EXPECT_EQ(right.x_m, left.x_m);
     EXPECT_EQ(right.y_m, -left.y_m);
     EXPECT_EQ(right.heading_rad, -left.heading_rad);
@@ -103,14 +103,14 @@ TEST(Clothoid, MirroredCurvatureGivesTheMirroredPlace) {
 TEST(Clothoid, GoesOnFromAnyPlace) {
   const double c = 0.4;
   const double rate = -0.7;
-  const ClothoidPoint from{1.5, -0.3, 2.1};
-  const ClothoidPoint own = AlongClothoid({}, c, rate, 2.0);
-  const ClothoidPoint moved{
+  const math::Pose2 from{1.5, -0.3, 2.1};
+  const math::Pose2 own = AlongClothoid({}, c, rate, 2.0);
+  const math::Pose2 moved{
       from.x_m + std::cos(from.heading_rad) * own.x_m - std::sin(from.heading_rad) * own.y_m,
       from.y_m + std::sin(from.heading_rad) * own.x_m + std::cos(from.heading_rad) * own.y_m,
       from.heading_rad + own.heading_rad};
   ExpectNear(AlongClothoid(from, c, rate, 2.0), moved, 1e-12);
-  const ClothoidPoint middle = AlongClothoid(from, c, rate, 1.95);
+  const math::Pose2 middle = AlongClothoid(from, c, rate, 1.95);
   ExpectNear(AlongClothoid(middle, c + 1.95 * rate, rate, 0.05), moved, 1e-12);
 }
 
@@ -166,18 +166,12 @@ TEST(SplineCurves, RatesAreTheSlopesOfTheCurvature) {
   }
 }
 
-TEST(SplineCurves, LargestRateInTimeIsThatOfTheWorseHalf) {
-  // |k2 - k1| / 1.5 m = 0.8 / m2, and the other way round.
-  EXPECT_NEAR(LargestRateInTime(kSpline, 0.07, InDistance()), 0.056, 1e-15);
-  EXPECT_NEAR(LargestRateInTime({0.8, -0.4, 0.2, 3.0}, 0.07, InDistance()), 0.056, 1e-15);
-}
-
 TEST(SplineCurves, AgreeWithKnownAnswers) {
   ASSERT_EQ(KnownAnswers("two_segment").size(), 30u);
   for (const core::JsonValue& known : KnownAnswers("two_segment")) {
     const Spline spline{Number(known, "kappa0"), Number(known, "kappa_mid"),
                         Number(known, "kappa1"), Number(known, "L")};
-    const ClothoidPoint end = AlongSpline({}, spline, 0.0, spline.length_m, InDistance());
+    const math::Pose2 end = AlongSpline({}, spline, 0.0, spline.length_m, InDistance());
     ExpectNear(end, {Number(known, "x"), Number(known, "y"), Number(known, "theta")}, 3e-12);
   }
 }
@@ -187,10 +181,10 @@ TEST(SplineCurves, AgreeWithKnownAnswers) {
 TEST(SplineCurves, PlacesFollowTheCurvature) {
   for (const CurvatureLaw& law : {InDistance(), InTime()}) {
     const double step_m = 5e-5;
-    ClothoidPoint sum;
+    math::Pose2 sum;
     for (int i = 0; i < 80000; ++i) {
       if (i % 4000 == 0) {
-        const ClothoidPoint place = AlongSpline({}, kSpline, 0.0, i * step_m, law);
+        const math::Pose2 place = AlongSpline({}, kSpline, 0.0, i * step_m, law);
         ExpectNear(place, sum, 2e-9);
       }
       const double turn_rad = CurvatureAt(kSpline, (i + 0.5) * step_m, law) * step_m;
@@ -203,10 +197,10 @@ TEST(SplineCurves, PlacesFollowTheCurvature) {
 
 TEST(SplineCurves, GoOnFromAnyPlace) {
   for (const CurvatureLaw& law : {InDistance(), InTime()}) {
-    const ClothoidPoint end = AlongSpline({}, kSpline, 0.0, 3.4, law);
+    const math::Pose2 end = AlongSpline({}, kSpline, 0.0, 3.4, law);
     for (const std::vector<double>& stops :
          {std::vector<double>{0.0, 0.7, 0.7, 3.4}, {0.0, 1.5, 3.0, 3.4}, {0.0, 1.2, 3.3, 3.4}}) {
-      ClothoidPoint place;
+      math::Pose2 place;
       for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
         place = AlongSpline(place, kSpline, stops[i], stops[i + 1], law);
       }

@@ -17,14 +17,14 @@ INSTANTIATE_TEST_SUITE_P(Cycles, DriveOnTheMove, testing::ValuesIn(kOnTheMove));
 
 TEST_P(DriveOnTheMove, StandsOnceToLookOnEmptyGroundAndDrivesOn) {
   for (const int latency_ticks : {0, 10, 60}) {
-    MovingSetup setup = setup_;
+    GestaltSetup setup = setup_;
     setup.latency_ticks = latency_ticks;
-    MovingDrive drive(setup);
+    GestaltDrive drive(setup);
     EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
     EXPECT_EQ(drive.StopsToLook(), 1) << "at the start";
     const auto& log = drive.log();
     EXPECT_TRUE(std::none_of(log.begin() + 1, log.end() - 1,
-                             [](const MovingTick& tick) { return tick.stands(); }));
+                             [](const GestaltTick& tick) { return tick.stands(); }));
     const PlanCounts counts = drive.navigator().plan_counts();
     EXPECT_EQ(counts.plans, drive.Answers() - 1);
     EXPECT_EQ(counts.started, counts.plans);
@@ -43,7 +43,7 @@ TEST_P(DriveOnTheMove, StandsOnceToLookOnEmptyGroundAndDrivesOn) {
 
 // The control: the same rover that stops to look does so at each step.
 TEST(ContinuousDrive, StopAndLookNeverLooksOnTheMove) {
-  MovingDrive drive(SetupOf(DriveCycle::kStopAndLook));
+  GestaltDrive drive(SetupOf(DriveCycle::kStopAndLook));
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
   EXPECT_NEAR(drive.StopsToLook(), 7.5 / 0.35, 1.0);
   EXPECT_EQ(drive.navigator().plan_counts().plans, 0);
@@ -53,11 +53,11 @@ TEST(ContinuousDrive, StopAndLookNeverLooksOnTheMove) {
 TEST(ContinuousDrive, GoesRoundABlock) {
   for (const double y_m : {-0.2, 0.15, 0.4}) {
     const auto driven_m = [&](DriveCycle cycle) {
-      MovingSetup setup = SetupOf(cycle);
+      GestaltSetup setup = SetupOf(cycle);
       const Block block{4.0, 4.6, y_m - 0.5, y_m + 0.5};
       setup.height = Blocks({block});
       setup.latency_ticks = 8;
-      MovingDrive drive(setup);
+      GestaltDrive drive(setup);
       EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
       ExpectClearOf(drive, block);
       return drive.rover().estimate().distance_m;
@@ -70,11 +70,11 @@ TEST(ContinuousDrive, GoesRoundABlock) {
 // Of a spline the curvature changes by its rate times the way of a tick at most, over replans too,
 // where it is predicted without error.
 void ExpectContinuousCurvature(PlanStart start, int latency_ticks) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsad);
   setup.params.continuous.plan_start = start;
   setup.height = Blocks({{3.0, 3.4, -0.3, 0.7}, {5.6, 6.2, -0.9, 0.1}});
   setup.latency_ticks = latency_ticks;
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
   ASSERT_EQ(drive.StopsToLook(), 1);
   const GestaltSplineParams& splines = setup.params.splines;
@@ -101,9 +101,9 @@ TEST(ContinuousDrive, CurvatureOfSplinesIsContinuousOverReplans) {
 
 // With arcs the curvature jumps: the negative control of the test above.
 TEST(ContinuousDrive, CurvatureOfArcsJumps) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsod);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsod);
   setup.height = Blocks({{3.0, 3.4, -0.3, 0.7}});
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
   double largest = 0.0;
   for (std::size_t i = 2; i + 1 < drive.log().size(); ++i) {
@@ -115,11 +115,11 @@ TEST(ContinuousDrive, CurvatureOfArcsJumps) {
 
 TEST_P(DriveOnTheMove, WaitsAtTheEndOfItsMotionForALatePlan) {
   for (const LatePlan late : {LatePlan::kWait, LatePlan::kStopAndLook}) {
-    MovingSetup setup = setup_;
+    GestaltSetup setup = setup_;
     setup.params.continuous.late_plan = late;
     // Half a metre takes 143 ticks.
     setup.latency_ticks = 400;
-    MovingDrive drive(setup);
+    GestaltDrive drive(setup);
     EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
     const PlanCounts counts = drive.navigator().plan_counts();
     EXPECT_NEAR(static_cast<double>(counts.late), 7.5, 1.0);
@@ -132,8 +132,8 @@ TEST_P(DriveOnTheMove, WaitsAtTheEndOfItsMotionForALatePlan) {
     }
     // It never drives beyond the motion that was judged.
     double begun_m = 0.0;
-    for (const MovingTick& tick : drive.log()) {
-      if (tick.answered) begun_m = tick.estimate.distance_m;
+    for (const GestaltTick& tick : drive.log()) {
+      if (tick.has_cloud) begun_m = tick.estimate.distance_m;
       ASSERT_LE(tick.estimate.distance_m - begun_m,
                 setup.params.continuous.motion_m + setup.rover.tick_distance_m() + kRounding);
     }
@@ -145,7 +145,7 @@ TEST_P(DriveOnTheMove, ALostAnswerIsWaitedForUpToTheTimeOut) {
   setup_.goal = {2.4, 0.0};
   setup_.loses_answers = true;
   setup_.params.drive.step_time_out_s = 40.0;
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
   EXPECT_EQ(drive.StopsToLook(), 2);
   EXPECT_NEAR(drive.log().back().time_s, 40.0 + 0.9 / 0.07, 1.0);
@@ -155,7 +155,7 @@ TEST_P(DriveOnTheMove, ALostAnswerIsWaitedForUpToTheTimeOut) {
 // elsewhere is told no more.
 TEST_P(DriveOnTheMove, OperatorsWhoMoveItMakeItLookAgain) {
   setup_.latency_ticks = 40;
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   while (drive.log().empty() || !drive.log().back().decision.looks_on_the_move) drive.Step();
   drive.Step();
   ASSERT_FALSE(drive.log().back().decision.looks()) << "it waits for the answer";
@@ -170,20 +170,20 @@ TEST_P(DriveOnTheMove, OperatorsWhoMoveItMakeItLookAgain) {
 // what was judged.
 TEST_P(DriveOnTheMove, StopsOrFinishesWhereNoPlanIsSafe) {
   const auto stops_at = [&](NoSafePlan choice) {
-    MovingSetup setup = setup_;
+    GestaltSetup setup = setup_;
     // Seen late: the rover is 1.2 m from it when its looks reach it.
     SeeNearGroundOnly(setup);
     setup.params.drive.search_turn_rad = math::DegToRad(90.0);
     const Block end{3.0, 3.4, -1.0, 1.0};
     setup.height = Blocks({end, {-1.0, 3.4, 1.0, 1.4}, {-1.0, 3.4, -1.4, -1.0}});
     setup.params.continuous.no_safe_plan = choice;
-    MovingDrive drive(setup);
+    GestaltDrive drive(setup);
     drive.Run();
     EXPECT_GE(drive.navigator().plan_counts().unsafe, 1);
     ExpectClearOf(drive, end);
     const auto& log = drive.log();
     // Where it first stops to look after it has begun.
-    const auto stop = std::find_if(log.begin() + 2, log.end(), [](const MovingTick& tick) {
+    const auto stop = std::find_if(log.begin() + 2, log.end(), [](const GestaltTick& tick) {
       return tick.decision.stops_to_look();
     });
     return stop == log.end() ? std::numeric_limits<double>::infinity() : stop->estimate.distance_m;
@@ -195,26 +195,26 @@ TEST_P(DriveOnTheMove, BacksOffFromAHazardThatItFeelsAndLooksAtRest) {
   setup_.latency_ticks = 40;
   // While a look is under way: it is asked for at 0.5 m, which takes 143 ticks.
   setup_.feels = [](int tick) { return tick == 160; };
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
   const auto& log = drive.log();
   EXPECT_LT(log[161].motion.direction, 0);
   // The answer that comes while it backs off leads to nothing.
-  const auto stop = std::find_if(log.begin() + 162, log.end(), [](const MovingTick& tick) {
+  const auto stop = std::find_if(log.begin() + 162, log.end(), [](const GestaltTick& tick) {
     return tick.decision.stops_to_look();
   });
   ASSERT_NE(stop, log.end());
   EXPECT_TRUE(std::all_of(log.begin() + 161, stop,
-                          [](const MovingTick& tick) { return tick.motion.direction < 0; }));
+                          [](const GestaltTick& tick) { return tick.motion.direction < 0; }));
 }
 
 // What is seen on the move lies where it was seen from, however late it is told.
 TEST_P(DriveOnTheMove, PointsLieWhereTheyWereSeenFrom) {
   const auto map_of = [&](int latency_ticks) {
-    MovingSetup setup = setup_;
+    GestaltSetup setup = setup_;
     setup.height = Blocks({{3.0, 3.4, 1.4, 1.8}, {3.0, 3.4, -1.8, -1.4}});
     setup.latency_ticks = latency_ticks;
-    MovingDrive drive(setup);
+    GestaltDrive drive(setup);
     while (drive.navigator().plan_counts().plans < 2) drive.Step();
     return drive.navigator().view()->map;
   };
@@ -243,8 +243,8 @@ TEST_P(DriveOnTheMove, PointsLieWhereTheyWereSeenFrom) {
 TEST_P(DriveOnTheMove, ACorrectionOnTheMoveMovesTheGoalAlone) {
   setup_.height = Blocks({{3.0, 3.6, -0.2, 0.8}});
   setup_.latency_ticks = 60;
-  MovingDrive plain(setup_);
-  MovingDrive corrected(setup_);
+  GestaltDrive plain(setup_);
+  GestaltDrive corrected(setup_);
   const int ticks = 1000;
   for (int i = 0; i < ticks; ++i) {
     plain.Step();
@@ -273,10 +273,10 @@ TEST_P(DriveOnTheMove, ACorrectionOnTheMoveMovesTheGoalAlone) {
 // On a curved way, corrected and moved by hand, so that odometry and the map's frame differ by a
 // turn: where it looked is known by odometry, and a plan begins where it was predicted to.
 TEST(ContinuousDrive, TurnedFramesMoveNoLook) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsad);
   setup.goal = {4.0, 4.0};
   setup.latency_ticks = 100;
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   while (drive.log().empty() || !drive.log().back().decision.looks_on_the_move) drive.Step();
   const messages::PoseEstimate before = drive.rover().estimate();
   drive.Correct({before.x_m, before.y_m, before.heading_rad + 1.5});
@@ -289,9 +289,9 @@ TEST(ContinuousDrive, TurnedFramesMoveNoLook) {
 // which the goal comes to lie a metre farther off.
 TEST(ContinuousDrive, CorrectionsTakeNoProgressAway) {
   for (const bool jumps : {false, true}) {
-    MovingSetup setup = SetupOf(DriveCycle::kStopAndLook);
+    GestaltSetup setup = SetupOf(DriveCycle::kStopAndLook);
     setup.params.drive.max_fruitless_cycles = 4;
-    MovingDrive drive(setup);
+    GestaltDrive drive(setup);
     do {
       drive.Step();
       const messages::PoseEstimate here = drive.rover().estimate();
@@ -309,11 +309,11 @@ TEST(ContinuousDrive, CorrectionsTakeNoProgressAway) {
 TEST(ContinuousDrive, TheErrorOfAPredictedStartIsCounted) {
   for (const PlanStart start : {PlanStart::kPredicted, PlanStart::kEstimated}) {
     int held_from = std::numeric_limits<int>::max() - 10;
-    MovingSetup setup = SetupOf(DriveCycle::kCsad);
+    GestaltSetup setup = SetupOf(DriveCycle::kCsad);
     setup.params.continuous.plan_start = start;
     setup.latency_ticks = 20;
     setup.held = [&held_from](int tick) { return tick >= held_from && tick < held_from + 10; };
-    MovingDrive drive(setup);
+    GestaltDrive drive(setup);
     while (drive.log().empty() || !drive.log().back().decision.looks_on_the_move) drive.Step();
     held_from = static_cast<int>(drive.log().size()) + 3;
     while (drive.navigator().plan_counts().started < 1) drive.Step();

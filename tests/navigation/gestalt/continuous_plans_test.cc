@@ -13,7 +13,7 @@ namespace {
 
 // Steps until it is done.
 template <typename Done>
-void StepUntil(MovingDrive& drive, const Done& done) {
+void StepUntil(GestaltDrive& drive, const Done& done) {
   for (int i = 0; i < 20000; ++i) {
     drive.Step();
     if (done()) return;
@@ -22,17 +22,17 @@ void StepUntil(MovingDrive& drive, const Done& done) {
 }
 
 // Steps until it has asked for a look on the move.
-void DriveToALook(MovingDrive& drive) {
+void DriveToALook(GestaltDrive& drive) {
   StepUntil(drive, [&drive] { return drive.log().back().decision.looks_on_the_move; });
 }
 
 // Steps until so many plans have been made on the move.
-void DriveToPlan(MovingDrive& drive, std::int64_t number) {
+void DriveToPlan(GestaltDrive& drive, std::int64_t number) {
   StepUntil(drive, [&drive, number] { return drive.navigator().plan_counts().plans >= number; });
 }
 
 // Steps until it has decided once more, at rest or on the move.
-void DriveToDecision(MovingDrive& drive) {
+void DriveToDecision(GestaltDrive& drive) {
   const auto decisions = [&drive] {
     const messages::NavigationView* view = drive.navigator().view();
     return view == nullptr ? -1 : view->step;
@@ -41,7 +41,7 @@ void DriveToDecision(MovingDrive& drive) {
   StepUntil(drive, [&] { return decisions() != before; });
 }
 
-bool Turns(const MovingTick& tick) { return tick.motion.kind == MotionKind::kTurnInPlace; }
+bool Turns(const GestaltTick& tick) { return tick.motion.kind == MotionKind::kTurnInPlace; }
 
 bool AnyVetoed(const messages::NavigationView& view) {
   const auto vetoed = [](const messages::MotionVote& vote) { return vote.vetoed; };
@@ -55,10 +55,10 @@ INSTANTIATE_TEST_SUITE_P(Cycles, PlansOnTheMove, testing::ValuesIn(kOnTheMove));
 // After half of what is driven of a plan: of a metre, and of the way to a goal that is nearer.
 TEST_P(PlansOnTheMove, AreAskedForAfterAShareOfTheMotion) {
   for (const double goal_m : {0.6, 8.0}) {
-    MovingSetup setup = setup_;
+    GestaltSetup setup = setup_;
     setup.goal = {goal_m, 0.0};
     setup.params.waypoints.goal_tolerance_m = 0.05;
-    MovingDrive drive(setup);
+    GestaltDrive drive(setup);
     DriveToALook(drive);
     EXPECT_NEAR(drive.rover().estimate().distance_m, 0.5 * std::min(goal_m, 1.0),
                 2.0 * setup.rover.tick_distance_m());
@@ -69,7 +69,7 @@ TEST_P(PlansOnTheMove, AreAskedForAfterAShareOfTheMotion) {
 TEST_P(PlansOnTheMove, MotionsEndWhereTheirLengthIsDriven) {
   setup_.rover.tick_s = setup_.rover.speed_m_s = 1.0 / 16.0;
   setup_.loses_answers = true;
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   DriveToALook(drive);
   StepUntil(drive, [&drive] { return drive.log().back().stands(); });
   EXPECT_EQ(drive.rover().estimate().distance_m, 1.0);
@@ -79,11 +79,11 @@ TEST_P(PlansOnTheMove, MotionsEndWhereTheirLengthIsDriven) {
 TEST_P(PlansOnTheMove, AreAskedForAgainAfterALateOne) {
   setup_.params.continuous.late_plan = LatePlan::kStopAndLook;
   setup_.latency_ticks = 400;
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
   const auto looks =
       std::count_if(drive.log().begin(), drive.log().end(),
-                    [](const MovingTick& tick) { return tick.decision.looks_on_the_move; });
+                    [](const GestaltTick& tick) { return tick.decision.looks_on_the_move; });
   EXPECT_GT(looks, 5);
   EXPECT_LE(std::abs(looks - drive.navigator().plan_counts().late), 1) << "the last motion";
 }
@@ -92,7 +92,7 @@ TEST_P(PlansOnTheMove, AreAskedForAgainAfterALateOne) {
 TEST_P(PlansOnTheMove, AreAskedForAgainAfterAHazardThatWasFelt) {
   setup_.latency_ticks = 40;
   setup_.feels = [](int tick) { return tick == 160; };
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
   EXPECT_EQ(drive.navigator().plan_counts().late, 0);
 }
@@ -100,27 +100,27 @@ TEST_P(PlansOnTheMove, AreAskedForAgainAfterAHazardThatWasFelt) {
 // Between steps the goal is asked for where a plan is made, before the motion ends.
 TEST_P(PlansOnTheMove, AreNotMadeAtTheGoal) {
   setup_.params.drive.arrival_check = ArrivalCheck::kBetweenSteps;
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-  EXPECT_TRUE(drive.log().back().answered);
+  EXPECT_TRUE(drive.log().back().has_cloud);
 }
 
 // A goal within the tightest circle is driven round: plans that lead no nearer come to an end.
 TEST(ContinuousPlans, WithoutProgressEndTheDrive) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsad);
   setup.goal = {1.0, 1.7};
   setup.params.waypoints.goal_tolerance_m = 0.1;
   setup.params.drive.max_fruitless_cycles = 5;
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   EXPECT_EQ(drive.Run(8000), NavigatorStatus::kGaveUp);
-  EXPECT_TRUE(drive.log().back().answered);
+  EXPECT_TRUE(drive.log().back().has_cloud);
 }
 
 // A vote of just min_vote_goodness is safe: on open ground the straight way has all that there is.
 TEST_P(PlansOnTheMove, OfTheLeastVoteAllowedAreSafe) {
   setup_.params.plan.plan_max_dist_m = 2.0;
   setup_.params.votes.min_vote_goodness = 255.0;
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   DriveToPlan(drive, 4);
   EXPECT_EQ(drive.StopsToLook(), 1);
   EXPECT_EQ(drive.navigator().plan_counts().unsafe, 0);
@@ -132,13 +132,13 @@ TEST_P(PlansOnTheMove, AreShownAsTheyAreDriven) {
   setup_.latency_ticks = 120;
   // No vote is good enough not to look behind at the start.
   setup_.params.votes.min_fwd_threshold = 256.0;
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   DriveToDecision(drive);
   EXPECT_EQ(drive.navigator().view()->looked_behind, GetParam() == DriveCycle::kCsod);
   for (std::int64_t plan = 1; plan <= 3; ++plan) {
     DriveToPlan(drive, plan);
     const messages::NavigationView& view = *drive.navigator().view();
-    const MovingTick& now = drive.log().back();
+    const GestaltTick& now = drive.log().back();
     EXPECT_FALSE(view.looked_behind);
     EXPECT_NEAR(view.estimate.x_m, now.estimate.x_m, 1e-4);
     EXPECT_NEAR(view.estimate.y_m, now.estimate.y_m, 1e-4);
@@ -167,7 +167,7 @@ TEST_P(PlansOnTheMove, AreToldWithSpeedAndRateOfTheMoment) {
   setup_.height = Blocks({{3.0, 3.4, -0.3, 0.7}});
   setup_.params.speed = {
       .full_speed_curvature_per_m = 0.05, .min_speed_share = 0.5, .slow_curvature_per_m = 0.5};
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
   double slowest = 1.0;
   int bends = 0;
@@ -191,11 +191,11 @@ TEST_P(PlansOnTheMove, AreToldWithSpeedAndRateOfTheMoment) {
 
 // A rover that has stopped to look drives on with the curvature for which its wheels stand.
 TEST(ContinuousPlans, BeginAfterAStopWithTheCurvatureThatIsSteered) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsad);
   setup.goal = {4.0, 4.0};
   setup.params.continuous.late_plan = LatePlan::kStopAndLook;
   setup.latency_ticks = 400;
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
   const auto& log = drive.log();
   const double tick_m = setup.rover.tick_distance_m();
@@ -212,10 +212,10 @@ TEST(ContinuousPlans, BeginAfterAStopWithTheCurvatureThatIsSteered) {
 
 // A look at the first tick of a motion knows the speed of that tick.
 TEST(ContinuousPlans, AreStartedAsPredictedWhenAskedForAtOnce) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsad);
   setup.params.continuous.replan_fraction = 0.002;
   setup.latency_ticks = 20;
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   DriveToPlan(drive, 6);
   EXPECT_NEAR(drive.navigator().plan_counts().start_error_squared_m2, 0.0, kRounding);
 }
@@ -230,7 +230,7 @@ TEST_P(PlansOnTheMove, TakePointsByTheAttitudeOfTheLook) {
                                       .pitch_rad = 0.1 * std::sin(phase),
                                       .z_m = 0.05 * phase};
   };
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   DriveToALook(drive);
   const auto looked = static_cast<int>(drive.log().size()) - 1;
   DriveToPlan(drive, 1);
@@ -245,16 +245,16 @@ TEST_P(PlansOnTheMove, TakePointsByTheAttitudeOfTheLook) {
 // Howard 2012, section 2: "turn-in-place of different angles followed by a straight drive". The
 // goal comes to lie abeam while the rover drives.
 TEST(ContinuousPlans, OfCsodTurnInPlaceAndDriveStraightOn) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsod);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsod);
   setup.params.arcs.num_point_turns = 6;
   setup.params.drive.point_turns = PointTurns::kCandidates;
   setup.latency_ticks = 10;
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   DriveToPlan(drive, 1);
   drive.SetGoal({drive.rover().estimate().x_m + 0.5, 6.0}, GoalChange::kMoved);
   const auto turns = [&drive] { return Turns(drive.log().back()); };
   StepUntil(drive, turns);
-  EXPECT_TRUE(drive.log().back().answered);
+  EXPECT_TRUE(drive.log().back().has_cloud);
   const std::vector<messages::MotionVote>& votes = drive.navigator().view()->point_turns;
   const auto turn = std::find_if(votes.begin(), votes.end(),
                                  [](const messages::MotionVote& vote) { return vote.chosen; });
@@ -262,7 +262,7 @@ TEST(ContinuousPlans, OfCsodTurnInPlaceAndDriveStraightOn) {
   EXPECT_GT(turn->turn_rad, 0.5);
   const double before_rad = drive.log().back().estimate.heading_rad;
   StepUntil(drive, [&] { return !turns(); });
-  const MovingTick& next = drive.log().back();
+  const GestaltTick& next = drive.log().back();
   EXPECT_NEAR(next.estimate.heading_rad - before_rad, turn->turn_rad, setup.rover.tick_turn_rad());
   EXPECT_EQ(next.motion.kind, MotionKind::kArc);
   EXPECT_EQ(next.motion.curvature_per_m, 0.0);
@@ -273,7 +273,7 @@ TEST(ContinuousPlans, OfCsodTurnInPlaceAndDriveStraightOn) {
 
 // Between walls: where a turn leads is not safe, so that the rover looks after it.
 TEST(ContinuousPlans, OfCsodLookAfterATurnTowardsAWall) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsod);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsod);
   setup.height = Blocks({{-2.0, 9.0, 1.2, 1.6}, {-2.0, 9.0, -1.6, -1.2}});
   // It drives up to walls that it has seen.
   setup.params.continuous.motion_m = 3.0;
@@ -281,7 +281,7 @@ TEST(ContinuousPlans, OfCsodLookAfterATurnTowardsAWall) {
   setup.params.drive.search_turn_rad = 0.0;
   setup.params.drive.point_turns = PointTurns::kCandidates;
   setup.params.drive.point_turn_margin = -300.0;
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   const auto turns = [&drive] { return Turns(drive.log().back()); };
   StepUntil(drive, turns);
   StepUntil(drive, [&] { return !turns(); });
@@ -290,11 +290,11 @@ TEST(ContinuousPlans, OfCsodLookAfterATurnTowardsAWall) {
 
 // With the goal behind it no spline leads there, but an arc does: along that it backs off.
 TEST(ContinuousPlans, OfCsadLeaveNothingToAnArcAfterThem) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsad);
   setup.params.waypoints.vote_index_variance = 1.0;
   bool feels = false;
   setup.feels = [&feels](int) { return feels; };
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   DriveToPlan(drive, 1);
   drive.SetGoal({drive.rover().estimate().x_m - 1.0, 0.7}, GoalChange::kMoved);
   const auto curvature = [&drive] { return drive.log().back().motion.curvature_per_m; };
@@ -309,14 +309,14 @@ TEST(ContinuousPlans, OfCsadLeaveNothingToAnArcAfterThem) {
 
 // Backward there is nothing ahead to plan for: the rover drives a step, and looks at rest.
 TEST(ContinuousPlans, AreNotMadeOnTheWayBack) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsod);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsod);
   setup.goal = {-3.0, 0.0};
   setup.params.drive.backward_arcs = BackwardArcs::kAlways;
   setup.params.votes.min_fwd_threshold = 256.0;
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
   int backward = 0;
-  for (const MovingTick& tick : drive.log()) {
+  for (const GestaltTick& tick : drive.log()) {
     if (tick.motion.direction > 0) continue;
     ++backward;
     ASSERT_FALSE(tick.decision.looks_on_the_move);
@@ -328,10 +328,10 @@ TEST(ContinuousPlans, AreNotMadeOnTheWayBack) {
 // that is nearer.
 TEST(ContinuousPlans, OfCsodFaceTheGoalWhereTheNextOneIsMade) {
   for (const double motion_m : {0.4, 1.0, 1.4}) {
-    MovingSetup setup = SetupOf(DriveCycle::kCsod);
+    GestaltSetup setup = SetupOf(DriveCycle::kCsod);
     setup.params.continuous.motion_m = motion_m;
     setup.goal = {8.0 * std::cos(0.3), 8.0 * std::sin(0.3)};
-    MovingDrive drive(setup);
+    GestaltDrive drive(setup);
     drive.Step();
     drive.Step();
     const std::vector<messages::MotionVote>& arcs = drive.navigator().view()->forward;
@@ -350,7 +350,7 @@ TEST(ContinuousPlans, OfCsodFaceTheGoalWhereTheNextOneIsMade) {
 TEST(ContinuousPlans, ForgetVetoesWithTheNextMotion) {
   enum class End { kReplaced, kLate, kUnsafe };
   for (const End end : {End::kReplaced, End::kLate, End::kUnsafe}) {
-    MovingSetup setup = SetupOf(DriveCycle::kCsod);
+    GestaltSetup setup = SetupOf(DriveCycle::kCsod);
     setup.params.continuous.late_plan = LatePlan::kStopAndLook;
     setup.latency_ticks = end == End::kLate ? 2000 : 0;
     // It feels something after 1.4 m, and backs off far enough to drive round that.
@@ -362,7 +362,7 @@ TEST(ContinuousPlans, ForgetVetoesWithTheNextMotion) {
       setup.height = Blocks({{-1.0, 9.0, 1.0, 1.4}});
       setup.params.waypoints.vote_index_variance = 30.0;
     }
-    MovingDrive drive(setup);
+    GestaltDrive drive(setup);
     DriveToDecision(drive);
     EXPECT_FALSE(AnyVetoed(*drive.navigator().view()));
     DriveToDecision(drive);
@@ -380,10 +380,10 @@ TEST(ContinuousPlans, ForgetVetoesWithTheNextMotion) {
 
 // It backs off along the curvature that it steered when it felt the hazard.
 TEST(ContinuousPlans, AreBackedOffFromAlongTheirCurvature) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsad);
   setup.goal = {4.0, 4.0};
   setup.feels = [](int tick) { return tick == 100; };
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   while (drive.log().size() < 103) drive.Step();
   const messages::MotionCommand& before = drive.log()[99].decision.motion;
   const messages::MotionCommand& back = drive.log()[101].decision.motion;
@@ -400,7 +400,7 @@ TEST_P(PlansOnTheMove, ThatAreLateAndUnsafeFinishNothing) {
   setup_.params.continuous.no_safe_plan = NoSafePlan::kFinish;
   setup_.params.continuous.motion_m = 0.5;
   setup_.latency_ticks = 120;
-  MovingDrive drive(setup_);
+  GestaltDrive drive(setup_);
   StepUntil(drive, [&drive] { return drive.navigator().plan_counts().unsafe > 0; });
   const auto& log = drive.log();
   EXPECT_TRUE(log[log.size() - 2].stands()) << "it waits";
@@ -409,7 +409,7 @@ TEST_P(PlansOnTheMove, ThatAreLateAndUnsafeFinishNothing) {
 
 // A way that was found ends a search: the next one may turn as far again.
 TEST(ContinuousPlans, EndASearch) {
-  MovingSetup setup = SetupOf(DriveCycle::kCsad);
+  GestaltSetup setup = SetupOf(DriveCycle::kCsad);
   SeeNearGroundOnly(setup);
   setup.params.drive.search_turn_rad = math::DegToRad(90.0);
   // No arc leads round it, and none is driven backward.
@@ -417,15 +417,9 @@ TEST(ContinuousPlans, EndASearch) {
   setup.params.votes.min_fwd_threshold = 0.0;
   // A corner: it is turned to the left by the wall ahead, and then stands before another one.
   setup.height = Blocks({{0.9, 1.3, -2.0, 3.4}, {-4.0, 0.9, 3.0, 3.4}});
-  MovingDrive drive(setup);
+  GestaltDrive drive(setup);
   drive.Run(4000);
-  int turns = 0;
-  bool turned = false;
-  for (const MovingTick& tick : drive.log()) {
-    turns += Turns(tick) && !turned ? 1 : 0;
-    turned = Turns(tick);
-  }
-  EXPECT_GE(turns, 2);
+  EXPECT_GE(Stretches(drive.log(), Turns), 2);
 }
 
 }  // namespace

@@ -124,10 +124,10 @@ TEST(CurvatureLaw, TimeIsDistanceAtConstantSpeed) {
   gentle.slow_curvature_per_m = 3.0;
   const CurvatureLaw tight(SplineLaw::kTime, gentle);
   for (const auto& [from, to] : kKnots) {
-    const ClothoidPoint end = distance.Along({}, from, to, kHalf_m);
+    const math::Pose2 end = distance.Along({}, from, to, kHalf_m);
     for (const CurvatureLaw* law : {&steady, &tight}) {
       EXPECT_NEAR(law->Between(from, to, 0.4), distance.Between(from, to, 0.4), 1e-14);
-      const ClothoidPoint other = law->Along({}, from, to, kHalf_m);
+      const math::Pose2 other = law->Along({}, from, to, kHalf_m);
       ExpectNear(other, end, 1e-13);
     }
   }
@@ -142,7 +142,7 @@ class PathOverCurvature {
  public:
   explicit PathOverCurvature(const SpeedLawParams& speed) : speed_(speed) {}
 
-  ClothoidPoint End(double from, double to, double length) const {
+  math::Pose2 End(double from, double to, double length) const {
     const double a = (Moment(0, to) - Moment(0, from)) / length;
     const double full = speed_.full_speed_curvature_per_m;
     const double slow = speed_.slow_curvature_per_m;
@@ -151,7 +151,7 @@ class PathOverCurvature {
       if (std::min(from, to) < edge && edge < std::max(from, to)) stops.push_back(edge);
     }
     std::sort(stops.begin(), stops.end());
-    ClothoidPoint end;
+    math::Pose2 end;
     // A path towards the right has a < 0 and descends: ds = p |dc| / |a|.
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
       constexpr int kIntervals = 2000;
@@ -195,8 +195,8 @@ class PathOverCurvature {
 void ExpectPathsAgree(const SpeedLawParams& speed, double from, double to, double length) {
   SCOPED_TRACE(testing::Message() << from << " to " << to << " in " << length << ", p "
                                   << speed.min_speed_share);
-  const ClothoidPoint found = CurvatureLaw(SplineLaw::kTime, speed).Along({}, from, to, length);
-  const ClothoidPoint known = PathOverCurvature(speed).End(from, to, length);
+  const math::Pose2 found = CurvatureLaw(SplineLaw::kTime, speed).Along({}, from, to, length);
+  const math::Pose2 known = PathOverCurvature(speed).End(from, to, length);
   // The comparison divides by a: 1e-16 / (to - from).
   const double error = length * (1e-12 + 1e-14 / std::abs(to - from));
   ExpectNear(found, known, error);
@@ -229,9 +229,9 @@ TEST(CurvatureLaw, PathsInTimeAgreeWithAnotherIntegral) {
 TEST(CurvatureLaw, PathsInTimeOfOneCurvatureAreArcs) {
   const CurvatureLaw law(SplineLaw::kTime, kSlow);
   for (const double c : {-1.3, -0.8, 0.3, 0.8, 1.3}) {
-    const ClothoidPoint arc = AlongClothoid({}, c, 0.0, kHalf_m);
+    const math::Pose2 arc = AlongClothoid({}, c, 0.0, kHalf_m);
     for (const double to : {c, c + 1e-15, c + 1e-13}) {
-      const ClothoidPoint end = law.Along({}, c, to, kHalf_m);
+      const math::Pose2 end = law.Along({}, c, to, kHalf_m);
       ExpectNear(end, arc, 1e-12);
     }
   }
@@ -240,8 +240,8 @@ TEST(CurvatureLaw, PathsInTimeOfOneCurvatureAreArcs) {
 TEST(CurvatureLaw, MirroredCurvaturesGiveTheMirroredPath) {
   const CurvatureLaw law(SplineLaw::kTime, kSlow);
   for (const auto& [from, to] : kKnots) {
-    const ClothoidPoint end = law.Along({}, from, to, kHalf_m);
-    const ClothoidPoint mirrored = law.Along({}, -from, -to, kHalf_m);
+    const math::Pose2 end = law.Along({}, from, to, kHalf_m);
+    const math::Pose2 mirrored = law.Along({}, -from, -to, kHalf_m);
     EXPECT_EQ(mirrored.x_m, end.x_m);
     EXPECT_EQ(mirrored.y_m, -end.y_m);
     EXPECT_EQ(mirrored.heading_rad, -end.heading_rad);

@@ -1,13 +1,17 @@
-// The closed loop of GESTALT and the fake rover: range points come from a height function.
+// The closed loop of GESTALT and the fake rover, whose looks may take time: range points come from
+// a height function.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "navigation/fake_rover.h"
 #include "navigation/gestalt/gestalt.h"
+#include "navigation/motion_follower.h"
 
 namespace rockyard::navigation {
 
@@ -79,16 +83,28 @@ struct FakeRange {
   }
 };
 
+// Whether something happens at a tick.
+using AtTick = std::function<bool(int tick)>;
+
+inline bool Never(int) { return false; }
+
 struct GestaltSetup {
   GestaltParams params;
   messages::Goal goal{5.0, 0.0};
   math::Pose2 start;
-  messages::AttitudeEstimate attitude;  // how the rover stands, and believes to stand, everywhere
   FakeRoverConfig rover;
   HeightAt height = Flat();
   FakeRange range;
+  int latency_ticks = 0;  // from a look on the move to its answer
+  bool loses_answers = false;
   std::function<std::optional<messages::VehicleHazard>(const FakeRover&)> felt = Nothing();
   std::function<bool(const FakeRover&)> touches_behind = [](const FakeRover&) { return false; };
+  AtTick feels = Never;  // a touch ahead, beside what is felt
+  AtTick held = Never;   // it does not move
+  // How it stands, and believes to stand.
+  std::function<messages::AttitudeEstimate(int tick)> attitude = [](int) {
+    return messages::AttitudeEstimate{};
+  };
 };
 
 struct GestaltTick {
@@ -97,6 +113,7 @@ struct GestaltTick {
   math::Pose2 X_WR;
   bool has_cloud = false;
   NavigatorDecision decision;
+  messages::MotionCommand motion;  // that the wheels were told, after the follower
 
   bool moves() const { return !decision.looks() && decision.status == NavigatorStatus::kDriving; }
   bool turns() const {
@@ -104,56 +121,117 @@ struct GestaltTick {
   }
   bool drives() const { return moves() && decision.motion.kind == messages::MotionKind::kArc; }
   bool backs() const { return drives() && decision.motion.direction < 0; }
+  bool stands() const { return motion.kind == messages::MotionKind::kStop; }
   bool chooses() const { return has_cloud && moves(); }
   bool looks(messages::LookDirection direction) const {
     return decision.looks() && *decision.look == direction;
   }
 };
 
+// One tick of the rover as the loop of a trial makes it.
 class GestaltDrive final : public LoggedDrive<GestaltTick, GestaltNavigator> {
  public:
   explicit GestaltDrive(const GestaltSetup& setup)
-      : LoggedDrive({setup.params, setup.goal}, {setup.rover, setup.start}), setup_(setup) {}
+      : LoggedDrive({setup.params, setup.goal, setup.rover.speed_m_s}, {setup.rover, setup.start}),
+        setup_(setup),
+        follower_(setup.rover.speed_m_s, 0.0),
+        odometry_(rover_.estimate()) {}
 
   const GestaltTick& Step() override {
+    const int number = static_cast<int>(log_.size());
     GestaltTick tick;
-    tick.time_s = static_cast<double>(log_.size()) * setup_.rover.tick_s;
+    tick.time_s = number * setup_.rover.tick_s;
     tick.estimate = rover_.estimate();
     tick.X_WR = rover_.X_WR();
-    NavigatorInput input{
-        .time_s = tick.time_s, .estimate = tick.estimate, .attitude = setup_.attitude};
-    messages::PointCloud cloud;
-    if (!log_.empty() && log_.back().decision.looks()) {
-      cloud.direction = *log_.back().decision.look;
-      cloud.points_R = setup_.range.Look(rover_.X_WR(), cloud.direction, setup_.height);
-      Tilt(cloud);
-      input.cloud = &cloud;
+    NavigatorInput input{.time_s = tick.time_s,
+                         .estimate = tick.estimate,
+                         .attitude = setup_.attitude(number),
+                         .odometry = odometry_};
+    std::optional<Answer> answer;
+    if (!under_way_.empty() && under_way_.front().ready_tick <= number) {
+      answer = under_way_.front();
+      under_way_.pop_front();
+      input.cloud = &answer->cloud;
+      input.look = &answer->moment;
       tick.has_cloud = true;
     }
-    const auto felt = setup_.felt(rover_);
+    auto felt = setup_.felt(rover_);
+    if (setup_.feels(number)) felt = messages::VehicleHazard{};
     if (felt) input.vehicle_hazard = &*felt;
     input.touches_behind = setup_.touches_behind(rover_);
     tick.decision = navigator_.Decide(input);
-    if (tick.moves()) rover_.Move(tick.decision.motion);
+    if (tick.decision.status == NavigatorStatus::kDriving) Act(tick, number);
     log_.push_back(tick);
     return log_.back();
   }
 
-  int Looks(messages::LookDirection direction) const {
-    int looks = 0;
-    for (const GestaltTick& tick : log_) looks += tick.looks(direction) ? 1 : 0;
-    return looks;
+  // As operators do; looks under way are dropped, as a trial drops them.
+  void MoveByHand(const messages::PoseUpdate& update) {
+    UpdatePose(update);
+    odometry_ = rover_.estimate();
+    under_way_.clear();
   }
 
+  int Looks(messages::LookDirection direction) const {
+    return Count([=](const GestaltTick& tick) { return tick.looks(direction); });
+  }
+  int StopsToLook() const {
+    return Count([](const GestaltTick& tick) { return tick.decision.stops_to_look(); });
+  }
+  int Answers() const { return Count(std::mem_fn(&GestaltTick::has_cloud)); }
+
  private:
-  // From the levelled frame of the rover to its own.
-  void Tilt(messages::PointCloud& cloud) const {
-    const messages::AttitudeEstimate& a = setup_.attitude;
-    const math::Transform X_LR = math::MakePose({0.0, 0.0, a.z_m}, 0.0, a.pitch_rad, a.roll_rad);
-    for (math::Vector3& point : cloud.points_R) point = X_LR.inverse() * point;
+  struct Answer {
+    int ready_tick = 0;
+    messages::PointCloud cloud;
+    messages::LookMoment moment;
+  };
+
+  template <typename Holds>
+  int Count(const Holds& holds) const {
+    return static_cast<int>(std::count_if(log_.begin(), log_.end(), holds));
+  }
+
+  void Act(GestaltTick& tick, int number) {
+    if (tick.decision.looks()) {
+      const bool stops = tick.decision.stops_to_look();
+      if (stops) under_way_.clear();
+      if (stops || !setup_.loses_answers) See(*tick.decision.look, number, stops);
+      if (stops) return;
+    }
+    tick.motion =
+        follower_.Follow(tick.decision.motion, tick.estimate.distance_m, setup_.rover.tick_s);
+    const messages::PoseEstimate before = rover_.estimate();
+    if (!setup_.held(number)) rover_.Move(tick.motion);
+    CarryOdometry(before, rover_.estimate());
+  }
+
+  void See(messages::LookDirection direction, int number, bool stops) {
+    Answer answer;
+    answer.ready_tick = number + 1 + (stops ? 0 : setup_.latency_ticks);
+    answer.cloud.direction = direction;
+    answer.cloud.points_R = setup_.range.Look(rover_.X_WR(), direction, setup_.height);
+    const messages::AttitudeEstimate attitude = setup_.attitude(number);
+    // From the levelled frame of the rover to its own.
+    const math::Transform X_LR =
+        math::MakePose({0.0, 0.0, attitude.z_m}, 0.0, attitude.pitch_rad, attitude.roll_rad);
+    for (math::Vector3& point : answer.cloud.points_R) point = X_LR.inverse() * point;
+    answer.moment = {looks_++, number * setup_.rover.tick_s, rover_.estimate(), odometry_,
+                     attitude};
+    under_way_.push_back(answer);
+  }
+
+  // Adds the motion of a tick, as measured, to the pose in the frame of odometry.
+  void CarryOdometry(const messages::PoseEstimate& before, const messages::PoseEstimate& after) {
+    const math::Pose2 carried = math::Carried(Planar(odometry_), Planar(before), Planar(after));
+    odometry_ = {carried.x_m, carried.y_m, carried.heading_rad, after.distance_m};
   }
 
   GestaltSetup setup_;
+  MotionFollower follower_;
+  messages::PoseEstimate odometry_;
+  std::deque<Answer> under_way_;
+  std::int64_t looks_ = 0;
 };
 
 // Of the map of the last decision.

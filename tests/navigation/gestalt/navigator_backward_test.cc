@@ -163,15 +163,9 @@ TEST(GestaltMovedEstimate, TurnsThatAreStoppedCountInASearch) {
     return std::nullopt;
   };
   GestaltDrive drive(setup);
-  int turns = 0;
-  bool turned = false;
-  ASSERT_TRUE(drive.StepUntil([&](const GestaltTick& t) {
-    turns += t.turns() && !turned ? 1 : 0;
-    turned = t.turns();
-    return t.drives();
-  }));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::drives));
   // 0.5 + 6 x 1 > 2 pi with a tick's turn at either end of each.
-  EXPECT_EQ(turns, 7);
+  EXPECT_EQ(Stretches(drive.log(), std::mem_fn(&GestaltTick::turns)), 7);
 }
 
 }  // namespace

@@ -85,13 +85,9 @@ TEST(GestaltEndings, EveryDriveEndsASearch) {
   setup.range.range_m = 0.2;
   setup.goal = {4.0, 0.02};
   GestaltDrive drive(setup);
-  int drives = 0;
-  bool drove = false;
-  ASSERT_TRUE(drive.StepUntil([&](const GestaltTick& t) {
-    drives += t.drives() && !drove ? 1 : 0;
-    drove = t.drives();
-    return drives == 2;
-  }));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::drives));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::turns));
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::drives));
   const auto turns = Turns(drive.log());
   ASSERT_EQ(turns.size(), 8u);
   for (std::size_t i = 0; i < turns.size(); ++i) EXPECT_EQ(turns[i].second, i < 4 ? +1 : -1) << i;

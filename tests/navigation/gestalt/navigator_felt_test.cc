@@ -115,12 +115,7 @@ TEST(GestaltFelt, GivesUpAfterTooManyWithoutProgress) {
 // behind.
 TEST(GestaltFelt, OneTickOfSlipMarksWhereItDrove) {
   GestaltSetup setup = TrueSetup();
-  int told = 0;
-  setup.felt = [&told](const FakeRover& rover) -> std::optional<VehicleHazard> {
-    if (rover.X_WR().x_m <= 1.2 || told > 0) return std::nullopt;
-    ++told;
-    return VehicleHazard{VehicleHazardKind::kSlip, HazardSide::kAhead};
-  };
+  setup.felt = FeltOnceBeyond(1.2, {VehicleHazardKind::kSlip, HazardSide::kAhead});
   GestaltDrive drive(setup);
   ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   const double felt_m = drive.log().back().estimate.distance_m;
@@ -138,9 +133,7 @@ TEST(GestaltFelt, OneTickOfSlipMarksWhereItDrove) {
 TEST(GestaltFelt, AHazardThatLastsCountsAgainOnlyAfterSomeDriving) {
   GestaltSetup setup;
   setup.params.drive.felt_again_m = 0.2;
-  setup.felt = [](const FakeRover&) -> std::optional<VehicleHazard> {
-    return VehicleHazard{VehicleHazardKind::kTilt, HazardSide::kAhead};
-  };
+  setup.felt = FeltBeyond(-100.0, {VehicleHazardKind::kTilt, HazardSide::kAhead});
   GestaltDrive drive(setup);  // stands tilted from the start
   ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   EXPECT_NEAR(drive.log().back().estimate.distance_m, 0.2,

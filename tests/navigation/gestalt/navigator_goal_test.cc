@@ -118,13 +118,8 @@ TEST(GestaltGoal, FeltHazardsCountAnewWithTheNextGoal) {
 // map, the place is an obstacle still, at its distance from the rover.
 TEST(GestaltGoal, FeltPlacesStay) {
   GestaltSetup setup = TrueSetup();
-  bool felt = false;
-  setup.felt = [&](const FakeRover& rover) -> std::optional<messages::VehicleHazard> {
-    if (felt || rover.X_WR().x_m < 1.2) return std::nullopt;
-    felt = true;
-    return messages::VehicleHazard{messages::VehicleHazardKind::kArticulation,
-                                   messages::HazardSide::kAhead};
-  };
+  setup.felt = FeltOnceBeyond(
+      1.2, {messages::VehicleHazardKind::kArticulation, messages::HazardSide::kAhead});
   GestaltDrive drive(setup);
   ASSERT_TRUE(drive.StepUntil(&GestaltTick::backs));
   const double place_m = drive.log().back().X_WR.x_m + 0.5 * setup.params.map.rover.length_m;

@@ -84,7 +84,8 @@ TEST(GestaltNavigator, DrivesOutOfADeadEnd) {
 // ground is level in its map.
 TEST(GestaltNavigator, MapsWhatItSeesFromTheBelievedAttitude) {
   GestaltSetup setup;
-  setup.attitude = {0.15, -0.2, 0.3};
+  const messages::AttitudeEstimate attitude{0.15, -0.2, 0.3};
+  setup.attitude = [&](int) { return attitude; };
   GestaltDrive drive(setup);
   ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.estimate.distance_m > 1.0; }));
   int seen = 0;
@@ -94,8 +95,8 @@ TEST(GestaltNavigator, MapsWhatItSeesFromTheBelievedAttitude) {
     ASSERT_NEAR(cell.elevation_m, 0.0, 2e-6) << "points are rounded to 1 um";
   }
   EXPECT_GT(seen, 100);
-  EXPECT_EQ(drive.navigator().view()->attitude.roll_rad, setup.attitude.roll_rad);
-  EXPECT_EQ(drive.navigator().view()->attitude.z_m, setup.attitude.z_m);
+  EXPECT_EQ(drive.navigator().view()->attitude.roll_rad, attitude.roll_rad);
+  EXPECT_EQ(drive.navigator().view()->attitude.z_m, attitude.z_m);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
 }
 

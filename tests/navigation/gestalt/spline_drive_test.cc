@@ -17,7 +17,7 @@ struct Drive {
   bool arrived = false;
   double length_m = 0.0;
   double largest_corner_per_m = 0.0;  // of the curvature, between a plan and the next
-  ClothoidPoint end;
+  math::Pose2 end;
 };
 
 // Drives until it is within the tolerance, up to limit_m.
@@ -26,6 +26,7 @@ Drive DriveTo(const messages::Goal& goal, double limit_m, SplineLaw law) {
   params.splines.law = law;
   params.speed.min_speed_share = 0.5;
   const SplineVoter voter(params, 0.07);
+  const CurvatureLaw curves(law, params.speed);
   const GoodnessGrid grid = GridOf([](double, double) { return kGood; }, 400, 0.2);
   Drive drive;
   double curvature = 0.0;
@@ -33,18 +34,18 @@ Drive DriveTo(const messages::Goal& goal, double limit_m, SplineLaw law) {
     const messages::PoseEstimate start = At(drive.end.x_m, drive.end.y_m, drive.end.heading_rad);
     const SplineVotes votes = voter.Vote(grid, start, curvature, goal);
     const Spline spline = ChooseSpline(votes, params)->spline;
-    drive.largest_corner_per_m = std::max(
-        drive.largest_corner_per_m, std::abs(CurvatureAt(spline, 0.0, voter.law()) - curvature));
+    drive.largest_corner_per_m = std::max(drive.largest_corner_per_m,
+                                          std::abs(CurvatureAt(spline, 0.0, curves) - curvature));
     for (int i = 0; i < 10; ++i) {
       const double from_m = kReplan_m * i / 10;
       const double to_m = kReplan_m * (i + 1) / 10;
-      drive.end = AlongSpline(drive.end, spline, from_m, to_m, voter.law());
+      drive.end = AlongSpline(drive.end, spline, from_m, to_m, curves);
       drive.length_m += to_m - from_m;
       drive.arrived = std::hypot(goal.x_m - drive.end.x_m, goal.y_m - drive.end.y_m) <=
                       params.waypoints.goal_tolerance_m;
       if (drive.arrived) return drive;
     }
-    curvature = CurvatureAt(spline, kReplan_m, voter.law());
+    curvature = CurvatureAt(spline, kReplan_m, curves);
   }
   return drive;
 }

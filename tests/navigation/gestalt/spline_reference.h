@@ -37,7 +37,7 @@ inline messages::SplineVote ReferenceVote(const GestaltParams& params, const Goo
   const double distance_m = std::hypot(goal.x_m - start.x_m, goal.y_m - start.y_m);
   std::vector<PathPoint> points;
   for (std::size_t k = 0; k < sampling.CountWithin(distance_m); ++k) {
-    const ClothoidPoint p = AlongSpline({}, spline, 0.0, sampling.distance_m[k], law);
+    const math::Pose2 p = AlongSpline({}, spline, 0.0, sampling.distance_m[k], law);
     if (k > 0 && std::abs(p.heading_rad) > params.plan.max_path_turn_rad) break;
     points.push_back({p.x_m, p.y_m});
   }
@@ -53,7 +53,7 @@ inline messages::SplineVote ReferenceVote(const GestaltParams& params, const Goo
   vote.hazard_certainty = hazard.certainty;
   // e: between the heading after w and the direction from there to the goal.
   const double w_m = std::min(params.splines.waypoint_m, distance_m);
-  const ClothoidPoint p = AlongSpline({}, spline, 0.0, w_m, law);
+  const math::Pose2 p = AlongSpline({}, spline, 0.0, w_m, law);
   const double cosine = std::cos(start.heading_rad);
   const double sine = std::sin(start.heading_rad);
   const double to_x = goal.x_m - start.x_m - cosine * p.x_m + sine * p.y_m;

@@ -160,7 +160,7 @@ void ExpectForbiddenThrough(const GoodnessGrid& grid) {
   for (const SplineVote& vote : votes) {
     bool meets = false;
     for (int k = 0; k < 27; ++k) {
-      const ClothoidPoint p = AlongSpline({}, vote.spline, 0.0, 0.35 + 0.1 * k, law);
+      const math::Pose2 p = AlongSpline({}, vote.spline, 0.0, 0.35 + 0.1 * k, law);
       meets = meets || grid.At(p.x_m, p.y_m).goodness == 0;
     }
     EXPECT_EQ(vote.hazard, meets ? 0.0 : 255.0);

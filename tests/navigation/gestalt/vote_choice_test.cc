@@ -57,34 +57,30 @@ std::string Chosen(MotionVotes votes, const GestaltParams& params = {}) {
   return "?";
 }
 
-TEST(GestaltChoice, IsTheHighestVote) {
-  EXPECT_EQ(Chosen(Votes({190, 200, 210, 205, 195, 190, 185})), "f2");
-}
-
-TEST(GestaltChoice, MiddleOfAnOddSet) {
-  EXPECT_EQ(Chosen(Votes({190, 210, 210, 210, 195, 190, 185})), "f2");
-}
-
-TEST(GestaltChoice, EvenSetGoesToTheSideOfTheWaypoint) {
-  EXPECT_EQ(Chosen(Votes({190, 210, 210, 210, 210, 190, 185}, {}, 6)), "f3");
-  EXPECT_EQ(Chosen(Votes({190, 210, 210, 210, 210, 190, 185}, {}, 0)), "f2");
-}
-
-TEST(GestaltChoice, LongestOfSeveralSetsEvenFarFromTheWaypoint) {
-  EXPECT_EQ(Chosen(Votes({210, 210, 210, 190, 210, 210, 190}, {}, 5)), "f1");
-  EXPECT_EQ(Chosen(Votes({210, 190, 210, 190, 210, 210, 210}, {}, 0)), "f5");
-}
-
-TEST(GestaltChoice, EquallyLongSetsGoToTheSideOfTheWaypoint) {
-  EXPECT_EQ(Chosen(Votes({210, 210, 210, 190, 210, 210, 210}, {}, 4)), "f5");
-  EXPECT_EQ(Chosen(Votes({210, 210, 210, 190, 210, 210, 210}, {}, 2)), "f1");
-  EXPECT_EQ(Chosen(Votes({210, 210, 210, 190, 210, 210, 210}, {}, 3)), "f1")
-      << "right of two alike";
-}
-
-TEST(GestaltChoice, SetsThatTouchTheEnds) {
-  EXPECT_EQ(Chosen(Votes({190, 190, 190, 190, 190, 210, 210}, {}, 6)), "f6");
-  EXPECT_EQ(Chosen(Votes({210, 210, 210, 210, 210, 210, 210})), "f3");
+TEST(GestaltChoice, IsTheMiddleOfTheLongestSetOfTheHighestVote) {
+  struct {
+    std::vector<double> merged;
+    int best;
+    std::string chosen;
+    const char* what;
+  } kCases[] = {
+      {{190, 200, 210, 205, 195, 190, 185}, 3, "f2", "the highest vote"},
+      {{190, 210, 210, 210, 195, 190, 185}, 3, "f2", "the middle of an odd set"},
+      {{190, 210, 210, 210, 210, 190, 185}, 6, "f3", "of two middles that towards the waypoint"},
+      {{190, 210, 210, 210, 210, 190, 185}, 0, "f2", "of two middles that towards the waypoint"},
+      {{210, 210, 210, 190, 210, 210, 190}, 5, "f1", "the longest, far from the waypoint too"},
+      {{210, 190, 210, 190, 210, 210, 210}, 0, "f5", "the longest, far from the waypoint too"},
+      {{210, 210, 210, 190, 210, 210, 210}, 4, "f5", "of equally long ones the waypoint's"},
+      {{210, 210, 210, 190, 210, 210, 210}, 2, "f1", "of equally long ones the waypoint's"},
+      {{210, 210, 210, 190, 210, 210, 210}, 3, "f1", "the right one of two alike"},
+      {{190, 190, 190, 190, 190, 210, 210}, 6, "f6", "a set that touches the end"},
+      {{210, 210, 210, 210, 210, 210, 210}, 3, "f3", "a set that touches both"},
+      {{0, 0, 0, 0, 0, 0, 0}, 3, "-", "nothing is safe"},
+      {{0, 0, 0, 10, 0, 0, 0}, 3, "-", "nothing is safe enough"},
+      {{0, 0, 0, 11, 0, 0, 0}, 3, "f3", "unknown ground is just allowed"}};
+  for (const auto& row : kCases) {
+    EXPECT_EQ(Chosen(Votes(row.merged, {}, row.best)), row.chosen) << row.what;
+  }
 }
 
 TEST(GestaltChoice, BackwardArcsCompeteAsNamed) {
@@ -105,9 +101,6 @@ TEST(GestaltChoice, ForwardBeforeBackwardAmongEquals) {
 }
 
 TEST(GestaltChoice, WhatIsNotSafeEnoughIsNeverDriven) {
-  EXPECT_EQ(Chosen(Votes({0, 0, 0, 0, 0, 0, 0})), "-");
-  EXPECT_EQ(Chosen(Votes({0, 0, 0, 10, 0, 0, 0})), "-");
-  EXPECT_EQ(Chosen(Votes({0, 0, 0, 11, 0, 0, 0})), "f3") << "unknown ground is just allowed";
   GestaltParams careful;
   careful.drive.min_drive_goodness = 11.0;
   EXPECT_EQ(Chosen(Votes({0, 0, 0, 11, 0, 0, 0}), careful), "-");

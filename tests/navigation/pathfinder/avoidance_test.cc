@@ -45,24 +45,19 @@ TEST(Avoidance, TurnBetweenScansIsTheIncrementAsTheGyroMeasuresIt) {
   EXPECT_NEAR(end.estimate.heading_rad, 0.94 * end.X_WR.heading_rad, kRounding);
 }
 
-TEST(Avoidance, LatchedTurnKeepsItsSideUntilClear) {
-  DriveSetup setup;
-  setup.params.turn_direction = TurnDirection::kLatched;
-  setup.hazards = Sequence(
-      {kLeftHazard, kRightHazard, kCentreHazard, kRightHazard, kClear, kRightHazard, kLeftHazard});
-  Drive drive(setup);
-  ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
-  EXPECT_EQ(AvoidanceTurns(drive.log()), (std::vector{-1, -1, -1, -1, 1, 1}));
-}
-
-TEST(Avoidance, UnlatchedTurnFollowsEachScan) {
-  DriveSetup setup;
-  setup.params.turn_direction = TurnDirection::kEachScan;
-  setup.hazards = Sequence(
-      {kLeftHazard, kRightHazard, kCentreHazard, kRightHazard, kClear, kRightHazard, kLeftHazard});
-  Drive drive(setup);
-  ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
-  EXPECT_EQ(AvoidanceTurns(drive.log()), (std::vector{-1, 1, -1, 1, 1, -1}));
+TEST(Avoidance, LatchedTurnKeepsItsSideUntilClearAndAnotherFollowsEachScan) {
+  const std::pair<TurnDirection, std::vector<int>> kTurns[] = {
+      {TurnDirection::kLatched, {-1, -1, -1, -1, 1, 1}},
+      {TurnDirection::kEachScan, {-1, 1, -1, 1, 1, -1}}};
+  for (const auto& [turn_direction, turns] : kTurns) {
+    DriveSetup setup;
+    setup.params.turn_direction = turn_direction;
+    setup.hazards = Sequence({kLeftHazard, kRightHazard, kCentreHazard, kRightHazard, kClear,
+                              kRightHazard, kLeftHazard});
+    Drive drive(setup);
+    ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    EXPECT_EQ(AvoidanceTurns(drive.log()), turns);
+  }
 }
 
 TEST(Avoidance, GivesUpAfterTheMeasuredTurnOfAWallOfHazards) {

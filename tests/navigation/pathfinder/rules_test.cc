@@ -1,7 +1,5 @@
 // The rules of Matthies 1995, section 7, as a truth table; and that mirrored reports and poses give
 // mirrored decisions, except where the rules prefer the right.
-#include "navigation/pathfinder/rules.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,6 +9,7 @@
 
 #include "core/check.h"
 #include "navigation/fake_rover.h"
+#include "navigation/pathfinder/pathfinder.h"
 
 namespace rockyard::navigation {
 namespace {

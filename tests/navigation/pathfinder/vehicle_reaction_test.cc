@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <utility>
 
 #include "navigation/fake_rover.h"
@@ -14,19 +13,6 @@ namespace {
 using messages::HazardSide;
 using messages::VehicleHazard;
 using messages::VehicleHazardKind;
-
-// Something that is felt while the rover's centre lies within a stretch of x.
-FeltSource Between(double low_m, double high_m, HazardSide side) {
-  return [=](const FakeRover& rover) -> std::optional<VehicleHazard> {
-    const double x_m = rover.X_WR().x_m;
-    if (x_m < low_m || x_m > high_m) return std::nullopt;
-    return VehicleHazard{VehicleHazardKind::kContact, side};
-  };
-}
-
-FeltSource From(double low_m, HazardSide side) {
-  return Between(low_m, std::numeric_limits<double>::infinity(), side);
-}
 
 // First tick from `first` on that drives backwards, turns in place or scans.
 std::size_t Find(const std::vector<Tick>& log, std::size_t first, bool (*holds)(const Tick&)) {
@@ -39,6 +25,8 @@ bool Backs(const Tick& tick) { return tick.backs(); }
 bool Turns(const Tick& tick) { return tick.turns(); }
 bool Scans(const Tick& tick) { return tick.decision.looks(); }
 
+VehicleHazard Touch(HazardSide side) { return {VehicleHazardKind::kContact, side}; }
+
 // One touch on the way, by a rover that sees clear ground.
 struct Reaction {
   std::vector<Tick> log;
@@ -46,12 +34,7 @@ struct Reaction {
 };
 
 Reaction TouchOnce(HazardSide side, DriveSetup setup = {}) {
-  bool touched = false;
-  setup.felt = [&](const FakeRover& rover) -> std::optional<VehicleHazard> {
-    if (touched || rover.X_WR().x_m < 1.0) return std::nullopt;
-    touched = true;
-    return VehicleHazard{VehicleHazardKind::kContact, side};
-  };
+  setup.felt = FeltOnceBeyond(1.0, Touch(side));
   Drive drive(setup);
   drive.Run();
   Reaction reaction{drive.log(), 0, 0, 0};
@@ -136,11 +119,11 @@ TEST(VehicleReactionTest, TouchBehindEndsTheBackOffAndNothingElse) {
     const double x_m = rover.X_WR().x_m;
     if (touched) {
       if (x_m > 0.95) return std::nullopt;
-      return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kBehind};
+      return Touch(HazardSide::kBehind);
     }
     touched = x_m >= 1.0;
     if (!touched) return std::nullopt;
-    return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kRight};
+    return Touch(HazardSide::kRight);
   };
   Drive drive(setup);
   ASSERT_TRUE(drive.StepUntil(Turns));
@@ -155,7 +138,7 @@ TEST(VehicleReactionTest, TouchBehindEndsTheBackOffAndNothingElse) {
   EXPECT_EQ(turn.driven_m, 0.0);
   // Felt behind all the way, it changes nothing.
   DriveSetup behind;
-  behind.felt = From(0.5, HazardSide::kBehind);
+  behind.felt = FeltBeyond(0.5, Touch(HazardSide::kBehind));
   Drive calm(behind);
   EXPECT_EQ(calm.Run(), NavigatorStatus::kArrived);
   EXPECT_EQ(Find(calm.log(), 0, Backs), calm.log().size());
@@ -180,12 +163,7 @@ TEST(VehicleReactionTest, TouchBehindEndsTheBackOffFromATiltThatLasts) {
 TEST(VehicleReactionTest, BacksOffAndTurnsAwayWhereItSlips) {
   DriveSetup setup;
   setup.params.vehicle_reaction.back_off_m = 0.25;
-  bool told = false;
-  setup.felt = [&told](const FakeRover& rover) -> std::optional<VehicleHazard> {
-    if (told || rover.X_WR().x_m < 1.0) return std::nullopt;
-    told = true;
-    return VehicleHazard{VehicleHazardKind::kSlip, HazardSide::kAhead};
-  };
+  setup.felt = FeltOnceBeyond(1.0, {VehicleHazardKind::kSlip, HazardSide::kAhead});
   Drive drive(setup);
   ASSERT_TRUE(drive.StepUntil(Backs));
   const double slipped_m = drive.log().back().estimate.distance_m;
@@ -196,19 +174,13 @@ TEST(VehicleReactionTest, BacksOffAndTurnsAwayWhereItSlips) {
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
 }
 
-// A lasting hazard does not keep the rover from ending its reaction; then it starts another one.
-int BackOffs(const std::vector<Tick>& log) {
-  int count = 0;
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    count += Backs(log[i]) && (i == 0 || !Backs(log[i - 1]));
-  }
-  return count;
-}
+int BackOffs(const std::vector<Tick>& log) { return Stretches(log, Backs); }
 
+// A lasting hazard does not keep the rover from ending its reaction; then it starts another one.
 TEST(VehicleReactionTest, GivesUpAfterReactionsWithoutProgress) {
   DriveSetup setup;
   setup.params.vehicle_reaction.max_repeats = 3;
-  setup.felt = Between(-100.0, 100.0, HazardSide::kLeft);
+  setup.felt = FeltBeyond(-100.0, Touch(HazardSide::kLeft));
   Drive drive(setup);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kGaveUp);
   EXPECT_EQ(BackOffs(drive.log()), 3);
@@ -219,7 +191,7 @@ TEST(VehicleReactionTest, GoesOnWhereItIsTold) {
   setup.params.vehicle_reaction.max_repeats = 2;
   setup.params.vehicle_reaction.on_exhausted = ReactionsExhausted::kGoOn;
   setup.params.vehicle_reaction.ignore_m = 1.0;
-  setup.felt = Between(0.9, 1.1, HazardSide::kAhead);  // a ridge across the whole way
+  setup.felt = FeltBetween(0.9, 1.1, kTouchAhead);  // a ridge across the whole way
   Drive drive(setup);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
   EXPECT_GE(BackOffs(drive.log()), 2);
@@ -236,7 +208,7 @@ TEST(VehicleReactionTest, ProgressForgetsEarlierReactions) {
   setup.felt = [&](const FakeRover& rover) -> std::optional<VehicleHazard> {
     if (rover.X_WR().x_m < 1.0 + touches) return std::nullopt;
     ++touches;
-    return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kRight};
+    return Touch(HazardSide::kRight);
   };
   Drive drive(setup);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
@@ -254,8 +226,8 @@ TEST(VehicleReactionTest, NewTouchDuringTheTurnStartsAgain) {
     ++tick;
     // The first touch lasts for a tick, the second comes in the midst of the turn (0.2 m at 7.9 mm
     // a tick are 26 ticks; 45 deg at 1.35 deg a tick are 34).
-    if (tick == 1) return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kLeft};
-    if (tick == 40) return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kRight};
+    if (tick == 1) return Touch(HazardSide::kLeft);
+    if (tick == 40) return Touch(HazardSide::kRight);
     return std::nullopt;
   };
   Drive drive(setup);
@@ -326,7 +298,7 @@ TEST(VehicleReactionTest, AnotherKindDuringTheTurnStartsAgain) {
 // A tilt that lasts does not hide a rock that the turn leads onto.
 TEST(VehicleReactionTest, ATouchDuringALastingTiltStartsAgain) {
   const FirstReaction reaction = ReactTo(Since([](int tick) -> std::optional<VehicleHazard> {
-    if (tick == 40) return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kRight};
+    if (tick == 40) return Touch(HazardSide::kRight);
     if (tick < 60) return VehicleHazard{VehicleHazardKind::kTilt, HazardSide::kLeft};
     return std::nullopt;
   }));
@@ -335,7 +307,7 @@ TEST(VehicleReactionTest, ATouchDuringALastingTiltStartsAgain) {
 
 TEST(VehicleReactionTest, PoseUpdateKeepsWhatWasTurned) {
   DriveSetup setup;
-  setup.felt = Between(1.0, 1.005, HazardSide::kLeft);
+  setup.felt = FeltBetween(1.0, 1.005, Touch(HazardSide::kLeft));
   Drive drive(setup);
   ASSERT_TRUE(drive.StepUntil(Turns));
   for (int i = 0; i < 10; ++i) drive.Step();
