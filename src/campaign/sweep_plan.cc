@@ -15,6 +15,7 @@
 #include "experiments/make_experiment.h"
 #include "report/atomic_file.h"
 #include "report/csv.h"
+#include "report/json_members.h"
 #include "scenario/load.h"
 
 namespace rockyard::campaign {
@@ -102,13 +103,9 @@ std::string PlanJson(const Sweep& sweep, const PlannedTrials& trials,
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
     cells.push_back(CellPlan(sweep, i, trials.cells[i], pilots[i]));
   }
-  JsonValue plan = JsonValue::Object();
-  plan.Set("schema_version", JsonValue(std::int64_t{1}));
-  plan.Set("name", JsonValue(sweep.name));
-  plan.Set("seed", JsonValue(static_cast<std::int64_t>(sweep.seed)));
-  plan.Set("common_random_numbers", JsonValue(sweep.common_random_numbers));
-  plan.Set("trials", JsonValue(trials.total));
-  plan.Set("at_most", JsonValue(trials.at_most));
+  JsonValue plan = report::ObjectTree("schema_version", 1, "name", sweep.name, "seed", sweep.seed,
+                                      "common_random_numbers", sweep.common_random_numbers,
+                                      "trials", trials.total, "at_most", trials.at_most);
   if (cost.pilots > 0) plan.Set("cost", CostOf(cost));
   plan.Set("cells", JsonValue(std::move(cells)));
   return core::DumpJson(plan);
@@ -116,29 +113,24 @@ std::string PlanJson(const Sweep& sweep, const PlannedTrials& trials,
 
 std::string PlanCsv(const Sweep& sweep, const PlannedTrials& trials,
                     const std::vector<batch::PilotCost>& pilots) {
-  std::vector<std::string> fields{"cell", "name"};
-  for (const scenario::SweepAxis& axis : sweep.axes) fields.push_back(report::CsvField(axis.name));
-  for (const char* name : {"seed", "trials", "fingerprint", "pilots", "cpu_s_per_trial",
-                           "slowest_pilot_s", "expected_cpu_s"}) {
-    fields.emplace_back(name);
-  }
-  std::string csv = report::CsvLine(fields);
+  report::CsvRow head("cell", "name");
+  for (const scenario::SweepAxis& axis : sweep.axes) head.Add(axis.name);
+  head.Add("seed", "trials", "fingerprint", "pilots", "cpu_s_per_trial", "slowest_pilot_s",
+           "expected_cpu_s");
+  std::string csv = head.Line();
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
     const scenario::SweepCell& cell = sweep.cells[i];
     const batch::PilotCost& pilot = pilots[i];
-    fields = {std::to_string(i), report::CsvField(cell.name)};
-    for (const scenario::SweepLevel& level : cell.levels) {
-      fields.push_back(report::CsvField(level.text));
+    report::CsvRow row(i, cell.name);
+    for (const scenario::SweepLevel& level : cell.levels) row.Add(level.text);
+    row.Add(cell.scenario.seed, trials.cells[i], core::Hex(scenario::Fingerprint(cell.scenario)),
+            pilot.trials);
+    if (pilot.trials == 0) {
+      row.AddEmpty(3);
+    } else {
+      row.Add(pilot.mean_s, pilot.slowest_s, pilot.mean_s * static_cast<double>(trials.cells[i]));
     }
-    fields.push_back(std::to_string(cell.scenario.seed));
-    fields.push_back(std::to_string(trials.cells[i]));
-    fields.push_back(core::Hex(scenario::Fingerprint(cell.scenario)));
-    fields.push_back(std::to_string(pilot.trials));
-    const double expected_s = pilot.mean_s * static_cast<double>(trials.cells[i]);
-    for (const double number : {pilot.mean_s, pilot.slowest_s, expected_s}) {
-      fields.push_back(pilot.trials == 0 ? std::string() : report::CsvNumber(number));
-    }
-    csv += report::CsvLine(fields);
+    csv += row.Line();
   }
   return csv;
 }

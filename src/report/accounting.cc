@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/json_text.h"
+#include "report/json_members.h"
 #include "report/line_text.h"
 #include "report/mean_words.h"
 
@@ -13,38 +14,26 @@ namespace rockyard::report {
 namespace {
 
 using core::JsonValue;
-using core::NumberOrNull;
 
 constexpr const char* kShardNote =
     "a shard tells no rates: put all shards together with rockyard merge";
 
 JsonValue Stopping(const StoppingReport& stopping) {
-  JsonValue json = JsonValue::Object({{"rule", "until_half_width"},
-                                      {"half_width", NumberOrNull(stopping.half_width)},
-                                      {"max_trials", stopping.max_trials},
-                                      {"block", stopping.block},
-                                      {"confidence", NumberOrNull(stopping.confidence)},
-                                      {"allocation", stopping.allocation}});
-  json.Set("budget", stopping.budget > 0 ? JsonValue(stopping.budget) : JsonValue());
-  json.Set("end", JsonValue(stopping.end));
-  json.Set("trials", JsonValue(stopping.trials));
-  json.Set("declared_success",
-           JsonValue::Object({{"count", stopping.successes}, {"trials", stopping.drives}}));
-  json.Set("interval", EndsOf({stopping.low, stopping.high}));
-  return json;
+  return ObjectTree("rule", "until_half_width", "half_width", stopping.half_width, "max_trials",
+                    stopping.max_trials, "block", stopping.block, "confidence", stopping.confidence,
+                    "allocation", stopping.allocation, "budget",
+                    stopping.budget > 0 ? JsonValue(stopping.budget) : JsonValue(), "end",
+                    stopping.end, "trials", stopping.trials, "declared_success",
+                    ObjectTree("count", stopping.successes, "trials", stopping.drives), "interval",
+                    statistics::Interval{stopping.low, stopping.high});
 }
 
 JsonValue Counts(const Accounting& a) {
-  return JsonValue::Object({{"planned", a.planned},
-                            {"completed", a.completed},
-                            {"faulted", a.faulted},
-                            {"pending", a.pending},
-                            {"infrastructure_faults", a.infrastructure_faults}});
+  return ObjectTree("planned", a.planned, "completed", a.completed, "faulted", a.faulted, "pending",
+                    a.pending, "infrastructure_faults", a.infrastructure_faults);
 }
 
-JsonValue ShardOf(int index, int count) {
-  return JsonValue::Object({{"index", index}, {"count", count}});
-}
+JsonValue ShardOf(int index, int count) { return ObjectTree("index", index, "count", count); }
 
 std::string Why(const StoppingReport& stopping) {
   if (stopping.end == "precise") return "precise enough";
@@ -69,7 +58,7 @@ JsonValue AccountingJson(const RunDescription& run) {
 
 JsonValue AccountingJson(const Accounting& accounting,
                          const std::optional<StoppingReport>& stopping) {
-  JsonValue json = JsonValue::Object({{"accounting", Counts(accounting)}});
+  JsonValue json = ObjectTree("accounting", Counts(accounting));
   if (stopping) json.Set("stopping", Stopping(*stopping));
   return json;
 }
@@ -116,27 +105,23 @@ std::string ShardCampaignJson(const std::string& name, int index, int count,
   JsonValue::List parts;
   for (const ShardCell& cell : cells) {
     total = Sum(total, cell.accounting);
-    JsonValue& part = parts.emplace_back(JsonValue::Object({{"name", cell.name}}));
+    JsonValue part = ObjectTree("name", cell.name);
     part.Update(AccountingJson(cell.accounting, std::nullopt));
+    parts.push_back(std::move(part));
   }
-  JsonValue json = JsonValue::Object(
-      {{"schema_version", kSchemaVersion}, {"kind", "sweep_shard"}, {"name", name}});
+  JsonValue json =
+      ObjectTree("schema_version", kSchemaVersion, "kind", "sweep_shard", "name", name);
   json.Update(AccountingJson(total, std::nullopt));
-  json.Set("shard", ShardOf(index, count));
-  json.Set("cells", JsonValue(std::move(parts)));
-  json.Set("note", JsonValue(kShardNote));
+  SetMembers(json, "shard", ShardOf(index, count), "cells", std::move(parts), "note", kShardNote);
   return core::SpreadJson(json) + "\n";
 }
 
 std::string ShardJson(const RunDescription& run) {
-  JsonValue json = JsonValue::Object({{"schema_version", kSchemaVersion},
-                                      {"scenario", run.scenario},
-                                      {"seed", run.seed},
-                                      {"fingerprint", run.fingerprint}});
+  JsonValue json = ObjectTree("schema_version", kSchemaVersion, "scenario", run.scenario, "seed",
+                              run.seed, "fingerprint", run.fingerprint);
   json.Update(AccountingJson(run));
-  json.Set("note", JsonValue(kShardNote));
-  json.Set("shard_hash", JsonValue(run.trial_hash));
-  json.Set("builds", core::ListOf(run.builds));
+  SetMembers(json, "note", kShardNote, "shard_hash", run.trial_hash, "builds",
+             core::ListOf(run.builds));
   return core::SpreadJson(json) + "\n";
 }
 

@@ -11,15 +11,14 @@
 #include <utility>
 
 #include "report/csv.h"
+#include "report/json_members.h"
 #include "report/line_text.h"
-#include "report/mean_words.h"
 #include "report/sweep_summary.h"
 
 namespace rockyard::report {
 namespace {
 
 using core::JsonValue;
-using core::NumberOrNull;
 using scenario::Sweep;
 using statistics::Attribution;
 using statistics::Combination;
@@ -232,14 +231,8 @@ std::string AttributionCsv(std::span<const SweepAttribution> attributions) {
       ForEachRow(
           attribution.by_success[kind],
           [&](std::string_view what, const std::string& functions, const Estimate& estimate) {
-            const std::vector<std::string> fields{CsvField(attribution.at),
-                                                  std::string(kSuccessNames[kind]),
-                                                  std::string(what),
-                                                  CsvField(functions),
-                                                  CsvNumber(estimate.value),
-                                                  CsvNumber(estimate.interval.low),
-                                                  CsvNumber(estimate.interval.high)};
-            csv += CsvLine(fields);
+            csv += CsvLine(attribution.at, kSuccessNames[kind], what, functions, estimate.value,
+                           estimate.interval);
           });
     }
   }
@@ -254,18 +247,12 @@ JsonValue AttributionJson(std::span<const SweepAttribution> attributions) {
       JsonValue::List rows;
       ForEachRow(result, [&](std::string_view what, const std::string& functions,
                              const Estimate& estimate) {
-        rows.push_back(JsonValue::Object({{"kind", what},
-                                          {"functions", functions},
-                                          {"value", NumberOrNull(estimate.value)},
-                                          {"interval", EndsOf(estimate.interval)}}));
+        rows.push_back(ObjectTree("kind", what, "functions", functions, "value", estimate.value,
+                                  "interval", estimate.interval));
       });
-      JsonValue& json = list.emplace_back(
-          JsonValue::Object({{"at", attribution.at},
-                             {"success", kSuccessNames[kind]},
-                             {"trials", result.trials},
-                             {"left_out", attribution.left_out},
-                             {"sum_of_alone", NumberOrNull(result.sum_of_firsts)}}));
-      json.Set("rows", JsonValue(std::move(rows)));
+      list.push_back(ObjectTree("at", attribution.at, "success", kSuccessNames[kind], "trials",
+                                result.trials, "left_out", attribution.left_out, "sum_of_alone",
+                                result.sum_of_firsts, "rows", std::move(rows)));
     }
   }
   return JsonValue(std::move(list));

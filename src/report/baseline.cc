@@ -6,6 +6,7 @@
 
 #include "core/json_text.h"
 #include "report/baseline_letters.h"
+#include "report/json_members.h"
 #include "statistics/metrics.h"
 #include "statistics/sample_statistics.h"
 
@@ -52,16 +53,11 @@ JsonValue CellJson(const BaselineCell& cell) {
       metrics.Set(each.name, core::ListOf(each.values, ShortNumber));
     }
   }
-  JsonValue json = JsonValue::Object({{"name", cell.name},
-                                      {"scenario", cell.scenario},
-                                      {"fingerprint", cell.fingerprint},
-                                      {"seed", std::to_string(cell.seed)},
-                                      {"trial_hash", cell.trial_hash},
-                                      {"outcomes", Letters(cell.outcomes)},
-                                      {"margins", margins}});
-  json.Set("metrics", std::move(metrics));
-  json.Set("resolved", core::ParseJson(cell.resolved, "resolved scenario"));
-  return json;
+  return ObjectTree("name", cell.name, "scenario", cell.scenario, "fingerprint", cell.fingerprint,
+                    "seed", std::to_string(cell.seed), "trial_hash", cell.trial_hash, "outcomes",
+                    Letters(cell.outcomes), "margins", std::move(margins), "metrics",
+                    std::move(metrics), "resolved",
+                    core::ParseJson(cell.resolved, "resolved scenario"));
 }
 
 }  // namespace
@@ -80,12 +76,9 @@ void FillBaselineCell(const truth::RecordSchema& schema, std::span<const truth::
 }
 
 std::string BaselineJson(const Baseline& baseline) {
-  JsonValue json = JsonValue::Object({{"kind", kBaselineKind},
-                                      {"schema_version", 1},
-                                      {"name", baseline.name},
-                                      {"reason", baseline.reason},
-                                      {"build", baseline.build}});
-  json.Set("cells", core::ListOf(baseline.cells, CellJson));
+  const JsonValue json = ObjectTree(
+      "kind", kBaselineKind, "schema_version", 1, "name", baseline.name, "reason", baseline.reason,
+      "build", baseline.build, "cells", core::ListOf(baseline.cells, CellJson));
   return core::SpreadJson(json, kSpreadLevels) + "\n";
 }
 

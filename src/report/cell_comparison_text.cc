@@ -136,31 +136,18 @@ std::string CellComparisonText(const ComparedRun& first, const ComparedRun& seco
 }
 
 std::string CellComparisonCsv(const statistics::CellComparison& comparison) {
-  std::vector<std::string> fields{"rate"};
-  for (const truth::ValueInfo& factor : comparison.factors) fields.push_back(factor.name);
-  for (const char* name :
-       {"a_count", "a_trials", "a_rate", "b_count", "b_trials", "b_rate", "difference", "low",
-        "high", "all_low", "all_high", "p_value", "p_holm", "differs"}) {
-    fields.emplace_back(name);
-  }
-  std::string csv = CsvLine(fields);
+  CsvRow head("rate");
+  for (const truth::ValueInfo& factor : comparison.factors) head.Add(factor.name);
+  head.Add("a_count", "a_trials", "a_rate", "b_count", "b_trials", "b_rate", "difference", "low",
+           "high", "all_low", "all_high", "p_value", "p_holm", "differs");
+  std::string csv = head.Line();
   for (std::size_t i = 0; i < comparison.rates.size(); ++i) {
     for (const statistics::ComparedCell& cell : comparison.cells) {
-      fields = {comparison.rates[i].name};
-      for (const double factor : cell.factors) fields.push_back(CsvNumber(factor));
       const statistics::RateDifference& rate = cell.rates[i];
-      for (const statistics::Proportion* run : {&rate.first, &rate.second}) {
-        fields.push_back(std::to_string(run->count));
-        fields.push_back(std::to_string(run->trials));
-        fields.push_back(CsvNumber(run->rate));
-      }
-      for (const double value :
-           {rate.difference, rate.interval.low, rate.interval.high, rate.simultaneous.low,
-            rate.simultaneous.high, rate.p_value, rate.adjusted}) {
-        fields.push_back(CsvNumber(value));
-      }
-      fields.emplace_back(comparison.Differs(rate) ? "1" : "0");
-      csv += CsvLine(fields);
+      csv += CsvLine(comparison.rates[i].name, cell.factors, rate.first.count, rate.first.trials,
+                     rate.first.rate, rate.second.count, rate.second.trials, rate.second.rate,
+                     rate.difference, rate.interval, rate.simultaneous, rate.p_value, rate.adjusted,
+                     comparison.Differs(rate));
     }
   }
   return csv;

@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstddef>
 #include <string>
-#include <utility>
-#include <vector>
 
+#include "core/numbers.h"
 #include "report/comparison_format.h"
 #include "report/comparison_table.h"
-#include "report/csv.h"
 #include "report/xml_text.h"
 
 namespace rockyard::report {
@@ -20,67 +17,10 @@ using statistics::PublishedReference;
 using statistics::PublishedValue;
 using statistics::Verdict;
 
-constexpr std::size_t kComparisonColumns = 22;
-
-// Fields that may hold any text, joined.
-std::string Line(std::vector<std::string> fields) {
-  for (std::string& field : fields) field = CsvField(field);
-  return CsvLine(fields);
-}
-
 // With what must not be missed where rows are read one by one.
 std::string Remark(const ComparisonResult& result, const ComparedValue& value) {
   if (result.FindChanged(value.published.scenario) == nullptr) return value.remark;
   return fmt::format("{}{}{}", kNotPublishedCase, value.remark.empty() ? "" : "; ", value.remark);
-}
-
-std::string ValueLine(const ComparedValue& v, const std::string& remark) {
-  const PublishedValue& p = v.published;
-  const bool layout = v.one_layout.has_value();
-  const char* measured = !layout ? "" : (v.one_layout->measured ? "1" : "0");
-  return Line({p.id,
-               p.scenario,
-               p.what,
-               p.place,
-               std::string(RoleName(p.role)),
-               p.unit,
-               CsvNumber(p.value),
-               fmt::format("{}", p.sample_size),
-               fmt::format("{}", v.pool),
-               CsvNumber(v.pool_value),
-               CsvNumber(v.median),
-               CsvNumber(v.interval.low),
-               CsvNumber(v.interval.high),
-               CsvNumber(v.p_value),
-               CsvNumber(v.holm_p_value),
-               CsvNumber(v.level),
-               CsvNumber(v.power),
-               statistics::Name(v.verdict),
-               layout ? CsvNumber(v.one_layout->p_value.low) : "",
-               layout ? CsvNumber(v.one_layout->p_value.high) : "",
-               measured,
-               remark});
-}
-
-// Another reading of the same value: the columns that it has, the others empty.
-std::string SideLine(const ComparedValue& v, const statistics::SideStatistic& side) {
-  const PublishedValue& p = v.published;
-  std::vector<std::string> fields{p.id + "/" + side.name,
-                                  p.scenario,
-                                  side.name,
-                                  p.place,
-                                  std::string(RoleName(p.role)),
-                                  p.unit,
-                                  CsvNumber(p.value),
-                                  fmt::format("{}", p.sample_size),
-                                  fmt::format("{}", v.pool),
-                                  "",
-                                  CsvNumber(side.median),
-                                  CsvNumber(side.interval.low),
-                                  CsvNumber(side.interval.high),
-                                  CsvNumber(side.p_value)};
-  fields.resize(kComparisonColumns);
-  return Line(std::move(fields));
 }
 
 // Test cases that pass hold no message, so that the suite says it.
@@ -99,16 +39,32 @@ std::string ChangedXml(const ComparisonResult& result) {
 
 }  // namespace
 
-std::string ComparisonCsv(const ComparisonResult& result) {
-  std::string csv =
+ResultTable ComparisonRows(const ComparisonResult& result, ComparisonDetail detail) {
+  const bool full = detail == ComparisonDetail::kFull;
+  ResultTable table(
       "id,scenario,what,place,role,unit,published,published_runs,simulated_runs,simulated,"
       "predicted_median,predicted_low,predicted_high,p_value,p_holm,level,power,verdict,"
-      "one_layout_p_low,one_layout_p_high,one_layout_measured,remark\n";
-  for (const ComparedValue& value : result.values) {
-    csv += ValueLine(value, Remark(result, value));
-    for (const statistics::SideStatistic& side : value.beside) csv += SideLine(value, side);
+      "one_layout_p_low,one_layout_p_high,one_layout_measured,remark");
+  for (const ComparedValue& v : result.values) {
+    const PublishedValue& p = v.published;
+    const statistics::Interval layout =
+        v.one_layout ? v.one_layout->p_value : statistics::Interval{core::kNaN, core::kNaN};
+    const char* measured = !v.one_layout ? "" : (v.one_layout->measured ? "1" : "0");
+    table.Add(p.id, p.scenario, p.what, p.place, RoleName(p.role), p.unit, p.value, p.sample_size,
+              v.pool, v.pool_value, v.median, v.interval, v.p_value, v.holm_p_value, v.level,
+              v.power, statistics::Name(v.verdict), layout, measured,
+              full ? Remark(result, v) : v.remark);
+    if (!full) continue;
+    for (const statistics::SideStatistic& side : v.beside) {
+      table.Add(p.id + "/" + side.name, p.scenario, side.name, p.place, RoleName(p.role), p.unit,
+                p.value, p.sample_size, v.pool, "", side.median, side.interval, side.p_value);
+    }
   }
-  return csv;
+  return table;
+}
+
+std::string ComparisonCsv(const ComparisonResult& result) {
+  return ComparisonRows(result, ComparisonDetail::kFull).Csv();
 }
 
 std::string ComparisonJUnit(const PublishedReference& reference, const ComparisonResult& result) {

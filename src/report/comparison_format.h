@@ -1,5 +1,5 @@
-// How numbers of the comparison are written. For comparison_table.cc,
-// comparison_files.cc and page_published.cc only.
+// How numbers of the comparison are written. For comparison_*.cc, page_published.cc and
+// result_json.cc only.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "report/result_table.h"
 #include "statistics/published_comparison.h"
 
 namespace rockyard::report {
@@ -39,6 +40,11 @@ std::string Prediction(const statistics::ComparedValue& value,
 
 // What else is to be said of a value: kinds of failure, one layout for all runs, a remark.
 std::vector<std::string> Remarks(const statistics::ComparedValue& value);
+
+// kFull: the other readings of a value follow it, and its remark says what must not be missed where
+// rows are read one by one.
+enum class ComparisonDetail { kValues, kFull };
+ResultTable ComparisonRows(const statistics::ComparisonResult& result, ComparisonDetail detail);
 
 std::string_view RoleName(statistics::ValueRole role);
 

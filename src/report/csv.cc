@@ -43,13 +43,10 @@ std::string CsvField(std::string_view text) {
   return quoted + '"';
 }
 
-std::string CsvLine(std::span<const std::string> fields) {
-  std::string line;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (i > 0) line += ',';
-    line += fields[i];
-  }
-  return line + '\n';
+void CsvRow::AddField(std::string_view field) {
+  if (!empty_) text_ += ',';
+  empty_ = false;
+  text_ += field;
 }
 
 }  // namespace rockyard::report

@@ -2,26 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "report/json_members.h"
 #include "report/line_text.h"
 
 namespace rockyard::report {
-namespace {
 
 using core::JsonValue;
-using core::NumberOrNull;
 using statistics::MeanLack;
-
-JsonValue Apart(const statistics::Proportion& apart) {
-  return JsonValue::Object({{"count", apart.count},
-                            {"rate", NumberOrNull(apart.rate)},
-                            {"ci95", EndsOf(apart.interval)}});
-}
-
-JsonValue MeanMethod(const statistics::MeanEstimate& estimate) {
-  return estimate.lack == MeanLack::kNone ? JsonValue("skewed_t") : JsonValue();
-}
-
-}  // namespace
 
 std::string ReasonOf(const statistics::MeanEstimate& estimate) {
   switch (estimate.lack) {
@@ -41,31 +28,26 @@ std::string ReasonOf(const statistics::MeanEstimate& estimate) {
 }
 
 JsonValue RateJson(const statistics::Proportion& rate) {
-  return JsonValue::Object({{"count", rate.count},
-                            {"trials", rate.trials},
-                            {"rate", NumberOrNull(rate.rate)},
-                            {"ci95", EndsOf(rate.interval)},
-                            {"ci_method", std::string(MethodName(rate.method))}});
+  return ObjectTree("count", rate.count, "trials", rate.trials, "rate", rate.rate, "ci95",
+                    rate.interval, "ci_method", MethodName(rate.method));
 }
 
 JsonValue MetricJson(const statistics::MetricSummary& summary) {
-  JsonValue json = JsonValue::Object({{"count", summary.count},
-                                      {"mean", NumberOrNull(summary.mean)},
-                                      {"ci95", EndsOf(summary.interval)}});
+  JsonValue json =
+      ObjectTree("count", summary.count, "mean", summary.mean, "ci95", summary.interval);
   if (summary.metric->kind == statistics::MetricKind::kRate) {
-    json.Set("ci_method", JsonValue(std::string(statistics::MethodName(summary.method))));
+    SetMembers(json, "ci_method", statistics::MethodName(summary.method));
     return json;
   }
   const statistics::MeanEstimate& estimate = summary.estimate;
-  json.Set("ci_method", MeanMethod(estimate));
-  if (estimate.lack != MeanLack::kNone) json.Set("ci_reason", JsonValue(ReasonOf(estimate)));
-  json.Set("median", NumberOrNull(summary.median));
-  json.Set("median_ci95", EndsOf(summary.median_interval));
-  json.Set("min", NumberOrNull(summary.min));
-  json.Set("max", NumberOrNull(summary.max));
-  json.Set("std", NumberOrNull(summary.deviation));
-  json.Set("usual", NumberOrNull(estimate.usual));
-  json.Set("share_apart", Apart(estimate.apart));
+  const statistics::Proportion& apart = estimate.apart;
+  const bool lacks = estimate.lack != MeanLack::kNone;
+  json.Set("ci_method", lacks ? JsonValue() : JsonValue("skewed_t"));
+  if (lacks) json.Set("ci_reason", JsonValue(ReasonOf(estimate)));
+  SetMembers(json, "median", summary.median, "median_ci95", summary.median_interval, "min",
+             summary.min, "max", summary.max, "std", summary.deviation, "usual", estimate.usual,
+             "share_apart",
+             ObjectTree("count", apart.count, "rate", apart.rate, "ci95", apart.interval));
   return json;
 }
 

@@ -26,10 +26,4 @@ core::JsonValue RateJson(const statistics::Proportion& rate);
 // Of summary.json and its like.
 inline constexpr int kSchemaVersion = 2;
 
-// [low, high], null where there is none.
-inline core::JsonValue EndsOf(const statistics::Interval& interval) {
-  return core::JsonValue(
-      core::JsonValue::List{core::NumberOrNull(interval.low), core::NumberOrNull(interval.high)});
-}
-
 }  // namespace rockyard::report

@@ -1,9 +1,9 @@
 // The numbers behind a decision of a map-based navigator.
 #include <fmt/format.h>
 
-#include <array>
 #include <string_view>
 
+#include "core/numbers.h"
 #include "report/csv.h"
 #include "report/navigation_drawing.h"
 
@@ -15,11 +15,8 @@ using messages::MotionVote;
 std::string VoteRows(std::string_view kind, const std::vector<MotionVote>& votes) {
   std::string csv;
   for (const MotionVote& vote : votes) {
-    csv += CsvLine(std::array{std::string(kind), CsvNumber(vote.motion.curvature_per_m),
-                              fmt::to_string(vote.motion.direction), CsvNumber(vote.hazard),
-                              CsvNumber(vote.hazard_certainty), CsvNumber(vote.waypoint),
-                              CsvNumber(vote.merged), fmt::format("{:d}", vote.best),
-                              fmt::format("{:d}", vote.chosen)});
+    csv += CsvLine(kind, vote.motion.curvature_per_m, vote.motion.direction, vote.hazard,
+                   vote.hazard_certainty, vote.waypoint, vote.merged, vote.best, vote.chosen);
   }
   return csv;
 }
@@ -38,11 +35,10 @@ std::string MapCsv(const messages::MapView& map) {
   for (int iy = 0; iy < map.ny; ++iy) {
     for (int ix = 0; ix < map.nx; ++ix) {
       const messages::MapCellView& cell = map.Cell(ix, iy);
-      csv += CsvLine(std::array{CsvNumber(map.x0_m + (ix + 0.5) * map.xstep_m),
-                                CsvNumber(map.y0_m + (iy + 0.5) * map.ystep_m),
-                                cell.has_data ? CsvNumber(cell.elevation_m) : std::string(),
-                                cell.known ? fmt::to_string(cell.goodness) : std::string(),
-                                cell.known ? fmt::to_string(cell.certainty) : std::string()});
+      CsvRow row(map.x0_m + (ix + 0.5) * map.xstep_m, map.y0_m + (iy + 0.5) * map.ystep_m,
+                 cell.has_data ? cell.elevation_m : core::kNaN);
+      if (cell.known) row.Add(cell.goodness, cell.certainty);
+      csv += row.AddEmpty(cell.known ? 0 : 2).Line();
     }
   }
   return csv;
@@ -56,9 +52,7 @@ std::string VotesCsv(const messages::NavigationView& view) {
 
 std::string CloudCsv(const messages::PointCloud& cloud) {
   std::string csv = "x_m,y_m,z_m\n";
-  for (const math::Vector3& p_R : cloud.points_R) {
-    csv += CsvLine(std::array{CsvNumber(p_R.x()), CsvNumber(p_R.y()), CsvNumber(p_R.z())});
-  }
+  for (const math::Vector3& p_R : cloud.points_R) csv += CsvLine(p_R.x(), p_R.y(), p_R.z());
   return csv;
 }
 

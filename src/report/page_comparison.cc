@@ -1,7 +1,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/json_pieces.h"
+#include "report/json_members.h"
 #include "report/page_data.h"
 #include "statistics/multiple_testing.h"
 
@@ -9,40 +9,18 @@ namespace rockyard::report {
 namespace {
 
 using core::JsonList;
-using core::JsonObject;
-using core::JsonTexts;
 
-std::string Success(const SuccessComparison& success) {
-  return JsonObject()
-      .AddText("what", success.what)
-      .AddNumber("first", success.first.rate)
-      .AddNumber("second", success.second.rate)
-      .AddNumber("difference", success.difference)
-      .AddNumber("low", success.interval.low)
-      .AddNumber("high", success.interval.high)
-      .AddNumber("p", success.p_value)
-      .Text();
+std::string SuccessJson(const SuccessComparison& success) {
+  return ObjectText("what", success.what, "first", success.first.rate, "second",
+                    success.second.rate, "difference", success.difference, "low",
+                    success.interval.low, "high", success.interval.high, "p", success.p_value);
 }
 
-void AddColumns(std::string_view trials, const std::vector<ColumnComparison>& columns, bool paired,
-                std::vector<std::string>& rows) {
-  for (const ColumnComparison& column : columns) {
-    rows.push_back(JsonObject()
-                       .AddText("trials", trials)
-                       .AddText("name", column.name)
-                       .AddText("unit", column.unit)
-                       .AddInteger("n", column.count)
-                       .Add("n_second", paired ? "null" : std::to_string(column.second_count))
-                       .AddNumber("first", column.first_mean)
-                       .AddNumber("second", column.second_mean)
-                       .AddNumber("difference", column.difference)
-                       .AddNumber("low", column.interval.low)
-                       .AddNumber("high", column.interval.high)
-                       .Text());
-  }
+std::string SettingJson(const PageSetting& setting) {
+  return ObjectText("path", setting.path, "first", setting.first, "second", setting.second);
 }
 
-std::string Notes(const RunComparison& comparison, bool adjusted) {
+std::vector<std::string> Notes(const RunComparison& comparison, bool adjusted) {
   std::vector<std::string> notes;
   if (!comparison.paired) {
     notes.emplace_back("Different seeds: compared as two samples, not in pairs.");
@@ -61,20 +39,7 @@ std::string Notes(const RunComparison& comparison, bool adjusted) {
   notes.emplace_back(
       "Intervals are each on their own at 95 %: of thirty columns one or two exclude zero by "
       "chance.");
-  return JsonTexts(notes);
-}
-
-std::string Settings(const std::vector<PageSetting>& settings) {
-  std::vector<std::string> rows;
-  rows.reserve(settings.size());
-  for (const PageSetting& setting : settings) {
-    rows.push_back(JsonObject()
-                       .AddText("path", setting.path)
-                       .AddText("first", setting.first)
-                       .AddText("second", setting.second)
-                       .Text());
-  }
-  return JsonList(rows);
+  return notes;
 }
 
 }  // namespace
@@ -95,21 +60,12 @@ void AdjustSuccesses(std::span<PageComparison> comparisons) {
 
 std::string PageComparisonJson(const PageComparison& comparison, bool adjusted) {
   const RunComparison& result = comparison.comparison;
-  std::vector<std::string> successes;
-  for (const SuccessComparison& success : result.successes) successes.push_back(Success(success));
-  std::vector<std::string> columns;
-  AddColumns("all", result.columns, result.paired, columns);
-  AddColumns("arrived", result.arrived_columns, result.paired, columns);
-  return JsonObject()
-      .AddText("first", comparison.first)
-      .AddText("second", comparison.second)
-      .AddFlag("paired", result.paired)
-      .AddInteger("pairs", result.pairs)
-      .Add("notes", Notes(result, adjusted))
-      .Add("settings", Settings(comparison.settings))
-      .Add("successes", JsonList(successes))
-      .Add("columns", JsonList(columns))
-      .Text();
+  const std::string columns = ColumnsOf(result).Json(
+      "trials,column as name,unit,n,n_second,first,second,difference,low,high");
+  return ObjectText("first", comparison.first, "second", comparison.second, "paired", result.paired,
+                    "pairs", result.pairs, "notes", Notes(result, adjusted), "settings",
+                    Json{JsonList(comparison.settings, SettingJson)}, "successes",
+                    Json{JsonList(result.successes, SuccessJson)}, "columns", Json{columns});
 }
 
 }  // namespace rockyard::report

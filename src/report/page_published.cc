@@ -3,17 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "core/json_pieces.h"
 #include "report/comparison_format.h"
 #include "report/comparison_table.h"
+#include "report/json_members.h"
 #include "report/page_data.h"
 
 namespace rockyard::report {
 namespace {
 
 using core::JsonList;
-using core::JsonObject;
-using core::JsonTexts;
 
 using statistics::ComparedValue;
 using statistics::PublishedValue;
@@ -42,22 +40,13 @@ std::string JsonRow(const ComparedValue& value) {
     source += "; " + std::string(RoleName(published.role));
   }
   if (!published.note.empty()) source += "; " + published.note;
-  return JsonObject()
-      .AddText("id", published.id)
-      .AddText("what", published.what)
-      .AddText("unit", IsCount(published) ? "1" : published.unit)
-      .AddText("published", Published(published))
-      .AddNumber("published_value", Share(published.value, published))
-      .AddText("predicted", Prediction(value))
-      .AddNumber("predicted_value", Share(predicted, published))
-      .AddNumber("predicted_low", Share(value.interval.low, published))
-      .AddNumber("predicted_high", Share(value.interval.high, published))
-      .AddNumber("p_holm", value.holm_p_value)
-      .AddNumber("power", value.power)
-      .AddText("verdict", statistics::Name(value.verdict))
-      .AddText("source", source)
-      .Add("remarks", JsonTexts(AllRemarks(value)))
-      .Text();
+  return ObjectText(
+      "id", published.id, "what", published.what, "unit", IsCount(published) ? "1" : published.unit,
+      "published", Published(published), "published_value", Share(published.value, published),
+      "predicted", Prediction(value), "predicted_value", Share(predicted, published),
+      "predicted_low", Share(value.interval.low, published), "predicted_high",
+      Share(value.interval.high, published), "p_holm", value.holm_p_value, "power", value.power,
+      "verdict", statistics::Name(value.verdict), "source", source, "remarks", AllRemarks(value));
 }
 
 }  // namespace
@@ -74,14 +63,9 @@ std::string PublishedJson(const statistics::PublishedReference& reference,
       "Holm's family is that of this run alone: other runs on the page do not change it, and "
       "`rockyard check` of several runs takes all of them as one.");
   const statistics::OtherSettings* changed = result.FindChanged(scenario);
-  return JsonObject()
-      .AddText("reference", reference.title)
-      .AddText("citation", reference.citation)
-      .Add("notes", JsonTexts(notes))
-      .Add("settings",
-           JsonTexts(changed == nullptr ? std::vector<std::string>() : changed->settings))
-      .Add("rows", JsonList(rows))
-      .Text();
+  return ObjectText("reference", reference.title, "citation", reference.citation, "notes", notes,
+                    "settings", changed == nullptr ? std::vector<std::string>() : changed->settings,
+                    "rows", Json{JsonList(rows)});
 }
 
 }  // namespace rockyard::report

@@ -2,8 +2,8 @@
 #include <array>
 #include <functional>
 
-#include "core/json_pieces.h"
 #include "core/json_text.h"
+#include "report/json_members.h"
 #include "report/page_data.h"
 #include "report/paired_comparison.h"
 #include "report/parameter_table.h"
@@ -19,7 +19,6 @@ namespace {
 using core::JsonList;
 using core::JsonObject;
 using core::JsonSixDigits;
-using core::JsonTexts;
 
 core::JsonValue Summary(const PageRun& run, statistics::IntervalMethod method) {
   const std::int64_t planned = run.description.planned;
@@ -102,20 +101,7 @@ std::vector<core::ParameterInfo> OtherParameters(std::span<const core::Parameter
 }
 
 std::string PageParametersJson(std::span<const core::ParameterInfo> parameters) {
-  std::vector<std::string> rows;
-  rows.reserve(parameters.size());
-  for (const core::ParameterInfo& parameter : parameters) {
-    rows.push_back(JsonObject()
-                       .AddText("path", parameter.path)
-                       .AddText("value", ParameterValue(parameter))
-                       .AddText("unit", parameter.unit)
-                       .AddText("origin", core::Name(parameter.origin))
-                       .AddText("range", ParameterRange(parameter))
-                       .AddText("source", parameter.source)
-                       .AddText("doc", parameter.doc)
-                       .Text());
-  }
-  return JsonList(rows);
+  return ParameterColumns(parameters).Json("path,value,unit,origin,range,source,doc");
 }
 
 std::string PageReplaysJson(std::span<const PageLink> links) {
@@ -129,42 +115,30 @@ JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method)
   std::vector<DistanceStep> steps;
   if (!measures) steps = DistanceSteps(run.schema, run.prefix);
   const std::vector<std::size_t> places = PageTrials(run.records, run.named);
-  JsonObject json;
-  json.AddText("label", run.label)
-      .AddText("folder", run.folder)
-      .AddText("cell", run.cell)
-      .Add("sweep", Index(run.sweep))
-      .AddText("kind", measures ? "measurement" : "drive")
-      .Add("summary", core::CompactJson(Summary(run, method)))
-      .Add("trials", PageTrialsJson(run.schema, run.records, places))
-      .AddInteger("stored_trials", static_cast<std::int64_t>(run.records.size()))
-      .AddInteger("prefix_trials", static_cast<std::int64_t>(run.prefix.size()))
-      .AddFlag("shared_layouts", !statistics::DependentGroups(run.schema, run.prefix).empty())
-      .Add("endings", PageEndingsJson(run.prefix))
-      .Add("course", run.course ? PageCourseJson(*run.course) : "null")
-      .Add("cdf", PageCdfJson(steps))
-      .AddInteger("cdf_steps", static_cast<std::int64_t>(steps.size()))
-      .Add("factors", measures ? JsonTexts(Factors(run.schema)) : "[]")
-      .Add("published", run.published)
-      .Add("parameters", PageParametersJson(run.parameters))
-      .Add("parameters_as", Index(run.parameters_as))
-      .AddText("replay_command", run.replay_command);
+  core::JsonObject json;
+  AddMembers(json, "label", run.label, "folder", run.folder, "cell", run.cell, "sweep",
+             Json{Index(run.sweep)}, "kind", measures ? "measurement" : "drive", "summary",
+             Json{core::CompactJson(Summary(run, method))}, "trials",
+             Json{PageTrialsJson(run.schema, run.records, places)}, "stored_trials",
+             run.records.size(), "prefix_trials", run.prefix.size(), "shared_layouts",
+             !statistics::DependentGroups(run.schema, run.prefix).empty(), "endings",
+             Json{PageEndingsJson(run.prefix)}, "course",
+             Json{run.course ? PageCourseJson(*run.course) : "null"}, "cdf",
+             Json{PageCdfJson(steps)}, "cdf_steps", steps.size(), "factors",
+             measures ? Factors(run.schema) : std::vector<std::string>(), "published",
+             Json{run.published}, "parameters", Json{PageParametersJson(run.parameters)},
+             "parameters_as", Json{Index(run.parameters_as)}, "replay_command", run.replay_command);
   return json;
 }
 
 std::string PageJson(const PageHead& head, std::span<const std::string> runs,
                      std::span<const std::string> sweeps,
                      std::span<const std::string> comparisons) {
-  return JsonObject()
-      .AddInteger("version", 1)
-      .AddText("title", head.title)
-      .AddText("command", head.command)
-      .AddText("why_none_published", head.why_none_published)
-      .Add("provenance", core::CompactJson(ProvenanceJson(head.provenance)))
-      .Add("runs", JsonList(runs))
-      .Add("sweeps", JsonList(sweeps))
-      .Add("comparisons", JsonList(comparisons))
-      .Text();
+  return ObjectText("version", 1, "title", head.title, "command", head.command,
+                    "why_none_published", head.why_none_published, "provenance",
+                    Json{core::CompactJson(ProvenanceJson(head.provenance))}, "runs",
+                    Json{JsonList(runs)}, "sweeps", Json{JsonList(sweeps)}, "comparisons",
+                    Json{JsonList(comparisons)});
 }
 
 }  // namespace rockyard::report

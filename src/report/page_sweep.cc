@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "core/json_pieces.h"
 #include "core/json_text.h"
+#include "report/json_members.h"
 #include "report/page_data.h"
 #include "report/sweep_curves.h"
 
@@ -9,7 +9,6 @@ namespace rockyard::report {
 namespace {
 
 using core::JsonList;
-using core::JsonObject;
 
 using statistics::LogisticFit;
 
@@ -22,30 +21,19 @@ std::string Points(const scenario::Sweep& sweep, const SweepSummary& summary,
     const statistics::Proportion& rate =
         (kind == SuccessKind::kDeclared ? of.declared_success : of.true_success).rate;
     if (rate.trials == 0) continue;
-    points.push_back(JsonObject()
-                         .AddNumber("x", curve.x[i])
-                         .AddNumber("rate", rate.rate)
-                         .AddNumber("low", rate.interval.low)
-                         .AddNumber("high", rate.interval.high)
-                         .AddInteger("trials", rate.trials)
-                         .AddText("cell", sweep.cells[cell].name)
-                         .Text());
+    points.push_back(ObjectText("x", curve.x[i], "rate", rate.rate, "low", rate.interval.low,
+                                "high", rate.interval.high, "trials", rate.trials, "cell",
+                                sweep.cells[cell].name));
   }
   return JsonList(points);
 }
 
 std::string Line(const LogisticFit& fit) {
-  std::vector<std::string> points;
-  if (fit.status != statistics::FitStatus::kFitted) return JsonList(points);
-  for (const FitPoint& point : FittedLine(fit)) {
-    points.push_back(JsonObject()
-                         .AddNumber("x", point.x)
-                         .AddNumber("rate", point.rate)
-                         .AddNumber("low", point.band.low)
-                         .AddNumber("high", point.band.high)
-                         .Text());
-  }
-  return JsonList(points);
+  if (fit.status != statistics::FitStatus::kFitted) return "[]";
+  return JsonList(FittedLine(fit), [](const FitPoint& point) {
+    return ObjectText("x", point.x, "rate", point.rate, "low", point.band.low, "high",
+                      point.band.high);
+  });
 }
 
 const char* Status(statistics::FitStatus status) {
@@ -72,17 +60,11 @@ std::string Curve(const scenario::Sweep& sweep, const SweepSummary& summary,
   const scenario::SweepAxis& axis = sweep.axes[*sweep.fit_axis];
   const LogisticFit& fit = curve.fits[static_cast<std::size_t>(kind)];
   const bool log = sweep.fit_scale == scenario::AxisScale::kLog && curve.x.front() > 0.0;
-  return JsonObject()
-      .AddText("label", curve.label)
-      .AddText("axis", axis.name)
-      .AddText("unit", axis.unit)
-      .AddText("scale", log ? "log" : "linear")
-      .AddText("success", kind == SuccessKind::kDeclared ? "declared" : "true")
-      .Add("points", Points(sweep, summary, curve, kind))
-      .Add("fit", Line(fit))
-      .AddText("fit_status", Status(fit.status))
-      .Add("fit_rejected", Rejected(fit))
-      .Text();
+  return ObjectText("label", curve.label, "axis", axis.name, "unit", axis.unit, "scale",
+                    log ? "log" : "linear", "success",
+                    kind == SuccessKind::kDeclared ? "declared" : "true", "points",
+                    Json{Points(sweep, summary, curve, kind)}, "fit", Json{Line(fit)}, "fit_status",
+                    Status(fit.status), "fit_rejected", Json{Rejected(fit)});
 }
 
 }  // namespace
@@ -96,12 +78,9 @@ std::string PageSweepJson(std::string_view label, std::string_view folder,
       curves.push_back(Curve(sweep, summary, curve, kind));
     }
   }
-  return JsonObject()
-      .AddText("label", label)
-      .AddText("folder", folder)
-      .Add("summary", core::CompactJson(SweepValue(sweep, summary, description)))
-      .Add("curves", JsonList(curves))
-      .Text();
+  return ObjectText("label", label, "folder", folder, "summary",
+                    Json{core::CompactJson(SweepValue(sweep, summary, description))}, "curves",
+                    Json{JsonList(curves)});
 }
 
 }  // namespace rockyard::report

@@ -2,14 +2,13 @@
 
 #include <cmath>
 
-#include "core/json_pieces.h"
+#include "report/json_members.h"
 
 namespace rockyard::report {
 namespace {
 
 using core::JsonList;
 using core::JsonNumber;
-using core::JsonObject;
 
 void AddCentimetres(double length_m, std::vector<std::string>& to) {
   to.push_back(std::to_string(std::llround(100.0 * length_m)));
@@ -46,23 +45,17 @@ std::string Rocks(const std::vector<PageRock>& rocks) {
 }  // namespace
 
 std::string PageCourseJson(const PageCourse& course) {
-  return JsonObject()
-      .AddText("rover", course.rover)
-      .Add("start", PlaceJson({course.start.x_m, course.start.y_m}))
-      .Add("goal", PlaceJson(course.goal))
-      .AddNumber("goal_radius_m", course.goal_radius_m)
-      .Add("waypoints", JsonList(course.waypoints, PlaceJson))
-      .Add("mirror_lines_m", JsonList(course.mirror_lines_m, JsonNumber))
-      .Text();
+  return ObjectText("rover", course.rover, "start",
+                    Json{PlaceJson({course.start.x_m, course.start.y_m})}, "goal",
+                    Json{PlaceJson(course.goal)}, "goal_radius_m", course.goal_radius_m,
+                    "waypoints", Json{JsonList(course.waypoints, PlaceJson)}, "mirror_lines_m",
+                    Json{JsonList(course.mirror_lines_m, JsonNumber)});
 }
 
 std::string PageTracksJson(std::span<const PageTrack> tracks) {
   return JsonList(tracks, [](const PageTrack& track) {
-    return JsonObject()
-        .AddInteger("trial", static_cast<std::int64_t>(track.trial))
-        .Add("pieces_cm", JsonList(track.path, Piece))
-        .Add("rocks_cm", Rocks(track.rocks))
-        .Text();
+    return ObjectText("trial", track.trial, "pieces_cm", Json{JsonList(track.path, Piece)},
+                      "rocks_cm", Json{Rocks(track.rocks)});
   });
 }
 

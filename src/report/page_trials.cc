@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-#include "core/json_pieces.h"
+#include "report/json_members.h"
 #include "report/page_data.h"
 #include "truth/end_cause.h"
 
@@ -11,9 +11,7 @@ namespace rockyard::report {
 namespace {
 
 using core::JsonList;
-using core::JsonObject;
 using core::JsonSixDigits;
-using core::JsonTexts;
 
 using truth::Record;
 
@@ -62,13 +60,9 @@ std::string PageEndingsJson(std::span<const Record> records) {
   std::stable_sort(endings.begin(), endings.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   return JsonList(endings, [](const auto& each) {
-    return JsonObject()
-        .AddText("outcome", truth::Name(each.second.first))
-        .AddText("detail", each.second.second)
-        .AddInteger("count", each.first)
-        .Add("limit",
-             truth::EndedByLimit({0, each.second.first, each.second.second, {}}) ? "true" : "false")
-        .Text();
+    const auto& [outcome, detail] = each.second;
+    return ObjectText("outcome", truth::Name(outcome), "detail", detail, "count", each.first,
+                      "limit", truth::EndedByLimit({0, outcome, detail, {}}));
   });
 }
 
@@ -77,28 +71,23 @@ std::string PageTrialsJson(const truth::RecordSchema& schema, std::span<const Re
   TextTable outcomes;
   TextTable details;
   const auto list = [&](const auto& element) { return ListAt(records, places, element); };
-  JsonObject json;
-  json.Add("trial", list([](const Record& r) { return std::to_string(r.trial); }));
-  json.Add("outcome", list([&](const Record& r) {
-             return std::to_string(outcomes.Number(std::string(truth::Name(r.outcome))));
-           }));
-  json.Add("outcome_names", JsonTexts(outcomes.texts()));
-  json.Add("detail",
-           list([&](const Record& r) { return std::to_string(details.Number(r.detail)); }));
-  json.Add("detail_texts", JsonTexts(details.texts()));
+  const std::string numbers = list([](const Record& r) { return std::to_string(r.trial); });
+  const std::string ends = list([&](const Record& r) {
+    return std::to_string(outcomes.Number(std::string(truth::Name(r.outcome))));
+  });
+  const std::string why =
+      list([&](const Record& r) { return std::to_string(details.Number(r.detail)); });
   std::vector<std::string> columns;
   for (std::size_t i = 0; i < schema.size(); ++i) {
-    columns.push_back(JsonObject()
-                          .AddText("name", schema[i].name)
-                          .AddText("unit", schema[i].unit)
-                          .Add("values", list([&](const Record& r) {
-                                 return i < r.values.size() ? JsonSixDigits(r.values[i])
-                                                            : std::string("null");
-                               }))
-                          .Text());
+    const std::string values = list([&](const Record& r) {
+      return i < r.values.size() ? JsonSixDigits(r.values[i]) : std::string("null");
+    });
+    columns.push_back(
+        ObjectText("name", schema[i].name, "unit", schema[i].unit, "values", Json{values}));
   }
-  json.Add("columns", JsonList(columns));
-  return json.Text();
+  return ObjectText("trial", Json{numbers}, "outcome", Json{ends}, "outcome_names",
+                    outcomes.texts(), "detail", Json{why}, "detail_texts", details.texts(),
+                    "columns", Json{JsonList(columns)});
 }
 
 }  // namespace rockyard::report

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "report/result_table.h"
 #include "statistics/proportions.h"
 #include "truth/record.h"
 
@@ -69,6 +70,11 @@ RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second);
 std::string RunComparisonText(const ComparedRun& first, const ComparedRun& second,
                               const RunComparison& comparison, std::string_view settings = "",
                               bool every_column = false);
+
+// Both tables: trials (all, arrived), column, unit, how many values (least of both runs, n,
+// n_second: none where paired), first and second mean, their difference and its interval (low,
+// high).
+ResultTable ColumnsOf(const RunComparison& comparison);
 
 // Every column of both tables: trials (all, arrived), column, unit, n, both means, their difference
 // and its interval.

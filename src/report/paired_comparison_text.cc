@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -9,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/csv.h"
+#include "core/numbers.h"
 #include "report/line_text.h"
 #include "report/paired_comparison.h"
 #include "statistics/metrics.h"
@@ -83,15 +82,13 @@ std::string Pairing(const RunComparison& comparison) {
                          : "equal random numbers, but other settings of terrain or course");
 }
 
-std::string CsvRows(std::string_view trials, std::span<const ColumnComparison> columns) {
-  std::string csv;
+void AddColumns(std::string_view trials, std::span<const ColumnComparison> columns, bool paired,
+                ResultTable& table) {
   for (const ColumnComparison& column : columns) {
-    csv += CsvLine(std::array{std::string(trials), CsvField(column.name), CsvField(column.unit),
-                              fmt::to_string(Least(column)), CsvNumber(column.first_mean),
-                              CsvNumber(column.second_mean), CsvNumber(column.difference),
-                              CsvNumber(column.interval.low), CsvNumber(column.interval.high)});
+    table.Add(trials, column.name, column.unit, Least(column), column.count,
+              paired ? core::kNaN : static_cast<double>(column.second_count), column.first_mean,
+              column.second_mean, column.difference, column.interval);
   }
-  return csv;
 }
 
 }  // namespace
@@ -125,9 +122,19 @@ std::string RunComparisonText(const ComparedRun& first, const ComparedRun& secon
   return text + "\n  every column: --all, or --csv FILE\n";
 }
 
+ResultTable ColumnsOf(const RunComparison& comparison) {
+  ResultTable table("trials,column,unit,least,n,n_second,first,second,difference,low,high");
+  AddColumns("all", comparison.columns, comparison.paired, table);
+  AddColumns("arrived", comparison.arrived_columns, comparison.paired, table);
+  return table;
+}
+
 std::string RunComparisonCsv(const RunComparison& comparison) {
-  return "trials,column,unit,n,mean_a,mean_b,difference,ci95_low,ci95_high\n" +
-         CsvRows("all", comparison.columns) + CsvRows("arrived", comparison.arrived_columns);
+  return ColumnsOf(comparison)
+      .Csv(
+          "trials,column,unit,least as n,first as mean_a,second as mean_b,difference,low as "
+          "ci95_low,"
+          "high as ci95_high");
 }
 
 }  // namespace rockyard::report

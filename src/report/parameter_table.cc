@@ -7,8 +7,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "report/csv.h"
-#include "report/line_text.h"
 #include "statistics/metrics.h"
 
 namespace rockyard::report {
@@ -111,28 +109,27 @@ std::vector<ParameterInfo> SelectParameters(std::span<const ParameterInfo> param
   return selected;
 }
 
-std::string ParametersMarkdown(std::span<const ParameterInfo> parameters) {
-  std::string table =
-      "| parameter | value | unit | range | reason or source | meaning "
-      "|\n|---|---|---|---|---|---|\n";
+ResultTable ParameterColumns(std::span<const ParameterInfo> parameters) {
+  ResultTable table(
+      "path,kind,value,unit,origin,study_low,study_high,min,max,choices,source,doc,range");
   for (const ParameterInfo& p : parameters) {
-    table += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.path,
-                         Printable(ParameterValue(p)), p.unit, ParameterRange(p), p.source, p.doc);
+    const bool studied = p.HasStudyRange();
+    table.Add(p.path, KindName(p.kind), ParameterValue(p), p.unit, core::Name(p.origin),
+              studied ? SixDigits(p.study_low) : "", studied ? SixDigits(p.study_high) : "",
+              Bound(p.min), Bound(p.max), fmt::format("{}", fmt::join(p.choices, "|")), p.source,
+              p.doc, ParameterRange(p));
   }
   return table;
 }
 
+std::string ParametersMarkdown(std::span<const ParameterInfo> parameters) {
+  return ParameterColumns(parameters)
+      .Markdown("path as parameter,value,unit,range,source as reason or source,doc as meaning");
+}
+
 std::string ParametersCsv(std::span<const ParameterInfo> parameters) {
-  std::string csv = "path,kind,value,unit,origin,study_low,study_high,min,max,choices,source,doc\n";
-  for (const ParameterInfo& p : parameters) {
-    const bool studied = p.HasStudyRange();
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.path, KindName(p.kind),
-                       CsvField(ParameterValue(p)), p.unit, core::Name(p.origin),
-                       studied ? SixDigits(p.study_low) : "",
-                       studied ? SixDigits(p.study_high) : "", Bound(p.min), Bound(p.max),
-                       fmt::join(p.choices, "|"), CsvField(p.source), CsvField(p.doc));
-  }
-  return csv;
+  return ParameterColumns(parameters)
+      .Csv("path,kind,value,unit,origin,study_low,study_high,min,max,choices,source,doc");
 }
 
 std::string MetricTableText() {
@@ -146,13 +143,12 @@ std::string MetricTableText() {
 }
 
 std::string MetricTableMarkdown() {
-  std::string text =
-      "| metric | unit | trials | definition | from | margin |\n|---|---|---|---|---|---|\n";
+  ResultTable table("metric,unit,trials,definition,from,margin");
   for (const Metric& metric : statistics::Metrics()) {
-    text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", metric.name, metric.unit,
-                        TrialsOf(metric), metric.definition, ColumnsOf(metric), MarginOf(metric));
+    table.Add(metric.name, metric.unit, TrialsOf(metric), metric.definition, ColumnsOf(metric),
+              MarginOf(metric));
   }
-  return text;
+  return table.Markdown();
 }
 
 }  // namespace rockyard::report

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/field_table.h"
+#include "report/result_table.h"
 
 namespace rockyard::report {
 
@@ -20,6 +21,9 @@ std::string ParameterValue(const core::ParameterInfo& parameter);
 
 // "lo to hi" where it has a study range, the choices, or "held".
 std::string ParameterRange(const core::ParameterInfo& parameter);
+
+// The columns of ParametersCsv, and range.
+ResultTable ParameterColumns(std::span<const core::ParameterInfo> parameters);
 
 // One row a parameter: path, value, unit, range ("lo to hi", or the choices), reason or source,
 // meaning. Markdown with a header row.

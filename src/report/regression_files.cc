@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/csv.h"
 #include "report/line_text.h"
 #include "report/regression_format.h"
 #include "report/regression_report.h"
@@ -130,38 +129,22 @@ bool BrokenDeterminism(const RegressionReport& report) {
                      [](const CheckedCell& cell) { return cell.not_deterministic; });
 }
 
-std::string RegressionCsv(const RegressionReport& report) {
-  std::string csv =
+ResultTable RegressionTable(const RegressionReport& report) {
+  ResultTable table(
       "cell,metric,unit,verdict,paired,baseline_count,run_count,baseline_mean,run_mean,difference,"
       "difference_low,difference_high,margin,p_value,p_holm,level,p_equivalence,seen_80,seen_90,"
-      "trials_for_margin,family,to_see\n";
+      "trials_for_margin,family,to_see");
   for (const RegressionRow& row : report.result.rows) {
-    const std::vector<std::string> fields = {CsvField(row.cell),
-                                             std::string(row.metric->name),
-                                             CsvField(row.metric->unit),
-                                             std::string(Name(row.verdict)),
-                                             row.paired ? "1" : "0",
-                                             std::to_string(row.baseline_count),
-                                             std::to_string(row.run_count),
-                                             CsvNumber(row.baseline_mean),
-                                             CsvNumber(row.run_mean),
-                                             CsvNumber(row.difference),
-                                             CsvNumber(row.interval.low),
-                                             CsvNumber(row.interval.high),
-                                             CsvNumber(row.margin),
-                                             CsvNumber(row.p_value),
-                                             CsvNumber(row.holm_p_value),
-                                             CsvNumber(row.level),
-                                             CsvNumber(row.equivalence_p_value),
-                                             CsvNumber(row.seen_80),
-                                             CsvNumber(row.seen_90),
-                                             std::to_string(row.trials_for_margin),
-                                             row.primary ? "primary" : "secondary",
-                                             CsvNumber(row.to_see)};
-    csv += CsvLine(fields);
+    table.Add(row.cell, row.metric->name, row.metric->unit, Name(row.verdict), row.paired,
+              row.baseline_count, row.run_count, row.baseline_mean, row.run_mean, row.difference,
+              row.interval, row.margin, row.p_value, row.holm_p_value, row.level,
+              row.equivalence_p_value, row.seen_80, row.seen_90, row.trials_for_margin,
+              row.primary ? "primary" : "secondary", row.to_see);
   }
-  return csv;
+  return table;
 }
+
+std::string RegressionCsv(const RegressionReport& report) { return RegressionTable(report).Csv(); }
 
 std::string RegressionJUnit(const RegressionReport& report) {
   const statistics::RegressionResult& result = report.result;

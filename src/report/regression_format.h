@@ -1,13 +1,18 @@
-// How numbers of a check against a baseline are written. For regression_*.cc only.
+// How numbers of a check against a baseline are written. For regression_*.cc and
+// result_json.cc only.
 #pragma once
 
 #include <string>
 #include <string_view>
 
 #include "report/regression_report.h"
+#include "report/result_table.h"
 #include "statistics/regression.h"
 
 namespace rockyard::report {
+
+// One row per metric and cell.
+ResultTable RegressionTable(const RegressionReport& report);
 
 std::string_view Name(statistics::RegressionVerdict verdict);
 std::string Signed(double value);  // FourDigits with its sign

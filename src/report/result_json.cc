@@ -3,187 +3,103 @@
 #include <string_view>
 #include <vector>
 
-#include "core/json_pieces.h"
 #include "report/comparison_format.h"
+#include "report/json_members.h"
 #include "report/regression_format.h"
 
 namespace rockyard::report {
 namespace {
 
 using core::JsonList;
-using core::JsonObject;
-using core::JsonTexts;
 
-JsonObject Begin(std::string_view kind) {
-  return JsonObject().AddInteger("schema_version", 1).AddText("kind", kind);
+// One object on a line, with its kind before all other members.
+template <typename... Members>
+std::string ResultLine(std::string_view kind, const Members&... members) {
+  return ObjectText("schema_version", 1, "kind", kind, members...) + "\n";
 }
 
-std::string Line(const JsonObject& object) { return object.Text() + "\n"; }
-
-std::string Value(const statistics::ComparedValue& value) {
-  const statistics::PublishedValue& published = value.published;
-  return JsonObject()
-      .AddText("id", published.id)
-      .AddText("scenario", published.scenario)
-      .AddText("what", published.what)
-      .AddText("place", published.place)
-      .AddText("role", RoleName(published.role))
-      .AddText("unit", published.unit)
-      .AddNumber("published", published.value)
-      .AddInteger("published_runs", published.sample_size)
-      .AddInteger("simulated_runs", value.pool)
-      .AddNumber("simulated", value.pool_value)
-      .AddNumber("predicted_median", value.median)
-      .AddNumber("predicted_low", value.interval.low)
-      .AddNumber("predicted_high", value.interval.high)
-      .AddNumber("p_value", value.p_value)
-      .AddNumber("p_holm", value.holm_p_value)
-      .AddNumber("power", value.power)
-      .AddText("verdict", statistics::Name(value.verdict))
-      .AddText("remark", value.remark)
-      .Text();
+std::string RecordsJson(const RecordChanges& changes) {
+  const std::string columns = JsonList(changes.columns, [](const RecordChanges::Column& column) {
+    return ObjectText("column", column.name, "trials", column.trials);
+  });
+  return ObjectText("pairs", changes.pairs, "changed", changes.trials, "only_hash",
+                    changes.only_hash, "columns", Json{columns});
 }
 
-std::string Records(const RecordChanges& changes) {
-  std::vector<std::string> columns;
-  for (const RecordChanges::Column& column : changes.columns) {
-    columns.push_back(
-        JsonObject().AddText("column", column.name).AddInteger("trials", column.trials).Text());
-  }
-  return JsonObject()
-      .AddInteger("pairs", changes.pairs)
-      .AddInteger("changed", changes.trials)
-      .AddFlag("only_hash", changes.only_hash)
-      .Add("columns", JsonList(columns))
-      .Text();
+std::string CheckedCellJson(const CheckedCell& cell) {
+  return ObjectText("name", cell.name, "identical", cell.identical, "not_deterministic",
+                    cell.not_deterministic, "paired", cell.paired, "same_fields", cell.same_fields,
+                    "baseline_trials", cell.baseline_trials, "run_trials", cell.run_trials,
+                    "records", Json{RecordsJson(cell.records)});
 }
 
-std::string Cell(const CheckedCell& cell) {
-  return JsonObject()
-      .AddText("name", cell.name)
-      .AddFlag("identical", cell.identical)
-      .AddFlag("not_deterministic", cell.not_deterministic)
-      .AddFlag("paired", cell.paired)
-      .AddFlag("same_fields", cell.same_fields)
-      .AddInteger("baseline_trials", cell.baseline_trials)
-      .AddInteger("run_trials", cell.run_trials)
-      .Add("records", Records(cell.records))
-      .Text();
+std::string CountedRateJson(const statistics::Proportion& rate) {
+  return ObjectText("count", rate.count, "trials", rate.trials, "rate", rate.rate);
 }
 
-std::string MetricRow(const statistics::RegressionRow& row) {
-  return JsonObject()
-      .AddText("cell", row.cell)
-      .AddText("metric", row.metric->name)
-      .AddText("unit", row.metric->unit)
-      .AddText("verdict", Name(row.verdict))
-      .AddFlag("paired", row.paired)
-      .AddInteger("baseline_count", row.baseline_count)
-      .AddInteger("run_count", row.run_count)
-      .AddNumber("baseline_mean", row.baseline_mean)
-      .AddNumber("run_mean", row.run_mean)
-      .AddNumber("difference", row.difference)
-      .AddNumber("low", row.interval.low)
-      .AddNumber("high", row.interval.high)
-      .AddNumber("margin", row.margin)
-      .AddNumber("p_holm", row.holm_p_value)
-      .AddNumber("p_equivalence", row.equivalence_p_value)
-      .AddInteger("trials_for_margin", row.trials_for_margin)
-      .AddText("family", row.primary ? "primary" : "secondary")
-      .AddNumber("seen_80", row.seen_80)
-      .AddNumber("to_see", row.to_see)
-      .Text();
+std::string ComparedRateJson(std::string_view name, const statistics::RateDifference& rate,
+                             bool differs) {
+  return ObjectText("rate", name, "first", Json{CountedRateJson(rate.first)}, "second",
+                    Json{CountedRateJson(rate.second)}, "difference", rate.difference, "low",
+                    rate.interval.low, "high", rate.interval.high, "p_holm", rate.adjusted,
+                    "differs", differs);
 }
 
-std::string Rate(const statistics::Proportion& rate) {
-  return JsonObject()
-      .AddInteger("count", rate.count)
-      .AddInteger("trials", rate.trials)
-      .AddNumber("rate", rate.rate)
-      .Text();
-}
-
-std::string ComparedRate(std::string_view name, const statistics::RateDifference& rate,
-                         bool differs) {
-  return JsonObject()
-      .AddText("rate", name)
-      .Add("first", Rate(rate.first))
-      .Add("second", Rate(rate.second))
-      .AddNumber("difference", rate.difference)
-      .AddNumber("low", rate.interval.low)
-      .AddNumber("high", rate.interval.high)
-      .AddNumber("p_holm", rate.adjusted)
-      .AddFlag("differs", differs)
-      .Text();
-}
-
-std::string Cell(const statistics::CellComparison& all, const statistics::ComparedCell& cell) {
-  JsonObject factors;
+std::string ComparedCellJson(const statistics::CellComparison& all,
+                             const statistics::ComparedCell& cell) {
+  core::JsonObject factors;
   for (std::size_t i = 0; i < all.factors.size(); ++i) {
     factors.AddNumber(all.factors[i].name, cell.factors[i]);
   }
   std::vector<std::string> rates;
   for (std::size_t i = 0; i < all.rates.size(); ++i) {
-    rates.push_back(ComparedRate(all.rates[i].name, cell.rates[i], all.Differs(cell.rates[i])));
+    rates.push_back(ComparedRateJson(all.rates[i].name, cell.rates[i], all.Differs(cell.rates[i])));
   }
-  return JsonObject().Add("factors", factors.Text()).Add("rates", JsonList(rates)).Text();
+  return ObjectText("factors", Json{factors.Text()}, "rates", Json{JsonList(rates)});
 }
 
 }  // namespace
 
 std::string PublishedCheckJson(const statistics::PublishedReference& reference,
                                const statistics::ComparisonResult& result, int exit_code) {
-  std::vector<std::string> values;
-  for (const statistics::ComparedValue& value : result.values) values.push_back(Value(value));
-  std::vector<std::string> changed;
-  for (const statistics::OtherSettings& other : result.changed) {
-    changed.push_back(JsonObject()
-                          .AddText("scenario", other.scenario)
-                          .Add("settings", JsonTexts(other.settings))
-                          .Text());
-  }
-  return Line(Begin("published_check")
-                  .AddText("reference", reference.title)
-                  .Add("not_the_published_case", JsonList(changed))
-                  .AddInteger("exit_code", exit_code)
-                  .AddInteger("family", static_cast<std::int64_t>(result.family))
-                  .Add("values", JsonList(values)));
+  const std::string changed = JsonList(result.changed, [](const statistics::OtherSettings& other) {
+    return ObjectText("scenario", other.scenario, "settings", other.settings);
+  });
+  const std::string values = ComparisonRows(result, ComparisonDetail::kValues)
+                                 .Json(
+                                     "id,scenario,what,place,role,unit,published,published_runs,"
+                                     "simulated_runs,simulated,predicted_median,predicted_low,"
+                                     "predicted_high,p_value,p_holm,power,verdict,remark");
+  return ResultLine("published_check", "reference", reference.title, "not_the_published_case",
+                    Json{changed}, "exit_code", exit_code, "family", result.family, "values",
+                    Json{values});
 }
 
 std::string BaselineCheckJson(const RegressionReport& report, int exit_code) {
-  std::vector<std::string> cells;
-  for (const CheckedCell& cell : report.cells) cells.push_back(Cell(cell));
-  std::vector<std::string> metrics;
-  for (const statistics::RegressionRow& row : report.result.rows) metrics.push_back(MetricRow(row));
-  return Line(Begin("baseline_check")
-                  .AddText("baseline", report.baseline)
-                  .AddText("baseline_build", report.baseline_build)
-                  .AddText("run_build", report.run_build)
-                  .AddInteger("exit_code", exit_code)
-                  .AddNumber("alpha", report.result.options.alpha)
-                  .AddNumber("primary_alpha", report.result.options.FamilyAlpha(true))
-                  .AddText("records", Name(FindingOfRecords(report)))
-                  .AddText("distribution", DistributionName(report.result))
-                  .Add("cells", JsonList(cells))
-                  .Add("metrics", JsonList(metrics))
-                  .Add("notes", JsonTexts(report.notes)));
+  const statistics::RegressionOptions& options = report.result.options;
+  const std::string metrics = RegressionTable(report).Json(
+      "cell,metric,unit,verdict,paired,baseline_count,run_count,baseline_mean,run_mean,"
+      "difference,difference_low as low,difference_high as high,margin,p_holm,p_equivalence,"
+      "trials_for_margin,family,seen_80,to_see");
+  return ResultLine("baseline_check", "baseline", report.baseline, "baseline_build",
+                    report.baseline_build, "run_build", report.run_build, "exit_code", exit_code,
+                    "alpha", options.alpha, "primary_alpha", options.FamilyAlpha(true), "records",
+                    Name(FindingOfRecords(report)), "distribution", DistributionName(report.result),
+                    "cells", Json{JsonList(report.cells, CheckedCellJson)}, "metrics",
+                    Json{metrics}, "notes", report.notes);
 }
 
 std::string DriveComparisonJson(const PageComparison& comparison) {
-  return Line(Begin("drive_comparison").Add("comparison", PageComparisonJson(comparison, false)));
+  return ResultLine("drive_comparison", "comparison", Json{PageComparisonJson(comparison, false)});
 }
 
 std::string CellComparisonJson(const ComparedRun& first, const ComparedRun& second,
                                const statistics::CellComparison& cells, int exit_code) {
-  std::vector<std::string> rows;
-  for (const statistics::ComparedCell& cell : cells.cells) rows.push_back(Cell(cells, cell));
-  return Line(Begin("cell_comparison")
-                  .AddText("first", first.name)
-                  .AddText("second", second.name)
-                  .AddInteger("exit_code", exit_code)
-                  .AddNumber("alpha", cells.alpha)
-                  .AddInteger("tests", static_cast<std::int64_t>(cells.tests))
-                  .Add("cells", JsonList(rows)));
+  const std::string rows = JsonList(cells.cells, [&](const statistics::ComparedCell& cell) {
+    return ComparedCellJson(cells, cell);
+  });
+  return ResultLine("cell_comparison", "first", first.name, "second", second.name, "exit_code",
+                    exit_code, "alpha", cells.alpha, "tests", cells.tests, "cells", Json{rows});
 }
 
 }  // namespace rockyard::report

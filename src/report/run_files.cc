@@ -1,8 +1,6 @@
 #include "report/run_files.h"
 
-#include <string>
-#include <vector>
-
+#include "core/numbers.h"
 #include "report/csv.h"
 #include "report/distance_steps.h"
 #include "report/measurement_drawing.h"
@@ -57,19 +55,15 @@ statistics::MeasurementSummary WriteMeasurementFiles(const std::filesystem::path
 
 void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,
                const TextSink& out) {
-  std::vector<std::string> fields = {"trial", "outcome"};
-  for (const truth::ValueInfo& value : schema) fields.push_back(CsvField(value.name));
-  fields.emplace_back("cause");
-  fields.emplace_back("detail");
-  out(CsvLine(fields));
+  CsvRow head("trial", "outcome");
+  for (const truth::ValueInfo& value : schema) head.Add(value.name);
+  out(head.Add("cause", "detail").Line());
   for (const truth::Record& record : records) {
-    fields = {std::to_string(record.trial), std::string(truth::Name(record.outcome))};
+    CsvRow row(record.trial, truth::Name(record.outcome));
     for (std::size_t i = 0; i < schema.size(); ++i) {
-      fields.push_back(i < record.values.size() ? CsvNumber(record.values[i]) : std::string());
+      row.Add(i < record.values.size() ? record.values[i] : core::kNaN);
     }
-    fields.emplace_back(truth::CauseName(record));
-    fields.push_back(CsvField(record.detail));
-    out(CsvLine(fields));
+    out(row.Add(truth::CauseName(record), record.detail).Line());
   }
 }
 
@@ -77,11 +71,8 @@ void DistanceCdfCsv(const truth::RecordSchema& schema, std::span<const truth::Re
                     const TextSink& out) {
   out(kCdfHeader);
   for (const DistanceStep& step : DistanceSteps(schema, records)) {
-    out(CsvLine(std::vector<std::string>{
-        CsvNumber(step.all.value), CsvNumber(step.all.fraction), CsvNumber(step.all.band.low),
-        CsvNumber(step.all.band.high), CsvNumber(step.goal.event), CsvNumber(step.goal.band.low),
-        CsvNumber(step.goal.band.high), CsvNumber(step.goal.competing),
-        std::to_string(step.at_risk), CsvNumber(step.limit)}));
+    out(CsvLine(step.all.value, step.all.fraction, step.all.band, step.goal.event, step.goal.band,
+                step.goal.competing, step.at_risk, step.limit));
   }
 }
 

@@ -243,12 +243,9 @@ std::string ScanCsv(const ScanView& scan) {
       // What was not found is no number, and leaves its field empty.
       const double found =
           point.elevation.detected ? 1.0 : std::numeric_limits<double>::quiet_NaN();
-      csv += CsvLine(std::array{
-          fmt::to_string(stripe), fmt::to_string(row),
-          fmt::format("{:d}", point.elevation.detected), CsvNumber(found * point.pixel.column_px),
-          CsvNumber(found * point.elevation.elevation_m), CsvNumber(found * point.p_RoP_R.x()),
-          CsvNumber(found * point.p_RoP_R.y()),
-          fmt::format("{:d}", scan.hazards.stripe_hazard[stripe])});
+      csv += CsvLine(stripe, row, point.elevation.detected, found * point.pixel.column_px,
+                     found * point.elevation.elevation_m, found * point.p_RoP_R.x(),
+                     found * point.p_RoP_R.y(), bool{scan.hazards.stripe_hazard[stripe]});
     }
   }
   return csv;

@@ -5,6 +5,7 @@
 
 #include "core/json_text.h"
 #include "report/accounting.h"
+#include "report/json_members.h"
 #include "report/mean_words.h"
 
 namespace rockyard::report {
@@ -19,17 +20,10 @@ constexpr const char* kModeMethod = "half-sample mode; range by subsampling, no 
 
 JsonValue Column(const ColumnSummary* column) {
   if (column == nullptr) return JsonValue();
-  return JsonValue::Object({{"count", column->count},
-                            {"min", NumberOrNull(column->min)},
-                            {"p05", NumberOrNull(column->p05)},
-                            {"median", NumberOrNull(column->median)},
-                            {"mean", NumberOrNull(column->mean)},
-                            {"mode", NumberOrNull(column->mode)},
-                            {"mode_range", EndsOf(column->mode_range)},
-                            {"mode_method", kModeMethod},
-                            {"p95", NumberOrNull(column->p95)},
-                            {"max", NumberOrNull(column->max)},
-                            {"std", NumberOrNull(column->std)}});
+  return ObjectTree("count", column->count, "min", column->min, "p05", column->p05, "median",
+                    column->median, "mean", column->mean, "mode", column->mode, "mode_range",
+                    column->mode_range, "mode_method", kModeMethod, "p95", column->p95, "max",
+                    column->max, "std", column->std);
 }
 
 JsonValue Outcomes(const DriveSummary& summary) {
@@ -112,7 +106,7 @@ JsonValue CellRate(const statistics::CellRate& rate) {
 }
 
 JsonValue CellJson(const statistics::MeasurementSummary& summary, const statistics::Cell& cell) {
-  JsonValue json = JsonValue::Object({{"cell", cell.number}, {"runs", cell.runs}});
+  JsonValue json = ObjectTree("cell", cell.number, "runs", cell.runs);
   for (std::size_t i = 0; i < cell.factors.size(); ++i) {
     json.Set(summary.factors[i].name, NumberOrNull(cell.factors[i]));
   }
@@ -131,9 +125,7 @@ JsonValue CellJson(const statistics::MeasurementSummary& summary, const statisti
 
 JsonValue RunProvenance(const RunDescription& run) {
   JsonValue json = ProvenanceJson(run.provenance);
-  json.Set("threads", JsonValue(run.threads));
-  json.Set("ranks", JsonValue(1));
-  json.Set("builds", core::ListOf(run.builds));
+  SetMembers(json, "threads", run.threads, "ranks", 1, "builds", core::ListOf(run.builds));
   return json;
 }
 
@@ -143,38 +135,26 @@ JsonValue Settings(const RunDescription& run) {
 
 // What runs of drives and of measurements tell alike, before and after what they found.
 JsonValue Head(const RunDescription& run, std::int64_t completed, std::int64_t faults) {
-  JsonValue json = JsonValue::Object({{"schema_version", kSchemaVersion},
-                                      {"scenario", run.scenario},
-                                      {"seed", run.seed},
-                                      {"fingerprint", run.fingerprint},
-                                      {"settings", Settings(run)},
-                                      {"localization", run.localization},
-                                      {"ablations", core::ListOf(run.ablations)}});
-  json.Set("trials", JsonValue::Object({{"planned", run.planned},
-                                        {"stored", run.stored},
-                                        {"completed", completed},
-                                        {"faults", faults}}));
+  JsonValue json =
+      ObjectTree("schema_version", kSchemaVersion, "scenario", run.scenario, "seed", run.seed,
+                 "fingerprint", run.fingerprint, "settings", Settings(run), "localization",
+                 run.localization, "ablations", core::ListOf(run.ablations), "trials",
+                 ObjectTree("planned", run.planned, "stored", run.stored, "completed", completed,
+                            "faults", faults));
   json.Update(AccountingJson(run));
   return json;
 }
 
 void AddTail(const RunDescription& run, JsonValue& json) {
-  json.Set("trial_hash", JsonValue(run.trial_hash));
-  json.Set("provenance", RunProvenance(run));
+  SetMembers(json, "trial_hash", run.trial_hash, "provenance", RunProvenance(run));
 }
 
 }  // namespace
 
 JsonValue ProvenanceJson(const core::Provenance& p) {
-  return JsonValue::Object({{"version", p.version},
-                            {"commit", p.commit},
-                            {"compiler", p.compiler},
-                            {"flags", p.flags},
-                            {"build_type", p.build_type},
-                            {"host", p.host},
-                            {"cpu_model", p.cpu_model},
-                            {"cpu_level", p.cpu_level},
-                            {"cpu_threads", p.cpu_threads}});
+  return ObjectTree("version", p.version, "commit", p.commit, "compiler", p.compiler, "flags",
+                    p.flags, "build_type", p.build_type, "host", p.host, "cpu_model", p.cpu_model,
+                    "cpu_level", p.cpu_level, "cpu_threads", p.cpu_threads);
 }
 
 JsonValue MeasurementValue(const RunDescription& run,
@@ -184,31 +164,25 @@ JsonValue MeasurementValue(const RunDescription& run,
   for (std::size_t i = 0; i < summary.rates.size(); ++i) {
     widest.Set(summary.rates[i].name, NumberOrNull(summary.WidestInterval(i)));
   }
-  json.Set("widest_ci95", std::move(widest));
-  json.Set(
-      "simultaneous",
-      JsonValue(
-          "ci95_all_cells: at level 1 - 0.05 / planned_cells, all cells at once; of independent "
-          "trials Clopper-Pearson"));
-  json.Set("planned_cells", JsonValue(summary.planned_cells));
-  json.Set("cells", core::ListOf(summary.cells, [&](const statistics::Cell& cell) {
-             return CellJson(summary, cell);
-           }));
+  SetMembers(json, "widest_ci95", std::move(widest), "simultaneous",
+             "ci95_all_cells: at level 1 - 0.05 / planned_cells, all cells at once; of independent "
+             "trials Clopper-Pearson",
+             "planned_cells", summary.planned_cells, "cells",
+             core::ListOf(summary.cells,
+                          [&](const statistics::Cell& cell) { return CellJson(summary, cell); }));
   AddTail(run, json);
   return json;
 }
 
 JsonValue SummaryValue(const RunDescription& run, const DriveSummary& summary) {
   JsonValue json = Head(run, summary.completed, summary.faults);
-  json.Set("declared_success", RateJson(summary.declared_success));
-  json.Set("true_success", RateJson(summary.true_success));
-  json.Set("outcomes", Outcomes(summary));
-  json.Set("causes", Causes(summary));
-  json.Set("ended_by_limit", RateJson(summary.ended_by_limit));
-  json.Set("declared_success_without_limits", EndsOf(summary.SuccessWithoutLimits()));
+  SetMembers(json, "declared_success", RateJson(summary.declared_success), "true_success",
+             RateJson(summary.true_success), "outcomes", Outcomes(summary), "causes",
+             Causes(summary), "ended_by_limit", RateJson(summary.ended_by_limit),
+             "declared_success_without_limits", summary.SuccessWithoutLimits());
   AddColumns(summary, json);
-  json.Set("metrics", MetricsJson(summary.metrics));
-  json.Set("metrics_by_outcome", MetricsByOutcome(summary));
+  SetMembers(json, "metrics", MetricsJson(summary.metrics), "metrics_by_outcome",
+             MetricsByOutcome(summary));
   AddTail(run, json);
   return json;
 }
@@ -223,12 +197,10 @@ std::string SummaryJson(const RunDescription& run, const DriveSummary& summary) 
 }
 
 std::string ResolvedScenarioJson(const RunDescription& run) {
-  JsonValue json = JsonValue::Object();
-  json.Set("scenario", core::ParseJson(run.resolved, "resolved scenario"));
-  json.Set("fingerprint", JsonValue(run.fingerprint));
-  json.Set("settings", Settings(run));
-  json.Set("provenance", RunProvenance(run));
-  return core::SpreadJson(json) + "\n";
+  return core::SpreadJson(ObjectTree("scenario", core::ParseJson(run.resolved, "resolved scenario"),
+                                     "fingerprint", run.fingerprint, "settings", Settings(run),
+                                     "provenance", RunProvenance(run))) +
+         "\n";
 }
 
 }  // namespace rockyard::report

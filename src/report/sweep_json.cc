@@ -4,6 +4,7 @@
 #include "core/json_text.h"
 #include "report/accounting.h"
 #include "report/atomic_file.h"
+#include "report/json_members.h"
 #include "report/mean_words.h"
 #include "report/sweep_files.h"
 
@@ -11,22 +12,16 @@ namespace rockyard::report {
 namespace {
 
 using core::JsonValue;
-using core::NumberOrNull;
 using scenario::Sweep;
 
 JsonValue Trials(const SweepCellSummary& cell) {
-  return JsonValue::Object({{"planned", cell.planned},
-                            {"stored", cell.stored},
-                            {"completed", cell.completed},
-                            {"faults", cell.faults}});
+  return ObjectTree("planned", cell.planned, "stored", cell.stored, "completed", cell.completed,
+                    "faults", cell.faults);
 }
 
 JsonValue Rate(const SweepRate& rate) {
-  return JsonValue::Object({{"count", rate.rate.count},
-                            {"trials", rate.rate.trials},
-                            {"rate", NumberOrNull(rate.rate.rate)},
-                            {"ci95", EndsOf(rate.rate.interval)},
-                            {"ci95_all_cells", EndsOf(rate.simultaneous)}});
+  return ObjectTree("count", rate.rate.count, "trials", rate.rate.trials, "rate", rate.rate.rate,
+                    "ci95", rate.rate.interval, "ci95_all_cells", rate.simultaneous);
 }
 
 JsonValue Levels(const Sweep& sweep, const scenario::SweepCell& cell) {
@@ -34,7 +29,7 @@ JsonValue Levels(const Sweep& sweep, const scenario::SweepCell& cell) {
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
     const scenario::SweepLevel& level = cell.levels[i];
     levels.Set(sweep.axes[i].name,
-               level.number ? NumberOrNull(*level.number) : JsonValue(level.text));
+               level.number ? core::NumberOrNull(*level.number) : JsonValue(level.text));
   }
   return levels;
 }
@@ -56,59 +51,43 @@ JsonValue Metrics(const SweepCellSummary& cell) {
 }
 
 JsonValue Cell(const Sweep& sweep, std::size_t index, const SweepCellSummary& cell) {
-  JsonValue json = JsonValue::Object({{"cell", index},
-                                      {"name", sweep.cells[index].name},
-                                      {"levels", Levels(sweep, sweep.cells[index])},
-                                      {"seed", sweep.cells[index].scenario.seed},
-                                      {"trials", Trials(cell)},
-                                      {"declared_success", Rate(cell.declared_success)},
-                                      {"true_success", Rate(cell.true_success)},
-                                      {"outcomes", Outcomes(cell)}});
-  json.Set("ended_by_limit", RateJson(cell.ended_by_limit));
-  json.Set("declared_success_without_limits", EndsOf(cell.success_without_limits));
-  json.Set("metrics", Metrics(cell));
-  json.Set("trial_hash", JsonValue(cell.trial_hash));
+  const scenario::SweepCell& planned = sweep.cells[index];
+  JsonValue json =
+      ObjectTree("cell", index, "name", planned.name, "levels", Levels(sweep, planned), "seed",
+                 planned.scenario.seed, "trials", Trials(cell), "declared_success",
+                 Rate(cell.declared_success), "true_success", Rate(cell.true_success), "outcomes",
+                 Outcomes(cell), "ended_by_limit", RateJson(cell.ended_by_limit),
+                 "declared_success_without_limits", cell.success_without_limits, "metrics",
+                 Metrics(cell), "trial_hash", cell.trial_hash);
   json.Update(AccountingJson(cell.accounting, cell.stopping));
   return json;
 }
 
 JsonValue Crossing(const statistics::FitCrossing& crossing) {
-  return JsonValue::Object({{"rate", NumberOrNull(crossing.rate)},
-                            {"x", NumberOrNull(crossing.x)},
-                            {"ci95", EndsOf(crossing.interval)},
-                            {"outside_of_data", crossing.extrapolated}});
+  return ObjectTree("rate", crossing.rate, "x", crossing.x, "ci95", crossing.interval,
+                    "outside_of_data", crossing.extrapolated);
 }
 
 JsonValue Fit(const SweepCurve& curve, std::size_t kind) {
   const statistics::LogisticFit& fit = curve.fits[kind];
-  return JsonValue::Object({{"curve", curve.label},
-                            {"success", kSuccessNames[kind]},
-                            {"fitted", fit.status == statistics::FitStatus::kFitted},
-                            {"logarithmic", fit.scale == statistics::FitScale::kLog},
-                            {"intercept", NumberOrNull(fit.intercept)},
-                            {"slope", NumberOrNull(fit.slope)},
-                            {"deviance", NumberOrNull(fit.deviance)},
-                            {"degrees_of_freedom", fit.degrees_of_freedom},
-                            {"p_value", NumberOrNull(fit.p_value)},
-                            {"clusters", fit.clusters},
-                            {"crossings", core::ListOf(curve.crossings[kind], Crossing)}});
+  return ObjectTree("curve", curve.label, "success", kSuccessNames[kind], "fitted",
+                    fit.status == statistics::FitStatus::kFitted, "logarithmic",
+                    fit.scale == statistics::FitScale::kLog, "intercept", fit.intercept, "slope",
+                    fit.slope, "deviance", fit.deviance, "degrees_of_freedom",
+                    fit.degrees_of_freedom, "p_value", fit.p_value, "clusters", fit.clusters,
+                    "crossings", core::ListOf(curve.crossings[kind], Crossing));
 }
 
 JsonValue Difference(const SweepDifference& each) {
-  return JsonValue::Object({{"axis", each.axis},
-                            {"first", each.first},
-                            {"second", each.second},
-                            {"at", each.at},
-                            {"success", each.success.what},
-                            {"paired", each.paired},
-                            {"difference", NumberOrNull(each.success.difference)},
-                            {"ci95", EndsOf(each.success.interval)},
-                            {"p_value", NumberOrNull(each.success.p_value)},
-                            {"holm_p_value", NumberOrNull(each.adjusted_p)}});
+  const SuccessComparison& success = each.success;
+  return ObjectTree("axis", each.axis, "first", each.first, "second", each.second, "at", each.at,
+                    "success", success.what, "paired", each.paired, "difference",
+                    success.difference, "ci95", success.interval, "p_value", success.p_value,
+                    "holm_p_value", each.adjusted_p);
 }
 
 JsonValue Axis(const scenario::SweepAxis& axis) {
-  return JsonValue::Object({{"name", axis.name}, {"unit", axis.unit}, {"numeric", axis.numeric}});
+  return ObjectTree("name", axis.name, "unit", axis.unit, "numeric", axis.numeric);
 }
 
 JsonValue Totals(const SweepSummary& summary) {
@@ -141,32 +120,25 @@ JsonValue Fits(const std::vector<SweepCurve>& curves) {
 }
 
 JsonValue Provenance(const SweepDescription& description) {
-  return JsonValue::Object({{"version", description.provenance.version},
-                            {"commit", description.provenance.commit},
-                            {"host", description.provenance.host},
-                            {"threads", description.threads},
-                            {"builds", core::ListOf(description.builds)}});
+  const core::Provenance& provenance = description.provenance;
+  return ObjectTree("version", provenance.version, "commit", provenance.commit, "host",
+                    provenance.host, "threads", description.threads, "builds",
+                    core::ListOf(description.builds));
 }
 
 }  // namespace
 
 JsonValue SweepValue(const Sweep& sweep, const SweepSummary& summary,
                      const SweepDescription& description) {
-  JsonValue json = JsonValue::Object({{"schema_version", kSchemaVersion},
-                                      {"kind", "sweep"},
-                                      {"name", sweep.name},
-                                      {"seed", sweep.seed},
-                                      {"common_random_numbers", sweep.common_random_numbers},
-                                      {"axes", core::ListOf(sweep.axes, Axis)},
-                                      {"trials", Totals(summary)}});
+  JsonValue json =
+      ObjectTree("schema_version", kSchemaVersion, "kind", "sweep", "name", sweep.name, "seed",
+                 sweep.seed, "common_random_numbers", sweep.common_random_numbers, "axes",
+                 core::ListOf(sweep.axes, Axis), "trials", Totals(summary));
   json.Update(AccountingJson(TotalAccounting(summary), std::nullopt));
-  json.Set("cells", Cells(sweep, summary));
-  json.Set("fits", Fits(summary.curves));
-  json.Set("differences", core::ListOf(summary.differences, Difference));
-  json.Set("attribution", AttributionJson(summary.attributions));
-  json.Set("notes", core::ListOf(summary.notes));
-  json.Set("trial_hash", JsonValue(description.trial_hash));
-  json.Set("provenance", Provenance(description));
+  SetMembers(json, "cells", Cells(sweep, summary), "fits", Fits(summary.curves), "differences",
+             core::ListOf(summary.differences, Difference), "attribution",
+             AttributionJson(summary.attributions), "notes", core::ListOf(summary.notes),
+             "trial_hash", description.trial_hash, "provenance", Provenance(description));
   return json;
 }
 

@@ -24,22 +24,14 @@ constexpr const char* kHeader =
 // `sample` gives what is neither time nor true pose; null leaves it empty.
 std::string Line(const char* row, double time_s, const std::string& kind, const math::Pose2& pose,
                  const truth::TraceSample* sample, const std::string& detail) {
-  std::vector<std::string> fields = {row,
-                                     CsvNumber(time_s),
-                                     CsvField(kind),
-                                     CsvNumber(pose.x_m),
-                                     CsvNumber(pose.y_m),
-                                     CsvNumber(pose.heading_rad)};
+  CsvRow fields(row, time_s, kind, pose.x_m, pose.y_m, pose.heading_rad);
   if (sample == nullptr) {
-    fields.resize(fields.size() + 5);
+    fields.AddEmpty(5);
   } else {
     const messages::PoseEstimate& e = sample->estimate;
-    for (const double value : {sample->tilt_rad, e.x_m, e.y_m, e.heading_rad, e.distance_m}) {
-      fields.push_back(CsvNumber(value));
-    }
+    fields.Add(sample->tilt_rad, e.x_m, e.y_m, e.heading_rad, e.distance_m);
   }
-  fields.push_back(CsvField(detail));
-  return CsvLine(fields);
+  return fields.Add(detail).Line();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "campaign/odometry/pose_text.h"
 #include "core/archive.h"
 #include "core/json_text.h"
+#include "core/numbers.h"
 #include "core/provenance.h"
 #include "math/angles.h"
 #include "report/csv.h"
@@ -17,27 +18,19 @@ namespace {
 
 using core::JsonValue;
 
-using Fields = std::vector<std::string>;
-
 constexpr const char* kErrorNames[] = {"tx", "ty", "tz", "rx", "ry", "rz"};
 
-void AddNumbers(Fields& fields, const math::Vector3& numbers) {
-  for (const double number : numbers) fields.push_back(report::CsvNumber(number));
-}
-
-void AddCovarianceNames(Fields& fields, const char* of) {
+void AddCovarianceNames(report::CsvRow& row, const char* of) {
   for (int i = 0; i < 6; ++i) {
     for (int j = i; j < 6; ++j) {
-      fields.push_back(fmt::format("{}_{}_{}", of, kErrorNames[i], kErrorNames[j]));
+      row.Add(fmt::format("{}_{}_{}", of, kErrorNames[i], kErrorNames[j]));
     }
   }
 }
 
-void AddCovariance(Fields& fields, const vision::MotionCovariance* covariance) {
+void AddCovariance(report::CsvRow& row, const vision::MotionCovariance* covariance) {
   for (int i = 0; i < 6; ++i) {
-    for (int j = i; j < 6; ++j) {
-      fields.push_back(covariance == nullptr ? "" : report::CsvNumber((*covariance)(i, j)));
-    }
+    for (int j = i; j < 6; ++j) row.Add(covariance == nullptr ? core::kNaN : (*covariance)(i, j));
   }
 }
 
@@ -117,35 +110,18 @@ JsonValue SequenceJson(const OdometryRequest& request, const OdometryResult& res
 // A line a pair: its number, time, reference, keyframe, whether there was a motion and why not, the
 // pose (m, unit quaternion), counts, iterations, rms of what is left over.
 std::string TrajectoryCsv(const OdometryResult& result) {
-  std::string csv = report::CsvLine(Fields{"pair",       "time_s",
-                                           "reference",  "keyframe",
-                                           "motion",     "reason",
-                                           "x_m",        "y_m",
-                                           "z_m",        "qw",
-                                           "qx",         "qy",
-                                           "qz",         "features_reference",
-                                           "features",   "matches",
-                                           "points",     "consistent",
-                                           "iterations", "rms_px"});
+  std::string csv =
+      "pair,time_s,reference,keyframe,motion,reason,x_m,y_m,z_m,qw,qx,qy,qz,features_reference,"
+      "features,matches,points,consistent,iterations,rms_px\n";
   for (const PathStep& step : result.steps) {
     const vision::MotionCounts& counts = step.result.counts;
-    Fields fields{std::to_string(step.pair),
-                  report::CsvNumber(step.time_s),
-                  std::to_string(step.reference),
-                  step.keyframe ? "1" : "0",
-                  step.result.motion ? "1" : "0",
-                  step.result.reason ? std::string(NameOf(*step.result.reason)) : ""};
-    AddNumbers(fields, step.X_AB.translation());
     const Eigen::Quaterniond q(step.X_AB.linear());
-    for (const double number : {q.w(), q.x(), q.y(), q.z()}) {
-      fields.push_back(report::CsvNumber(number));
-    }
-    for (const std::int64_t count : {counts.features_first, counts.features_second, counts.matches,
-                                     counts.points, counts.consistent, counts.iterations}) {
-      fields.push_back(std::to_string(count));
-    }
-    fields.push_back(report::CsvNumber(step.result.rms_px));
-    csv += report::CsvLine(fields);
+    csv += report::CsvLine(step.pair, step.time_s, step.reference, step.keyframe,
+                           step.result.motion.has_value(),
+                           step.result.reason ? NameOf(*step.result.reason) : "",
+                           math::Vector3(step.X_AB.translation()), q.w(), q.x(), q.y(), q.z(),
+                           counts.features_first, counts.features_second, counts.matches,
+                           counts.points, counts.consistent, counts.iterations, step.result.rms_px);
   }
   return csv;
 }
@@ -153,29 +129,28 @@ std::string TrajectoryCsv(const OdometryResult& result) {
 // A line a pair: the upper triangles, row by row, of the covariance of the motion from its
 // reference and of that of the pose (vision::MotionCovariance); empty where there is none.
 std::string CovarianceCsv(const OdometryResult& result) {
-  Fields names{"pair", "reference"};
-  AddCovarianceNames(names, "motion");
-  AddCovarianceNames(names, "pose");
-  std::string csv = report::CsvLine(names);
+  report::CsvRow head("pair", "reference");
+  AddCovarianceNames(head, "motion");
+  AddCovarianceNames(head, "pose");
+  std::string csv = head.Line();
   for (const PathStep& step : result.steps) {
-    Fields fields{std::to_string(step.pair), std::to_string(step.reference)};
-    AddCovariance(fields, step.result.motion ? &step.result.motion->covariance : nullptr);
-    AddCovariance(fields, step.covariance ? &*step.covariance : nullptr);
-    csv += report::CsvLine(fields);
+    report::CsvRow row(step.pair, step.reference);
+    AddCovariance(row, step.result.motion ? &step.result.motion->covariance : nullptr);
+    AddCovariance(row, step.covariance ? &*step.covariance : nullptr);
+    csv += row.Line();
   }
   return csv;
 }
 
 // A line a pair: milliseconds of each stage.
 std::string TimesCsv(const OdometryResult& result) {
-  Fields names{"pair"};
-  for (const std::string_view stage : kPairStageNames) names.push_back(fmt::format("{}_ms", stage));
-  std::string csv = report::CsvLine(names);
+  report::CsvRow head("pair");
+  for (const std::string_view stage : kPairStageNames) head.Add(fmt::format("{}_ms", stage));
+  std::string csv = head.Line();
   for (const PathStep& step : result.steps) {
-    Fields fields{std::to_string(step.pair)};
-    for (const double seconds : step.seconds)
-      fields.push_back(fmt::format("{:.3f}", 1e3 * seconds));
-    csv += report::CsvLine(fields);
+    report::CsvRow row(step.pair);
+    for (const double seconds : step.seconds) row.Add(fmt::format("{:.3f}", 1e3 * seconds));
+    csv += row.Line();
   }
   return csv;
 }
@@ -183,19 +158,14 @@ std::string TimesCsv(const OdometryResult& result) {
 // A line a pair with a true pose: true and estimated position, first poses made equal, and their
 // distance, m.
 std::string ErrorsCsv(const OdometryResult& result) {
-  std::string csv = report::CsvLine(
-      Fields{"pair", "true_x_m", "true_y_m", "true_z_m", "x_m", "y_m", "z_m", "error_m"});
+  std::string csv = "pair,true_x_m,true_y_m,true_z_m,x_m,y_m,z_m,error_m\n";
   if (result.truth.empty()) return csv;
   const math::Transform X_TA = ToTruth(result);
   for (std::size_t i = 0; i < result.truth.size(); ++i) {
     const PathStep& step = result.steps[result.steps_with_truth[i]];
     const math::Vector3 truth = result.truth[i].translation();
     const math::Vector3 estimate = (X_TA * step.X_AB).translation();
-    Fields fields{std::to_string(step.pair)};
-    AddNumbers(fields, truth);
-    AddNumbers(fields, estimate);
-    fields.push_back(report::CsvNumber((truth - estimate).norm()));
-    csv += report::CsvLine(fields);
+    csv += report::CsvLine(step.pair, truth, estimate, (truth - estimate).norm());
   }
   return csv;
 }
