@@ -21,7 +21,7 @@ function(append_page NAME FILE)
   file(APPEND ${OUT} ";\n\n")
 endfunction()
 
-file(WRITE ${OUT} "// Written by scripts/cmake/embed_pages.cmake.\n#include \"web/embedded_pages.h\"\n\n"
+file(WRITE ${OUT} "// Written by scripts/cmake/embed_pages.cmake.\n#include \"web/page.h\"\n\n"
                   "namespace rockyard::web {\n\n")
 append_page(kReportPage ${PAGES}/report.html)
 append_page(kReplayPage ${PAGES}/replay.html)

@@ -11,7 +11,7 @@
 #include "app/console.h"
 #include "app/run_folders.h"
 #include "campaign/make_baseline.h"
-#include "campaign/output_file.h"
+#include "campaign/output_folder.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/baseline.h"

@@ -11,7 +11,7 @@
 #include "app/run_display.h"
 #include "app/run_folders.h"
 #include "campaign/check.h"
-#include "campaign/output_file.h"
+#include "campaign/output_folder.h"
 #include "report/comparison_table.h"
 #include "report/regression_report.h"
 

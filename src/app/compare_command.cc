@@ -15,7 +15,7 @@
 #include "app/output_files.h"
 #include "app/run_folders.h"
 #include "campaign/compare.h"
-#include "campaign/output_file.h"
+#include "campaign/output_folder.h"
 #include "campaign/run_views.h"
 #include "report/cell_comparison_text.h"
 #include "report/line_text.h"

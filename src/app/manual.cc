@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "app/completion_offers.h"
+#include "app/completion.h"
 #include "app/examples.h"
 
 namespace rockyard::app {

@@ -1,8 +1,10 @@
-// What no command may be given, and what the parser says of a value that an option may not have.
+// What no command may be given, what the parser says of a value that an option may not have, and
+// the options that name a trial.
 #pragma once
 
 #include <optional>
 
+#include "campaign/trial_source.h"
 #include "core/error.h"
 
 namespace CLI {
@@ -19,8 +21,7 @@ namespace rockyard::app {
 void CheckEveryValue(CLI::App& app);
 
 // Lets every subcommand refuse, before it does anything, an output file that is one of the files
-// that it is given to read, by whatever name. More is refused by campaign/output_file.h, and of
-// folders by campaign/output_folder.h.
+// that it is given to read, by whatever name. More is refused by campaign/output_folder.h.
 void KeepEveryInput(CLI::App& app);
 
 // What tells of a command: "rockyard plan claim --help".
@@ -29,5 +30,19 @@ std::string HelpOf(const CLI::App& command);
 // The option, what is wrong with its value, and what would be right: the words that it takes where
 // it takes one of a few, with the nearest of them first. Nothing for other errors of the parser.
 std::optional<core::Problem> RefusedValue(const CLI::App& command, const CLI::ParseError& error);
+
+// What `rockyard trace` and `rockyard replay` share: which trial, and whether it repeats its
+// record.
+
+// Adds SCENARIO_OR_RUN, --trial, --cell, --seed and --set to a command. `request` must outlive it.
+void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request);
+
+// Makes of the name of a scenario its file. Throws core::UserError where it is neither that nor one
+// run.
+void FindSource(campaign::TrialRequest& request);
+
+// Says that a trial repeats its stored record, where it does, and of one of a run (`source` is its
+// folder) that has none yet that it is compared with nothing.
+void PrintRepetition(std::optional<bool> repeats_stored, const std::string& source);
 
 }  // namespace rockyard::app

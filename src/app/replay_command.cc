@@ -10,11 +10,11 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/option_checks.h"
 #include "app/progress_line.h"
 #include "app/replay_views.h"
 #include "app/run_display.h"
 #include "app/run_folders.h"
-#include "app/trial_options.h"
 #include "campaign/replay.h"
 #include "report/line_text.h"
 

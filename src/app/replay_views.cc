@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "app/console.h"
+#include "app/option_checks.h"
 #include "app/progress_line.h"
 #include "app/run_display.h"
-#include "app/trial_options.h"
 #include "campaign/replay_moments.h"
 #include "math/angles.h"
 #include "report/line_text.h"

@@ -15,7 +15,7 @@
 #include "app/output_files.h"
 #include "app/scenario_list.h"
 #include "app/scenario_names.h"
-#include "campaign/output_file.h"
+#include "campaign/output_folder.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
 #include "core/json_file.h"

@@ -19,7 +19,7 @@
 #include "app/output_files.h"
 #include "app/progress_line.h"
 #include "app/scenario_names.h"
-#include "campaign/output_file.h"
+#include "campaign/output_folder.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
 #include "core/fields.h"

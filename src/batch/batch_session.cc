@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "batch/leaving_out.h"
 #include "batch/store_error.h"
-#include "batch/stored_ends.h"
 #include "core/check.h"
 
 namespace rockyard::batch {

@@ -1,10 +1,13 @@
 // A campaign without some of its trials.
 #pragma once
 
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "batch/result_store.h"
+#include "batch/work_plan.h"
 #include "batch/work_source.h"
 
 namespace rockyard::batch {
@@ -25,5 +28,15 @@ class LeavingOutSource final : public WorkSource {
   std::mutex mutex_;
   int running_ = 0;
 };
+
+// Where the cells of a store ended, decided again from what is stored.
+
+// The plan of a store under a rule, with its finished trials; before the first Next.
+WorkPlan StoredPlan(const ResultStore& store, const std::optional<StoppingRule>& rule,
+                    Order order = Order::kNatural);
+
+// One state per cell, as the rule of the store decides; a store without a rule has only open or
+// planned cells. Cost: reads cell, trial and outcome of every row.
+std::vector<CellState> StoredEnds(const ResultStore& store);
 
 }  // namespace rockyard::batch

@@ -7,7 +7,7 @@
 #include <optional>
 #include <system_error>
 
-#include "campaign/baseline_scenario.h"
+#include "campaign/make_baseline.h"
 #include "campaign/run_views.h"
 #include "core/error.h"
 #include "report/comparison_reference.h"

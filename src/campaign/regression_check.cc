@@ -12,7 +12,7 @@
 #include "batch/run_folder.h"
 #include "batch/scenario_difference.h"
 #include "batch/trial_hash.h"
-#include "campaign/baseline_scenario.h"
+#include "campaign/make_baseline.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
 #include "report/baseline.h"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "campaign/open_run.h"
-#include "campaign/output_file.h"
+#include "campaign/output_folder.h"
 #include "campaign/replay_page.h"
 #include "core/error.h"
 #include "report/atomic_file.h"

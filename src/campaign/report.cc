@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "campaign/campaign_process.h"
-#include "campaign/output_file.h"
+#include "campaign/output_folder.h"
 #include "campaign/report_build.h"
 #include "campaign/report_inputs.h"
 #include "core/error.h"

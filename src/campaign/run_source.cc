@@ -8,9 +8,9 @@
 #include <system_error>
 #include <utility>
 
+#include "batch/leaving_out.h"
 #include "batch/run_folder.h"
 #include "batch/store_error.h"
-#include "batch/stored_ends.h"
 #include "batch/trial_hash.h"
 #include "core/check.h"
 #include "core/fields.h"

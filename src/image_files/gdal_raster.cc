@@ -13,7 +13,7 @@
 #include <memory>
 #include <optional>
 
-#include "image_files/image_errors.h"
+#include "image_files/raw_image.h"
 #endif
 
 namespace rockyard::image_files {

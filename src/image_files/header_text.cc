@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "image_files/image_errors.h"
+#include "image_files/raw_image.h"
 
 namespace rockyard::image_files {
 namespace {

@@ -9,7 +9,7 @@
 // After <jpeglib.h>.
 #include <jerror.h>
 
-#include "image_files/image_errors.h"
+#include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 
 namespace rockyard::image_files {

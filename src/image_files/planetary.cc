@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "image_files/image_errors.h"
+#include "image_files/raw_image.h"
 
 namespace rockyard::image_files {
 namespace {

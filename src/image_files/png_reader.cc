@@ -9,8 +9,8 @@
 #include <new>
 #include <vector>
 
-#include "image_files/image_errors.h"
 #include "image_files/png_file.h"
+#include "image_files/raw_image.h"
 
 namespace rockyard::image_files {
 namespace {

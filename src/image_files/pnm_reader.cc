@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "image_files/header_text.h"
-#include "image_files/image_errors.h"
+#include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 
 namespace rockyard::image_files {

@@ -6,11 +6,11 @@
 
 #include "core/error.h"
 #include "core/whole_file.h"
+#include "image_files/float_files.h"
 #include "image_files/gdal_raster.h"
-#include "image_files/image_errors.h"
-#include "image_files/pfm_file.h"
 #include "image_files/planetary.h"
 #include "image_files/png_file.h"
+#include "image_files/raw_image.h"
 
 namespace rockyard::image_files {
 namespace {

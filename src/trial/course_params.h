@@ -9,7 +9,7 @@
 #include "core/fields.h"
 #include "math/pose.h"
 #include "messages/estimates.h"
-#include "sensing/feature_tracker_params.h"
+#include "sensing/tracker_params.h"
 #include "trial/designation_params.h"
 
 namespace rockyard::trial {

@@ -10,7 +10,6 @@
 #include "trial/compute_profile.h"
 #include "trial/drive_checks_params.h"
 #include "trial/hazard_watch.h"
-#include "trial/look_time.h"
 #include "trial/stereo_eyes.h"
 #include "trial/terrain_sensor_kinds.h"
 #include "trial/terrain_sensor_model.h"

@@ -8,8 +8,8 @@
 #include "messages/estimates.h"
 #include "messages/point_cloud.h"
 #include "perception/hazard_detector.h"
+#include "trial/compute_profile.h"
 #include "trial/drive_params.h"
-#include "trial/look_time.h"
 #include "trial/terrain_sensor_model.h"
 #include "trial/terrain_sensor_set_params.h"
 

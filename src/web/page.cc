@@ -1,13 +1,16 @@
 #include "web/page.h"
 
+#define ZLIB_CONST  // its input is const
+#include <zlib.h>
+
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "report/xml_text.h"
-#include "web/base64.h"
-#include "web/embedded_pages.h"
-#include "web/gzip.h"
 
 namespace rockyard::web {
 namespace {
@@ -26,6 +29,90 @@ std::string MakePage(Page page, std::string_view title, std::string_view payload
   Fill(html, "<!-- title -->", report::EscapeXml(title));
   Fill(html, "<!-- payload -->", Base64(Gzip(payload_json)));
   return html;
+}
+
+namespace {
+
+constexpr std::string_view kAlphabet =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+// Up to three bytes as the upper bits of a group of 24; bytes beyond the end are zero.
+std::uint32_t Group(std::string_view bytes, std::size_t first) {
+  std::uint32_t group = 0;
+  for (std::size_t i = first; i < first + 3; ++i) {
+    const auto byte = i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U;
+    group = (group << 8U) | byte;
+  }
+  return group;
+}
+
+}  // namespace
+
+std::string Base64(std::string_view bytes) {
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t first = 0; first < bytes.size(); first += 3) {
+    const std::uint32_t group = Group(bytes, first);
+    // n bytes fill n + 1 digits.
+    const std::size_t digits = bytes.size() - first >= 3 ? 4 : bytes.size() - first + 1;
+    for (std::size_t digit = 0; digit < 4; ++digit) {
+      const std::uint32_t six_bits = (group >> (18U - 6U * digit)) & 63U;
+      text += digit < digits ? kAlphabet[six_bits] : '=';
+    }
+  }
+  return text;
+}
+
+namespace {
+
+constexpr std::size_t kBuffer = 1U << 16U;
+constexpr int kGzipWindow = 15 + 16;  // the largest window; 16 asks for gzip rather than zlib
+constexpr int kMemory = 9;
+
+// A deflate stream that ends with the scope.
+class Deflater {
+ public:
+  Deflater() {
+    if (deflateInit2(&stream_, Z_BEST_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemory,
+                     Z_DEFAULT_STRATEGY) != Z_OK) {
+      throw std::runtime_error("zlib cannot start: no memory");
+    }
+  }
+  ~Deflater() { deflateEnd(&stream_); }
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+
+  // Compresses `bytes` and appends what comes out; with `last` everything.
+  void Add(std::string_view bytes, bool last, std::string& out) {
+    stream_.next_in = reinterpret_cast<const Bytef*>(bytes.data());
+    stream_.avail_in = static_cast<uInt>(bytes.size());
+    std::string buffer(kBuffer, '\0');
+    do {
+      stream_.next_out = reinterpret_cast<Bytef*>(buffer.data());
+      stream_.avail_out = static_cast<uInt>(buffer.size());
+      if (deflate(&stream_, last ? Z_FINISH : Z_NO_FLUSH) == Z_STREAM_ERROR) {
+        throw std::runtime_error("zlib lost its state");
+      }
+      out.append(buffer, 0, buffer.size() - stream_.avail_out);
+    } while (stream_.avail_out == 0);
+  }
+
+ private:
+  z_stream stream_{};
+};
+
+}  // namespace
+
+std::string Gzip(std::string_view bytes) {
+  constexpr std::size_t kMax = std::numeric_limits<uInt>::max();  // that zlib takes at once
+  Deflater deflater;
+  std::string out;
+  do {
+    const std::string_view part = bytes.substr(0, std::min(bytes.size(), kMax));
+    bytes.remove_prefix(part.size());
+    deflater.Add(part, bytes.empty(), out);
+  } while (!bytes.empty());
+  return out;
 }
 
 }  // namespace rockyard::web

@@ -1,11 +1,10 @@
-#include "app/completion_script.h"
-
 #include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
 #include <map>
 #include <string>
 
+#include "app/completion.h"
 #include "core/says.h"
 
 namespace rockyard::app {

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "batch/leaving_out.h"
 #include "batch/merge_shards.h"
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
@@ -14,7 +15,6 @@
 #include "batch/sqlite_database.h"
 #include "batch/store_error.h"
 #include "batch/store_tables.h"
-#include "batch/stored_ends.h"
 #include "core/hash.h"
 #include "core/says.h"
 #include "core/test_folder.h"

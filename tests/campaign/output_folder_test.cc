@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "campaign/output_file.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/machine_error.h"

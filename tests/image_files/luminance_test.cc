@@ -1,10 +1,10 @@
 // Grey of samples, against arithmetic in reals and against the Y of JPEG's encoder.
-#include "image_files/luminance.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <cstdlib>
+
+#include "image_files/raw_image.h"
 
 namespace rockyard::image_files {
 namespace {

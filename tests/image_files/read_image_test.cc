@@ -7,9 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "image_files/disparity_file.h"
+#include "image_files/float_files.h"
 #include "image_files/jpeg_bytes.h"
-#include "image_files/pfm_file.h"
 #include "image_files/png_bytes.h"
 #include "image_files/png_file.h"
 #include "image_files/refusals.h"

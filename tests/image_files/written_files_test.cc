@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "core/numbers.h"
-#include "image_files/pfm_file.h"
-#include "image_files/ply_file.h"
+#include "image_files/float_files.h"
 #include "image_files/png_file.h"
 #include "image_files/refusals.h"
 

@@ -10,7 +10,7 @@
 #include "core/distributions.h"
 #include "localization/aid_fixes.h"
 #include "localization/filter_rover.h"
-#include "math/polar.h"
+#include "math/angles.h"
 
 namespace rockyard::localization {
 namespace {

@@ -1,6 +1,4 @@
 // The tracked goal: what is seen, from where, and how well.
-#include "sensing/feature_tracker.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "math/angles.h"
 #include "noise_laws.h"
 #include "perception/tracked_feature.h"
+#include "sensing/tracker.h"
 
 namespace rockyard::sensing {
 namespace {

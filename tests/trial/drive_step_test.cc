@@ -1,10 +1,9 @@
 // A drive that somebody steps from outside.
-#include "trial/drive/drive.h"
-
 #include <gtest/gtest.h>
 
 #include <optional>
 
+#include "trial/drive/drive.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -10,7 +10,6 @@
 
 #include "navigation/gestalt/gestalt_params.h"
 #include "trial/compute_profile.h"
-#include "trial/look_time.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "trial/look_time.h"
+#include "trial/compute_profile.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -1,5 +1,3 @@
-#include "trial/oracle_estimator.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include "core/random.h"
 #include "math/pose.h"
 #include "sensing/oracle.h"
+#include "trial/make_estimator.h"
 
 namespace rockyard::trial {
 namespace {

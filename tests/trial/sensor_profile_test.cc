@@ -7,7 +7,7 @@
 
 #include "core/refusals.h"
 #include "scenario/load.h"
-#include "trial/look_time.h"
+#include "trial/compute_profile.h"
 #include "trial/power_budget.h"
 
 namespace rockyard::trial {

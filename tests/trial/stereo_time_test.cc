@@ -9,7 +9,6 @@
 #include "core/json_file.h"
 #include "trial/compute_profile.h"
 #include "trial/compute_tables.h"
-#include "trial/look_time.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

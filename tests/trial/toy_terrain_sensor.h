@@ -9,8 +9,8 @@
 #include "core/fields.h"
 #include "math/pose.h"
 #include "scenario/load.h"
+#include "trial/compute_profile.h"
 #include "trial/hazard_watch.h"
-#include "trial/look_time.h"
 #include "trial/terrain_sensor_model.h"
 #include "trial/terrain_sensor_set_params.h"
 

@@ -1,8 +1,8 @@
-#include "web/base64.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "web/page.h"
 
 namespace rockyard::web {
 namespace {

@@ -1,11 +1,10 @@
-#include "web/gzip.h"
-
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <string>
 
 #include "web/gunzip.h"
+#include "web/page.h"
 
 namespace rockyard::web {
 namespace {

@@ -9,9 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "web/base64.h"
 #include "web/gunzip.h"
-#include "web/gzip.h"
 
 namespace rockyard::web {
 namespace {

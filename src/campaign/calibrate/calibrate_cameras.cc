@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/numbers.h"
-#include "image_files/luminance.h"
+#include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 #include "vision/calibration/calibration_data.h"
 #include "vision/calibration/find_chessboard.h"

@@ -10,7 +10,7 @@
 #include "campaign/doubts/setting_values.h"
 #include "math/angles.h"
 #include "messages/estimates.h"
-#include "trial/look_time.h"
+#include "trial/compute_profile.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -7,7 +7,7 @@
 #include "campaign/stereo/stereo_products.h"
 #include "image_files/png_file.h"
 #include "vision/stereo/pyramid.h"
-#include "web/base64.h"
+#include "web/page.h"
 
 namespace rockyard::campaign {
 namespace {

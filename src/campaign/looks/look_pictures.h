@@ -11,7 +11,7 @@
 
 #include "campaign/looks/look_capture.h"
 #include "campaign/stereo/stereo_products.h"
-#include "image_files/ply_file.h"
+#include "image_files/float_files.h"
 #include "image_files/raw_image.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"

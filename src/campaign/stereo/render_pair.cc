@@ -7,7 +7,7 @@
 #include "campaign/run_source.h"
 #include "campaign/stereo/stereo_products.h"
 #include "core/json_text.h"
-#include "image_files/pfm_file.h"
+#include "image_files/float_files.h"
 #include "image_files/png_file.h"
 #include "sensing/stereo_imager.h"
 #include "terrain/field.h"

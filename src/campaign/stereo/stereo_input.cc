@@ -12,7 +12,7 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_file.h"
-#include "image_files/luminance.h"
+#include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 #include "vision/cameras/camera_file.h"
 #include "vision/cameras/rectification.h"

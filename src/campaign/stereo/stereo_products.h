@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "image_files/ply_file.h"
+#include "image_files/float_files.h"
 #include "image_files/raw_image.h"
 #include "vision/cameras/rectification.h"
 #include "vision/image.h"

@@ -9,9 +9,9 @@
 
 #include "navigation/stuck_reaction.h"
 #include "terrain/arena.h"
+#include "trial/compute_profile.h"
 #include "trial/drive/tick_guard.h"
 #include "trial/goal_designation.h"
-#include "trial/look_time.h"
 #include "trial/make_estimator.h"
 
 namespace rockyard::trial {

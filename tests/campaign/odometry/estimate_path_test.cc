@@ -15,8 +15,8 @@
 #include "core/distributions.h"
 #include "core/error.h"
 #include "core/test_folder.h"
-#include "image_files/luminance.h"
 #include "image_files/png_file.h"
+#include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 
 namespace rockyard::campaign {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "image_files/luminance.h"
+#include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 #include "math/pose.h"
 #include "vision/cameras/rectification.h"

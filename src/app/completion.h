@@ -48,4 +48,15 @@ std::vector<CommandOffer> Offers(const CLI::App& app);
 // None of any other kind. Cost: 30 ms for the scenarios of the project.
 std::vector<std::string> LookUp(std::string_view asked);
 
+// Completion of the command line by the shell.
+
+enum class Shell { kBash, kZsh, kFish };
+
+// A script that completes the subcommands of the parser, their options, what options take where
+// that is one of a few words, names and settings that the program looks up (LookUp),
+// and files elsewhere. Made from the parser itself, so that it knows
+// every option. Limits: the subcommands of subcommands (rockyard plan) are completed with the
+// options of them all; names of cells are not known to it.
+std::string CompletionScript(const CLI::App& app, Shell shell);
+
 }  // namespace rockyard::app

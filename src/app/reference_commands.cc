@@ -1,4 +1,4 @@
-// rockyard parameters
+// rockyard defaults
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +18,34 @@
 #include "scenario/load.h"
 
 namespace rockyard::app {
+
+void AddDefaultsCommand(CLI::App& app) {
+  app.add_subcommand("defaults", "Prints a scenario with every parameter at its default")
+      ->callback([] { PrintJson(scenario::DefaultsJson()); });
+}
+
+// rockyard schema
+
+void AddSchemaCommand(CLI::App& app) {
+  app.add_subcommand("schema", "Prints the JSON Schema of scenario files")->callback([] {
+    PrintJson(scenario::SchemaJson());
+  });
+}
+
+// rockyard metrics
+
+void AddMetricsCommand(CLI::App& app) {
+  auto markdown = std::make_shared<bool>(false);
+  CLI::App* command =
+      app.add_subcommand("metrics", "Lists what is computed of drives, each with its definition");
+  command->add_flag("--markdown", *markdown, "as the table of src/statistics/README.md");
+  command->callback([markdown] {
+    Print(*markdown ? report::MetricTableMarkdown() : Wrapped(report::MetricTableText()));
+  });
+}
+
+// rockyard parameters
+
 namespace {
 
 struct ParametersOptions {

@@ -1,4 +1,4 @@
-#include "sensing/feature_tracker_params.h"
+#include "sensing/tracker_params.h"
 
 namespace rockyard::sensing {
 

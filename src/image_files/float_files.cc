@@ -1,17 +1,21 @@
-#include "image_files/pfm_file.h"
+#include "image_files/float_files.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 
 #include "core/check.h"
+#include "core/whole_file.h"
 #include "image_files/header_text.h"
-#include "image_files/image_errors.h"
+#include "image_files/raw_image.h"
+#include "image_files/read_image.h"
 
 namespace rockyard::image_files {
 namespace {
@@ -82,6 +86,71 @@ vision::Image<float> DecodePfm(std::string_view bytes, const std::string& name,
     }
   }
   return image;
+}
+
+namespace {
+
+bool CanBeWritten(const ColouredPoint& point) { return point.position.cast<float>().allFinite(); }
+
+}  // namespace
+
+std::string EncodePly(std::span<const ColouredPoint> points, std::string_view comment) {
+  EXPECT(comment.find_first_of("\n\r") == std::string_view::npos);
+  constexpr std::size_t kBytesAPoint = 15;
+  std::string file = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment {}\nelement vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
+      comment, std::count_if(points.begin(), points.end(), CanBeWritten));
+  file.reserve(file.size() + kBytesAPoint * points.size());
+  for (const ColouredPoint& point : points) {
+    if (!CanBeWritten(point)) continue;
+    for (const double coordinate : point.position) {
+      AppendLittleEndian(static_cast<float>(coordinate), file);
+    }
+    for (const std::uint8_t channel : {point.colour.red, point.colour.green, point.colour.blue}) {
+      file += static_cast<char>(channel);
+    }
+  }
+  return file;
+}
+
+namespace {
+
+vision::Image<float> Scaled(const SamplePlane& samples, double samples_a_pixel) {
+  vision::Image<float> disparity(samples.width(), samples.height(),
+                                 std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < samples.values().size(); ++i) {
+    const std::uint16_t sample = samples.values()[i];
+    if (sample != 0) disparity.values()[i] = static_cast<float>(sample / samples_a_pixel);
+  }
+  return disparity;
+}
+
+}  // namespace
+
+vision::Image<float> ReadDisparity(const std::filesystem::path& path, double samples_a_pixel,
+                                   const ImageLimits& limits) {
+  EXPECT(samples_a_pixel > 0.0 && std::isfinite(samples_a_pixel));
+  const std::string name = path.string();
+  const std::string bytes = core::ReadWholeFile(path, kMaxFileBytes, "a file of disparities");
+  if (IsPfm(bytes)) {
+    if (samples_a_pixel != 1.0) {
+      FailUnsupported(name, "is a PFM file, which holds disparities in pixels",
+                      "leave --reference-samples out");
+    }
+    return DecodePfm(bytes, name, limits);
+  }
+  const RawImage image = DecodeImage(bytes, name, limits);
+  if (image.format == "JPEG") {
+    FailUnsupported(name, "is a JPEG file, whose samples are not exact", "name a PFM or PNG file");
+  }
+  for (const SamplePlane& plane : image.planes) {
+    if (plane != image.planes.front()) {
+      FailUnsupported(name, "is in colour, which states no disparity", "name a PFM or PNG file");
+    }
+  }
+  return Scaled(image.planes.front(), samples_a_pixel);
 }
 
 }  // namespace rockyard::image_files
