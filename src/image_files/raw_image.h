@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "image_files/raw_image.h"
 #include "vision/colour_image.h"
 #include "vision/image.h"
 
