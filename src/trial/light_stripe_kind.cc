@@ -70,9 +70,9 @@ void RequireFreeView(const DriveParams& drive, core::FieldVisitor& v) {
             "emitter_height_m 0.25 do on Rocky 3.2, or ahead of it");
 }
 
-class Kind final : public TerrainSensorKind {
+class LightStripe final : public TerrainSensorKind {
  public:
-  Kind() : TerrainSensorKind("light_stripe", "light stripe hazard sensor") {}
+  LightStripe() : TerrainSensorKind("light_stripe", "light stripe hazard sensor") {}
 
   std::unique_ptr<TerrainSensorKind> Clone() const override { return LightStripeKind(); }
   bool has_params() const override { return false; }  // its group is sensors.light_stripe
@@ -111,6 +111,6 @@ class Kind final : public TerrainSensorKind {
 
 }  // namespace
 
-std::unique_ptr<TerrainSensorKind> LightStripeKind() { return std::make_unique<Kind>(); }
+std::unique_ptr<TerrainSensorKind> LightStripeKind() { return std::make_unique<LightStripe>(); }
 
 }  // namespace rockyard::trial

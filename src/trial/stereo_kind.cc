@@ -120,9 +120,9 @@ bool ReadsReports(const DriveParams& drive) {
          navigation::LookReading::kHazardReport;
 }
 
-class Kind final : public TerrainSensorKind {
+class StereoCameras final : public TerrainSensorKind {
  public:
-  Kind() : TerrainSensorKind("stereo", "stereo cameras ahead and behind") {}
+  StereoCameras() : TerrainSensorKind("stereo", "stereo cameras ahead and behind") {}
 
   std::unique_ptr<TerrainSensorKind> Clone() const override { return StereoKind(); }
   bool has_params() const override { return false; }  // its group is sensors.stereo
@@ -163,6 +163,6 @@ class Kind final : public TerrainSensorKind {
 
 }  // namespace
 
-std::unique_ptr<TerrainSensorKind> StereoKind() { return std::make_unique<Kind>(); }
+std::unique_ptr<TerrainSensorKind> StereoKind() { return std::make_unique<StereoCameras>(); }
 
 }  // namespace rockyard::trial
