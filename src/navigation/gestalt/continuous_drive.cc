@@ -2,6 +2,8 @@
 // the rover looks; where the plan that follows is ready, it replaces that motion. Arcs (CSOD), for
 // whose change the rover stands to steer, or clothoid splines (CSAD), which begin with the
 // curvature that it steers.
+#include <cmath>
+
 #include "core/check.h"
 #include "math/pose.h"
 #include "navigation/gestalt/choice.h"
@@ -85,7 +87,8 @@ NavigatorDecision GestaltCycle::ReplaceMotion(const NavigatorInput& input,
   MarkChoice(votes, turns ? turn : *arc, params_);
   plans_.Start(origin.pose, input.estimate);
   felt_.ForgetVetoes();
-  return turns ? BeginTurn(StageOf(turn), turn, input) : BeginDrive(arc->motion, input);
+  if (!turns) return BeginDrive(arc->motion, input);
+  return Begin(StageOf(turn), turn.motion, std::abs(turn.turn_rad), input);
 }
 
 NavigatorDecision GestaltCycle::OnNoSafePlan() {

@@ -130,7 +130,8 @@ NavigatorDecision GestaltCycle::Choose(const NavigatorInput& input) {
   if (chosen == nullptr) return Finish(NavigatorStatus::kGaveUp);
   search_.KeepTo(turns && searches ? turn.motion.direction : 0);
   if (!turns) return BeginDrive(chosen->motion, input);
-  return BeginTurn(searches ? Stage::kTurning : StageOf(turn), turn, input);
+  return Begin(searches ? Stage::kTurning : StageOf(turn), turn.motion, std::abs(turn.turn_rad),
+               input);
 }
 
 NavigatorDecision GestaltCycle::BeginDrive(MotionCommand arc, const NavigatorInput& input) {
@@ -142,9 +143,7 @@ NavigatorDecision GestaltCycle::BeginDrive(MotionCommand arc, const NavigatorInp
   }
   const double length_m = replaced ? params_.continuous.motion_m : params_.drive.step_m;
   search_.ForgetGround();
-  stage_ = Stage::kDriving;
-  manoeuvre_.Begin(arc, std::min(length_m, DistanceToGoal_m(input.estimate)), input);
-  return Move(manoeuvre_.Command());
+  return Begin(Stage::kDriving, arc, std::min(length_m, DistanceToGoal_m(input.estimate)), input);
 }
 
 NavigatorDecision GestaltCycle::BeginSpline(const messages::Spline& spline,
@@ -156,10 +155,10 @@ NavigatorDecision GestaltCycle::BeginSpline(const messages::Spline& spline,
   return Move(manoeuvre_.Command());
 }
 
-NavigatorDecision GestaltCycle::BeginTurn(Stage stage, const MotionVote& turn,
-                                          const NavigatorInput& input) {
+NavigatorDecision GestaltCycle::Begin(Stage stage, const MotionCommand& motion, double leg,
+                                      const NavigatorInput& input) {
   stage_ = stage;
-  manoeuvre_.Begin(turn.motion, std::abs(turn.turn_rad), input);
+  manoeuvre_.Begin(motion, leg, input);
   return Move(manoeuvre_.Command());
 }
 
@@ -203,9 +202,8 @@ NavigatorDecision GestaltCycle::OnFelt(const NavigatorInput& input) {
   // Back along the same arc, no farther than it came.
   const double leg_m = std::min(manoeuvre_.measured(), params_.drive.back_off_m);
   if (leg_m <= 0.0 || Touches(input, -motion.direction)) return BeginCycle(input);
-  stage_ = Stage::kBackingOff;
-  manoeuvre_.Begin({motion.kind, motion.curvature_per_m, -motion.direction}, leg_m, input);
-  return Move(manoeuvre_.Command());
+  const MotionCommand back{motion.kind, motion.curvature_per_m, -motion.direction};
+  return Begin(Stage::kBackingOff, back, leg_m, input);
 }
 
 double GestaltCycle::DistanceToGoal_m(const PoseEstimate& estimate) const {

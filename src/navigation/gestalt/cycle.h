@@ -74,8 +74,8 @@ class GestaltCycle {
   NavigatorDecision Choose(const NavigatorInput& input);
   NavigatorDecision BeginDrive(messages::MotionCommand arc, const NavigatorInput& input);
   NavigatorDecision BeginSpline(const messages::Spline& spline, const NavigatorInput& input);
-  NavigatorDecision BeginTurn(Stage stage, const messages::MotionVote& turn,
-                              const NavigatorInput& input);
+  NavigatorDecision Begin(Stage stage, const messages::MotionCommand& motion, double leg,
+                          const NavigatorInput& input);
   NavigatorDecision ContinueDrive(const NavigatorInput& input);
   NavigatorDecision ContinueTurn(const NavigatorInput& input);
   NavigatorDecision ContinueBackOff(const NavigatorInput& input);

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <memory>
 
-#include "math/angles.h"
-
 namespace rockyard::navigation {
 namespace {
 
@@ -18,48 +16,43 @@ CostOfMap CostOf(const GestaltGridParams& grid) {
 
 }  // namespace
 
-void OdometryFrame::Correct(const PoseEstimate& before, const PoseEstimate& after) {
-  const PoseEstimate rover_O = FromWorld(before);
-  // X_OW' with X_OW' after = X_OW before: the heading first, then p_O = p_OW + Rz(heading) p_W.
-  X_OW_ = {0.0, 0.0, math::WrapAngle(rover_O.heading_rad - after.heading_rad)};
-  const PoseEstimate turned_O = FromWorld(after);
-  X_OW_.x_m = rover_O.x_m - turned_O.x_m;
-  X_OW_.y_m = rover_O.y_m - turned_O.y_m;
-}
-
-PoseEstimate OdometryFrame::FromWorld(const PoseEstimate& estimate_W) const {
-  const math::Pose2 pose_O = X_OW_ * Planar(estimate_W);
-  return {pose_O.x_m, pose_O.y_m, pose_O.heading_rad, estimate_W.distance_m};
-}
-
-Goal OdometryFrame::FromWorld(const Goal& goal_W) const {
-  const math::Pose2 goal_O = X_OW_ * math::Pose2{goal_W.x_m, goal_W.y_m, 0.0};
-  return {goal_O.x_m, goal_O.y_m};
-}
-
 GestaltNavigator::GestaltNavigator(const GestaltParams& params, const Goal& goal,
                                    double full_speed_m_s)
     : goal_W_(goal), cycle_(params, goal, full_speed_m_s) {}
 
 NavigatorDecision GestaltNavigator::Decide(const NavigatorInput& input) {
   NavigatorInput input_O = input;
-  input_O.estimate = frame_.FromWorld(input.estimate);
+  input_O.estimate = InO(input.estimate);
   return cycle_.Decide(input_O);
 }
 
 void GestaltNavigator::OnPoseUpdate(const PoseEstimate& before, const PoseEstimate& after) {
-  cycle_.OnPoseUpdate(frame_.FromWorld(before), frame_.FromWorld(after));
+  cycle_.OnPoseUpdate(InO(before), InO(after));
 }
 
 void GestaltNavigator::OnCorrection(const PoseEstimate& before, const PoseEstimate& after) {
-  const PoseEstimate before_O = frame_.FromWorld(before);
-  frame_.Correct(before, after);
-  cycle_.OnCorrection(before_O, frame_.FromWorld(after), frame_.FromWorld(goal_W_));
+  const PoseEstimate before_O = InO(before);
+  // X_OW' with X_OW' after = X_OW before: the heading first, then p_O = p_OW + Rz(heading) p_W.
+  X_OW_ = {0.0, 0.0, math::WrapAngle(before_O.heading_rad - after.heading_rad)};
+  const PoseEstimate turned_O = InO(after);
+  X_OW_.x_m = before_O.x_m - turned_O.x_m;
+  X_OW_.y_m = before_O.y_m - turned_O.y_m;
+  cycle_.OnCorrection(before_O, InO(after), InO(goal_W_));
 }
 
 void GestaltNavigator::SetGoal(const Goal& goal, GoalChange change) {
   goal_W_ = goal;
-  cycle_.SetGoal(frame_.FromWorld(goal_W_), change);
+  cycle_.SetGoal(InO(goal_W_), change);
+}
+
+PoseEstimate GestaltNavigator::InO(const PoseEstimate& estimate_W) const {
+  const math::Pose2 pose_O = X_OW_ * Planar(estimate_W);
+  return {pose_O.x_m, pose_O.y_m, pose_O.heading_rad, estimate_W.distance_m};
+}
+
+Goal GestaltNavigator::InO(const Goal& goal_W) const {
+  const math::Pose2 goal_O = X_OW_ * math::Pose2{goal_W.x_m, goal_W.y_m, 0.0};
+  return {goal_O.x_m, goal_O.y_m};
 }
 
 NavigatorDescription<GestaltParams> DescribeGestalt() {

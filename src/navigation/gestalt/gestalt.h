@@ -11,24 +11,10 @@
 
 namespace rockyard::navigation {
 
-// The frame O in which a rover's own path is smooth, level as the estimated world W, and W itself
-// before the first correction. Corrections of the estimate move the world in it, not the rover:
-// what the rover has seen and what it is doing keep their places around it.
-class OdometryFrame {
- public:
-  // The estimate in W jumps from `before` to `after`, while the rover stays where it is in O.
-  void Correct(const messages::PoseEstimate& before, const messages::PoseEstimate& after);
-
-  // Headings stay within [-pi, pi]; the odometer is the same in every frame.
-  messages::PoseEstimate FromWorld(const messages::PoseEstimate& estimate_W) const;
-  messages::Goal FromWorld(const messages::Goal& goal_W) const;
-
- private:
-  math::Pose2 X_OW_;  // of W in O
-};
-
-// The drive cycle as a navigator. Invariant: all that goes on is in O. A correction moves the goal
-// there, and neither clears nor smears the map.
+// The drive cycle in the frame O, in which the rover's own path is smooth: level as the estimated
+// world W, and W itself before the first correction. Invariant: a correction of the estimate moves
+// W in O, and with it the goal, but not the rover. What the rover has seen and what it is doing
+// keep their places around it, so that a correction neither clears nor smears the map.
 class GestaltNavigator final : public Navigator {
  public:
   // `full_speed_m_s` of the fastest rim, which limits how fast splines may bend; by itself that of
@@ -48,8 +34,12 @@ class GestaltNavigator final : public Navigator {
   PlanCounts plan_counts() const override { return cycle_.plan_counts(); }
 
  private:
+  // Headings stay within [-pi, pi]; the odometer is the same in both frames.
+  messages::PoseEstimate InO(const messages::PoseEstimate& estimate_W) const;
+  messages::Goal InO(const messages::Goal& goal_W) const;
+
+  math::Pose2 X_OW_;
   messages::Goal goal_W_;
-  OdometryFrame frame_;
   GestaltCycle cycle_;
 };
 

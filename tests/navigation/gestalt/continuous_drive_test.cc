@@ -60,6 +60,7 @@ TEST(ContinuousDrive, GoesRoundABlock) {
       GestaltDrive drive(setup);
       EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
       ExpectClearOf(drive, block);
+      EXPECT_LT(drive.rover().estimate().distance_m, 11.0);
       return drive.rover().estimate().distance_m;
     };
     const double stopping_m = driven_m(DriveCycle::kStopAndLook);
@@ -238,19 +239,20 @@ TEST_P(DriveOnTheMove, PointsLieWhereTheyWereSeenFrom) {
   }
 }
 
-// A correction while a look is under way moves the goal around the rover, and nothing else: with a
+// Corrections while a look is under way move the goal around the rover, and nothing else: with a
 // goal that jumps along the rover is told the same.
-TEST_P(DriveOnTheMove, ACorrectionOnTheMoveMovesTheGoalAlone) {
+TEST_P(DriveOnTheMove, CorrectionsOnTheMoveMoveTheGoalAlone) {
   setup_.height = Blocks({{3.0, 3.6, -0.2, 0.8}});
   setup_.latency_ticks = 60;
   GestaltDrive plain(setup_);
   GestaltDrive corrected(setup_);
+  messages::Goal goal = setup_.goal;
   const int ticks = 1000;
   for (int i = 0; i < ticks; ++i) {
     plain.Step();
     corrected.Step();
-    if (i != 170) continue;
-    // By (0.3, -0.2) m and 0.1 rad about the origin: p' = t + R p.
+    if (i != 170 && i != 400) continue;
+    // Both by (0.3, -0.2) m and 0.1 rad about the origin: p' = t + R p.
     const messages::PoseEstimate before = corrected.rover().estimate();
     const double c = std::cos(0.1);
     const double s = std::sin(0.1);
@@ -259,7 +261,8 @@ TEST_P(DriveOnTheMove, ACorrectionOnTheMoveMovesTheGoalAlone) {
     };
     const messages::Goal place = moved(before.x_m, before.y_m);
     corrected.Correct({place.x_m, place.y_m, before.heading_rad + 0.1});
-    corrected.SetGoal(moved(setup_.goal.x_m, setup_.goal.y_m), GoalChange::kMoved);
+    goal = moved(goal.x_m, goal.y_m);
+    corrected.SetGoal(goal, GoalChange::kMoved);
   }
   for (int i = 0; i < ticks; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -286,7 +289,7 @@ TEST(ContinuousDrive, TurnedFramesMoveNoLook) {
 }
 
 // Progress counts on over corrections: over those that change nothing at each tick, and over one by
-// which the goal comes to lie a metre farther off.
+// which the goal comes to lie two metres farther off.
 TEST(ContinuousDrive, CorrectionsTakeNoProgressAway) {
   for (const bool jumps : {false, true}) {
     GestaltSetup setup = SetupOf(DriveCycle::kStopAndLook);
@@ -297,7 +300,7 @@ TEST(ContinuousDrive, CorrectionsTakeNoProgressAway) {
       const messages::PoseEstimate here = drive.rover().estimate();
       const bool jumps_now = jumps && drive.log().size() == 200;
       if (!jumps || jumps_now) {
-        drive.Correct({here.x_m - (jumps_now ? 1.0 : 0.0), here.y_m, here.heading_rad});
+        drive.Correct({here.x_m - (jumps_now ? 2.0 : 0.0), here.y_m, here.heading_rad});
       }
     } while (drive.log().back().decision.status == NavigatorStatus::kDriving);
     EXPECT_EQ(drive.log().back().decision.status, NavigatorStatus::kArrived) << jumps;

@@ -71,12 +71,16 @@ int TurnsBeforeTheFirstDrive(GoalChange change) {
   setup.goal = {4.0, 1.0};
   GestaltDrive drive(setup);
   int turns = 0;
+  int side = 0;
   bool turned = false;
   for (int i = 0; i < 20000 && !drive.Step().drives(); ++i) {
     const bool turning = drive.log().back().turns();
+    if (turning) side = drive.log().back().decision.motion.direction;
     if (turned && !turning && ++turns == 2) drive.SetGoal({4.0, 1.5}, change);
     turned = turning;
   }
+  // After half a turn to the left the next goal lies on the right.
+  EXPECT_EQ(side, change == GoalChange::kNext ? -1 : +1);
   return turns;
 }
 

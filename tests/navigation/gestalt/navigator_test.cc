@@ -53,21 +53,6 @@ TEST(GestaltNavigator, FacingAwayItTurnsInAWideArcUnlessPathsEndWhereTheyTurnBac
   EXPECT_NEAR(driven_m(180.0, 90.0), 9.2, 0.35);
 }
 
-TEST(GestaltNavigator, DrivesRoundABlock) {
-  for (const double y_m : {-0.3, 0.0, 0.3}) {
-    GestaltSetup setup = TrueSetup();
-    const Block block{2.0, 2.6, y_m - 0.5, y_m + 0.5};
-    setup.height = Blocks({block});
-    GestaltDrive drive(setup);
-    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-    // Obstacles grow by half the vehicle width, 0.42 m, in the map; a cell may be half covered.
-    for (const GestaltTick& tick : drive.log()) {
-      EXPECT_FALSE(block.Holds(tick.X_WR.x_m, tick.X_WR.y_m, 0.42 - 0.1));
-    }
-    EXPECT_LT(drive.rover().estimate().distance_m, 7.0);
-  }
-}
-
 TEST(GestaltNavigator, DrivesOutOfADeadEnd) {
   GestaltSetup setup;
   setup.rover = TrueRover();  // with the odometry of the other tests it drives to and fro for ever

@@ -218,15 +218,6 @@ TEST(GestaltPointTurns, AreSpacedEvenlyUpToHalfATurnFromRightToLeft) {
   }
 }
 
-TEST(GestaltPointTurns, NoneNamedIsTheAmountOfTableOneToEitherSide) {
-  const GestaltParams params;
-  const CandidateMotions motions =
-      MakeCandidates(params.arcs, params.plan, SamplePaths(params.plan, 0.2));
-  ASSERT_EQ(motions.point_turns.size(), 2U);
-  EXPECT_EQ(motions.point_turns[0].turn_rad, -params.arcs.point_turn_amount_rad);
-  EXPECT_EQ(motions.point_turns[1].turn_rad, params.arcs.point_turn_amount_rad);
-}
-
 MotionVotes TurnVotes(const std::vector<double>& merged) {
   MotionVotes votes;
   const std::vector<double> degrees{-120, -60, 60, 120};
@@ -258,16 +249,21 @@ TEST(GestaltPointTurns, ASearchTakesTheAngleNearestToItsAmount) {
   EXPECT_NEAR(math::RadToDeg(PointTurnTo(votes, +1, math::DegToRad(80.0))->turn_rad), 60, 1e-9);
 }
 
+GestaltSetup GoalBehind(double behind_deg) {
+  GestaltSetup setup;
+  setup.params = SixTurns();
+  setup.params.votes.min_fwd_threshold = 256.0;  // looks behind at every step
+  setup.range.half_angle_rad = math::DegToRad(90.0);
+  setup.rover = TrueRover();
+  setup.goal = {4.0 * std::cos(math::DegToRad(behind_deg)),
+                4.0 * std::sin(math::DegToRad(behind_deg))};
+  return setup;
+}
+
 // The goal lies behind, and behind is clear: the rover turns round to it and drives there.
 TEST(GestaltPointTurns, TurnsByTheAngleThatWasChosenAsTheGyroHasIt) {
   for (const double behind_deg : {120.0, 150.0, 180.0}) {
-    GestaltSetup setup;
-    setup.params = SixTurns();
-    setup.params.votes.min_fwd_threshold = 256.0;  // looks behind at every step
-    setup.range.half_angle_rad = math::DegToRad(90.0);
-    setup.rover = TrueRover();
-    setup.goal = {4.0 * std::cos(math::DegToRad(behind_deg)),
-                  4.0 * std::sin(math::DegToRad(behind_deg))};
+    const GestaltSetup setup = GoalBehind(behind_deg);
     GestaltDrive drive(setup);
     ASSERT_TRUE(drive.StepUntil([](const GestaltTick& tick) { return tick.moves(); }));
     ASSERT_TRUE(drive.log().back().turns());
@@ -277,6 +273,16 @@ TEST(GestaltPointTurns, TurnsByTheAngleThatWasChosenAsTheGyroHasIt) {
     EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
     EXPECT_LT(drive.rover().estimate().distance_m, 4.2) << "straight there";
   }
+}
+
+// A turn that ran out of time faces another way than the drive that was voted on.
+TEST(GestaltPointTurns, ALookFollowsATurnThatRanOutOfTime) {
+  GestaltSetup setup = GoalBehind(120.0);
+  setup.params.drive.step_time_out_s = 1.0;
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(&GestaltTick::turns));
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& tick) { return !tick.turns(); }));
+  EXPECT_TRUE(drive.log().back().decision.looks());
 }
 
 }  // namespace
