@@ -17,7 +17,6 @@
 #include "campaign/compare.h"
 #include "campaign/output_folder.h"
 #include "campaign/run_views.h"
-#include "report/cell_comparison_text.h"
 #include "report/line_text.h"
 #include "report/paired_comparison.h"
 

@@ -21,7 +21,6 @@
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/line_text.h"
-#include "report/trace_story.h"
 #include "report/trace_view.h"
 
 namespace rockyard::app {

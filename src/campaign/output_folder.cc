@@ -19,6 +19,7 @@
 #include "core/provenance.h"
 #include "core/temporary_file.h"
 #include "report/atomic_file.h"
+#include "report/json_members.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -188,8 +189,8 @@ void OutputFolder::SetAside() {
 }
 
 std::string OutputFolder::Maker(bool finished) const {
-  core::JsonValue maker = core::JsonValue::Object(
-      {{"command", plan_.command}, {"program", core::VersionLine()}, {"finished", finished}});
+  core::JsonValue maker = report::ObjectTree("command", plan_.command, "program",
+                                             core::VersionLine(), "finished", finished);
   if (!IsNull(plan_.request)) maker.Set("request", plan_.request);
   return core::DumpJson(maker);
 }

@@ -72,25 +72,19 @@ JsonValue CellPlan(const Sweep& sweep, std::size_t index, std::int64_t trials,
     const scenario::SweepLevel& level = cell.levels[i];
     levels.Set(sweep.axes[i].name, level.number ? JsonValue(*level.number) : JsonValue(level.text));
   }
-  JsonValue plan = JsonValue::Object();
-  plan.Set("name", JsonValue(cell.name));
-  plan.Set("file", JsonValue(fmt::format("{}/{}.json", kCellFolder,
-                                         scenario::CellFileName(index, cell.name))));
-  plan.Set("levels", std::move(levels));
-  plan.Set("seed", JsonValue(cell.scenario.seed));
-  plan.Set("trials", JsonValue(trials));
-  plan.Set("fingerprint", JsonValue(core::Hex(scenario::Fingerprint(cell.scenario))));
+  JsonValue plan = report::ObjectTree(
+      "name", cell.name, "file",
+      fmt::format("{}/{}.json", kCellFolder, scenario::CellFileName(index, cell.name)), "levels",
+      std::move(levels), "seed", cell.scenario.seed, "trials", trials, "fingerprint",
+      core::Hex(scenario::Fingerprint(cell.scenario)));
   if (cost.trials == 0) return plan;
-  plan.Set("pilots", JsonValue(cost.trials));
-  plan.Set("cpu_s_per_trial", JsonValue(cost.mean_s));
-  plan.Set("slowest_pilot_s", JsonValue(cost.slowest_s));
+  report::SetMembers(plan, "pilots", cost.trials, "cpu_s_per_trial", cost.mean_s, "slowest_pilot_s",
+                     cost.slowest_s);
   return plan;
 }
 
 JsonValue CostOf(const CampaignCost& cost) {
-  JsonValue json = JsonValue::Object();
-  json.Set("pilots", JsonValue(cost.pilots));
-  json.Set("cpu_s", JsonValue(cost.total_s));
+  JsonValue json = report::ObjectTree("pilots", cost.pilots, "cpu_s", cost.total_s);
   if (cost.standard_error_s) {
     json.Set("cpu_s_standard_error", JsonValue(*cost.standard_error_s));
   }

@@ -6,7 +6,6 @@
 #include <functional>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <string_view>
 #include <utility>
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/json_text.h"
-#include "report/baseline_letters.h"
 #include "report/json_members.h"
 #include "statistics/metrics.h"
 #include "statistics/sample_statistics.h"

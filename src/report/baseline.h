@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/json_value.h"
@@ -13,6 +14,12 @@
 #include "truth/record.h"
 
 namespace rockyard::report {
+
+inline constexpr std::string_view kBaselineKind = "rockyard_baseline";
+
+// A letter for each outcome, in the order of truth::TrialOutcome.
+inline constexpr std::string_view kOutcomeLetters = "GFTHJNELAXMS";
+static_assert(kOutcomeLetters.size() == truth::kTrialOutcomeNames.size());
 
 // One cell of a campaign.
 struct BaselineCell {

@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/json_text.h"
 #include "report/baseline.h"
-#include "report/baseline_letters.h"
 #include "statistics/metrics.h"
 
 namespace rockyard::report {

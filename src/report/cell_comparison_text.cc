@@ -1,14 +1,12 @@
-#include "report/cell_comparison_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "report/csv.h"
 #include "report/line_text.h"
 #include "report/measurement_text.h"
+#include "report/paired_comparison.h"
 
 namespace rockyard::report {
 namespace {

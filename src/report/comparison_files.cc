@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/numbers.h"
 #include "report/comparison_format.h"
@@ -15,7 +17,6 @@ using statistics::ComparedValue;
 using statistics::ComparisonResult;
 using statistics::PublishedReference;
 using statistics::PublishedValue;
-using statistics::Verdict;
 
 // With what must not be missed where rows are read one by one.
 std::string Remark(const ComparisonResult& result, const ComparedValue& value) {
@@ -68,36 +69,19 @@ std::string ComparisonCsv(const ComparisonResult& result) {
 }
 
 std::string ComparisonJUnit(const PublishedReference& reference, const ComparisonResult& result) {
-  const std::size_t differs = CountOf(result, Verdict::kDiffers);
-  const std::size_t skipped =
-      CountOf(result, Verdict::kUnderpowered) + CountOf(result, Verdict::kNotJudged);
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  xml += fmt::format("<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
-                     EscapeXml(reference.title), result.values.size(), differs, skipped);
-  xml += ChangedXml(result);
+  // In the order of Verdict.
+  constexpr std::string_view kElements[] = {"", "", "failure", "skipped", "skipped"};
+  std::vector<JUnitCase> cases;
   for (const ComparedValue& value : result.values) {
-    const std::string message =
-        EscapeXml(fmt::format("{}: published {}, predicted {}, p {}, Holm {}, power {}. {}",
-                              statistics::Name(value.verdict), Published(value.published),
-                              Prediction(value), PValue(value.p_value), PValue(value.holm_p_value),
-                              Power(value.power), Remark(result, value)));
-    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"",
-                       EscapeXml(value.published.scenario), EscapeXml(value.published.id));
-    switch (value.verdict) {
-      case Verdict::kAgrees:
-      case Verdict::kHolds:
-        xml += "/>\n";
-        break;
-      case Verdict::kDiffers:
-        xml += fmt::format(">\n    <failure message=\"{}\"/>\n  </testcase>\n", message);
-        break;
-      case Verdict::kUnderpowered:
-      case Verdict::kNotJudged:
-        xml += fmt::format(">\n    <skipped message=\"{}\"/>\n  </testcase>\n", message);
-        break;
-    }
+    cases.push_back(
+        {value.published.scenario, value.published.id,
+         kElements[static_cast<std::size_t>(value.verdict)],
+         fmt::format("{}: published {}, predicted {}, p {}, Holm {}, power {}. {}",
+                     statistics::Name(value.verdict), Published(value.published), Prediction(value),
+                     PValue(value.p_value), PValue(value.holm_p_value), Power(value.power),
+                     Remark(result, value))});
   }
-  return xml + "</testsuite>\n";
+  return JUnitReport(reference.title, cases, ChangedXml(result));
 }
 
 }  // namespace rockyard::report

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/reference_fields.h"
+
 namespace rockyard::report {
 namespace {
 
@@ -112,15 +114,7 @@ std::vector<std::string> Remarks(const ComparedValue& value) {
 }
 
 std::string_view RoleName(ValueRole role) {
-  switch (role) {
-    case ValueRole::kConditional:
-      return "conditional";
-    case ValueRole::kCalibration:
-      return "calibration";
-    case ValueRole::kPrediction:
-      break;
-  }
-  return "prediction";
+  return core::EnumNames<ValueRole>::kNames[static_cast<std::size_t>(role)];
 }
 
 std::size_t CountOf(const ComparisonResult& result, Verdict verdict) {

@@ -12,7 +12,6 @@
 #include "core/json_file.h"
 #include "core/spelling.h"
 #include "report/reference_fields.h"
-#include "report/tolerance_reference.h"
 #include "truth/record.h"
 
 namespace rockyard::report {

@@ -1,4 +1,3 @@
-#include "report/measurement_drawing.h"
 
 #include <fmt/format.h>
 
@@ -100,18 +99,17 @@ class Drawing {
   std::string Panel(std::size_t row, std::size_t column) const {
     const double left = X(column, x_.front());
     const double top = Y(row, 1.0);
-    std::string svg = fmt::format(
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
-        "stroke=\"#999\"/>\n<text x=\"{:.1f}\" y=\"{:.1f}\">{} {}</text>\n",
-        left, top, kPanelWidth, kPanelHeight, left, top - 4.0, Label(1, split_[0][column]),
-        Label(3, split_[2][row]));
+    std::string svg =
+        SvgBox(left, top, kPanelWidth, kPanelHeight, "fill=\"none\" stroke=\"#999\"") +
+        fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{} {}</text>\n", left, top - 4.0,
+                    Label(1, split_[0][column]), Label(3, split_[2][row]));
     for (const double tick : {0.0, 0.5, 1.0}) {
-      svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:g}</text>\n",
-                         left - 3.0, Y(row, tick) + 4.0, tick);
+      svg += SvgStyledText(left - 3.0, Y(row, tick) + 4.0, fmt::format("{:g}", tick),
+                           "text-anchor=\"end\"");
     }
     for (const double tick : {x_.front(), x_.back()}) {
-      svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:.4g}</text>\n",
-                         X(column, tick), Y(row, 0.0) + 14.0, tick);
+      svg += SvgStyledText(X(column, tick), Y(row, 0.0) + 14.0, fmt::format("{:.4g}", tick),
+                           "text-anchor=\"middle\"");
     }
     for (std::size_t curve = 0; curve < split_[1].size(); ++curve) svg += Curve(row, column, curve);
     return svg;
@@ -125,21 +123,14 @@ class Drawing {
                         IndexOf(split_[2], FactorOf(cell, 3)) == row;
       if (here && cell.rates[rate_].rate.trials > 0) along[cell.factors[0]] = &cell;
     }
-    std::string line;
-    std::string upper;
-    std::string lower;
+    std::vector<SvgBandPoint> points;
     for (const auto& [value, cell] : along) {
       const statistics::Proportion& rate = cell->rates[rate_].rate;
-      const double x = X(column, value);
-      line += fmt::format("{:.1f},{:.1f} ", x, Y(row, rate.rate));
-      upper += fmt::format("{:.1f},{:.1f} ", x, Y(row, rate.interval.high));
-      lower.insert(0, fmt::format("{:.1f},{:.1f} ", x, Y(row, rate.interval.low)));
+      points.push_back({X(column, value), Y(row, rate.rate), Y(row, rate.interval.low),
+                        Y(row, rate.interval.high)});
     }
     const std::string_view colour = CurveColour(curve);
-    return fmt::format(
-        "<polygon points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.25\"/>\n"
-        "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\"/>\n",
-        upper, lower, colour, line, colour);
+    return SvgBand(points, colour, 0.25, fmt::format("stroke=\"{}\"", colour));
   }
 
   const MeasurementSummary& summary_;

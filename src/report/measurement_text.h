@@ -1,4 +1,4 @@
-// The cells of a measurement for people, and as a table.
+// The cells of a measurement for people, as a table and as curves.
 #pragma once
 
 #include <cstddef>
@@ -28,5 +28,10 @@ std::size_t MainRate(const truth::RecordSchema& rates);
 // <name>_high (95 % interval of this cell), <name>_all_low and <name>_all_high (95 % for all cells
 // at once, Bonferroni); then mean_<name> or rms_<name>.
 std::string CellsCsv(const statistics::MeasurementSummary& summary);
+
+// cells.svg: the main rate against the first factor. Curves: third factor. Panels: second factor
+// across, fourth factor down. Bands: the 95 % interval of each cell. Empty where no rate is
+// measured or the first factor has a single value.
+std::string CellsSvg(const statistics::MeasurementSummary& summary, const std::string& title);
 
 }  // namespace rockyard::report

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -93,20 +92,18 @@ class MapPanel {
 
   // The first kDrawnArc_m of a candidate.
   std::string Arc(const NavigationView& view, const MotionVote& vote) const {
-    std::string points;
+    std::vector<SvgPoint> points;
     for (int i = 0; i <= kArcPoints; ++i) {
       const double s = vote.motion.direction * kDrawnArc_m * i / kArcPoints;
       const double turned = 0.5 * vote.motion.curvature_per_m * s;
       // Chord of the arc: 2 sin(c s / 2) / c long, at half the turned angle.
       const double chord = turned == 0.0 ? s : s * std::sin(turned) / turned;
       const double direction = view.estimate.heading_rad + turned;
-      fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ",
-                     X(view.estimate.x_m + chord * std::cos(direction)),
-                     Y(view.estimate.y_m + chord * std::sin(direction)));
+      points.push_back({X(view.estimate.x_m + chord * std::cos(direction)),
+                        Y(view.estimate.y_m + chord * std::sin(direction))});
     }
-    return fmt::format("<polyline points=\"{}\" fill=\"none\" {}/>\n", points,
-                       vote.chosen ? "stroke=\"#d55e00\" stroke-width=\"4\""
-                                   : "stroke=\"#fff\" stroke-width=\"0.8\"");
+    return SvgPolyline(points, vote.chosen ? "fill=\"none\" stroke=\"#d55e00\" stroke-width=\"4\""
+                                           : "fill=\"none\" stroke=\"#fff\" stroke-width=\"0.8\"");
   }
 
  private:

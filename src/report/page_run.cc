@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <functional>
 
 #include "core/json_text.h"
 #include "report/json_members.h"
@@ -17,7 +15,6 @@ namespace rockyard::report {
 namespace {
 
 using core::JsonList;
-using core::JsonObject;
 using core::JsonSixDigits;
 
 core::JsonValue Summary(const PageRun& run, statistics::IntervalMethod method) {
@@ -56,34 +53,16 @@ std::vector<std::size_t> KeptSteps(std::span<const DistanceStep> steps) {
   return kept;
 }
 
-struct CdfColumn {
-  const char* name;
-  std::function<double(const DistanceStep&)> value;
-};
-
 }  // namespace
 
 std::string PageCdfJson(std::span<const DistanceStep> steps) {
   if (steps.empty()) return "null";
-  const std::array<CdfColumn, 10> columns{{
-      {"distance_m", [](const DistanceStep& s) { return s.all.value; }},
-      {"ecdf", [](const DistanceStep& s) { return s.all.fraction; }},
-      {"ecdf_low", [](const DistanceStep& s) { return s.all.band.low; }},
-      {"ecdf_high", [](const DistanceStep& s) { return s.all.band.high; }},
-      {"goal", [](const DistanceStep& s) { return s.goal.event; }},
-      {"goal_low", [](const DistanceStep& s) { return s.goal.band.low; }},
-      {"goal_high", [](const DistanceStep& s) { return s.goal.band.high; }},
-      {"failure", [](const DistanceStep& s) { return s.goal.competing; }},
-      {"limit", [](const DistanceStep& s) { return s.limit; }},
-      {"at_risk", [](const DistanceStep& s) { return static_cast<double>(s.at_risk); }},
-  }};
   const std::vector<std::size_t> kept = KeptSteps(steps);
-  JsonObject json;
-  for (const CdfColumn& column : columns) {
-    std::vector<std::string> values;
-    values.reserve(kept.size());
-    for (const std::size_t i : kept) values.push_back(JsonSixDigits(column.value(steps[i])));
-    json.Add(column.name, JsonList(values));
+  core::JsonObject json;
+  for (const std::size_t column : {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}) {
+    json.Add(kDistanceColumns[column], JsonList(kept, [&](std::size_t step) {
+               return JsonSixDigits(DistanceNumbers(steps[step])[column]);
+             }));
   }
   return json.Text();
 }
@@ -105,12 +84,12 @@ std::string PageParametersJson(std::span<const core::ParameterInfo> parameters) 
 }
 
 std::string PageReplaysJson(std::span<const PageLink> links) {
-  JsonObject json;
+  core::JsonObject json;
   for (const PageLink& link : links) json.AddText(std::to_string(link.trial), link.link);
   return json.Text();
 }
 
-JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method) {
+core::JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method) {
   const bool measures = truth::IsMeasurement(run.schema);
   std::vector<DistanceStep> steps;
   if (!measures) steps = DistanceSteps(run.schema, run.prefix);

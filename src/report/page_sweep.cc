@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "core/json_text.h"
@@ -36,19 +37,10 @@ std::string Line(const LogisticFit& fit) {
   });
 }
 
-const char* Status(statistics::FitStatus status) {
-  switch (status) {
-    case statistics::FitStatus::kFitted:
-      return "fitted";
-    case statistics::FitStatus::kTooFewPoints:
-      return "fewer than two settings have finished trials";
-    case statistics::FitStatus::kNoContrast:
-      return "every trial ended alike";
-    case statistics::FitStatus::kSeparated:
-      return "successes and failures do not overlap: no curve is the likeliest";
-  }
-  return "";
-}
+// In the order of statistics::FitStatus.
+constexpr std::array<std::string_view, 4> kStatusTexts{
+    "fitted", "fewer than two settings have finished trials", "every trial ended alike",
+    "successes and failures do not overlap: no curve is the likeliest"};
 
 const char* Rejected(const LogisticFit& fit) {
   if (fit.status != statistics::FitStatus::kFitted || !std::isfinite(fit.p_value)) return "null";
@@ -60,11 +52,11 @@ std::string Curve(const scenario::Sweep& sweep, const SweepSummary& summary,
   const scenario::SweepAxis& axis = sweep.axes[*sweep.fit_axis];
   const LogisticFit& fit = curve.fits[static_cast<std::size_t>(kind)];
   const bool log = sweep.fit_scale == scenario::AxisScale::kLog && curve.x.front() > 0.0;
-  return ObjectText("label", curve.label, "axis", axis.name, "unit", axis.unit, "scale",
-                    log ? "log" : "linear", "success",
-                    kind == SuccessKind::kDeclared ? "declared" : "true", "points",
-                    Json{Points(sweep, summary, curve, kind)}, "fit", Json{Line(fit)}, "fit_status",
-                    Status(fit.status), "fit_rejected", Json{Rejected(fit)});
+  return ObjectText(
+      "label", curve.label, "axis", axis.name, "unit", axis.unit, "scale", log ? "log" : "linear",
+      "success", kind == SuccessKind::kDeclared ? "declared" : "true", "points",
+      Json{Points(sweep, summary, curve, kind)}, "fit", Json{Line(fit)}, "fit_status",
+      kStatusTexts[static_cast<std::size_t>(fit.status)], "fit_rejected", Json{Rejected(fit)});
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/result_table.h"
+#include "statistics/cell_comparison.h"
 #include "statistics/proportions.h"
 #include "truth/record.h"
 
@@ -79,5 +81,15 @@ ResultTable ColumnsOf(const RunComparison& comparison);
 // Every column of both tables: trials (all, arrived), column, unit, n, both means, their difference
 // and its interval.
 std::string RunComparisonCsv(const RunComparison& comparison);
+
+// Two measurements, cell by cell. What was compared; the verdict; a line for each rate; then the
+// cells: those of the main rate (the forty with the smallest p-values where there are more), and of
+// every other rate those that differ. At most 100 columns.
+std::string CellComparisonText(const ComparedRun& first, const ComparedRun& second,
+                               const statistics::CellComparison& comparison);
+
+// One line for each rate of each cell: rate, factors, then for A and B count, trials and rate,
+// difference, its 95 % interval, the simultaneous one (_all_), p, p after Holm, whether it differs.
+std::string CellComparisonCsv(const statistics::CellComparison& comparison);
 
 }  // namespace rockyard::report

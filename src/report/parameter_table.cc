@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -18,35 +19,15 @@ using statistics::Metric;
 using statistics::MetricSource;
 using statistics::MetricTrials;
 
-std::string_view KindName(FieldKind kind) {
-  switch (kind) {
-    case FieldKind::kReal:
-      return "real";
-    case FieldKind::kAngle:
-      return "angle";
-    case FieldKind::kInteger:
-      return "integer";
-    case FieldKind::kBoolean:
-      return "boolean";
-    case FieldKind::kText:
-      return "text";
-    case FieldKind::kReals:
-      return "reals";
-    case FieldKind::kIntegers:
-      return "integers";
-    case FieldKind::kChoice:
-      return "choice";
-  }
-  return "";
-}
+// In the order of FieldKind.
+constexpr std::array<std::string_view, 8> kKindNames{"real", "angle", "integer",  "boolean",
+                                                     "text", "reals", "integers", "choice"};
 
 // Six digits tell what a person chose; conversions between units leave more behind.
 std::string SixDigits(double value) { return fmt::format("{:.6g}", value); }
 
 std::string ValueText(const core::JsonValue& value) {
   switch (value.type()) {
-    case core::JsonValue::Type::kNull:
-      return "";
     case core::JsonValue::Type::kBoolean:
       return value.boolean() ? "true" : "false";
     case core::JsonValue::Type::kInteger:
@@ -60,8 +41,9 @@ std::string ValueText(const core::JsonValue& value) {
       for (const core::JsonValue& part : value.list()) parts.push_back(ValueText(part));
       return fmt::format("[{}]", fmt::join(parts, ", "));
     }
+    case core::JsonValue::Type::kNull:
     case core::JsonValue::Type::kObject:
-      return "";
+      break;
   }
   return "";
 }
@@ -114,10 +96,10 @@ ResultTable ParameterColumns(std::span<const ParameterInfo> parameters) {
       "path,kind,value,unit,origin,study_low,study_high,min,max,choices,source,doc,range");
   for (const ParameterInfo& p : parameters) {
     const bool studied = p.HasStudyRange();
-    table.Add(p.path, KindName(p.kind), ParameterValue(p), p.unit, core::Name(p.origin),
-              studied ? SixDigits(p.study_low) : "", studied ? SixDigits(p.study_high) : "",
-              Bound(p.min), Bound(p.max), fmt::format("{}", fmt::join(p.choices, "|")), p.source,
-              p.doc, ParameterRange(p));
+    table.Add(p.path, kKindNames[static_cast<std::size_t>(p.kind)], ParameterValue(p), p.unit,
+              core::Name(p.origin), studied ? SixDigits(p.study_low) : "",
+              studied ? SixDigits(p.study_high) : "", Bound(p.min), Bound(p.max),
+              fmt::format("{}", fmt::join(p.choices, "|")), p.source, p.doc, ParameterRange(p));
   }
   return table;
 }

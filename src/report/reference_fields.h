@@ -1,10 +1,14 @@
-// Members of a reference file as fields. For comparison_reference.cc only.
+// Members of a reference file as fields, and what they must say together. For
+// comparison_reference.cc and tolerance_reference.cc only.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/error.h"
 #include "core/fields.h"
 #include "statistics/published_values.h"
 
@@ -123,5 +127,10 @@ struct HeadFields {
     v.Text("citation", reference.citation, kReferenceText);
   }
 };
+
+// Of a value that is judged by a tolerance; any other must not have members of one. `path` ends
+// with a dot.
+std::vector<core::Problem> ToleranceProblems(const statistics::PublishedValue& value,
+                                             const std::string& path);
 
 }  // namespace rockyard::report

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include "report/line_text.h"
 #include "report/regression_format.h"
@@ -14,17 +17,10 @@ using statistics::RegressionRow;
 using statistics::RegressionVerdict;
 
 std::string_view Name(RegressionVerdict verdict) {
-  switch (verdict) {
-    case RegressionVerdict::kChanged:
-      return "changed";
-    case RegressionVerdict::kEquivalent:
-      return "equivalent";
-    case RegressionVerdict::kNoneSeen:
-      return "none_seen";
-    case RegressionVerdict::kInconclusive:
-      break;
-  }
-  return "inconclusive";
+  // In the order of RegressionVerdict.
+  constexpr std::array<std::string_view, 4> kNames{"changed", "equivalent", "none_seen",
+                                                   "inconclusive"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 std::string Signed(double value) {
@@ -97,26 +93,14 @@ RecordFinding FindingOfRecords(const RegressionReport& report) {
 }
 
 std::string_view Name(RecordFinding finding) {
-  switch (finding) {
-    case RecordFinding::kSame:
-      return "same";
-    case RecordFinding::kChanged:
-      return "changed";
-    case RecordFinding::kNotComparable:
-      break;
-  }
-  return "not_comparable";
+  // In the order of RecordFinding.
+  constexpr std::array<std::string_view, 3> kNames{"same", "changed", "not_comparable"};
+  return kNames[static_cast<std::size_t>(finding)];
 }
 
 std::string_view DistributionName(const statistics::RegressionResult& result) {
-  switch (statistics::ExitCode(result)) {
-    case 0:
-      return "no change";
-    case 1:
-      return "changed";
-    default:
-      return "inconclusive";
-  }
+  const int code = statistics::ExitCode(result);
+  return code == 0 ? "no change" : code == 1 ? "changed" : "inconclusive";
 }
 
 std::string NotDeterministic(const CheckedCell& cell) {
@@ -147,39 +131,19 @@ ResultTable RegressionTable(const RegressionReport& report) {
 std::string RegressionCsv(const RegressionReport& report) { return RegressionTable(report).Csv(); }
 
 std::string RegressionJUnit(const RegressionReport& report) {
-  const statistics::RegressionResult& result = report.result;
-  std::string determinism;
-  const auto broken = std::count_if(report.cells.begin(), report.cells.end(),
-                                    [](const CheckedCell& cell) { return cell.not_deterministic; });
+  const auto named = [&](const std::string& cell) { return cell.empty() ? report.baseline : cell; };
+  // In the order of RegressionVerdict.
+  constexpr std::string_view kElements[] = {"failure", "", "", "skipped"};
+  std::vector<JUnitCase> cases;
   for (const CheckedCell& cell : report.cells) {
     if (!cell.not_deterministic) continue;
-    determinism += fmt::format(
-        "  <testcase classname=\"{}\" name=\"determinism\">\n    <failure message=\"{}\"/>\n"
-        "  </testcase>\n",
-        EscapeXml(cell.name.empty() ? report.baseline : cell.name),
-        EscapeXml(NotDeterministic(cell)));
+    cases.push_back({named(cell.name), "determinism", "failure", NotDeterministic(cell)});
   }
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  xml += fmt::format("<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
-                     EscapeXml(report.baseline),
-                     static_cast<std::int64_t>(result.rows.size()) + broken,
-                     result.Count(RegressionVerdict::kChanged) + broken,
-                     result.Count(RegressionVerdict::kInconclusive));
-  xml += determinism;
-  for (const RegressionRow& row : result.rows) {
-    const std::string cell = row.cell.empty() ? report.baseline : row.cell;
-    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", EscapeXml(cell),
-                       EscapeXml(row.metric->name));
-    if (row.verdict == RegressionVerdict::kEquivalent ||
-        row.verdict == RegressionVerdict::kNoneSeen) {
-      xml += "/>\n";
-      continue;
-    }
-    const char* element = row.verdict == RegressionVerdict::kChanged ? "failure" : "skipped";
-    xml += fmt::format(">\n    <{} message=\"{}\"/>\n  </testcase>\n", element,
-                       EscapeXml(Sentence(row)));
+  for (const RegressionRow& row : report.result.rows) {
+    cases.push_back({named(row.cell), std::string(row.metric->name),
+                     kElements[static_cast<std::size_t>(row.verdict)], Sentence(row)});
   }
-  return xml + "</testsuite>\n";
+  return JUnitReport(report.baseline, cases);
 }
 
 }  // namespace rockyard::report

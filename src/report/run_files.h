@@ -1,13 +1,19 @@
 // The files of a run folder that are derived from its store; the records of a run as tables.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "report/atomic_file.h"
 #include "report/run_description.h"
 #include "statistics/cell_summary.h"
+#include "statistics/cumulative_incidence.h"
 #include "statistics/drive_summary.h"
+#include "statistics/sample_statistics.h"
 #include "truth/record.h"
 
 namespace rockyard::report {
@@ -38,6 +44,25 @@ statistics::MeasurementSummary WriteMeasurementFiles(const std::filesystem::path
 // where undefined), and the sentence that says why it ended. Memory: a line.
 void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,
                const TextSink& out);
+
+// At one distinct true distance.
+struct DistanceStep {
+  statistics::EcdfPoint all;       // of the distance of all runs, however they ended
+  statistics::IncidenceStep goal;  // declared arrival, failures competing
+  double limit = 0.0;              // share of all that a limit of the run ended so far
+  std::size_t at_risk = 0;         // just before
+};
+
+// Over all trials without a simulator fault, ascending; none where the records have no
+// true_distance_m. Cost: n log n.
+std::vector<DistanceStep> DistanceSteps(const truth::RecordSchema& schema,
+                                        std::span<const truth::Record> records);
+
+// The columns of distance_cdf.csv, and a step in them.
+inline constexpr std::array<std::string_view, 10> kDistanceColumns{
+    "distance_m", "ecdf",      "ecdf_low", "ecdf_high", "goal",
+    "goal_low",   "goal_high", "failure",  "at_risk",   "limit"};
+std::array<double, kDistanceColumns.size()> DistanceNumbers(const DistanceStep& step);
 
 // distance_cdf.csv: one line per distinct true distance, over all trials without a simulator fault.
 //   distance_m

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 #include "core/check.h"
@@ -51,19 +49,12 @@ Extent ExtentOf(const ScanView& scan) {
 }
 
 // SVG coordinates of a point of R: forward is up, left is left.
-struct SvgPlace {
-  double x;
-  double y;
-};
-SvgPlace At(double x_R_m, double y_R_m) { return {-kUnits * y_R_m, -kUnits * x_R_m}; }
+SvgPoint At(double x_R_m, double y_R_m) { return {-kUnits * y_R_m, -kUnits * x_R_m}; }
 
 std::string Polygon(const GroundOutline& outline, std::string_view style) {
-  std::string points;
-  for (const auto& [x, y] : outline) {
-    const SvgPlace at = At(x, y);
-    fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", at.x, at.y);
-  }
-  return fmt::format("<polygon points=\"{}\" {}/>\n", points, style);
+  std::vector<SvgPoint> points;
+  for (const auto& [x, y] : outline) points.push_back(At(x, y));
+  return SvgPolygon(points, style);
 }
 
 std::string Colour(double elevation_m) {
@@ -74,24 +65,12 @@ std::string Colour(double elevation_m) {
 }
 
 std::string Line(const math::Vector3& from_R, const math::Vector3& to_R, std::string_view style) {
-  const SvgPlace a = At(from_R.x(), from_R.y());
-  const SvgPlace b = At(to_R.x(), to_R.y());
-  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", a.x,
-                     a.y, b.x, b.y, style);
+  return SvgLine(At(from_R.x(), from_R.y()), At(to_R.x(), to_R.y()), style);
 }
 
 // White, from its upper left corner.
-std::string Rectangle(const SvgPlace& corner, double width_m, double height_m) {
-  return fmt::format(
-      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#fff\"/>\n",
-      corner.x, corner.y, kUnits * width_m, kUnits * height_m);
-}
-
-std::string Label(const SvgPlace& at, double size, std::string_view text) {
-  return fmt::format(
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.0f}\" "
-      "font-family=\"sans-serif\">{}</text>\n",
-      at.x, at.y, size, text);
+std::string Rectangle(const SvgPoint& corner, double width_m, double height_m) {
+  return SvgBox(corner.x, corner.y, kUnits * width_m, kUnits * height_m, "fill=\"#fff\"");
 }
 
 std::string PointMark(const ShownPoint& point) {
@@ -102,13 +81,13 @@ std::string PointMark(const ShownPoint& point) {
     return Line(point.expected_R - arm, point.expected_R + arm, kStyle) +
            Line(point.expected_R - other, point.expected_R + other, kStyle);
   }
-  const SvgPlace at = At(point.p_RoP_R.x(), point.p_RoP_R.y());
+  const SvgPoint at = At(point.p_RoP_R.x(), point.p_RoP_R.y());
   const double elevation_m = point.elevation.elevation_m;
   return fmt::format(
              "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"14\" fill=\"{}\" stroke=\"#000\" "
              "stroke-width=\"2\"/>\n",
              at.x, at.y, Colour(elevation_m)) +
-         Label({at.x + 18.0, at.y + 6.0}, 20.0, fmt::format("{:.0f}", 1000.0 * elevation_m));
+         SvgText(at.x + 18.0, at.y + 6.0, fmt::format("{:.0f}", 1000.0 * elevation_m), 20.0);
 }
 
 std::string Stripes(const ScanView& scan) {
@@ -195,8 +174,8 @@ std::string ScanSvg(const ScanView& scan) {
   const Extent extent = ExtentOf(scan);
   const double width_m = extent.y_max_m - extent.y_min_m;
   const double height_m = extent.x_max_m - extent.x_min_m + kFooter_m;
-  const SvgPlace corner = At(extent.x_max_m, extent.y_max_m);
-  const SvgPlace foot = At(extent.x_min_m, extent.y_max_m);
+  const SvgPoint corner = At(extent.x_max_m, extent.y_max_m);
+  const SvgPoint foot = At(extent.x_min_m, extent.y_max_m);
   const std::string box = fmt::format("{:.1f} {:.1f} {:.1f} {:.1f}", corner.x, corner.y,
                                       kUnits * width_m, kUnits * height_m);
   std::string svg = fmt::format(
@@ -211,9 +190,9 @@ std::string ScanSvg(const ScanView& scan) {
   svg += Stripes(scan);
   for (const ShownPoint& point : scan.points.points()) svg += PointMark(point);
   svg += Rectangle(foot, width_m, kFooter_m);
-  svg += Label({foot.x + 20.0, foot.y + 45.0}, 26.0, EscapeXml(scan.title));
-  svg += Label({foot.x + 20.0, foot.y + 85.0}, 22.0,
-               "elevation in mm; cross: not found; red stripe: hazard; forward is up");
+  svg += SvgText(foot.x + 20.0, foot.y + 45.0, scan.title, 26.0);
+  svg += SvgText(foot.x + 20.0, foot.y + 85.0,
+                 "elevation in mm; cross: not found; red stripe: hazard; forward is up", 22.0);
   return svg + "</svg>\n";
 }
 

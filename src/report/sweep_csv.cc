@@ -1,3 +1,4 @@
+#include <array>
 #include <string_view>
 
 #include "report/csv.h"
@@ -38,23 +39,13 @@ std::string CellCsvLine(std::size_t index, const Sweep& sweep, const SweepCellSu
   return row.Add(cell.ended_by_limit.count).Line();
 }
 
-std::string_view StatusName(statistics::FitStatus status) {
-  switch (status) {
-    case statistics::FitStatus::kFitted:
-      return "fitted";
-    case statistics::FitStatus::kTooFewPoints:
-      return "too_few_points";
-    case statistics::FitStatus::kNoContrast:
-      return "no_contrast";
-    case statistics::FitStatus::kSeparated:
-      return "separated";
-  }
-  return "";
-}
+// In the order of statistics::FitStatus.
+constexpr std::array<std::string_view, 4> kStatusNames{"fitted", "too_few_points", "no_contrast",
+                                                       "separated"};
 
 std::string FitCsvLine(const SweepCurve& curve, std::size_t kind) {
   const statistics::LogisticFit& fit = curve.fits[kind];
-  CsvRow row(curve.label, kSuccessNames[kind], StatusName(fit.status),
+  CsvRow row(curve.label, kSuccessNames[kind], kStatusNames[static_cast<std::size_t>(fit.status)],
              fit.scale == statistics::FitScale::kLog ? "log" : "linear", fit.intercept, fit.slope,
              fit.covariance, fit.deviance, fit.degrees_of_freedom, fit.p_value, fit.slope_p_value);
   if (curve.crossings[kind].empty()) row.AddEmpty(8);

@@ -26,15 +26,10 @@ constexpr double kBottom = 56.0;
 constexpr double kMark = 4.0;
 
 std::string Text(double x, double y, std::string_view text, std::string_view style = "") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style,
-                     EscapeXml(text));
+  return SvgStyledText(x, y, text, style);
 }
 
-std::string LineTo(double x1, double y1, double x2, double y2, std::string_view stroke) {
-  return fmt::format(
-      "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2,
-      y2, stroke);
-}
+std::string Stroke(std::string_view colour) { return fmt::format("stroke=\"{}\"", colour); }
 
 // Shapes tell curves apart where colours do not.
 std::string Mark(std::size_t curve, double x, double y) {
@@ -44,9 +39,7 @@ std::string Mark(std::size_t curve, double x, double y) {
       return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"{}\"/>\n", x, y,
                          kMark, colour);
     case 1:
-      return fmt::format(
-          "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n",
-          x - kMark, y - kMark, 2 * kMark, 2 * kMark, colour);
+      return SvgBox(x - kMark, y - kMark, 2 * kMark, 2 * kMark, fmt::format("fill=\"{}\"", colour));
     default:
       return fmt::format("<path d=\"M {:.1f} {:.1f} l {:.1f} {:.1f} h {:.1f} Z\" fill=\"{}\"/>\n",
                          x, y - 1.3 * kMark, 1.2 * kMark, 2.2 * kMark, -2.4 * kMark, colour);
@@ -84,13 +77,11 @@ class Panel {
   static double Y(double rate) { return kTop + kPanelHeight * (0.97 - 0.94 * rate); }
 
   std::string Axes() const {
-    std::string svg = fmt::format(
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
-        "stroke=\"#999\"/>\n",
-        left_, kTop, kPanelWidth, kPanelHeight);
+    std::string svg =
+        SvgBox(left_, kTop, kPanelWidth, kPanelHeight, "fill=\"none\" stroke=\"#999\"");
     svg += Text(left_, kTop - 8.0, kSuccessNames[kind_], "font-weight=\"bold\"");
     for (const double rate : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-      svg += LineTo(left_, Y(rate), left_ + kPanelWidth, Y(rate), "#e4e4e4");
+      svg += SvgLine({left_, Y(rate)}, {left_ + kPanelWidth, Y(rate)}, Stroke("#e4e4e4"));
       svg += Text(left_ - 5.0, Y(rate) + 4.0, fmt::format("{:.0f} %", 100.0 * rate),
                   "text-anchor=\"end\"");
     }
@@ -98,7 +89,8 @@ class Panel {
     for (const double x : Ticks()) {
       if (X(x) - last < 44.0) continue;
       last = X(x);
-      svg += LineTo(X(x), kTop + kPanelHeight, X(x), kTop + kPanelHeight + 4.0, "#999");
+      svg +=
+          SvgLine({X(x), kTop + kPanelHeight}, {X(x), kTop + kPanelHeight + 4.0}, Stroke("#999"));
       svg += Text(X(x), kTop + kPanelHeight + 16.0, fmt::format("{:.4g}", x),
                   "text-anchor=\"middle\"");
     }
@@ -119,21 +111,12 @@ class Panel {
   }
 
   std::string Fit(std::size_t number) const {
-    const std::vector<FitPoint> points = FittedLine(summary_.curves[number].fits[kind_]);
-    if (points.empty()) return "";
-    std::string line;
-    std::string upper;
-    std::string lower;
-    for (const auto& [x, rate, band] : points) {
-      line += fmt::format("{:.1f},{:.1f} ", X(x), Y(rate));
-      upper += fmt::format("{:.1f},{:.1f} ", X(x), Y(band.high));
-      lower.insert(0, fmt::format("{:.1f},{:.1f} ", X(x), Y(band.low)));
+    std::vector<SvgBandPoint> points;
+    for (const auto& [x, rate, band] : FittedLine(summary_.curves[number].fits[kind_])) {
+      points.push_back({X(x), Y(rate), Y(band.low), Y(band.high)});
     }
-    const std::string_view colour = CurveColour(number);
-    return fmt::format(
-        "<polygon points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.18\"/>\n"
-        "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n",
-        upper, lower, colour, line, colour);
+    const std::string stroke = Stroke(CurveColour(number)) + " stroke-width=\"1.5\"";
+    return points.empty() ? "" : SvgBand(points, CurveColour(number), 0.18, stroke);
   }
 
   std::string Curve(std::size_t number) const {
@@ -148,7 +131,8 @@ class Panel {
           kind_ == 0 ? cell.declared_success.rate : cell.true_success.rate;
       if (rate.trials == 0) continue;
       const double x = X(curve.x[i]) + std::clamp(shift, -14.0, 14.0);
-      svg += LineTo(x, Y(rate.interval.low), x, Y(rate.interval.high), CurveColour(number));
+      svg += SvgLine({x, Y(rate.interval.low)}, {x, Y(rate.interval.high)},
+                     Stroke(CurveColour(number)));
       svg += Mark(number, x, Y(rate.rate));
     }
     return svg;

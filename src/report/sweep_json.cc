@@ -90,17 +90,6 @@ JsonValue Axis(const scenario::SweepAxis& axis) {
   return ObjectTree("name", axis.name, "unit", axis.unit, "numeric", axis.numeric);
 }
 
-JsonValue Totals(const SweepSummary& summary) {
-  SweepCellSummary total;
-  for (const SweepCellSummary& cell : summary.cells) {
-    total.planned += cell.planned;
-    total.stored += cell.stored;
-    total.completed += cell.completed;
-    total.faults += cell.faults;
-  }
-  return Trials(total);
-}
-
 JsonValue Cells(const Sweep& sweep, const SweepSummary& summary) {
   JsonValue::List cells;
   for (std::size_t i = 0; i < summary.cells.size(); ++i) {
@@ -133,7 +122,7 @@ JsonValue SweepValue(const Sweep& sweep, const SweepSummary& summary,
   JsonValue json =
       ObjectTree("schema_version", kSchemaVersion, "kind", "sweep", "name", sweep.name, "seed",
                  sweep.seed, "common_random_numbers", sweep.common_random_numbers, "axes",
-                 core::ListOf(sweep.axes, Axis), "trials", Totals(summary));
+                 core::ListOf(sweep.axes, Axis), "trials", Trials(TotalTrials(summary)));
   json.Update(AccountingJson(TotalAccounting(summary), std::nullopt));
   SetMembers(json, "cells", Cells(sweep, summary), "fits", Fits(summary.curves), "differences",
              core::ListOf(summary.differences, Difference), "attribution",

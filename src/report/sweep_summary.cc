@@ -171,6 +171,17 @@ void AddCautions(std::span<const SweepCellSummary> cells, std::span<const CellOu
 
 }  // namespace
 
+SweepCellSummary TotalTrials(const SweepSummary& summary) {
+  SweepCellSummary total;
+  for (const SweepCellSummary& cell : summary.cells) {
+    total.planned += cell.planned;
+    total.stored += cell.stored;
+    total.completed += cell.completed;
+    total.faults += cell.faults;
+  }
+  return total;
+}
+
 Accounting TotalAccounting(const SweepSummary& summary) {
   Accounting total;
   for (const SweepCellSummary& cell : summary.cells) total = Sum(total, cell.accounting);

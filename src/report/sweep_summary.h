@@ -89,6 +89,9 @@ struct SweepSummary {
   std::vector<std::string> notes;  // cells whose trials are equal: a setting without effect
 };
 
+// Counts of trials of all cells together.
+SweepCellSummary TotalTrials(const SweepSummary& summary);
+
 // Of all cells.
 Accounting TotalAccounting(const SweepSummary& summary);
 

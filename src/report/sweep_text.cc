@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -45,36 +46,20 @@ std::string Count(std::int64_t trials) {
                              : fmt::format("{}M", trials / 1'000'000);
 }
 
-std::string_view DesignName(scenario::DesignKind design) {
-  switch (design) {
-    case scenario::DesignKind::kGrid:
-      return "grid";
-    case scenario::DesignKind::kList:
-      return "list";
-    case scenario::DesignKind::kLatinHypercube:
-      return "Latin hypercube";
-    case scenario::DesignKind::kSobol:
-      return "Sobol points";
-  }
-  return "";
-}
+// In the order of scenario::DesignKind.
+constexpr std::array<std::string_view, 4> kDesignNames{"grid", "list", "Latin hypercube",
+                                                       "Sobol points"};
 
 std::string Head(const Sweep& sweep, const SweepSummary& summary) {
-  std::int64_t completed = 0;
-  std::int64_t planned = 0;
-  std::int64_t faults = 0;
-  for (const SweepCellSummary& cell : summary.cells) {
-    completed += cell.completed;
-    planned += cell.planned;
-    faults += cell.faults;
-  }
+  const SweepCellSummary total = TotalTrials(summary);
   std::string text = Wrapped(fmt::format(
       "{}: {}, {} cells, seed {}{}\n  {} of {} trials\n", Cut(Printable(sweep.name), 40),
-      DesignName(sweep.design), sweep.cells.size(), sweep.seed,
-      sweep.common_random_numbers ? ", common random numbers" : "", completed, planned));
+      kDesignNames[static_cast<std::size_t>(sweep.design)], sweep.cells.size(), sweep.seed,
+      sweep.common_random_numbers ? ", common random numbers" : "", total.completed,
+      total.planned));
   text += AccountingText(TotalAccounting(summary));
-  if (faults > 0) {
-    text += fmt::format("  {} simulator faults, in none of the rates below\n", faults);
+  if (total.faults > 0) {
+    text += fmt::format("  {} simulator faults, in none of the rates below\n", total.faults);
   }
   return text;
 }
@@ -169,15 +154,12 @@ std::string FitLine(const SweepCurve& curve, std::size_t kind) {
   const statistics::LogisticFit& fit = curve.fits[kind];
   const std::string_view name = kSuccessNames[kind];
   std::string text = fmt::format("    {:<9} ", name.substr(0, name.find(' ')));
-  switch (fit.status) {
-    case FitStatus::kFitted:
-      break;
-    case FitStatus::kTooFewPoints:
-      return text + "no fit: fewer than two cells with trials\n";
-    case FitStatus::kNoContrast:
-      return text + "no fit: nothing but successes, or nothing but failures\n";
-    case FitStatus::kSeparated:
-      return text + "no fit: successes and failures do not overlap; put cells between them\n";
+  // In the order of FitStatus.
+  constexpr std::array<std::string_view, 4> kLacks{
+      "", "fewer than two cells with trials", "nothing but successes, or nothing but failures",
+      "successes and failures do not overlap; put cells between them"};
+  if (fit.status != FitStatus::kFitted) {
+    return text + fmt::format("no fit: {}\n", kLacks[static_cast<std::size_t>(fit.status)]);
   }
   for (const statistics::FitCrossing& crossing : curve.crossings[kind]) {
     text += fmt::format("{:<35} ", fmt::format("{} ({} .. {})", Place(crossing.x, fit),

@@ -1,7 +1,6 @@
-#include "report/tolerance_reference.h"
-
 #include <cmath>
 
+#include "report/reference_fields.h"
 #include "statistics/closed_forms.h"
 
 namespace rockyard::report {

@@ -1,4 +1,3 @@
-#include "report/trace_story.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // What story, CSV and drawing of a trial look up in its trace, and in what way two records differ;
-// the course of a trial as a table.
+// the course of a trial as a table and to read.
 #pragma once
 
 #include <span>
@@ -34,5 +34,19 @@ std::vector<std::string> RecordDifferences(const truth::RecordSchema& schema,
 // What an event line says beyond its own true pose is that of the sample before it, empty where
 // there is none.
 std::string TraceCsv(const truth::Trace& trace);
+
+enum class StoryLength {
+  kFolded,  // at most kMaxStoryLines lines
+  kAll,     // every event on a line of its own
+};
+
+inline constexpr int kMaxStoryLines = 60;
+
+// Outcome and detail, key figures of the record, then the events in the order of time: time, true
+// pose, believed pose, believed distance to the goal, kind and detail, and how the rover turned and
+// drove until the next line. Lengths in m, angles in degrees. Folded, events that follow each other
+// within a short drive share a line, e.g. "12 hazard scans ..#.. to .#..., turned right 141 deg";
+// the drive is the shortest one that keeps the limit. Lines have up to some 170 columns.
+std::string TraceStory(const truth::TracedTrial& trial, StoryLength length);
 
 }  // namespace rockyard::report

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <vector>
 
 namespace rockyard::report {
 namespace {
@@ -41,10 +43,35 @@ std::string EscapeXml(std::string_view text) {
   return escaped;
 }
 
+std::string JUnitReport(std::string_view name, std::span<const JUnitCase> cases,
+                        std::string_view properties) {
+  const auto count = [&](std::string_view element) {
+    return std::count_if(cases.begin(), cases.end(),
+                         [&](const JUnitCase& each) { return each.element == element; });
+  };
+  std::string xml = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}",
+      EscapeXml(name), cases.size(), count("failure"), count("skipped"), properties);
+  for (const JUnitCase& each : cases) {
+    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", EscapeXml(each.suite),
+                       EscapeXml(each.name));
+    xml += each.element.empty() ? "/>\n"
+                                : fmt::format(">\n    <{} message=\"{}\"/>\n  </testcase>\n",
+                                              each.element, EscapeXml(each.message));
+  }
+  return xml + "</testsuite>\n";
+}
+
 std::string SvgText(double x, double y, std::string_view text, double size) {
   return fmt::format(
       "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.0f}\" font-family=\"sans-serif\">{}</text>\n",
       x, y, size, EscapeXml(text));
+}
+
+std::string SvgStyledText(double x, double y, std::string_view text, std::string_view style) {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style,
+                     EscapeXml(text));
 }
 
 std::string SvgBox(double x, double y, double width, double height, std::string_view style) {
@@ -63,6 +90,19 @@ std::string SvgPolygon(std::span<const SvgPoint> points, std::string_view style)
 
 std::string SvgPolyline(std::span<const SvgPoint> points, std::string_view style) {
   return PointsElement("polyline", points, style);
+}
+
+std::string SvgBand(std::span<const SvgBandPoint> points, std::string_view colour, double opacity,
+                    std::string_view stroke) {
+  std::vector<SvgPoint> line;
+  std::vector<SvgPoint> band;
+  for (const SvgBandPoint& point : points) {
+    line.push_back({point.x, point.y});
+    band.push_back({point.x, point.high});
+  }
+  for (std::size_t i = points.size(); i-- > 0;) band.push_back({points[i].x, points[i].low});
+  return SvgPolygon(band, fmt::format("fill=\"{}\" fill-opacity=\"{}\"", colour, opacity)) +
+         SvgPolyline(line, fmt::format("fill=\"none\" {}", stroke));
 }
 
 std::string SvgPart(const SvgFrame& frame, std::string_view elements) {

@@ -1,5 +1,5 @@
-// Text inside XML and SVG files; elements of SVG drawings, whose lengths are in px, x to the right
-// and y down.
+// Text inside XML and SVG files; reports in JUnit's form; elements of SVG drawings, whose lengths
+// are in px, x to the right and y down.
 #pragma once
 
 #include <span>
@@ -13,6 +13,18 @@ namespace rockyard::report {
 // Characters that XML takes for its own are written as entities, control characters as blanks: fit
 // for elements and for quoted attributes.
 std::string EscapeXml(std::string_view text);
+
+// One test of a JUnit report.
+struct JUnitCase {
+  std::string suite;
+  std::string name;
+  std::string_view element;  // "failure" or "skipped"; empty: passed
+  std::string message;
+};
+
+// `properties`: XML that stands before the cases.
+std::string JUnitReport(std::string_view name, std::span<const JUnitCase> cases,
+                        std::string_view properties = "");
 
 struct SvgPoint {
   double x = 0.0;
@@ -29,11 +41,25 @@ struct SvgFrame {
 
 // The text may hold any characters: it is escaped.
 std::string SvgText(double x, double y, std::string_view text, double size = 13.0);
+// In the font of the drawing, with a style of its own.
+std::string SvgStyledText(double x, double y, std::string_view text, std::string_view style);
 // Styles are attributes, e.g. fill="#fff", and go into the file as they are.
 std::string SvgBox(double x, double y, double width, double height, std::string_view style);
 std::string SvgLine(SvgPoint from, SvgPoint to, std::string_view style);
 std::string SvgPolygon(std::span<const SvgPoint> points, std::string_view style);
 std::string SvgPolyline(std::span<const SvgPoint> points, std::string_view style);
+
+// A curve at one x: its height, and the ends of what it may be.
+struct SvgBandPoint {
+  double x = 0.0;
+  double y = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+// A line, and the band around it in the same colour.
+std::string SvgBand(std::span<const SvgBandPoint> points, std::string_view colour, double opacity,
+                    std::string_view stroke);
 
 // Coordinates within count from the frame's upper left corner, and what lies beyond it is cut off.
 std::string SvgPart(const SvgFrame& frame, std::string_view elements);

@@ -55,23 +55,6 @@ DriftMoments ExactMoments(const StraightDrift& drift) {
           .heading_deg = std::sqrt(drift.heading_variance_deg2_per_m * end_m)};
 }
 
-DriftMoments SecondOrderMoments(const StraightDrift& drift) {
-  const double length_m = drift.distance_m;
-  const double q = drift.heading_variance_deg2_per_m * Square(kRadPerDeg);
-  // With a Wiener process h of variance q a metre:
-  //   heading     h(L)                    variance q L          (the walk itself)
-  //   across      integral of h           variance q L^3 / 3    (integrated once more)
-  //   along       -1/2 integral of h^2    mean -q L^2 / 4, variance q^2 L^4 / 12
-  // the last because h_s^2 and h_t^2 have the covariance 2 q^2 min(s, t)^2, whose integral over the
-  // square is q^2 L^4 / 3. What the steps' own lengths add lies along to this order.
-  const double lengths =
-      drift.distance_variance_m2_per_m * length_m + Square(drift.scale_deviation * length_m);
-  return {.along_bias_m = -0.25 * q * Square(length_m),
-          .along_m = std::sqrt(lengths + Square(q) * std::pow(length_m, 4) / 12.0),
-          .across_m = std::sqrt(q * std::pow(length_m, 3) / 3.0),
-          .heading_deg = std::sqrt(drift.heading_variance_deg2_per_m * length_m)};
-}
-
 // 1 - (1 - p)^n, without loss of digits where p is small.
 double AnyOf(double p, double n) { return -std::expm1(n * std::log1p(-p)); }
 

@@ -34,10 +34,6 @@ struct DriftMoments {
 // steps. Needs step_m > 0 and at least one step.
 DriftMoments ExactMoments(const StraightDrift& drift);
 
-// Returns the moments of a walk without steps, to second order in the heading's error: good to some
-// per cent while q L is below 0.1 rad2 (330 deg2).
-DriftMoments SecondOrderMoments(const StraightDrift& drift);
-
 // Returns the chance that at least one of n independent events of chance p happens: 1 - (1 - p)^n.
 // With one point of 20 in a hundred found in a wrong place it is Matthies 1995, section 6: one
 // false alarm in five scans.

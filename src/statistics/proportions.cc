@@ -1,6 +1,7 @@
 #include "statistics/proportions.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -99,17 +100,10 @@ Interval ProportionInterval(std::int64_t count, std::int64_t trials, double conf
 }
 
 std::string_view MethodName(IntervalMethod method) {
-  switch (method) {
-    case IntervalMethod::kWilson:
-      return "wilson";
-    case IntervalMethod::kClopperPearson:
-      return "clopper_pearson";
-    case IntervalMethod::kStopped:
-      return "clopper_pearson_stopped";
-    case IntervalMethod::kClustered:
-      break;
-  }
-  return "clustered";
+  // In the order of IntervalMethod.
+  constexpr std::array<std::string_view, 4> kNames{"wilson", "clopper_pearson",
+                                                   "clopper_pearson_stopped", "clustered"};
+  return kNames[static_cast<std::size_t>(method)];
 }
 
 IntervalMethod RateMethod(std::int64_t count, std::int64_t trials, IntervalMethod method) {
@@ -142,7 +136,7 @@ Interval DifferenceInterval(const Proportion& first, const Proportion& second, d
           difference + std::hypot(b.high - second.rate, first.rate - a.low)};
 }
 
-double FisherExactPValue(const ContingencyTable& table, Alternative alternative) {
+double FisherExactPValue(const ContingencyTable& table) {
   EXPECT(table.success_1 >= 0 && table.failure_1 >= 0 && table.success_2 >= 0 &&
          table.failure_2 >= 0);
   const std::int64_t group_1 = table.success_1 + table.failure_1;
@@ -155,12 +149,9 @@ double FisherExactPValue(const ContingencyTable& table, Alternative alternative)
   double extreme = 0.0;
   for (std::int64_t x = law.lowest; x <= law.highest(); ++x) {
     const double weight = law.At(x);
-    // Two-sided: all tables no more probable than the observed one, with room for rounding.
-    const bool as_extreme = alternative == Alternative::kLess      ? x <= table.success_1
-                            : alternative == Alternative::kGreater ? x >= table.success_1
-                                                                   : weight <= limit;
     all += weight;
-    if (as_extreme) extreme += weight;
+    // All tables no more probable than the observed one, with room for rounding.
+    if (weight <= limit) extreme += weight;
   }
   return extreme / all;
 }
@@ -181,12 +172,6 @@ void PairedCounts::Add(bool first, bool second) {
   } else {
     ++(second ? only_second : neither);
   }
-}
-
-SignedValues DifferencesOf(const PairedCounts& counts) {
-  return {.n = static_cast<double>(counts.pairs()),
-          .sum = static_cast<double>(counts.only_second - counts.only_first),
-          .squares = static_cast<double>(counts.only_second + counts.only_first)};
 }
 
 Interval AgrestiMinInterval(const SignedValues& values, double confidence) {

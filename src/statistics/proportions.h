@@ -66,8 +66,6 @@ Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confid
 Interval DifferenceInterval(const Proportion& first, const Proportion& second,
                             double confidence = kConfidence);
 
-enum class Alternative { kTwoSided, kLess, kGreater };
-
 // A 2 x 2 table: rows are two groups, columns are success and failure.
 struct ContingencyTable {
   std::int64_t success_1 = 0;
@@ -76,12 +74,10 @@ struct ContingencyTable {
   std::int64_t failure_2 = 0;
 };
 
-// Returns the p-value of Fisher's exact test given all margins. kGreater: group 1 succeeds more
-// often than group 2. Two-sided it is the total probability of the tables that are no more probable
-// than the one observed (relative tolerance 1e-7). An empty table gives 1. Cost: linear in the
-// smallest margin.
-double FisherExactPValue(const ContingencyTable& table,
-                         Alternative alternative = Alternative::kTwoSided);
+// Returns the two-sided p-value of Fisher's exact test given all margins: the total probability of
+// the tables that are no more probable than the one observed (relative tolerance 1e-7). An empty
+// table gives 1. Cost: linear in the smallest margin.
+double FisherExactPValue(const ContingencyTable& table);
 
 // Returns the p-value of McNemar's exact test of paired runs (same seeds under two settings): the
 // arguments are the pairs in which only the first, or only the second, succeeded; under the null
@@ -106,8 +102,6 @@ struct SignedValues {
   double sum = 0.0;
   double squares = 0.0;
 };
-
-SignedValues DifferencesOf(const PairedCounts& counts);  // second less first
 
 // Returns the interval of their mean: that of the normal law after half a value of -1, half of +1
 // and one of 0 are added (Agresti and Min 2005, Statistics in Medicine 24, pp. 729-740, section 3:

@@ -113,19 +113,9 @@ Row NotJudged(const PublishedValue& published, std::string remark) {
 }
 
 const char* Name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kAgrees:
-      return "agrees";
-    case Verdict::kHolds:
-      return "holds";
-    case Verdict::kDiffers:
-      return "differs";
-    case Verdict::kUnderpowered:
-      return "underpowered";
-    case Verdict::kNotJudged:
-      break;
-  }
-  return "not judged";
+  // In the order of Verdict.
+  constexpr const char* kNames[] = {"agrees", "holds", "differs", "underpowered", "not judged"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 ComparisonResult Compare(const PublishedReference& reference, std::span<const ScenarioRun> runs,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "core/count_of.h"
 
 namespace rockyard::app {
 namespace {
@@ -63,19 +64,11 @@ std::string Joined(const Words& words) {
   return text;
 }
 
-std::size_t Occurrences(const std::string& text, const std::string& what) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) {
-    ++count;
-  }
-  return count;
-}
-
 TEST_F(OutputTest, ThatIsFullEndsEveryCommandWithFive) {
   for (const Words& words : Commands()) {
     const CommandResult told = RunInto(full_, words);
     EXPECT_EQ(told.exit_code, 5) << Joined(words);
-    EXPECT_EQ(Occurrences(told.err, kLost), 1u) << Joined(words) << told.err;
+    EXPECT_EQ(core::CountOf(told.err, kLost), 1) << Joined(words) << told.err;
   }
 }
 

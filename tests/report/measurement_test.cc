@@ -6,10 +6,10 @@
 #include <sstream>
 #include <string_view>
 
+#include "core/count_of.h"
 #include "core/says.h"
-#include "report/cell_comparison_text.h"
-#include "report/measurement_drawing.h"
 #include "report/measurement_text.h"
+#include "report/paired_comparison.h"
 #include "report/sample_run.h"
 #include "report/summary_json.h"
 #include "statistics/cell_summary.h"
@@ -109,10 +109,7 @@ TEST(MeasurementReport, FewCellsAreListedManyArePooled) {
 TEST(MeasurementReport, TheDrawingHasAPanelAndACurveForEachDiameter) {
   const std::string svg = CellsSvg(Sample(4, 3), "a < b > \"c\"");
   EXPECT_THAT(svg, HasSubstr("a &lt; b &gt; &quot;c&quot;"));
-  std::size_t curves = 0;
-  for (auto at = svg.find("<polyline"); at != std::string::npos; at = svg.find("<polyline", at + 1))
-    ++curves;
-  EXPECT_EQ(curves, 3u);
+  EXPECT_EQ(core::CountOf(svg, "<polyline"), 3);
   EXPECT_EQ(CellsSvg(Sample(1, 3), "one height"), "") << "nothing to draw against";
 }
 

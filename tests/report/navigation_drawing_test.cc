@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/count_of.h"
 #include "core/says.h"
 #include "report/colour_ramp.h"
 #include "report/step_scene.h"
@@ -15,18 +16,11 @@
 namespace rockyard::report {
 namespace {
 
+using core::CountOf;
 using messages::MotionKind;
 using messages::NavigationView;
 using testing::HasSubstr;
 using testing::Not;
-
-int Count(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++count;
-  }
-  return count;
-}
 
 // 4 x 2 cells; the lower row is known (255 255 0 0), the upper row is not.
 NavigationView Sample() {
@@ -89,13 +83,13 @@ TEST(NavigationSvg, DrawsMapsVotesAndTheChoice) {
   const std::string svg = NavigationSvg({"trial 3 <b>&", Sample(), {}});
   EXPECT_THAT(svg, core::Says("trial 3 &lt;b&gt;&amp;: forward +2.00 /m (vote 157)",
                               "dark -0.10 m, light 0.30 m"));
-  EXPECT_EQ(Count(svg, "<polyline"), 6) << "every arc";
-  EXPECT_EQ(Count(svg, "stroke-width=\"4\""), 1) << "the chosen one";
-  EXPECT_EQ(Count(svg, "fill=\"#009e73\""), 2) << "two arcs share the best vote";
-  EXPECT_EQ(Count(svg, "stroke=\"#009e73\""), 1);
+  EXPECT_EQ(CountOf(svg, "<polyline"), 6) << "every arc";
+  EXPECT_EQ(CountOf(svg, "stroke-width=\"4\""), 1) << "the chosen one";
+  EXPECT_EQ(CountOf(svg, "fill=\"#009e73\""), 2) << "two arcs share the best vote";
+  EXPECT_EQ(CountOf(svg, "stroke=\"#009e73\""), 1);
   // Background, three panels; cells in runs: two of elevation, two of goodness, one of certainty;
   // three rows of six votes; two underlines, one frame; the plan of the course and its scale.
-  EXPECT_EQ(Count(svg, "<rect"), 1 + 3 + 5 + 18 + 2 + 1 + 2);
+  EXPECT_EQ(CountOf(svg, "<rect"), 1 + 3 + 5 + 18 + 2 + 1 + 2);
 }
 
 TEST(NavigationSvg, DrawsTheCourseWithThePathSoFar) {
@@ -111,13 +105,13 @@ TEST(NavigationSvg, DrawsTheCourseWithThePathSoFar) {
   view.forward.clear();
   view.backward.clear();
   const std::string svg = NavigationSvg({"t", view, scene});
-  EXPECT_EQ(Count(svg, "<polyline points"), 3) << "pieces of both paths, but for a single place";
+  EXPECT_EQ(CountOf(svg, "<polyline points"), 3) << "pieces of both paths, but for a single place";
   // The rock that is in sight, the map's window, the rover.
-  EXPECT_EQ(Count(svg, "<polygon"), 3);
-  EXPECT_EQ(Count(svg, "rgb(70,70,70)"), 1);
-  EXPECT_EQ(Count(svg, "<title>waypoint"), 2);
-  EXPECT_EQ(Count(svg, "<title>start"), 1);
-  EXPECT_EQ(Count(svg, "<title>goal"), 1);
+  EXPECT_EQ(CountOf(svg, "<polygon"), 3);
+  EXPECT_EQ(CountOf(svg, "rgb(70,70,70)"), 1);
+  EXPECT_EQ(CountOf(svg, "<title>waypoint"), 2);
+  EXPECT_EQ(CountOf(svg, "<title>start"), 1);
+  EXPECT_EQ(CountOf(svg, "<title>goal"), 1);
   EXPECT_THAT(svg, core::Says("no camera", "true path"));
 }
 
@@ -164,7 +158,7 @@ TEST(CoursePanel, SmallRocksHaveFourCorners) {
     }
     const std::string svg = CoursePanel(scene, Sample(), {0.0, 0.0, 582.0, 416.0});
     const std::size_t end = svg.find("rgb(70,70,70)");
-    return Count(svg.substr(svg.rfind("points=", end), end - svg.rfind("points=", end)), ",");
+    return CountOf(svg.substr(svg.rfind("points=", end), end - svg.rfind("points=", end)), ",");
   };
   EXPECT_EQ(corners(0.2), 8);
   EXPECT_EQ(corners(0.04), 4);
@@ -174,12 +168,12 @@ TEST(NavigationSvg, DrawsTheViewWithTheGrid) {
   StepScene scene = SampleScene();
   NavigationView view = Sample();
   const auto cells_drawn = [&] {
-    return Count(NavigationSvg({"t", view, scene}), "fill-opacity=\"0.55\"");
+    return CountOf(NavigationSvg({"t", view, scene}), "fill-opacity=\"0.55\"");
   };
   EXPECT_EQ(cells_drawn(), 4) << "of the cells that hold points";
   view.map.cells[1].known = false;
   EXPECT_EQ(cells_drawn(), 3) << "the other one has an outline alone";
-  EXPECT_EQ(Count(NavigationSvg({"t", view, scene}), "fill=\"none\" stroke=\"#777\""), 1);
+  EXPECT_EQ(CountOf(NavigationSvg({"t", view, scene}), "fill=\"none\" stroke=\"#777\""), 1);
   // Goodness 255 and 0, as in the map of goodness.
   EXPECT_THAT(NavigationSvg({"t", view, scene}), HasSubstr("fill=\"#fde725\" fill-opacity"));
   EXPECT_THAT(NavigationSvg({"t", view, scene}), HasSubstr("fill=\"#440154\" fill-opacity"));
@@ -237,7 +231,7 @@ TEST(CameraPanel, SmallRocksHaveFewCorners) {
     const std::string svg = CameraPanel(scene, NavigationView(), {0.0, 0.0, 400.0, 400.0});
     scene.rocks.clear();
     const std::size_t end = svg.find("#c9bfb4");
-    return Count(svg.substr(svg.rfind("<polygon", end), end - svg.rfind("<polygon", end)), ",");
+    return CountOf(svg.substr(svg.rfind("<polygon", end), end - svg.rfind("<polygon", end)), ",");
   };
   EXPECT_EQ(corners(0.4), 64);
   EXPECT_LT(corners(6.0), 16);
@@ -281,7 +275,7 @@ TEST(NavigationCsv, LeavesUnknownFieldsEmpty) {
   const std::string csv = MapCsv(Sample().map);
   EXPECT_THAT(csv, core::Says("x_m,y_m,elevation_m,goodness,certainty\n0.1,0.1,-0.1,255,255\n",
                               ",0.1,0.3,0,255\n"));
-  EXPECT_EQ(Count(csv, ",,,\n"), 4);
+  EXPECT_EQ(CountOf(csv, ",,,\n"), 4);
   const std::string votes = VotesCsv(Sample());
   EXPECT_THAT(votes,
               core::Says("\nforward,2,1,200,255,100,157,1,1\n", "\nbackward,-2,-1,0,0,0,0,0,0\n"));

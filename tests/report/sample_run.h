@@ -44,6 +44,23 @@ inline std::string WrittenBy(void (*write)(const truth::RecordSchema&,
   return text;
 }
 
+// Every number as large as any run's.
+inline StoppingReport LargestStopping() {
+  constexpr std::int64_t kMax = 1'000'000'000;
+  return {.half_width = 0.49,
+          .max_trials = kMax,
+          .block = 1000000,
+          .confidence = 0.95,
+          .allocation = "adaptive",
+          .budget = 0,
+          .end = "max_trials",
+          .trials = kMax,
+          .drives = kMax,
+          .successes = kMax,
+          .low = 0.0,
+          .high = 1.0};
+}
+
 inline RunDescription SampleDescription() {
   RunDescription run;
   run.scenario = "sample";

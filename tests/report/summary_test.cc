@@ -258,18 +258,7 @@ TEST(SummaryText, FitsWhateverTheNumbersAre) {
   run.stored = kMax;
   run.ablations = {std::string(90, 'a'), std::string(90, 'b')};
   run.accounting = {kMax, kMax, kMax, kMax, kMax};
-  run.stopping = StoppingReport{.half_width = 0.49,
-                                .max_trials = kMax,
-                                .block = 1000000,
-                                .confidence = 0.95,
-                                .allocation = "adaptive",
-                                .budget = 0,
-                                .end = "max_trials",
-                                .trials = kMax,
-                                .drives = kMax,
-                                .successes = kMax,
-                                .low = 0.0,
-                                .high = 1.0};
+  run.stopping = LargestStopping();
   statistics::DriveSummary summary = SampleSummary();
   summary.completed = kMax;
   summary.faults = kMax;

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/count_of.h"
 #include "core/says.h"
 #include "report/csv.h"
+#include "report/sample_run.h"
 #include "report/sample_sweep.h"
 #include "report/sweep_files.h"
 #include "report/sweep_summary.h"
@@ -148,18 +150,7 @@ TEST(SweepFilesTest, TheTableFitsWhateverTheNumbersAre) {
   for (SweepCellSummary& cell : summary.cells) {
     cell.completed = cell.planned = kMax;
     cell.accounting = {kMax, kMax, kMax, kMax, kMax};
-    cell.stopping = StoppingReport{.half_width = 0.49,
-                                   .max_trials = kMax,
-                                   .block = 1000000,
-                                   .confidence = 0.95,
-                                   .allocation = "adaptive",
-                                   .budget = 0,
-                                   .end = "max_trials",
-                                   .trials = kMax,
-                                   .drives = kMax,
-                                   .successes = kMax,
-                                   .low = 0.0,
-                                   .high = 1.0};
+    cell.stopping = LargestStopping();
     for (statistics::MetricSummary& metric : cell.metrics) metric.mean = 1.5e200;
   }
   for (SweepDifference& each : summary.differences) {
@@ -199,12 +190,8 @@ TEST(SweepFilesTest, TheDrawingHasEveryPointAndEscapesNames) {
   EXPECT_THAT(svg, HasSubstr("&lt;test&gt;"));
   EXPECT_THAT(svg, Not(HasSubstr("<test>")));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
-  std::size_t circles = 0;
-  for (std::size_t at = svg.find("<circle"); at != std::string::npos;
-       at = svg.find("<circle", at + 1)) {
-    ++circles;
-  }
-  EXPECT_EQ(circles, 4u * 2u + 1u) << "four cells of navigator a, two panels, the legend";
+  EXPECT_EQ(core::CountOf(svg, "<circle"), 4 * 2 + 1)
+      << "four cells of navigator a, two panels, the legend";
 }
 
 TEST(SweepFilesTest, JsonHoldsCellsFitsAndDifferences) {

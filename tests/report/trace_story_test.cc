@@ -1,4 +1,3 @@
-#include "report/trace_story.h"
 
 #include <gmock/gmock.h>
 
@@ -7,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/count_of.h"
 #include "core/says.h"
 #include "report/trace_drawing.h"
 #include "report/trace_view.h"
@@ -15,6 +15,7 @@
 namespace rockyard::report {
 namespace {
 
+using core::CountOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -127,18 +128,12 @@ TEST(RecordDifferences, ComparesBits) {
 
 constexpr DrawnArea kPlan{-2.0, 10.0, -2.0, 2.0};
 
-std::size_t CountOf(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
 TEST(TraceCsv, SamplesAndEventsInOrderOfTime) {
   const truth::TracedTrial trial = SampleTrial();
   std::istringstream lines(TraceCsv(trial.trace));
   std::string line;
   std::getline(lines, line);
-  const std::size_t columns = CountOf(line, ",");
+  const int columns = CountOf(line, ",");
   EXPECT_EQ(columns, 11U);
   double last_s = 0.0;
   std::size_t rows = 0;
@@ -154,10 +149,10 @@ TEST(TraceCsv, SamplesAndEventsInOrderOfTime) {
 
 TEST(TraceDrawing, PathsBreakAtReflectionsAndMarksLieOnBoth) {
   const TraceDrawing drawing = DrawTrace(SampleTrial(), kPlan);
-  EXPECT_EQ(CountOf(drawing.elements, "<polyline"), 4U);  // two pieces of two paths
+  EXPECT_EQ(CountOf(drawing.elements, "<polyline"), 4);  // two pieces of two paths
   EXPECT_THAT(drawing.elements, HasSubstr("points=\"0.000,-0.000 0.100,-0.000 "));
   // Three scans at one place: one circle on each path, and one in the key.
-  EXPECT_EQ(CountOf(drawing.elements, "<circle"), 3U);
+  EXPECT_EQ(CountOf(drawing.elements, "<circle"), 3);
   EXPECT_THAT(drawing.elements, HasSubstr("scrape  at 67 s"));
   EXPECT_THAT(drawing.elements, HasSubstr("sample&lt;&amp;&gt;, seed 7, trial 12: no_path"));
   EXPECT_LT(drawing.area.y_min_m, kPlan.y_min_m);
@@ -173,7 +168,7 @@ TEST(TraceDrawing, LongPathsAreThinnedAndKeepTheirEnds) {
   }
   trial.trace.events.clear();
   const TraceDrawing drawing = DrawTrace(trial, kPlan);
-  const std::size_t points = CountOf(drawing.elements, ",") - 2;  // two in the title
+  const int points = CountOf(drawing.elements, ",") - 2;  // two in the title
   EXPECT_LE(points, 2 * kMaxDrawnPoints);
   EXPECT_GT(points, kMaxDrawnPoints);
   EXPECT_THAT(drawing.elements, HasSubstr("points=\"0.000,-0.000 "));

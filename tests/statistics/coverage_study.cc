@@ -336,7 +336,10 @@ void StudyRateDifference(const Metric& metric, const Values& first, const Values
       const Proportion won = MakeProportion(counts.only_second, n);
       const double exact = ExactWidth(lost, won);
       paired.Add(DifferenceInterval(counts), won.rate - lost.rate, exact);
-      agresti.Add(AgrestiMinInterval(DifferencesOf(counts)), won.rate - lost.rate, exact);
+      const SignedValues differences{static_cast<double>(counts.pairs()),
+                                     static_cast<double>(counts.only_second - counts.only_first),
+                                     static_cast<double>(counts.only_second + counts.only_first)};
+      agresti.Add(AgrestiMinInterval(differences), won.rate - lost.rate, exact);
       const auto ones = [&](const Values& values, std::uint32_t number) {
         const double mean = MeanOf(Pick(values, Draw(count, size, s, number)));
         return MakeProportion(std::llround(mean * static_cast<double>(n)), n);

@@ -61,28 +61,6 @@ TEST(ExactMomentsTest, ShortStepsAreAWormLikeChain) {
   EXPECT_NEAR(round.along_m / round.across_m, 1.0, 1e-2);
 }
 
-// The exact moments go over into the second order's as the heading's error does to 0.
-TEST(SecondOrderMomentsTest, IsTheLimitOfSmallErrors) {
-  for (const double q_rad2_per_m : {1e-3, 1e-4}) {
-    const StraightDrift drift{1e-3, 10.0, 1e-9, Deg2(q_rad2_per_m), 0.0};
-    const DriftMoments exact = ExactMoments(drift);
-    const DriftMoments second = SecondOrderMoments(drift);
-    // What is left out is of the next order, q L, and a step's share of the whole.
-    const double limit = q_rad2_per_m * 10.0 + 1e-3;
-    EXPECT_NEAR(exact.along_bias_m / second.along_bias_m, 1.0, limit);
-    EXPECT_NEAR(exact.along_m / second.along_m, 1.0, limit);
-    EXPECT_NEAR(exact.across_m / second.across_m, 1.0, limit);
-    EXPECT_NEAR(exact.heading_deg / second.heading_deg, 1.0, 1e-12);
-  }
-}
-
-TEST(SecondOrderMomentsTest, LengthsAndScaleAddToTheAlongError) {
-  const DriftMoments moments = SecondOrderMoments({0.0, 7.0, 0.0039, 0.0, 0.02});
-  EXPECT_NEAR(moments.along_m, std::sqrt(0.0039 * 7.0 + 0.14 * 0.14), 1e-12);
-  EXPECT_EQ(moments.across_m, 0.0);
-  EXPECT_EQ(moments.along_bias_m, 0.0);
-}
-
 // Figure 6 as section 5 prints it, of simulated runs and to a centimetre. Two of them are nearer to
 // the continuous walk than to 149 steps, 9.983 m: 26.7 against 26.4 cm, and 19.7 cm along.
 TEST(StraightDriftTest, Figure6) {
@@ -97,7 +75,6 @@ TEST(StraightDriftTest, Figure6) {
   EXPECT_NEAR(exact(10.0, 16.0).along_m, 0.24, 0.01);
   EXPECT_NEAR(exact(5.0, 16.0).across_m, 0.45, 0.01);
   EXPECT_NEAR(exact(5.0, 16.0).along_m, 0.15, 0.01);
-  EXPECT_NEAR(SecondOrderMoments({0.0, 10.0, 0.0039, 0.70, 0.0}).across_m, 0.267, 0.0005);
 }
 
 }  // namespace

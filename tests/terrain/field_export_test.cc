@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/count_of.h"
 #include "core/json_text.h"
 
 namespace rockyard::terrain {
@@ -24,12 +25,6 @@ std::vector<std::string> Lines(const std::string& text) {
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
-}
-
-int CountOf(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
 }
 
 TEST_F(FieldExportTest, CsvReadsBackToTheSameBits) {
@@ -150,15 +145,15 @@ TEST_F(FieldExportTest, ObjGroundFollowsRoughness) {
 
 TEST_F(FieldExportTest, SvgDrawsEveryRockAsAnOctagonWithinTheView) {
   const std::string svg = ToSvg(field_, params_, course_);
-  EXPECT_EQ(CountOf(svg, "<polygon"), static_cast<int>(field_.terrain.rocks().size()));
-  EXPECT_EQ(CountOf(svg, "stroke-dasharray"), 2);  // mirror lines
+  EXPECT_EQ(core::CountOf(svg, "<polygon"), static_cast<int>(field_.terrain.rocks().size()));
+  EXPECT_EQ(core::CountOf(svg, "stroke-dasharray"), 2);  // mirror lines
   EXPECT_THAT(svg, testing::HasSubstr("<title>start</title>"));
   EXPECT_THAT(svg, testing::HasSubstr("<title>goal</title>"));
   EXPECT_THAT(svg, testing::StartsWith("<svg"));
   EXPECT_THAT(svg, testing::EndsWith("</svg>\n"));
   const auto polygon = svg.find("points=\"");
   const auto end = svg.find('"', polygon + 8);
-  EXPECT_EQ(CountOf(svg.substr(polygon, end - polygon), ","), 8);
+  EXPECT_EQ(core::CountOf(svg.substr(polygon, end - polygon), ","), 8);
 }
 
 }  // namespace

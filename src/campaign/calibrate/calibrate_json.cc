@@ -1,12 +1,12 @@
 #include "campaign/calibrate/calibrate_json.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <string>
 #include <utility>
 
 #include "core/archive.h"
 #include "core/provenance.h"
+#include "report/json_members.h"
 #include "vision/cameras/camera_file.h"
 
 namespace rockyard::campaign {
@@ -16,7 +16,7 @@ using core::JsonValue;
 using vision::Pixel;
 
 JsonValue EstimateJson(const vision::Estimate& estimate) {
-  return JsonValue::Object({{"value", estimate.value}, {"sd", estimate.sd}});
+  return report::ObjectTree("value", estimate.value, "sd", estimate.sd);
 }
 
 JsonValue CovarianceJson(const vision::CameraCovariance& covariance, vision::EstimatedLens lens) {
@@ -50,21 +50,19 @@ JsonValue CameraPartJson(const CalibrateRequest& request, const CalibrateResult&
   const vision::CameraCovariance covariance = vision::CovarianceOf(result.calibration, camera);
   const vision::Intrinsics found =
       vision::IntrinsicsOf(result.calibration.cameras[camera], covariance);
-  JsonValue json = JsonValue::Object();
-  json.Set("name", JsonValue(CameraName(result, camera)));
-  json.Set("camera", vision::CameraJson(
-                         vision::ModelOf(result.calibration, camera, result.size, request.lens)));
-  json.Set("focal_h_px", EstimateJson(found.focal_h_px));
-  json.Set("focal_v_px", EstimateJson(found.focal_v_px));
-  json.Set("centre_h_px", EstimateJson(found.centre_h_px));
-  json.Set("centre_v_px", EstimateJson(found.centre_v_px));
-  json.Set("covariance", CovarianceJson(covariance, request.lens));
+  JsonValue json = report::ObjectTree(
+      "name", CameraName(result, camera), "camera",
+      vision::CameraJson(vision::ModelOf(result.calibration, camera, result.size, request.lens)),
+      "focal_h_px", EstimateJson(found.focal_h_px), "focal_v_px", EstimateJson(found.focal_v_px),
+      "centre_h_px", EstimateJson(found.centre_h_px), "centre_v_px",
+      EstimateJson(found.centre_v_px), "covariance", CovarianceJson(covariance, request.lens));
   const auto pixel_json = [](const PredictedPixel& pixel) {
-    return JsonValue::Object(
-        {{"column", pixel.at.x()}, {"row", pixel.at.y()}, {"error_px", pixel.error_px}});
+    return report::ObjectTree("column", pixel.at.x(), "row", pixel.at.y(), "error_px",
+                              pixel.error_px);
   };
-  json.Set("predicted_error_distance_m", JsonValue(MedianDistance(result, camera)));
-  json.Set("predicted_error", core::ListOf(PredictedErrors(request, result, camera), pixel_json));
+  report::SetMembers(json, "predicted_error_distance_m", MedianDistance(result, camera),
+                     "predicted_error",
+                     core::ListOf(PredictedErrors(request, result, camera), pixel_json));
   return json;
 }
 
@@ -73,11 +71,10 @@ JsonValue ImagesJson(const CalibrateRequest& request, const CalibrateResult& res
   for (std::size_t camera = 0; camera < result.read.size(); ++camera) {
     const auto& paths = camera == 0 ? request.images : request.right;
     for (std::size_t image = 0; image < paths.size(); ++image) {
-      images.push_back(
-          JsonValue::Object({{"camera", CameraName(result, camera)},
-                             {"file", paths[image].string()},
-                             {"what", result.read[camera][image]},
-                             {"rms_px", core::NumberOrNull(result.ImageRms(camera, image))}}));
+      images.push_back(report::ObjectTree("camera", CameraName(result, camera), "file",
+                                          paths[image].string(), "what", result.read[camera][image],
+                                          "rms_px",
+                                          core::NumberOrNull(result.ImageRms(camera, image))));
     }
   }
   return JsonValue(std::move(images));
@@ -86,28 +83,25 @@ JsonValue ImagesJson(const CalibrateRequest& request, const CalibrateResult& res
 JsonValue PoseJson(const math::Transform& X_AT) {
   const Eigen::Quaterniond q(X_AT.linear());
   const math::Vector3& p = X_AT.translation();
-  return JsonValue::Object(
-      {{"position_m", core::ListOf(std::vector<double>{p.x(), p.y(), p.z()})},
-       {"rotation_wxyz", core::ListOf(std::vector<double>{q.w(), q.x(), q.y(), q.z()})}});
+  return report::ObjectTree("position_m", core::ListOf(std::vector<double>{p.x(), p.y(), p.z()}),
+                            "rotation_wxyz",
+                            core::ListOf(std::vector<double>{q.w(), q.x(), q.y(), q.z()}));
 }
 
 JsonValue OutliersJson(const CalibrateRequest& request, const CalibrateResult& result) {
   const auto columns = static_cast<std::size_t>(result.board.columns);
   return core::ListOf(result.calibration.outliers, [&](const vision::CornerResidual& corner) {
-    return JsonValue::Object(
-        {{"file", ImageOf(request, corner).string()},
-         {"row", corner.corner / columns},
-         {"column", corner.corner % columns},
-         {"residual_px",
-          core::ListOf(std::vector<double>{corner.residual_px.x(), corner.residual_px.y()})}});
+    return report::ObjectTree(
+        "file", ImageOf(request, corner).string(), "row", corner.corner / columns, "column",
+        corner.corner % columns, "residual_px",
+        core::ListOf(std::vector<double>{corner.residual_px.x(), corner.residual_px.y()}));
   });
 }
 
 JsonValue FitJson(const vision::Calibration& calibration) {
-  return JsonValue::Object({{"corners", calibration.corners},
-                            {"degrees_of_freedom", calibration.degrees_of_freedom},
-                            {"rms_px", calibration.rms_px},
-                            {"sigma_px", calibration.sigma_px}});
+  return report::ObjectTree("corners", calibration.corners, "degrees_of_freedom",
+                            calibration.degrees_of_freedom, "rms_px", calibration.rms_px,
+                            "sigma_px", calibration.sigma_px);
 }
 
 }  // namespace
@@ -134,29 +128,23 @@ std::vector<PredictedPixel> PredictedErrors(const CalibrateRequest& request,
 }
 
 JsonValue CalibrateJson(const CalibrateRequest& request, const CalibrateResult& result) {
-  JsonValue json = JsonValue::Object();
-  json.Set("schema_version", JsonValue(std::int64_t{1}));
-  json.Set("target", core::WriteParams(result.board));
-  json.Set("size",
-           JsonValue::Object({{"columns", result.size.columns}, {"rows", result.size.rows}}));
-  json.Set("frame", JsonValue(result.surveyed ? "survey" : "first camera"));
-  json.Set("fit", FitJson(result.calibration));
-  json.Set("numbers",
-           JsonValue(request.lens == vision::EstimatedLens::kCahv ? "C A H V" : "C A H V O R"));
+  JsonValue json = report::ObjectTree(
+      "schema_version", 1, "target", core::WriteParams(result.board), "size",
+      report::ObjectTree("columns", result.size.columns, "rows", result.size.rows), "frame",
+      result.surveyed ? "survey" : "first camera", "fit", FitJson(result.calibration), "numbers",
+      request.lens == vision::EstimatedLens::kCahv ? "C A H V" : "C A H V O R");
   JsonValue::List cameras;
   for (std::size_t i = 0; i < result.calibration.cameras.size(); ++i) {
     cameras.push_back(CameraPartJson(request, result, i));
   }
-  json.Set("cameras", JsonValue(std::move(cameras)));
-  json.Set("baseline_m", result.calibration.cameras.size() == 2
-                             ? EstimateJson(vision::BaselineOf(result.calibration))
-                             : JsonValue());
-  json.Set("images", ImagesJson(request, result));
-  json.Set("poses", core::ListOf(result.calibration.X_AT, PoseJson));
-  json.Set("outliers", OutliersJson(request, result));
-  json.Set("notes", core::ListOf(result.notes));
-  json.Set("files", FilesJson(result.files));
-  json.Set("program", JsonValue(core::VersionLine()));
+  report::SetMembers(json, "cameras", std::move(cameras), "baseline_m",
+                     result.calibration.cameras.size() == 2
+                         ? EstimateJson(vision::BaselineOf(result.calibration))
+                         : JsonValue(),
+                     "images", ImagesJson(request, result), "poses",
+                     core::ListOf(result.calibration.X_AT, PoseJson), "outliers",
+                     OutliersJson(request, result), "notes", core::ListOf(result.notes), "files",
+                     FilesJson(result.files), "program", core::VersionLine());
   return json;
 }
 

@@ -20,6 +20,7 @@
 #include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 #include "math/angles.h"
+#include "report/json_members.h"
 #include "vision/cameras/camera_file.h"
 #include "vision/cylinder/published_finder.h"
 #include "vision/cylinder/robust_finder.h"
@@ -100,24 +101,19 @@ std::string NameIn(Enum value) {
 }
 
 JsonValue RegionJson(const vision::ColourRegion& region) {
-  JsonValue json = JsonValue::Object({{"role", NameIn(region.role)},
-                                      {"left", region.left},
-                                      {"top", region.top},
-                                      {"right", region.right},
-                                      {"bottom", region.bottom},
-                                      {"pixels", region.pixels}});
-  json.Set("colour", region.colour ? JsonValue(NameIn(*region.colour)) : JsonValue());
-  json.Set("centroid", core::ListOf(std::vector{region.centroid.x(), region.centroid.y()}));
-  return json;
+  return report::ObjectTree(
+      "role", NameIn(region.role), "left", region.left, "top", region.top, "right", region.right,
+      "bottom", region.bottom, "pixels", region.pixels, "colour",
+      region.colour ? JsonValue(NameIn(*region.colour)) : JsonValue(), "centroid",
+      core::ListOf(std::vector{region.centroid.x(), region.centroid.y()}));
 }
 
 JsonValue SightingJson(const vision::CylinderSighting& sighting) {
-  JsonValue json = JsonValue::Object();
-  json.Set("orientation_deg", JsonValue(math::RadToDeg(sighting.orientation_rad)));
+  JsonValue json = report::ObjectTree("orientation_deg", math::RadToDeg(sighting.orientation_rad));
   const math::Vector3& p = sighting.p_LT_L;
-  json.Set("position_m", core::ListOf(std::vector{p.x(), p.y(), p.z()}));
-  json.Set("distance_by_stereo_m", JsonValue(sighting.distance_by_stereo_m));
-  json.Set("distance_by_size_m", JsonValue(sighting.distance_by_size_m));
+  report::SetMembers(json, "position_m", core::ListOf(std::vector{p.x(), p.y(), p.z()}),
+                     "distance_by_stereo_m", sighting.distance_by_stereo_m, "distance_by_size_m",
+                     sighting.distance_by_size_m);
   JsonValue::List rows;
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector4d row = sighting.covariance.row(i);
@@ -125,8 +121,8 @@ JsonValue SightingJson(const vision::CylinderSighting& sighting) {
   }
   json.Set("covariance", JsonValue(std::move(rows)));
   JsonValue regions = JsonValue::Object();
-  regions.Set("left", core::ListOf(sighting.regions[0], RegionJson));
-  regions.Set("right", core::ListOf(sighting.regions[1], RegionJson));
+  report::SetMembers(regions, "left", core::ListOf(sighting.regions[0], RegionJson), "right",
+                     core::ListOf(sighting.regions[1], RegionJson));
   json.Set("regions", std::move(regions));
   return json;
 }
@@ -245,21 +241,18 @@ CylinderResult FindCylinderInFiles(const CylinderRequest& request) {
 }
 
 JsonValue CylinderJson(const CylinderRequest& request, const CylinderResult& result) {
-  JsonValue json = JsonValue::Object();
-  json.Set("schema_version", JsonValue(std::int64_t{1}));
-  json.Set("left", JsonValue::Object({{"file", request.left.string()}, {"what", result.read[0]}}));
-  json.Set("right",
-           JsonValue::Object({{"file", request.right.string()}, {"what", result.read[1]}}));
-  json.Set("finder",
-           JsonValue(request.finder == CylinderFinder::kPublished ? "published" : "robust"));
-  json.Set("parameters", core::WriteParams(result.params));
+  JsonValue json = report::ObjectTree(
+      "schema_version", 1, "left",
+      report::ObjectTree("file", request.left.string(), "what", result.read[0]), "right",
+      report::ObjectTree("file", request.right.string(), "what", result.read[1]), "finder",
+      request.finder == CylinderFinder::kPublished ? "published" : "robust", "parameters",
+      core::WriteParams(result.params));
   const vision::CylinderFinding& finding = result.finding;
-  json.Set("found", JsonValue(finding.sighting.has_value()));
-  json.Set("miss", finding.sighting ? JsonValue() : JsonValue(NameIn(finding.miss)));
-  json.Set("reason", finding.sighting ? JsonValue() : JsonValue(finding.reason));
-  json.Set("sighting", finding.sighting ? SightingJson(*finding.sighting) : JsonValue());
-  json.Set("files", FilesJson(result.files));
-  json.Set("program", JsonValue(core::VersionLine()));
+  report::SetMembers(json, "found", finding.sighting.has_value(), "miss",
+                     finding.sighting ? JsonValue() : JsonValue(NameIn(finding.miss)), "reason",
+                     finding.sighting ? JsonValue() : JsonValue(finding.reason), "sighting",
+                     finding.sighting ? SightingJson(*finding.sighting) : JsonValue(), "files",
+                     FilesJson(result.files), "program", core::VersionLine());
   return json;
 }
 

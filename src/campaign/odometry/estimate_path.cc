@@ -22,6 +22,7 @@
 #include "core/machine_error.h"
 #include "core/whole_file.h"
 #include "image_files/png_file.h"
+#include "report/json_members.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -89,20 +90,13 @@ core::JsonValue PathRequestJson(const OdometryRequest& request, const ImageSeque
     return core::Hex(
         core::Hasher().RawText(core::ReadWholeFile(file, kMaxBytes, "a file")).value());
   };
-  core::JsonValue json = core::JsonValue::Object(
-      {{"sequence", request.sequence.string()},
-       {"pairs", result.pairs_there},
-       {"planned", result.planned},
-       {"first", request.first},
-       {"every", request.every},
-       {"pictured", result.pictured},
-       {"seed", std::to_string(request.seed)},
-       {"white", request.white.value_or(0)},
-       {"cameras", bytes_of(request.cameras.empty() ? sequence.calibration : request.cameras)},
-       {"prediction", NameOf(request.prediction)},
-       {"predicted", bytes_of(request.predicted)}});
-  json.Set("parameters", core::WriteParams(result.params));
-  return json;
+  return report::ObjectTree(
+      "sequence", request.sequence.string(), "pairs", result.pairs_there, "planned", result.planned,
+      "first", request.first, "every", request.every, "pictured", result.pictured, "seed",
+      std::to_string(request.seed), "white", request.white.value_or(0), "cameras",
+      bytes_of(request.cameras.empty() ? sequence.calibration : request.cameras), "prediction",
+      NameOf(request.prediction), "predicted", bytes_of(request.predicted), "parameters",
+      core::WriteParams(result.params));
 }
 
 OutputPlan PathPlan(const OdometryRequest& request, const ImageSequence& sequence,

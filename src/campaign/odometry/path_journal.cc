@@ -14,6 +14,7 @@
 #include "core/json_text.h"
 #include "core/machine_error.h"
 #include "core/whole_file.h"
+#include "report/json_members.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -42,17 +43,12 @@ JsonValue EntryJson(const PairEntry& entry) {
   const vision::MotionResult& result = entry.found.result;
   std::array<std::int64_t, kCounts.size()> counts{};
   for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = result.counts.*kCounts[i];
-  JsonValue json = JsonValue::Object({{"pair", entry.pair},
-                                      {"number", entry.found.number},
-                                      {"reference", entry.found.reference},
-                                      {"keyframe", entry.found.keyframe},
-                                      {"rms_px", result.rms_px},
-                                      {"unreadable", entry.unreadable}});
-  json.Set("motion", MotionJson(result.motion));
-  json.Set("reason", result.reason ? JsonValue(static_cast<int>(*result.reason)) : JsonValue());
-  json.Set("counts", core::ListOf(counts));
-  json.Set("seconds", core::ListOf(entry.seconds));
-  return json;
+  return report::ObjectTree(
+      "pair", entry.pair, "number", entry.found.number, "reference", entry.found.reference,
+      "keyframe", entry.found.keyframe, "rms_px", result.rms_px, "unreadable", entry.unreadable,
+      "motion", MotionJson(result.motion), "reason",
+      result.reason ? JsonValue(static_cast<int>(*result.reason)) : JsonValue(), "counts",
+      core::ListOf(counts), "seconds", core::ListOf(entry.seconds));
 }
 
 // Throws std::exception for what EntryJson does not write.

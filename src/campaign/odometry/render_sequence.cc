@@ -13,6 +13,7 @@
 #include "core/hash.h"
 #include "core/json_text.h"
 #include "image_files/png_file.h"
+#include "report/json_members.h"
 #include "scenario/load.h"
 #include "sensing/stereo_imager.h"
 #include "trial/route_planner.h"
@@ -89,21 +90,13 @@ core::JsonValue SequenceRequestJson(const SequenceRequest& request, const Render
   const auto number = [](const std::optional<double>& value) {
     return value ? core::JsonValue(*value) : core::JsonValue();
   };
-  core::JsonValue json =
-      core::JsonValue::Object({{"scenario", core::Hex(scenario::Fingerprint(stage.scenario()))},
-                               {"seed", std::to_string(scene.seed.value_or(stage.scenario().seed))},
-                               {"trial", scene.trial},
-                               {"ahead", scene.direction == messages::LookDirection::kAhead},
-                               {"route", request.way == SequenceWay::kRoute},
-                               {"pairs", request.pairs},
-                               {"step_m", request.step_m},
-                               {"turn_rad", request.turn_rad},
-                               {"period_s", request.period_s},
-                               {"slip", request.slip}});
-  json.Set("x_m", number(scene.x_m));
-  json.Set("y_m", number(scene.y_m));
-  json.Set("heading_rad", number(scene.heading_rad));
-  return json;
+  return report::ObjectTree(
+      "scenario", core::Hex(scenario::Fingerprint(stage.scenario())), "seed",
+      std::to_string(scene.seed.value_or(stage.scenario().seed)), "trial", scene.trial, "ahead",
+      scene.direction == messages::LookDirection::kAhead, "route",
+      request.way == SequenceWay::kRoute, "pairs", request.pairs, "step_m", request.step_m,
+      "turn_rad", request.turn_rad, "period_s", request.period_s, "slip", request.slip, "x_m",
+      number(scene.x_m), "y_m", number(scene.y_m), "heading_rad", number(scene.heading_rad));
 }
 
 // The pairs of images go into the folder as they are taken, all else when they are there.
