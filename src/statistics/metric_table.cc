@@ -47,9 +47,10 @@ constexpr Metric Arrived(std::string_view name, std::string_view unit, std::stri
           .relative_margin = relative_margin};
 }
 
-constexpr Metric All(std::string_view name, std::string_view unit, std::string_view column,
-                     double margin, double relative_margin, std::string_view definition) {
-  Metric metric = Arrived(name, unit, column, margin, relative_margin, definition);
+// Of the column of that name.
+constexpr Metric All(std::string_view name, std::string_view unit, double margin,
+                     double relative_margin, std::string_view definition) {
+  Metric metric = Arrived(name, unit, name, margin, relative_margin, definition);
   metric.trials = MetricTrials::kAll;
   return metric;
 }
@@ -119,37 +120,33 @@ constexpr std::array kMetrics = {
             "true final position to the goal"),
     Arrived("believed_goal_distance_m", "m", "believed_goal_distance_m", 0.05, 0.1,
             "believed final position to the goal as told, or as last seen where it is tracked"),
-    All("true_distance_m", "m", "true_distance_m", 0.0, 0.1, "true path length"),
+    All("true_distance_m", "m", 0.0, 0.1, "true path length"),
     Needing(40,
-            All("active_time_s", "s", "active_time_s", 0.0, 0.1,
+            All("active_time_s", "s", 0.0, 0.1,
                 "simulated time up to the verdict, whether or not a rover found stuck runs on")),
-    Needing(40, All("active_energy_wh", "Wh", "active_energy_wh", 0.0, 0.1,
+    Needing(40, All("active_energy_wh", "Wh", 0.0, 0.1,
                     "energy drawn up to the verdict, whether or not a rover found stuck runs on")),
-    All("net_rate_m_s", "m/s", "net_rate_m_s", 0.0, 0.1, "true path length over simulated time"),
-    All("min_clearance_m", "m", "min_clearance_m", 0.02, 0.0,
-        "smallest clearance of the belly over a rock"),
-    All("scrapes", "1", "scrapes", 0.25, 0.25, "episodes of body contact with a rock"),
+    All("net_rate_m_s", "m/s", 0.0, 0.1, "true path length over simulated time"),
+    All("min_clearance_m", "m", 0.02, 0.0, "smallest clearance of the belly over a rock"),
+    All("scrapes", "1", 0.25, 0.25, "episodes of body contact with a rock"),
     ShareWith("scraped", "scrapes", "share of trials with at least one scrape"),
-    All("max_tilt_deg", "deg", "max_tilt_deg", 2.0, 0.0, "largest tilt of the chassis"),
-    All("max_bogie_deg", "deg", "max_bogie_deg", 2.0, 0.0, "largest angle of a bogie"),
-    All("max_rocker_deg", "deg", "max_rocker_deg", 2.0, 0.0, "largest angle of a rocker"),
-    All("turns_in_place", "1", "turns_in_place", 0.5, 0.15, "turns in place"),
-    All("turned_in_place_rad", "rad", "turned_in_place_rad", 0.5, 0.15,
-        "total true rotation of turns in place"),
-    Needing(40, All("scans", "1", "scans", 0.5, 0.1, "hazard scans")),
-    All("image_sets", "1", "image_sets", 0.5, 0.1, "pairs of stereo images"),
-    All("hazards_believed", "1", "hazards_believed", 0.5, 0.15,
-        "scans whose hazard the navigator believed"),
-    All("hazards_begun", "1", "hazards_begun", 0.5, 0.15,
+    All("max_tilt_deg", "deg", 2.0, 0.0, "largest tilt of the chassis"),
+    All("max_bogie_deg", "deg", 2.0, 0.0, "largest angle of a bogie"),
+    All("max_rocker_deg", "deg", 2.0, 0.0, "largest angle of a rocker"),
+    All("turns_in_place", "1", 0.5, 0.15, "turns in place"),
+    All("turned_in_place_rad", "rad", 0.5, 0.15, "total true rotation of turns in place"),
+    Needing(40, All("scans", "1", 0.5, 0.1, "hazard scans")),
+    All("image_sets", "1", 0.5, 0.1, "pairs of stereo images"),
+    All("hazards_believed", "1", 0.5, 0.15, "scans whose hazard the navigator believed"),
+    All("hazards_begun", "1", 0.5, 0.15,
         "of these, those after a scan without: times that the rover began to avoid"),
-    Needing(300, All("stops", "1", "stops", 0.5, 0.1, "times that the rover came to rest")),
+    Needing(300, All("stops", "1", 0.5, 0.1, "times that the rover came to rest")),
     ShareWith("beyond_soil_law", "beyond_soil_law",
               "share of trials in which a wheel sank deeper than the law of sinkage holds"),
-    Needing(kNeverForMean, All("distance_error_percent", "%", "distance_error_percent", 1.0, 0.0,
+    Needing(kNeverForMean, All("distance_error_percent", "%", 1.0, 0.0,
                                "100 (dead-reckoned less true path length) over the true one")),
-    All("heading_error_deg", "deg", "heading_error_deg", 2.0, 0.15,
-        "absolute error of the believed heading at the end"),
-    Needing(100, All("position_error_m", "m", "position_error_m", 0.05, 0.15,
+    All("heading_error_deg", "deg", 2.0, 0.15, "absolute error of the believed heading at the end"),
+    Needing(100, All("position_error_m", "m", 0.05, 0.15,
                      "distance from the believed to the true final position")),
 };
 

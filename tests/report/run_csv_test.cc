@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 
 #include "report/csv.h"
+#include "report/result_table.h"
 #include "report/run_files.h"
 #include "sample_run.h"
 #include "truth/end_cause.h"
@@ -66,6 +68,18 @@ TEST(CsvField, ReadsBackWithoutItsFirstApostrophe) {
     if (read.starts_with('\'')) read.erase(0, 1);
     EXPECT_EQ(read, text);
   }
+}
+
+TEST(ResultTable, WritesItsRowsInEveryForm) {
+  ResultTable table("name,low,high,count,whole");
+  table.Add("=a|b", statistics::Interval{0.5, std::nan("")}, 3, true);
+  table.Add("c");
+  EXPECT_EQ(table.Csv(), "name,low,high,count,whole\n'=a|b,0.5,,3,1\nc,,,,\n");
+  EXPECT_EQ(table.Csv("count as n,name"), "n,name\n3,'=a|b\n,c\n");
+  EXPECT_EQ(table.Json("name,high,low as l,whole"),
+            R"([{"name":"=a|b","high":null,"l":0.5,"whole":true},)"
+            R"({"name":"c","high":null,"l":null,"whole":null}])");
+  EXPECT_EQ(ResultTable("a,b").Csv(), "a,b\n");
 }
 
 TEST(TrialsCsv, ReadsBackToTheSameRecords) {

@@ -168,7 +168,7 @@ TEST(TraceDrawing, LongPathsAreThinnedAndKeepTheirEnds) {
   }
   trial.trace.events.clear();
   const TraceDrawing drawing = DrawTrace(trial, kPlan);
-  const int points = CountOf(drawing.elements, ",") - 2;  // two in the title
+  const std::size_t points = CountOf(drawing.elements, ",") - 2;  // two in the title
   EXPECT_LE(points, 2 * kMaxDrawnPoints);
   EXPECT_GT(points, kMaxDrawnPoints);
   EXPECT_THAT(drawing.elements, HasSubstr("points=\"0.000,-0.000 "));
