@@ -11,6 +11,7 @@
 #include "localization/aid_fixes.h"
 #include "localization/filter_rover.h"
 #include "math/angles.h"
+#include "math/polar.h"
 
 namespace rockyard::localization {
 namespace {
