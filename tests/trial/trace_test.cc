@@ -1,5 +1,7 @@
 // What a trace holds, against the record of the same drive.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
