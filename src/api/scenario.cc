@@ -14,10 +14,7 @@ Scenario::Scenario(scenario::Scenario values)
     : values_(std::make_unique<scenario::Scenario>(std::move(values))) {}
 Scenario::Scenario(const Scenario& other) : Scenario(scenario::Scenario(*other.values_)) {}
 Scenario::Scenario(Scenario&& other) noexcept = default;
-Scenario& Scenario::operator=(const Scenario& other) {
-  *values_ = *other.values_;
-  return *this;
-}
+Scenario& Scenario::operator=(const Scenario& other) { return *this = Scenario(other); }
 Scenario& Scenario::operator=(Scenario&& other) noexcept = default;
 Scenario::~Scenario() = default;
 

@@ -50,6 +50,14 @@ TEST(PublicScenario, KeepsItsValuesWhereASettingIsWrong) {
   EXPECT_EQ(scenario.ResolvedJson(), before);
 }
 
+TEST(PublicScenario, IsAssignedToWhatWasMovedFrom) {
+  Scenario scenario = Scenario::Parse(R"({"trials": 7})");
+  Scenario moved = std::move(scenario);
+  scenario = moved;
+  EXPECT_EQ(scenario.trials(), 7);
+  EXPECT_EQ(scenario.ResolvedJson(), moved.ResolvedJson());
+}
+
 TEST(PublicScenario, TakesAnEstimatorOfAnotherProgram) {
   Scenario defaults;
   defaults.estimators().Add(localization::DescribeToy());
