@@ -23,6 +23,8 @@ RAW = ["NaN", "Infinity", "-Infinity", "1e999", "-1e999", "01", "+1", ".5", "1."
        "9" * 400, "0." + "0" * 400 + "1", "1e-999", '"\\u0000"', "[" * 40 + "]" * 40, "[" * 5000,
        '{"a":' * 40 + "1" + "}" * 40, '{"a":' * 5000, '"' + "y" * 70000 + '"']
 PLACE = "@@here@@"
+# Characters: a hundred copies of copies of everything would take more memory than there is.
+LARGEST = 1 << 22
 
 
 def sources(rockyard):
@@ -63,6 +65,12 @@ def _misspelt(word, rng):
                        word[:at] + word[at:].swapcase(), word + "_m"])
 
 
+def _copies(value, count):
+    """Copies that share nothing: a change of one of a hundred must not be a change of all, again and again."""
+    text = json.dumps(value)
+    return [json.loads(text) for _ in range(count if count * len(text) < LARGEST else 1)]
+
+
 def _other_value(value, rng):
     kind = rng.randrange(8)
     if kind == 0:
@@ -74,9 +82,9 @@ def _other_value(value, rng):
     if kind == 3 and isinstance(value, (int, float)) and not isinstance(value, bool):
         return value * rng.choice([-1, 0, 2, 10, 1e3, 1e6, 1e-3, 1e-9, 1e300])
     if kind == 4:
-        return [value] * rng.choice([1, 2, 3, 100])
+        return _copies(value, rng.choice([1, 2, 3, 100]))
     if kind == 5 and isinstance(value, list):
-        return value[: rng.randrange(len(value) + 1)] + value * rng.randrange(3)
+        return value[: rng.randrange(len(value) + 1)] + sum(_copies(value, rng.randrange(3)), [])
     if kind == 6:
         deep = value
         for _ in range(rng.choice([1, 10, 31, 33, 200])):
