@@ -24,8 +24,7 @@
 #include "campaign/journal.h"
 #include "core/error.h"
 #include "core/provenance.h"
-#include "core/spelling.h"
-#include "core/utf8.h"
+#include "core/text.h"
 
 namespace rockyard::app {
 namespace {

@@ -14,7 +14,7 @@
 #include "app/manual.h"
 #include "core/error.h"
 #include "core/provenance.h"
-#include "core/spelling.h"
+#include "core/text.h"
 #include "report/atomic_file.h"
 
 namespace rockyard::app {

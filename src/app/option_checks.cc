@@ -21,7 +21,7 @@
 #include "app/run_folders.h"
 #include "app/scenario_names.h"
 #include "core/json_file.h"
-#include "core/spelling.h"
+#include "core/text.h"
 
 namespace rockyard::app {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "app/scenario_list.h"
 #include "core/error.h"
-#include "core/spelling.h"
+#include "core/text.h"
 
 namespace rockyard::app {
 namespace {

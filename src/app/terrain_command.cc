@@ -24,13 +24,11 @@
 #include "core/error.h"
 #include "core/fields.h"
 #include "scenario/scenario.h"
-#include "statistics/counts.h"
 #include "statistics/proportions.h"
 #include "terrain/blind_swath.h"
-#include "terrain/corridor.h"
 #include "terrain/field.h"
 #include "terrain/field_export.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 
 namespace rockyard::app {
 namespace {
@@ -162,7 +160,7 @@ std::string Rows(const terrain::TerrainParams& params, const terrain::Course& co
 }
 
 // A table by placement rule and size class: centres in the corridor of `fields` fields of the
-// scenario, what terrain/corridor.h lets expect, their ratio, and its exact 95 % interval (Poisson;
+// scenario, what terrain/field.h lets expect, their ratio, and its exact 95 % interval (Poisson;
 // conservative for exact counts). Every placement rule is shown, not only the scenario's: keep_off
 // is the negative control, which the table must show as off. Throws core::UserError where the
 // corridor has no expectation.

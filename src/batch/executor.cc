@@ -12,7 +12,7 @@
 
 #include "batch/batch_session.h"
 #include "core/check.h"
-#include "core/machine_error.h"
+#include "core/error.h"
 
 namespace rockyard::batch {
 namespace {

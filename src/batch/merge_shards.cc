@@ -13,7 +13,7 @@
 #include "batch/run_folder.h"
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
-#include "core/temporary_file.h"
+#include "core/files.h"
 
 namespace rockyard::batch {
 namespace {

@@ -16,7 +16,7 @@
 #include "batch/store_rows.h"
 #include "batch/store_tables.h"
 #include "core/check.h"
-#include "core/temporary_file.h"
+#include "core/files.h"
 
 namespace rockyard::batch {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "batch/store_error.h"
-#include "core/temporary_file.h"
+#include "core/files.h"
 
 namespace rockyard::batch {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "batch/store_error.h"
-#include "core/machine_error.h"
-#include "core/temporary_file.h"
+#include "core/error.h"
+#include "core/files.h"
 
 namespace rockyard::batch {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/machine_error.h"
+#include "core/error.h"
 
 namespace rockyard::batch {
 namespace {

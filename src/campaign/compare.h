@@ -11,7 +11,7 @@
 #include "campaign/run_source.h"
 #include "core/result.h"
 #include "report/paired_comparison.h"
-#include "statistics/cell_comparison.h"
+#include "statistics/cell_summary.h"
 
 namespace rockyard::campaign {
 

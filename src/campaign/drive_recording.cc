@@ -13,8 +13,8 @@
 #include "terrain/arena.h"
 #include "terrain/field.h"
 #include "terrain/field_export.h"
-#include "trial/layout.h"
-#include "trial/onboard_calibration.h"
+#include "trial/course/layout.h"
+#include "trial/eyes/onboard_calibration.h"
 
 namespace rockyard::campaign {
 namespace {

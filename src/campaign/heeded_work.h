@@ -14,7 +14,7 @@
 #include "batch/flight_log.h"
 #include "batch/logged_experiment.h"
 #include "campaign/stop.h"
-#include "core/machine_error.h"
+#include "core/error.h"
 #include "experiments/experiment.h"
 
 namespace rockyard::campaign {

@@ -13,7 +13,7 @@
 
 #include "batch/packet.h"
 #include "batch/store_error.h"
-#include "core/machine_error.h"
+#include "core/error.h"
 
 namespace rockyard::campaign {
 namespace {

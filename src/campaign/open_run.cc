@@ -9,8 +9,8 @@
 
 #include "batch/store_error.h"
 #include "campaign/run_source.h"
+#include "core/error.h"
 #include "core/hash.h"
-#include "core/machine_error.h"
 #include "scenario/load.h"
 
 namespace rockyard::campaign {

@@ -13,11 +13,10 @@
 #include "campaign/open_run.h"
 #include "core/check.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
-#include "core/machine_error.h"
 #include "core/provenance.h"
-#include "core/temporary_file.h"
 #include "report/atomic_file.h"
 #include "report/json_members.h"
 

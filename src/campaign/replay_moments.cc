@@ -20,7 +20,7 @@
 #include "scenario/load.h"
 #include "scenario/scenario.h"
 #include "sensing/stereo_params.h"
-#include "trial/terrain_sensor_set_params.h"
+#include "trial/eyes/terrain_sensor_set_params.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -13,7 +13,7 @@
 #include "statistics/drive_summary.h"
 #include "terrain/arena.h"
 #include "terrain/field.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 
 namespace rockyard::campaign {
 namespace {

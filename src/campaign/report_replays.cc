@@ -16,7 +16,6 @@
 #include "campaign/replay_page.h"
 #include "campaign/trial_source.h"
 #include "core/error.h"
-#include "core/machine_error.h"
 #include "report/worst_trials.h"
 #include "statistics/drive_summary.h"
 #include "truth/measurement_record.h"

@@ -16,7 +16,7 @@
 #include "report/trace_path.h"
 #include "report/trace_view.h"
 #include "terrain/field.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::campaign {

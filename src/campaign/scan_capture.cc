@@ -6,17 +6,16 @@
 #include <set>
 #include <utility>
 
-#include "perception/hazard_criteria.h"
-#include "perception/stripe_peaks.h"
-#include "perception/stripe_search.h"
+#include "perception/hazard_detector.h"
+#include "perception/stripe_finder.h"
 #include "perception/triangulation.h"
 #include "rover/rover_layout_params.h"
 #include "sensing/stereo_view.h"
 #include "sensing/stripe_imager.h"
 #include "terrain/rock.h"
 #include "trial/drive_params.h"
-#include "trial/onboard_calibration.h"
-#include "trial/terrain_sensor_set_params.h"
+#include "trial/eyes/onboard_calibration.h"
+#include "trial/eyes/terrain_sensor_set_params.h"
 
 namespace rockyard::campaign {
 namespace {

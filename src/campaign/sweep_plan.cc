@@ -11,7 +11,6 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_text.h"
-#include "core/machine_error.h"
 #include "experiments/make_experiment.h"
 #include "report/atomic_file.h"
 #include "report/csv.h"

@@ -6,9 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/field_reader.h"
+#include "core/field_archive.h"
 #include "core/field_table.h"
-#include "core/field_writer.h"
 #include "core/json_value.h"
 
 namespace rockyard::core {

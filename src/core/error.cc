@@ -1,8 +1,17 @@
 #include "core/error.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <new>
+#include <string>
+#include <system_error>
 #include <utility>
 
 namespace rockyard::core {
+
 namespace {
 
 std::string Describe(const std::vector<Problem>& problems) {
@@ -22,5 +31,37 @@ UserError::UserError(std::vector<Problem> problems)
 
 UserError::UserError(std::string path, std::string reason, std::string suggestion)
     : UserError({{std::move(path), std::move(reason), std::move(suggestion)}}) {}
+
+namespace {
+
+constexpr std::array kShort = {std::errc::not_enough_memory,
+                               std::errc::too_many_files_open,
+                               std::errc::too_many_files_open_in_system,
+                               std::errc::no_space_on_device,
+                               std::errc::file_too_large,
+                               std::errc::io_error,
+                               std::errc::resource_unavailable_try_again,
+                               std::errc::read_only_file_system};
+
+}  // namespace
+
+bool IsMachineFailure(const std::exception& error) {
+  if (dynamic_cast<const MachineError*>(&error) != nullptr) return true;
+  if (const auto* system = dynamic_cast<const std::system_error*>(&error)) {
+    return system->code() == std::error_code(EDQUOT, std::generic_category()) ||
+           std::any_of(kShort.begin(), kShort.end(),
+                       [&](std::errc code) { return system->code() == code; });
+  }
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr &&
+         dynamic_cast<const std::bad_array_new_length*>(&error) == nullptr;
+}
+
+void FailOnDisk(const std::filesystem::path& path, std::string_view what,
+                const std::error_code& error, std::string_view suggestion) {
+  const Problem problem{path.string(), fmt::format("{}: {}", what, error.message()),
+                        std::string(suggestion)};
+  if (IsMachineFailure(std::system_error(error))) throw MachineError({problem});
+  throw UserError({problem});
+}
 
 }  // namespace rockyard::core

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/json_text.h"
-#include "core/spelling.h"
-#include "core/whole_file.h"
+#include "core/text.h"
 
 namespace rockyard::core {
 namespace {

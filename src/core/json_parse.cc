@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
-#include "core/spelling.h"
+#include "core/text.h"
 
 namespace rockyard::core {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/spelling.h"
+#include "core/text.h"
 
 namespace rockyard::core {
 namespace {

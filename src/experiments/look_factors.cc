@@ -5,10 +5,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "math/angles.h"
 #include "terrain/field.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 
 namespace rockyard::experiments {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/machine_error.h"
+#include "core/error.h"
 #include "core/random.h"
 #include "truth/record.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "core/check.h"
-#include "core/whole_file.h"
+#include "core/files.h"
 #include "image_files/header_text.h"
 #include "image_files/raw_image.h"
 #include "image_files/read_image.h"

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "vision/colour_image.h"
 #include "vision/image.h"
 
 namespace rockyard::image_files {

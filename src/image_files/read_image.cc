@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/whole_file.h"
+#include "core/files.h"
 #include "image_files/float_files.h"
 #include "image_files/gdal_raster.h"
 #include "image_files/planetary.h"

@@ -1,11 +1,34 @@
 #include "localization/aid_fixes.h"
 
 #include <cmath>
+#include <limits>
 
 #include "core/check.h"
+#include "core/random.h"
 #include "math/angles.h"
 
 namespace rockyard::localization {
+
+Gate::Gate(const GateParams& params) : patience_(params.patience) {
+  for (int values = 1; values <= kMostValues; ++values) {
+    limit_[static_cast<std::size_t>(values)] =
+        params.chance > 0.0 ? core::ChiSquaredQuantile(1.0 - params.chance, values)
+                            : std::numeric_limits<double>::infinity();
+  }
+}
+
+GateAnswer Gate::Ask(double mahalanobis_squared, int values) {
+  EXPECT(values >= 1 && values <= kMostValues);
+  if (mahalanobis_squared <= limit_[static_cast<std::size_t>(values)]) {
+    turned_away_ = 0;
+    return GateAnswer::kIn;
+  }
+  ++turned_away_;
+  if (patience_ == 0 || turned_away_ < patience_) return GateAnswer::kOut;
+  turned_away_ = 0;
+  return GateAnswer::kDoubtYourself;
+}
+
 namespace {
 
 // The mean of d d', where d leads from the station to the rover, as it was believed before the

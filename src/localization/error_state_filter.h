@@ -27,14 +27,14 @@
 #include <map>
 #include <optional>
 
-#include "localization/attitude.h"
+#include "localization/aid_fixes.h"
 #include "localization/cloned_covariance.h"
+#include "localization/dead_reckoning.h"
 #include "localization/error_state.h"
 #include "localization/error_state_filter_params.h"
 #include "localization/error_stretch.h"
 #include "localization/estimator.h"
 #include "localization/estimator_set_params.h"
-#include "localization/gate.h"
 
 namespace rockyard::localization {
 

@@ -9,7 +9,6 @@
 
 #include "core/fields.h"
 #include "core/kind_set.h"
-#include "localization/attitude_params.h"
 #include "localization/dead_reckoning_params.h"
 #include "math/pose.h"
 #include "messages/calibration.h"

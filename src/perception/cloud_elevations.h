@@ -4,7 +4,7 @@
 #include "messages/estimates.h"
 #include "messages/measurements.h"
 #include "messages/point_cloud.h"
-#include "perception/cloud_params.h"
+#include "perception/eyes_params.h"
 #include "perception/triangulation.h"
 
 namespace rockyard::perception {

@@ -5,7 +5,7 @@
 
 #include "math/pose.h"
 #include "perception/aligned_eyes.h"
-#include "perception/stereo_matching_params.h"
+#include "perception/eyes_params.h"
 #include "vision/cameras/rectification.h"
 #include "vision/image.h"
 #include "vision/stereo/disparity.h"

@@ -22,7 +22,7 @@
 
 #include "messages/vehicle_state.h"
 #include "messages/wheels.h"
-#include "perception/vehicle_hazard_params.h"
+#include "perception/hazard_params.h"
 
 namespace rockyard::perception {
 

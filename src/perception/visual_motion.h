@@ -6,8 +6,8 @@
 
 #include "messages/aids.h"
 #include "messages/estimates.h"
-#include "perception/visual_motion_params.h"
-#include "vision/odometry/motion_estimate.h"
+#include "perception/eyes_params.h"
+#include "vision/odometry/estimate_motion.h"
 
 namespace rockyard::perception {
 

@@ -8,6 +8,7 @@
 #include "rendering/occlusion.h"
 
 namespace rockyard::rendering {
+
 namespace {
 
 using math::Vector3;
@@ -186,6 +187,17 @@ bool ImageScene::Reaches(const Vector3& lamp_W, const Vector3& p_W,
   // Parts that hold the lamp do not count: it looks out of them.
   if (body_.Distance(X_RW_ * lamp_W, ray_R) < distance_m) return false;
   return !terrain_.Occluded(lamp_W, p_W, kOcclusionMargin_m, rocks);
+}
+
+using math::Vector3;
+
+bool IsOneSurface(const SurfacePoint& a, const SurfacePoint& b) {
+  constexpr double kFlat = 0.3;  // sine of the angle between chord and tangent plane
+  if (a.surface != b.surface) return false;
+  if (a.surface == SurfacePoint::kSky) return true;
+  const Vector3 chord = b.p_W - a.p_W;
+  const double out = std::max(std::abs(a.normal_W.dot(chord)), std::abs(b.normal_W.dot(chord)));
+  return out * out <= kFlat * kFlat * chord.squaredNorm();
 }
 
 }  // namespace rockyard::rendering

@@ -14,7 +14,7 @@
 #include <stdexcept>
 
 #include "core/check.h"
-#include "core/utf8.h"
+#include "core/text.h"
 
 namespace rockyard::replay {
 namespace {

@@ -6,8 +6,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/machine_error.h"
-#include "core/temporary_file.h"
+#include "core/error.h"
+#include "core/files.h"
 
 namespace rockyard::report {
 namespace {

@@ -13,7 +13,7 @@ class TemporaryFile;
 
 namespace rockyard::report {
 
-// A file that is written piece by piece to a temporary one beside `path` (core/temporary_file.h),
+// A file that is written piece by piece to a temporary one beside `path` (core/files.h),
 // brought to the disk and renamed by Commit. A reader sees the old text or the new one; a failure,
 // or no Commit, leaves the old file and no temporary one; what a killed process left is removed by
 // the next one that writes the same file. The constructor, Write, Sync and Commit throw

@@ -10,7 +10,7 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_file.h"
-#include "core/spelling.h"
+#include "core/text.h"
 #include "report/reference_fields.h"
 #include "truth/record.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/utf8.h"
+#include "core/text.h"
 
 namespace rockyard::report {
 namespace {

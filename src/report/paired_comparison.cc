@@ -9,7 +9,6 @@
 #include "statistics/clustered_rate.h"
 #include "statistics/drive_summary.h"
 #include "statistics/equivalence.h"
-#include "statistics/mean_interval.h"
 #include "statistics/metrics.h"
 #include "statistics/sample_statistics.h"
 #include "truth/measurement_record.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "report/result_table.h"
-#include "statistics/cell_comparison.h"
+#include "statistics/cell_summary.h"
 #include "statistics/proportions.h"
 #include "truth/record.h"
 
@@ -64,7 +64,7 @@ struct RunComparison {
 // Agresti and Min (2005) of effective numbers; columns as any mean, of the differences. Not paired:
 // success by Newcombe (1998), method 10, from the Wilson intervals; columns in the same way from
 // the intervals of both means. A mean difference has no interval where a mean of as many values has
-// none (statistics/mean_interval.h). No correction for the number of columns: they describe.
+// none (statistics/sample_statistics.h). No correction for the number of columns: they describe.
 RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second);
 
 // What differs between the runs, `settings` (lines), success, and the columns that metrics are made

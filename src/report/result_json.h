@@ -8,7 +8,7 @@
 #include "report/page_data.h"
 #include "report/paired_comparison.h"
 #include "report/regression_report.h"
-#include "statistics/cell_comparison.h"
+#include "statistics/cell_summary.h"
 #include "statistics/published_comparison.h"
 
 namespace rockyard::report {

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "rover/mass_properties_params.h"
 #include "rover/part_shapes.h"
 #include "rover/rover_layout_params.h"
 #include "rover/rover_links.h"

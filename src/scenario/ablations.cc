@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/error.h"
-#include "core/spelling.h"
+#include "core/text.h"
 #include "scenario/former_keys.h"
 #include "scenario/load.h"
 

@@ -13,7 +13,7 @@
 #include "core/field_table.h"
 #include "core/json_text.h"
 #include "core/json_value.h"
-#include "core/spelling.h"
+#include "core/text.h"
 #include "scenario/former_keys.h"
 #include "scenario/load.h"
 #include "scenario/sweep_parts.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/space_filling.h"
-#include "core/spelling.h"
+#include "core/text.h"
 #include "scenario/sweep_spec.h"
 
 namespace rockyard::scenario {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/check.h"
-#include "core/distributions.h"
+#include "core/random.h"
 #include "math/angles.h"
 #include "math/polar.h"
 #include "vision/cylinder/colour_cylinder.h"

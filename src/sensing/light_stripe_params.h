@@ -1,9 +1,4 @@
-// Parameters of the light stripe hazard sensor of Matthies 1995, section 6, table 3 and figure 13.
-//
-// Figure 13 is lost; the text fixes the farthest central point, the outermost points, the optics,
-// the camera separation and the range of the baselines. The rest of the layout is assumed: cameras
-// and emitters share one lateral axis below the front edge of the solar panel, the fans are
-// vertical planes in R, and the four scanlines are placed by where they meet flat ground.
+// Parameters of the images of the light stripe sensor: light emitters and imager.
 #pragma once
 
 #include <array>
@@ -14,9 +9,44 @@
 #include "core/fields.h"
 #include "math/angles.h"
 #include "messages/calibration.h"
-#include "sensing/stripe_imager_params.h"
+#include "rendering/imager_params.h"
 
 namespace rockyard::sensing {
+
+// How the light of one emitter is spread within its plane.
+enum class BeamFan {
+  kFull,            // evenly over fan_rad: about 300 scanlines, of which 4 are measured
+  kThreeScanlines,  // over three scanlines around each measured point, an emitter for each point
+};
+
+// Cross section of the beam, square to the light plane.
+enum class BeamProfile { kGaussian, kTopHat };
+
+struct LaserParams {
+  double input_power_w = 0.66;
+  double optical_efficiency = 0.10;
+  double wavelength_m = 850e-9;
+  double beam_width_rad = 0.003;
+  BeamProfile profile = BeamProfile::kGaussian;
+  BeamFan fan = BeamFan::kFull;
+  double speckle_contrast = 0.1;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct StripeImagerParams : rendering::ImagerParams {
+  std::int64_t averaging_rows = 5;
+  std::int64_t margin_rows = 0;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// Parameters of the light stripe hazard sensor of Matthies 1995, section 6, table 3 and figure 13.
+//
+// Figure 13 is lost; the text fixes the farthest central point, the outermost points, the optics,
+// the camera separation and the range of the baselines. The rest of the layout is assumed: cameras
+// and emitters share one lateral axis below the front edge of the solar panel, the fans are
+// vertical planes in R, and the four scanlines are placed by where they meet flat ground.
 
 // How much of the sensor is simulated.
 enum class Fidelity {
@@ -95,6 +125,16 @@ struct LightStripeParams {
 };
 
 }  // namespace rockyard::sensing
+
+template <>
+struct rockyard::core::EnumNames<rockyard::sensing::BeamFan> {
+  static constexpr std::array<std::string_view, 2> kNames{"full", "three_scanlines"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::sensing::BeamProfile> {
+  static constexpr std::array<std::string_view, 2> kNames{"gaussian", "top_hat"};
+};
 
 template <>
 struct rockyard::core::EnumNames<rockyard::messages::Lens> {

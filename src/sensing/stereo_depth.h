@@ -10,7 +10,7 @@
 
 #include "math/pose.h"
 #include "sensing/stereo_view.h"
-#include "terrain/rock_shape.h"
+#include "terrain/rock.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::sensing {
@@ -81,7 +81,7 @@ struct RowCut {
 // The outline of a rock in an image. In the coordinates in which the rock is the unit sphere, with
 // the eye at q and the pixel's ray e(c, r) = e0 + c e1 + r e2, the ray meets it at depth Z where |q
 // + Z e| = 1, so that
-//   1/Z = (B + sqrt(B^2 - K |e|^2)) / K,  B = -q . e, K = |q|^2 - 1 (terrain/rock_shape.h).
+//   1/Z = (B + sqrt(B^2 - K |e|^2)) / K,  B = -q . e, K = |q|^2 - 1 (terrain/rock.h).
 // The discriminant is a quadratic form of (c, r): the outline is a conic, and where it is an
 // ellipse its rows and the columns of each row have closed forms.
 class RockOutline {

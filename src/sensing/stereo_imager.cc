@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/check.h"
+#include "rendering/picture/picture.h"
 #include "rendering/picture/picture_renderer.h"
-#include "rendering/picture/stereo_truth.h"
 #include "sensing/rover_parts.h"
 #include "sensing/stereo_view.h"
 #include "vision/cameras/rig_drift.h"

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "core/distributions.h"
-#include "rendering/pixel_noise.h"
+#include "core/random.h"
+#include "rendering/image_readout.h"
 #include "sensing/stereo_depth.h"
 #include "sensing/stereo_view.h"
 

@@ -6,7 +6,6 @@
 #include "rendering/radiometry.h"
 #include "sensing/rover_parts.h"
 #include "sensing/stripe_layout_params.h"
-#include "sensing/stripe_view_params.h"
 
 namespace rockyard::sensing {
 namespace {

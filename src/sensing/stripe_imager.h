@@ -28,7 +28,6 @@
 #include "rendering/rover_body.h"
 #include "rendering/row_renderer.h"
 #include "rendering/sun_params.h"
-#include "rendering/view_row.h"
 #include "rover/rover_geometry_params.h"
 #include "sensing/light_stripe_params.h"
 #include "sensing/stripe_light.h"

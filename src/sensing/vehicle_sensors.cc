@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "core/distributions.h"
+#include "core/random.h"
 
 namespace rockyard::sensing {
 namespace {

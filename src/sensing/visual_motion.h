@@ -6,7 +6,7 @@
 #include "core/random.h"
 #include "math/pose.h"
 #include "sensing/visual_motion_params.h"
-#include "vision/odometry/motion_estimate.h"
+#include "vision/odometry/estimate_motion.h"
 
 namespace rockyard::sensing {
 

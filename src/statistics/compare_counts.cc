@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
+#include "statistics/clustered_rate.h"
 #include "statistics/compare_rows.h"
-#include "statistics/counts.h"
 #include "statistics/drive_summary.h"
-#include "statistics/layout_effect.h"
+#include "statistics/proportions.h"
 
 namespace rockyard::statistics {
 namespace {

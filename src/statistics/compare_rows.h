@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/random.h"
-#include "statistics/counts.h"
 #include "statistics/predictive.h"
+#include "statistics/proportions.h"
 #include "statistics/published_comparison.h"
 
 namespace rockyard::statistics {

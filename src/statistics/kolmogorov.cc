@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/check.h"
-#include "core/distributions.h"
 #include "core/random.h"
 #include "statistics/sample_statistics.h"
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "statistics/mean_interval.h"
 #include "statistics/proportions.h"
+#include "statistics/sample_statistics.h"
 #include "truth/record.h"
 
 namespace rockyard::statistics {

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "terrain/depression_field.h"
 #include "terrain/relief.h"
-#include "terrain/roughness_field.h"
 #include "terrain/roughness_spline.h"
 
 namespace rockyard::terrain {

@@ -1,7 +1,13 @@
 // What a part of the ground that is no plane adds to it, and where a ray crosses it.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/random.h"
+#include "terrain/terrain_params.h"
 
 namespace rockyard::terrain {
 
@@ -47,5 +53,104 @@ double FindCrossing(const Gap& gap, double above, double gap_above, double below
   }
   return above;
 }
+
+// Ditches and pits as a height field.
+
+// At the distance r from its segment a depression of depth D, half width R and flank e is
+//   D          where r <= R - e: the floor,
+//   D (1 - S)  with s = (r - R + e) / e and S = s^3 (10 - 15 s + 6 s^2) on the flank,
+//   0          where r >= R
+// deep: twice continuously differentiable, without libm. Where several overlap the deepest counts,
+// so that a ditch across another is no deeper than either; only there the slope can jump, over a
+// ridge.
+class DepressionField {
+ public:
+  explicit DepressionField(const std::vector<Depression>& depressions);
+
+  // Returns height, 0 or less, and slopes at a point. Cost: 1 to 3 ns for each depression.
+  ReliefSample Sample(double x_m, double y_m) const;
+
+  // Returns whether any depression reaches into the disc around (x, y).
+  bool Reaches(double x_m, double y_m, double radius_m) const;
+
+  // These are the largest magnitudes of the slope and of the second derivative in any direction,
+  // 1/m, of any of the depressions: 15/8 D/e and 10/sqrt(3) D/e^2. Across a ridge between two the
+  // slope falls at once, which a ray from above meets no sooner.
+  double MaxSlope() const { return max_slope_; }
+  double MaxCurvature() const { return max_curvature_per_m_; }
+
+ private:
+  // A depression with its direction as a unit vector.
+  struct Shape {
+    double x_m, y_m, along_x, along_y;
+    double half_length_m, half_width_m, flank_m, depth_m;
+  };
+
+  // A point in the frame of the segment: how far beyond its end, with the sign of the end, and how
+  // far across.
+  struct Place {
+    double beyond_m, across_m;
+  };
+  static Place PlaceOf(const Shape& shape, double x_m, double y_m);
+  static ReliefSample SampleOf(const Shape& shape, double x_m, double y_m);
+
+  std::vector<Shape> shapes_;
+  double max_slope_ = 0.0;
+  double max_curvature_per_m_ = 0.0;
+};
+
+// Fractal roughness of the ground as a smooth height field.
+
+// The roughness is a sum of octaves. Octave j has wavelength L 2^-j and RMS proportional to 2^(-j
+// H), the scaling of a self-affine surface with Hurst exponent H (height differences over a
+// distance r grow as r^H). Each octave is a bicubic B-spline whose coefficients are independent
+// normals on a square lattice of half its wavelength: twice continuously differentiable, so wheels
+// do not snag. The lattice repeats after 64 nodes, i.e. 32 wavelengths of the octave.
+//
+// The RMS is that of the ensemble: the mean square over a single period of a uniform cubic B-spline
+// with unit independent coefficients is 151/315 per axis. One realization over an area of few
+// wavelengths scatters around it.
+class RoughnessField {
+ public:
+  // The arguments have rms_m > 0, 0 < hurst <= 1, longest_wavelength_m > 0. Octaves go down to 0.1
+  // m. The field draws from (key, kGroundRoughness, octave).
+  RoughnessField(double rms_m, double hurst, double longest_wavelength_m, core::TrialKey key);
+
+  // Returns height and slopes at a point; it costs about 30 ns per octave.
+  ReliefSample Sample(double x_m, double y_m) const;
+
+  // These are upper bounds of the magnitudes anywhere: of the height, m, of the slope, and of the
+  // second derivative in any direction, 1/m.
+  double MaxHeight() const { return max_height_m_; }
+  double MaxSlope() const { return max_slope_; }
+  double MaxCurvature() const { return max_curvature_per_m_; }
+
+  // The octaves, the longest one first, for those who put them together in another way: spacing of
+  // the lattice, half of the one before, and the coefficient, m, of the B-spline that is centred on
+  // the node at (column, row) * spacing.
+  static constexpr int kNodes = 64;
+  int octaves() const { return static_cast<int>(octaves_.size()); }
+  double Spacing(int octave) const { return octaves_[static_cast<std::size_t>(octave)].spacing_m; }
+  double Coefficient(int octave, std::int64_t column, std::int64_t row) const {
+    // The first of the four splines over a cell is centred on the node before it.
+    const std::int64_t place = ((row + 1) & (kNodes - 1)) * kNodes + ((column + 1) & (kNodes - 1));
+    return octaves_[static_cast<std::size_t>(octave)]
+        .coefficients_m[static_cast<std::size_t>(place)];
+  }
+
+ private:
+  struct Octave {
+    double spacing_m = 1.0;
+    std::vector<double> coefficients_m;  // kNodes x kNodes, row by row in y
+  };
+
+  static void AddOctave(const Octave& octave, double x_m, double y_m, ReliefSample& sum);
+  void AddBounds(const Octave& octave);
+
+  std::vector<Octave> octaves_;
+  double max_height_m_ = 0.0;
+  double max_slope_ = 0.0;
+  double max_curvature_per_m_ = 0.0;
+};
 
 }  // namespace rockyard::terrain

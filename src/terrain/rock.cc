@@ -7,6 +7,7 @@
 #include "core/check.h"
 
 namespace rockyard::terrain {
+
 namespace {
 
 constexpr int kPlanCorners = 8;
@@ -83,6 +84,89 @@ std::vector<math::Vector3> PointsAbove(const Rock& rock, double ground_m) {
   }
   points.push_back(OnRock(rock, math::Vector3::UnitZ()));
   return points;
+}
+
+using math::Vector3;
+
+// With s = 1 - q.z for the point q + t e the surface is F(t) = 0 of
+//   F = q.x^2 + q.y^2 - (A + B s) s = F0 + 2 k t + w t^2,
+// and the ray enters where F falls through zero: t = (-k - sqrt(k^2 - w F0)) / w, whatever the sign
+// of w. A hyperboloid has a second sheet, above its top, which is thrown away: there the slope
+// A/2 + B s, half of dF/dq.z, is negative.
+double RockShape::DistanceToCap(const Vector3& origin_W, const Vector3& direction_W) const {
+  const Vector3 q = Map(origin_W - center_W_);
+  const Vector3 e = Map(direction_W);
+  const double s = 1.0 - q.z();
+  const auto slope = [this](double at_s) { return 0.5 * growth_ + bend_ * at_s; };
+  const auto on_cap = [&slope](double at_s) { return slope(at_s) > 0.0 && at_s <= 1.0; };
+  const double outside = q.x() * q.x() + q.y() * q.y() - (growth_ + bend_ * s) * s;
+  if (outside <= 0.0 && on_cap(s)) return 0.0;
+  // ds/dt = -e.z.
+  const double k = q.x() * e.x() + q.y() * e.y() + slope(s) * e.z();
+  const double w = e.x() * e.x() + e.y() * e.y() - bend_ * e.z() * e.z();
+  const double discriminant = k * k - w * outside;
+  // The ray's line crosses the plane of the base, q.z = 0, at t = -q.z / e.z, where F is `at_base`
+  // over e.z^2. Where that is above zero, a ray from above meets the cap only if F was lower in
+  // between: most rays meet the surface below the base. What can be known without a root makes one
+  // condition, which nearly always holds.
+  const double slope_at_base = w * q.z() - k * e.z();
+  const double at_base = outside * e.z() * e.z() + (slope_at_base - k * e.z()) * q.z();
+  const bool rises = std::min(k, w) >= 0.0;
+  const bool passes = at_base > 0.0 && std::min(w, slope_at_base) <= 0.0;
+  if (rises || passes || discriminant < 0.0) return kNoHit;
+  const double root = std::sqrt(discriminant);
+  // The same root in the form in which nothing cancels.
+  const double t = k <= 0.0 ? outside / (root - k) : -(k + root) / w;
+  // Written so that a t that is not a number misses.
+  return t > 0.0 && on_cap(s - t * e.z()) ? t : kNoHit;
+}
+
+// The gradient of F / 2.
+Vector3 RockShape::CapNormal(const Vector3& p_W) const {
+  const Vector3 q = Map(p_W - center_W_);
+  const double slope = 0.5 * growth_ + bend_ * (1.0 - q.z());
+  return Vector3(xx_ * q.x() + yx_ * q.y(), xy_ * q.x() + yy_ * q.y(), zz_ * slope).normalized();
+}
+
+double RockShape::CapTop(double rho2) const {
+  if (rho2 > 1.0) return -kNoHit;
+  // The smaller root of A s + B s^2 = rho^2.
+  const double root = std::sqrt(std::max(0.0, growth_ * growth_ + 4.0 * bend_ * rho2));
+  const double s = 2.0 * rho2 / (growth_ + root);
+  return center_W_.z() + (1.0 - s) / zz_;
+}
+
+namespace {
+
+// Extent of the outline across a horizontal direction, m. An ellipse's support along a unit vector
+// at the angle t to its x axis is sqrt((a cos t)^2 + (b sin t)^2); across the push t turns by 90
+// deg.
+double WidthAcross(const Rock& rock, const math::Vector3& push_W) {
+  const double along =
+      push_W.norm() > 0.0 ? std::atan2(push_W.y(), push_W.x()) - rock.yaw_rad : 0.0;
+  return 2.0 *
+         std::hypot(rock.semi_axes_m.x() * std::sin(along), rock.semi_axes_m.y() * std::cos(along));
+}
+
+}  // namespace
+
+double RockMass(const Rock& rock, double density_kg_m3) {
+  // m = rho 4/3 pi a b c.
+  return density_kg_m3 * 4.0 / 3.0 * std::numbers::pi * rock.semi_axes_m.prod();
+}
+
+double HoldingForce(const Rock& rock, const RockHoldingParams& params, double gravity_m_s2,
+                    double load_N, const math::Vector3& push_W) {
+  const double weight_N = RockMass(rock, params.rock_density_kg_m3) * gravity_m_s2;
+  // Coulomb: mu N under weight and load; a rover that lifts the rock lightens it down to nothing.
+  const double friction_N = params.rock_soil_friction * std::max(0.0, weight_N + load_N);
+  // Buried part of the full height 2 c.
+  const double depth_m = std::max(0.0, 2.0 * rock.semi_axes_m.z() - rock.height_m);
+  // Rankine 1857: K_p = tan^2(45 deg + phi/2); the pressure K_p gamma z grows with depth, so its
+  // sum over a wall of depth d and width w is K_p gamma d^2 w / 2.
+  const double root = std::tan(0.25 * std::numbers::pi + 0.5 * params.soil_friction_angle_rad);
+  const double pressure_N_m3 = root * root * params.soil_density_kg_m3 * gravity_m_s2;
+  return friction_N + 0.5 * pressure_N_m3 * depth_m * depth_m * WidthAcross(rock, push_W);
 }
 
 }  // namespace rockyard::terrain

@@ -1,9 +1,11 @@
 // The random layout of rocks on the layout area, before mirroring.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/random.h"
+#include "terrain/arena.h"
 #include "terrain/course.h"
 #include "terrain/rock.h"
 #include "terrain/terrain_params.h"
@@ -29,5 +31,51 @@ Rock GivenRock(const RockFieldParams& params, const CoursePoint& place, double d
 // uniform_count. A rock's fate depends on earlier ones only, so that a field of smaller k is a
 // prefix of one of larger k under every overlap rule.
 RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Course& course);
+
+// Where rocks may still go: clear zones, and what is already placed.
+
+// A rock's outline for the purpose of placement: the circle around its longest horizontal axis, so
+// that rocks which do not overlap here do not overlap at any yaw.
+struct Disc {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double radius_m = 0.0;
+};
+
+// The discs that are placed so far, and where the next one may go.
+class Placement {
+ public:
+  // Where discs keep off a mirror line h, their |y| + radius stays below it, and none overlaps its
+  // own image about y = +-h. Images of other discs need no look under either rule: with distances
+  // d1 and d2 of two centres from a line, both on the same side, the one is dx^2 + (d1 + d2)^2 away
+  // (squared) from the other's image and dx^2 + (d1 - d2)^2 from the other itself, which is less.
+  Placement(const Rectangle& layout, const Course& course, double clear_radius_m,
+            std::optional<double> line_to_keep_off_m);
+
+  // Returns whether the disc reaches into no clear zone around start, waypoints or goal.
+  bool ClearOfCourse(const Disc& disc) const;
+  // Returns whether the disc overlaps no placed one and crosses no line that discs keep off.
+  bool Free(const Disc& disc) const;
+  void Add(const Disc& disc);
+
+  // Returns the placed discs by cells: memory goes with their number, the work of Free with the
+  // discs of one.
+  const std::vector<std::vector<Disc>>& cells() const { return cells_; }
+
+ private:
+  struct Cells {
+    int first_x, last_x, first_y, last_y;
+  };
+  Cells CellsOf(const Disc& disc) const;
+
+  Rectangle layout_;
+  std::vector<CoursePoint> points_;  // of the course
+  double clear_radius_m_;
+  std::optional<double> line_to_keep_off_m_;
+  double cell_m_;
+  int nx_;
+  int ny_;
+  std::vector<std::vector<Disc>> cells_;  // each disc in every cell that its bounding box meets
+};
 
 }  // namespace rockyard::terrain

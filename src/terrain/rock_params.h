@@ -10,7 +10,7 @@
 
 namespace rockyard::terrain {
 
-// The values that terrain/rock_holding.h asks for.
+// The values that terrain/rock.h asks for.
 struct RockHoldingParams {
   double rock_density_kg_m3 = 2700.0;
   double soil_density_kg_m3 = 1600.0;

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "terrain/relief.h"
-#include "terrain/roughness_field.h"
 
 namespace rockyard::terrain {
 

@@ -10,7 +10,6 @@
 #include "math/pose.h"
 #include "terrain/ground.h"
 #include "terrain/rock.h"
-#include "terrain/rock_shape.h"
 
 namespace rockyard::terrain {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "math/angles.h"
-#include "rover/standing_params.h"
-#include "trial/terrain_sensor_set_params.h"
+#include "rover/rover_params.h"
+#include "trial/eyes/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "rover/standing_params.h"
+#include "rover/rover_params.h"
 #include "trial/drive_checks_params.h"
-#include "trial/terrain_sensor_set_params.h"
+#include "trial/eyes/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
 namespace {

@@ -2,20 +2,16 @@
 #pragma once
 
 #include "core/fields.h"
-#include "localization/attitude_params.h"
 #include "localization/dead_reckoning_params.h"
 #include "localization/estimator_set_params.h"
 #include "navigation/navigator_set_params.h"
 #include "navigation/reaction_params.h"
 #include "navigation/wheel_driver_params.h"
 #include "perception/calibration_params.h"
-#include "perception/cloud_params.h"
+#include "perception/eyes_params.h"
 #include "perception/hazard_params.h"
-#include "perception/stereo_matching_params.h"
 #include "perception/stripe_finder_params.h"
 #include "perception/stuck_detector_params.h"
-#include "perception/vehicle_hazard_params.h"
-#include "perception/visual_motion_params.h"
 #include "rendering/picture/picture_params.h"
 #include "rendering/sun_params.h"
 #include "rover/rover_params.h"
@@ -27,10 +23,10 @@
 #include "sensing/vehicle_sensor_params.h"
 #include "sensing/visual_motion_params.h"
 #include "terrain/terrain_params.h"
-#include "trial/clock_params.h"
-#include "trial/course_params.h"
-#include "trial/referee_params.h"
-#include "trial/terrain_sensor_set_params.h"
+#include "trial/clock/clock_params.h"
+#include "trial/course/course_params.h"
+#include "trial/eyes/terrain_sensor_set_params.h"
+#include "trial/referee/referee_params.h"
 
 namespace rockyard::trial {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "trial/compute_params.h"
+#include "trial/clock/compute_params.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::trial {

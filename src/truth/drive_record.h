@@ -87,10 +87,12 @@ struct DriveRecord {
   double max_sinkage_m = 0.0;            // deepest that a wheel went below the ground
   double beyond_soil_law = 0.0;          // 1: deeper than the sinkage law holds, D / 6
   double unconverged_balances = 0.0;     // quasi_static: of the rover's motion
-  // The most between two progresses towards the goal (trial/referee.h), or since the last one.
+  // The most between two progresses towards the goal (trial/referee/referee.h), or since the last
+  // one.
   double no_progress_distance_m = 0.0;  // driven, true
   double no_progress_turn_deg = 0.0;    // turned in place, true
-  // Slopes of squared errors against the true distance along the run (trial/drive_counters.h).
+  // Slopes of squared errors against the true distance along the run
+  // (trial/counters/drive_counters.h).
   double heading_growth_deg2_per_m = 0.0;
   double distance_growth_m2_per_m = 0.0;
   double hazards_begun = 0.0;      // of hazards_believed, those that the scan before did not see

@@ -14,7 +14,7 @@
 #include "batch/sqlite_database.h"
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
-#include "core/temporary_file.h"
+#include "core/files.h"
 #include "core/test_folder.h"
 #include "core/wait_until.h"
 #include "fake_experiment.h"

@@ -11,7 +11,6 @@
 
 #include "batch/store_error.h"
 #include "core/error.h"
-#include "core/machine_error.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -13,7 +13,6 @@
 
 #include "core/error.h"
 #include "core/json_file.h"
-#include "core/machine_error.h"
 #include "core/refusals.h"
 #include "core/says.h"
 #include "core/test_folder.h"

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/archive.h"
-#include "core/distributions.h"
 #include "core/json_text.h"
+#include "core/random.h"
 #include "core/test_params.h"
 #include "core/units.h"
 

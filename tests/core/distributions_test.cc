@@ -1,7 +1,5 @@
 // Every sampler against its distribution, and the same test against a slightly wrong distribution,
 // which it must reject.
-#include "core/distributions.h"
-
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/exponential.hpp>
@@ -14,6 +12,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/random.h"
 #include "core/statistical_checks.h"
 
 namespace rockyard::core {

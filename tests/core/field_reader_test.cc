@@ -1,10 +1,9 @@
-#include "core/field_reader.h"
-
 #include <gmock/gmock.h>
 
 #include <string>
 
 #include "core/archive.h"
+#include "core/field_archive.h"
 #include "core/json_text.h"
 #include "core/refusals.h"
 #include "core/test_params.h"

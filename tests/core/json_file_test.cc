@@ -14,7 +14,6 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
-#include "core/machine_error.h"
 #include "core/test_folder.h"
 
 namespace rockyard::core {

@@ -1,11 +1,11 @@
-#include "core/machine_error.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <system_error>
+
+#include "core/error.h"
 
 namespace rockyard::core {
 namespace {

@@ -1,8 +1,8 @@
-#include "core/spelling.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
+
+#include "core/text.h"
 
 namespace rockyard::core {
 namespace {

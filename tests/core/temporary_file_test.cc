@@ -1,5 +1,3 @@
-#include "core/temporary_file.h"
-
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -12,6 +10,7 @@
 #include <string>
 #include <system_error>
 
+#include "core/files.h"
 #include "core/test_folder.h"
 
 namespace rockyard::core {

@@ -1,5 +1,3 @@
-#include "core/whole_file.h"
-
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -9,6 +7,7 @@
 
 #include "batch/unprivileged.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/refusals.h"
 #include "core/test_folder.h"
 

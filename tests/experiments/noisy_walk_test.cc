@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 
 namespace rockyard::experiments {
 namespace {

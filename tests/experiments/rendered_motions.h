@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "experiments/scenario_experiment.h"
 #include "scenario/shipped.h"
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "core/refusals.h"
 #include "experiments/scenario_experiment.h"
 #include "scenario/shipped.h"

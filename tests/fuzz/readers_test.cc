@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/whole_file.h"
+#include "core/files.h"
 
 namespace rockyard {
 namespace {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "math/angles.h"
 

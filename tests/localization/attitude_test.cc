@@ -1,9 +1,9 @@
 // Attitude and height against the poses that they describe.
-#include "localization/attitude.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "localization/dead_reckoning.h"
 
 namespace rockyard::localization {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "localization/aid_fixes.h"
 #include "localization/filter_rover.h"
 #include "math/angles.h"

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "localization/error_state_filter.h"
 #include "math/pose.h"

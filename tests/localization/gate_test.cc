@@ -1,6 +1,6 @@
-#include "localization/gate.h"
-
 #include <gtest/gtest.h>
+
+#include "localization/aid_fixes.h"
 
 namespace rockyard::localization {
 namespace {

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "math/plane_fit.h"
 

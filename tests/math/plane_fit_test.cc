@@ -8,7 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "math/point_moments.h"
 

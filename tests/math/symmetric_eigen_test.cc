@@ -8,7 +8,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 
 namespace rockyard::math {

@@ -1,8 +1,8 @@
-#include "navigation/motion_follower.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "navigation/route_follower.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_text.h"
-#include "perception/hazard_criteria.h"
+#include "perception/hazard_detector.h"
 
 namespace rockyard::perception {
 namespace {

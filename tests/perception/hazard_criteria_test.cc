@@ -1,8 +1,7 @@
 // The three criteria of Matthies 1995, section 6, and which stripes they charge.
-#include "perception/hazard_criteria.h"
-
 #include <gtest/gtest.h>
 
+#include "perception/hazard_detector.h"
 #include "perception/scans.h"
 
 namespace rockyard::perception {

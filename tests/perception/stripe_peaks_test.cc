@@ -1,12 +1,11 @@
 // Averaged differences, peaks and their association with lasers.
-#include "perception/stripe_peaks.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "core/distributions.h"
+#include "core/random.h"
+#include "perception/stripe_finder.h"
 #include "perception/stripe_images.h"
 
 namespace rockyard::perception {

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "rendering/image_readout.h"
-#include "rendering/pixel_noise.h"
 #include "rendering/quiet_imager.h"
 
 namespace rockyard::rendering {

@@ -5,7 +5,6 @@
 
 #include "rendering/rover_body.h"
 #include "rendering/row_renderer.h"
-#include "rendering/view_row.h"
 
 namespace rockyard::rendering {
 

@@ -7,7 +7,7 @@
 
 #include "core/says.h"
 #include "statistics/equivalence.h"
-#include "statistics/mean_interval.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::report {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "rover/multibody/loose_rocks.h"
 #include "stop_and_go.h"
-#include "terrain/rock_holding.h"
+#include "terrain/rock.h"
 
 namespace rockyard::rover {
 namespace {

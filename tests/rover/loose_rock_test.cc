@@ -9,7 +9,7 @@
 #include "rover_drive.h"
 #include "sensing/light_stripe.h"
 #include "soil_reference.h"
-#include "terrain/rock_holding.h"
+#include "terrain/rock.h"
 
 namespace rockyard::rover {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rover/mass_properties_params.h"
-#include "rover/standing_params.h"
+#include "rover/rover_layout_params.h"
+#include "rover/rover_params.h"
 #include "rover_drive.h"
 
 namespace rockyard::rover {

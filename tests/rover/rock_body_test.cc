@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "rover_drive.h"
 #include "terrain/rock.h"

@@ -1,6 +1,4 @@
 // Wheels that slip dig in: the law by plain references, and rovers of both fidelities on slopes.
-#include "rover/slip_sinkage.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "rover/standing_params.h"
+#include "rover/rover_params.h"
 #include "rover_drive.h"
 #include "soil_reference.h"
 

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "math/pose.h"
-#include "rover/mass_properties_params.h"
 #include "rover/rover_layout_params.h"
 #include "scenario/load.h"
 

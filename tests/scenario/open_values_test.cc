@@ -1,5 +1,3 @@
-#include "scenario/open_values.h"
-
 #include <gmock/gmock.h>
 
 #include <string>

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/distributions.h"
 #include "core/hash.h"
+#include "core/random.h"
 #include "image_kit.h"
 
 namespace rockyard::sensing {

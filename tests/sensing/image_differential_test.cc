@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "image_kit.h"
 #include "vision/lens.h"
 

@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "core/archive.h"
-#include "core/distributions.h"
 #include "core/hash.h"
 #include "core/json_text.h"
+#include "core/random.h"
 #include "image_kit.h"
 
 namespace rockyard::sensing {

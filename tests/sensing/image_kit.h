@@ -13,7 +13,6 @@
 #include "sensing/rover_parts.h"
 #include "sensing/stripe_imager.h"
 #include "sensing/stripe_layout_params.h"
-#include "sensing/stripe_view_params.h"
 #include "stripe_scene.h"
 
 namespace rockyard::sensing {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/hash.h"
+#include "core/random.h"
 #include "stripe_scene.h"
 #include "terrain/rock.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "sensing/light_stripe.h"
 #include "sensing/stripe_scene.h"
 #include "terrain/terrain.h"

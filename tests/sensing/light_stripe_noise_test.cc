@@ -7,7 +7,7 @@
 
 #include "image_kit.h"
 #include "noise_laws.h"
-#include "perception/hazard_criteria.h"
+#include "perception/hazard_detector.h"
 #include "rendering/image_readout.h"
 #include "sensing/stripe_imager.h"
 #include "sensing/stripe_scene.h"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "core/distributions.h"
-#include "perception/hazard_criteria.h"
+#include "core/random.h"
+#include "perception/hazard_detector.h"
 #include "sensing/stripe_scene.h"
 
 namespace rockyard::sensing {

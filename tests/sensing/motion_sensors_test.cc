@@ -7,7 +7,6 @@
 
 #include "core/archive.h"
 #include "core/error.h"
-#include "sensing/oracle.h"
 #include "sensing/tracker.h"
 
 namespace rockyard::sensing {

@@ -1,13 +1,11 @@
 // Chords along curved scanlines against the curve itself, and what the sensor makes of them.
-#include "sensing/scan_curve.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "sensing/stripe_layout_params.h"
+#include "sensing/stripe_light.h"
 #include "sensing/stripe_scene.h"
-#include "sensing/stripe_view_params.h"
 #include "vision/lens.h"
 
 namespace rockyard::sensing {

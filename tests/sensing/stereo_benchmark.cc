@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/hash.h"
+#include "core/random.h"
 #include "stereo_scene.h"
 #include "terrain/field.h"
 

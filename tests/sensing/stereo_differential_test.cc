@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "sensing/stereo_depth.h"
 #include "stereo_scene.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "stereo_scene.h"
-#include "terrain/rock_shape.h"
+#include "terrain/rock.h"
 #include "vision/lens.h"
 
 namespace rockyard::sensing {

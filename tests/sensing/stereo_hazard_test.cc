@@ -8,7 +8,7 @@
 #include "core/archive.h"
 #include "core/json_file.h"
 #include "perception/cloud_elevations.h"
-#include "perception/hazard_criteria.h"
+#include "perception/hazard_detector.h"
 #include "perception/hazard_params.h"
 #include "stereo_scene.h"
 

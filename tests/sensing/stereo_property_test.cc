@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "perception/cloud_elevations.h"
-#include "perception/hazard_criteria.h"
+#include "perception/hazard_detector.h"
 #include "stereo_scene.h"
 
 namespace rockyard::sensing {

@@ -1,12 +1,11 @@
 // Errors that the fast light stripe sensor adds: persistence of outliers and noise of columns, each
 // with a wrong model that its test rejects. Misses and shares of outliers: light_stripe_noise_test.
-#include "sensing/stripe_errors.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "noise_laws.h"
+#include "sensing/light_stripe.h"
 #include "stripe_scene.h"
 
 namespace rockyard::sensing {

@@ -6,7 +6,7 @@
 #include "image_kit.h"
 #include "rover/rover_layout_params.h"
 #include "sensing/light_stripe.h"
-#include "sensing/stripe_view_params.h"
+#include "sensing/stripe_layout_params.h"
 #include "vision/lens.h"
 
 namespace rockyard::sensing {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "math/angles.h"
 
 namespace rockyard::sensing {

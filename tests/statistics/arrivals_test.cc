@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "statistics/predictive.h"
 #include "statistics/published_comparison.h"

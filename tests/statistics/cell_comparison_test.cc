@@ -1,10 +1,9 @@
-#include "statistics/cell_comparison.h"
-
 #include <gtest/gtest.h>
 
 #include <string_view>
 #include <vector>
 
+#include "statistics/cell_summary.h"
 #include "truth/measured_schema.h"
 
 namespace rockyard::statistics {

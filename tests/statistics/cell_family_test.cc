@@ -5,9 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
-#include "statistics/cell_comparison.h"
+#include "statistics/cell_summary.h"
 #include "truth/measured_schema.h"
 
 namespace rockyard::statistics {

@@ -1,13 +1,11 @@
-#include "statistics/counts.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "core/distributions.h"
 #include "core/random.h"
-#include "statistics/layout_effect.h"
+#include "statistics/clustered_rate.h"
+#include "statistics/proportions.h"
 
 namespace rockyard::statistics {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/json_file.h"
 #include "oracles.h"
-#include "statistics/counts.h"
+#include "statistics/proportions.h"
 #include "statistics/sample_size.h"
 #include "statistics/sample_statistics.h"
 

@@ -16,8 +16,8 @@
 #include "core/json_file.h"
 #include "report/comparison_reference.h"
 #include "statistics/published_comparison.h"
-#include "trial/compute_profile.h"
-#include "trial/compute_tables.h"
+#include "trial/eyes/compute_profile.h"
+#include "trial/eyes/compute_tables.h"
 #include "vision/odometry/feature_params.h"
 
 namespace rockyard::report {

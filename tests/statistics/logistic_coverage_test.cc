@@ -6,7 +6,6 @@
 #include <functional>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "statistics/logistic_fit.h"
 #include "statistics/proportions.h"

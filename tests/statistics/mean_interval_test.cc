@@ -1,13 +1,10 @@
 // Intervals of means: closed forms, when there is none, and coverage of a skewed law.
-#include "statistics/mean_interval.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "statistics/equivalence.h"
 #include "statistics/metrics.h"

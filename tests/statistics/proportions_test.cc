@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "oracles.h"
-#include "statistics/counts.h"
 
 namespace rockyard::statistics {
 namespace {

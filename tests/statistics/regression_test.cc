@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "statistics/equivalence.h"
 #include "statistics/sample_size.h"

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "statistics/kolmogorov.h"
 #include "statistics/predictive.h"

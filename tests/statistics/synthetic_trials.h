@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "statistics/published_comparison.h"
 #include "truth/record.h"

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/random.h"
-#include "statistics/counts.h"
 #include "statistics/kolmogorov.h"
 #include "statistics/proportions.h"
 #include "statistics/sample_statistics.h"

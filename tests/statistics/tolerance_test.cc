@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/json_file.h"
 #include "core/random.h"
 #include "statistics/closed_forms.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "statistics/cumulative_incidence.h"
 #include "statistics/drive_summary.h"

@@ -1,6 +1,4 @@
 // Rocks in the corridor of the course against the law, by placement rule. Fixed seeds.
-#include "terrain/corridor.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "terrain/field.h"
 #include "terrain/test_fields.h"

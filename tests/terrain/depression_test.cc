@@ -7,10 +7,10 @@
 #include <numbers>
 #include <optional>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "math/angles.h"
-#include "terrain/depression_field.h"
 #include "terrain/ground.h"
+#include "terrain/relief.h"
 
 namespace rockyard::terrain {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "math/angles.h"
-#include "terrain/roughness_field.h"
+#include "terrain/relief.h"
 
 namespace rockyard::terrain {
 namespace {

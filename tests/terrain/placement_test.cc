@@ -1,12 +1,12 @@
 // The work and the memory of placing rocks: both are counted, not timed.
-#include "terrain/placement.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
+
+#include "terrain/rock_layout.h"
 
 namespace rockyard::terrain {
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "terrain/field.h"
 #include "terrain/test_fields.h"
 

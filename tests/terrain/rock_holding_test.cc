@@ -1,11 +1,10 @@
 // Holding forces against the numbers of a pocket calculator.
-#include "terrain/rock_holding.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "terrain/placed_rocks.h"
+#include "terrain/rock.h"
 
 namespace rockyard::terrain {
 namespace {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "terrain/rock.h"
-#include "terrain/rock_shape.h"
 
 namespace rockyard::terrain {
 namespace {

@@ -8,10 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "terrain/arena.h"
 #include "terrain/rock.h"
-#include "terrain/rock_shape.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::terrain {

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "terrain/ground.h"
 
 namespace rockyard::terrain {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "terrain/field.h"
 #include "terrain/test_fields.h"
 

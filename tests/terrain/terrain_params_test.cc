@@ -8,7 +8,6 @@
 #include "core/params_text.h"
 #include "core/says.h"
 #include "terrain/arena.h"
-#include "terrain/depression_params.h"
 #include "terrain/test_fields.h"
 
 namespace rockyard::terrain {

@@ -9,7 +9,7 @@
 #include "core/refusals.h"
 #include "navigation/navigator.h"
 #include "scenario/shipped.h"
-#include "trial/compute_profile.h"
+#include "trial/eyes/compute_profile.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

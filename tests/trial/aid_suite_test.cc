@@ -1,12 +1,12 @@
 // Aids of localization in a drive.
-#include "trial/aid_suite.h"
+#include "trial/aids/aid_suite.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "core/refusals.h"
-#include "trial/goal_designation.h"
+#include "trial/course/goal_designation.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -1,10 +1,9 @@
-#include "trial/belief.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "math/angles.h"
+#include "trial/counters/drive_monitor.h"
 
 namespace rockyard::trial {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "navigation/pathfinder/pathfinder_params.h"
-#include "trial/drive_monitor.h"
+#include "trial/counters/drive_monitor.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -1,6 +1,6 @@
 // The timing tables of Goldberg 2002 against what the paper prints of them, and what is made of
 // them for other grids against closed forms.
-#include "trial/compute_profile.h"
+#include "trial/eyes/compute_profile.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "trial/compute_tables.h"
+#include "trial/eyes/compute_tables.h"
 
 namespace rockyard::trial {
 namespace {

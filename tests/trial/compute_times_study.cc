@@ -5,8 +5,8 @@
 #include <iostream>
 
 #include "core/fields.h"
-#include "trial/compute_profile.h"
-#include "trial/compute_tables.h"
+#include "trial/eyes/compute_profile.h"
+#include "trial/eyes/compute_tables.h"
 
 namespace rockyard::trial {
 namespace {

@@ -1,6 +1,6 @@
 // Counts of stops, turns on the spot, moves and turns of the steering motors; the slope of squared
 // errors along a run, and hazards believed and begun: closed forms, scripts and traced drives.
-#include "trial/drive_counters.h"
+#include "trial/counters/drive_counters.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 #include "core/check.h"
 #include "math/angles.h"
-#include "trial/drive_monitor.h"
+#include "trial/counters/drive_monitor.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -1,5 +1,5 @@
 // True path, tilt, turning and clearance of a drive, tick by tick.
-#include "trial/drive_monitor.h"
+#include "trial/counters/drive_monitor.h"
 
 #include <gtest/gtest.h>
 

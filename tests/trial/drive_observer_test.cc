@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "trial/make_estimator.h"
+#include "trial/drive/make_estimator.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 #include "trial/run_trial.h"
 #include "trial/shipped_trials.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "navigation/gestalt/gestalt_params.h"
-#include "trial/compute_profile.h"
+#include "trial/eyes/compute_profile.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

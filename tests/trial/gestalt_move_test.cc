@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "math/angles.h"
-#include "trial/compute_profile.h"
-#include "trial/compute_tables.h"
+#include "trial/eyes/compute_profile.h"
+#include "trial/eyes/compute_tables.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -1,5 +1,5 @@
 // Goals as a lander designates them: Matthies 1995, section 4 and figure 4.
-#include "trial/goal_designation.h"
+#include "trial/course/goal_designation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Rocks at goals: what the rover finds, and how drives to them end.
-#include "trial/goal_rock.h"
+#include "trial/referee/goal_rock.h"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@
 #include "math/angles.h"
 #include "scenario/shipped.h"
 #include "terrain/field.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 #include "trial/shipped_trials.h"
 #include "truth/end_cause.h"
 

@@ -1,4 +1,4 @@
-#include "trial/hazard_watch.h"
+#include "trial/counters/hazard_watch.h"
 
 #include <gtest/gtest.h>
 

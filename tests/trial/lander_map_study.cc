@@ -13,8 +13,8 @@
 #include "scenario/load.h"
 #include "terrain/arena.h"
 #include "terrain/field.h"
-#include "trial/lander_map.h"
-#include "trial/layout.h"
+#include "trial/course/goal_designation.h"
+#include "trial/course/layout.h"
 
 namespace rockyard::trial {
 namespace {

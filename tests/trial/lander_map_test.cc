@@ -1,6 +1,4 @@
 // The rocks as a lander's stereo pair shows them: Matthies 1995, sections 2.1.1 and 4.
-#include "trial/lander_map.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +7,7 @@
 #include <vector>
 
 #include "core/statistical_checks.h"
-#include "trial/goal_designation.h"
+#include "trial/course/goal_designation.h"
 
 namespace rockyard::trial {
 namespace {

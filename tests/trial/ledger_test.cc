@@ -1,8 +1,8 @@
-#include "trial/ledger.h"
+#include "trial/clock/ledger.h"
 
 #include <gtest/gtest.h>
 
-#include "trial/compute_profile.h"
+#include "trial/eyes/compute_profile.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

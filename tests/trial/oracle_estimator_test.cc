@@ -4,8 +4,8 @@
 
 #include "core/random.h"
 #include "math/pose.h"
-#include "sensing/oracle.h"
-#include "trial/make_estimator.h"
+#include "sensing/tracker.h"
+#include "trial/drive/make_estimator.h"
 
 namespace rockyard::trial {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "core/json_file.h"
-#include "trial/compute_profile.h"
-#include "trial/compute_tables.h"
+#include "trial/eyes/compute_profile.h"
+#include "trial/eyes/compute_tables.h"
 
 namespace rockyard::trial {
 namespace {

@@ -15,7 +15,7 @@
 #include "messages/point_cloud.h"
 #include "navigation/navigator.h"
 #include "scenario/shipped.h"
-#include "trial/onboard_calibration.h"
+#include "trial/eyes/onboard_calibration.h"
 #include "trial/shipped_trials.h"
 #include "trial/toy_terrain_sensor.h"
 

@@ -1,4 +1,4 @@
-#include "trial/referee.h"
+#include "trial/referee/referee.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Routes by true knowledge of the rocks, and the rover that follows them.
-#include "trial/route_planner.h"
+#include "trial/course/route_planner.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "terrain/field.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

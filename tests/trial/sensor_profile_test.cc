@@ -7,8 +7,8 @@
 
 #include "core/refusals.h"
 #include "scenario/load.h"
-#include "trial/compute_profile.h"
-#include "trial/power_budget.h"
+#include "trial/clock/power.h"
+#include "trial/eyes/compute_profile.h"
 
 namespace rockyard::trial {
 namespace {

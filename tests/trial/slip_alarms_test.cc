@@ -1,5 +1,5 @@
 // Alarms of slip: what ends a drive, and what a navigator is told.
-#include "trial/slip_alarms.h"
+#include "trial/aids/slip_alarms.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "math/angles.h"
+#include "trial/referee/slip_onset.h"
 #include "trial/shipped_trials.h"
-#include "trial/slip_onset.h"
 #include "truth/end_cause.h"
 
 namespace rockyard::trial {

@@ -1,6 +1,4 @@
 // The sun's arc in closed form, against sums of small steps and numbers worked out by hand.
-#include "trial/solar_supply.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +7,8 @@
 
 #include "math/angles.h"
 #include "math/sun_position.h"
-#include "trial/ledger.h"
+#include "trial/clock/ledger.h"
+#include "trial/clock/power.h"
 
 namespace rockyard::trial {
 namespace {

@@ -1,6 +1,6 @@
 // The closed loop on rendered images: points of stereo at the image fidelity, and drives by them.
 // Who looks over the shoulder of the cameras is shown what the navigator gets, and changes nothing.
-#include "trial/stereo_eyes.h"
+#include "trial/eyes/stereo_eyes.h"
 
 #include <gmock/gmock.h>
 
@@ -13,8 +13,8 @@
 #include "core/error.h"
 #include "core/refusals.h"
 #include "sensing/stereo_view.h"
+#include "trial/eyes/terrain_sensing.h"
 #include "trial/shipped_trials.h"
-#include "trial/terrain_sensing.h"
 #include "vision/cameras/rectification.h"
 
 namespace rockyard::trial {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/json_file.h"
-#include "trial/compute_profile.h"
-#include "trial/compute_tables.h"
+#include "trial/eyes/compute_profile.h"
+#include "trial/eyes/compute_tables.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -4,9 +4,9 @@
 #include <numbers>
 #include <utility>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "terrain/field.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 
 namespace rockyard::trial {
 namespace {

@@ -7,7 +7,7 @@
 #include "scenario/scenario.h"
 #include "sensing/light_stripe.h"
 #include "terrain/terrain.h"
-#include "trial/hazard_scanner.h"
+#include "trial/eyes/hazard_scanner.h"
 
 namespace rockyard::trial {
 

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <map>
 
-#include "perception/hazard_criteria.h"
+#include "perception/hazard_detector.h"
 #include "perception/triangulation.h"
 #include "scenario/load.h"
 #include "statistics/proportions.h"
-#include "trial/onboard_calibration.h"
+#include "trial/eyes/onboard_calibration.h"
 #include "vision/lens.h"
 
 namespace rockyard::trial {

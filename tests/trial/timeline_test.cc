@@ -1,4 +1,4 @@
-#include "trial/timeline.h"
+#include "trial/drive/timeline.h"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "terrain/field.h"
-#include "trial/goal_designation.h"
-#include "trial/lander_map.h"
-#include "trial/layout.h"
-#include "trial/route_planner.h"
+#include "trial/course/goal_designation.h"
+#include "trial/course/layout.h"
+#include "trial/course/route_planner.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -9,10 +9,10 @@
 #include "core/fields.h"
 #include "math/pose.h"
 #include "scenario/load.h"
-#include "trial/compute_profile.h"
-#include "trial/hazard_watch.h"
-#include "trial/terrain_sensor_model.h"
-#include "trial/terrain_sensor_set_params.h"
+#include "trial/counters/hazard_watch.h"
+#include "trial/eyes/compute_profile.h"
+#include "trial/eyes/terrain_sensor_model.h"
+#include "trial/eyes/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
 

@@ -12,7 +12,7 @@
 #include "navigation/pathfinder/pathfinder_params.h"
 #include "sensing/light_stripe.h"
 #include "terrain/field.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -1,5 +1,5 @@
 // What the closed loop makes of what the rover feels: counts, and what a move by hand forgets.
-#include "trial/vehicle_guard.h"
+#include "trial/drive/vehicle_guard.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Visual odometry of a drive: when it looks, what the estimator is told and when, what it costs.
-#include "trial/visual_aid.h"
+#include "trial/aids/visual_aid.h"
 
 #include <gmock/gmock.h>
 
@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "core/refusals.h"
-#include "trial/compute_profile.h"
+#include "trial/eyes/compute_profile.h"
+#include "trial/eyes/visual_eyes.h"
+#include "trial/referee/slip_onset.h"
 #include "trial/shipped_trials.h"
-#include "trial/slip_onset.h"
-#include "trial/visual_eyes.h"
 
 namespace rockyard::trial {
 namespace {

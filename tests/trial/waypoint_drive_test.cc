@@ -8,7 +8,7 @@
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/pathfinder/pathfinder_params.h"
 #include "terrain/field.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

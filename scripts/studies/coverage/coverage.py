@@ -32,7 +32,7 @@ ABOUT = """How often the 95 % intervals that `rockyard` prints hold what they ar
 `scripts/studies/coverage/coverage.py`, which states no number of its own: pools of trials (`nominal`: {nominal} of
 `scenarios/pathfinder/nominal.json`; `sparse`: {sparse} of the same with `{setting}`;
 `held out`: {held_out} of `scenarios/pathfinder/vl2.json`; quasi-static, seed 1) are taken for the whole law, and samples are drawn from them with replacement, {samples} for every line of
-`coverage.csv`. `between` compares trials of the first two. On these the constants of `statistics/mean_interval.cc` and the fewest
+`coverage.csv`. `between` compares trials of the first two. On these the constants of `statistics/sample_statistics.cc` and the fewest
 trials of each metric were chosen; the third was run afterwards.
 
 - *coverage*: share of the printed intervals that hold the pool's value, with Wilson's interval of that share.

@@ -13,7 +13,7 @@
 #include "core/numbers.h"
 #include "image_files/raw_image.h"
 #include "image_files/read_image.h"
-#include "vision/calibration/calibration_data.h"
+#include "vision/calibration/bundle.h"
 #include "vision/calibration/find_chessboard.h"
 #include "vision/calibration/target_file.h"
 #include "vision/cameras/camera_file.h"

@@ -22,9 +22,9 @@
 #include "math/angles.h"
 #include "report/json_members.h"
 #include "vision/cameras/camera_file.h"
+#include "vision/cylinder/cylinder_equations.h"
 #include "vision/cylinder/published_finder.h"
 #include "vision/cylinder/robust_finder.h"
-#include "vision/cylinder/sight_lines.h"
 
 namespace rockyard::campaign {
 namespace {

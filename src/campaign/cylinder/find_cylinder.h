@@ -10,10 +10,10 @@
 #include "campaign/output_folder.h"
 #include "core/fields.h"
 #include "core/json_value.h"
-#include "vision/colour_image.h"
 #include "vision/cylinder/cylinder_sighting.h"
 #include "vision/cylinder/published_finder_params.h"
 #include "vision/cylinder/robust_finder_params.h"
+#include "vision/image.h"
 
 namespace rockyard::campaign {
 

@@ -13,8 +13,8 @@
 #include "core/error.h"
 #include "core/field_table.h"
 #include "scenario/scenario.h"
+#include "trial/counters/hazard_watch.h"
 #include "trial/drive_params.h"
-#include "trial/hazard_watch.h"
 
 namespace rockyard::campaign {
 

@@ -10,7 +10,7 @@
 #include "campaign/doubts/setting_values.h"
 #include "math/angles.h"
 #include "messages/estimates.h"
-#include "trial/compute_profile.h"
+#include "trial/eyes/compute_profile.h"
 
 namespace rockyard::campaign {
 namespace {

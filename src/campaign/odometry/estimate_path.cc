@@ -17,10 +17,9 @@
 #include "campaign/odometry/pose_text.h"
 #include "core/archive.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/hash.h"
 #include "core/json_file.h"
-#include "core/machine_error.h"
-#include "core/whole_file.h"
 #include "image_files/png_file.h"
 #include "report/json_members.h"
 

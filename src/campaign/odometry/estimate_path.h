@@ -17,7 +17,7 @@
 #include "core/fields.h"
 #include "math/pose.h"
 #include "vision/cameras/rectification.h"
-#include "vision/odometry/motion_estimate.h"
+#include "vision/odometry/estimate_motion.h"
 #include "vision/odometry/odometer_params.h"
 #include "vision/odometry/trajectory_error.h"
 

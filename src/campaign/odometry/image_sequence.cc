@@ -13,7 +13,7 @@
 
 #include "campaign/odometry/pose_text.h"
 #include "core/error.h"
-#include "core/whole_file.h"
+#include "core/files.h"
 
 namespace rockyard::campaign {
 namespace {

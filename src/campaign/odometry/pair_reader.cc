@@ -8,7 +8,7 @@
 
 #include "campaign/odometry/pose_text.h"
 #include "core/error.h"
-#include "core/whole_file.h"
+#include "core/files.h"
 #include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 #include "vision/cameras/camera_file.h"

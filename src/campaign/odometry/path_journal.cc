@@ -11,9 +11,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/json_text.h"
-#include "core/machine_error.h"
-#include "core/whole_file.h"
 #include "report/json_members.h"
 
 namespace rockyard::campaign {

@@ -7,7 +7,7 @@
 
 #include "campaign/odometry/pose_text.h"
 #include "core/error.h"
-#include "vision/odometry/motion_estimate.h"
+#include "vision/odometry/estimate_motion.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "core/whole_file.h"
+#include "core/files.h"
 
 namespace rockyard::campaign {
 namespace {

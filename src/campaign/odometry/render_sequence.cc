@@ -16,7 +16,7 @@
 #include "report/json_members.h"
 #include "scenario/load.h"
 #include "sensing/stereo_imager.h"
-#include "trial/route_planner.h"
+#include "trial/course/route_planner.h"
 #include "vision/cameras/camera_file.h"
 
 namespace rockyard::campaign {

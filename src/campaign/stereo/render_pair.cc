@@ -11,7 +11,7 @@
 #include "image_files/png_file.h"
 #include "sensing/stereo_imager.h"
 #include "terrain/field.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 #include "vision/cameras/camera_file.h"
 #include "vision/cameras/rectification.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "experiments/cylinder_sighting/sighting_sums.h"
 #include "experiments/record_of.h"
 #include "math/angles.h"

@@ -11,7 +11,7 @@
 #include "experiments/cylinder_sighting/cylinder_sighting_params.h"
 #include "experiments/cylinder_sighting/sighting_sums.h"
 #include "experiments/experiment.h"
-#include "rendering/cylinder/cylinder_view.h"
+#include "rendering/cylinder/cylinder_scene.h"
 #include "truth/record.h"
 
 namespace rockyard::experiments {

@@ -77,7 +77,7 @@ void ForEachSum(const SightingSums& s, F&& f) {
   ForEachFinderSum("robust", s.robust, f);
 }
 
-// What is true of a view. L as in rendering/cylinder/cylinder_view.h.
+// What is true of a view. L as in rendering/cylinder/cylinder_scene.h.
 struct CylinderTruth {
   bool present = true;
   double orientation_rad = 0.0;

@@ -6,7 +6,7 @@
 #include "core/check.h"
 #include "experiments/record_of.h"
 #include "math/angles.h"
-#include "trial/onboard_calibration.h"
+#include "trial/eyes/onboard_calibration.h"
 
 namespace rockyard::experiments {
 namespace {

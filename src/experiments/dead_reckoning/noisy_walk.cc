@@ -1,6 +1,6 @@
 #include "experiments/dead_reckoning/noisy_walk.h"
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "localization/dead_reckoning.h"
 #include "math/angles.h"
 #include "messages/measurements.h"

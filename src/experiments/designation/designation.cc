@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <numbers>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "experiments/record_of.h"
-#include "trial/goal_designation.h"
+#include "trial/course/goal_designation.h"
 #include "truth/measurement_record.h"
 #include "vision/cameras/rectification.h"
 

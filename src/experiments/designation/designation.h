@@ -14,7 +14,7 @@
 #include "experiments/designation/designation_study_params.h"
 #include "experiments/experiment.h"
 #include "math/pose.h"
-#include "trial/course_params.h"
+#include "trial/course/course_params.h"
 #include "truth/record.h"
 #include "vision/cameras/cahv.h"
 #include "vision/cameras/camera_types.h"

@@ -5,7 +5,7 @@
 #include "experiments/hazard_detection/hazard_judge.h"
 #include "experiments/hazard_detection/hazard_study.h"
 #include "experiments/record_of.h"
-#include "perception/hazard_criteria.h"
+#include "perception/hazard_detector.h"
 
 namespace rockyard::experiments {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "experiments/cell_table.h"
 #include "experiments/hazard_detection/hazard_judge.h"
 #include "experiments/hazard_detection/hazard_study.h"
@@ -14,7 +14,7 @@
 #include "terrain/blind_swath.h"
 #include "terrain/field.h"
 #include "terrain/terrain.h"
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 
 namespace rockyard::experiments {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "perception/hazard_detector.h"
 #include "sensing/stripe_layout_params.h"
-#include "trial/onboard_calibration.h"
+#include "trial/eyes/onboard_calibration.h"
 
 namespace rockyard::experiments {
 

@@ -7,12 +7,12 @@
 #include "core/random.h"
 #include "math/pose.h"
 #include "messages/estimates.h"
-#include "perception/hazard_criteria.h"
+#include "perception/hazard_detector.h"
 #include "perception/hazard_params.h"
 #include "perception/triangulation.h"
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
-#include "trial/hazard_scanner.h"
+#include "trial/eyes/hazard_scanner.h"
 #include "trial/watchers.h"
 
 namespace rockyard::experiments {

@@ -5,15 +5,15 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "experiments/cell_table.h"
 #include "experiments/hazard_detection/hazard_study.h"
 #include "experiments/record_of.h"
 #include "perception/triangulation.h"
 #include "sensing/stripe_layout_params.h"
 #include "terrain/terrain.h"
-#include "trial/hazard_scanner.h"
-#include "trial/onboard_calibration.h"
+#include "trial/eyes/hazard_scanner.h"
+#include "trial/eyes/onboard_calibration.h"
 #include "vision/lens.h"
 
 namespace rockyard::experiments {

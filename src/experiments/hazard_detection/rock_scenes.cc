@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "terrain/rock.h"
 
 namespace rockyard::experiments {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "experiments/cell_table.h"
 #include "experiments/hazard_detection/hazard_judge.h"
 #include "experiments/hazard_detection/hazard_study.h"

@@ -13,11 +13,11 @@
 #include "math/angles.h"
 #include "math/sun_position.h"
 #include "terrain/arena.h"
-#include "trial/belief.h"
-#include "trial/goal_designation.h"
-#include "trial/layout.h"
-#include "trial/make_estimator.h"
-#include "trial/power_budget.h"
+#include "trial/clock/power.h"
+#include "trial/counters/drive_monitor.h"
+#include "trial/course/goal_designation.h"
+#include "trial/course/layout.h"
+#include "trial/drive/make_estimator.h"
 #include "truth/end_cause.h"
 
 namespace rockyard::experiments {

@@ -20,9 +20,9 @@
 #include "localization/estimator.h"
 #include "sensing/aids.h"
 #include "terrain/field.h"
+#include "trial/clock/power.h"
 #include "trial/drive_params.h"
 #include "trial/run_trial.h"
-#include "trial/solar_supply.h"
 
 namespace rockyard::experiments {
 

@@ -10,7 +10,7 @@
 
 #include "experiments/mission/mission.h"
 #include "math/angles.h"
-#include "trial/power_budget.h"
+#include "trial/clock/power.h"
 #include "truth/record.h"
 
 namespace rockyard::experiments {

@@ -10,9 +10,8 @@
 #include "core/random.h"
 #include "experiments/mission/mission_params.h"
 #include "math/pose.h"
-#include "trial/power_budget.h"
+#include "trial/clock/power.h"
 #include "trial/run_trial.h"
-#include "trial/solar_supply.h"
 #include "truth/end_cause.h"
 #include "truth/record.h"
 

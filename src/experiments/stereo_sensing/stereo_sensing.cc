@@ -12,7 +12,7 @@
 #include "math/angles.h"
 #include "sensing/stereo_ground_truth.h"
 #include "sensing/stereo_sensor.h"
-#include "trial/stereo_eyes.h"
+#include "trial/eyes/stereo_eyes.h"
 
 namespace rockyard::experiments {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/distributions.h"
+#include "core/random.h"
 
 namespace rockyard::experiments {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "experiments/look_factors.h"
 #include "experiments/record_of.h"
 #include "math/angles.h"

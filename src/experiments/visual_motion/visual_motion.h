@@ -15,7 +15,7 @@
 #include "experiments/experiment.h"
 #include "experiments/visual_motion/visual_motion_study_params.h"
 #include "trial/drive_params.h"
-#include "trial/visual_eyes.h"
+#include "trial/eyes/visual_eyes.h"
 #include "truth/record.h"
 
 namespace rockyard::experiments {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "messages/commands.h"
-#include "navigation/gestalt/vote_params.h"
+#include "navigation/gestalt/gestalt_params.h"
 
 namespace rockyard::navigation {
 

@@ -6,8 +6,8 @@
 
 #include "core/check.h"
 #include "math/pose.h"
-#include "navigation/gestalt/choice.h"
 #include "navigation/gestalt/cycle.h"
+#include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "math/pose.h"
-#include "navigation/gestalt/choice.h"
+#include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {
 namespace {

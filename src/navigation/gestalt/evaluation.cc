@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "navigation/gestalt/choice.h"
+#include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {
 namespace {

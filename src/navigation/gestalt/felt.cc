@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "navigation/gestalt/clothoid.h"
+#include "navigation/gestalt/curvature_law.h"
 
 namespace rockyard::navigation {
 namespace {

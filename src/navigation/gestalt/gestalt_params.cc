@@ -1,5 +1,7 @@
 #include "navigation/gestalt/gestalt_params.h"
 
+#include "core/sources.h"
+
 namespace rockyard::navigation {
 
 using core::Assumed;
@@ -150,6 +152,172 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
             "ends a search before it has turned search_turn_deg: each look is one of "
             "max_fruitless_cycles",
             "use at least search_turn_deg / point_turn_amount_deg cycles");
+}
+
+using core::Assumed;
+using core::kGoldbergTable1;
+using core::Published;
+using core::Setting;
+
+namespace {}
+
+void GestaltArcParams::Visit(core::FieldVisitor& v) {
+  v.Real("max_curvature_per_m", max_curvature_per_m,
+         Published("curvature of the tightest arcs, close to a point turn", kGoldbergTable1,
+                   {0.01, 20.0}));
+  v.Integer(
+      "num_forward_arcs", num_forward_arcs,
+      Published("forward arcs to evaluate, spaced evenly in curvature", kGoldbergTable1, {1, 201}));
+  v.Integer("num_backward_arcs", num_backward_arcs,
+            Published("backward arcs to evaluate, spaced evenly in curvature", kGoldbergTable1,
+                      {0, 201}));
+  v.Angle("point_turn_amount_deg", point_turn_amount_rad,
+          Published("how far to rotate during a point turn", kGoldbergTable1, {1.0, 170.0}));
+  v.Integer("num_point_turns", num_point_turns,
+            Assumed("point turns to either side that compete with the arcs, spaced evenly up to "
+                    "180 deg; 0: that of point_turn_amount_deg alone",
+                    "Howard 2012 sec. 3: \"different angles followed by a straight drive\"; "
+                    "Goldberg 2002 table 1 has the one amount",
+                    {0, 36}, {0, 12}));
+}
+
+void GestaltWaypointParams::Visit(core::FieldVisitor& v) {
+  v.Real("tight_curve_fraction", tight_curve_fraction,
+         Published("the best arc's curvature between that of the arc through the goal (0) and that "
+                   "which faces the goal after one step (1)",
+                   kGoldbergTable1, {0.0, 1.0}));
+  v.Real("vote_index_variance", vote_index_variance,
+         Published("variance of the waypoint votes about the best arc, in squares of the arc index",
+                   kGoldbergTable1, {0.01, 1e6}));
+  v.Real("waypoint_certainty", waypoint_certainty,
+         Published("certainty of the waypoint votes, their weight beside the hazard votes",
+                   kGoldbergTable1, {0.0, 255.0}));
+  v.Real("goal_tolerance_m", goal_tolerance_m,
+         Assumed(
+             "believed distance to the goal at which the rover stops as arrived",
+             "\"some tolerance band\" (Goldberg 2002 sec. 4): a quarter of the Athena SDM's length",
+             {0.01, 5.0}, {0.1, 1.0}));
+}
+
+void GestaltPlanParams::Visit(core::FieldVisitor& v) {
+  v.Real("plan_min_dist_m", plan_min_dist_m,
+         Published("paths are judged from this distance on", kGoldbergTable1, {0.0, 10.0}));
+  v.Real(
+      "plan_max_dist_m", plan_max_dist_m,
+      Published(
+          "paths are judged up to this length, or up to the distance to the goal if that is less",
+          kGoldbergTable1, {0.05, 20.0}));
+  v.Require("plan_max_dist_m", plan_max_dist_m > plan_min_dist_m,
+            "is not larger than plan_min_dist_m", "use a larger value");
+  v.Angle("max_path_turn_deg", max_path_turn_rad,
+          Assumed("arcs are judged no further than where they have turned this much",
+                  "as printed, the whole length counts: the tightest default arc turns 344 deg",
+                  {10.0, 36000.0}, {90.0, 360.0}));
+  v.Choice("path_weight", path_weight,
+           Assumed("how the weight of a cell falls with its distance along the path",
+                   "Goldberg 2002 step 4 says biased to nearby cells, not how"));
+  v.Real("far_weight", far_weight,
+         Assumed("weight at plan_max_dist where path_weight is linear; it is 1 at plan_min_dist",
+                 "the paper names none", {0.001, 1.0}, {0.05, 1.0}));
+  v.Choice("unknown_cells", unknown_cells,
+           Assumed("what unknown cells do to the hazard vote of a path: they count with their pair "
+                   "at full weight, or every cell counts by its certainty",
+                   "Goldberg 2002 step 4 weighs by distance, and its step 6 by certainty"));
+  v.Integer("samples_per_cell", samples_per_cell,
+            Setting("places along a path at which the map is read, in a cell's width", {1, 4}));
+}
+
+void GestaltVoteParams::Visit(core::FieldVisitor& v) {
+  v.Real("min_allowed_goodness", min_allowed_goodness,
+         Published("every cell of a path must be better, or its hazard vote is 0", kGoldbergTable1,
+                   {0.0, 255.0}));
+  v.Real("min_fwd_threshold", min_fwd_threshold,
+         Published("best forward vote from which only the forward cameras are used",
+                   kGoldbergTable1, {0.0, 256.0}));
+  v.Real(
+      "min_vote_goodness", min_vote_goodness,
+      Published("where the hazard or the waypoint vote is below, the merged vote is the lower one",
+                kGoldbergTable1, {0.0, 256.0}));
+  v.Boolean("whole_numbers", whole_numbers,
+            Assumed("votes are rounded to whole numbers, as the 8 bits of a cell; this makes ties",
+                    "the rule for multiple peaks has little to do among real numbers"));
+}
+
+using core::Assumed;
+using core::Published;
+
+void SpeedLawParams::Visit(core::FieldVisitor& v) {
+  v.Real(
+      "full_speed_curvature_per_m", full_speed_curvature_per_m,
+      Assumed(
+          "curvature up to which the rover drives at full speed",
+          "Howard 2012 sec. 3: speed \"is reduced only for high-curvature maneuvers\"; half of the "
+          "largest knot, where the outer wheels have to be a fifth faster than the rover's centre",
+          {0.0, 20.0}, {0.25, 0.9}));
+  v.Real("slow_curvature_per_m", slow_curvature_per_m,
+         Assumed("curvature from which the rover drives at min_speed_share; between the two the "
+                 "share is linear in the curvature",
+                 "the largest knot of Howard 2012 sec. 3", {0.001, 20.0}, {1.0, 2.0}));
+  v.Require("slow_curvature_per_m", slow_curvature_per_m > full_speed_curvature_per_m,
+            "is not larger than full_speed_curvature_per_m, so that there is no curvature between "
+            "the two over which the rover could slow down",
+            "use a larger slow_curvature_per_m or a smaller full_speed_curvature_per_m");
+  v.Real("min_speed_share", min_speed_share,
+         Assumed("share of the full speed in the tightest curves; 1 never slows down",
+                 "Howard 2012 sec. 3 slows down and does not say by how much; half speed gives the "
+                 "steering motors twice the time for the same path",
+                 {0.05, 1.0}, {0.25, 1.0}));
+}
+
+namespace {
+
+constexpr std::string_view kHowardSection3 = "Howard 2012 sec. 3";
+
+void VisitShape(GestaltSplineParams& p, core::FieldVisitor& v) {
+  v.Real("length_m", p.length_m,
+         Published("length of a spline; its knots lie after half of it and after all of it",
+                   kHowardSection3, {0.1, 20.0}));
+  v.Integer(
+      "num_first_knots", p.num_first_knots,
+      Assumed("curvatures in the middle of a spline, spaced evenly",
+              "Howard 2012 sec. 3 has 225 splines, not how many knots each", {1, 51}, {5, 45}));
+  v.Integer(
+      "num_second_knots", p.num_second_knots,
+      Assumed("curvatures at the end of a spline, spaced evenly, for each in the middle",
+              "Howard 2012 sec. 3 has 225 splines, not how many knots each", {1, 51}, {5, 45}));
+  v.Real("max_curvature_per_m", p.max_curvature_per_m,
+         Published("curvature of the tightest knots", kHowardSection3, {0.01, 20.0}));
+}
+
+}  // namespace
+
+double GestaltSplineParams::LeastRate_per_m2() const {
+  if (num_first_knots < 2) return 0.0;
+  const double spacing_per_m = 2.0 * max_curvature_per_m / static_cast<double>(num_first_knots - 1);
+  return spacing_per_m / (0.5 * length_m);
+}
+
+void GestaltSplineParams::Visit(core::FieldVisitor& v) {
+  VisitShape(*this, v);
+  v.Real("max_curvature_rate_per_m_s", max_curvature_rate_per_m_s,
+         Assumed("change of curvature a second at the commanded speed above which a spline is "
+                 "infeasible and never chosen",
+                 "steering motors of 20 deg/s turn the wheels of Athena, 0.42 m before and 0.36 m "
+                 "beside its centre, by 0.49 / (m s) at 1 / m, and faster in wider curves; less a "
+                 "tenth. The study range is that of motors of 2 to 40 deg/s",
+                 {0.001, 100.0}, {0.045, 0.9}));
+  v.Choice("law", law,
+           Assumed("in what the curvature between two knots is linear",
+                   "Howard 2012 sec. 2: \"linearly with distance or time\""));
+  v.Real("waypoint_m", waypoint_m,
+         Assumed("distance along a spline, or that to the goal if it is less, after which its "
+                 "heading is compared with the direction of the goal; what it misses that by costs "
+                 "as much as of an arc after drive.step_m",
+                 "the whole spline", {0.01, 20.0}, {0.35, 3.0}));
+  v.Require("waypoint_m", waypoint_m <= length_m,
+            "is beyond the end of the splines (length_m): they say nothing of where the rover "
+            "would head there",
+            "use a smaller waypoint_m or a larger length_m");
 }
 
 }  // namespace rockyard::navigation

@@ -1,4 +1,6 @@
-// Every parameter of GESTALT: table 1 of Goldberg 2002, and what the drive cycle needs beside it.
+// Parameters of the arcs and votes of GESTALT: Goldberg 2002, table 1, groups "Arcs" and
+// "Waypoints", plan-min-dist, plan-max-dist and the vote thresholds. Names and defaults are the
+// table's; what the paper leaves open is marked as assumed.
 #pragma once
 
 #include <array>
@@ -8,10 +10,104 @@
 #include "core/fields.h"
 #include "math/angles.h"
 #include "navigation/gestalt/map_params.h"
-#include "navigation/gestalt/spline_params.h"
-#include "navigation/gestalt/vote_params.h"
 
 namespace rockyard::navigation {
+
+// Candidate motions. Curvatures are spaced evenly from -max_curvature to +max_curvature.
+struct GestaltArcParams {
+  double max_curvature_per_m = 2.0;
+  std::int64_t num_forward_arcs = 23;
+  std::int64_t num_backward_arcs = 23;
+  double point_turn_amount_rad = math::DegToRad(90.0);
+  std::int64_t num_point_turns = 0;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct GestaltWaypointParams {
+  double tight_curve_fraction = 1.0;
+  double vote_index_variance = 225.0;
+  double waypoint_certainty = 192.0;
+  double goal_tolerance_m = 0.25;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// Weight of a cell at distance s along a path: "biased to consider nearby cells more strongly"
+// (Goldberg 2002, step 4).
+enum class PathWeight {
+  kLinear,   // 1 - (1 - far_weight) (s - plan_min_dist) / (plan_max_dist - plan_min_dist)
+  kInverse,  // 1 / s
+  kUniform,  // 1: no bias
+};
+
+// What unknown cells do to the hazard vote of a path.
+enum class UnknownCells {
+  kFullWeight,   // they count with the goodness of their pair, 11
+  kByCertainty,  // cells count by their certainty, as votes do when they are merged: unknown ones
+                 // say nothing
+};
+
+struct GestaltPlanParams {
+  double plan_min_dist_m = 0.3;
+  double plan_max_dist_m = 3.0;
+  double max_path_turn_rad = math::DegToRad(360.0);
+  PathWeight path_weight = PathWeight::kLinear;
+  double far_weight = 0.2;
+  UnknownCells unknown_cells = UnknownCells::kFullWeight;
+  std::int64_t samples_per_cell = 2;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct GestaltVoteParams {
+  double min_allowed_goodness = 10.0;
+  double min_fwd_threshold = 180.0;
+  double min_vote_goodness = 26.0;
+  bool whole_numbers = true;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// Parameters of the splines among which a rover that steers while it drives chooses (Howard 2012,
+// sections 2 and 3).
+
+// Full speed up to one curvature, min_speed_share of it from another one on: "The maximum speed
+// [...] was 7 cm/sec and is reduced only for high-curvature maneuvers" (Howard 2012, section 3). By
+// default curves are driven as fast as straight lines.
+struct SpeedLawParams {
+  double full_speed_curvature_per_m = 0.5;
+  double min_speed_share = 1.0;
+  double slow_curvature_per_m = 1.0;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// In what the curvature between two knots is linear: "Clothoid trajectories are motions whose
+// curvature varies linearly with distance or time" (Howard 2012, section 2). The two are the same
+// at constant speed.
+enum class SplineLaw {
+  kDistance,
+  kTime,  // at the speed of the speed law
+};
+
+// Knots of either kind are spaced evenly from -max_curvature to +max_curvature.
+struct GestaltSplineParams {
+  double length_m = 3.0;
+  std::int64_t num_first_knots = 15;
+  std::int64_t num_second_knots = 15;
+  double max_curvature_per_m = 1.0;
+  double max_curvature_rate_per_m_s = 0.45;
+  SplineLaw law = SplineLaw::kDistance;
+  double waypoint_m = 3.0;
+
+  // |dc/ds| of a spline from one of the first knots' curvatures to the next.
+  double LeastRate_per_m2() const;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// Every parameter of GESTALT: table 1 of Goldberg 2002, and what the drive cycle needs beside it.
 
 // How looking, planning and driving follow each other.
 enum class DriveCycle {
@@ -111,6 +207,21 @@ struct GestaltParams {
 };
 
 }  // namespace rockyard::navigation
+
+template <>
+struct rockyard::core::EnumNames<rockyard::navigation::PathWeight> {
+  static constexpr std::array<std::string_view, 3> kNames{"linear", "inverse", "uniform"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::navigation::UnknownCells> {
+  static constexpr std::array<std::string_view, 2> kNames{"full_weight", "by_certainty"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::navigation::SplineLaw> {
+  static constexpr std::array<std::string_view, 2> kNames{"distance", "time"};
+};
 
 template <>
 struct rockyard::core::EnumNames<rockyard::navigation::DriveCycle> {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "math/angles.h"
-#include "navigation/gestalt/clothoid.h"
+#include "navigation/gestalt/curvature_law.h"
 
 namespace rockyard::navigation {
 

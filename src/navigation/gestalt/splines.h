@@ -11,7 +11,6 @@
 #include "messages/estimates.h"
 #include "messages/navigation_view.h"
 #include "navigation/gestalt/arcs.h"
-#include "navigation/gestalt/clothoid.h"
 #include "navigation/gestalt/curvature_law.h"
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/gestalt/goodness_grid.h"

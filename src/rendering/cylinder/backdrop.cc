@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "math/angles.h"
-#include "rendering/pixel_noise.h"
+#include "rendering/image_readout.h"
 
 namespace rockyard::rendering {
 namespace {

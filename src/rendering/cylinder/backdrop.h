@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "rendering/cylinder/colour_light.h"
+#include "rendering/cylinder/colour_readout.h"
 #include "rendering/cylinder/cylinder_params.h"
 #include "vision/cameras/cahv.h"
 

@@ -1,14 +1,68 @@
-// From light to the counts of a colour camera of one chip.
+// Light and surfaces in three channels, an image of them before it is counted, and the light of
+// sun, sky and ground on a surface.
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 
 #include "core/random.h"
-#include "rendering/cylinder/colour_light.h"
+#include "math/pose.h"
 #include "rendering/cylinder/cylinder_params.h"
-#include "vision/colour_image.h"
+#include "vision/image.h"
 
 namespace rockyard::rendering {
+
+// Red, green, blue: reflectances, irradiances or radiances, all in proportion to light (no gamma).
+using Colour = Eigen::Array3d;
+
+inline Colour ToColour(const ColourValues& values) { return {values[0], values[1], values[2]}; }
+
+using ColourPlane = vision::Image<float>;
+
+// Red, green, blue; all of one size. Radiance times pi (as irradiance of a white surface), or
+// counts.
+using ColourPlanes = std::array<ColourPlane, 3>;
+
+inline ColourPlanes MakePlanes(int columns, int rows) {
+  const ColourPlane plane(columns, rows, 0.0F);
+  return {plane, plane, plane};
+}
+
+inline void SetPixel(ColourPlanes& planes, int column, int row, const Colour& colour) {
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    planes[i].At(column, row) = static_cast<float>(colour[static_cast<Eigen::Index>(i)]);
+  }
+}
+
+inline Colour PixelOf(const ColourPlanes& planes, int column, int row) {
+  return {planes[0].At(column, row), planes[1].At(column, row), planes[2].At(column, row)};
+}
+
+// Directions are in L (cylinder_scene.h): x along the cameras' line of sight, y left, z up.
+class ColourLight {
+ public:
+  // Strengths of sun and sky by radiometry.h (Beer and Lambert), over what a level surface gets
+  // from both with the sun in the zenith outside of the atmosphere.
+  ColourLight(const CylinderLightParams& light, const Colour& ground);
+
+  // Irradiance of a surface with that unit normal, convex and seen by all of its sky:
+  //   sun max(0, n.s) + sky (1 + n_z)/2 + ground (1 - n_z)/2
+  // where the level ground sends back `ground` times what falls on it. No surface shades another.
+  Colour On(const math::Vector3& normal_L) const;
+
+  const math::Vector3& toward_sun_L() const { return toward_sun_L_; }
+  // Radiance of the sky, times pi, as On is for a white surface.
+  const Colour& sky() const { return sky_; }
+
+ private:
+  math::Vector3 toward_sun_L_;
+  Colour sun_;
+  Colour sky_;
+  Colour ground_;
+};
+
+// From light to the counts of a colour camera of one chip.
 
 // Steps, all but the last linear in light:
 //   1. each channel takes the share `crosstalk` of its light from its neighbours in the spectrum,

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rendering/cylinder/backdrop.h"
-#include "rendering/cylinder/colour_light.h"
+#include "rendering/cylinder/colour_readout.h"
 #include "rendering/cylinder/cylinder_scene.h"
 
 namespace rockyard::rendering {

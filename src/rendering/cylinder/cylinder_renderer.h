@@ -4,9 +4,9 @@
 #include <array>
 
 #include "core/random.h"
-#include "rendering/cylinder/colour_light.h"
+#include "rendering/cylinder/colour_readout.h"
 #include "rendering/cylinder/cylinder_params.h"
-#include "rendering/cylinder/cylinder_view.h"
+#include "rendering/cylinder/cylinder_scene.h"
 
 namespace rockyard::rendering {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/distributions.h"
+#include "core/random.h"
 
 namespace rockyard::rendering {
 namespace {

@@ -1,18 +1,74 @@
-// Everything before the cameras that is no background: the cylinder, its stand, rocks, hardware.
+// Where the cylinder stands before the cameras, and the cameras themselves.
+//
+// Frame L: origin on the ground below the cameras' centre of rotation, from which distances count;
+// x along the cameras' line of sight over the ground, y left, z up. Frame T: the cylinder, its
+// origin in the middle of its axis, x forward, z up.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "core/random.h"
+#include "math/angles.h"
 #include "math/pose.h"
-#include "rendering/cylinder/colour_light.h"
+#include "rendering/cylinder/colour_readout.h"
 #include "rendering/cylinder/cylinder_params.h"
-#include "rendering/cylinder/cylinder_view.h"
+#include "vision/cameras/cahv.h"
 
 namespace rockyard::rendering {
+
+// `orientation_rad` is theta of Matthies 1995, app. A.1: the azimuth, in T, of the middle between
+// the cameras as seen from the cylinder. Blue is in the middle of the view at 45 deg.
+struct CylinderView {
+  double distance_m = 5.0;       // along the ground, from the origin of L
+  double bearing_rad = 0.0;      // to the left
+  double orientation_rad = 0.0;  // theta
+  bool present = true;           // without it: its surroundings alone
+};
+
+// The pose of T: its heading is the azimuth of the cameras' middle from it less theta.
+inline math::Transform CylinderPose(const CylinderPictureParams& params, const CylinderView& view) {
+  const math::Vector3 p_LT_L(view.distance_m * std::cos(view.bearing_rad),
+                             view.distance_m * std::sin(view.bearing_rad),
+                             params.target.middle_height_m);
+  const double azimuth_rad = std::atan2(-p_LT_L.y(), params.cameras.front_m - p_LT_L.x());
+  return math::MakePose(p_LT_L, azimuth_rad - view.orientation_rad, 0.0, 0.0);
+}
+
+// How far the cameras look down, rad: none where they look along the ground, else towards the
+// middle of the cylinder's axis at its distance.
+inline double CameraPitch(const CylinderPictureParams& params, const CylinderView& view) {
+  if (params.cameras.pointing == CameraPointing::kLevel) return 0.0;
+  const double drop_m = params.cameras.height_m - params.target.middle_height_m;
+  return std::atan2(drop_m, view.distance_m - params.cameras.front_m);
+}
+
+// Left and right camera, told in L: parallel, pinholes, rows level.
+inline std::array<vision::Cahv, 2> CylinderCameras(const CylinderPictureParams& params,
+                                                   const CylinderView& view) {
+  const ColourCameraParams& camera = params.cameras;
+  const double pitch_rad = CameraPitch(params, view);
+  const math::Vector3 ahead_L(std::cos(pitch_rad), 0.0, -std::sin(pitch_rad));
+  const math::Vector3 right_L(0.0, -1.0, 0.0);
+  const math::Vector3 down_L = ahead_L.cross(right_L);
+  // Appendix A: the field of view belongs to M columns.
+  const double focal_px =
+      0.5 * static_cast<double>(camera.columns) / std::tan(0.5 * camera.field_of_view_rad);
+  std::array<vision::Cahv, 2> pair;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const double side = eye == 0 ? 0.5 : -0.5;
+    pair[eye].C = {camera.front_m, side * camera.baseline_m, camera.height_m};
+    pair[eye].A = ahead_L;
+    pair[eye].H = focal_px * right_L + 0.5 * (static_cast<double>(camera.columns) - 1.0) * ahead_L;
+    pair[eye].V = focal_px * down_L + 0.5 * (static_cast<double>(camera.rows) - 1.0) * ahead_L;
+  }
+  return pair;
+}
+
+// Everything before the cameras that is no background: the cylinder, its stand, rocks, hardware.
 
 // A half line from `origin` (m) along `direction`, of any length.
 struct ColourRay {

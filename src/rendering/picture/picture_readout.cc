@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/check.h"
-#include "core/distributions.h"
+#include "core/random.h"
 #include "rendering/radiometry.h"
 
 namespace rockyard::rendering {

@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "rendering/image_scene.h"
 #include "rendering/occlusion.h"
 #include "rendering/picture/picture_params.h"
 #include "rendering/picture/sun_shadows.h"
 #include "rendering/radiometry.h"
 #include "rendering/sun_params.h"
-#include "rendering/surface_point.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::rendering {

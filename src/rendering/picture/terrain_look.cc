@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/distributions.h"
+#include "core/random.h"
 
 namespace rockyard::rendering {
 namespace {

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "core/random.h"
+#include "rendering/image_scene.h"
 #include "rendering/picture/picture_params.h"
 #include "rendering/picture/texture_field.h"
 #include "rendering/sun_params.h"
-#include "rendering/surface_point.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::rendering {

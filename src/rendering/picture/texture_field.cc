@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/check.h"
-#include "rendering/pixel_noise.h"
+#include "rendering/image_readout.h"
 
 namespace rockyard::rendering {
 namespace {

@@ -13,7 +13,7 @@
 #include "rover/multibody/loose_rocks.h"
 #include "rover/multibody/multibody.h"
 #include "rover/rover_params.h"
-#include "rover/slip_sinkage.h"
+#include "rover/wheel_soil.h"
 #include "terrain/soil_params.h"
 
 namespace rockyard::rover {

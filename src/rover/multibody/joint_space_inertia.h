@@ -1,8 +1,8 @@
 // The joint-space mass matrix of the articulated body and its inverse.
 #pragma once
 
-#include "rover/mass_properties_params.h"
 #include "rover/multibody/multibody.h"
+#include "rover/rover_layout_params.h"
 #include "rover/rover_params.h"
 
 namespace rockyard::rover {

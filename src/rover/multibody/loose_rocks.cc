@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "terrain/rock_holding.h"
+#include "terrain/rock.h"
 
 namespace rockyard::rover {
 

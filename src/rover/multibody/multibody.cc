@@ -2,7 +2,6 @@
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
-#include "rover/mass_properties_params.h"
 #include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {

@@ -9,7 +9,6 @@
 #include "rover/quasi_static/linkage.h"
 #include "rover/quasi_static/progress.h"
 #include "rover/rover_params.h"
-#include "rover/slip_sinkage.h"
 #include "rover/wheel_soil.h"
 
 namespace rockyard::rover {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "rover/mass_properties_params.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "trial/aid_suite.h"
-#include "trial/goal_designation.h"
+#include "trial/aids/aid_suite.h"
+#include "trial/course/goal_designation.h"
 
 namespace rockyard::trial {
 namespace {

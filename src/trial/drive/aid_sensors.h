@@ -6,7 +6,7 @@
 #include "sensing/aid_params.h"
 #include "sensing/aids.h"
 #include "terrain/terrain.h"
-#include "trial/aid_exchange.h"
+#include "trial/aids/aid_suite.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::trial {

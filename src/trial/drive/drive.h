@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "core/random.h"
+#include "trial/clock/ledger.h"
 #include "trial/drive/drive_observer.h"
 #include "trial/drive/drive_tracer.h"
 #include "trial/drive/onboard.h"
 #include "trial/drive/operators.h"
+#include "trial/drive/timeline.h"
 #include "trial/drive/world.h"
 #include "trial/drive_params.h"
-#include "trial/ledger.h"
-#include "trial/referee.h"
+#include "trial/referee/referee.h"
 #include "trial/run_trial.h"
-#include "trial/timeline.h"
 #include "trial/watchers.h"
 
 namespace rockyard::trial {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "trial/compute_profile.h"
 #include "trial/drive/drive.h"
+#include "trial/eyes/compute_profile.h"
 
 namespace rockyard::trial {
 

@@ -9,7 +9,7 @@
 #include "core/check.h"
 #include "math/angles.h"
 #include "rover/rover_layout_params.h"
-#include "trial/belief.h"
+#include "trial/counters/drive_monitor.h"
 
 namespace rockyard::trial {
 namespace {

@@ -8,15 +8,15 @@
 
 #include "math/pose.h"
 #include "messages/commands.h"
+#include "trial/aids/visual_aid.h"
+#include "trial/counters/drive_counters.h"
+#include "trial/counters/drive_monitor.h"
+#include "trial/counters/hazard_watch.h"
 #include "trial/drive/onboard.h"
 #include "trial/drive/world.h"
-#include "trial/drive_counters.h"
-#include "trial/drive_monitor.h"
-#include "trial/hazard_watch.h"
-#include "trial/referee.h"
+#include "trial/referee/referee.h"
+#include "trial/referee/slip_onset.h"
 #include "trial/run_trial.h"
-#include "trial/slip_onset.h"
-#include "trial/visual_aid.h"
 #include "truth/drive_record.h"
 
 namespace rockyard::trial {

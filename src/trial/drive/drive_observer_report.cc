@@ -7,9 +7,9 @@
 #include "math/angles.h"
 #include "rover/rover_layout_params.h"
 #include "sensing/tracker.h"
-#include "trial/belief.h"
+#include "trial/counters/drive_monitor.h"
+#include "trial/course/layout.h"
 #include "trial/drive/drive_observer.h"
-#include "trial/layout.h"
 
 namespace rockyard::trial {
 

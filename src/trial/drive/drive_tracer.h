@@ -9,10 +9,10 @@
 #include "math/pose.h"
 #include "messages/commands.h"
 #include "messages/navigation_view.h"
+#include "trial/clock/power.h"
 #include "trial/drive/onboard.h"
 #include "trial/drive/world.h"
-#include "trial/power_budget.h"
-#include "trial/terrain_sensing.h"
+#include "trial/eyes/terrain_sensing.h"
 #include "truth/trace.h"
 
 namespace rockyard::trial {

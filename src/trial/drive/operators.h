@@ -8,7 +8,7 @@
 
 #include "math/pose.h"
 #include "messages/estimates.h"
-#include "trial/belief.h"
+#include "trial/counters/drive_monitor.h"
 #include "trial/drive/onboard.h"
 #include "trial/drive/world.h"
 

@@ -1,6 +1,6 @@
 #include "trial/drive/world.h"
 
-#include "trial/layout.h"
+#include "trial/course/layout.h"
 
 namespace rockyard::trial {
 namespace {

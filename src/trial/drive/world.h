@@ -15,13 +15,13 @@
 #include "sensing/tracker.h"
 #include "sensing/vehicle_sensors.h"
 #include "terrain/field.h"
-#include "trial/aid_exchange.h"
+#include "trial/aids/aid_suite.h"
 #include "trial/drive/aid_sensors.h"
 #include "trial/drive/part_set.h"
 #include "trial/drive_params.h"
-#include "trial/goal_rock.h"
-#include "trial/terrain_sensor_model.h"
-#include "trial/visual_eyes.h"
+#include "trial/eyes/terrain_sensor_model.h"
+#include "trial/eyes/visual_eyes.h"
+#include "trial/referee/goal_rock.h"
 #include "trial/watchers.h"
 
 namespace rockyard::trial {

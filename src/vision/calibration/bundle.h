@@ -1,3 +1,107 @@
+// A CAHVOR camera as 18 numbers in the order of flight calibrations: C, A, H, V, O, R. A Cahv is
+// one with O = A and R = 0.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "vision/calibration/chessboard_params.h"
+#include "vision/cameras/cahv.h"
+#include "vision/cameras/camera_model.h"
+
+namespace rockyard::vision {
+
+inline constexpr int kCameraNumbers = 18;
+enum ParameterBlock {
+  kBlockC = 0,
+  kBlockA = 3,
+  kBlockH = 6,
+  kBlockV = 9,
+  kBlockO = 12,
+  kBlockR = 15
+};
+
+using CameraVector = Eigen::Matrix<double, kCameraNumbers, 1>;
+using NumbersJacobian = Eigen::Matrix<double, 2, kCameraNumbers>;
+
+CameraVector NumbersOf(const Cahvor& camera);
+Cahvor CameraOfNumbers(const CameraVector& numbers);
+
+// Project(camera, p_A) with its derivatives by the 18 numbers and by p_A. Of O only what is across
+// it counts, as Project divides its length out: the derivative is that for |O| = 1, at which it
+// must be given. Nothing where Project gives nothing.
+std::optional<Pixel> ProjectByNumbers(const Cahvor& camera, const math::Vector3& p_A,
+                                      NumbersJacobian& by_numbers, PixelJacobian& by_point);
+
+// What is estimated of a camera.
+enum class EstimatedLens {
+  kCahv,   // C, A, H, V
+  kCahvor  // and O, R1, R2; R0 stays 0: with O near A it does what a focal length does
+};
+
+// In which frame.
+enum class EstimatedPlace {
+  kFree,   // where the targets say
+  kOrigin  // the camera makes the frame: C = 0, A = z, H has no y
+};
+
+// The columns span the ways in which the numbers may change: A and O stay of unit length to first
+// order, what is not estimated stands still. Between 5 (a Cahv that makes the frame) and 15.
+Eigen::Matrix<double, kCameraNumbers, Eigen::Dynamic> TangentBasis(const Cahvor& camera,
+                                                                   EstimatedLens lens,
+                                                                   EstimatedPlace place);
+
+// The camera moved by basis * step, with A and O of unit length; with `lens` kCahv O is A.
+Cahvor Stepped(const Cahvor& camera, const CameraVector& change, EstimatedLens lens);
+
+// What a calibration starts from and what it gives.
+
+// The corners of one image, in the order of CornerPosition.
+using CornerImage = std::vector<Pixel>;
+
+struct CalibrationData {
+  ChessboardParams board;
+  ImageSize size;
+  // By camera (one, or left and right of a pair), by image: image i of both shows the same target.
+  std::vector<std::vector<CornerImage>> corners;
+  // X_AT of each image's target, where it was surveyed; empty: poses are estimated too.
+  std::vector<math::Transform> surveyed_X_AT;
+};
+
+struct CalibrationOptions {
+  EstimatedLens lens = EstimatedLens::kCahvor;
+  // How far the optical axis O is expected to lie from the normal A of the image plane, rad, a
+  // standard deviation of either direction: what is known of O where distortion is too small to
+  // tell. Assumed, > 0; lenses of rovers have 0.001 to 0.01.
+  double axis_sd_rad = 0.02;
+  // A corner is an outlier further than so many standard deviations from its place. Of 3000 good
+  // ones 1 % of the calibrations lose one.
+  double outlier_sds = 5.0;
+};
+
+struct CornerResidual {
+  std::size_t camera = 0;
+  std::size_t image = 0;
+  std::size_t corner = 0;
+  Pixel residual_px = Pixel::Zero();  // measured less predicted
+};
+
+struct Calibration {
+  std::vector<Cahvor> cameras;        // told in A
+  std::vector<math::Transform> X_AT;  // poses of the targets
+  // Of the 18 numbers of each camera, one camera after the other (2 x 18 for a pair). Its rank is
+  // the number of what is estimated.
+  Eigen::MatrixXd covariance;
+  double sigma_px = 0.0;  // of a coordinate of a corner: sqrt(sum of squares / degrees of freedom)
+  double rms_px = 0.0;    // of the distance from a corner to its prediction
+  std::int64_t corners = 0;  // that were used, over all images
+  std::int64_t degrees_of_freedom = 0;
+  std::vector<CornerResidual> residuals;  // of the corners that were used
+  std::vector<CornerResidual> outliers;   // that were not
+};
+
 // Cameras and poses of targets fitted to corners by least squares.
 //
 // What is minimized, over cameras k, images i and corners j that are in use, is
@@ -7,15 +111,6 @@
 // made of blocks of at most 21 x 21. A solver of our own, as the problem has one dense system of a
 // few hundred unknowns and steps on spheres and rotations, and the covariance is the inverse of a
 // matrix that is there anyway; a library would add 28 packages to what rockyard needs.
-#pragma once
-
-#include <Eigen/Core>
-#include <optional>
-#include <vector>
-
-#include "vision/calibration/calibration_data.h"
-
-namespace rockyard::vision {
 
 struct BundleState {
   std::vector<Cahvor> cameras;

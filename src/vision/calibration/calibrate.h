@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "vision/calibration/calibration_data.h"
+#include "vision/calibration/bundle.h"
 #include "vision/cameras/camera_model.h"
 
 namespace rockyard::vision {

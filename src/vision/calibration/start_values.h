@@ -7,7 +7,6 @@
 
 #include "core/result.h"
 #include "vision/calibration/bundle.h"
-#include "vision/calibration/calibration_data.h"
 
 namespace rockyard::vision {
 

@@ -9,7 +9,9 @@
 
 #include <optional>
 
+#include "math/pose.h"
 #include "vision/cameras/camera_types.h"
+#include "vision/cameras/radial_polynomial.h"
 
 namespace rockyard::vision {
 
@@ -48,5 +50,127 @@ std::optional<Pixel> MeetPlane(const Cahv& camera, const math::Vector3& d,
 // derivative, which is constant. Nothing where H, V and A lie in one plane, or not finite.
 std::optional<math::Vector3> LeavePlane(const Cahv& camera, const Pixel& pixel,
                                         Eigen::Matrix<double, 3, 2>* by_pixel);
+
+// CAHVOR: CAHV with radial distortion about an optical axis of its own (Gennery 2001,
+// "Least-squares camera calibration including lens distortion and automatic editing of calibration
+// points").
+//
+//   zeta = (p - C) . O    lambda = (p - C) - zeta O    tau = |lambda|^2 / zeta^2
+//   p' = zeta O + (1 + R0 + R1 tau + R2 tau^2) lambda
+//   column = p' . H / p' . A        row = p' . V / p' . A
+//
+// O is used as a unit vector: flight calibrations print it with six digits, and its length is
+// divided out here. A keeps its length, of which the ratios with H and V are made.
+
+struct Cahvor {
+  Cahv linear;
+  math::Vector3 O = math::Vector3::UnitZ();
+  math::Vector3 R = math::Vector3::Zero();
+
+  bool operator==(const Cahvor&) const = default;
+};
+
+// As for a Cahv. Nothing, too, for points not in front of the lens (zeta > 0) and for what lies
+// beyond the part from the axis outwards where the distorted radius grows: p' would fold back.
+std::optional<Pixel> Project(const Cahvor& camera, const math::Vector3& p_A,
+                             PixelJacobian* jacobian = nullptr);
+
+// As for a Cahv; nothing beyond the image of the growing part. Iterates as Undistort does.
+std::optional<Ray> BackProject(const Cahvor& camera, const Pixel& pixel,
+                               RayJacobian* jacobian = nullptr);
+
+Cahvor Moved(const math::Transform& X_BA, const Cahvor& camera);
+
+Cahvor Mapped(const Cahvor& camera, const PixelMap& map);
+
+// (1 + R0) + R1 r^2 + R2 r^4.
+inline RadialPolynomial DistortionOf(const math::Vector3& R) {
+  return {{1.0 + R[0], R[1], R[2], 0.0}};
+}
+
+// CAHVORE: CAHVOR for lenses up to fisheyes, whose entrance pupil moves along the axis (Gennery
+// 2006, "Generalized camera calibration including fish-eye lenses").
+//
+//   zeta = (p - C) . O    lambda = (p - C) - zeta O
+//   theta: zeta sin(theta) - |lambda| cos(theta) = (theta - sin(theta)) (E0 + E1 theta^2 + E2
+//   theta^4) chi = sin(L theta) / L for L < 0, theta for L = 0, tan(L theta) / L for L > 0 p' = O +
+//   chi (1 + R0 + R1 chi^2 + R2 chi^4) lambda / |lambda| column = p' . H / p' . A        row = p' .
+//   V / p' . A
+//
+// The line of sight leaves the axis under theta at C + s O,
+// s = (theta / sin(theta) - 1) (E0 + E1 theta^2 + E2 theta^4).
+// The linearity L says which lens it is: 1 a perspective one, 0 a fisheye (r = f theta); in between
+// 1/2 is stereographic and -1/2 equisolid. O is used as a unit vector, as in CAHVOR.
+
+// The types of the flight software, whose numbers are 1, 2 and 3.
+enum class CahvoreType {
+  kPerspective,  // L = 1
+  kFisheye,      // L = 0
+  kGeneral,      // L is a parameter
+};
+
+struct Cahvore {
+  Cahv linear;
+  math::Vector3 O = math::Vector3::UnitZ();
+  math::Vector3 R = math::Vector3::Zero();
+  math::Vector3 E = math::Vector3::Zero();  // m
+  CahvoreType type = CahvoreType::kGeneral;
+  double general_linearity = 1.0;  // of kGeneral, in [-1, 1]
+
+  bool operator==(const Cahvore&) const = default;
+};
+
+double Linearity(const Cahvore& camera);
+
+// The largest angle from the axis that a lens of this linearity can image at all, rad, not reached:
+// pi / (2 |L|), and never more than pi.
+double LargestAngle(double linearity);
+
+// As for a Cahvor, with theta below LargestAngle. Newton's method from atan2(|lambda|, zeta), at
+// most 30 steps, to 1e-14 rad; nothing where it does not get there, or where the point lies so near
+// to a moving pupil that lines of sight cross before it.
+std::optional<Pixel> Project(const Cahvore& camera, const math::Vector3& p_A,
+                             PixelJacobian* jacobian = nullptr);
+
+// As for a Cahvor; nothing beyond LargestAngle.
+std::optional<Ray> BackProject(const Cahvore& camera, const Pixel& pixel,
+                               RayJacobian* jacobian = nullptr);
+
+Cahvore Moved(const math::Transform& X_BA, const Cahvore& camera);
+
+Cahvore Mapped(const Cahvore& camera, const PixelMap& map);
+
+// The two functions of an angle that make a CAHVORE: how its lens images it and where its line of
+// sight leaves the axis.
+
+struct AngleImage {
+  double chi = 0.0;
+  double by_theta = 1.0;  // dchi/dtheta, positive
+};
+
+// chi of theta in [0, LargestAngle).
+AngleImage ImageOfTheta(double linearity, double theta_rad);
+
+// theta of chi >= 0; nothing where no angle below LargestAngle has it.
+std::optional<double> ThetaOf(double linearity, double chi);
+
+struct PupilShift {
+  double s_m = 0.0;  // along the optical axis
+  double by_theta = 0.0;
+};
+
+// Where the line of sight under theta in [0, pi) leaves the axis.
+PupilShift ShiftOf(const math::Vector3& E, double theta_rad);
+
+struct SightAngle {
+  double theta_rad = 0.0;
+  // How far along the line of sight the point lies beyond where neighbouring ones cross it, m: the
+  // derivative of the equation by theta. dtheta = (cos(theta) dlambda - sin(theta) dzeta) / this.
+  double reach_m = 0.0;
+};
+
+// The angle under which a point is seen that lies lambda >= 0 off the axis, zeta along it. Nothing
+// without convergence, outside of [0, pi), or where reach_m is not positive.
+std::optional<SightAngle> SolveTheta(const math::Vector3& E, double zeta_m, double lambda_m);
 
 }  // namespace rockyard::vision

@@ -7,8 +7,8 @@
 
 #include "core/archive.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/json_text.h"
-#include "core/whole_file.h"
 #include "vision/cameras/camera_fields.h"
 
 namespace rockyard::vision {

@@ -7,8 +7,6 @@
 
 #include "vision/cameras/brown_pinhole.h"
 #include "vision/cameras/cahv.h"
-#include "vision/cameras/cahvor.h"
-#include "vision/cameras/cahvore.h"
 
 namespace rockyard::vision {
 

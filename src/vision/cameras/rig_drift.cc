@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/check.h"
-#include "core/distributions.h"
+#include "core/random.h"
 
 namespace rockyard::vision {
 namespace {

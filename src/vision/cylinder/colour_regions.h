@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "vision/colour_image.h"
 #include "vision/cylinder/colour_cylinder.h"
 #include "vision/cylinder/cylinder_sighting.h"
 #include "vision/cylinder/published_finder_params.h"
+#include "vision/image.h"
 
 namespace rockyard::vision {
 

@@ -1,3 +1,39 @@
+// Which regions of both eyes may be the coloured cylinder: by size, shape and depth.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/cylinder/colour_model.h"
+#include "vision/cylinder/colour_regions.h"
+#include "vision/cylinder/cylinder_equations.h"
+#include "vision/cylinder/robust_finder_params.h"
+#include "vision/cylinder/wall_colours.h"
+
+namespace rockyard::vision {
+
+// One region as both eyes see it; boxes without the rows and columns that stray pixels add.
+struct RegionPair {
+  ColourRegion left;
+  ColourRegion right;
+  SeenPoint point;  // of the middles of both boxes
+};
+
+struct CandidateSearch {
+  std::vector<RegionPair> pairs;
+  // Where there are none: why.
+  CylinderMiss miss = CylinderMiss::kNothing;
+  std::string reason;
+};
+
+// All pairs of regions with the cylinder's shape in either eye, on one another's lines of sight,
+// in front of the cameras and, at their depth, of its width and height.
+CandidateSearch FindCandidates(const ColourPair& pair, const EyeGeometry& eyes,
+                               const ColourCylinder& cylinder, const ClassImage& left,
+                               const ClassImage& right, const CandidateParams& params);
+
 // Position and orientation of the cylinder by least squares over the pixels of both eyes.
 //
 // Unknown are the place across and along the view, theta, the roll, the blur of edges, and the
@@ -7,16 +43,6 @@
 // the wall that was found. What the quadrants' colours tell against the surfaces' (colour_model.h)
 // is part of the least squares: an edge that leaves a quadrant too narrow or too wide mixes colours
 // that none has.
-#pragma once
-
-#include <Eigen/Core>
-#include <optional>
-
-#include "vision/cylinder/colour_model.h"
-#include "vision/cylinder/cylinder_candidates.h"
-#include "vision/cylinder/wall_colours.h"
-
-namespace rockyard::vision {
 
 struct CylinderFit {
   CylinderPlace place;

@@ -13,8 +13,8 @@
 #include "core/fields.h"
 #include "math/pose.h"
 #include "vision/cameras/camera_model.h"
-#include "vision/colour_image.h"
 #include "vision/cylinder/colour_cylinder.h"
+#include "vision/image.h"
 
 namespace rockyard::vision {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "vision/cylinder/colour_model.h"
-#include "vision/cylinder/cylinder_candidates.h"
+#include "vision/cylinder/cylinder_fit.h"
 #include "vision/cylinder/wall_colours.h"
 
 namespace rockyard::vision {

@@ -13,7 +13,6 @@
 #include "math/angles.h"
 #include "vision/cylinder/colour_regions.h"
 #include "vision/cylinder/cylinder_equations.h"
-#include "vision/cylinder/sight_lines.h"
 
 namespace rockyard::vision {
 namespace {

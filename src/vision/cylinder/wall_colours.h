@@ -17,8 +17,8 @@
 #include <optional>
 #include <vector>
 
+#include "vision/cylinder/cylinder_equations.h"
 #include "vision/cylinder/cylinder_profile.h"
-#include "vision/cylinder/sight_lines.h"
 
 namespace rockyard::vision {
 

@@ -8,7 +8,7 @@
 
 #include "core/check.h"
 #include "math/decompositions.h"
-#include "vision/odometry/pair_projection.h"
+#include "vision/odometry/stereo_measurement.h"
 
 namespace rockyard::vision {
 namespace {

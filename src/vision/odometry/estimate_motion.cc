@@ -7,9 +7,34 @@
 #include <vector>
 
 #include "math/decompositions.h"
-#include "vision/odometry/pair_projection.h"
+#include "vision/odometry/stereo_measurement.h"
 
 namespace rockyard::vision {
+
+namespace {
+
+Eigen::Matrix3d CrossMatrix(const math::Vector3& v) {
+  Eigen::Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+}  // namespace
+
+Motion Compose(const Motion& A_to_B, const Motion& B_to_C) {
+  const Eigen::Matrix3d R_AB = A_to_B.X_FS.linear();
+  MotionCovariance by_first = MotionCovariance::Identity();
+  by_first.topRightCorner<3, 3>() = -CrossMatrix(R_AB * B_to_C.X_FS.translation());
+  MotionCovariance by_second = MotionCovariance::Zero();
+  by_second.topLeftCorner<3, 3>() = R_AB;
+  by_second.bottomRightCorner<3, 3>() = R_AB;
+  Motion whole;
+  whole.X_FS = A_to_B.X_FS * B_to_C.X_FS;
+  whole.covariance = by_first * A_to_B.covariance * by_first.transpose() +
+                     by_second * B_to_C.covariance * by_second.transpose();
+  return whole;
+}
+
 namespace {
 
 using math::Matrix6;
@@ -61,10 +86,10 @@ struct Terms {
   Vector3 point_side = Vector3::Zero();
 };
 
-class Problem {
+class MotionProblem {
  public:
-  Problem(const PointsSeenTwice& points, const RectifiedPair& cameras,
-          const EstimationParams& params, const Transform& start)
+  MotionProblem(const PointsSeenTwice& points, const RectifiedPair& cameras,
+                const EstimationParams& params, const Transform& start)
       : project_(cameras), params_(params), X_FS_(start) {
     for (const PointSeenTwice& point : points) {
       points_.push_back({Measured(point.first), Measured(point.second),
@@ -292,7 +317,7 @@ class Problem {
 
 EstimatedMotion EstimateMotion(const PointsSeenTwice& points, const RectifiedPair& cameras,
                                const EstimationParams& params, const Transform& start) {
-  return Problem(points, cameras, params, start).Solve();
+  return MotionProblem(points, cameras, params, start).Solve();
 }
 
 }  // namespace rockyard::vision

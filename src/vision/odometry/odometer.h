@@ -11,9 +11,9 @@
 #include "vision/cameras/rectification.h"
 #include "vision/image.h"
 #include "vision/odometry/detect_features.h"
+#include "vision/odometry/estimate_motion.h"
 #include "vision/odometry/feature.h"
 #include "vision/odometry/match_features.h"
-#include "vision/odometry/motion_estimate.h"
 #include "vision/odometry/odometer_params.h"
 #include "vision/odometry/stereo_measurement.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "math/pose.h"
-#include "vision/odometry/motion_estimate.h"
+#include "vision/odometry/estimate_motion.h"
 
 namespace rockyard::vision {
 

@@ -7,7 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "vision/stereo/correlator_state.h"
+#include "vision/stereo/correlator.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {

@@ -8,7 +8,6 @@
 #include <hwy/highway.h>
 
 #include "vision/stereo/correlator.h"
-#include "vision/stereo/correlator_state.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {

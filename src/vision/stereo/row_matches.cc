@@ -18,18 +18,18 @@ constexpr DogParams kFilter = kLaplacianDog;
 constexpr int kNeighbourhood_px = 3;  // places this near to the best one are the same peak
 constexpr int kReturn_px = 1;
 
-struct Pixel {
+struct GridPoint {
   int x;
   int y;
 };
 
 // Columns and rows from first to last, both included.
 struct Places {
-  Pixel first;
-  Pixel last;
+  GridPoint first;
+  GridPoint last;
 
   bool Empty() const { return first.x > last.x || first.y > last.y; }
-  bool IsInside(Pixel p) const {
+  bool IsInside(GridPoint p) const {
     return p.x > first.x && p.x < last.x && p.y > first.y && p.y < last.y;
   }
 };
@@ -63,12 +63,12 @@ class TextureSums {
   }
 
   // T of the differences within the window.
-  std::int64_t Around(Pixel p, int half_px) const {
+  std::int64_t Around(GridPoint p, int half_px) const {
     return std::min(Sum(across_, p, half_px), Sum(down_, p, half_px));
   }
 
  private:
-  static std::int64_t Sum(const Image<std::int64_t>& sums, Pixel p, int half_px) {
+  static std::int64_t Sum(const Image<std::int64_t>& sums, GridPoint p, int half_px) {
     const int left = p.x - half_px, right = p.x + half_px;
     const int top = p.y - half_px, bottom = p.y + half_px;
     return sums.At(right, bottom) - sums.At(left, bottom) - sums.At(right, top) +
@@ -79,11 +79,11 @@ class TextureSums {
   Image<std::int64_t> down_;
 };
 
-std::vector<Pixel> TexturedPixels(const GrayImage& image, const RowMatchOptions& options) {
+std::vector<GridPoint> TexturedPixels(const GrayImage& image, const RowMatchOptions& options) {
   const int half = options.window_side_px / 2;
   const TextureSums texture(image);
   const Places allowed = WithWindows(image, half);
-  std::vector<Pixel> pixels;
+  std::vector<GridPoint> pixels;
   for (int row = 0; row < options.grid_rows; ++row) {
     for (int column = 0; column < options.grid_columns; ++column) {
       const Places cell = Common(allowed, {{image.width() * column / options.grid_columns,
@@ -91,7 +91,7 @@ std::vector<Pixel> TexturedPixels(const GrayImage& image, const RowMatchOptions&
                                            {image.width() * (column + 1) / options.grid_columns - 1,
                                             image.height() * (row + 1) / options.grid_rows - 1}});
       std::int64_t most = 0;
-      Pixel best{};
+      GridPoint best{};
       for (int y = cell.first.y; y <= cell.last.y; ++y) {
         for (int x = cell.first.x; x <= cell.last.x; ++x) {
           const std::int64_t here = texture.Around({x, y}, half);
@@ -107,7 +107,7 @@ std::vector<Pixel> TexturedPixels(const GrayImage& image, const RowMatchOptions&
 }
 
 struct Peak {
-  Pixel place;
+  GridPoint place;
   bool unique;
 };
 
@@ -122,12 +122,12 @@ class Search {
         max_ratio_(options.max_ratio) {}
 
   // The best of the places that have their window in the image; none if it is at the end of them.
-  std::optional<Peak> Best(Pixel what, const Places& range) {
+  std::optional<Peak> Best(GridPoint what, const Places& range) {
     const Places places = Common(places_, range);
     if (places.Empty()) return std::nullopt;
     scores_.clear();
     std::int32_t least = std::numeric_limits<std::int32_t>::max();
-    Pixel best = places.first;
+    GridPoint best = places.first;
     for (int y = places.first.y; y <= places.last.y; ++y) {
       for (int x = places.first.x; x <= places.last.x; ++x) {
         // What is above `enough` is neither the best nor near enough to it to be its rival.
@@ -143,7 +143,7 @@ class Search {
   }
 
   // S, or a part of it that is above `enough`.
-  std::int32_t Score(Pixel a, Pixel b, double enough) const {
+  std::int32_t Score(GridPoint a, GridPoint b, double enough) const {
     std::int32_t sum = 0;
     const int side = 2 * half_ + 1;
     for (int k = -half_; k <= half_ && sum <= enough; ++k) {
@@ -156,7 +156,7 @@ class Search {
 
  private:
   // The least of the scores that are not of the peak at `best`.
-  double LeastBeside(Pixel best, const Places& places) const {
+  double LeastBeside(GridPoint best, const Places& places) const {
     std::int32_t least = std::numeric_limits<std::int32_t>::max();
     auto score = scores_.begin();
     for (int y = places.first.y; y <= places.last.y; ++y) {
@@ -177,7 +177,7 @@ class Search {
 };
 
 // `place` less the row of the lowest point, of which S below it and above it tell.
-double RowFraction(const Search& search, Pixel what, Pixel place) {
+double RowFraction(const Search& search, GridPoint what, GridPoint place) {
   const auto score = [&](int rows) {
     return static_cast<double>(
         search.Score(what, {place.x, place.y + rows}, std::numeric_limits<double>::infinity()));
@@ -204,10 +204,10 @@ std::vector<RowMatch> FindRowMatches(const GrayImage& left, const GrayImage& rig
   Search forth(left_filtered, right_filtered, options);
   Search back(right_filtered, left_filtered, options);
   std::vector<RowMatch> matches;
-  for (const Pixel p : TexturedPixels(left_filtered, options)) {
+  for (const GridPoint p : TexturedPixels(left_filtered, options)) {
     const auto found = forth.Best(p, {{p.x - most, p.y - rows}, {p.x - least, p.y + rows}});
     if (!found || !found->unique) continue;
-    const Pixel q = found->place;
+    const GridPoint q = found->place;
     const auto again = back.Best(q, {{q.x + least, q.y - rows}, {q.x + most, q.y + rows}});
     if (!again || std::abs(again->place.x - p.x) > kReturn_px ||
         std::abs(again->place.y - p.y) > kReturn_px) {

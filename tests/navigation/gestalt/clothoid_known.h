@@ -9,7 +9,7 @@
 
 #include "core/json_file.h"
 #include "core/json_value.h"
-#include "navigation/gestalt/clothoid.h"
+#include "navigation/gestalt/curvature_law.h"
 
 namespace rockyard::navigation {
 

@@ -1,6 +1,4 @@
 // Clothoids against Fresnel integrals, quadrature, arcs and themselves; splines of two knots.
-#include "navigation/gestalt/clothoid.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

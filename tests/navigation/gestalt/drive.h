@@ -11,7 +11,7 @@
 
 #include "navigation/fake_rover.h"
 #include "navigation/gestalt/gestalt.h"
-#include "navigation/motion_follower.h"
+#include "navigation/route_follower.h"
 
 namespace rockyard::navigation {
 

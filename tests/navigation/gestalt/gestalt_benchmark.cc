@@ -19,14 +19,13 @@
 #include <string>
 #include <string_view>
 
-#include "core/distributions.h"
 #include "core/hash.h"
 #include "core/random.h"
 #include "navigation/gestalt/map.h"
 #include "navigation/gestalt/spline_reference.h"
 #include "navigation/gestalt/splines.h"
 #include "navigation/gestalt/votes.h"
-#include "trial/compute_tables.h"
+#include "trial/eyes/compute_tables.h"
 
 namespace rockyard::navigation {
 namespace {

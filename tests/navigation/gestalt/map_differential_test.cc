@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "navigation/gestalt/map.h"
 #include "navigation/gestalt/reference.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "navigation/gestalt/clouds.h"
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "navigation/gestalt/clouds.h"
 

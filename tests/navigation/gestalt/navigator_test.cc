@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "drive.h"
-#include "navigation/gestalt/choice.h"
+#include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -9,7 +9,6 @@
 #include "core/random.h"
 #include "grids.h"
 #include "navigation/gestalt/arcs.h"
-#include "navigation/gestalt/choice.h"
 #include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {

@@ -7,7 +7,7 @@
 
 #include "drive.h"
 #include "navigation/gestalt/arcs.h"
-#include "navigation/gestalt/choice.h"
+#include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {
 namespace {

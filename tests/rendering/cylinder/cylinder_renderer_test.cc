@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rendering/cylinder/colour_light.h"
+#include "rendering/cylinder/colour_readout.h"
 #include "rendering/cylinder/cylinder_scenes.h"
 
 namespace rockyard::rendering {

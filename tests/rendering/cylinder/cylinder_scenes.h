@@ -2,7 +2,7 @@
 #pragma once
 
 #include "rendering/cylinder/cylinder_params.h"
-#include "rendering/cylinder/cylinder_view.h"
+#include "rendering/cylinder/cylinder_scene.h"
 
 namespace rockyard::rendering {
 

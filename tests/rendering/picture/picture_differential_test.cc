@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "rendering/picture/picture.h"
 #include "rendering/picture/picture_kit.h"
-#include "rendering/picture/stereo_truth.h"
 #include "terrain/field.h"
 
 namespace rockyard::rendering {

@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "core/archive.h"
+#include "rendering/picture/picture.h"
 #include "rendering/picture/picture_kit.h"
 #include "rendering/picture/picture_readout.h"
-#include "rendering/picture/stereo_truth.h"
 #include "scenario/former_keys.h"
 #include "scenario/load.h"
 #include "terrain/field.h"

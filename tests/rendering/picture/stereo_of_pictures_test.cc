@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "rendering/picture/picture.h"
 #include "rendering/picture/picture_kit.h"
 #include "rendering/picture/picture_readout.h"
-#include "rendering/picture/stereo_truth.h"
 #include "terrain/placed_rocks.h"
 #include "vision/stereo/stereo.h"
 

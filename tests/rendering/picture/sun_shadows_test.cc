@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/distributions.h"
+#include "core/random.h"
+#include "rendering/image_scene.h"
 #include "rendering/line_kit.h"
-#include "rendering/surface_point.h"
 #include "terrain/placed_rocks.h"
 
 namespace rockyard::rendering {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "rendering/pixel_noise.h"
+#include "rendering/image_readout.h"
 
 namespace rockyard::rendering {
 namespace {

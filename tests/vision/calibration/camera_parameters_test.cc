@@ -1,8 +1,7 @@
 // Derivatives by a camera's numbers against central differences of Project.
-#include "vision/calibration/camera_parameters.h"
-
 #include <gtest/gtest.h>
 
+#include "vision/calibration/bundle.h"
 #include "vision/calibration/rendered_target.h"
 #include "vision/cameras/test_cameras.h"
 

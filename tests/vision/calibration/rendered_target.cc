@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/distributions.h"
+#include "core/random.h"
 
 namespace rockyard::vision {
 namespace {

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <optional>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "math/angles.h"
 

@@ -1,9 +1,8 @@
 // The covariance of one motion after another against that of drawn errors.
 #include <gtest/gtest.h>
 
-#include "core/distributions.h"
 #include "core/random.h"
-#include "vision/odometry/motion_estimate.h"
+#include "vision/odometry/estimate_motion.h"
 
 namespace rockyard::vision {
 namespace {

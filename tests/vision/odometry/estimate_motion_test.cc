@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "vision/odometry/pair_projection.h"
 #include "vision/odometry/plain_motion.h"
+#include "vision/odometry/stereo_measurement.h"
 #include "vision/odometry/synthetic_points.h"
 
 namespace rockyard::vision {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "plain_features.h"
 #include "textured_image.h"

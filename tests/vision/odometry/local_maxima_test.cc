@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "plain_features.h"
 #include "vision/each_pixel.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "core/distributions.h"
+#include "core/random.h"
 #include "vision/odometry/odometer.h"
 #include "vision/odometry/place_features.h"
 #include "vision/odometry/synthetic_sequence.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "math/decompositions.h"
 #include "vision/odometry/estimate_motion.h"
 #include "vision/odometry/plain_motion.h"

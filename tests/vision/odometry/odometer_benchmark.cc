@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "vision/odometry/synthetic_sequence.h"
 
 namespace rockyard::vision {

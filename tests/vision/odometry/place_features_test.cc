@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "vision/cameras/rectification.h"
 #include "vision/each_pixel.h"
 #include "vision/odometry/refine_match.h"

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "vision/cameras/rectification.h"
-#include "vision/odometry/motion_estimate.h"
+#include "vision/odometry/estimate_motion.h"
 #include "vision/odometry/stereo_measurement.h"
 
 namespace rockyard::vision {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "vision/cameras/rectification.h"
-#include "vision/odometry/pair_projection.h"
+#include "vision/odometry/stereo_measurement.h"
 #include "vision/odometry/synthetic_sequence.h"
 
 namespace rockyard::vision {

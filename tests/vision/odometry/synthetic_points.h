@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "vision/cameras/camera_model.h"
 #include "vision/cameras/rectification.h"

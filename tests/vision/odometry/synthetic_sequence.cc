@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "vision/cameras/rectification.h"
 
 namespace rockyard::vision {

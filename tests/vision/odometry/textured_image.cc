@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/distributions.h"
 #include "core/random.h"
 
 namespace rockyard::vision {

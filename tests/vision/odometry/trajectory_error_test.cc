@@ -7,7 +7,6 @@
 #include <numbers>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 
 namespace rockyard::vision {

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "plain_features.h"
 #include "textured_image.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random.h"
 #include "vision/each_pixel.h"
 #include "vision/stereo/instruction_sets.h"
 

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "vision/stereo/correlator_state.h"
+#include "vision/stereo/correlator.h"
 
 namespace rockyard::vision {
 

@@ -8,7 +8,7 @@
 #include "core/params_text.h"
 #include "core/random.h"
 #include "vision/each_pixel.h"
-#include "vision/stereo/correlator_state.h"
+#include "vision/stereo/correlator.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/dog.h"
 #include "vision/stereo/pyramid.h"

@@ -25,7 +25,6 @@
 #include "synthetic_pair.h"
 #include "vision/stereo/blob.h"
 #include "vision/stereo/correlator.h"
-#include "vision/stereo/correlator_state.h"
 #include "vision/stereo/dog.h"
 #include "vision/stereo/pyramid.h"
 #include "vision/stereo/rectification_table.h"

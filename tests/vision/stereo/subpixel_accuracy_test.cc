@@ -15,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/random.h"
 #include "synthetic_pair.h"
 #include "vision/stereo/dog.h"

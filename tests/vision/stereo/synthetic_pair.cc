@@ -5,7 +5,6 @@
 #include <numbers>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/hash.h"
 #include "core/random.h"
 

@@ -1,0 +1,103 @@
+// Visual odometry of one drive: when it takes images, when the motion is ready, and what becomes of
+// it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "localization/estimator.h"
+#include "perception/visual_motion.h"
+#include "trial/aids/aid_suite.h"
+#include "trial/drive_params.h"
+#include "trial/eyes/visual_eyes.h"
+
+namespace rockyard::trial {
+
+// How often.
+struct VisualCounts {
+  std::int64_t steps = 0;      // pairs of images that were compared with others
+  std::int64_t failures = 0;   // of these, without a motion
+  std::int64_t keyframes = 0;  // pairs that others were compared with
+  std::int64_t used = 0;       // motions that the estimator took
+  std::int64_t gated_out = 0;  // or turned away
+};
+
+// What the check of slip made of one motion, between two looks.
+struct SlipReading {
+  perception::MeasuredSlip seen;
+  Eigen::Vector2d rolled_m = Eigen::Vector2d::Zero();  // by the wheels, as RolledWay has it
+  std::int64_t from = 0;
+  std::int64_t to = 0;
+};
+
+// A pair of images is due at the start, and then by way, turn or time since the last one
+// (sensors.visual_odometry.schedule), whatever the navigator does. While the computer still works
+// on one, no other is taken.
+class VisualAid {
+ public:
+  // `captures` outlives it.
+  VisualAid(const DriveParams& drive, CaptureCounter& captures);
+
+  // Whether images are to be taken now.
+  bool IsDue(const messages::LocalizationEstimate& believed, double time_s) const;
+
+  // What a look takes (clock.compute). The first pair of a path is only kept.
+  double imaging_s() const { return imaging_s_; }
+  double computing_s() const { return computing_s_; }
+
+  // Where R is now, as believed, in R of the keyframe.
+  math::Transform Expected(const messages::LocalizationEstimate& believed) const;
+  // Takes the pair of images of now, and what comes of it, which is ready at `ready_s`. Returns
+  // whether a motion is worked out, which takes computing_s.
+  bool Take(const VisualStep& step, double time_s, double ready_s,
+            localization::Estimator& estimator);
+
+  // Hands in what is ready. Returns whether the estimate was corrected.
+  bool Tick(double time_s, localization::Estimator& estimator);
+
+  // What was seen before operators moved the rover is of no use any more.
+  void OnPlaced();
+
+  // After an alarm of slip: the way that raised it counts once, and what follows is compared with
+  // images that are due at once. No images are under way; the eyes are renewed.
+  void BeginAnew(localization::Estimator& estimator);
+
+  // The slip of the last motion that was handed in, once; nothing where it is not checked.
+  std::optional<SlipReading> TakeSlip();
+
+  const VisualCounts& counts() const { return counts_; }
+
+ private:
+  // A pair whose moment is kept.
+  struct Moment {
+    std::int64_t look = 0;
+    messages::CaptureNumber capture = 0;
+    messages::AttitudeEstimate attitude;  // believed then
+    messages::PoseEstimate odometry;
+  };
+  struct Waiting {
+    double ready_s = 0.0;
+    VisualStep step;
+    Moment from;
+    Moment to;
+  };
+
+  bool HandIn(const Waiting& waiting, localization::Estimator& estimator);
+  void CheckSlip(const Waiting& waiting, const messages::RelativeMotion& seen);
+
+  sensing::VisualMotionParams params_;
+  perception::SlipCheckParams slip_params_;
+  double tilt_sd_rad_;
+  double imaging_s_;
+  double computing_s_;
+  CaptureCounter* captures_;
+
+  std::optional<Moment> keyframe_;
+  std::optional<Waiting> waiting_;
+  messages::PoseEstimate last_odometry_;  // at the last look
+  double last_time_s_ = 0.0;
+  VisualCounts counts_;
+  std::optional<SlipReading> slip_;
+};
+
+}  // namespace rockyard::trial

@@ -1,0 +1,97 @@
+// Electrical power by activity, as the sum of what is switched on.
+#pragma once
+
+#include <cstddef>
+
+#include "trial/drive_params.h"
+
+namespace rockyard::trial {
+
+// One major function at a time (Matthies 1995 sec. 2.1.2), unless clock.overlap lets some go on
+// beside it.
+enum class Activity {
+  kDriving,
+  kTurning,
+  kSteering,
+  kScanning,  // with the light stripe sensor
+  kStalled,
+  kImaging,    // taking stereo images
+  kComputing,  // stereo, map and votes
+  kOverhead,   // at rest about a move
+};
+inline constexpr std::size_t kActivityCount = 8;
+
+// Light emitters that are on in the same image, where most are: the lasers of the largest group,
+// which are fewer than lasers_per_image where the groups share out evenly (four of five: three and
+// two); with a three-scanline fan, one emitter for each row of each of them.
+int EmittersAtOnce(const sensing::LightStripeParams& sensor);
+
+struct PowerBudget {
+  double base_W = 0.0;      // computer and I/O, gyro
+  double guards_W = 0.0;    // sensors that watch the rover while it moves
+  double driving_W = 0.0;   // drive motors
+  double steering_W = 0.0;  // steering motors
+  double imaging_W = 0.0;
+  double lasers_W = 0.0;
+  double stereo_imaging_W = 0.0;
+  double computing_W = 0.0;  // beyond base_W
+
+  // Of everything that an activity needs, W. A scan (Matthies 1995, section 6):
+  //   7.33 = 3.77 (computer and I/O) + 0.80 (attitude) + 0.75 (imagers) + 2.01 (two lasers),
+  //   2.01 = 2 x 0.66 W of input over the efficiency of the voltage conversion.
+  // Accelerometers watch motion and are off while the rover scans: the published sum holds 0.80 W
+  // of attitude sensors once.
+  double Power(Activity activity) const;
+  // Of what an activity adds where it goes on beside another one; 0 where it never does.
+  double PowerBeside(Activity activity) const;
+};
+
+// The other sensors of table 1 draw their part where they are on; those that table 1 does not list
+// (joint encoders, switches, motor currents) draw nothing beyond computer and I/O. A CMOS imager
+// takes a tenth of the imaging power (section 6).
+PowerBudget MakePowerBudget(const DriveParams& drive);
+
+// Electrical power of solar cells over the day, and what a load draws beyond it.
+//
+// A level panel under a clear sky gives power by the cosine of the sun's zenith angle. With
+// latitude phi, declination delta and hour angle H (math/sun_position.h)
+//   S(H) = S_noon max(0, a + b cos H) / (a + b),   a = sin phi sin delta,   b = cos phi cos delta,
+// and H grows by 2 pi in a sol. Matthies 1995, section 2.1.2: "a peak output of 16 W at noon". A
+// steady load P is supplied by the sun as far as that reaches, min(P, S); the rest is the
+// shortfall, which batteries have to give. Surplus is lost: these batteries are not rechargeable.
+//
+// Limits: neither tilt of the panel nor light that the dust scatters, which broadens the arc.
+
+class SolarSupply {
+ public:
+  // `noon_W`: power at local noon, of that day. `start_solar_time_h`: true solar time at time 0.
+  // The sun rises: |latitude - declination| < 90 deg, and it is not always up at a pole.
+  SolarSupply(double noon_W, double latitude_rad, double declination_rad,
+              double start_solar_time_h);
+
+  double Power_W(double time_s) const;
+
+  // What the sun gives from begin_s to end_s >= begin_s, J.
+  double Energy_J(double begin_s, double end_s) const;
+  // The part of it that a steady load takes: the integral of min(load, S).
+  double Used_J(double load_W, double begin_s, double end_s) const;
+  // What that load draws beyond it: the integral of max(0, load - S).
+  double Shortfall_J(double load_W, double begin_s, double end_s) const;
+
+  // For how long on either side of noon the sun alone carries the load, s; 0 where it never does.
+  double Carries_s(double load_W) const;
+
+ private:
+  double HourAngle(double time_s) const;
+  // |H| up to which S >= power, rad.
+  double CarryingAngle(double power_W) const;
+  // Integral of max(0, load - S) from noon to H, J; odd in H, and 0 where the sun carries the load.
+  double ShortSinceNoon_J(double load_W, double hour_angle_rad) const;
+
+  double noon_W_;
+  double a_;
+  double b_;
+  double start_rad_;  // hour angle at time 0
+};
+
+}  // namespace rockyard::trial

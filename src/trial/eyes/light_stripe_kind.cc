@@ -1,0 +1,115 @@
+#include <memory>
+#include <utility>
+
+#include "perception/cloud_elevations.h"
+#include "perception/triangulation.h"
+#include "rover/rover_layout_params.h"
+#include "sensing/stripe_layout_params.h"
+#include "trial/counters/hazard_watch.h"
+#include "trial/drive_params.h"
+#include "trial/eyes/compute_profile.h"
+#include "trial/eyes/hazard_scanner.h"
+#include "trial/eyes/onboard_calibration.h"
+#include "trial/eyes/terrain_sensor_kinds.h"
+#include "trial/eyes/terrain_sensor_model.h"
+#include "trial/watchers.h"
+
+namespace rockyard::trial {
+namespace {
+
+class LightStripeModel final : public TerrainSensorModel {
+ public:
+  LightStripeModel(const DriveParams& drive, core::TrialKey key, ScanWatcher watcher)
+      : key_(key),
+        scanner_(drive, std::move(watcher)),
+        triangulator_(
+            OnboardStripeCalibration(drive.sensors.light_stripe, drive.perception.calibration)) {}
+
+  bool LooksBehind() const override { return false; }
+
+  messages::ElevationScan Elevations(const TerrainLook& look) const override {
+    return triangulator_.Elevations(Scan(look));
+  }
+
+  messages::PointCloud Points(const TerrainLook& look) const override {
+    return perception::StripeCloud(Scan(look), triangulator_);
+  }
+
+ private:
+  messages::StripeScan Scan(const TerrainLook& look) const {
+    return scanner_.Scan(look.terrain, look.X_WR, key_, look.number);
+  }
+
+  core::TrialKey key_;
+  HazardScanner scanner_;
+  perception::Triangulator triangulator_;
+};
+
+void RequireFinder(const DriveParams& drive, core::FieldVisitor& v) {
+  const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
+  v.Require(
+      "perception.stripe_finder.averaging_px",
+      sensor.fidelity == sensing::Fidelity::kGeometric ||
+          drive.perception.stripe_finder.averaging_px <=
+              sensor.imager.averaging_rows + 2 * sensor.imager.margin_rows,
+      "is more than the image lines that sensors.light_stripe.imager reads around a scanline, "
+      "so that no point would ever be found",
+      "use at most its averaging_rows plus twice its margin_rows");
+}
+
+// Images show the rover itself, rays do not.
+void RequireFreeView(const DriveParams& drive, core::FieldVisitor& v) {
+  const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
+  v.Require("sensors.light_stripe.fidelity",
+            sensor.fidelity == sensing::Fidelity::kGeometric ||
+                !sensing::IsHiddenBy(sensor, rover::BodyBoxes(drive.rover.geometry)),
+            "is image, where chassis or solar panel hide a point on flat ground from a camera or a "
+            "light emitter",
+            "mount both below the front edge of the panel, as camera_height_m and "
+            "emitter_height_m 0.25 do on Rocky 3.2, or ahead of it");
+}
+
+class LightStripe final : public TerrainSensorKind {
+ public:
+  LightStripe() : TerrainSensorKind("light_stripe", "light stripe hazard sensor") {}
+
+  std::unique_ptr<TerrainSensorKind> Clone() const override { return LightStripeKind(); }
+  bool has_params() const override { return false; }  // its group is sensors.light_stripe
+  void Visit(core::FieldVisitor& /*v*/) override {}
+
+  bool uses_computer() const override { return false; }
+  bool takes_image_sets() const override { return false; }
+
+  void Require(const DriveParams& drive, core::FieldVisitor& v) const override {
+    RequireFinder(drive, v);
+    RequireFreeView(drive, v);
+  }
+  void RequireDrive(const DriveParams& /*drive*/, core::FieldVisitor& /*v*/) const override {}
+
+  ReportArray report_array(const DriveParams& drive) const override {
+    const auto stripes = sensing::ArraySize(drive.sensors.light_stripe).stripes;
+    return {static_cast<std::int64_t>(stripes), "sensors.light_stripe has",
+            "name every stripe of a denser array, e.g. left [0, 1, 2, 3], centre [4], "
+            "right [5, 6, 7, 8]"};
+  }
+  Zone reported_zone(const DriveParams& drive) const override {
+    return ArrayZone(drive.sensors.light_stripe);
+  }
+  LookTime look_time(const DriveParams& drive, const ComputeTimes& /*times*/) const override {
+    return {.scanning_s = ScanTime(drive.clock, drive.sensors.light_stripe)};
+  }
+  const sensing::StereoParams* cameras(const DriveParams& /*drive*/) const override {
+    return nullptr;
+  }
+
+  std::unique_ptr<TerrainSensorModel> Make(const DriveParams& drive, core::TrialKey key,
+                                           const Watchers& watchers) const override {
+    return std::make_unique<LightStripeModel>(drive, key, watchers.scan);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<TerrainSensorKind> LightStripeKind() { return std::make_unique<LightStripe>(); }
+
+}  // namespace rockyard::trial

@@ -1,0 +1,80 @@
+#include "trial/eyes/onboard_calibration.h"
+
+#include <numbers>
+
+#include "math/pose.h"
+#include "rover/rover_layout_params.h"
+#include "sensing/stripe_layout_params.h"
+
+namespace rockyard::trial {
+namespace {
+
+using math::Vector3;
+
+double Factor(double percent) { return 1.0 + 0.01 * percent; }
+
+void Misplace(const perception::CameraCalibrationErrors& errors, math::Transform& X_RC) {
+  const Eigen::Matrix3d turned =
+      (Eigen::AngleAxisd(errors.yaw_rad, Vector3::UnitZ()).toRotationMatrix() *
+       Eigen::AngleAxisd(errors.pitch_rad, Vector3::UnitY()).toRotationMatrix()) *
+      Eigen::AngleAxisd(errors.roll_rad, Vector3::UnitX()).toRotationMatrix();
+  X_RC.linear() = (X_RC.linear() * turned).eval();
+  X_RC.translation() += Vector3(errors.x_m, errors.y_m, errors.z_m);
+}
+
+bool Any(const perception::CameraCalibrationErrors& e) {
+  return e.roll_rad != 0.0 || e.pitch_rad != 0.0 || e.yaw_rad != 0.0 || e.x_m != 0.0 ||
+         e.y_m != 0.0 || e.z_m != 0.0;
+}
+
+}  // namespace
+
+messages::DriveCalibration OnboardDriveCalibration(
+    const rover::RoverParams& rover, const perception::DriveCalibrationErrors& errors) {
+  messages::DriveCalibration calibration = rover::MakeDriveCalibration(rover);
+  calibration.wheel_radius_m *= Factor(errors.wheel_radius_percent);
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    const double side = calibration.wheel_y_m[wheel] > 0.0 ? 0.5 : -0.5;
+    calibration.radius_ratio[wheel] *= Factor(side * errors.wheel_radius_left_right_percent);
+    calibration.wheel_x_m[wheel] *= Factor(errors.wheelbase_percent);
+    calibration.wheel_y_m[wheel] *= Factor(errors.track_percent);
+  }
+  calibration.steering_offset_rad = errors.steering_offset_rad;
+  return calibration;
+}
+
+messages::StripeCalibration OnboardStripeCalibration(
+    const sensing::LightStripeParams& sensor, const perception::CalibrationErrorParams& errors) {
+  messages::StripeCalibration calibration = sensing::TrueCalibration(sensor);
+  Misplace(errors.left_camera, calibration.cameras[0].X_RC);
+  Misplace(errors.right_camera, calibration.cameras[1].X_RC);
+  const std::size_t last = calibration.lasers.size() - 1;
+  for (std::size_t stripe = 0; stripe <= last; ++stripe) {
+    // Of a denser array, the laser of the published five that stands nearest.
+    const std::size_t published = (stripe * (messages::kStripes - 1) + last / 2) / last;
+    const Eigen::Matrix3d turned =
+        Eigen::AngleAxisd(errors.lasers.angle_rad[published], Vector3::UnitZ()).toRotationMatrix();
+    messages::StripeLaser& laser = calibration.lasers[stripe];
+    laser.normal_R = (turned * laser.normal_R).eval();
+    laser.axis_R = (turned * laser.axis_R).eval();
+  }
+  return calibration;
+}
+
+std::optional<math::Transform> StereoMisplacement(const sensing::StereoParams& sensor,
+                                                  const perception::CalibrationErrorParams& errors,
+                                                  messages::LookDirection direction) {
+  const bool ahead = direction == messages::LookDirection::kAhead;
+  const perception::CameraCalibrationErrors& error =
+      ahead ? errors.stereo_front : errors.stereo_rear;
+  if (!Any(error)) return std::nullopt;
+  const sensing::StereoMountParams& mount = ahead ? sensor.front : sensor.rear;
+  const math::Transform X_RC =
+      math::MakePose({ahead ? mount.ahead_m : -mount.ahead_m, 0.0, mount.height_m},
+                     ahead ? 0.0 : std::numbers::pi, mount.pitch_rad, 0.0);
+  math::Transform believed = X_RC;
+  Misplace(error, believed);
+  return believed * X_RC.inverse();
+}
+
+}  // namespace rockyard::trial

@@ -1,0 +1,38 @@
+#include "trial/eyes/terrain_sensing.h"
+
+#include <utility>
+
+namespace rockyard::trial {
+
+using messages::LookDirection;
+
+TerrainSensing::TerrainSensing(const DriveParams& drive)
+    : takes_image_sets_(drive.sensors.terrain_sensors.chosen().takes_image_sets()),
+      reads_points_(drive.navigation.navigators.chosen().traits().reads ==
+                    navigation::LookReading::kPoints),
+      hazard_detector_(drive.perception.hazard),
+      look_time_(MakeLookTime(drive)) {}
+
+LookOrder TerrainSensing::Order(LookDirection direction,
+                                const messages::AttitudeEstimate& attitude) {
+  if (looks_again_) ++rescans_;
+  return {direction, attitude, looks_, reads_points_};
+}
+
+Percept TerrainSensing::Take(const LookOrder& order, LookAnswer answer) {
+  if (!answer.points && !answer.elevations) {
+    return {.cloud = messages::PointCloud{order.number, order.direction, {}}};
+  }
+  ++looks_;
+  if (order.direction == LookDirection::kBehind) ++looks_behind_;
+  if (answer.points) return {.time = look_time_, .cloud = std::move(answer.points)};
+  return Judge(*answer.elevations);
+}
+
+Percept TerrainSensing::Judge(const messages::ElevationScan& elevations) {
+  const perception::HazardDetector::Verdict verdict = hazard_detector_.Process(elevations);
+  looks_again_ = verdict.scan_again;
+  return {.look_again = verdict.scan_again, .time = look_time_, .report = verdict.report};
+}
+
+}  // namespace rockyard::trial

@@ -1,0 +1,70 @@
+// What a rover asks of its terrain sensor, and what on-board perception makes of the answer for its
+// navigator.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "messages/estimates.h"
+#include "messages/point_cloud.h"
+#include "perception/hazard_detector.h"
+#include "trial/drive_params.h"
+#include "trial/eyes/compute_profile.h"
+#include "trial/eyes/terrain_sensor_model.h"
+#include "trial/eyes/terrain_sensor_set_params.h"
+
+namespace rockyard::trial {
+
+// What one look shows: a report or points, as the navigator reads them.
+struct Percept {
+  bool look_again = false;  // undecided: another look at this pose has to follow
+  LookTime time = {};       // that the look took
+  std::optional<messages::HazardReport> report = {};
+  std::optional<messages::PointCloud> cloud = {};
+};
+
+// The four pairs of sensor and navigator:
+//   light stripe, behaviour controller: elevations, hazard criteria, two-scan rule;
+//   stereo, behaviour controller: the highest points of a cloud as elevations, then the same;
+//   stereo, map: the cloud;
+//   light stripe, map: the triangulated points as a cloud; nothing is seen behind, at no cost.
+class TerrainSensing {
+ public:
+  explicit TerrainSensing(const DriveParams& drive);
+
+  // The next look is from a new pose.
+  void Begin() { hazard_detector_.Reset(); }
+
+  // The next look, by a rover that believes to stand like that. Noise is indexed by its number,
+  // counted over the trial.
+  LookOrder Order(messages::LookDirection direction, const messages::AttitudeEstimate& attitude);
+  // Takes what came of it.
+  Percept Take(const LookOrder& order, LookAnswer answer);
+
+  std::int64_t looks() const { return looks_; }  // so far: the number of the next one
+  // Looks are scans or sets of images, by the kind of the sensor.
+  std::int64_t scans() const { return takes_image_sets_ ? 0 : looks_; }
+  std::int64_t rescans() const { return rescans_; }  // looks again at one pose, of any sensor
+  std::int64_t image_sets() const { return takes_image_sets_ ? looks_ : 0; }
+  std::int64_t rear_image_sets() const { return takes_image_sets_ ? looks_behind_ : 0; }
+  const LookTime& look_time() const { return look_time_; }
+
+  // Whether a look can be taken from a rover on the move: images in one moment, for points. A light
+  // stripe scan takes its time, and hazards of a report may ask for a second look from one pose.
+  bool LooksOnTheMove() const { return reads_points_ && look_time_.scanning_s == 0.0; }
+
+ private:
+  Percept Judge(const messages::ElevationScan& elevations);
+
+  bool takes_image_sets_;  // else scans
+  bool reads_points_;      // the navigator
+  perception::HazardDetector hazard_detector_;
+  LookTime look_time_;
+
+  bool looks_again_ = false;
+  std::int64_t looks_ = 0;
+  std::int64_t looks_behind_ = 0;  // of these
+  std::int64_t rescans_ = 0;       // too
+};
+
+}  // namespace rockyard::trial
