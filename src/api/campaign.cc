@@ -6,7 +6,6 @@
 #include "campaign/check.h"
 #include "campaign/compare.h"
 #include "campaign/run.h"
-#include "campaign/sweep.h"
 
 namespace rockyard::api {
 namespace {

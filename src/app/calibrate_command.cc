@@ -11,7 +11,6 @@
 #include "app/output_files.h"
 #include "app/progress_line.h"
 #include "campaign/calibrate/calibrate_cameras.h"
-#include "campaign/calibrate/calibrate_json.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "report/line_text.h"

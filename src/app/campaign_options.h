@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "batch/stopping_rule.h"
-#include "campaign/campaign_request.h"
+#include "batch/work_plan.h"
+#include "campaign/run_campaign.h"
 
 namespace CLI {
 class App;

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "batch/communicator.h"
-#include "campaign/shell_word.h"
+#include "campaign/output_folder.h"
 
 namespace rockyard::app {
 namespace {

@@ -16,7 +16,7 @@
 #include "app/run_folders.h"
 #include "campaign/compare.h"
 #include "campaign/output_folder.h"
-#include "campaign/run_views.h"
+#include "campaign/run_source.h"
 #include "report/line_text.h"
 #include "report/paired_comparison.h"
 

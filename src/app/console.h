@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "campaign/outcome.h"
+#include "campaign/work.h"
 #include "core/error.h"
 #include "report/line_text.h"
 #include "report/summary_text.h"

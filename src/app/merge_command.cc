@@ -9,7 +9,7 @@
 #include "app/run_display.h"
 #include "app/run_folders.h"
 #include "app/show_report.h"
-#include "campaign/merge.h"
+#include "campaign/run.h"
 
 namespace rockyard::app {
 namespace {

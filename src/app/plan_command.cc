@@ -12,7 +12,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "batch/stopping_rule.h"
+#include "batch/work_plan.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/json_value.h"

@@ -14,7 +14,7 @@
 #include "app/run_display.h"
 #include "app/scenario_names.h"
 #include "campaign/odometry/render_sequence.h"
-#include "campaign/shell_word.h"
+#include "campaign/output_folder.h"
 #include "campaign/stereo/render_pair.h"
 #include "core/error.h"
 #include "math/angles.h"

@@ -12,8 +12,8 @@
 #include "app/console.h"
 #include "app/run_display.h"
 #include "app/run_folders.h"
+#include "campaign/output_folder.h"
 #include "campaign/report.h"
-#include "campaign/shell_word.h"
 #include "report/line_text.h"
 
 namespace rockyard::app {

@@ -5,9 +5,9 @@
 
 #include "app/campaign_options.h"
 #include "app/console.h"
-#include "campaign/observer.h"
 #include "campaign/run_campaign.h"
 #include "campaign/stop.h"
+#include "campaign/work.h"
 
 namespace rockyard::app {
 

@@ -11,9 +11,9 @@
 #include "app/console.h"
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
-#include "batch/store_error.h"
+#include "batch/sqlite_database.h"
+#include "campaign/output_folder.h"
 #include "campaign/run_source.h"
-#include "campaign/shell_word.h"
 #include "core/error.h"
 
 namespace rockyard::app {

@@ -10,9 +10,8 @@
 
 #include "app/command_text.h"
 #include "app/console.h"
-#include "report/accounting.h"
 #include "report/line_text.h"
-#include "report/measurement_text.h"
+#include "report/run_description.h"
 #include "report/summary_json.h"
 #include "report/summary_text.h"
 #include "report/sweep_files.h"

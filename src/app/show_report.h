@@ -6,7 +6,7 @@
 #include "app/campaign_options.h"
 #include "campaign/dry_run.h"
 #include "campaign/folder_report.h"
-#include "campaign/sweep.h"
+#include "campaign/run.h"
 
 namespace rockyard::app {
 

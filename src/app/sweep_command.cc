@@ -10,7 +10,7 @@
 #include "app/run_display.h"
 #include "app/scenario_names.h"
 #include "app/show_report.h"
-#include "campaign/sweep.h"
+#include "campaign/run.h"
 
 namespace rockyard::app {
 namespace {

@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 #include <utility>
+#include <vector>
 
-#include "batch/leaving_out.h"
-#include "batch/store_error.h"
+#include "batch/executor.h"
+#include "batch/sqlite_database.h"
+#include "batch/supervisor.h"
+#include "batch/trial_hash.h"
 #include "core/check.h"
+#include "statistics/sample_statistics.h"
 
 namespace rockyard::batch {
 namespace {
@@ -107,6 +112,35 @@ Progress BatchSession::Now() const {
 
 void BatchSession::Tell() const {
   if (report_) report_(Now());
+}
+
+namespace {
+
+double ThreadCpu_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+PilotCost RunPilots(const experiments::Experiment& experiment, std::uint64_t seed, int trials) {
+  const CellWork work{&experiment, seed};
+  statistics::Moments cost;
+  std::vector<truth::Record> records;
+  for (int trial = 0; trial < trials; ++trial) {
+    const double begin_s = ThreadCpu_s();
+    records.push_back(RunTrial(std::span(&work, 1), {0, trial}).record);
+    cost.Add(ThreadCpu_s() - begin_s);
+  }
+  PilotCost pilot;
+  pilot.trials = trials;
+  pilot.hash = TrialHash(records);
+  if (trials == 0) return pilot;
+  pilot.mean_s = cost.mean();
+  pilot.slowest_s = cost.max();
+  if (trials > 1) pilot.variance_s2 = cost.variance();
+  return pilot;
 }
 
 }  // namespace rockyard::batch

@@ -3,12 +3,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <string>
 
 #include "batch/executor.h"
-#include "batch/record_writer.h"
 #include "batch/result_store.h"
 #include "batch/work_plan.h"
-#include "batch/work_source.h"
+#include "experiments/experiment.h"
 
 namespace rockyard::batch {
 
@@ -40,5 +41,20 @@ class BatchSession {
   LocalWorkSource source_;
   RecordWriter writer_;  // after the source, which its thread reads
 };
+
+// What a trial costs, from a few of them.
+
+// Zero trials: there were none.
+struct PilotCost {
+  std::int64_t trials = 0;
+  double mean_s = 0.0;       // CPU time of a trial
+  double variance_s2 = 0.0;  // unbiased; 0 below two trials
+  double slowest_s = 0.0;
+  std::string hash;  // of the records
+};
+
+// Runs trials 0 .. trials-1 on this thread and keeps nothing of them but their cost and their hash.
+// The times are measured: they differ from run to run. An exception of a trial counts as its end.
+PilotCost RunPilots(const experiments::Experiment& experiment, std::uint64_t seed, int trials);
 
 }  // namespace rockyard::batch

@@ -3,19 +3,134 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <span>
+#include <thread>
 #include <vector>
 
-#include "batch/prefix_counter.h"
+#include "batch/campaign.h"
 #include "batch/result_store.h"
 #include "batch/work_plan.h"
-#include "batch/work_source.h"
 #include "experiments/experiment.h"
 
 namespace rockyard::batch {
+
+// Brings finished records to the store while the trials go on.
+
+// One thread of its own that commits everything pushed so far, once per interval. A record is
+// durable at most one interval and the time of one commit after Push, however long the next trial
+// takes.
+class RecordWriter {
+ public:
+  // `after_tick` is called by the writing thread after each interval, never by two threads at once.
+  RecordWriter(ResultStore& store, std::chrono::milliseconds interval,
+               std::function<void()> after_tick);
+  // From now on there is the thread. Once; without it, Close writes everything.
+  void Start();
+  // Writes what remains if it can, and swallows errors: call Close to know.
+  ~RecordWriter();
+  RecordWriter(const RecordWriter&) = delete;
+  RecordWriter& operator=(const RecordWriter&) = delete;
+
+  // Any thread. Blocks while kMaxWaiting records wait for a store that is slower than the trials,
+  // so that memory stays bounded; not after a failure, nor without the thread.
+  void Push(CellRecord record);
+  static constexpr std::size_t kMaxWaiting = 20000;
+
+  // Records that have been brought to the store.
+  std::int64_t stored() const { return stored_; }
+
+  // True once a write has failed: start no more trials.
+  bool failed() const { return failed_; }
+
+  // Ends the thread, tries to write what remains, and rethrows the first StoreError of all writes.
+  void Close();
+
+  // Records that could not be written. After Close.
+  std::size_t unwritten() const { return queue_.size(); }
+
+ private:
+  void Loop();
+  void WriteQueue();
+  void Stop();
+
+  ResultStore& store_;
+  const std::chrono::milliseconds interval_;
+  const std::function<void()> after_tick_;
+  std::mutex mutex_;
+  std::condition_variable wake_;   // the thread
+  std::condition_variable taken_;  // the queue is empty again, or never will be
+  std::vector<CellRecord> queue_;
+  bool stopping_ = false;
+  std::atomic<std::int64_t> stored_ = 0;
+  std::atomic<bool> failed_ = false;
+  std::exception_ptr error_;
+  std::thread thread_;
+};
+
+// Where the threads of a campaign get their trials and leave their records.
+
+// How soon a thread that waits for a trial or for the end of a round sees that the campaign is to
+// stop.
+inline constexpr std::chrono::milliseconds kStopCheck{50};
+
+// For several threads at once.
+class WorkSource {
+ public:
+  virtual ~WorkSource() = default;
+
+  // The next trial. Blocks while a round ends. Nothing where all are done, or no more may start.
+  virtual std::optional<TrialId> Take() = 0;
+
+  // The record of a trial that was taken. May block until earlier ones have been stored.
+  virtual void Finish(CellRecord record) = 0;
+
+  // Nothing more is handed out; who waits for a trial gets none.
+  virtual void Close() = 0;
+};
+
+// The trials of a plan, in this process; records go to a writer.
+class LocalWorkSource final : public WorkSource {
+ public:
+  // `stop`: true ends the handing out. All must outlive this.
+  LocalWorkSource(WorkPlan& plan, RecordWriter& writer, const std::atomic<bool>& stop);
+
+  std::optional<TrialId> Take() override;
+  void Finish(CellRecord record) override;
+  void Close() override;
+
+  // Take without blocking, for who serves others: kDone also when the campaign is to stop.
+  WorkPlan::NextStep TryTake();
+
+  // A trial that was taken by somebody who is gone.
+  void PutBack(TrialId id);
+
+  // Calls `read` with the plan while no thread changes it.
+  template <typename Reader>
+  auto Read(const Reader& read) const {
+    const std::lock_guard lock(mutex_);
+    return read(static_cast<const WorkPlan&>(plan_));
+  }
+
+  // Everything was handed out, and nothing ended it early.
+  bool exhausted() const;
+
+ private:
+  WorkPlan::NextStep NextLocked();
+
+  WorkPlan& plan_;
+  RecordWriter& writer_;
+  const std::atomic<bool>& stop_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool exhausted_ = false;
+  bool closed_ = false;
+};
 
 // What a cell runs.
 struct CellWork {

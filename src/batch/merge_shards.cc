@@ -1,3 +1,4 @@
+
 #include "batch/merge_shards.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
-#include "batch/store_error.h"
+#include "batch/sqlite_database.h"
 #include "batch/trial_hash.h"
 #include "core/files.h"
 

@@ -1,3 +1,4 @@
+
 #include "batch/result_store.h"
 
 #include <fmt/format.h>
@@ -11,8 +12,6 @@
 
 #include "batch/run_folder.h"
 #include "batch/sqlite_database.h"
-#include "batch/store_error.h"
-#include "batch/store_meta.h"
 #include "batch/store_rows.h"
 #include "batch/store_tables.h"
 #include "core/check.h"

@@ -12,7 +12,7 @@
 
 #include "batch/campaign.h"
 #include "batch/campaign_differences.h"
-#include "batch/stopping_rule.h"
+#include "batch/work_plan.h"
 #include "truth/record.h"
 
 namespace rockyard::batch {
@@ -33,7 +33,7 @@ struct TrialTable;
 // column would lose the sign of zero; doubles keep their bits, and NaN is NULL. A simulator fault
 // has NULL everywhere.
 //
-// Damage: what is read is checked (row_checksum.h), and so is that the rows are all there and none
+// Damage: what is read is checked (store_rows.h), and so is that the rows are all there and none
 // is foreign, so that a store that was changed by accident is refused (kDamaged) rather than giving
 // another result. Head and rows are checked as they are read, the table of trials as a whole by
 // Finished. Stores of version 2 have no checksums: of them only what no trial gives is refused.
@@ -66,7 +66,8 @@ class ResultStore {
                           BuildPolicy policy);
 
   // Opens the store to read, also while a run writes it, and without a right to write. Leaves no
-  // files; may need room for a copy in the temporary folder (sqlite_open.h). kMissing, kDamaged.
+  // files; may need room for a copy in the temporary folder (sqlite_database.h). kMissing,
+  // kDamaged.
   static ResultStore Read(const std::filesystem::path& folder);
 
   ResultStore(ResultStore&&) noexcept;

@@ -1,3 +1,4 @@
+
 #include "batch/run_folder.h"
 
 #include <fcntl.h>
@@ -11,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "batch/store_error.h"
+#include "batch/sqlite_database.h"
 #include "core/files.h"
 
 namespace rockyard::batch {

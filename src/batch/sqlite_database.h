@@ -7,17 +7,90 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "batch/sqlite_open.h"
+#include "core/error.h"
 
 struct sqlite3_stmt;
 
+struct sqlite3;
+
 namespace rockyard::batch {
+
+// What can go wrong with a run folder and its store.
+
+enum class StoreProblem {
+  kMissing,     // no store where one is needed
+  kExists,      // a store where none may be
+  kUnwritable,  // the folder or a file in it cannot be made or written
+  kFull,        // no space left, or a limit on file sizes or quotas
+  kOpenFiles,   // the process or the machine may open no more files
+  kMemory,      // the process could get no more memory
+  kInUse,       // another process runs in this folder
+  kDamaged,     // no database, cut off, or with contents that no version of this program wrote
+  kMismatch,    // made by another scenario, seed or build
+};
+
+// Every message names the file or folder, what is wrong, and what to do.
+class StoreError : public core::UserError {
+ public:
+  StoreError(StoreProblem problem, std::vector<core::Problem> problems);
+  StoreError(StoreProblem problem, std::string path, std::string reason, std::string suggestion);
+
+  StoreProblem problem() const { return problem_; }
+
+ private:
+  StoreProblem problem_;
+};
+
+// Whether the machine failed, not the request: the same command may succeed later.
+bool IsOfTheMachine(StoreProblem problem);
+
+// What an errno means for a file or folder that is to be made, opened or written.
+StoreProblem ProblemOf(int reason);
+
+// Throws what an errno means, with what to do. `what`: "cannot be made".
+[[noreturn]] void FailSystem(const std::filesystem::path& path, std::string_view what, int reason);
+
+// Throws kDamaged, with what to do.
+[[noreturn]] void FailDamaged(const std::filesystem::path& path, const std::string& reason);
+
+// How the file of a store is opened, above all by those who only read it.
+
+struct CloseSqlite {
+  void operator()(sqlite3* database) const;
+};
+using SqliteHandle = std::unique_ptr<sqlite3, CloseSqlite>;
+
+// A connection, and SQLite's code of its first statement: where that failed, the connection knows
+// why.
+struct OpenedSqlite {
+  SqliteHandle database;
+  int code = 0;
+};
+
+// `flags`: SQLITE_OPEN_*.
+OpenedSqlite OpenSqlite(const std::filesystem::path& path, int flags);
+
+// Opens a store to read it, in such a way that no file is left beside it and no right to write
+// there is needed.
+//
+// A store that ended cleanly is one file, and read as it lies. One that is being written has its
+// log and the shared memory of that log, through which SQLite reads the last commit. Everything
+// else is read from a private copy: a store whose run was killed, where the reader may not write
+// the shared memory or the disk has no room for it; and one without shared memory, which SQLite
+// would make and leave there. The copy is taken with its logs, so that it is the last commit, in
+// the folder for temporary files; it is gone from there when this returns and takes room until the
+// connection is closed.
+//
+// Throws StoreError: kFull, kOpenFiles or kUnwritable where the copy cannot be made, kInUse where
+// the store changes all the time meanwhile.
+OpenedSqlite OpenToRead(const std::filesystem::path& path);
 
 enum class Access {
   kCreate,  // the file must not exist yet, or be empty
   kChange,  // an existing file
-  kRead,    // an existing file, also without a right to write (sqlite_open.h)
+  kRead,    // an existing file, also without a right to write
 };
 
 // How a value lies in a row; bytes that are no text (BLOB) count as one.

@@ -1,4 +1,3 @@
-#include "batch/sqlite_open.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -17,7 +16,7 @@
 #include <thread>
 #include <utility>
 
-#include "batch/store_error.h"
+#include "batch/sqlite_database.h"
 #include "core/error.h"
 #include "core/files.h"
 

@@ -1,17 +1,22 @@
 // The tables of a result store: how they are made, written and read.
 #pragma once
 
+#include <charconv>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "batch/campaign.h"
 #include "batch/sqlite_database.h"
-#include "batch/stopping_rule.h"
 #include "batch/store_rows.h"
+#include "batch/work_plan.h"
 
 namespace rockyard::batch {
 
@@ -84,5 +89,19 @@ void CheckRecords(const SqliteDatabase& database, const TrialTable& table, const
 // Every stored trial by cell and trial index, in one SqliteSnapshot of its own. Throws kDamaged
 // also where rows are missing, foreign, of another shard, or of trials that were never planned.
 std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, const TrialTable& table);
+
+// The table `meta`: what a store says of the campaign as a whole, by key.
+
+// Most trials of a cell, as scenarios and stopping rules have it.
+inline constexpr std::int64_t kMostTrials = 1'000'000'000;
+
+using Meta = std::map<std::string, std::string, std::less<>>;
+
+// By the version of the store alone. kMismatch: another version; kDamaged: the version is not that
+// of the tables.
+Checksums ReadChecksums(const SqliteDatabase& database);
+
+void WriteRule(SqliteDatabase& database, Checksums checksums,
+               const std::optional<StoppingRule>& rule);
 
 }  // namespace rockyard::batch

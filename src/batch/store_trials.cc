@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "batch/store_error.h"
+#include "batch/sqlite_database.h"
 #include "batch/store_tables.h"
 #include "core/check.h"
 #include "truth/measurement_record.h"

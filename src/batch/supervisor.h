@@ -1,14 +1,87 @@
 // Keeps a campaign going when the process that runs it dies.
 #pragma once
 
+#include <sys/types.h>
+
+#include <csignal>
+#include <cstdint>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "batch/campaign.h"
+#include "batch/executor.h"
 #include "batch/flight_log.h"
+#include "batch/result_store.h"
+#include "batch/work_plan.h"
 
 namespace rockyard::batch {
+
+// A forked process and how it ended.
+
+struct ProcessEnd {
+  int code = 0;              // exit code, where it ended by itself
+  int signal = 0;            // that ended it; 0: none
+  bool interrupted = false;  // this process was asked to end meanwhile
+};
+
+// e.g. "SIGSEGV (Segmentation fault)"
+std::string SignalText(int signal);
+
+// While this lives, polite signals (SIGINT, SIGTERM, SIGHUP, SIGUSR1; those that the caller of the
+// program told to ignore stay ignored) wait until a child is waited for. One at a time, in a
+// process with one thread.
+class SignalsHeld {
+ public:
+  SignalsHeld();
+  ~SignalsHeld();
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+  // Forks; the child runs `work` with the former signal mask, ends with what it returns, and dies
+  // with this process. Waits for its end; the first polite signal is passed on as SIGTERM, one that
+  // comes later than a moment after it becomes SIGKILL. Throws core::UserError where no process
+  // can be made.
+  ProcessEnd Run(const std::function<int()>& work) const;
+
+ private:
+  ProcessEnd Wait(pid_t child) const;
+
+  sigset_t held_{};
+  sigset_t former_{};
+  struct sigaction former_child_action_ {};
+};
+
+// A campaign without some of its trials.
+
+// Hands out what `source` has, but for trials that hang or are killed: they stay pending. A round
+// of a stopping rule that has one of them never ends, so that everything ends with it.
+class LeavingOutSource final : public WorkSource {
+ public:
+  LeavingOutSource(LocalWorkSource& source, std::vector<TrialId> left_out);
+
+  std::optional<TrialId> Take() override;
+  void Finish(CellRecord record) override;
+  void Close() override { source_.Close(); }
+
+ private:
+  LocalWorkSource& source_;
+  const std::vector<TrialId> left_out_;
+  std::mutex mutex_;
+  int running_ = 0;
+};
+
+// Where the cells of a store ended, decided again from what is stored.
+
+// The plan of a store under a rule, with its finished trials; before the first Next.
+WorkPlan StoredPlan(const ResultStore& store, const std::optional<StoppingRule>& rule,
+                    Order order = Order::kNatural);
+
+// One state per cell, as the rule of the store decides; a store without a rule has only open or
+// planned cells. Cost: reads cell, trial and outcome of every row.
+std::vector<CellState> StoredEnds(const ResultStore& store);
 
 // A worker ends with this code when a trial found the machine short of memory, files or disk.
 inline constexpr int kShortExit = 76;
@@ -60,8 +133,8 @@ struct SupervisorOptions {
 // one.
 // A worker that ends with kShortExit found the machine short of memory, files or disk in a trial,
 // which is as if it had been killed from outside.
-// A worker that ends with kOverdueExit (watchdog.h) left hanging trials: each is tried again alone,
-// and left out, too, when it hangs again.
+// A worker that ends with kOverdueExit (flight_log.h) left hanging trials: each is tried again
+// alone, and left out, too, when it hangs again.
 //
 // SIGINT, SIGTERM, SIGHUP and SIGUSR1 are passed on to the worker; the second one kills it (what is
 // stored stays). The worker dies with the supervisor.

@@ -7,11 +7,79 @@
 #include <vector>
 
 #include "batch/campaign.h"
-#include "batch/prefix_counter.h"
-#include "batch/stopping_rule.h"
 #include "statistics/proportions.h"
+#include "truth/record.h"
 
 namespace rockyard::batch {
+
+// What may be shown of an unfinished run.
+
+// Counts over trials 0 .. trials-1, all of which are finished.
+struct PrefixCounts {
+  std::int64_t trials = 0;
+  std::int64_t faults = 0;
+  std::int64_t measured = 0;  // no drives: neither success nor failure
+  std::int64_t declared_successes = 0;
+
+  // Those that a success rate is about.
+  std::int64_t drives() const { return trials - faults - measured; }
+  PrefixCounts& operator+=(const PrefixCounts& other);
+};
+
+// Of any trials.
+struct FinishedCounts {
+  std::int64_t trials = 0;
+  std::int64_t faults = 0;  // of these
+};
+
+// Finished trials arrive in any order; rates use only the contiguous prefix of their indices.
+// Trials that fail run longer, so that over completion order successes would be counted too often;
+// the prefix waits for every trial before it. Memory: one byte per trial.
+class PrefixCounter {
+ public:
+  // 0 <= trial. False, and nothing changes, where the trial has been added before.
+  bool Add(std::int64_t trial, truth::TrialOutcome outcome);
+
+  bool Has(std::int64_t trial) const;
+  // One more than the largest trial that was added.
+  std::int64_t end() const { return static_cast<std::int64_t>(outcomes_.size()); }
+  // Counts over from <= trial < to, all of which are finished.
+  PrefixCounts Count(std::int64_t from, std::int64_t to) const;
+
+  // Those below `to`. Cost: linear in `to` where there are others.
+  FinishedCounts Finished(std::int64_t to) const;
+  std::int64_t finished() const { return finished_.trials; }
+  const PrefixCounts& prefix() const { return prefix_; }
+
+ private:
+  static constexpr std::int8_t kPending = -1;
+
+  std::vector<std::int8_t> outcomes_;  // by trial
+  FinishedCounts finished_;
+  PrefixCounts prefix_;
+};
+
+// When a campaign has run enough trials of a cell.
+
+// Who gets the blocks of a round.
+enum class Allocation {
+  kUniform,   // every cell that has not ended gets one
+  kAdaptive,  // the half of them (rounded up) with the widest intervals; at a tie the first
+};
+
+// A cell ends at the first block end where the interval of its declared success has at most this
+// half-width. Simulator faults enter no rate. That the number of trials depends on what they say is
+// allowed for in the interval (statistics::IntervalMethod::kStopped).
+struct StoppingRule {
+  double half_width = 0.02;
+  std::int64_t max_trials = 10000;  // of a cell
+  std::int64_t block = 25;          // trials between two decisions
+  double confidence = 0.95;
+  Allocation allocation = Allocation::kUniform;
+  std::int64_t budget = 0;  // of trials, all cells together; 0: none
+
+  bool operator==(const StoppingRule&) const = default;
+};
 
 // In which order pending trials are started. No result depends on it; kShuffled exists to test
 // that.

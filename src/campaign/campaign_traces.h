@@ -1,22 +1,75 @@
 // Traces of chosen trials of a campaign, written once its trials are stored.
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
 #include "batch/flight_log.h"
 #include "batch/supervisor.h"
-#include "campaign/drive_recording.h"
 #include "campaign/journal.h"
-#include "campaign/observer.h"
-#include "campaign/outcome.h"
-#include "campaign/trace_retention.h"
+#include "campaign/trial_source.h"
+#include "campaign/work.h"
 #include "scenario/scenario.h"
+#include "truth/record.h"
 
 namespace rockyard::campaign {
+
+// The number that the text of an option is, all of it.
+template <typename Number>
+std::optional<Number> NumberIn(std::string_view text) {
+  Number number{};
+  const char* end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, number);
+  if (result.ec != std::errc{} || result.ptr != end) return std::nullopt;
+  return number;
+}
+
+// Which trials of a campaign leave a trace, and how.
+
+// What rules ask for together: their union.
+struct TraceRetention {
+  bool all = false;
+  bool failures = false;  // see report::FailedTrials
+  std::size_t worst = 0;  // see report::WorstTrials
+  double share = 0.0;     // of all trials, chosen by a hash of seed and trial
+
+  bool any() const { return all || failures || worst > 0 || share > 0.0; }
+};
+
+enum class TraceFormat { kNpz, kCsv };
+
+struct TraceOptions {
+  std::vector<std::string> rules;  // "all", "failures", "worst:N", "share:P"
+  std::string format = "npz";
+
+  // Throws core::UserError with everything that is wrong. Of two counts or shares the larger holds.
+  TraceRetention retention() const;
+  TraceFormat form() const { return format == "csv" ? TraceFormat::kCsv : TraceFormat::kNpz; }
+};
+
+// Whether share:P keeps the trial: a pure function of (seed, trial), so that a campaign that is
+// extended or gone on with keeps what it kept; a larger share keeps all that a smaller one does.
+// SplitMix64 (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators") mixes
+// seed and trial to 53 bits.
+bool IsInShare(std::uint64_t seed, std::uint64_t trial, double share);
+
+// The trials of one cell that the rules keep, ascending. Simulator faults are never kept: they have
+// no record that the trace could be held against.
+std::vector<std::uint64_t> KeptTrials(const TraceRetention& retention,
+                                      const truth::RecordSchema& schema,
+                                      std::span<const truth::Record> records, std::uint64_t seed);
+
+// "every failure, the 5 worst failures, 1 % of all trials" for people.
+std::string RetentionText(const TraceRetention& retention);
 
 // As RecordDrive.
 using TraceDriver = std::function<DriveRecording(const scenario::Scenario& scenario,

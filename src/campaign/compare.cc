@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "campaign/run_views.h"
+#include "campaign/run_source.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "report/result_json.h"

@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
-#include "batch/scenario_difference.h"
-#include "campaign/outcome.h"
+#include "batch/campaign_differences.h"
 #include "campaign/run_source.h"
+#include "campaign/work.h"
 #include "core/result.h"
 #include "report/paired_comparison.h"
 #include "statistics/cell_summary.h"
@@ -31,7 +31,7 @@ struct Comparison {
   Outcome outcome = Outcome::kDone;  // kDiffers where a rate of a cell does; drives describe
 };
 
-// Memory: of drives, 200 bytes a trial of each and some columns (run_views.h); of
+// Memory: of drives, 200 bytes a trial of each and some columns (run_source.h); of
 // measurements the records of both runs.
 core::Result<Comparison> Compare(const CompareRequest& request);
 

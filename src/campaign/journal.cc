@@ -1,3 +1,4 @@
+
 #include "campaign/journal.h"
 
 #include <sys/mman.h>
@@ -11,8 +12,8 @@
 #include <system_error>
 #include <utility>
 
-#include "batch/packet.h"
-#include "batch/store_error.h"
+#include "batch/communicator.h"
+#include "batch/sqlite_database.h"
 #include "core/error.h"
 
 namespace rockyard::campaign {

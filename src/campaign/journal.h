@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "campaign/observer.h"
-#include "campaign/outcome.h"
 #include "campaign/work.h"
 #include "core/error.h"
 

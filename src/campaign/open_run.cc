@@ -1,3 +1,4 @@
+
 #include "campaign/open_run.h"
 
 #include <fmt/format.h>
@@ -7,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "batch/store_error.h"
+#include "batch/sqlite_database.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
 #include "core/hash.h"

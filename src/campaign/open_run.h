@@ -14,7 +14,7 @@
 #include "batch/campaign_differences.h"
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
-#include "batch/stopping_rule.h"
+#include "batch/work_plan.h"
 #include "campaign/work.h"
 #include "scenario/scenario.h"
 #include "truth/record.h"

@@ -1,9 +1,11 @@
+
 #include "campaign/output_folder.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <system_error>
@@ -18,7 +20,8 @@
 #include "core/json_text.h"
 #include "core/provenance.h"
 #include "report/atomic_file.h"
-#include "report/json_members.h"
+#include "report/line_text.h"
+#include "report/result_table.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -263,8 +266,6 @@ void OutputFolder::CommitAll() {
   }
 }
 
-namespace fs = std::filesystem;
-
 void CheckOutputFile(std::string_view option, const std::string& file) {
   if (file.empty()) return;
   std::error_code error;
@@ -311,6 +312,43 @@ void CheckDistinct(std::span<const NamedFile> files) {
                             "name another file");
     }
   }
+}
+
+namespace {
+
+std::string InNumbers(std::string_view word) {
+  std::string quoted = "$'";
+  for (const char c : word) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = byte >= 0x20 && byte < 0x7f && c != '\'' && c != '\\';
+    quoted += plain ? std::string(1, c) : fmt::format("\\{:03o}", byte);
+  }
+  return quoted + '\'';
+}
+
+}  // namespace
+
+std::string ShellWord(std::string_view word) {
+  constexpr std::string_view kSafe = "-_./=:,+@%";
+  const bool safe = !word.empty() && std::all_of(word.begin(), word.end(), [&](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x80 && (std::isalnum(byte) != 0 || kSafe.find(c) != std::string_view::npos);
+  });
+  if (safe) return std::string(word);
+  if (report::Printable(word) != word) return InNumbers(word);
+  std::string quoted(1, '\'');
+  for (const char c : word) {
+    if (c == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '\'';
+}
+
+std::string ShellPath(std::string_view path) {
+  return ShellWord((path.starts_with('-') ? "./" : "") + std::string(path));
 }
 
 }  // namespace rockyard::campaign

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "campaign/observer.h"
 #include "campaign/work.h"
 #include "truth/record.h"
 

@@ -10,8 +10,8 @@
 
 #include "campaign/journal.h"
 #include "campaign/looks/look_pictures.h"
-#include "campaign/observer.h"
 #include "campaign/trial_source.h"
+#include "campaign/work.h"
 #include "math/pose.h"
 #include "messages/navigation_view.h"
 #include "report/scan_drawing.h"

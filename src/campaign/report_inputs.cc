@@ -8,10 +8,10 @@
 #include <system_error>
 
 #include "batch/run_folder.h"
-#include "campaign/shell_word.h"
+#include "campaign/output_folder.h"
 #include "core/error.h"
 #include "report/parameter_table.h"
-#include "report/worst_trials.h"
+#include "report/trial_outcomes.h"
 #include "scenario/load.h"
 #include "terrain/arena.h"
 #include "truth/measurement_record.h"

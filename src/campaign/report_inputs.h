@@ -11,7 +11,7 @@
 #include "batch/result_store.h"
 #include "campaign/run_source.h"
 #include "core/field_table.h"
-#include "report/page_tracks.h"
+#include "report/page_data.h"
 #include "scenario/scenario.h"
 #include "scenario/sweep.h"
 
@@ -47,7 +47,7 @@ std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run);
 // scenario is of another version of the program.
 std::optional<report::PageCourse> CourseOf(const StoredRun& run);
 
-// Of each outcome the trial of median distance (report/worst_trials.h); none of a measurement.
+// Of each outcome the trial of median distance (report/trial_outcomes.h); none of a measurement.
 std::vector<std::uint64_t> ExamplesOf(const StoredRun& run);
 
 // The command that writes a replay of any trial, with {trial} for the number.

@@ -11,9 +11,8 @@
 
 #include "batch/result_store.h"
 #include "campaign/campaign_process.h"
-#include "campaign/observer.h"
-#include "campaign/outcome.h"
 #include "campaign/run_source.h"
+#include "campaign/work.h"
 #include "report/page_data.h"
 #include "truth/record.h"
 
@@ -31,7 +30,7 @@ struct ChosenTrial {
   double goal_distance_m = 0.0;  // infinity where unknown
 };
 
-// The worst failed trials of a run (report/worst_trials.h); none of one that measures.
+// The worst failed trials of a run (report/trial_outcomes.h); none of one that measures.
 std::vector<ChosenTrial> FindWorst(const StoredRun& run, std::size_t most);
 
 // The trials with these numbers, which must be stored, behind those that are chosen already; none
@@ -67,5 +66,35 @@ using ReplayReport = std::function<void(const ReplayProgress& progress, Moment m
 ReportReplays WriteReplays(const std::filesystem::path& page, std::span<const ChosenTrial> trials,
                            std::size_t runs, int threads, const Contact& contact,
                            const ReplayReport& progress = {});
+
+// The true paths of a run's trials, for the map of a report: trials are driven again.
+
+struct TrackProgress {
+  std::size_t ended = 0;
+  std::size_t total = 0;
+  std::string label;  // of the run
+};
+// By one thread at a time.
+using TrackReport = std::function<void(const TrackProgress& progress, Moment moment)>;
+
+struct TrackRequest {
+  std::string label;
+  std::size_t first = 0;                // so many trials from the first on; 0: no tracks at all
+  std::vector<std::uint64_t> examples;  // these, with their rocks
+  std::vector<std::uint64_t> named;     // and these
+  double limit_s = 0.0;                 // no further trial starts after it
+  int threads = 1;
+};
+
+struct Tracks {
+  std::vector<report::PageTrack> tracks;  // by trial
+  std::size_t first = 0;  // of them, those of the first trials: chosen without regard to their end
+};
+
+// Drives the examples and the named trials first, then the first ones, a fourth as many of a
+// multibody rover. Trials without a track, since they are not those stored when they are driven
+// again, are told as one warning. Paths are simplified by 1 cm. Cost: that of the trials.
+Tracks DriveTracks(const StoredRun& run, const TrackRequest& request, const Contact& contact,
+                   const TrackReport& progress = {});
 
 }  // namespace rockyard::campaign

@@ -4,14 +4,22 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <variant>
+#include <vector>
 
+#include "batch/merge_shards.h"
+#include "batch/result_store.h"
 #include "campaign/folder_report.h"
+#include "campaign/output_folder.h"
 #include "campaign/run_source.h"
 #include "campaign/scenario_doubts.h"
-#include "campaign/shell_word.h"
+#include "core/error.h"
+#include "core/result.h"
 #include "scenario/ablations.h"
+#include "scenario/sweep.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -95,6 +103,132 @@ core::Result<DryRun> Rehearse(const RunRequest& request, const Observer& observe
     WarnOfDoubts(request, journal);
     RemarkIdleAblations(request, journal);
     return Rehearse(request.campaign, PlanOf(request));
+  });
+}
+
+namespace {
+
+// Problems name the file, of which a cluster job may have many.
+scenario::Sweep RequestedSweep(const SweepRequest& request) {
+  const std::string file = request.file.string();
+  try {
+    return scenario::LoadSweep(file, {.overrides = request.campaign.overrides,
+                                      .trials = request.campaign.trials,
+                                      .seed = request.campaign.seed});
+  } catch (const core::UserError& error) {
+    std::vector<core::Problem> problems = error.problems();
+    for (core::Problem& problem : problems) {
+      if (problem.path.starts_with(file)) continue;
+      problem.path = fmt::format("{}: {}", file, problem.path);
+    }
+    throw core::UserError(std::move(problems));
+  }
+}
+
+CampaignPlan PlanOfCells(const SweepRequest& request, const scenario::Sweep& sweep) {
+  CampaignPlan plan{.name = sweep.name,
+                    .design = sweep.document,
+                    .folder = DefaultFolder(sweep.name, static_cast<std::int64_t>(sweep.seed)),
+                    .cells = {},
+                    .settings = request.campaign.overrides};
+  for (const scenario::SweepCell& cell : sweep.cells) {
+    plan.cells.push_back({.name = cell.name, .scenario = cell.scenario});
+  }
+  return plan;
+}
+
+void WarnOfDoubts(const scenario::Sweep& sweep, Journal& journal) {
+  for (const core::Problem& doubt : DoubtsOf(sweep))
+    journal.Warn("doubtful: " + campaign::TextOf(doubt));
+}
+
+}  // namespace
+
+WorkResult RunSweep(const SweepRequest& request, const RunObserver& observer, const Stop& stop) {
+  const CampaignRequest& campaign = request.campaign;
+  const ReportSettings settings{.method = campaign.method, .threads = campaign.containment.threads};
+  // Read where trials are planned: on rank 0 alone, so that a mistake is told once.
+  scenario::Sweep sweep;
+  return Recorded(observer, [&](Journal& journal) {
+    return RunCampaign(
+        campaign,
+        [&] {
+          sweep = RequestedSweep(request);
+          WarnOfDoubts(sweep, journal);
+          return PlanOfCells(request, sweep);
+        },
+        [&](const OpenedRun& run) { return ReportSweep(run.store, sweep, settings); }, observer,
+        {journal, stop});
+  });
+}
+
+core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, int pilots,
+                                           const Observer& observer) {
+  return core::Attempt([&] {
+    Journal journal(observer);
+    SweepRehearsal told{.sweep = RequestedSweep(request), .trials = {}, .plan = {}};
+    WarnOfDoubts(told.sweep, journal);
+    const CampaignPlan plan = PlanOfCells(request, told.sweep);
+    CheckPlan(request.campaign, plan);
+    told.trials = TrialsOf(OpeningOf(request.campaign, plan), plan);
+    told.plan = WriteSweepPlan(
+        told.sweep, {.folder = request.campaign.folder, .trials = told.trials, .pilots = pilots});
+    return told;
+  });
+}
+
+namespace {
+
+FolderReport ReportMerged(const std::filesystem::path& folder) {
+  const batch::ResultStore store = batch::ResultStore::Read(folder);
+  const std::string& design = store.identity().design;
+  if (design.empty()) return ReportRun(folder, {});
+  return ReportSweep(store, scenario::ParseSweep(design), {});
+}
+
+// A trace belongs to a trial, but which trials have one was decided in each shard alone.
+void RemarkTraces(const MergeRequest& request, Journal& journal) {
+  std::error_code ignored;
+  for (const std::filesystem::path& shard : request.shards) {
+    if (!std::filesystem::is_directory(shard / "traces", ignored)) continue;
+    journal.Remark(
+        fmt::format("traces of shards are not merged: the same run or sweep with --out {}, "
+                    "--resume and --traces, and without --shard, writes those of the whole",
+                    request.folder.string()));
+    return;
+  }
+}
+
+// The folder has its own name only when its files are there.
+FolderReport InFolder(FolderReport report, const std::filesystem::path& folder) {
+  std::visit([&](auto& told) { told.folder = folder; }, report);
+  return report;
+}
+
+}  // namespace
+
+WorkResult Merge(const MergeRequest& request, const MergeObserver& observer) {
+  return Recorded(observer, [&](Journal& journal) {
+    core::Result<FolderReport> report = std::vector<core::Problem>{{"merge", "has not run", ""}};
+    const batch::Merged merged = batch::MergeShards(
+        request.shards, request.folder, {.build = request.build, .partial = request.partial},
+        [&](const std::filesystem::path& made) {
+          report = core::Attempt([&] { return ReportMerged(made); });
+        });
+    if (merged == batch::Merged::kBefore) {
+      journal.Remark(fmt::format("{} holds these shards already", request.folder.string()));
+      report = core::Attempt([&] { return ReportMerged(request.folder); });
+    }
+    journal.SetFolder(request.folder);
+    RemarkTraces(request, journal);
+    if (report.ok()) {
+      if (observer.reported) observer.reported(InFolder(*report, request.folder));
+      return Outcome::kDone;
+    }
+    journal.Warn("the shards are together in " + request.folder.string() +
+                 ", but not all that follows");
+    journal.Fail(report.problems());
+    return Outcome::kFailed;
   });
 }
 

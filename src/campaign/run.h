@@ -2,13 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "campaign/campaign_request.h"
+#include "batch/campaign_differences.h"
 #include "campaign/dry_run.h"
+#include "campaign/folder_report.h"
+#include "campaign/journal.h"
+#include "campaign/open_run.h"
 #include "campaign/run_campaign.h"
+#include "campaign/work.h"
 #include "core/result.h"
+#include "scenario/sweep.h"
 
 namespace rockyard::campaign {
 
@@ -25,5 +31,45 @@ WorkResult Run(const RunRequest& request, const RunObserver& observer = {}, cons
 
 // What Run would do; writes nothing. The observer is told what Run would say before it begins.
 core::Result<DryRun> Rehearse(const RunRequest& request, const Observer& observer = {});
+
+// Runs scenarios that differ along axes as one campaign.
+
+struct SweepRequest {
+  std::filesystem::path file;  // as scenario/sweep.h reads it
+  CampaignRequest campaign = {};
+};
+
+// As Run does of one scenario. Never throws.
+WorkResult RunSweep(const SweepRequest& request, const RunObserver& observer = {},
+                    const Stop& stop = {});
+
+struct SweepRehearsal {
+  scenario::Sweep sweep;
+  PlannedTrials trials;
+  SweepPlan plan;
+};
+
+// What RunSweep would do, and cost by that many trials of each cell: written into the folder of the
+// request (dry_run.h), which is no folder of a campaign.
+core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, int pilots,
+                                           const Observer& observer = {});
+
+// Puts the shards of a campaign together.
+
+struct MergeRequest {
+  std::vector<std::filesystem::path> shards;
+  std::filesystem::path folder;  // a new one
+  batch::BuildPolicy build = batch::BuildPolicy::kSame;
+  bool partial = false;  // shards or trials may be missing: they are pending then
+};
+
+struct MergeObserver : Observer {
+  // The files of the new folder are written.
+  std::function<void(const FolderReport& report)> reported = {};
+};
+
+// The folder appears when it is whole. Never throws. What is merged stays, whatever becomes of the
+// files that follow from it: kFailed where one cannot be written.
+WorkResult Merge(const MergeRequest& request, const MergeObserver& observer = {});
 
 }  // namespace rockyard::campaign

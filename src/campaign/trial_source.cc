@@ -7,12 +7,22 @@
 #include <system_error>
 #include <utility>
 
+#include "campaign/looks/look_pictures.h"
+#include "campaign/output_folder.h"
 #include "campaign/run_source.h"
-#include "campaign/shell_word.h"
+#include "campaign/scan_capture.h"
 #include "core/error.h"
 #include "core/json_text.h"
+#include "experiments/drive/drive_experiment.h"
+#include "perception/triangulation.h"
 #include "report/trace_view.h"
+#include "rover/rover_links.h"
 #include "scenario/load.h"
+#include "terrain/arena.h"
+#include "terrain/field.h"
+#include "terrain/field_export.h"
+#include "trial/course/layout.h"
+#include "trial/eyes/onboard_calibration.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -106,6 +116,134 @@ std::vector<core::Problem> CompareWithStore(const TrialRequest& request, const T
                           ? "use the program that made the run: " + source.builds.front()
                           : "the same program made it: this is a defect, please report it"});
   return problems;
+}
+
+namespace {
+
+class Recorder {
+ public:
+  explicit Recorder(const scenario::Scenario& scenario)
+      : scenario_(scenario),
+        triangulator_(trial::OnboardStripeCalibration(scenario.drive.sensors.light_stripe,
+                                                      scenario.drive.perception.calibration)) {}
+
+  DriveRecording Run(std::uint64_t seed, std::uint64_t trial) {
+    truth::TracedTrial& traced = recording_.traced;
+    traced.scenario = scenario_.name;
+    traced.seed = seed;
+    traced.goal = {scenario_.drive.course.goal_x_m, scenario_.drive.course.goal_y_m};
+    traced.schema = experiments::DriveSchema();
+    const experiments::DriveExperiment experiment(
+        scenario_.drive, {.scan = [this](const trial::WatchedScan& scan) { OnScan(scan); },
+                          .stereo = [this](const trial::WatchedStereo& look) { OnLook(look); },
+                          .step = [this](const trial::WatchedStep& step) { OnStep(step); }});
+    traced.record = experiment.RunTraced(seed, trial, traced.trace);
+    return std::move(recording_);
+  }
+
+ private:
+  // The trace grows while the trial runs: its end is the present.
+  double now_s() const { return recording_.traced.trace.now_s(); }
+
+  void OnScan(const trial::WatchedScan& watched) {
+    replay::ReplayScan scan{.time_s = now_s(),
+                            .pose = math::ToPose2(watched.X_WR),
+                            .points = {},
+                            .hazards = HazardsOf(watched).stripe_hazard};
+    const messages::StripeArraySize size = watched.scan.pixels.size();
+    for (std::size_t row = 0; row < size.rows; ++row) {
+      for (std::size_t stripe = 0; stripe < size.stripes; ++stripe) {
+        AddPoint(watched, row, stripe, scan);
+      }
+    }
+    recording_.scans.push_back(std::move(scan));
+  }
+
+  void AddPoint(const trial::WatchedScan& watched, std::size_t row, std::size_t stripe,
+                replay::ReplayScan& scan) const {
+    const messages::StripePixel& pixel = watched.scan.pixels[row][stripe];
+    if (!pixel.detected) return;
+    const auto p_RoP_R = triangulator_.Point(row, stripe, pixel.column_px);
+    if (!p_RoP_R) return;
+    const double height_m = triangulator_.Elevation(row, stripe, pixel.column_px).elevation_m;
+    scan.points.push_back({watched.X_WR * *p_RoP_R, stripe, height_m});
+  }
+
+  void OnLook(const trial::WatchedStereo& watched) {
+    recording_.looks.push_back(LookRecord(watched, now_s()));
+  }
+
+  void OnStep(const trial::WatchedStep& watched) {
+    const messages::PoseEstimate& believed = watched.look.estimate;
+    replay::ReplayStep step{.time_s = now_s(),
+                            .look_time_s = watched.look.time_s,
+                            .pose = math::ToPose2(watched.X_WR),
+                            .look_believed = {believed.x_m, believed.y_m, believed.heading_rad},
+                            .view = watched.view,
+                            .points_W = {}};
+    const std::vector<math::Vector3>& points_R = watched.cloud.points_R;
+    const std::size_t kept = std::min(points_R.size(), kMaxStepPoints);
+    step.points_W.reserve(kept);
+    for (std::size_t i = 0; i < kept; ++i) {
+      step.points_W.push_back(watched.X_WR * points_R[i * points_R.size() / kept]);
+    }
+    recording_.steps.push_back(std::move(step));
+  }
+
+  const scenario::Scenario& scenario_;
+  const perception::Triangulator triangulator_;
+  DriveRecording recording_;
+};
+
+}  // namespace
+
+DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t seed,
+                           std::uint64_t trial) {
+  if (scenario.experiment.kind != experiments::ExperimentKind::kDrive) {
+    throw core::UserError(scenario.name, "is no drive, and only drives have a course",
+                          "use rockyard replay --list, which lists the scans of any trial");
+  }
+  return Recorder(scenario).Run(seed, trial);
+}
+
+std::vector<replay::ReplayPose> PosesOf(const scenario::Scenario& scenario,
+                                        const truth::Trace& trace) {
+  const std::vector<rover::Link> links = rover::MakeLinks(scenario.drive.rover.geometry);
+  std::vector<replay::ReplayPose> poses;
+  poses.reserve(trace.samples.size() + trace.rests.size());
+  const auto add = [&](const truth::TraceSample& sample, bool set_back) {
+    replay::ReplayPose pose{sample, {}, set_back};
+    for (const rover::Link& link : links) {
+      if (link.parent >= 0) pose.joint_rad.push_back(rover::JointAngle(link, sample.posture));
+    }
+    poses.push_back(std::move(pose));
+  };
+  auto rest = trace.rests.begin();
+  const auto rests_before = [&](std::size_t samples) {
+    for (; rest != trace.rests.end() && rest->samples_before <= samples; ++rest) {
+      add(rest->sample, rest->set_back);
+    }
+  };
+  for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+    rests_before(i);
+    add(trace.samples[i], false);
+  }
+  rests_before(trace.samples.size());
+  return poses;
+}
+
+std::string PlanView(const scenario::Scenario& scenario, const truth::TracedTrial& traced) {
+  const terrain::Rectangle all = terrain::DrivableBounds(scenario.drive.terrain.arena);
+  const report::TraceDrawing drawing =
+      report::DrawTrace(traced, {all.x_min_m, all.x_max_m, all.y_min_m, all.y_max_m});
+  const report::DrawnArea& area = drawing.area;
+  const terrain::Course course = trial::TerrainCourse(scenario.drive.course);
+  const core::TrialKey key{traced.seed, static_cast<std::uint32_t>(traced.record.trial)};
+  const terrain::Field field =
+      terrain::BuildField(scenario.drive.terrain, trial::LayoutKey(scenario.drive, key), course);
+  return terrain::ToSvg(
+      field, scenario.drive.terrain, course,
+      {drawing.elements, {area.x_min_m, area.x_max_m, area.y_min_m, area.y_max_m}});
 }
 
 }  // namespace rockyard::campaign

@@ -4,15 +4,54 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "campaign/observer.h"
-#include "campaign/outcome.h"
 #include "core/error.h"
 
 namespace rockyard::campaign {
+
+/// @file
+/// How work ended.
+
+/// The numbers are exit codes, of worker processes and of the command.
+enum class Outcome {
+  kDone = 0,           ///< all of it, and nothing differs
+  kDiffers = 1,        ///< a comparison differs
+  kBadInput = 2,       ///< nothing written
+  kTooManyFaults = 3,  ///< simulator faults above the stated fraction
+  kInconclusive = 4,   ///< nothing differs, but something is underpowered
+  kFailed = 5,         ///< a disk or the machine failed while running; what was finished is stored
+  kInterrupted = 130,  ///< somebody asked for an early end; what was finished is stored
+};
+
+/// @file
+/// What a caller is told while work goes on. Nothing here is printed by this library.
+
+/// How much a note matters.
+enum class NoteKind {
+  kRemark,  ///< good to know
+  kWarning  ///< whoever waits for the work has to know it
+};
+
+/// A sentence for the user.
+struct Note {
+  NoteKind kind = NoteKind::kRemark;
+  std::string text;  ///< whole sentences, one line
+};
+
+/// Everything is told when it comes up and may be left out: what work returns holds it, too. Of a
+/// supervised campaign it is told in the process where it comes up, which may be a worker: what is
+/// written there counts, what is kept in memory there does not come back.
+struct Observer {
+  std::function<void(const Note& note)> note = {};
+  std::function<void(const std::vector<core::Problem>& problems)> problems = {};
+};
+
+/// Of progress.
+enum class Moment { kUnderWay, kEnd };
 
 /// What to do with a run that lies in the folder already. No choice deletes a store.
 enum class ExistingRun {

@@ -74,44 +74,30 @@ struct ExperimentParams {
 
   // What the experiment in use asks of the drive.
   void RequireConsistency(const trial::DriveParams& drive, core::FieldVisitor& v) const {
+    const bool stripes =
+        kind == ExperimentKind::kHazardDetection || kind == ExperimentKind::kThreeRockRun;
+    using Use = trial::LightStripeUse;
+    trial::RequireConsistency(drive, stripes ? Use::kAlways : Use::kAsTerrainSensor, v);
     switch (kind) {
       case ExperimentKind::kDrive:
-        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
-        trial::RequireSoundDrive(drive, v);
-        return;
+        return trial::RequireSoundDrive(drive, v);
       case ExperimentKind::kHazardDetection:
-        trial::RequireConsistency(drive, trial::LightStripeUse::kAlways, v);
-        RequireMeasurable(hazard_detection, drive, v);
-        return;
+        return RequireMeasurable(hazard_detection, drive, v);
       case ExperimentKind::kStereoSensing:
-        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
-        RequireStereoMeasurable(stereo_sensing, drive, v);
-        return;
+        return RequireStereoMeasurable(stereo_sensing, drive, v);
       case ExperimentKind::kDeadReckoning:
-        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
-        RequireDeadReckoning(drive, v);
-        return;
+        return RequireDeadReckoning(drive, v);
       case ExperimentKind::kThreeRockRun:
-        trial::RequireConsistency(drive, trial::LightStripeUse::kAlways, v);
-        RequireThreeRockRun(three_rock_run, drive, v);
-        return;
+        return RequireThreeRockRun(three_rock_run, drive, v);
       case ExperimentKind::kDesignation:
-        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
-        RequireDesignable(designation, drive, v);
-        return;
+        return RequireDesignable(designation, drive, v);
       case ExperimentKind::kVisualMotion:
-        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
-        RequireVisualMotion(visual_motion, drive, v);
-        return;
+        return RequireVisualMotion(visual_motion, drive, v);
       case ExperimentKind::kCylinderSighting:
-        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
-        RequireSightable(cylinder_sighting, v);
-        return;
+        return RequireSightable(cylinder_sighting, v);
       case ExperimentKind::kMission:
-        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
         trial::RequireSoundDrive(drive, v);
-        RequireMission(mission, drive, v);
-        return;
+        return RequireMission(mission, drive, v);
     }
   }
 };

@@ -27,8 +27,7 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
     case ExperimentKind::kDrive:
       return std::make_unique<DriveExperiment>(drive, watchers);
     case ExperimentKind::kHazardDetection:
-      return std::make_unique<HazardDetectionExperiment>(experiment.hazard_detection, drive,
-                                                         watchers.scan);
+      return MakeHazardDetection(experiment.hazard_detection, drive, watchers.scan);
     case ExperimentKind::kStereoSensing:
       return std::make_unique<StereoSensingExperiment>(experiment.stereo_sensing, drive);
     case ExperimentKind::kDeadReckoning:

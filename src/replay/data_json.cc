@@ -1,6 +1,7 @@
 // The JSON text of src/web/replay/payload.ts.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -177,6 +178,104 @@ std::string ReplayJson(const ReplayData& data, const ReplayData* beside) {
       .Add("events", EventsJson(data.events))
       .Add("beside", beside == nullptr ? "null" : ReplayJson(*beside));
   return object.Text();
+}
+
+// Where a replayed drive takes place and what its terrain sensor sees, as JSON.
+
+namespace {
+
+std::string Direction(const math::Vector3& unit) {
+  return JsonList(std::array{Angle(unit.x()), Angle(unit.y()), Angle(unit.z())});
+}
+
+std::string LaserText(const ReplayLaser& laser) {
+  return JsonObject()
+      .Add("emitter", Point(laser.emitter_R))
+      .Add("normal", Direction(laser.normal_R))
+      .Add("axis", Direction(laser.axis_R))
+      .Add("half_fan", Angle(laser.half_fan_rad))
+      .Text();
+}
+
+std::string CameraText(const ReplayCamera& camera) {
+  return JsonObject()
+      .AddText("name", camera.name)
+      .Add("eye", Point(camera.eye_R))
+      .Add("rim", JsonList(camera.rim_R, Direction))
+      .Text();
+}
+
+}  // namespace
+
+std::string WorldJson(const ReplayWorld& world) {
+  return JsonObject()
+      .AddNumber("gravity", world.gravity_m_s2)
+      .Add("sun", JsonObject()
+                      .Add("elevation", Angle(world.sun_elevation_rad))
+                      .Add("azimuth", Angle(world.sun_azimuth_rad))
+                      .Text())
+      .Add("arena", JsonObject()
+                        .AddText("kind", world.arena)
+                        .Add("x_min", Length(world.x_min_m))
+                        .Add("x_max", Length(world.x_max_m))
+                        .Add("y_min", Length(world.y_min_m))
+                        .Add("y_max", Length(world.y_max_m))
+                        .Add("mirror_line", Length(world.mirror_line_m))
+                        .Text())
+      .Text();
+}
+
+std::string SensorJson(const ReplaySensor& sensor) {
+  return JsonObject()
+      .AddText("name", sensor.name)
+      .Add("reach", Length(sensor.reach_m))
+      .Add("lasers", JsonList(sensor.lasers, LaserText))
+      .Add("cameras", JsonList(sensor.cameras, CameraText))
+      .Text();
+}
+
+namespace {
+
+using core::JsonNumber;
+
+constexpr double kLengthDigits = 1e4;
+constexpr double kAngleDigits = 1e5;
+
+}  // namespace
+
+std::string Rounded(double value, double digits) {
+  const double rounded = std::round(value * digits) / digits;
+  return JsonNumber(rounded == 0.0 ? 0.0 : rounded);
+}
+
+std::string Length(double value_m) { return Rounded(value_m, kLengthDigits); }
+std::string Angle(double value_rad) { return Rounded(value_rad, kAngleDigits); }
+
+std::string Point(const math::Vector3& p) {
+  return JsonList(std::array{Length(p.x()), Length(p.y()), Length(p.z())});
+}
+
+JsonObject& AddPose(JsonObject& object, const math::Pose2& pose) {
+  return object.Add("x", Length(pose.x_m))
+      .Add("y", Length(pose.y_m))
+      .Add("heading", Angle(pose.heading_rad));
+}
+
+std::string PoseText(const math::Pose2& pose) {
+  JsonObject object;
+  return AddPose(object, pose).Text();
+}
+
+std::string ProvenanceText(const core::Provenance& p) {
+  return JsonObject()
+      .AddText("version", p.version)
+      .AddText("commit", p.commit)
+      .AddText("compiler", p.compiler)
+      .AddText("flags", p.flags)
+      .AddText("build_type", p.build_type)
+      .AddText("host", p.host)
+      .AddText("cpu_level", p.cpu_level)
+      .Text();
 }
 
 }  // namespace rockyard::replay

@@ -1,10 +1,17 @@
 #include "replay/motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/json_pieces.h"
+#include "core/json_text.h"
 #include "math/angles.h"
+#include "replay/payload_text.h"
 
 namespace rockyard::replay {
 namespace {
@@ -109,6 +116,142 @@ ThinnedMotion ThinMotion(std::span<const ReplayPose> poses, std::size_t most) {
     motion.kept = Kept(poses, motion.tolerance);
     if (motion.kept.size() <= most || scale > kLoosest) return motion;
   }
+}
+
+// The motion of a replay as JSON.
+
+namespace {
+
+using core::JsonList;
+using core::JsonNumber;
+using core::JsonObject;
+
+// In the order of the indices that a page holds.
+constexpr std::array<std::string_view, 8> kActivities{"drive", "turn",  "steer",   "scan",
+                                                      "stall", "image", "compute", "overhead"};
+
+// More than a rounded time is off, s.
+constexpr double kNearEnd_s = 1e-3;
+
+// Unit quaternions of which none is the negative of what the one before leads to.
+std::vector<Eigen::Quaterniond> Attitudes(std::span<const ReplayPose> poses,
+                                          std::span<const std::size_t> kept) {
+  std::vector<Eigen::Quaterniond> attitudes;
+  attitudes.reserve(kept.size());
+  for (const std::size_t i : kept) {
+    Eigen::Quaterniond q(poses[i].sample.posture.X_WR.linear());
+    if (!attitudes.empty() && q.dot(attitudes.back()) < 0.0) q.coeffs() *= -1.0;
+    attitudes.push_back(q);
+  }
+  return attitudes;
+}
+
+// A moment without an activity of its own belongs to what went before; the start to what follows.
+std::string ActivityText(std::span<const ReplayPose> poses, std::span<const std::size_t> kept) {
+  std::size_t now = 0;
+  return JsonList(kept, [&](std::size_t i) {
+    const auto found = std::find(kActivities.begin(), kActivities.end(), poses[i].sample.activity);
+    if (found != kActivities.end()) now = static_cast<std::size_t>(found - kActivities.begin());
+    return std::to_string(now);
+  });
+}
+
+std::string BreaksText(std::span<const ReplayPose> poses, std::span<const std::size_t> kept) {
+  std::vector<std::size_t> breaks;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (poses[kept[k]].set_back) breaks.push_back(k);
+  }
+  return JsonList(breaks, [](std::size_t k) { return std::to_string(k); });
+}
+
+// One list of numbers over the kept moments; the last one has every digit.
+class Channels {
+ public:
+  Channels(std::span<const ReplayPose> poses, std::span<const std::size_t> kept)
+      : poses_(poses), kept_(kept) {}
+
+  // Time of the last moment, s; 0 where a fault came before the first one.
+  double last_s() const { return kept_.empty() ? 0.0 : poses_[kept_.back()].sample.time_s; }
+
+  template <typename Value, typename Text>
+  std::string Of(const Value& value, const Text& text) const {
+    std::size_t left = kept_.size();
+    return JsonList(kept_, [&](std::size_t i) {
+      const double number = value(poses_[i]);
+      return --left == 0 ? JsonNumber(number) : text(number);
+    });
+  }
+
+ private:
+  std::span<const ReplayPose> poses_;
+  std::span<const std::size_t> kept_;
+};
+
+std::string JointsText(std::span<const ReplayLink> links, const Channels& channels) {
+  JsonObject joints;
+  for (std::size_t link = 1; link < links.size(); ++link) {
+    joints.Add(links[link].name,
+               channels.Of([link](const ReplayPose& p) { return p.joint_rad[link - 1]; }, Angle));
+  }
+  return joints.Text();
+}
+
+void AddTruePose(const Channels& channels, JsonObject& object) {
+  const auto position = [&](Eigen::Index axis) {
+    return channels.Of(
+        [axis](const ReplayPose& p) { return p.sample.posture.X_WR.translation()[axis]; }, Length);
+  };
+  // A rounded time never lies beyond the last one, which has every digit: near it all have.
+  const double last_s = channels.last_s();
+  const auto time = [last_s](double time_s) {
+    return time_s > last_s - kNearEnd_s ? JsonNumber(time_s) : Length(time_s);
+  };
+  object.Add("t", channels.Of([](const ReplayPose& p) { return p.sample.time_s; }, time))
+      .Add("x", position(0))
+      .Add("y", position(1))
+      .Add("z", position(2));
+}
+
+void AddAttitudes(const std::vector<Eigen::Quaterniond>& attitudes, JsonObject& object) {
+  const auto part = [&](const auto& value) {
+    std::size_t left = attitudes.size();
+    return JsonList(attitudes, [&](const Eigen::Quaterniond& q) {
+      return --left == 0 ? JsonNumber(value(q)) : Angle(value(q));
+    });
+  };
+  object.Add("qw", part([](const Eigen::Quaterniond& q) { return q.w(); }))
+      .Add("qx", part([](const Eigen::Quaterniond& q) { return q.x(); }))
+      .Add("qy", part([](const Eigen::Quaterniond& q) { return q.y(); }))
+      .Add("qz", part([](const Eigen::Quaterniond& q) { return q.z(); }));
+}
+
+void AddBelief(const Channels& channels, JsonObject& object) {
+  object
+      .Add("believed_x",
+           channels.Of([](const ReplayPose& p) { return p.sample.estimate.x_m; }, Length))
+      .Add("believed_y",
+           channels.Of([](const ReplayPose& p) { return p.sample.estimate.y_m; }, Length))
+      .Add("believed_heading",
+           channels.Of([](const ReplayPose& p) { return p.sample.estimate.heading_rad; }, Angle))
+      .Add("tilt", channels.Of([](const ReplayPose& p) { return p.sample.tilt_rad; }, Angle));
+}
+
+}  // namespace
+
+std::string MotionJson(std::span<const ReplayLink> links, std::span<const ReplayPose> poses) {
+  const ThinnedMotion motion = ThinMotion(poses);
+  const Channels channels(poses, motion.kept);
+  JsonObject object;
+  AddTruePose(channels, object);
+  AddAttitudes(Attitudes(poses, motion.kept), object);
+  object.Add("joints", JointsText(links, channels));
+  AddBelief(channels, object);
+  object.Add("activity", ActivityText(poses, motion.kept))
+      .Add("activity_names", JsonList(kActivities, core::QuoteJson))
+      .Add("breaks", BreaksText(poses, motion.kept))
+      .AddNumber("position_tolerance", motion.tolerance.position_m)
+      .AddNumber("angle_tolerance", motion.tolerance.angle_rad);
+  return object.Text();
 }
 
 }  // namespace rockyard::replay

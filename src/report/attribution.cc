@@ -9,9 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "report/csv.h"
-#include "report/json_members.h"
 #include "report/line_text.h"
+#include "report/result_table.h"
 #include "report/sweep_summary.h"
 
 namespace rockyard::report {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/json_value.h"
-#include "report/sweep_outcomes.h"
+#include "report/trial_outcomes.h"
 #include "scenario/sweep.h"
 #include "statistics/attribution.h"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "report/csv.h"
 #include "report/line_text.h"
-#include "report/measurement_text.h"
 #include "report/paired_comparison.h"
+#include "report/result_table.h"
+#include "report/summary_text.h"
 
 namespace rockyard::report {
 namespace {

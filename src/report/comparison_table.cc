@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <set>
 #include <sstream>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "report/comparison_format.h"
+#include "core/numbers.h"
 #include "report/line_text.h"
+#include "report/reference_fields.h"
+#include "report/xml_text.h"
 
 namespace rockyard::report {
 namespace {
@@ -179,6 +183,183 @@ std::string ComparisonText(const PublishedReference& reference, const Comparison
     text += Wrap(fmt::format("{} is {}", changed.scenario, kNotPublishedCase), 0) + "\n";
   }
   return text + Footnotes(result);
+}
+
+namespace {
+
+// Whether dependence through the layout alone could have made the difference: the p-value under it
+// may lie above the level that the row was judged at.
+bool DiffersByLayoutsAlone(const statistics::ComparedValue& value) {
+  return value.verdict == statistics::Verdict::kDiffers && value.one_layout &&
+         value.one_layout->p_value.high > value.level;
+}
+
+std::string OneLayoutRemark(const statistics::OneLayout& layout) {
+  const std::string low = PValue(layout.p_value.low);
+  const std::string high = PValue(layout.p_value.high);
+  const std::string_view basis = layout.measured ? "from repeated layouts" : "bounds";
+  return low == high ? fmt::format("one rock layout for all runs of the set: p {} ({})", low, basis)
+                     : fmt::format("one rock layout for all runs of the set: p from {} to {} ({})",
+                                   low, high, basis);
+}
+
+}  // namespace
+
+using statistics::StatisticKind;
+
+std::string Number(double value) {
+  if (!std::isfinite(value)) return "-";
+  if (value == 0.0) return "0";
+  const double magnitude = std::abs(value);
+  if (magnitude >= 100.0) return fmt::format("{:.0f}", value);
+  if (magnitude >= 10.0) return fmt::format("{:.1f}", value);
+  return fmt::format("{:.2f}", value);
+}
+
+std::string PValue(double p) {
+  if (!std::isfinite(p)) return "-";
+  if (p >= 0.9995) return "1";
+  return p >= 0.001 ? fmt::format("{:.3f}", p) : fmt::format("{:.0e}", p);
+}
+
+std::string Power(double power) {
+  return std::isfinite(power) ? fmt::format("{:.2f}", power) : "-";
+}
+
+bool IsCount(const PublishedValue& value) {
+  return value.statistic == StatisticKind::kOutcomeCount ||
+         value.statistic == StatisticKind::kNegativeCount;
+}
+
+std::string Published(const PublishedValue& value) {
+  if (IsCount(value)) return fmt::format("{:.0f}/{}", value.value, value.sample_size);
+  if (value.statistic == StatisticKind::kFailureKinds)
+    return fmt::format("of {}", value.sample_size);
+  if (value.statistic == StatisticKind::kExponentialTail) return "yes";
+  if (!std::isfinite(value.value)) return "stated";
+  if (statistics::HasTolerance(value.statistic)) return fmt::format("{:.4g}", value.value);
+  const double step = value.rounding > 0.0 ? value.rounding : 0.01;
+  const int digits = std::clamp(static_cast<int>(std::lround(-std::log10(step))), 0, 6);
+  const std::string number = fmt::format("{:.{}f}", value.value, digits);
+  return value.statistic == StatisticKind::kLowerBound ? ">= " + number : number;
+}
+
+std::string Prediction(double median, const Interval& interval, bool count) {
+  if (!std::isfinite(median)) return "-";
+  if (count) return fmt::format("{:.0f} ({:.0f} .. {:.0f})", median, interval.low, interval.high);
+  return fmt::format("{} ({} .. {})", Number(median), Number(interval.low), Number(interval.high));
+}
+
+std::string Prediction(const ComparedValue& value) {
+  if (!statistics::HasTolerance(value.published.statistic)) {
+    return Prediction(value.median, value.interval, IsCount(value.published));
+  }
+  if (!std::isfinite(value.pool_value)) return "-";
+  if (value.interval.low == value.interval.high) return fmt::format("{:.4g}", value.pool_value);
+  return fmt::format("{:.3g} ({:.3g} .. {:.3g})", value.pool_value, value.interval.low,
+                     value.interval.high);
+}
+
+std::string Prediction(const ComparedValue& value, const statistics::SideStatistic& beside) {
+  if (!statistics::HasTolerance(value.published.statistic)) {
+    return Prediction(beside.median, beside.interval, IsCount(value.published));
+  }
+  return fmt::format("{:.3g} ({:.3g} .. {:.3g})", beside.median, beside.interval.low,
+                     beside.interval.high);
+}
+
+std::vector<std::string> Remarks(const ComparedValue& value) {
+  std::vector<std::string> remarks;
+  for (const statistics::KindPrediction& kind : value.kinds) {
+    remarks.push_back(fmt::format("{}: {} published, {} of {} simulated failures", kind.name,
+                                  kind.published, kind.simulated, value.pool));
+  }
+  if (value.one_layout) remarks.push_back(OneLayoutRemark(*value.one_layout));
+  if (DiffersByLayoutsAlone(value)) {
+    remarks.emplace_back(
+        "differs if the runs of the set met layouts of their own; if they all met one, this says "
+        "nothing against the simulation");
+  }
+  if (!value.remark.empty()) remarks.push_back(value.remark);
+  return remarks;
+}
+
+std::string_view RoleName(ValueRole role) {
+  return core::EnumNames<ValueRole>::kNames[static_cast<std::size_t>(role)];
+}
+
+std::size_t CountOf(const ComparisonResult& result, Verdict verdict) {
+  return static_cast<std::size_t>(
+      std::count_if(result.values.begin(), result.values.end(),
+                    [&](const ComparedValue& value) { return value.verdict == verdict; }));
+}
+
+namespace {
+
+// With what must not be missed where rows are read one by one.
+std::string Remark(const ComparisonResult& result, const ComparedValue& value) {
+  if (result.FindChanged(value.published.scenario) == nullptr) return value.remark;
+  return fmt::format("{}{}{}", kNotPublishedCase, value.remark.empty() ? "" : "; ", value.remark);
+}
+
+// Test cases that pass hold no message, so that the suite says it.
+std::string ChangedXml(const ComparisonResult& result) {
+  if (result.changed.empty()) return "";
+  std::string xml = "  <properties>\n";
+  for (const statistics::OtherSettings& changed : result.changed) {
+    for (const std::string& setting : changed.settings) {
+      xml += fmt::format("    <property name=\"{}\" value=\"{}\"/>\n",
+                         EscapeXml(fmt::format("{}: {}", changed.scenario, kNotPublishedCase)),
+                         EscapeXml(setting));
+    }
+  }
+  return xml + "  </properties>\n";
+}
+
+}  // namespace
+
+ResultTable ComparisonRows(const ComparisonResult& result, ComparisonDetail detail) {
+  const bool full = detail == ComparisonDetail::kFull;
+  ResultTable table(
+      "id,scenario,what,place,role,unit,published,published_runs,simulated_runs,simulated,"
+      "predicted_median,predicted_low,predicted_high,p_value,p_holm,level,power,verdict,"
+      "one_layout_p_low,one_layout_p_high,one_layout_measured,remark");
+  for (const ComparedValue& v : result.values) {
+    const PublishedValue& p = v.published;
+    const statistics::Interval layout =
+        v.one_layout ? v.one_layout->p_value : statistics::Interval{core::kNaN, core::kNaN};
+    const char* measured = !v.one_layout ? "" : (v.one_layout->measured ? "1" : "0");
+    table.Add(p.id, p.scenario, p.what, p.place, RoleName(p.role), p.unit, p.value, p.sample_size,
+              v.pool, v.pool_value, v.median, v.interval, v.p_value, v.holm_p_value, v.level,
+              v.power, statistics::Name(v.verdict), layout, measured,
+              full ? Remark(result, v) : v.remark);
+    if (!full) continue;
+    for (const statistics::SideStatistic& side : v.beside) {
+      table.Add(p.id + "/" + side.name, p.scenario, side.name, p.place, RoleName(p.role), p.unit,
+                p.value, p.sample_size, v.pool, "", side.median, side.interval, side.p_value);
+    }
+  }
+  return table;
+}
+
+std::string ComparisonCsv(const ComparisonResult& result) {
+  return ComparisonRows(result, ComparisonDetail::kFull).Csv();
+}
+
+std::string ComparisonJUnit(const PublishedReference& reference, const ComparisonResult& result) {
+  // In the order of Verdict.
+  constexpr std::string_view kElements[] = {"", "", "failure", "skipped", "skipped"};
+  std::vector<JUnitCase> cases;
+  for (const ComparedValue& value : result.values) {
+    cases.push_back(
+        {value.published.scenario, value.published.id,
+         kElements[static_cast<std::size_t>(value.verdict)],
+         fmt::format("{}: published {}, predicted {}, p {}, Holm {}, power {}. {}",
+                     statistics::Name(value.verdict), Published(value.published), Prediction(value),
+                     PValue(value.p_value), PValue(value.holm_p_value), Power(value.power),
+                     Remark(result, value))});
+  }
+  return JUnitReport(reference.title, cases, ChangedXml(result));
 }
 
 }  // namespace rockyard::report

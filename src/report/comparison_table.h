@@ -1,9 +1,12 @@
 // The comparison with published values for people and for machines.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "report/result_table.h"
 #include "statistics/published_comparison.h"
 #include "statistics/published_values.h"
 
@@ -24,5 +27,46 @@ std::string ComparisonCsv(const statistics::ComparisonResult& result);
 // skipped.
 std::string ComparisonJUnit(const statistics::PublishedReference& reference,
                             const statistics::ComparisonResult& result);
+
+// How numbers of the comparison are written. For comparison_*.cc, page_sweep.cc and
+// result_json.cc only.
+
+inline constexpr std::string_view kNotPublishedCase =
+    "NOT the published case: run with other settings than the scenario that the reference is about";
+
+bool IsCount(const statistics::PublishedValue& value);
+
+// Three significant digits, "-" where it is not finite.
+std::string Number(double value);
+
+// Three decimals, fewer where that says nothing.
+std::string PValue(double p);
+
+std::string Power(double power);
+
+// The published number with as many digits as were printed.
+std::string Published(const statistics::PublishedValue& value);
+
+// "median (low .. high)".
+std::string Prediction(double median, const statistics::Interval& interval, bool count);
+
+// The same for a compared value, in the digits of its kind.
+std::string Prediction(const statistics::ComparedValue& value);
+
+// The same for a statistic that is shown beside it.
+std::string Prediction(const statistics::ComparedValue& value,
+                       const statistics::SideStatistic& beside);
+
+// What else is to be said of a value: kinds of failure, one layout for all runs, a remark.
+std::vector<std::string> Remarks(const statistics::ComparedValue& value);
+
+// kFull: the other readings of a value follow it, and its remark says what must not be missed where
+// rows are read one by one.
+enum class ComparisonDetail { kValues, kFull };
+ResultTable ComparisonRows(const statistics::ComparisonResult& result, ComparisonDetail detail);
+
+std::string_view RoleName(statistics::ValueRole role);
+
+std::size_t CountOf(const statistics::ComparisonResult& result, statistics::Verdict verdict);
 
 }  // namespace rockyard::report

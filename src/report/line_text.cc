@@ -1,3 +1,4 @@
+
 #include "report/line_text.h"
 
 #include <fmt/format.h>
@@ -13,8 +14,6 @@ namespace rockyard::report {
 namespace {
 
 using core::CodePoint;
-
-constexpr std::size_t kTextWidth = 100;
 
 // Bytes 10xxxxxx go on with the code point that was begun.
 bool BeginsCodePoint(char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }

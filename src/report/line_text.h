@@ -7,6 +7,9 @@
 
 namespace rockyard::report {
 
+// Columns of a terminal that lines of text keep to.
+inline constexpr std::size_t kTextWidth = 100;
+
 // Names and other text that somebody may have made to deceive whoever reads a terminal: line breaks
 // as spaces; as '?' what a terminal or an editor obeys or hides instead of showing it (control
 // characters, with which escape sequences begin, those that change the direction of a line, those

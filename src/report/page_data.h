@@ -18,18 +18,52 @@
 #include "core/field_table.h"
 #include "core/json_pieces.h"
 #include "core/provenance.h"
-#include "report/page_tracks.h"
+#include "math/pose.h"
+#include "messages/estimates.h"
 #include "report/paired_comparison.h"
 #include "report/run_description.h"
 #include "report/run_files.h"
 #include "report/sweep_files.h"
 #include "report/sweep_summary.h"
+#include "report/trace_view.h"
 #include "scenario/sweep.h"
 #include "statistics/proportions.h"
 #include "statistics/published_comparison.h"
 #include "truth/record.h"
 
 namespace rockyard::report {
+
+// Where the drives of a run went, as the report page draws them from above: world frame, whole
+// centimetres in the page's data.
+
+// What all drives of a run share.
+struct PageCourse {
+  std::string rover;  // its name; "" where its shape is that of no rover that is known
+  math::Pose2 start;
+  messages::Goal goal;
+  double goal_radius_m = 0.0;
+  std::vector<messages::Goal> waypoints;  // true, in the order of driving
+  std::vector<double> mirror_lines_m;     // y at which operators reflect the rover; mostly none
+};
+
+struct PageRock {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double radius_m = 0.0;  // of a circle that holds it
+};
+
+// The true path of one trial, simplified already.
+struct PageTrack {
+  std::uint64_t trial = 0;
+  TracePath path;
+  std::vector<PageRock> rocks = {};  // of trials that are drawn by themselves
+};
+
+// `Course` of src/web/report/payload.ts.
+std::string PageCourseJson(const PageCourse& course);
+
+// Member "tracks" of a run: `Track` of each.
+std::string PageTracksJson(std::span<const PageTrack> tracks);
 
 // Steps of a distribution function that a page holds at most.
 inline constexpr std::size_t kMaxPageSteps = 1000;

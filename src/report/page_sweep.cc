@@ -1,10 +1,16 @@
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "core/json_text.h"
-#include "report/json_members.h"
+#include "report/comparison_table.h"
 #include "report/page_data.h"
-#include "report/sweep_curves.h"
+#include "report/result_table.h"
+#include "report/sweep_summary.h"
+#include "statistics/multiple_testing.h"
 
 namespace rockyard::report {
 namespace {
@@ -73,6 +79,176 @@ std::string PageSweepJson(std::string_view label, std::string_view folder,
   return ObjectText("label", label, "folder", folder, "summary",
                     Json{core::CompactJson(SweepValue(sweep, summary, description))}, "curves",
                     Json{JsonList(curves)});
+}
+
+namespace {
+
+std::string SuccessJson(const SuccessComparison& success) {
+  return ObjectText("what", success.what, "first", success.first.rate, "second",
+                    success.second.rate, "difference", success.difference, "low",
+                    success.interval.low, "high", success.interval.high, "p", success.p_value);
+}
+
+std::string SettingJson(const PageSetting& setting) {
+  return ObjectText("path", setting.path, "first", setting.first, "second", setting.second);
+}
+
+std::vector<std::string> Notes(const RunComparison& comparison, bool adjusted) {
+  std::vector<std::string> notes;
+  if (!comparison.paired) {
+    notes.emplace_back("Different seeds: compared as two samples, not in pairs.");
+  } else if (comparison.same_terrain) {
+    notes.emplace_back("In pairs of trials with equal rocks and equal noise.");
+  } else {
+    notes.emplace_back(
+        "In pairs of trials with equal random numbers, but other settings of terrain or course.");
+  }
+  if (comparison.shared_layouts) {
+    notes.emplace_back(
+        "Trials share layouts of rocks: intervals allow for it, and there are no p-values.");
+  }
+  notes.emplace_back(adjusted ? "p-values of all pairs of runs are adjusted together by Holm."
+                              : "p-values are not adjusted: one for each kind of success.");
+  notes.emplace_back(
+      "Intervals are each on their own at 95 %: of thirty columns one or two exclude zero by "
+      "chance.");
+  return notes;
+}
+
+}  // namespace
+
+void AdjustSuccesses(std::span<PageComparison> comparisons) {
+  std::vector<double*> tests;
+  for (PageComparison& each : comparisons) {
+    for (SuccessComparison& success : each.comparison.successes) {
+      if (std::isfinite(success.p_value)) tests.push_back(&success.p_value);
+    }
+  }
+  std::vector<double> p_values;
+  p_values.reserve(tests.size());
+  for (const double* test : tests) p_values.push_back(*test);
+  const std::vector<double> adjusted = statistics::HolmAdjust(p_values);
+  for (std::size_t i = 0; i < tests.size(); ++i) *tests[i] = adjusted[i];
+}
+
+std::string PageComparisonJson(const PageComparison& comparison, bool adjusted) {
+  const RunComparison& result = comparison.comparison;
+  const std::string columns = ColumnsOf(result).Json(
+      "trials,column as name,unit,n,n_second,first,second,difference,low,high");
+  return ObjectText("first", comparison.first, "second", comparison.second, "paired", result.paired,
+                    "pairs", result.pairs, "notes", Notes(result, adjusted), "settings",
+                    Json{JsonList(comparison.settings, SettingJson)}, "successes",
+                    Json{JsonList(result.successes, SuccessJson)}, "columns", Json{columns});
+}
+
+namespace {
+
+using statistics::ComparedValue;
+using statistics::PublishedValue;
+
+// As a share of its runs for a count, so that it can be drawn beside a rate.
+double Share(double value, const PublishedValue& published) {
+  return IsCount(published) ? value / static_cast<double>(published.sample_size) : value;
+}
+
+// With the other readings that the terminal's table shows below a row.
+std::vector<std::string> AllRemarks(const ComparedValue& value) {
+  std::vector<std::string> remarks = Remarks(value);
+  for (const statistics::SideStatistic& side : value.beside) {
+    remarks.push_back(
+        fmt::format("{}: {}, p {}", side.name, Prediction(value, side), PValue(side.p_value)));
+  }
+  return remarks;
+}
+
+std::string JsonRow(const ComparedValue& value) {
+  const PublishedValue& published = value.published;
+  const bool tolerance = statistics::HasTolerance(published.statistic);
+  const double predicted = tolerance ? value.pool_value : value.median;
+  std::string source = published.place;
+  if (published.role != statistics::ValueRole::kPrediction) {
+    source += "; " + std::string(RoleName(published.role));
+  }
+  if (!published.note.empty()) source += "; " + published.note;
+  return ObjectText(
+      "id", published.id, "what", published.what, "unit", IsCount(published) ? "1" : published.unit,
+      "published", Published(published), "published_value", Share(published.value, published),
+      "predicted", Prediction(value), "predicted_value", Share(predicted, published),
+      "predicted_low", Share(value.interval.low, published), "predicted_high",
+      Share(value.interval.high, published), "p_holm", value.holm_p_value, "power", value.power,
+      "verdict", statistics::Name(value.verdict), "source", source, "remarks", AllRemarks(value));
+}
+
+}  // namespace
+
+std::string PublishedJson(const statistics::PublishedReference& reference,
+                          const statistics::ComparisonResult& result, std::string_view scenario) {
+  std::vector<std::string> rows;
+  for (const ComparedValue& value : result.values) {
+    if (value.published.scenario == scenario) rows.push_back(JsonRow(value));
+  }
+  if (rows.empty()) return "null";
+  std::vector<std::string> notes = ComparisonNotes(result);
+  notes.emplace_back(
+      "Holm's family is that of this run alone: other runs on the page do not change it, and "
+      "`rockyard check` of several runs takes all of them as one.");
+  const statistics::OtherSettings* changed = result.FindChanged(scenario);
+  return ObjectText("reference", reference.title, "citation", reference.citation, "notes", notes,
+                    "settings", changed == nullptr ? std::vector<std::string>() : changed->settings,
+                    "rows", Json{JsonList(rows)});
+}
+
+namespace {
+
+using core::JsonNumber;
+
+void AddCentimetres(double length_m, std::vector<std::string>& to) {
+  to.push_back(std::to_string(std::llround(100.0 * length_m)));
+}
+
+std::string PlaceJson(const messages::Goal& place) {
+  return JsonList(std::vector{JsonNumber(place.x_m), JsonNumber(place.y_m)});
+}
+
+// Points that round to the one before are left out.
+std::string Piece(const PathPiece& piece) {
+  std::vector<std::string> numbers;
+  for (const math::Pose2& pose : piece) {
+    AddCentimetres(pose.x_m, numbers);
+    AddCentimetres(pose.y_m, numbers);
+    const std::size_t n = numbers.size();
+    if (n >= 4 && numbers[n - 1] == numbers[n - 3] && numbers[n - 2] == numbers[n - 4]) {
+      numbers.resize(n - 2);
+    }
+  }
+  return JsonList(numbers);
+}
+
+std::string Rocks(const std::vector<PageRock>& rocks) {
+  std::vector<std::string> numbers;
+  for (const PageRock& rock : rocks) {
+    AddCentimetres(rock.x_m, numbers);
+    AddCentimetres(rock.y_m, numbers);
+    AddCentimetres(rock.radius_m, numbers);
+  }
+  return JsonList(numbers);
+}
+
+}  // namespace
+
+std::string PageCourseJson(const PageCourse& course) {
+  return ObjectText("rover", course.rover, "start",
+                    Json{PlaceJson({course.start.x_m, course.start.y_m})}, "goal",
+                    Json{PlaceJson(course.goal)}, "goal_radius_m", course.goal_radius_m,
+                    "waypoints", Json{JsonList(course.waypoints, PlaceJson)}, "mirror_lines_m",
+                    Json{JsonList(course.mirror_lines_m, JsonNumber)});
+}
+
+std::string PageTracksJson(std::span<const PageTrack> tracks) {
+  return JsonList(tracks, [](const PageTrack& track) {
+    return ObjectText("trial", track.trial, "pieces_cm", Json{JsonList(track.path, Piece)},
+                      "rocks_cm", Json{Rocks(track.rocks)});
+  });
 }
 
 }  // namespace rockyard::report

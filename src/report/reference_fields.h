@@ -1,5 +1,5 @@
 // Members of a reference file as fields, and what they must say together. For
-// comparison_reference.cc and tolerance_reference.cc only.
+// comparison_reference.cc only.
 #pragma once
 
 #include <array>

@@ -3,9 +3,9 @@
 #include <string_view>
 #include <vector>
 
-#include "report/comparison_format.h"
-#include "report/json_members.h"
-#include "report/regression_format.h"
+#include "report/comparison_table.h"
+#include "report/regression_report.h"
+#include "report/result_table.h"
 
 namespace rockyard::report {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/numbers.h"
-#include "report/csv.h"
-#include "report/measurement_text.h"
+#include "report/result_table.h"
 #include "report/summary_json.h"
+#include "report/summary_text.h"
 #include "statistics/clustered_rate.h"
 #include "truth/end_cause.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/check.h"
-#include "report/csv.h"
+#include "report/result_table.h"
 #include "report/xml_text.h"
 
 namespace rockyard::report {

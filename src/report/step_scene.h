@@ -10,7 +10,7 @@
 #include "messages/estimates.h"
 #include "messages/navigation_view.h"
 #include "report/pinhole_camera.h"
-#include "report/trace_path.h"
+#include "report/trace_view.h"
 #include "report/xml_text.h"
 
 namespace rockyard::report {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "report/accounting.h"
 #include "report/line_text.h"
-#include "report/mean_words.h"
+#include "report/run_description.h"
+#include "report/summary_json.h"
 
 namespace rockyard::report {
 namespace {
@@ -23,7 +23,6 @@ constexpr std::string_view kGreen = "32";
 constexpr std::string_view kYellow = "33";
 constexpr std::string_view kRed = "31";
 constexpr int kBarWidth = 30;
-constexpr std::size_t kTextWidth = 100;
 constexpr double kHuge = 1e7;  // what has more digits would not fit its column
 
 std::string Coloured(TextStyle style, std::string_view colour, const std::string& text) {

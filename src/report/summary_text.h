@@ -1,9 +1,11 @@
 // A run in numbers, for people.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "report/run_description.h"
+#include "statistics/cell_summary.h"
 #include "statistics/drive_summary.h"
 
 namespace rockyard::report {
@@ -14,5 +16,31 @@ enum class TextStyle { kPlain, kColour };
 // the trial hash. Colours are ANSI escape sequences.
 std::string SummaryText(const RunDescription& run, const statistics::DriveSummary& summary,
                         TextStyle style = TextStyle::kPlain);
+
+// The cells of a measurement for people, as a table and as curves.
+
+// Of the factors of a cell, so many are shown beside its numbers.
+inline constexpr std::size_t kMaxFactors = 4;
+
+// Runs and cells: of one alone every rate, with its interval, and every mean; otherwise the widest
+// interval of the main rate, and first columns of every cell, or where they are many that rate
+// pooled over all factors but the first two. At most 100 columns.
+std::string MeasurementText(const RunDescription& run,
+                            const statistics::MeasurementSummary& summary,
+                            TextStyle style = TextStyle::kPlain);
+
+// The first of `rates` that the experiment calls its main one, which text and drawing show where
+// there is room for one; rates.size() where there is none.
+std::size_t MainRate(const truth::RecordSchema& rates);
+
+// cells.csv: one line per cell: cell, runs, factors, bases; for each rate <name>, <name>_low and
+// <name>_high (95 % interval of this cell), <name>_all_low and <name>_all_high (95 % for all cells
+// at once, Bonferroni); then mean_<name> or rms_<name>.
+std::string CellsCsv(const statistics::MeasurementSummary& summary);
+
+// cells.svg: the main rate against the first factor. Curves: third factor. Panels: second factor
+// across, fourth factor down. Bands: the 95 % interval of each cell. Empty where no rate is
+// measured or the first factor has a single value.
+std::string CellsSvg(const statistics::MeasurementSummary& summary, const std::string& title);
 
 }  // namespace rockyard::report

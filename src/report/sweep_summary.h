@@ -5,13 +5,15 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "report/attribution.h"
 #include "report/paired_comparison.h"
 #include "report/run_description.h"
-#include "report/sweep_outcomes.h"
+#include "report/trial_outcomes.h"
 #include "scenario/sweep.h"
 #include "statistics/logistic_fit.h"
 #include "statistics/metrics.h"
@@ -103,5 +105,25 @@ Accounting TotalAccounting(const SweepSummary& summary);
 // byte for each trial of the sweep.
 SweepSummary SummarizeSweep(const scenario::Sweep& sweep, const SweepCellLoader& load,
                             statistics::IntervalMethod method);
+
+// Success along the numeric axis of a sweep.
+
+// Goodness of fit below which a curve is said not to follow its settings.
+inline constexpr double kMisfit = 0.01;
+
+// Whether it is: by statistics::LogisticFit::p_value, with its limits. False where that is not
+// known.
+bool Misfits(const statistics::LogisticFit& fit);
+
+// A point of a fitted curve.
+struct FitPoint {
+  double x = 0.0;
+  double rate = 0.0;
+  statistics::Interval band;  // pointwise, 95 %
+};
+
+// 61 of them from the lowest setting to the highest, in equal steps of the fit's scale; none where
+// nothing is fitted.
+std::vector<FitPoint> FittedLine(const statistics::LogisticFit& fit);
 
 }  // namespace rockyard::report

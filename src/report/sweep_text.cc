@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
-#include "report/accounting.h"
 #include "report/line_text.h"
-#include "report/sweep_curves.h"
+#include "report/run_description.h"
 #include "report/sweep_files.h"
+#include "report/sweep_summary.h"
+#include "report/xml_text.h"
 
 namespace rockyard::report {
 namespace {
@@ -143,7 +145,7 @@ std::string Stops(const Sweep& sweep, const SweepSummary& summary) {
 }
 
 // A number outside of the settings is not known any better than that.
-std::string Place(double x, const statistics::LogisticFit& fit) {
+std::string CrossingText(double x, const statistics::LogisticFit& fit) {
   if (std::isnan(x)) return "none";
   if (x < fit.lowest_x) return fmt::format("< {:.3g}", fit.lowest_x);
   if (x > fit.highest_x) return fmt::format("> {:.3g}", fit.highest_x);
@@ -162,9 +164,9 @@ std::string FitLine(const SweepCurve& curve, std::size_t kind) {
     return text + fmt::format("no fit: {}\n", kLacks[static_cast<std::size_t>(fit.status)]);
   }
   for (const statistics::FitCrossing& crossing : curve.crossings[kind]) {
-    text += fmt::format("{:<35} ", fmt::format("{} ({} .. {})", Place(crossing.x, fit),
-                                               Place(crossing.interval.low, fit),
-                                               Place(crossing.interval.high, fit)));
+    text += fmt::format("{:<35} ", fmt::format("{} ({} .. {})", CrossingText(crossing.x, fit),
+                                               CrossingText(crossing.interval.low, fit),
+                                               CrossingText(crossing.interval.high, fit)));
   }
   text += std::isfinite(fit.p_value)
               ? fmt::format("{:.2g}{}", fit.p_value, Misfits(fit) ? " *" : "")
@@ -231,6 +233,170 @@ std::string SweepText(const Sweep& sweep, const SweepSummary& summary,
                      AttributionText(summary.attributions);
   for (const std::string& note : summary.notes) text += Wrapped("  " + Printable(note)) + "\n";
   return text + fmt::format("  trial hash {}\n", description.trial_hash);
+}
+
+namespace {
+
+// Pixels.
+constexpr double kCurveWidth = 430.0;
+constexpr double kCurveHeight = 300.0;
+constexpr double kCurveLeft = 56.0;
+constexpr double kCurveTop = 62.0;
+constexpr double kCurveGap = 56.0;
+constexpr double kLegendLine = 18.0;
+constexpr double kBottom = 56.0;
+constexpr double kMark = 4.0;
+
+std::string Text(double x, double y, std::string_view text, std::string_view style = "") {
+  return SvgStyledText(x, y, text, style);
+}
+
+std::string Stroke(std::string_view colour) { return fmt::format("stroke=\"{}\"", colour); }
+
+// Shapes tell curves apart where colours do not.
+std::string Mark(std::size_t curve, double x, double y) {
+  const std::string_view colour = CurveColour(curve);
+  switch (curve % 3) {
+    case 0:
+      return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"{}\"/>\n", x, y,
+                         kMark, colour);
+    case 1:
+      return SvgBox(x - kMark, y - kMark, 2 * kMark, 2 * kMark, fmt::format("fill=\"{}\"", colour));
+    default:
+      return fmt::format("<path d=\"M {:.1f} {:.1f} l {:.1f} {:.1f} h {:.1f} Z\" fill=\"{}\"/>\n",
+                         x, y - 1.3 * kMark, 1.2 * kMark, 2.2 * kMark, -2.4 * kMark, colour);
+  }
+}
+
+// One kind of success.
+class Panel {
+ public:
+  Panel(const Sweep& sweep, const SweepSummary& summary, std::size_t kind)
+      : sweep_(sweep),
+        summary_(summary),
+        kind_(kind),
+        left_(kCurveLeft + static_cast<double>(kind) * (kCurveWidth + kCurveGap)) {
+    for (const SweepCurve& curve : summary.curves) {
+      low_ = std::min(low_, curve.x.front());
+      high_ = std::max(high_, curve.x.back());
+    }
+    log_ = low_ > 0.0 && summary.curves.front().fits[0].scale == statistics::FitScale::kLog;
+  }
+
+  std::string Draw() const {
+    std::string svg = Axes();
+    for (std::size_t i = 0; i < summary_.curves.size(); ++i) svg += Curve(i);
+    return svg;
+  }
+
+ private:
+  // Points at the ends keep away from the frame.
+  double X(double x) const {
+    const double share =
+        log_ ? std::log(x / low_) / std::log(high_ / low_) : (x - low_) / (high_ - low_);
+    return left_ + kCurveWidth * (0.04 + 0.92 * share);
+  }
+  static double Y(double rate) { return kCurveTop + kCurveHeight * (0.97 - 0.94 * rate); }
+
+  std::string Axes() const {
+    std::string svg =
+        SvgBox(left_, kCurveTop, kCurveWidth, kCurveHeight, "fill=\"none\" stroke=\"#999\"");
+    svg += Text(left_, kCurveTop - 8.0, kSuccessNames[kind_], "font-weight=\"bold\"");
+    for (const double rate : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      svg += SvgLine({left_, Y(rate)}, {left_ + kCurveWidth, Y(rate)}, Stroke("#e4e4e4"));
+      svg += Text(left_ - 5.0, Y(rate) + 4.0, fmt::format("{:.0f} %", 100.0 * rate),
+                  "text-anchor=\"end\"");
+    }
+    double last = -std::numeric_limits<double>::infinity();
+    for (const double x : Ticks()) {
+      if (X(x) - last < 44.0) continue;
+      last = X(x);
+      svg += SvgLine({X(x), kCurveTop + kCurveHeight}, {X(x), kCurveTop + kCurveHeight + 4.0},
+                     Stroke("#999"));
+      svg += Text(X(x), kCurveTop + kCurveHeight + 16.0, fmt::format("{:.4g}", x),
+                  "text-anchor=\"middle\"");
+    }
+    const scenario::SweepAxis& axis = sweep_.axes[*sweep_.fit_axis];
+    const std::string unit = axis.unit == "1" ? "" : fmt::format(" [{}]", axis.unit);
+    return svg + Text(left_ + 0.5 * kCurveWidth, kCurveTop + kCurveHeight + 34.0,
+                      axis.name + unit + (log_ ? ", logarithmic" : ""), "text-anchor=\"middle\"");
+  }
+
+  std::vector<double> Ticks() const {
+    std::vector<double> ticks;
+    for (const SweepCurve& curve : summary_.curves) {
+      ticks.insert(ticks.end(), curve.x.begin(), curve.x.end());
+    }
+    std::sort(ticks.begin(), ticks.end());
+    ticks.erase(std::unique(ticks.begin(), ticks.end()), ticks.end());
+    return ticks;
+  }
+
+  std::string Fit(std::size_t number) const {
+    std::vector<SvgBandPoint> points;
+    for (const auto& [x, rate, band] : FittedLine(summary_.curves[number].fits[kind_])) {
+      points.push_back({X(x), Y(rate), Y(band.low), Y(band.high)});
+    }
+    const std::string stroke = Stroke(CurveColour(number)) + " stroke-width=\"1.5\"";
+    return points.empty() ? "" : SvgBand(points, CurveColour(number), 0.18, stroke);
+  }
+
+  std::string Curve(std::size_t number) const {
+    const SweepCurve& curve = summary_.curves[number];
+    std::string svg = Fit(number);
+    // Bars of several curves at one number stand beside each other.
+    const double shift = 6.0 * (static_cast<double>(number) -
+                                0.5 * (static_cast<double>(summary_.curves.size()) - 1.0));
+    for (std::size_t i = 0; i < curve.cells.size(); ++i) {
+      const SweepCellSummary& cell = summary_.cells[curve.cells[i]];
+      const statistics::Proportion& rate =
+          kind_ == 0 ? cell.declared_success.rate : cell.true_success.rate;
+      if (rate.trials == 0) continue;
+      const double x = X(curve.x[i]) + std::clamp(shift, -14.0, 14.0);
+      svg += SvgLine({x, Y(rate.interval.low)}, {x, Y(rate.interval.high)},
+                     Stroke(CurveColour(number)));
+      svg += Mark(number, x, Y(rate.rate));
+    }
+    return svg;
+  }
+
+  const Sweep& sweep_;
+  const SweepSummary& summary_;
+  std::size_t kind_;
+  double left_;
+  double low_ = std::numeric_limits<double>::infinity();
+  double high_ = -std::numeric_limits<double>::infinity();
+  bool log_ = false;
+};
+
+}  // namespace
+
+std::string SweepSvg(const Sweep& sweep, const SweepSummary& summary) {
+  const bool drawn =
+      std::any_of(summary.curves.begin(), summary.curves.end(),
+                  [](const SweepCurve& curve) { return curve.x.front() < curve.x.back(); });
+  if (!drawn) return "";
+  const double legend_top = kCurveTop + kCurveHeight + kBottom;
+  const double width = kCurveLeft + 2 * kCurveWidth + kCurveGap + 20.0;
+  const double height = legend_top + kLegendLine * static_cast<double>(summary.curves.size()) + 8.0;
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"12\">\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+      width, height);
+  svg += Text(
+      12.0, 24.0,
+      fmt::format("{}: success with 95 % intervals, logistic fit with its 95 % band", sweep.name),
+      "font-size=\"15\"");
+  for (std::size_t kind = 0; kind < kSuccessNames.size(); ++kind) {
+    svg += Panel(sweep, summary, kind).Draw();
+  }
+  for (std::size_t i = 0; i < summary.curves.size(); ++i) {
+    if (summary.curves[i].label.empty()) continue;
+    const double y = legend_top + kLegendLine * static_cast<double>(i);
+    svg += Mark(i, kCurveLeft, y - 4.0) + Text(kCurveLeft + 12.0, y, summary.curves[i].label);
+  }
+  return svg + "</svg>\n";
 }
 
 }  // namespace rockyard::report

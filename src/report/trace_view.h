@@ -2,10 +2,12 @@
 // the course of a trial as a table and to read.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "math/pose.h"
 #include "truth/record.h"
 #include "truth/trace.h"
 
@@ -48,5 +50,52 @@ inline constexpr int kMaxStoryLines = 60;
 // within a short drive share a line, e.g. "12 hazard scans ..#.. to .#..., turned right 141 deg";
 // the drive is the shortest one that keeps the limit. Lines have up to some 170 columns.
 std::string TraceStory(const truth::TracedTrial& trial, StoryLength length);
+
+// The course of one trial as SVG elements to draw on a plan of its terrain.
+
+// World coordinates, m.
+struct DrawnArea {
+  double x_min_m = 0.0;
+  double x_max_m = 0.0;
+  double y_min_m = 0.0;
+  double y_max_m = 0.0;
+};
+
+struct TraceDrawing {
+  std::string elements;  // x as in the world, y downwards (minus world y), 1 unit = 1 m
+  DrawnArea area;        // what they and the plan take
+};
+
+// Most points of one drawn path.
+inline constexpr std::size_t kMaxDrawnPoints = 2000;
+
+// In the manner of Matthies 1995 fig. 16: true path solid, dead-reckoned path dotted, filled
+// circles on both where hazards were believed; beyond it orange crosses at scrapes, arrow heads at
+// both ends of the drive, and below the plan (`plan`) a scale, a key and a title. Paths are
+// interrupted where operators reflected the rover. Marks within 2 cm of the one before are left
+// out, and paths are thinned to kMaxDrawnPoints.
+TraceDrawing DrawTrace(const truth::TracedTrial& trial, const DrawnArea& plan);
+
+// The paths of a trace as lines to draw. World frame, m.
+
+using PathPiece = std::vector<math::Pose2>;  // of a path, without interruption
+using TracePath = std::vector<PathPiece>;    // interrupted where operators reflected the rover
+
+math::Pose2 BelievedPose(const truth::TraceSample& sample);
+
+// Both hold every sample of the trace.
+TracePath TruePath(const truth::Trace& trace);
+TracePath BelievedPath(const truth::Trace& trace);
+
+// Returns the distance between the two places.
+double Apart_m(const math::Pose2& a, const math::Pose2& b);
+
+// Leaves out points that are nearer to the one before than 5 mm, or than what leaves at most that
+// many points (with 10 m, what then is left); both ends of every piece stay.
+TracePath Thinned(const TracePath& path, std::size_t most_points);
+
+// Leaves out points as long as no left one is further than the tolerance from the line that is
+// drawn without it (Douglas and Peucker 1973); both ends of every piece stay.
+TracePath Simplified(const TracePath& path, double tolerance_m);
 
 }  // namespace rockyard::report

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "api/scenario.h"
-#include "campaign/make_baseline.h"
+#include "campaign/reference_cases.h"
 #include "core/test_folder.h"
 #include "report/atomic_file.h"
 

@@ -8,7 +8,7 @@
 
 #include "app/command.h"
 #include "batch/result_store.h"
-#include "batch/store_error.h"
+#include "batch/sqlite_database.h"
 #include "batch/trial_hash.h"
 
 namespace rockyard::app {

@@ -14,7 +14,7 @@
 
 #include "batch/executor.h"
 #include "batch/run_folder.h"
-#include "batch/store_error.h"
+#include "batch/sqlite_database.h"
 #include "fake_experiment.h"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "batch/executor.h"
-#include "batch/leaving_out.h"
 #include "batch/merge_shards.h"
+#include "batch/supervisor.h"
 #include "batch/trial_hash.h"
 #include "core/test_folder.h"
 #include "experiments/make_experiment.h"

@@ -14,9 +14,8 @@
 #include <thread>
 
 #include "batch/batch_session.h"
-#include "batch/packet.h"
-#include "batch/remote_work.h"
-#include "batch/store_error.h"
+#include "batch/communicator.h"
+#include "batch/sqlite_database.h"
 #include "batch/trial_hash.h"
 #include "core/test_folder.h"
 #include "core/wait_until.h"
@@ -58,11 +57,7 @@ class PostCommunicator final : public Communicator {
   int rank_;
 };
 
-std::string PlainHash() {
-  std::vector<truth::Record> records;
-  for (std::uint64_t i = 0; i < kTrials; ++i) records.push_back(FakeRecord(1, i));
-  return TrialHash(records);
-}
+std::string PlainHash() { return FakeHash(kTrials); }
 
 class Cluster {
  public:

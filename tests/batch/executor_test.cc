@@ -1,17 +1,21 @@
 #include "batch/executor.h"
 
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
+#include <atomic>
 #include <mutex>
 #include <new>
 #include <set>
+#include <string>
 
 #include "batch/run_folder.h"
 #include "batch/sqlite_database.h"
-#include "batch/store_error.h"
 #include "batch/trial_hash.h"
 #include "core/test_folder.h"
+#include "experiments/make_experiment.h"
 #include "fake_experiment.h"
+#include "scenario/shipped.h"
 
 namespace rockyard::batch {
 namespace {
@@ -26,11 +30,7 @@ BatchOptions Options(int threads, Order order = Order::kNatural) {
   return {.threads = threads, .order = order, .interval = std::chrono::milliseconds(5)};
 }
 
-std::string PlainHash() {
-  std::vector<truth::Record> records;
-  for (std::uint64_t i = 0; i < kTrials; ++i) records.push_back(FakeRecord(1, i));
-  return TrialHash(records);
-}
+std::string PlainHash() { return FakeHash(kTrials); }
 
 std::string HashAfter(const BatchOptions& options, std::uint64_t seed = 1) {
   const core::TestFolder folder;
@@ -233,6 +233,37 @@ TEST(Executor, AStoreThatFailsStopsTheRunAndLosesNothingStored) {
   store.SetPlanned(0, kTrials);
   RunBatch(FakeExperiment(), store, options, kNeverStop);
   EXPECT_EQ(TrialHash(store.Load()), PlainHash());
+}
+
+// Hazard studies through the executor: the hash does not depend on threads, order or interruption.
+
+constexpr std::int64_t kRuns = 24;
+
+CampaignIdentity IdentityOf(const experiments::Experiment& experiment, std::uint64_t seed) {
+  CampaignIdentity identity = FakeIdentity(seed);
+  identity.schema = experiment.schema();
+  return identity;
+}
+
+std::string HashOf(const experiments::Experiment& experiment, const BatchOptions& options,
+                   std::uint64_t seed = 1) {
+  const core::TestFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), IdentityOf(experiment, seed), kRuns);
+  RunBatch(experiment, store, options, kNeverStop);
+  return TrialHash(store.Load());
+}
+
+TEST(HazardDeterminism, SameHashWhateverThreadsAndOrder) {
+  for (const char* name : {"detection", "approach", "persistence", "missed", "precision"}) {
+    const scenario::Scenario scenario =
+        scenario::Shipped(std::string("hazard_detection/") + name,
+                          std::vector<std::string>{"hazard_detection.scenes_per_run=5"});
+    const auto experiment = experiments::MakeExperiment(scenario.experiment, scenario.drive);
+    const std::string expected = HashOf(*experiment, Options(1));
+    EXPECT_EQ(HashOf(*experiment, Options(3)), expected) << name;
+    EXPECT_EQ(HashOf(*experiment, Options(2, Order::kShuffled)), expected) << name;
+    EXPECT_NE(HashOf(*experiment, Options(1), 2), expected) << name;
+  }
 }
 
 }  // namespace

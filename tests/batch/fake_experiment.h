@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "batch/campaign_differences.h"
 #include "batch/result_store.h"
-#include "batch/scenario_difference.h"
+#include "batch/trial_hash.h"
 #include "core/json_text.h"
 #include "core/random.h"
 #include "experiments/experiment.h"
@@ -30,6 +31,16 @@ inline truth::Record FakeRecord(std::uint64_t seed, std::uint64_t index) {
           reached ? "arrived" : "gave up",
           {distance, reached ? 100.0 * stream.Uniform() : undefined, -0.0}};
 }
+
+// Those of trials from .. to-1, seed 1.
+inline std::vector<truth::Record> FakeRecords(std::uint64_t from, std::uint64_t to) {
+  std::vector<truth::Record> records;
+  for (std::uint64_t i = from; i < to; ++i) records.push_back(FakeRecord(1, i));
+  return records;
+}
+
+// The hash of as many trials from 0 on.
+inline std::string FakeHash(std::uint64_t trials) { return TrialHash(FakeRecords(0, trials)); }
 
 class FakeExperiment final : public experiments::Experiment {
  public:

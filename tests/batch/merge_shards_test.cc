@@ -11,7 +11,7 @@
 
 #include "batch/executor.h"
 #include "batch/run_folder.h"
-#include "batch/store_error.h"
+#include "batch/sqlite_database.h"
 #include "batch/trial_hash.h"
 #include "core/test_folder.h"
 #include "fake_experiment.h"

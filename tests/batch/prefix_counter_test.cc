@@ -1,11 +1,10 @@
-#include "batch/prefix_counter.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <queue>
 #include <vector>
 
+#include "batch/work_plan.h"
 #include "core/random.h"
 
 namespace rockyard::batch {

@@ -10,7 +10,7 @@
 
 #include "batch/executor.h"
 #include "batch/run_folder.h"
-#include "batch/store_error.h"
+#include "batch/sqlite_database.h"
 #include "batch/trial_hash.h"
 #include "core/test_folder.h"
 #include "core/wait_until.h"
@@ -98,12 +98,6 @@ bool WaitForTrials(const fs::path& folder, std::size_t count) {
   return core::WaitUntil([&] { return StoredTrials(folder) >= count; });
 }
 
-std::string PlainHash(std::uint64_t trials) {
-  std::vector<truth::Record> records;
-  for (std::uint64_t i = 0; i < trials; ++i) records.push_back(FakeRecord(1, i));
-  return TrialHash(records);
-}
-
 std::string HashAfterResume(const fs::path& folder, std::int64_t trials) {
   const FolderClaim claim(folder);
   ResultStore store = ResultStore::Resume(folder, FakeIdentity());
@@ -121,7 +115,7 @@ TEST(KilledRun, GoesOnToTheSameHash) {
   const std::size_t stored = StoredTrials(folder.path());
   EXPECT_GE(stored, 20U);
   EXPECT_LT(stored, 300U);
-  EXPECT_EQ(HashAfterResume(folder.path(), 300), PlainHash(300));
+  EXPECT_EQ(HashAfterResume(folder.path(), 300), FakeHash(300));
 }
 
 TEST(KilledRun, FinishedTrialsAreDurableWhileAnotherHangs) {
@@ -130,7 +124,7 @@ TEST(KilledRun, FinishedTrialsAreDurableWhileAnotherHangs) {
   ASSERT_TRUE(WaitForTrials(folder.path(), 49)) << "all but the one that hangs";
   child.Kill();
   EXPECT_EQ(StoredTrials(folder.path()), 49U);
-  EXPECT_EQ(HashAfterResume(folder.path(), 50), PlainHash(50));
+  EXPECT_EQ(HashAfterResume(folder.path(), 50), FakeHash(50));
 }
 
 TEST(KilledRun, KilledAgainAndAgain) {
@@ -144,7 +138,7 @@ TEST(KilledRun, KilledAgainAndAgain) {
     EXPECT_GE(now, stored) << "no stored trial is lost";
     stored = now;
   }
-  EXPECT_EQ(HashAfterResume(folder.path(), 60), PlainHash(60));
+  EXPECT_EQ(HashAfterResume(folder.path(), 60), FakeHash(60));
 }
 
 TEST(TwoRuns, TheSecondIsRefusedAndTheFirstUnharmed) {
@@ -157,7 +151,7 @@ TEST(TwoRuns, TheSecondIsRefusedAndTheFirstUnharmed) {
   first.Kill();
   EXPECT_EQ(StoredTrials(folder.path()), 19U);
   // The claim ended with the process.
-  EXPECT_EQ(HashAfterResume(folder.path(), 20), PlainHash(20));
+  EXPECT_EQ(HashAfterResume(folder.path(), 20), FakeHash(20));
 }
 
 void ExpectGracefulFailure(const fs::path& folder, Child& child) {
@@ -178,7 +172,7 @@ TEST(FullDisk, FileSizeLimitLosesNoStoredTrial) {
   Child child({.folder = folder.path(), .trials = 20000, .milliseconds = 1, .file_limit = 120000});
   ExpectGracefulFailure(folder.path(), child);
   EXPECT_EQ(HashAfterResume(folder.path(), 400),
-            PlainHash(std::max<std::uint64_t>(400, StoredTrials(folder.path()))));
+            FakeHash(std::max<std::uint64_t>(400, StoredTrials(folder.path()))));
 }
 
 // A small file system of its own, where the test may mount one.
@@ -196,7 +190,7 @@ TEST(FullDisk, RealOneLosesNoStoredTrial) {
     const std::size_t count = stored.size();
     EXPECT_EQ(mount("tmpfs", disk.path().c_str(), "tmpfs", MS_REMOUNT, "size=16m"), 0);
     const auto trials = static_cast<std::int64_t>(std::max<std::size_t>(count, 500));
-    EXPECT_EQ(HashAfterResume(folder, trials), PlainHash(static_cast<std::uint64_t>(trials)));
+    EXPECT_EQ(HashAfterResume(folder, trials), FakeHash(static_cast<std::uint64_t>(trials)));
   }
   EXPECT_EQ(umount2(disk.path().c_str(), MNT_DETACH), 0);
 }

@@ -4,9 +4,14 @@
 
 #include <bit>
 #include <cmath>
+#include <condition_variable>
 #include <limits>
+#include <mutex>
+#include <thread>
 
-#include "batch/store_error.h"
+#include "batch/executor.h"
+#include "batch/sqlite_database.h"
+#include "batch/store_rows.h"
 #include "batch/trial_hash.h"
 #include "core/test_folder.h"
 #include "fake_experiment.h"
@@ -173,6 +178,135 @@ TEST(TrialHash, SeesEveryNumberAndNoSentence) {
   records[0].outcome = TrialOutcome::kJammed;
   EXPECT_NE(TrialHash(records), hash);
   EXPECT_NE(TrialHash(std::span(records).first(1)), hash);
+}
+
+// Of zlib.crc32(b"I" + pack("<q", 7) + b"R" + pack("<d", -0.0) + b"N" + b"T" + pack("<Q", 6) +
+// "rock ä".encode()) in Python.
+TEST(RowChecksum, IsTheCrc32OfTypesAndBytes) {
+  RowChecksum checksum;
+  checksum.Integer(7).Real(-0.0).Null().Text("rock \xc3\xa4");
+  EXPECT_EQ(checksum.value(), 3763823285);
+}
+
+TEST(RowChecksum, GoesOnFromWhatCameBefore) {
+  RowChecksum whole;
+  whole.Integer(1).Text("a").Real(2.5);
+  RowChecksum piecewise;
+  piecewise.Integer(1);
+  const std::int64_t first = piecewise.value();
+  EXPECT_EQ(piecewise.Text("a").Real(2.5).value(), whole.value());
+  piecewise.Restart(first);
+  EXPECT_EQ(piecewise.Text("a").Real(2.5).value(), whole.value());
+  piecewise.Restart();
+  EXPECT_NE(piecewise.Text("a").Real(2.5).value(), whole.value());
+}
+
+TEST(RowChecksum, TellsTypesSignsAndLimitsOfTextsApart) {
+  const auto sum = [](auto fill) {
+    RowChecksum checksum;
+    fill(checksum);
+    return checksum.value();
+  };
+  EXPECT_NE(sum([](auto& c) { c.Integer(0); }), sum([](auto& c) { c.Real(0.0); }));
+  EXPECT_NE(sum([](auto& c) { c.Real(0.0); }), sum([](auto& c) { c.Real(-0.0); }));
+  EXPECT_NE(sum([](auto& c) { c.Real(1.0); }),
+            sum([](auto& c) { c.Real(std::nextafter(1.0, 2.0)); }));
+  EXPECT_NE(sum([](auto& c) { c.Text("ab").Text("c"); }),
+            sum([](auto& c) { c.Text("a").Text("bc"); }));
+  EXPECT_NE(sum([](auto& c) { c.Text(""); }), sum([](auto& c) { c.Null(); }));
+  // SQLite keeps NaN as NULL.
+  EXPECT_EQ(sum([](auto& c) { c.Real(std::numeric_limits<double>::quiet_NaN()); }),
+            sum([](auto& c) { c.Null(); }));
+}
+
+TEST(RowChecksum, OfARowIsThatOfItsValues) {
+  const core::TestFolder folder;
+  const SqliteDatabase database(folder.path() / "a.sqlite", Access::kCreate);
+  SqliteStatement row = database.Prepare("SELECT 7, -0.5, NULL, 'rock', 'not counted'");
+  ASSERT_TRUE(row.Step());
+  RowChecksum values;
+  values.Integer(7).Real(-0.5).Null().Text("rock");
+  RowChecksum columns;
+  EXPECT_EQ(columns.Columns(row, 4).value(), values.value());
+}
+
+// Holds the writing thread after its next tick.
+class Gate {
+ public:
+  void Wait() {
+    std::unique_lock lock(mutex_);
+    held_ = true;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return open_; });
+  }
+  void WaitUntilHeld() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return held_; });
+  }
+  void Open() {
+    {
+      const std::lock_guard lock(mutex_);
+      open_ = true;
+    }
+    changed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool held_ = false;
+  bool open_ = false;
+};
+
+class RecordWriterTest : public testing::Test {
+ protected:
+  static constexpr auto kMax = static_cast<std::int64_t>(RecordWriter::kMaxWaiting);
+
+  core::TestFolder folder_;
+  ResultStore store_ = ResultStore::Create(folder_.path(), FakeIdentity(), 4 * kMax);
+  Gate gate_;
+};
+
+// Trials that are faster than the store wait for it, so that memory stays bounded.
+TEST_F(RecordWriterTest, FullQueueHoldsThoseWhoPush) {
+  RecordWriter writer(store_, std::chrono::milliseconds(1), [this] { gate_.Wait(); });
+  writer.Start();
+  gate_.WaitUntilHeld();
+  std::atomic<std::int64_t> pushed = 0;
+  std::thread pusher([&] {
+    for (std::int64_t trial = 0; trial < kMax + 50; ++trial) {
+      writer.Push({0, FakeRecord(1, static_cast<std::uint64_t>(trial))});
+      ++pushed;
+    }
+  });
+  while (pushed < kMax) std::this_thread::yield();
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(pushed, kMax);
+  gate_.Open();
+  pusher.join();
+  writer.Close();
+  EXPECT_EQ(writer.stored(), kMax + 50);
+  EXPECT_EQ(store_.Finished().size(), static_cast<std::size_t>(kMax) + 50);
+}
+
+// A full queue is written at once, not when the interval is over.
+TEST_F(RecordWriterTest, FullQueueIsWrittenAtOnce) {
+  RecordWriter writer(store_, std::chrono::hours(1), {});
+  writer.Start();
+  for (std::int64_t trial = 0; trial < 2 * kMax + 1; ++trial) {
+    writer.Push({0, FakeRecord(1, static_cast<std::uint64_t>(trial))});
+  }
+  writer.Close();
+  EXPECT_EQ(store_.Finished().size(), 2U * RecordWriter::kMaxWaiting + 1);
+}
+
+TEST_F(RecordWriterTest, WithoutAThreadNobodyWaits) {
+  RecordWriter writer(store_, std::chrono::hours(1), {});
+  for (std::int64_t trial = 0; trial < kMax + 1; ++trial) {
+    writer.Push({0, FakeRecord(1, static_cast<std::uint64_t>(trial))});
+  }
+  writer.Close();
+  EXPECT_EQ(writer.stored(), kMax + 1);
 }
 
 }  // namespace

@@ -7,14 +7,13 @@
 #include <thread>
 #include <vector>
 
-#include "batch/leaving_out.h"
+#include "batch/campaign_differences.h"
 #include "batch/merge_shards.h"
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
-#include "batch/scenario_difference.h"
 #include "batch/sqlite_database.h"
-#include "batch/store_error.h"
 #include "batch/store_tables.h"
+#include "batch/supervisor.h"
 #include "core/hash.h"
 #include "core/says.h"
 #include "core/test_folder.h"

@@ -8,7 +8,6 @@
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
 #include "batch/sqlite_database.h"
-#include "batch/store_error.h"
 #include "core/test_folder.h"
 #include "fake_experiment.h"
 
@@ -18,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
-using truth::Record;
 
 template <typename Action>
 std::optional<StoreError> ErrorOf(Action action) {
@@ -58,9 +56,7 @@ class DamagedStore : public testing::Test {
  protected:
   DamagedStore() {
     ResultStore store = ResultStore::Create(folder_.path(), FakeIdentity(), 400);
-    std::vector<Record> records;
-    for (std::uint64_t i = 0; i < 400; ++i) records.push_back(FakeRecord(1, i));
-    AppendRecords(store, records);
+    AppendRecords(store, FakeRecords(0, 400));
   }
 
   void ExpectRefused() {

@@ -1,4 +1,5 @@
 // Who may read a store, in which state, and what reading leaves behind.
+
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -12,7 +13,6 @@
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
 #include "batch/sqlite_database.h"
-#include "batch/store_error.h"
 #include "batch/trial_hash.h"
 #include "core/files.h"
 #include "core/test_folder.h"
@@ -41,15 +41,9 @@ std::string ReadFile(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::vector<truth::Record> FakeRecords(std::uint64_t from, std::uint64_t to) {
-  std::vector<truth::Record> records;
-  for (std::uint64_t i = from; i < to; ++i) records.push_back(FakeRecord(1, i));
-  return records;
-}
-
 std::string HashIn(const fs::path& folder) { return TrialHash(ResultStore::Read(folder).Load()); }
 
-std::string PlainHash() { return TrialHash(FakeRecords(0, kTrials)); }
+std::string PlainHash() { return FakeHash(kTrials); }
 
 // Leaves a store as one that was killed.
 template <typename Act>
@@ -213,7 +207,6 @@ TEST_F(StoreReading, ThroughALinkWithTheLogOfTheFile) {
   EXPECT_EQ(HashIn(other.path()), PlainHash());
 }
 
-// Copies taken in the middle of commits are those of one commit or of the next.
 // Copies taken in the middle of commits are those of one commit or of the next.
 TEST_F(StoreReading, NobodyAlwaysReadsACommitOfARunThatGoesOn) {
   const Writer writer([&] {

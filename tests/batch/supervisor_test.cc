@@ -12,8 +12,7 @@
 #include <functional>
 #include <thread>
 
-#include "batch/child_process.h"
-#include "batch/watchdog.h"
+#include "batch/flight_log.h"
 #include "core/wait_until.h"
 
 namespace rockyard::batch {

@@ -5,11 +5,11 @@
 
 #include "campaign/check.h"
 #include "campaign/compare.h"
-#include "campaign/make_baseline.h"
-#include "campaign/merge.h"
+#include "campaign/reference_cases.h"
 #include "campaign/replay.h"
 #include "campaign/replay_moments.h"
 #include "campaign/report.h"
+#include "campaign/run.h"
 #include "campaign/small_runs.h"
 #include "report/atomic_file.h"
 

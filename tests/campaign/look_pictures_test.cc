@@ -7,10 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "campaign/looks/look_capture.h"
-#include "campaign/looks/picture_lines.h"
 #include "image_files/png_file.h"
-#include "report/colour_ramp.h"
+#include "report/xml_text.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "campaign/drive_recording.h"
 #include "campaign/replay_payloads.h"
+#include "campaign/trial_source.h"
 #include "core/refusals.h"
 #include "math/angles.h"
 

@@ -11,7 +11,6 @@
 #include "batch/result_store.h"
 #include "batch/trial_hash.h"
 #include "campaign/run.h"
-#include "campaign/sweep.h"
 #include "core/test_folder.h"
 
 namespace rockyard::campaign {

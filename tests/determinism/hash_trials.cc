@@ -13,7 +13,6 @@
 
 #include "batch/executor.h"
 #include "batch/trial_hash.h"
-#include "batch/work_source.h"
 #include "core/error.h"
 #include "experiments/make_experiment.h"
 #include "scenario/load.h"

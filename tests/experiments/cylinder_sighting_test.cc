@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "experiments/cylinder_sighting/sighting_sums.h"
 #include "experiments/scenario_experiment.h"
 
 namespace rockyard::experiments {

@@ -8,7 +8,6 @@
 
 #include "core/random.h"
 #include "experiments/hazard_detection/hazard_judge.h"
-#include "experiments/hazard_detection/rock_scenes.h"
 #include "experiments/hazard_scenarios.h"
 #include "sensing/light_stripe.h"
 #include "sensing/stripe_layout_params.h"

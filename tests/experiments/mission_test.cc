@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "experiments/mission/command_cycle.h"
 #include "experiments/mission/mission_experiment.h"
 #include "experiments/mission/sol.h"
 #include "experiments/scenario_experiment.h"

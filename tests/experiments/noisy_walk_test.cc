@@ -1,4 +1,3 @@
-#include "experiments/dead_reckoning/noisy_walk.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "experiments/dead_reckoning/dead_reckoning.h"
 
 namespace rockyard::experiments {
 namespace {

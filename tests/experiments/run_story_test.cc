@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/check.h"
-#include "experiments/three_rock_run/run_history.h"
 #include "experiments/three_rock_traces.h"
 #include "math/angles.h"
 

@@ -15,7 +15,6 @@
 #include "experiments/drive/drive_experiment.h"
 #include "experiments/hazard_scenarios.h"
 #include "experiments/scenario_experiment.h"
-#include "experiments/three_rock_run/rock_layout_draw.h"
 #include "experiments/three_rock_traces.h"
 #include "math/angles.h"
 #include "scenario/shipped.h"

@@ -13,7 +13,7 @@
 #include <system_error>
 #include <variant>
 
-#include "campaign/odometry/image_sequence.h"
+#include "campaign/odometry/pair_reader.h"
 #include "campaign/odometry/path_journal.h"
 #include "campaign/odometry/pose_text.h"
 #include "core/error.h"

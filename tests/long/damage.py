@@ -40,7 +40,7 @@ NAMED = re.compile(r"results\.sqlite|(error:|with|in) run[:\s/]")  # the store, 
 PAGE = 4096       # bytes, SQLite's default
 SECTOR = 512      # bytes
 HANG_S = 600      # a command on these stores takes a fraction of a second
-BAD_INPUT = 2     # src/campaign/outcome.h
+BAD_INPUT = 2     # src/campaign/work.h
 # What no message of rockyard's own says: exceptions and contracts as libraries word them.
 RAW = re.compile(r"std::|bad_alloc|basic_string|vector::|map::at|stoi|_M_|terminate|what\(\)|Assertion|"
                  r"violated|bad_variant")

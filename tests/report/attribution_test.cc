@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/json_text.h"
 #include "core/says.h"
+#include "report/sample_sweep.h"
 #include "report/sweep_files.h"
 #include "report/sweep_summary.h"
 
@@ -55,13 +55,6 @@ std::vector<truth::Record> Cell(bool sight, bool slip) {
 
 std::vector<std::vector<truth::Record>> FourCells() {
   return {Cell(false, false), Cell(false, true), Cell(true, false), Cell(true, true)};
-}
-
-std::vector<std::string> Lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 std::vector<SweepAttribution> Attributed(const scenario::Sweep& sweep,

@@ -8,10 +8,10 @@
 
 #include "core/count_of.h"
 #include "core/says.h"
-#include "report/measurement_text.h"
 #include "report/paired_comparison.h"
 #include "report/sample_run.h"
 #include "report/summary_json.h"
+#include "report/summary_text.h"
 #include "statistics/cell_summary.h"
 #include "truth/measured_schema.h"
 

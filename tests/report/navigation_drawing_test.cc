@@ -10,8 +10,8 @@
 
 #include "core/count_of.h"
 #include "core/says.h"
-#include "report/colour_ramp.h"
 #include "report/step_scene.h"
+#include "report/xml_text.h"
 
 namespace rockyard::report {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/json_text.h"
 #include "report/comparison_reference.h"
 #include "report/page_data.h"
-#include "report/sweep_curves.h"
+#include "report/sweep_summary.h"
 #include "sample_run.h"
 #include "sample_sweep.h"
 

@@ -9,7 +9,7 @@
 
 #include "core/count_of.h"
 #include "core/says.h"
-#include "report/csv.h"
+#include "report/result_table.h"
 #include "report/sample_run.h"
 #include "report/sample_sweep.h"
 #include "report/sweep_files.h"

@@ -8,7 +8,6 @@
 
 #include "core/count_of.h"
 #include "core/says.h"
-#include "report/trace_drawing.h"
 #include "report/trace_view.h"
 #include "sample_trace.h"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "campaign/output_folder.h"
+#include "core/json_value.h"
 #include "vision/calibration/calibrate.h"
 #include "vision/cameras/camera_model.h"
 
@@ -50,5 +51,15 @@ const std::filesystem::path& ImageOf(const CalibrateRequest& request,
 // before anything is written, for whatever is wrong with the input: everything that can be told at
 // once, such as all images without a board.
 CalibrateResult CalibrateCameras(const CalibrateRequest& request);
+
+// What came out of a calibration, for programs.
+
+// The file calibration.json: described in src/campaign/README.md.
+core::JsonValue CalibrateJson(const CalibrateRequest& request, const CalibrateResult& result);
+
+struct PredictedPixel {
+  vision::Pixel at;
+  double error_px = 0.0;
+};
 
 }  // namespace rockyard::campaign

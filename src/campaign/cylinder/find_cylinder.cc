@@ -1,3 +1,4 @@
+
 #include "campaign/cylinder/find_cylinder.h"
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "campaign/looks/picture_lines.h"
+#include "campaign/looks/look_pictures.h"
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_file.h"
@@ -20,7 +21,7 @@
 #include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 #include "math/angles.h"
-#include "report/json_members.h"
+#include "report/result_table.h"
 #include "vision/cameras/camera_file.h"
 #include "vision/cylinder/cylinder_equations.h"
 #include "vision/cylinder/published_finder.h"

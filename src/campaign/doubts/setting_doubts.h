@@ -2,12 +2,87 @@
 // physics.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
+#include "core/field_table.h"
 #include "scenario/scenario.h"
+#include "trial/counters/hazard_watch.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::campaign {
+
+// The settings of a drive by their paths, and what is doubted of them: for the rules of
+// setting_doubts.h.
+
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+class Values {
+ public:
+  // `scenario` outlives it.
+  explicit Values(const scenario::Scenario& scenario);
+  Values(const Values&) = delete;
+  Values& operator=(const Values&) = delete;
+
+  // A number, in the unit that ends its path's name. Throws std::logic_error where there is none.
+  double operator()(std::string_view path) const;
+  bool On(std::string_view path) const;
+  bool Is(std::string_view path, std::string_view name) const;
+  std::vector<std::int64_t> Integers(std::string_view path) const;
+  // Whether the parameter is there and false.
+  bool IsOff(const std::string& path) const;
+
+  double course_m() const;       // by all waypoints
+  std::string OfCourse() const;  // "a course of 7.6 m"
+  double front_m() const;        // of the rover, from its middle
+  bool Uses(std::string_view navigator) const;
+  bool SeesBy(std::string_view sensor) const;
+  bool HasRocks() const;
+  // Whether the terrain sensor is used: by the pathfinder for hazards, or for GESTALT's map.
+  bool Looks() const;
+  // The pathfinder has hazards of an array of elevations; what it does not see now it does not
+  // know.
+  bool DrivesByArray() const;
+  // The path of a parameter that GESTALT calls `gestalts`, the two others `key`.
+  std::string OfNavigator(std::string_view gestalts, std::string_view key) const;
+  // What the terrain sensor reports of, in R.
+  trial::Zone zone() const;
+
+  void Doubt(bool doubtful, std::string_view path, std::string reason, std::string_view right);
+  // "0.4 is little for a course of 7.6 m": where the value is below `low` or above `high`.
+  void Within(std::string_view path, double low, double high, std::string_view what,
+              std::string_view right);
+  void AtLeast(std::string_view path, double low, std::string_view what, std::string_view right);
+  void AtMost(std::string_view path, double high, std::string_view what, std::string_view right);
+  bool IsDoubted(std::string_view path) const;
+
+  const scenario::Scenario& whole;
+  const trial::DriveParams& drive;
+  const std::vector<core::ParameterInfo> parameters;
+  std::vector<core::Problem> doubts;
+
+ private:
+  const core::JsonValue& At(std::string_view path) const;
+
+  std::map<std::string, const core::JsonValue*, std::less<>> values_;
+};
+
+// The rules. Each asks only of what is chosen; its thresholds, assumptions all, stand where they
+// are applied.
+void DoubtTask(Values& s);     // goal, field, limits, and what all of the looks take
+void DoubtRover(Values& s);    // shape, masses, motors, steering, soil
+void DoubtSensing(Values& s);  // what is seen, in time and where the wheels go
+void DoubtGestalt(Values& s);  // the vehicle that it is told, map and paths
+void DoubtBelief(Values& s);   // gyro, filter, visual odometry, aids
+void DoubtMission(Values& s);  // what lander and sun give a rover for its goals
+void DoubtScenes(Values& s);   // of the detection of hazards
+void DoubtUnusual(Values& s);  // one by one: usual values, and studies' ranges
 
 // Each with the path of one of the settings, what is doubtful, and what would be right. The rules
 // ask only what the chosen navigator, sensor and estimator use; their thresholds, assumptions all,

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "campaign/doubts/setting_values.h"
+#include "campaign/doubts/setting_doubts.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -4,21 +4,83 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "campaign/looks/look_capture.h"
-#include "campaign/stereo/stereo_products.h"
+#include "campaign/stereo/match_pair.h"
 #include "image_files/float_files.h"
 #include "image_files/raw_image.h"
+#include "math/pose.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
+#include "perception/stereo_points.h"
+#include "replay/data.h"
+#include "trial/watchers.h"
+#include "vision/cameras/cahv.h"
+#include "vision/cameras/rectification.h"
 #include "vision/image.h"
 #include "vision/stereo/elevation_map.h"
+#include "vision/stereo/stereo_params.h"
 
 namespace rockyard::campaign {
+
+// Everything that can be shown of one look of stereo cameras, kept from the moment when it happens,
+// and what a replay page keeps of it.
+
+// See trial::WatchedStereo. 50 kB with images of 128 x 128 pixels, and the points.
+struct CapturedLook {
+  math::Transform X_WR = math::Transform::Identity();
+  perception::StereoSight sight;
+  vision::RectifiedPair pair;
+  vision::StereoPipelineParams matching;
+  messages::PointCloud cloud;
+};
+
+CapturedLook Capture(const trial::WatchedStereo& watched);
+
+// The looks on which the decisions of a navigator rest.
+class LookMemory {
+ public:
+  void Add(CapturedLook look);
+
+  // Of a decision that followed `cloud`: its look, and where that was a look behind the last one
+  // ahead before it; in the order in which they were taken. Forgets what came before.
+  std::vector<CapturedLook> LooksOf(const messages::PointCloud& cloud);
+
+ private:
+  std::vector<CapturedLook> looks_;
+};
+
+// Sides of its pictures are at most this long, px: larger images are reduced by powers of two.
+inline constexpr int kLargestRecordSide_px = 160;
+
+// The look at `time_s` with its pictures. Cost: some milliseconds.
+replay::ReplayLook LookRecord(const trial::WatchedStereo& watched, double time_s);
+
+// Pictures of pixels made larger, and lines on them.
+
+// Every pixel as a square of `factor` >= 1 pixels.
+image_files::Picture Enlarged(const image_files::Picture& picture, int factor);
+
+// The factor that makes the longer side at least 512 pixels long, or nearly: 1 for larger ones.
+int FactorToSee(int width, int height);
+
+// Pixels of the picture, (0, 0) in the middle of the first one.
+using PictureSegment = std::pair<vision::Pixel, vision::Pixel>;
+
+// The image of the line between two points in the camera's outer frame, where it is at least 0.05 m
+// in front of the camera's centre; nothing where none of it is.
+std::optional<PictureSegment> ImageOfLine(const vision::Cahv& camera, const math::Vector3& from_A,
+                                          const math::Vector3& to_A);
+
+// Draws what of the line lies within the picture, `width_px` >= 1 wide, to the right of it and
+// below. Its ends are finite.
+void DrawLine(const PictureSegment& line, const image_files::Rgb& colour, int width_px,
+              image_files::Picture& picture);
 
 // The grey of the left image under lines: neither as dark as the lower end of the ramp of colours
 // nor as light as its upper one.

@@ -1,3 +1,4 @@
+
 #include "campaign/odometry/estimate_path.h"
 
 #include <fmt/format.h>
@@ -8,9 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "campaign/odometry/image_sequence.h"
 #include "campaign/odometry/odometry_files.h"
-#include "campaign/odometry/odometry_picture.h"
 #include "campaign/odometry/pair_reader.h"
 #include "campaign/odometry/path_journal.h"
 #include "campaign/odometry/path_tracker.h"
@@ -21,7 +20,7 @@
 #include "core/hash.h"
 #include "core/json_file.h"
 #include "image_files/png_file.h"
-#include "report/json_members.h"
+#include "report/result_table.h"
 
 namespace rockyard::campaign {
 namespace {

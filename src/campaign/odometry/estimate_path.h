@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "campaign/outcome.h"
 #include "campaign/output_folder.h"
 #include "campaign/stop.h"
+#include "campaign/work.h"
 #include "core/fields.h"
 #include "math/pose.h"
 #include "vision/cameras/rectification.h"
@@ -31,7 +31,7 @@ enum class Prediction {
 };
 
 struct OdometryRequest {
-  std::filesystem::path sequence;  // image_sequence.h
+  std::filesystem::path sequence;  // pair_reader.h
   std::filesystem::path cameras;   // of both images; empty: the calib.txt of the sequence
   std::filesystem::path out;       // a folder, which is made
   ExistingFiles existing = ExistingFiles::kRefuse;

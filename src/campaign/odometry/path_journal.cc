@@ -1,3 +1,4 @@
+
 #include "campaign/odometry/path_journal.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json_text.h"
-#include "report/json_members.h"
+#include "report/result_table.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "campaign/odometry/estimate_path.h"
-#include "campaign/odometry/image_sequence.h"
+#include "campaign/odometry/pair_reader.h"
 #include "vision/odometry/odometer.h"
 
 namespace rockyard::campaign {

@@ -1,3 +1,4 @@
+
 #include "campaign/odometry/render_sequence.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 #include "core/hash.h"
 #include "core/json_text.h"
 #include "image_files/png_file.h"
-#include "report/json_members.h"
+#include "report/result_table.h"
 #include "scenario/load.h"
 #include "sensing/stereo_imager.h"
 #include "trial/course/route_planner.h"

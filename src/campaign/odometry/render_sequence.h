@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "campaign/outcome.h"
 #include "campaign/output_folder.h"
 #include "campaign/stereo/render_pair.h"
 #include "campaign/stop.h"
+#include "campaign/work.h"
 #include "math/angles.h"
 #include "math/pose.h"
 #include "messages/estimates.h"

@@ -2,6 +2,7 @@
 // 2002 section 2).
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -10,12 +11,41 @@
 
 #include "campaign/output_folder.h"
 #include "core/json_value.h"
+#include "image_files/float_files.h"
+#include "image_files/raw_image.h"
 #include "vision/cameras/rectification.h"
+#include "vision/image.h"
 #include "vision/stereo/disparity.h"
+#include "vision/stereo/elevation_map.h"
 #include "vision/stereo/row_alignment.h"
 #include "vision/stereo/stereo_params.h"
 
 namespace rockyard::campaign {
+
+// What can be made of disparities: numbers, points, a map, pictures.
+
+// Yellow is near, violet far, over the range that was searched; dropped pixels are black.
+image_files::Picture DisparityPicture(const vision::DisparityImage& disparities,
+                                      const vision::CorrelatorParams& range);
+
+// The points of all pixels with a disparity above zero, in the cameras' outer frame, with the grey
+// of the left image.
+std::vector<image_files::ColouredPoint> PointsOf(const vision::DisparityImage& disparities,
+                                                 const vision::GrayImage& left,
+                                                 const vision::RectifiedPair& cameras);
+
+// The middle 98 % of the heights, m; nothing where no height is known.
+struct HeightSpan {
+  double low_m = 0.0;
+  double high_m = 0.0;
+};
+std::optional<HeightSpan> HeightSpanOf(const vision::Image<float>& heights_m);
+
+// The colour of a height: violet at the lower end of the span, yellow at the upper one.
+image_files::Rgb HeightColour(double height_m, const HeightSpan& span);
+
+// These colours over HeightSpanOf; cells without a point are black.
+image_files::Picture ElevationPicture(const vision::Image<float>& heights_m);
 
 struct StereoRequest {
   std::filesystem::path left;

@@ -1,3 +1,4 @@
+
 #include "campaign/stereo/render_pair.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <string_view>
 
 #include "campaign/run_source.h"
-#include "campaign/stereo/stereo_products.h"
+#include "campaign/stereo/match_pair.h"
 #include "core/json_text.h"
 #include "image_files/float_files.h"
 #include "image_files/png_file.h"

@@ -1,5 +1,7 @@
+
 #include "experiments/cylinder_sighting/cylinder_sighting.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,8 +10,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "experiments/cylinder_sighting/sighting_sums.h"
-#include "experiments/record_of.h"
+#include "experiments/cell_experiment.h"
 #include "math/angles.h"
 #include "rendering/cylinder/colour_readout.h"
 #include "rendering/cylinder/cylinder_renderer.h"
@@ -18,57 +19,6 @@
 
 namespace rockyard::experiments {
 namespace {
-
-using enum truth::ColumnRole;
-
-void AddFinder(const std::string& finder, const std::string& called, truth::ColumnRole found_role,
-               truth::RecordSchema& columns) {
-  const std::string found = finder + "_found";
-  const std::string right = finder + "_right";
-  columns.push_back({found, "1", "of these, with a pose by " + called, found_role, "measurements"});
-  columns.push_back({finder + "_wrong", "1",
-                     "of these, off by more than 3 of its own standard deviations and more than "
-                     "10 deg or 10 %, or without a cylinder in view",
-                     kCount, found});
-  columns.push_back({right, "1", "of these, not wrong", kCount, found});
-  for (std::size_t i = 1; i < kCylinderMisses; ++i) {
-    const std::string reason(core::EnumNames<vision::CylinderMiss>::kNames[i]);
-    std::string name = finder + "_";
-    name += reason;
-    columns.push_back(
-        {name, "1", "without a pose, for the reason " + reason, kCount, "measurements"});
-  }
-  const auto error = [&](const std::string& name, const std::string& suffix,
-                         const std::string& unit, const std::string& meaning,
-                         const std::string& of) {
-    columns.push_back({finder + "_" + name + "_bias" + suffix, unit, meaning, kSum, of});
-    columns.push_back({finder + "_" + name + "_error" + suffix, unit, meaning, kSquares, of});
-  };
-  error("orientation", "_deg", "deg", "measured less true orientation, wrong ones too", found);
-  error("stereo", "", "1", "depth by stereo over the true one, less 1, wrong ones too", found);
-  error("size", "", "1", "depth by size over the true one, less 1, wrong ones too", found);
-  error("right_orientation", "_deg", "deg", "measured less true orientation", right);
-  error("right_range", "", "1", "range along the ground over the true one, less 1", right);
-  error("right_bearing", "_mrad", "mrad", "measured less true bearing", right);
-  columns.push_back({finder + "_nees", "1",
-                     "squared error of place and orientation in units of the stated covariance: 4 "
-                     "on average where that is right",
-                     kSum, right});
-}
-
-truth::RecordSchema MakeSightingColumns() {
-  truth::RecordSchema columns{
-      {"distance_m", "m", "from the cameras' centre of rotation along the ground", kFactor},
-      {"orientation_deg", "deg", "theta: azimuth of the cameras in the cylinder's frame", kFactor},
-      {"sun_elevation_deg", "deg", "of picture.light", kFactor},
-      {"clutter_level", "1", "factor of the numbers of picture.clutter", kFactor},
-      {"third_colour", "1", "0 orange, 1 green", kFactor},
-      {"measurements", "1", "pairs of images", kTrials},
-  };
-  AddFinder("published", "the published finder", kMainCount, columns);
-  AddFinder("robust", "rockyard's own finder", kCount, columns);
-  return columns;
-}
 
 using core::SampleUniform;
 using rendering::CylinderPictureParams;
@@ -116,14 +66,19 @@ CylinderTruth TruthOf(const StudiedView& studied, const vision::Cahv& left) {
 }  // namespace
 
 const truth::RecordSchema& CylinderSightingColumns() {
-  static const truth::RecordSchema kColumns = MakeSightingColumns();
+  using enum truth::ColumnRole;
+  static const truth::RecordSchema kColumns = ColumnsOf<SightingSums>({
+      {"distance_m", "m", "from the cameras' centre of rotation along the ground", kFactor},
+      {"orientation_deg", "deg", "theta: azimuth of the cameras in the cylinder's frame", kFactor},
+      {"sun_elevation_deg", "deg", "of picture.light", kFactor},
+      {"clutter_level", "1", "factor of the numbers of picture.clutter", kFactor},
+      {"third_colour", "1", "0 orange, 1 green", kFactor},
+  });
   return kColumns;
 }
 
 CylinderSightingExperiment::CylinderSightingExperiment(const CylinderSightingParams& params)
-    : params_(params),
-      table_(params.Factors()),
-      schema_(CellSchema<SightingSums>(CylinderSightingColumns(), table_)) {}
+    : CellExperiment(params.Factors(), CylinderSightingColumns()), params_(params) {}
 
 StudiedView CylinderSightingExperiment::Draw(std::size_t cell, core::TrialKey key) const {
   StudiedView studied{params_.picture, {}, params_.published, params_.robust};
@@ -134,8 +89,8 @@ StudiedView CylinderSightingExperiment::Draw(std::size_t cell, core::TrialKey ke
   if (params_.any_sun_azimuth) studied.picture.light.azimuth_rad = azimuth_rad;
   studied.view.bearing_rad = params_.largest_bearing_rad * SampleUniform(stream, -1.0, 1.0);
   const double spread = params_.distance_spread * SampleUniform(stream, -1.0, 1.0);
-  const std::vector<double> values = table_.Values(cell);
-  const std::vector<std::string_view> names = table_.columns();
+  const std::vector<double> values = table().Values(cell);
+  const std::vector<std::string_view> names = table().columns();
   for (std::size_t i = 0; i < names.size(); ++i) SetFactor(names[i], values[i], studied);
   studied.view.distance_m *= 1.0 + spread;
   if (studied.picture.target.third_colour == rendering::ThirdColour::kGreen) {
@@ -147,7 +102,8 @@ StudiedView CylinderSightingExperiment::Draw(std::size_t cell, core::TrialKey ke
   return studied;
 }
 
-SightingSums CylinderSightingExperiment::Measure(std::size_t cell, core::TrialKey key) const {
+std::vector<double> CylinderSightingExperiment::Measure(std::size_t cell,
+                                                        core::TrialKey key) const {
   SightingSums sums;
   for (std::int64_t i = 0; i < params_.views_per_run; ++i) {
     const core::TrialKey scene = SceneKey(key, params_.views_per_run, i);
@@ -171,14 +127,56 @@ SightingSums CylinderSightingExperiment::Measure(std::size_t cell, core::TrialKe
       JudgeSighting(truth, vision::FindCylinder(pair, shape, studied.robust), sums.robust);
     }
   }
-  return sums;
+  return ValuesOf(sums);
 }
 
-truth::Record CylinderSightingExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  return RecordOf(seed, index, [&](const core::TrialKey& key) {
-    const std::size_t cell = index % table_.size();
-    return CellRecord(index, cell, table_.Values(cell), Measure(cell, key));
-  });
+namespace {
+
+constexpr double kWrongDeviations = 3.0;
+constexpr double kWrongTurn_rad = math::DegToRad(10.0);
+constexpr double kWrongShare = 0.10;
+
+bool IsOff(double error, double deviation, double least) {
+  return std::abs(error) > least && std::abs(error) > kWrongDeviations * deviation;
+}
+
+}  // namespace
+
+void JudgeSighting(const CylinderTruth& truth, const vision::CylinderFinding& finding,
+                   FinderSums& sums) {
+  if (!finding.sighting) {
+    sums.misses[static_cast<std::size_t>(finding.miss)] += 1.0;
+    return;
+  }
+  const vision::CylinderSighting& seen = *finding.sighting;
+  sums.found += 1.0;
+  if (!truth.present) {
+    sums.wrong += 1.0;
+    return;
+  }
+  const double turn_rad = math::WrapAngle(seen.orientation_rad - truth.orientation_rad);
+  const double true_range_m = truth.p_LT_L.head<2>().norm();
+  const double range = seen.p_LT_L.head<2>().norm() / true_range_m - 1.0;
+  const Eigen::Vector2d along = truth.p_LT_L.head<2>() / true_range_m;
+  const double range_sd =
+      std::sqrt(along.dot(seen.covariance.topLeftCorner<2, 2>() * along)) / true_range_m;
+  sums.orientation_deg.Add(math::RadToDeg(turn_rad));
+  sums.stereo.Add(seen.distance_by_stereo_m / truth.depth_m - 1.0);
+  sums.size.Add(seen.distance_by_size_m / truth.depth_m - 1.0);
+  if (IsOff(turn_rad, std::sqrt(seen.covariance(3, 3)), kWrongTurn_rad) ||
+      IsOff(range, range_sd, kWrongShare)) {
+    sums.wrong += 1.0;
+    return;
+  }
+  sums.right += 1.0;
+  sums.right_orientation_deg.Add(math::RadToDeg(turn_rad));
+  sums.right_range.Add(range);
+  const double bearing_rad = math::WrapAngle(std::atan2(seen.p_LT_L.y(), seen.p_LT_L.x()) -
+                                             std::atan2(truth.p_LT_L.y(), truth.p_LT_L.x()));
+  sums.right_bearing_mrad.Add(1e3 * bearing_rad);
+  Eigen::Vector4d error;
+  error << seen.p_LT_L - truth.p_LT_L, turn_rad;
+  sums.nees += error.dot(seen.covariance.ldlt().solve(error));
 }
 
 }  // namespace rockyard::experiments

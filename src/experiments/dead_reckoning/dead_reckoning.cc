@@ -1,45 +1,19 @@
+
 #include "experiments/dead_reckoning/dead_reckoning.h"
 
 #include <cmath>
 #include <string>
 
 #include "core/check.h"
-#include "experiments/record_of.h"
+#include "core/random.h"
+#include "experiments/cell_experiment.h"
+#include "localization/dead_reckoning.h"
 #include "math/angles.h"
+#include "messages/measurements.h"
 #include "trial/eyes/onboard_calibration.h"
 
 namespace rockyard::experiments {
 namespace {
-
-using enum truth::ColumnRole;
-
-void AddError(const std::string& name, const std::string& unit, const std::string& meaning,
-              truth::RecordSchema& columns) {
-  columns.push_back({name + "_bias_" + unit, unit, meaning, kSum, "walks"});
-  columns.push_back({name + "_error_" + unit, unit, meaning, kSquares, "walks"});
-  columns.push_back({name + "_deviation_" + unit, unit,
-                     "standard deviation within the run, times its walks: " + meaning, kSum,
-                     "walks"});
-}
-
-truth::RecordSchema MakeWalkColumns() {
-  truth::RecordSchema columns{
-      {"distance_m", "m", "length of a walk; it has the nearest number of whole steps", kFactor},
-      {"heading_variance_deg2_per_m", "deg2/m", "of the heading, in driving", kFactor},
-      {"distance_variance_m2_per_m", "m2/m", "of the distance", kFactor},
-      {"scale_deviation", "1", "of a scale error that a walk keeps", kFactor},
-      {"rest_s", "s", "time at rest after a step, in which the heading's noise goes on", kFactor},
-      {"walks", "1", "walks, independent of one another", kTrials},
-      {"way_m", "m", "true way of all walks", kBase},
-      {"within_reach", "1", "walks that end within reach_m of where the rover believes to be",
-       kMainCount, "walks"},
-  };
-  AddError("along", "m", "believed less true place, in the direction of the start", columns);
-  AddError("across", "m", "believed less true place, to the left of it", columns);
-  AddError("heading", "deg", "believed less true heading, within half a turn", columns);
-  AddError("distance", "m", "odometer less true distance", columns);
-  return columns;
-}
 
 WalkingRover RoverOf(const trial::DriveParams& drive) {
   return {
@@ -51,7 +25,14 @@ WalkingRover RoverOf(const trial::DriveParams& drive) {
 }  // namespace
 
 const truth::RecordSchema& DeadReckoningColumns() {
-  static const truth::RecordSchema kColumns = MakeWalkColumns();
+  using enum truth::ColumnRole;
+  static const truth::RecordSchema kColumns = ColumnsOf<WalkSums>({
+      {"distance_m", "m", "length of a walk; it has the nearest number of whole steps", kFactor},
+      {"heading_variance_deg2_per_m", "deg2/m", "of the heading, in driving", kFactor},
+      {"distance_variance_m2_per_m", "m2/m", "of the distance", kFactor},
+      {"scale_deviation", "1", "of a scale error that a walk keeps", kFactor},
+      {"rest_s", "s", "time at rest after a step, in which the heading's noise goes on", kFactor},
+  });
   return kColumns;
 }
 
@@ -76,12 +57,12 @@ WalkPlan PlanOf(const DeadReckoningWalkParams& params, const std::vector<double>
 
 DeadReckoningExperiment::DeadReckoningExperiment(const DeadReckoningWalkParams& params,
                                                  const trial::DriveParams& drive)
-    : params_(params),
-      table_(params.Factors()),
-      rover_(RoverOf(drive)),
-      schema_(CellSchema<WalkSums>(DeadReckoningColumns(), table_)) {}
+    : CellExperiment(params.Factors(), DeadReckoningColumns()),
+      params_(params),
+      rover_(RoverOf(drive)) {}
 
-WalkSums DeadReckoningExperiment::Measure(const WalkPlan& plan, core::TrialKey key) const {
+std::vector<double> DeadReckoningExperiment::Measure(std::size_t cell, core::TrialKey key) const {
+  const WalkPlan plan = PlanOf(params_, table().Values(cell));
   std::vector<WalkError> errors;
   errors.reserve(static_cast<std::size_t>(params_.walks_per_run));
   WalkSums sums;
@@ -96,15 +77,45 @@ WalkSums DeadReckoningExperiment::Measure(const WalkPlan& plan, core::TrialKey k
   sums.across_m = SumsOf(errors, &WalkError::across_m);
   sums.heading_deg = SumsOf(errors, &WalkError::heading_deg);
   sums.distance_m = SumsOf(errors, &WalkError::distance_m);
-  return sums;
+  return ValuesOf(sums);
 }
 
-truth::Record DeadReckoningExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  return RecordOf(seed, index, [&](const core::TrialKey& key) {
-    const std::size_t number = index % table_.size();
-    const std::vector<double> factors = table_.Values(number);
-    return CellRecord(index, number, factors, Measure(PlanOf(params_, factors), key));
-  });
+namespace {
+
+// What wheels and gyro measure of `way_m`: the wheels roll 1 / distance_scale as far, as slip on
+// level sand makes them.
+messages::MotionMeasurement Measured(const WalkingRover& rover, double way_m, double turn_rad,
+                                     double duration_s) {
+  messages::MotionMeasurement motion;
+  motion.duration_s = duration_s;
+  motion.turn_rad = turn_rad;
+  const double rolled_m = way_m / rover.dead_reckoning.distance_scale;
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    motion.wheel_turn_rad[wheel] =
+        rolled_m / (rover.wheels.wheel_radius_m * rover.wheels.radius_ratio[wheel]);
+  }
+  return motion;
+}
+
+}  // namespace
+
+WalkError WalkStraight(const WalkingRover& rover, const WalkPlan& plan, core::TrialKey key) {
+  core::RandomStream noise(key, core::Purpose::kExperiment);
+  localization::DeadReckoning reckoning(rover.believed, rover.dead_reckoning, math::Pose2{});
+  const double scale = 1.0 + core::SampleNormal(noise, 0.0, plan.scale_deviation);
+  for (std::int64_t step = 0; step < plan.steps; ++step) {
+    const double way_m =
+        plan.step_m * scale + core::SampleNormal(noise, 0.0, plan.noise.distance_deviation_m);
+    const double turn_rad = core::SampleNormal(noise, 0.0, plan.noise.turn_deviation_rad);
+    reckoning.Integrate(Measured(rover, way_m, turn_rad, plan.step_s));
+    if (plan.rest_s > 0.0) {
+      const double rest_rad = core::SampleNormal(noise, 0.0, plan.noise.rest_turn_deviation_rad);
+      reckoning.Integrate(Measured(rover, 0.0, rest_rad, plan.rest_s));
+    }
+  }
+  const messages::PoseEstimate& end = reckoning.estimate();
+  const double true_m = static_cast<double>(plan.steps) * plan.step_m;
+  return {end.x_m - true_m, end.y_m, math::RadToDeg(end.heading_rad), end.distance_m - true_m};
 }
 
 }  // namespace rockyard::experiments

@@ -1,3 +1,4 @@
+
 #include "experiments/designation/designation.h"
 
 #include <cmath>
@@ -5,9 +6,7 @@
 #include <numbers>
 
 #include "core/random.h"
-#include "experiments/record_of.h"
 #include "trial/course/goal_designation.h"
-#include "truth/measurement_record.h"
 #include "vision/cameras/rectification.h"
 
 namespace rockyard::experiments {
@@ -165,11 +164,10 @@ LanderCameras CamerasOf(const DesignationStudyParams& study,
 
 DesignationExperiment::DesignationExperiment(const DesignationStudyParams& params,
                                              const trial::CourseParams& course)
-    : params_(params),
+    : CellExperiment(params.Factors(), DesignationColumns()),
+      params_(params),
       course_(course),
-      cameras_(CamerasOf(params, course.designation)),
-      table_(params.Factors()),
-      schema_(truth::MeasurementSchema(DesignationColumns())) {}
+      cameras_(CamerasOf(params, course.designation)) {}
 
 trial::CourseParams DesignationExperiment::CourseOf(double range_m) const {
   trial::CourseParams course = course_;
@@ -184,7 +182,8 @@ trial::CourseParams DesignationExperiment::CourseOf(double range_m) const {
   return course;
 }
 
-DesignationSums DesignationExperiment::Measure(double range_m, core::TrialKey key) const {
+std::vector<double> DesignationExperiment::Measure(std::size_t cell, core::TrialKey key) const {
+  const double range_m = table().Values(cell).front();
   const Vector3 p_goal_L(range_m, 0.0, params_.goal_height_m);
   const LanderPair pair(cameras_, p_goal_L);
   const trial::CourseParams course = CourseOf(range_m);
@@ -203,19 +202,7 @@ DesignationSums DesignationExperiment::Measure(double range_m, core::TrialKey ke
     AddPlace(*place - p_goal_L, sums);
     AddPanned(Panned(*place, errors.pan_rad) - p_goal_L, params_.near_enough_m, sums);
   }
-  return sums;
-}
-
-truth::Record DesignationExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  return RecordOf(seed, index, [&](const core::TrialKey& key) {
-    const std::size_t cell = index % table_.size();
-    const double range_m = table_.Values(cell).front();
-    const DesignationSums sums = Measure(range_m, key);
-    truth::Record record{
-        index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(cell), range_m}};
-    for (const double sum : sums.values()) record.values.push_back(sum);
-    return record;
-  });
+  return {sums.values().begin(), sums.values().end()};
 }
 
 }  // namespace rockyard::experiments

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "core/random.h"
-#include "experiments/cell_table.h"
+#include "experiments/cell_experiment.h"
 #include "experiments/designation/designation_study_params.h"
 #include "experiments/experiment.h"
 #include "math/pose.h"
@@ -107,26 +107,21 @@ class DesignationSums {
 // holds, in its order.
 const truth::RecordSchema& DesignationColumns();
 
-class DesignationExperiment final : public Experiment {
+class DesignationExperiment final : public CellExperiment {
  public:
-  // `course` holds the errors (course.designation).
+  // `course` holds the errors (course.designation). Cost: below 1 us a designation. Randomness:
+  // kExperiment, and kGoalDesignation for the errors that course.designation draws, under a key of
+  // each designation.
   DesignationExperiment(const DesignationStudyParams& params, const trial::CourseParams& course);
-
-  const truth::RecordSchema& schema() const override { return schema_; }
-  // Cost: below 1 us a designation. Randomness: kExperiment, and kGoalDesignation for the errors
-  // that course.designation draws, under a key of each designation.
-  truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
 
  private:
   // The course with its start under the mast and its goal at that range.
   trial::CourseParams CourseOf(double range_m) const;
-  DesignationSums Measure(double range_m, core::TrialKey key) const;
+  std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override;
 
   DesignationStudyParams params_;
   trial::CourseParams course_;
   LanderCameras cameras_;
-  CellTable table_;
-  truth::RecordSchema schema_;
 };
 
 // The cameras that a scenario gives the lander.

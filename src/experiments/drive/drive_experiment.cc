@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "experiments/record_of.h"
+#include "experiments/cell_experiment.h"
 #include "trial/run_trial.h"
 
 namespace rockyard::experiments {

@@ -1,11 +1,21 @@
 // Study "false_alarm": flat sand, no rock.
-#include <cstdint>
 
-#include "experiments/cell_table.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/random.h"
+#include "experiments/cell_experiment.h"
+#include "experiments/hazard_detection/hazard_detection.h"
 #include "experiments/hazard_detection/hazard_judge.h"
-#include "experiments/hazard_detection/hazard_study.h"
-#include "experiments/record_of.h"
 #include "perception/hazard_detector.h"
+#include "terrain/blind_swath.h"
+#include "terrain/field.h"
+#include "terrain/terrain.h"
+#include "trial/course/layout.h"
 
 namespace rockyard::experiments {
 namespace {
@@ -29,21 +39,19 @@ trial::DriveParams WithFactors(trial::DriveParams drive, const CellTable& table,
   return drive;
 }
 
-class AlarmStudy final : public HazardStudyRunner {
+class AlarmStudy final : public CellExperiment {
  public:
   AlarmStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
              const trial::ScanWatcher& watcher)
-      : scenes_(params.scenes_per_run) {
-    const CellTable table(params.Factors());
-    for (std::size_t cell = 0; cell < table.size(); ++cell) {
-      judges_.emplace_back(WithFactors(drive, table, cell), watcher);
+      : CellExperiment(params.Factors(), HazardColumns(),
+                       {"scenes", "scans", "alarm_single", "alarm_pair", "alarm_believed"}),
+        scenes_(params.scenes_per_run) {
+    for (std::size_t cell = 0; cell < table().size(); ++cell) {
+      judges_.emplace_back(WithFactors(drive, table(), cell), watcher);
     }
   }
 
-  std::vector<std::string_view> columns() const override {
-    return {"scenes", "scans", "alarm_single", "alarm_pair", "alarm_believed"};
-  }
-
+ private:
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
     const HazardJudge& judge = judges_[cell];
     std::vector<double> sums(5, 0.0);
@@ -53,7 +61,6 @@ class AlarmStudy final : public HazardStudyRunner {
     return sums;
   }
 
- private:
   void AddScene(const HazardJudge& judge, core::TrialKey key, std::vector<double>& sums) const {
     const math::Transform X_WR = math::Transform::Identity();
     const messages::ElevationScan first = judge.Scan(sand_, X_WR, key, 0);
@@ -80,10 +87,160 @@ class AlarmStudy final : public HazardStudyRunner {
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakeAlarmStudy(const HazardDetectionParams& params,
-                                                  const trial::DriveParams& drive,
-                                                  const trial::ScanWatcher& watcher) {
+std::unique_ptr<Experiment> MakeAlarmStudy(const HazardDetectionParams& params,
+                                           const trial::DriveParams& drive,
+                                           const trial::ScanWatcher& watcher) {
   return std::make_unique<AlarmStudy>(params, drive, watcher);
+}
+
+// Study "missed": hazards on straight drives through random fields.
+
+namespace {
+
+using math::Vector3;
+using trial::DriveParams;
+
+// A rock in the way.
+struct Hazard {
+  double contact_x_m;        // of the rover's front
+  terrain::Terrain without;  // the same field without this rock
+  terrain::Terrain alone;    // this rock on bare sand
+  bool seen_single = false;
+  bool seen_double = false;
+};
+
+class FieldStudy final : public CellExperiment {
+ public:
+  FieldStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
+             const trial::ScanWatcher& watcher)
+      : CellExperiment(params.Factors(), HazardColumns(),
+                       {"scenes", "path_m", "hazards", "missed_single", "missed"}),
+        drive_(drive),
+        params_(params),
+        judge_(drive, watcher),
+        bare_judge_(drive) {}
+
+ private:
+  std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
+    terrain::TerrainParams terrain = drive_.terrain;
+    terrain.rocks.k_per_m2 = table().Values(cell)[0];
+    std::vector<double> sums(5, 0.0);
+    for (std::int64_t scene = 0; scene < params_.scenes_per_run; ++scene) {
+      AddDrive(terrain, SceneKey(key, params_.scenes_per_run, scene), sums);
+    }
+    return sums;
+  }
+
+  void AddDrive(const terrain::TerrainParams& terrain, core::TrialKey key,
+                std::vector<double>& sums) const {
+    const trial::CourseParams& course = drive_.course;
+    const terrain::Field field = terrain::BuildField(terrain, key, trial::TerrainCourse(course));
+    std::vector<Hazard> hazards = HazardsIn(field.terrain);
+    core::RandomStream phase(key, core::Purpose::kScenePhase);
+    const double start_x_m = course.start_x_m + params_.scan_interval_m * phase.Uniform();
+    const auto poses = static_cast<std::int64_t>(
+        std::floor((course.goal_x_m - start_x_m) / params_.scan_interval_m));
+    // Scans are numbered one after the other, as in the closed loop: what a point keeps from scan
+    // to scan passes from pose to pose. Poses with nothing to see count as the one scan that they
+    // take without an alarm.
+    std::int64_t scan_number = 0;
+    for (std::int64_t pose = 0; pose <= poses; ++pose) {
+      const double x_m = start_x_m + static_cast<double>(pose) * params_.scan_interval_m;
+      scan_number +=
+          Needed(hazards, x_m) ? LookFrom(x_m, field.terrain, key, scan_number, hazards) : 1;
+    }
+    sums[0] += 1.0;
+    sums[1] += course.goal_x_m - course.start_x_m - Unseen_m();
+    sums[2] += static_cast<double>(hazards.size());
+    for (const Hazard& hazard : hazards) {
+      sums[3] += hazard.seen_single ? 0.0 : 1.0;
+      sums[4] += hazard.seen_double ? 0.0 : 1.0;
+    }
+  }
+
+  // At the start, where a hazard would be met before it could be scanned from first_scan_m on.
+  double Unseen_m() const { return params_.first_scan_m + params_.scan_interval_m; }
+
+  double front_m() const { return drive_.sensors.light_stripe.front_x_m; }
+
+  // High enough rocks whose outline meets the path swept by the rover, far enough from the start to
+  // be scanned from first_scan_m on, and met before the goal.
+  std::vector<Hazard> HazardsIn(const terrain::Terrain& field) const {
+    const trial::CourseParams& course = drive_.course;
+    const double half_m = 0.5 * drive_.rover.geometry.width_m;
+    std::vector<Hazard> hazards;
+    for (const terrain::Rock& rock : field.rocks()) {
+      if (rock.height_m < params_.hazard_height_m) continue;
+      const auto contact_x_m = terrain::FirstContact(rock, course.start_y_m, half_m);
+      if (!contact_x_m) continue;
+      const double driven_m = *contact_x_m - front_m() - course.start_x_m;
+      if (driven_m < Unseen_m()) continue;
+      if (driven_m > course.goal_x_m - course.start_x_m) continue;
+      hazards.push_back({*contact_x_m, Without(field, rock), {terrain::Ground(), {rock}, {}}});
+    }
+    return hazards;
+  }
+
+  static terrain::Terrain Without(const terrain::Terrain& field, const terrain::Rock& rock) {
+    std::vector<terrain::Rock> others;
+    for (const terrain::Rock& other : field.rocks()) {
+      if (&other != &rock) others.push_back(other);
+    }
+    const auto walls = field.walls();
+    return {field.ground(), std::move(others), {walls.begin(), walls.end()}};
+  }
+
+  bool Near(const Hazard& hazard, double x_m) const {
+    const double gap_m = hazard.contact_x_m - front_m() - x_m;
+    return gap_m >= 0.0 && gap_m <= params_.first_scan_m;
+  }
+
+  bool Needed(const std::vector<Hazard>& hazards, double x_m) const {
+    return std::any_of(hazards.begin(), hazards.end(), [&](const Hazard& hazard) {
+      return Near(hazard, x_m) && !(hazard.seen_single && hazard.seen_double);
+    });
+  }
+
+  // Whether a stripe that is charged is charged for this rock, all noise being the same: it would
+  // not be without the rock, or the rock would do it by itself on bare sand.
+  static bool IsDueTo(bool without, bool alone, bool sand) { return !without || (alone && !sand); }
+
+  // Returns the number of scans.
+  std::int64_t LookFrom(double x_m, const terrain::Terrain& field, core::TrialKey key,
+                        std::int64_t first_scan, std::vector<Hazard>& hazards) const {
+    math::Transform X_WR = math::Transform::Identity();
+    X_WR.translation() = Vector3(x_m, drive_.course.start_y_m, 0.0);
+    const Percept seen = judge_.Look(field, X_WR, key, first_scan);
+    const Percept sand = bare_judge_.Look(sand_, X_WR, key, first_scan);
+    for (Hazard& hazard : hazards) {
+      if (!Near(hazard, x_m) || (hazard.seen_single && hazard.seen_double)) continue;
+      const Percept without = bare_judge_.Look(hazard.without, X_WR, key, first_scan);
+      const Percept alone = bare_judge_.Look(hazard.alone, X_WR, key, first_scan);
+      for (std::size_t stripe = 0; stripe < judge_.stripes(); ++stripe) {
+        hazard.seen_single |= seen.first.Charges(stripe) &&
+                              IsDueTo(without.first.Charges(stripe), alone.first.Charges(stripe),
+                                      sand.first.Charges(stripe));
+        hazard.seen_double |=
+            seen.believed[stripe] &&
+            IsDueTo(without.believed[stripe], alone.believed[stripe], sand.believed[stripe]);
+      }
+    }
+    return seen.scans;
+  }
+
+  DriveParams drive_;
+  HazardDetectionParams params_;
+  HazardJudge judge_;
+  HazardJudge bare_judge_;
+  terrain::Terrain sand_{terrain::Ground(), {}, {}};
+};
+
+}  // namespace
+
+std::unique_ptr<Experiment> MakeMissedStudy(const HazardDetectionParams& params,
+                                            const trial::DriveParams& drive,
+                                            const trial::ScanWatcher& watcher) {
+  return std::make_unique<FieldStudy>(params, drive, watcher);
 }
 
 }  // namespace rockyard::experiments

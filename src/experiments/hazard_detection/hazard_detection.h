@@ -7,32 +7,44 @@
 
 #include <memory>
 
-#include "experiments/cell_table.h"
 #include "experiments/experiment.h"
-#include "experiments/hazard_detection/hazard_study.h"
+#include "experiments/hazard_detection/hazard_detection_params.h"
 #include "trial/drive_params.h"
+#include "trial/watchers.h"
 #include "truth/record.h"
 
 namespace rockyard::experiments {
 
 // Every column of any study but the number of the cell: first the factors that name a cell, then
-// the bases, and counts and sums of these. A study takes those that it measures
-// (HazardStudyRunner::columns), and its factors those of their lists (CellFactor::column).
+// the bases, and counts and sums of these. A study takes those that it measures, and its factors
+// those of their lists (CellFactor::column).
 const truth::RecordSchema& HazardColumns();
 
-class HazardDetectionExperiment final : public Experiment {
- public:
-  explicit HazardDetectionExperiment(const HazardDetectionParams& params,
-                                     const trial::DriveParams& drive,
-                                     const trial::ScanWatcher& watcher = {});
+// What hazard_detection.scenes_per_run scenes of one cell count. Draws from the sensor's streams
+// and from kSceneRock, kScenePlacement and kScenePhase under the key of each scene. The watcher
+// sees the scans of the scenes, not those of bare sand that they are compared with. Scan numbers
+// begin at 0 in every scene and count on from pose to pose.
+std::unique_ptr<Experiment> MakeHazardDetection(const HazardDetectionParams& params,
+                                                const trial::DriveParams& drive,
+                                                const trial::ScanWatcher& watcher = {});
 
-  const truth::RecordSchema& schema() const override { return schema_; }
-  truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
-
- private:
-  CellTable table_;
-  std::unique_ptr<HazardStudyRunner> study_;
-  truth::RecordSchema schema_;
-};
+// Its studies. rock_studies.cc: one rock, seen from where the rover stands, or on the way past it.
+std::unique_ptr<Experiment> MakeDetectionStudy(const HazardDetectionParams& params,
+                                               const trial::DriveParams& drive,
+                                               const trial::ScanWatcher& watcher);
+std::unique_ptr<Experiment> MakeApproachStudy(const HazardDetectionParams& params,
+                                              const trial::DriveParams& drive,
+                                              const trial::ScanWatcher& watcher);
+// alarm_study.cc: flat sand; hazards in random fields.
+std::unique_ptr<Experiment> MakeAlarmStudy(const HazardDetectionParams& params,
+                                           const trial::DriveParams& drive,
+                                           const trial::ScanWatcher& watcher);
+std::unique_ptr<Experiment> MakeMissedStudy(const HazardDetectionParams& params,
+                                            const trial::DriveParams& drive,
+                                            const trial::ScanWatcher& watcher);
+// plane_study.cc: a plane at known heights.
+std::unique_ptr<Experiment> MakePrecisionStudy(const HazardDetectionParams& params,
+                                               const trial::DriveParams& drive,
+                                               const trial::ScanWatcher& watcher);
 
 }  // namespace rockyard::experiments

@@ -5,11 +5,14 @@
 #include <cstdint>
 
 #include "core/random.h"
+#include "experiments/hazard_detection/hazard_detection_params.h"
 #include "math/pose.h"
 #include "messages/estimates.h"
 #include "perception/hazard_detector.h"
 #include "perception/hazard_params.h"
 #include "perception/triangulation.h"
+#include "terrain/rock.h"
+#include "terrain/rock_params.h"
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
 #include "trial/eyes/hazard_scanner.h"
@@ -63,5 +66,31 @@ inline bool Any(const messages::PerStripe<bool>& flags) {
   }
   return false;
 }
+
+// Scenes with one rock on flat sand before a rover that drives straight on.
+//
+// World: the course runs along x, and the circle around the rock (its largest diameter) begins at
+// x = 0. The rover's front is sensors.light_stripe.front_x_m ahead of its centre.
+
+// A cell of rocks; diameter_m is not read where proportions are natural.
+struct RockCell {
+  double height_m = 0.0;
+  double diameter_m = 0.0;
+  double lateral_offset_m = 0.0;
+};
+
+// A rock of the given height above the ground, its nearest end at x = 0. Width, burial, yaw and
+// profile follow the laws of the terrain's rocks; half its full height is c = h / (2 (1 - burial)),
+// and for natural proportions its diameter is 2 c / height ratio. Draws four numbers.
+terrain::Rock DrawSceneRock(const RockCell& cell, RockProportions proportions,
+                            const terrain::RockFieldParams& law, double lateral_m,
+                            core::RandomStream& stream);
+
+// Flat sand with the rock, or without one where the height is 0.
+terrain::Terrain SceneTerrain(const terrain::Rock& rock);
+
+// The rover on flat ground, its front `gap_m` before x = 0, on a straight line that meets x = 0 at
+// y = 0 under its heading.
+math::Transform PoseBefore(double gap_m, double heading_rad, double front_x_m);
 
 }  // namespace rockyard::experiments

@@ -1,4 +1,5 @@
 // Study "precision": range and elevation of a plane, by baseline.
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -6,9 +7,8 @@
 #include <stdexcept>
 
 #include "core/random.h"
-#include "experiments/cell_table.h"
-#include "experiments/hazard_detection/hazard_study.h"
-#include "experiments/record_of.h"
+#include "experiments/cell_experiment.h"
+#include "experiments/hazard_detection/hazard_detection.h"
 #include "perception/triangulation.h"
 #include "sensing/stripe_layout_params.h"
 #include "terrain/terrain.h"
@@ -91,34 +91,28 @@ class Scanline {
   std::size_t stripe_;
 };
 
-class PlaneStudy final : public HazardStudyRunner {
+class PlaneStudy final : public CellExperiment {
  public:
   PlaneStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
              const trial::ScanWatcher& watcher)
-      : params_(params), drive_(drive), table_(params.Factors()), watcher_(watcher) {}
+      : CellExperiment(
+            params.Factors(), HazardColumns(),
+            {"points", "found", "range_m", "range_bias_m", "range_error_m", "elevation_bias_m",
+             "elevation_error_m", "range_step_m", "equation_2_m", "resolution_30cm_m"}),
+        params_(params),
+        drive_(drive),
+        watcher_(watcher) {}
 
-  std::vector<std::string_view> columns() const override {
-    return {"points",
-            "found",
-            "range_m",
-            "range_bias_m",
-            "range_error_m",
-            "elevation_bias_m",
-            "elevation_error_m",
-            "range_step_m",
-            "equation_2_m",
-            "resolution_30cm_m"};
-  }
-
+ private:
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
-    const std::vector<double> factors = table_.Values(cell);
+    const std::vector<double> factors = table().Values(cell);
     const DriveParams drive = WithBaseline(drive_, factors[0]);
     const trial::HazardScanner scanner(drive, watcher_);
     const messages::StripeCalibration truth = sensing::TrueCalibration(drive.sensors.light_stripe);
     const messages::StripeCalibration believed =
         trial::OnboardStripeCalibration(drive.sensors.light_stripe, drive.perception.calibration);
     const auto row = static_cast<std::size_t>(factors[1]);
-    std::vector<double> sums(columns().size(), 0.0);
+    std::vector<double> sums(10, 0.0);
     for (std::int64_t scene = 0; scene < params_.scenes_per_run; ++scene) {
       const core::TrialKey scene_key = SceneKey(key, params_.scenes_per_run, scene);
       core::RandomStream placement(scene_key, core::Purpose::kScenePlacement);
@@ -139,7 +133,6 @@ class PlaneStudy final : public HazardStudyRunner {
     return sums;
   }
 
- private:
   static void AddPoint(const Scanline& seen, const Scanline& real,
                        const messages::StripePixel& pixel, double elevation_m,
                        std::vector<double>& sums) {
@@ -166,16 +159,15 @@ class PlaneStudy final : public HazardStudyRunner {
 
   HazardDetectionParams params_;
   DriveParams drive_;
-  CellTable table_;
   trial::ScanWatcher watcher_;
   terrain::Terrain sand_{terrain::Ground(), {}, {}};
 };
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakePrecisionStudy(const HazardDetectionParams& params,
-                                                      const trial::DriveParams& drive,
-                                                      const trial::ScanWatcher& watcher) {
+std::unique_ptr<Experiment> MakePrecisionStudy(const HazardDetectionParams& params,
+                                               const trial::DriveParams& drive,
+                                               const trial::ScanWatcher& watcher) {
   return std::make_unique<PlaneStudy>(params, drive, watcher);
 }
 

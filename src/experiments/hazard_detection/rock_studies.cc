@@ -1,14 +1,13 @@
 // Studies "detection" and "approach": one rock a scene.
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "core/random.h"
-#include "experiments/cell_table.h"
+#include "experiments/cell_experiment.h"
+#include "experiments/hazard_detection/hazard_detection.h"
 #include "experiments/hazard_detection/hazard_judge.h"
-#include "experiments/hazard_detection/hazard_study.h"
-#include "experiments/hazard_detection/rock_scenes.h"
-#include "experiments/record_of.h"
 
 namespace rockyard::experiments {
 namespace {
@@ -23,14 +22,14 @@ struct RockScene {
   double distance_shift_m = 0.0;
 };
 
-class RockStudy : public HazardStudyRunner {
+class RockStudy : public CellExperiment {
  public:
   RockStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
-            const trial::ScanWatcher& watcher)
-      : params_(params),
+            const trial::ScanWatcher& watcher, const std::vector<std::string_view>& measured)
+      : CellExperiment(params.Factors(), HazardColumns(), measured),
+        params_(params),
         law_(drive.terrain.rocks),
         front_x_m_(drive.sensors.light_stripe.front_x_m),
-        table_(params_.Factors()),
         judge_(drive, watcher),
         bare_judge_(drive) {}
 
@@ -39,13 +38,13 @@ class RockStudy : public HazardStudyRunner {
   const HazardJudge& judge() const { return judge_; }
 
   RockCell CellOf(std::size_t cell) const {
-    const std::vector<double> values = table_.Values(cell);
+    const std::vector<double> values = table().Values(cell);
     if (params_.proportions == RockProportions::kNatural) return {values[0], 0.0, values[1]};
     return {values[0], values[1], values[2]};
   }
 
   // The last factor of the cell.
-  double LastOf(std::size_t cell) const { return table_.Values(cell).back(); }
+  double LastOf(std::size_t cell) const { return table().Values(cell).back(); }
 
   RockScene DrawScene(const RockCell& cell, core::TrialKey key) const {
     RandomStream placement(key, Purpose::kScenePlacement);
@@ -88,7 +87,6 @@ class RockStudy : public HazardStudyRunner {
   HazardDetectionParams params_;
   terrain::RockFieldParams law_;
   double front_x_m_;
-  CellTable table_;
   HazardJudge judge_;
   HazardJudge bare_judge_;
   terrain::Terrain bare_{terrain::Ground(), {}, {}};
@@ -98,13 +96,13 @@ double Flag(bool flag) { return flag ? 1.0 : 0.0; }
 
 class DetectionStudy final : public RockStudy {
  public:
-  using RockStudy::RockStudy;
+  DetectionStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
+                 const trial::ScanWatcher& watcher)
+      : RockStudy(params, drive, watcher,
+                  {"scenes", "scans", "detected_single", "detected_double", "by_missing",
+                   "by_neighbour", "by_range"}) {}
 
-  std::vector<std::string_view> columns() const override {
-    return {"scenes",     "scans",        "detected_single", "detected_double",
-            "by_missing", "by_neighbour", "by_range"};
-  }
-
+ private:
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
     std::vector<double> sums(7, 0.0);
     const RockCell rock = CellOf(cell);
@@ -131,12 +129,12 @@ class DetectionStudy final : public RockStudy {
 
 class ApproachStudy final : public RockStudy {
  public:
-  using RockStudy::RockStudy;
+  ApproachStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
+                const trial::ScanWatcher& watcher)
+      : RockStudy(params, drive, watcher,
+                  {"scenes", "scans", "detected_single", "detected_double"}) {}
 
-  std::vector<std::string_view> columns() const override {
-    return {"scenes", "scans", "detected_single", "detected_double"};
-  }
-
+ private:
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
     std::vector<double> sums(4, 0.0);
     const RockCell rock = CellOf(cell);
@@ -146,7 +144,6 @@ class ApproachStudy final : public RockStudy {
     return sums;
   }
 
- private:
   // From first_scan_m before the rock until the front reaches it.
   void AddDrive(const RockCell& rock, core::TrialKey key, std::vector<double>& sums) const {
     const RockScene drawn = DrawScene(rock, key);
@@ -178,15 +175,15 @@ class ApproachStudy final : public RockStudy {
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const HazardDetectionParams& params,
-                                                      const trial::DriveParams& drive,
-                                                      const trial::ScanWatcher& watcher) {
+std::unique_ptr<Experiment> MakeDetectionStudy(const HazardDetectionParams& params,
+                                               const trial::DriveParams& drive,
+                                               const trial::ScanWatcher& watcher) {
   return std::make_unique<DetectionStudy>(params, drive, watcher);
 }
 
-std::unique_ptr<HazardStudyRunner> MakeApproachStudy(const HazardDetectionParams& params,
-                                                     const trial::DriveParams& drive,
-                                                     const trial::ScanWatcher& watcher) {
+std::unique_ptr<Experiment> MakeApproachStudy(const HazardDetectionParams& params,
+                                              const trial::DriveParams& drive,
+                                              const trial::ScanWatcher& watcher) {
   return std::make_unique<ApproachStudy>(params, drive, watcher);
 }
 

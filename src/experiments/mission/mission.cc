@@ -1,3 +1,4 @@
+
 #include "experiments/mission/mission.h"
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <utility>
 
 #include "core/check.h"
-#include "experiments/mission/command_cycle.h"
 #include "experiments/mission/sol.h"
 #include "localization/estimator.h"
 #include "math/angles.h"

@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "core/random.h"
-#include "experiments/cell_table.h"
+#include "experiments/cell_experiment.h"
 #include "experiments/experiment.h"
-#include "experiments/stereo_sensing/rock_finds.h"
 #include "experiments/stereo_sensing/stereo_sensing_params.h"
 #include "experiments/stereo_sensing/stereo_sums.h"
 #include "trial/drive_params.h"
@@ -21,28 +20,23 @@
 namespace rockyard::experiments {
 
 // Every column but the number of the cell: first the factors that name a cell, of which a scenario
-// has those of its lists (StereoSensingParams::Factors), then what StereoSums holds.
+// has those of its lists (StereoSensingParams::Factors), then those of StereoSums.
 const truth::RecordSchema& StereoColumns();
 
-class StereoSensingExperiment final : public Experiment {
+class StereoSensingExperiment final : public CellExperiment {
  public:
+  // Cost of a run: that of the looks, 30 ms more each for the truth, and 0.1 s for cameras that
+  // take images.
   StereoSensingExperiment(const StereoSensingParams& params, const trial::DriveParams& drive);
   ~StereoSensingExperiment() override;
-
-  const truth::RecordSchema& schema() const override { return schema_; }
-  // Cost: that of the looks, 30 ms more each for the truth, and 0.1 s a run for cameras that take
-  // images.
-  truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
 
  private:
   struct Cell;
 
-  StereoSums Measure(const Cell& cell, core::TrialKey key) const;
+  std::vector<double> Measure(std::size_t number, core::TrialKey key) const override;
 
   StereoSensingParams params_;
-  CellTable table_;
   std::vector<Cell> cells_;
-  truth::RecordSchema schema_;
 };
 
 }  // namespace rockyard::experiments

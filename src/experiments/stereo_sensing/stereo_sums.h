@@ -6,6 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "experiments/stereo_sensing/stereo_sensing_params.h"
+#include "messages/navigation_view.h"
+#include "messages/point_cloud.h"
+#include "navigation/navigator_set_params.h"
+#include "sensing/stereo_depth.h"
+#include "sensing/stereo_ground_truth.h"
+#include "sensing/stereo_view.h"
+#include "terrain/terrain.h"
+#include "truth/record.h"
+
 namespace rockyard::experiments {
 
 // Pixels of one kind whose truth is known.
@@ -63,59 +73,152 @@ struct StereoSums {
   double hazard_found = 0.0;
 };
 
-// Calls f(name, value) for every column, in the order of the records.
-template <typename F>
-void ForEachSum(const StereoSums& s, F&& f) {
-  f("looks", s.looks);
-  f("pixels", s.all.pixels);
-  f("matched", s.all.good + s.all.wrong);
-  f("good", s.all.good);
-  f("wrong", s.all.wrong);
-  f("bias_px", s.all.bias_px);
-  f("error_px", s.all.error2_px2);
-  f("range_m", s.range_m);
-  f("range_bias_m", s.range_bias_m);
-  f("range_error_m", s.range_error2_m2);
-  f("range_step_m", s.range_step2_m2);
-  f("axis_step_m", s.axis_step2_m2);
+// Visits the columns of one side of a jump in depth, `ending` columns from it.
+template <typename Visitor>
+void ForEachSideColumn(const std::string& side, const std::string& ending, const PixelSums& s,
+                       const Visitor& visit) {
+  using enum truth::ColumnRole;
+  const std::string base = side + "_pixels" + ending;
+  visit({base, "1", "pixels as many columns from the nearest jump in depth, on that side", kBase},
+        s.pixels);
+  visit({side + "_matched" + ending, "1", "of these, matched", kCount, base}, s.good + s.wrong);
+  visit({side + "_wrong" + ending, "1", "of these, off by 1 px", kCount, base}, s.wrong);
+}
+
+template <typename Visitor>
+void ForEachColumn(const StereoSums& s, const Visitor& visit) {
+  using enum truth::ColumnRole;
+  visit({"looks", "1", "looks, each on a terrain of its own", kTrials}, s.looks);
+  visit({"pixels", "1", "pixels whose surface both cameras see, away from margins", kBase},
+        s.all.pixels);
+  visit({"matched", "1", "of these, with a disparity: the density", kMainCount, "pixels"},
+        s.all.good + s.all.wrong);
+  visit({"good", "1", "off by less than 1 px", kCount, "pixels"}, s.all.good);
+  visit({"wrong", "1", "off by 1 px or more", kCount, "matched"}, s.all.wrong);
+  visit({"bias_px", "px", "matched less true disparity", kSum, "good"}, s.all.bias_px);
+  visit({"error_px", "px", "matched less true disparity", kSquares, "good"}, s.all.error2_px2);
+  visit({"range_m", "m", "true range from the left camera", kSum, "good"}, s.range_m);
+  visit({"range_bias_m", "m", "measured less true range", kSum, "good"}, s.range_bias_m);
+  visit({"range_error_m", "m", "measured less true range", kSquares, "good"}, s.range_error2_m2);
+  visit({"range_step_m", "m", "range that one pixel of disparity stands for, r Z / (f B)", kSquares,
+         "good"},
+        s.range_step2_m2);
+  visit({"axis_step_m", "m", "the same on the optical axis, r^2 / (f B)", kSquares, "good"},
+        s.axis_step2_m2);
+  constexpr std::array<const char*, kPixelKinds.size()> kMeanings{
+      "lit, away from jumps in depth",
+      "on the nearer side of a jump in depth, within sensors.stereo.edge_reach_px",
+      "on its farther side", "outside of the sun, away from jumps"};
   for (std::size_t i = 0; i < kPixelKinds.size(); ++i) {
     const std::string kind = kPixelKinds[i];
     const PixelSums& sums = s.kinds[i];
-    f(kind + "_pixels", sums.pixels);
-    f(kind + "_good", sums.good);
-    f(kind + "_wrong", sums.wrong);
-    f(kind + "_bias_px", sums.bias_px);
-    f(kind + "_error_px", sums.error2_px2);
+    visit({kind + "_pixels", "1", std::string("of the pixels: ") + kMeanings[i], kBase},
+          sums.pixels);
+    visit({kind + "_good", "1", "matched within 1 px", kCount, kind + "_pixels"}, sums.good);
+    visit({kind + "_wrong", "1", "matched farther off", kCount, kind + "_pixels"}, sums.wrong);
+    visit({kind + "_bias_px", "px", "matched less true disparity", kSum, kind + "_good"},
+          sums.bias_px);
+    visit({kind + "_error_px", "px", "matched less true disparity", kSquares, kind + "_good"},
+          sums.error2_px2);
   }
   for (std::size_t i = 0; i < kEdgeDistances; ++i) {
-    const std::string distance = std::to_string(i + 1);
-    f("front_pixels_" + distance, s.fronts[i].pixels);
-    f("front_matched_" + distance, s.fronts[i].good + s.fronts[i].wrong);
-    f("front_wrong_" + distance, s.fronts[i].wrong);
-    f("behind_pixels_" + distance, s.behinds[i].pixels);
-    f("behind_matched_" + distance, s.behinds[i].good + s.behinds[i].wrong);
-    f("behind_wrong_" + distance, s.behinds[i].wrong);
+    const std::string ending = std::string("_").append(std::to_string(i + 1));
+    ForEachSideColumn("front", ending, s.fronts[i], visit);
+    ForEachSideColumn("behind", ending, s.behinds[i], visit);
   }
   for (std::size_t i = 0; i < kLags; ++i) {
     const std::string lag = std::to_string(i + 1);
-    f("pairs_" + lag, s.pairs[i]);
-    f("product_px2_" + lag, s.products_px2[i]);
+    visit({"pairs_" + lag, "1", "pairs of good plain pixels as many columns apart", kBase},
+          s.pairs[i]);
+    visit(
+        {"product_px2_" + lag, "px2", "product of their errors of disparity", kSum, "pairs_" + lag},
+        s.products_px2[i]);
   }
-  f("margin_pixels", s.margin.pixels);
-  f("margin_matched", s.margin.good + s.margin.wrong);
-  f("hidden_pixels", s.hidden_pixels);
-  f("hidden_matched", s.hidden_matched);
+  visit({"margin_pixels", "1",
+         "seen by both, but a window reaches over an image's edge or the rover", kBase},
+        s.margin.pixels);
+  visit({"margin_matched", "1", "of these, matched", kCount, "margin_pixels"},
+        s.margin.good + s.margin.wrong);
+  visit({"hidden_pixels", "1", "what the left camera alone sees", kBase}, s.hidden_pixels);
+  visit({"hidden_matched", "1", "of these, matched", kCount, "hidden_pixels"}, s.hidden_matched);
   for (std::size_t i = 0; i < kRockHeights.size(); ++i) {
     const std::string height = kRockHeights[i];
-    f("rocks_" + height, s.rocks[i].rocks);
-    f("perfect_" + height, s.rocks[i].perfect);
-    f("found_" + height, s.rocks[i].found);
+    const std::string base = "rocks_" + height;
+    visit({base, "1",
+           "rocks in view of at least as many tenths of hazard_height_m, below the next class",
+           kBase},
+          s.rocks[i].rocks);
+    visit({"perfect_" + height, "1", "the navigator's map calls a hazard with perfect matches",
+           kCount, base},
+          s.rocks[i].perfect);
+    visit({"found_" + height, "1", "it does so with the points of the look", kCount, base},
+          s.rocks[i].found);
   }
-  f("clear_cells", s.clear_cells);
-  f("clear_known", s.clear_known);
-  f("imagined", s.imagined);
-  f("hazard_cells", s.hazard_cells);
-  f("hazard_found", s.hazard_found);
+  visit({"clear_cells", "1", "cells of the map without hazard with perfect matches", kBase},
+        s.clear_cells);
+  visit({"clear_known", "1", "of these, known from the look", kCount, "clear_cells"},
+        s.clear_known);
+  visit({"imagined", "1", "of these, called a hazard", kCount, "clear_known"}, s.imagined);
+  visit({"hazard_cells", "1", "cells with a hazard with perfect matches", kBase}, s.hazard_cells);
+  visit({"hazard_found", "1", "of these, called a hazard from the look", kCount, "hazard_cells"},
+        s.hazard_found);
 }
+
+// Errors of matched disparities against the truth, pixel by pixel.
+
+// What of a look belongs to a cell, and how its pixels are told apart.
+struct PixelLimits {
+  double nearest_m = 0.0;   // true range from the left camera, along the ray
+  double farthest_m = 0.0;  // not included
+  double min_disparity_px = 0.0;
+  double max_disparity_px = 0.0;
+  int edge_reach_px = 0;  // within as many columns of a jump in depth a pixel is beside it
+};
+
+// Adds the pixels of one look to `sums`. `matched_px` are disparities on the pixels of `truth`, 0
+// where there is no match; `view` is the left eye's, in any frame. True disparities outside the
+// searched range do not count. Pairs of neighbours lie in one row and within the cell.
+void AddPixels(const sensing::StereoTruth& truth, const sensing::DepthImage& matched_px,
+               const sensing::StereoView& view, const PixelLimits& limits, StereoSums& sums);
+
+// Rocks and cells of the map of one look against those with perfect matches.
+
+// The maps of one look, in R: with perfect matches of all that both eyes see, and with its own.
+struct LookMaps {
+  const messages::MapView& perfect;
+  const messages::MapView& seen;
+};
+
+// The cell of distances from the left camera.
+struct DistanceBin {
+  double nearest_m = 0.0;
+  double farthest_m = 0.0;  // not included
+
+  bool Holds(double distance_m) const { return distance_m >= nearest_m && distance_m < farthest_m; }
+};
+
+// Adds the rocks in view whose visible part lies, on average, within the bin. A rock is found where
+// the map calls a hazard the cell that holds the middle of its visible part.
+void AddRocksInView(const StereoSensingParams& params, const terrain::Terrain& terrain,
+                    const sensing::StereoTruth& truth, const sensing::StereoView& view_R,
+                    const LookMaps& maps, const DistanceBin& bin, StereoSums& sums);
+
+// Adds the cells of the map whose middle, on the ground, lies within the bin.
+void AddCellsOfMap(const StereoSensingParams& params, const sensing::StereoView& view_R,
+                   const LookMaps& maps, const DistanceBin& bin, StereoSums& sums);
+
+// What the scenario's navigator makes of the points of one look.
+
+// Returns the map of a navigator that begins to drive, level and at the origin of the map's frame,
+// and gets `cloud` as its first look: coordinates of the map are those of R. A look behind, if it
+// asks for one, shows nothing. Throws std::runtime_error where the navigator keeps no map.
+messages::MapView MapOfLook(const navigation::NavigatorKind& navigator,
+                            const messages::PointCloud& cloud);
+
+// What a map says of one place.
+enum class Verdict { kUnknown, kClear, kHazard };
+
+// Cells of `hazard_goodness` or less are hazards; outside the map all is unknown.
+Verdict VerdictAt(const messages::MapView& map, double x_m, double y_m, double hazard_goodness);
 
 }  // namespace rockyard::experiments

@@ -1,10 +1,96 @@
 // Whether a drive went as the published run is told, and what its heading error was at each stage.
 #pragma once
 
-#include "experiments/three_rock_run/run_history.h"
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "experiments/three_rock_run/three_rock_run_params.h"
+#include "math/pose.h"
+#include "truth/trace.h"
 
 namespace rockyard::experiments {
+
+// What happened on a drive among a few rocks, read from its trace: the heading error along the way,
+// which rock raised each alarm, and which was scraped.
+//
+// An experiment sees the truth: rocks are told apart by where they truly are.
+
+struct PlacedRock {
+  double x_m = 0.0;  // centre, in W
+  double y_m = 0.0;
+  double diameter_m = 0.0;
+  double height_m = 0.0;
+};
+
+// A rectangle of the rover's frame that lies evenly about its x axis.
+struct RoverZone {
+  double rear_x_m = 0.0;
+  double front_x_m = 0.0;
+  double half_width_m = 0.0;
+};
+
+// A control tick of the drive.
+struct Moment {
+  double time_s = 0.0;
+  double path_m = 0.0;             // true, of the rover's centre, up to here
+  math::Pose2 pose;                // true
+  double heading_error_rad = 0.0;  // believed less true
+  bool turning = false;            // in place
+};
+
+// An alarm that was believed, or a scrape.
+struct RockEvent {
+  double path_m = 0.0;
+  std::size_t moment = 0;   // index of the first moment after it, or of the last one
+  std::optional<int> rock;  // index of the rock; of an alarm none where there is no rock
+};
+
+// The turn in place by which the rover answers an alarm: every tick of turning that follows it by
+// no more than kTurnChain_m of path since the alarm or the tick of turning before.
+struct AvoidanceTurn {
+  double turned_rad = 0.0;  // true, positive to the left
+  std::size_t end = 0;      // index of the moment at its end; of the alarm where it did not turn
+};
+
+// Looks between which an avoidance goes on are one scan interval (0.065 m) apart.
+inline constexpr double kTurnChain_m = 0.15;
+// An alarm belongs to the nearest rock within this of the array; elevations are seen wrongly by
+// less, and the rover pitches and rolls.
+inline constexpr double kAlarmReach_m = 0.10;
+
+class RunHistory {
+ public:
+  // Reads `trace` of a drive among `rocks`. `array` is the ground that the hazard sensor measures,
+  // `body` the rover's outline. Cost: linear in the trace.
+  RunHistory(const truth::Trace& trace, std::span<const PlacedRock> rocks, const RoverZone& array,
+             const RoverZone& body);
+
+  const std::vector<Moment>& moments() const { return moments_; }
+  const std::vector<RockEvent>& alarms() const { return alarms_; }
+  const std::vector<RockEvent>& scrapes() const { return scrapes_; }
+
+  // The first moment at which the path is at least path_m; null where it never is.
+  const Moment* At(double path_m) const;
+
+  // The first alarm of a rock; null where there was none.
+  const RockEvent* FirstAlarm(int rock) const;
+  // The last scrape of a rock; null where there was none.
+  const RockEvent* LastScrape(int rock) const;
+  int Scrapes(int rock) const;
+
+  AvoidanceTurn TurnAfter(const RockEvent& alarm) const;
+
+ private:
+  std::vector<Moment> moments_;
+  std::vector<RockEvent> alarms_;
+  std::vector<RockEvent> scrapes_;
+};
+
+// From the edge of a round rock to a zone of a rover at `rover`, m; negative where its circle
+// reaches into the zone by that much or covers its edge.
+double GapToZone(const PlacedRock& rock, const math::Pose2& rover, const RoverZone& zone);
 
 // Indices of the rocks in the order in which they are placed.
 inline constexpr int kRockA = 0;

@@ -6,21 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/record_of.h"
-#include "experiments/three_rock_run/rock_layout_draw.h"
+#include "core/random.h"
 #include "trial/run_trial.h"
-#include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
 
 const truth::RecordSchema& ThreeRockColumns() {
-  static const truth::RecordSchema kColumns = [] {
-    truth::RecordSchema columns;
-    ForEachThreeRockColumn(ThreeRockRecord{}, [&](truth::ValueInfo column, double) {
-      columns.push_back(std::move(column));
-    });
-    return columns;
-  }();
+  static const truth::RecordSchema kColumns = ColumnsOf<ThreeRockRecord>();
   return kColumns;
 }
 
@@ -56,21 +48,15 @@ struct ThreeRockRunExperiment::Course {
 
 ThreeRockRunExperiment::ThreeRockRunExperiment(const ThreeRockRunParams& params,
                                                trial::DriveParams drive)
-    : params_(params),
+    : CellExperiment({}, ThreeRockColumns()),
+      params_(params),
       drive_(std::move(drive)),
       array_(ArrayOf(drive_.sensors.light_stripe)),
-      body_(BodyOf(drive_.rover.geometry)),
-      schema_(truth::MeasurementSchema(ThreeRockColumns())) {}
+      body_(BodyOf(drive_.rover.geometry)) {}
 
-truth::Record ThreeRockRunExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  return RecordOf(seed, index, [&](const core::TrialKey& key) {
-    truth::Record record{index, truth::TrialOutcome::kMeasured, "", {}};
-    std::vector<double> values{0.0};
-    ForEachThreeRockColumn(Measure(key),
-                           [&](const truth::ValueInfo&, double value) { values.push_back(value); });
-    record.values = std::move(values);
-    return record;
-  });
+std::vector<double> ThreeRockRunExperiment::Measure(std::size_t /*cell*/,
+                                                    core::TrialKey key) const {
+  return ValuesOf(RecordUnder(key));
 }
 
 ThreeRockRunExperiment::Driven ThreeRockRunExperiment::DriveAmong(const Course& course) const {
@@ -89,7 +75,7 @@ ThreeRockRunExperiment::Driven ThreeRockRunExperiment::DriveAmong(const Course& 
   return {RunHistory(trace, course.rocks, array_, body_), std::move(result)};
 }
 
-ThreeRockRecord ThreeRockRunExperiment::Measure(core::TrialKey key) const {
+ThreeRockRecord ThreeRockRunExperiment::RecordUnder(core::TrialKey key) const {
   core::RandomStream stream = StreamOf(DrawnPart::kStart, 0, key);
   ThreeRockRecord record;
   record.goal_m = DrawUniform(params_.prior.goal_m, stream);
@@ -151,6 +137,40 @@ bool ThreeRockRunExperiment::TryThirdRock(const RunHistory& with_b, Course& cour
     return true;
   }
   return false;
+}
+
+core::RandomStream StreamOf(DrawnPart part, std::int64_t number, core::TrialKey key) {
+  // 0; 1, 3, 5, ... of B; 2, 4, 6, ... of C.
+  const std::int64_t substream =
+      part == DrawnPart::kStart ? 0 : 2 * number + (part == DrawnPart::kSecondRock ? 1 : 2);
+  return {key, core::Purpose::kExperiment, static_cast<std::uint32_t>(substream)};
+}
+
+double DrawUniform(const UniformRange& range, core::RandomStream& stream) {
+  return core::SampleUniform(stream, range[0], range[1]);
+}
+
+DrawnRock DrawRock(const RockPrior& prior, core::RandomStream& stream) {
+  DrawnRock rock;
+  rock.along_m = DrawUniform(prior.along_m, stream);
+  rock.offset_m = DrawUniform(prior.offset_m, stream);
+  rock.diameter_m = DrawUniform(prior.diameter_m, stream);
+  rock.height_m = DrawUniform(prior.height_m, stream);
+  return rock;
+}
+
+PlacedRock PlaceFirstRock(const DrawnRock& rock, double path_m, double front_x_m) {
+  return {path_m + front_x_m + rock.along_m + 0.5 * rock.diameter_m, rock.offset_m, rock.diameter_m,
+          rock.height_m};
+}
+
+std::optional<PlacedRock> PlaceOnPath(const DrawnRock& rock, double path_m,
+                                      const RunHistory& history) {
+  const Moment* at = history.At(path_m);
+  if (at == nullptr) return std::nullopt;
+  return PlacedRock{at->pose.x_m - rock.offset_m * std::sin(at->pose.heading_rad),
+                    at->pose.y_m + rock.offset_m * std::cos(at->pose.heading_rad), rock.diameter_m,
+                    rock.height_m};
 }
 
 }  // namespace rockyard::experiments

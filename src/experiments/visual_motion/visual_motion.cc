@@ -1,3 +1,4 @@
+
 #include "experiments/visual_motion/visual_motion.h"
 
 #include <cmath>
@@ -6,49 +7,11 @@
 
 #include "core/random.h"
 #include "experiments/look_factors.h"
-#include "experiments/record_of.h"
 #include "math/angles.h"
 #include "math/decompositions.h"
 
 namespace rockyard::experiments {
 namespace {
-
-using enum truth::ColumnRole;
-
-truth::RecordSchema MakeVisualColumns() {
-  truth::RecordSchema columns{
-      {"step_m", "m", "length of the way", kFactor},
-      {"turn_deg", "deg", "turn, to either side", kFactor},
-      {"soil_graininess", "1", "of sensors.look", kFactor},
-      {"sun_elevation_deg", "deg", "of sensors.sun", kFactor},
-      {"baseline_m", "m", "of sensors.stereo", kFactor},
-      {"steps", "1", "motions, each at a place of its own", kTrials},
-      {"found", "1", "of these, with a motion", kMainCount, "steps"},
-      {"wrong", "1",
-       "of these, off by more than 6 standard deviations of their own statement and more than 5 cm "
-       "or 2 deg",
-       kCount, "found"},
-      {"matches", "1", "features of two left images that look alike", kSum, "steps"},
-      {"points", "1", "of these, with a place at both moments", kSum, "steps"},
-      {"consistent", "1", "of these, moved as one", kSum, "steps"},
-      {"nees", "1",
-       "squared error in units of the stated covariance: 6 on average where that is right", kSum,
-       "found"},
-      {"position_m", "m", "length of the error of the way", kSum, "found"},
-  };
-  const auto add = [&](const std::string& name, const std::string& unit,
-                       const std::string& meaning) {
-    columns.push_back({name + "_bias_" + unit, unit, meaning, kSum, "found"});
-    columns.push_back({name + "_error_" + unit, unit, meaning, kSquares, "found"});
-  };
-  add("along", "m", "measured less true way, along x of the first rover frame");
-  add("across", "m", "along y");
-  add("up", "m", "along z");
-  add("roll", "deg", "measured less true turn, about x of the first rover frame");
-  add("pitch", "deg", "about y");
-  add("heading", "deg", "about z");
-  return columns;
-}
 
 using math::Transform;
 
@@ -89,7 +52,14 @@ StudiedStep DrawStep(const VisualMotionStudyParams& params, const Transform& lev
 }  // namespace
 
 const truth::RecordSchema& VisualMotionColumns() {
-  static const truth::RecordSchema kColumns = MakeVisualColumns();
+  using enum truth::ColumnRole;
+  static const truth::RecordSchema kColumns = ColumnsOf<VisualSums>({
+      {"step_m", "m", "length of the way", kFactor},
+      {"turn_deg", "deg", "turn, to either side", kFactor},
+      {"soil_graininess", "1", "of sensors.look", kFactor},
+      {"sun_elevation_deg", "deg", "of sensors.sun", kFactor},
+      {"baseline_m", "m", "of sensors.stereo", kFactor},
+  });
   return kColumns;
 }
 
@@ -121,17 +91,15 @@ void AddStep(const StudiedStep& step, const vision::MotionResult& seen, VisualSu
 
 VisualMotionExperiment::VisualMotionExperiment(const VisualMotionStudyParams& params,
                                                const trial::DriveParams& drive)
-    : params_(params),
-      table_(params.Factors()),
-      schema_(CellSchema<VisualSums>(VisualMotionColumns(), table_)) {
-  for (std::size_t i = 0; i < table_.size(); ++i) {
-    drives_.push_back(WithLookFactors(drive, table_.columns(), table_.Values(i)));
+    : CellExperiment(params.Factors(), VisualMotionColumns()), params_(params) {
+  for (std::size_t i = 0; i < table().size(); ++i) {
+    drives_.push_back(WithLookFactors(drive, table().columns(), table().Values(i)));
   }
 }
 
-VisualSums VisualMotionExperiment::Measure(std::size_t cell, core::TrialKey key) const {
+std::vector<double> VisualMotionExperiment::Measure(std::size_t cell, core::TrialKey key) const {
   const trial::DriveParams& drive = drives_[cell];
-  const std::vector<double> factors = table_.Values(cell);
+  const std::vector<double> factors = table().Values(cell);
   VisualSums sums;
   for (std::int64_t i = 0; i < params_.steps_per_run; ++i) {
     const core::TrialKey scene = SceneKey(key, params_.steps_per_run, i);
@@ -143,14 +111,7 @@ VisualSums VisualMotionExperiment::Measure(std::size_t cell, core::TrialKey key)
     eyes->Look(step.X_WF, Transform::Identity());
     AddStep(step, eyes->Look(step.X_WS, step.predicted_FS).result, sums);
   }
-  return sums;
-}
-
-truth::Record VisualMotionExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
-  return RecordOf(seed, index, [&](const core::TrialKey& key) {
-    const std::size_t cell = index % table_.size();
-    return CellRecord(index, cell, table_.Values(cell), Measure(cell, key));
-  });
+  return ValuesOf(sums);
 }
 
 }  // namespace rockyard::experiments

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "experiments/cell_table.h"
+#include "experiments/cell_experiment.h"
 #include "experiments/experiment.h"
 #include "experiments/visual_motion/visual_motion_study_params.h"
 #include "trial/drive_params.h"
@@ -19,17 +19,6 @@
 #include "truth/record.h"
 
 namespace rockyard::experiments {
-
-// Error of one coordinate: sum and sum of squares.
-struct CoordinateSums {
-  double sum = 0.0;
-  double squares = 0.0;
-
-  void Add(double error) {
-    sum += error;
-    squares += error * error;
-  }
-};
 
 struct VisualSums {
   double steps = 0.0;
@@ -40,57 +29,59 @@ struct VisualSums {
   double consistent = 0.0;
   double nees = 0.0;        // of motions: e' P^-1 e, 6 on average where the covariance is right
   double position_m = 0.0;  // length of the error of the way
-  CoordinateSums along_m;   // x, y, z of the first rover frame
-  CoordinateSums across_m;
-  CoordinateSums up_m;
-  CoordinateSums roll_deg;  // about these axes
-  CoordinateSums pitch_deg;
-  CoordinateSums heading_deg;
+  ErrorSums along_m;        // x, y, z of the first rover frame
+  ErrorSums across_m;
+  ErrorSums up_m;
+  ErrorSums roll_deg;  // about these axes
+  ErrorSums pitch_deg;
+  ErrorSums heading_deg;
 };
 
-// Calls f(name, value) for every column, in the order of the records.
-template <typename F>
-void ForEachSum(const VisualSums& s, F&& f) {
-  f("steps", s.steps);
-  f("found", s.found);
-  f("wrong", s.wrong);
-  f("matches", s.matches);
-  f("points", s.points);
-  f("consistent", s.consistent);
-  f("nees", s.nees);
-  f("position_m", s.position_m);
-  const auto coordinate = [&](const std::string& name, const std::string& unit,
-                              const CoordinateSums& sums) {
-    f(name + "_bias_" + unit, sums.sum);
-    f(name + "_error_" + unit, sums.squares);
+template <typename Visitor>
+void ForEachColumn(const VisualSums& s, const Visitor& visit) {
+  using enum truth::ColumnRole;
+  visit({"steps", "1", "motions, each at a place of its own", kTrials}, s.steps);
+  visit({"found", "1", "of these, with a motion", kMainCount, "steps"}, s.found);
+  visit({"wrong", "1",
+         "of these, off by more than 6 standard deviations of their own statement and more than "
+         "5 cm or 2 deg",
+         kCount, "found"},
+        s.wrong);
+  visit({"matches", "1", "features of two left images that look alike", kSum, "steps"}, s.matches);
+  visit({"points", "1", "of these, with a place at both moments", kSum, "steps"}, s.points);
+  visit({"consistent", "1", "of these, moved as one", kSum, "steps"}, s.consistent);
+  visit({"nees", "1",
+         "squared error in units of the stated covariance: 6 on average where that is right", kSum,
+         "found"},
+        s.nees);
+  visit({"position_m", "m", "length of the error of the way", kSum, "found"}, s.position_m);
+  const auto error = [&](const std::string& name, const std::string& unit,
+                         const std::string& meaning, const ErrorSums& sums) {
+    VisitError(name, "_" + unit, {"", unit, meaning, kSum, "found"}, sums, visit);
   };
-  coordinate("along", "m", s.along_m);
-  coordinate("across", "m", s.across_m);
-  coordinate("up", "m", s.up_m);
-  coordinate("roll", "deg", s.roll_deg);
-  coordinate("pitch", "deg", s.pitch_deg);
-  coordinate("heading", "deg", s.heading_deg);
+  error("along", "m", "measured less true way, along x of the first rover frame", s.along_m);
+  error("across", "m", "along y", s.across_m);
+  error("up", "m", "along z", s.up_m);
+  error("roll", "deg", "measured less true turn, about x of the first rover frame", s.roll_deg);
+  error("pitch", "deg", "about y", s.pitch_deg);
+  error("heading", "deg", "about z", s.heading_deg);
 }
 
 // Every column but the number of the cell: first the factors that name a cell, of which a scenario
-// has those of its lists (VisualMotionStudyParams::Factors), then what VisualSums holds.
+// has those of its lists (VisualMotionStudyParams::Factors), then those of VisualSums.
 const truth::RecordSchema& VisualMotionColumns();
 
-class VisualMotionExperiment final : public Experiment {
+class VisualMotionExperiment final : public CellExperiment {
  public:
+  // Cost of a run: that of four rendered images a motion, 0.5 s; some microseconds by the error
+  // model.
   VisualMotionExperiment(const VisualMotionStudyParams& params, const trial::DriveParams& drive);
 
-  const truth::RecordSchema& schema() const override { return schema_; }
-  // Cost: that of four rendered images a motion, 0.5 s; some microseconds by the error model.
-  truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
-
  private:
-  VisualSums Measure(std::size_t cell, core::TrialKey key) const;
+  std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override;
 
   VisualMotionStudyParams params_;
-  CellTable table_;
   std::vector<trial::DriveParams> drives_;  // of each cell
-  truth::RecordSchema schema_;
 };
 
 // A motion from a place to another one, and where on-board software expects it.

@@ -37,7 +37,7 @@ export function readPalette(world: WorldKind): Palette {
   return palette;
 }
 
-// The ramp of the drawings that the program writes (report/colour_ramp.cc): its luminance grows all
+// The ramp of the drawings that the program writes (report/xml_text.cc): its luminance grows all
 // the way, so colour-blind readers and grey print keep the order.
 const RAMP: readonly (readonly [number, number, number])[] = [
   [68, 1, 84],

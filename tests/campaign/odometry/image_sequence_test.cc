@@ -1,15 +1,18 @@
 // Which files are a sequence: the layouts of benchmarks, their order, and what is told of broken
 // ones. Files of poses: what is written reads back, and what is none is told with its line.
-#include "campaign/odometry/image_sequence.h"
-
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "campaign/odometry/pair_reader.h"
+#include "campaign/odometry/path_tracker.h"
 #include "campaign/odometry/pose_text.h"
+#include "campaign/odometry/render_sequence.h"
 #include "core/error.h"
 #include "core/refusals.h"
 #include "core/test_folder.h"
@@ -250,6 +253,163 @@ TEST_F(PoseText, TimesAreOneALineAndGrow) {
               ElementsAre(0.0, 0.1, 2.0));
   EXPECT_THROW(ReadTimes(Write("0\n1 2\n")), core::UserError);
   EXPECT_THROW(ReadTimes(Write("1\n0\n")), core::UserError);
+}
+
+// Ways of rendered sequences against circles and polygons.
+
+using math::Pose2;
+
+TEST(SequenceWay, ACircleClosesAfterAWholeTurn) {
+  constexpr int kSteps = 36;
+  const Pose2 start{1.0, 2.0, 0.3};
+  const auto way = CircleWay(start, kSteps + 1, 0.5, 2.0 * std::numbers::pi / kSteps);
+  ASSERT_EQ(way.size(), kSteps + 1u);
+  EXPECT_NEAR(way.back().x_m, start.x_m, 1e-12);
+  EXPECT_NEAR(way.back().y_m, start.y_m, 1e-12);
+  // All lie on the circle whose circumference is that of the steps.
+  const double radius_m = 0.5 * kSteps / (2.0 * std::numbers::pi);
+  const double centre_x = start.x_m - radius_m * std::sin(start.heading_rad);
+  const double centre_y = start.y_m + radius_m * std::cos(start.heading_rad);
+  for (const Pose2& pose : way) {
+    EXPECT_NEAR(std::hypot(pose.x_m - centre_x, pose.y_m - centre_y), radius_m, 1e-12);
+  }
+}
+
+TEST(SequenceWay, StraightBackwardsAndStanding) {
+  const auto back = CircleWay({1.0, 2.0, 0.5 * std::numbers::pi}, 3, -0.25, 0.0);
+  EXPECT_NEAR(back[2].x_m, 1.0, 1e-12);
+  EXPECT_NEAR(back[2].y_m, 1.5, 1e-12);
+  const auto standing = CircleWay({1.0, 2.0, 0.5}, 4, 0.0, 0.0);
+  EXPECT_EQ(standing.size(), 4u);
+  EXPECT_EQ(standing[3].x_m, 1.0);
+  const auto turning = CircleWay({1.0, 2.0, 0.5}, 2, 0.0, 0.1);
+  EXPECT_EQ(turning[1].y_m, 2.0);
+  EXPECT_DOUBLE_EQ(turning[1].heading_rad, 0.6);
+}
+
+// From the origin along x, then to the left: 1 m in steps of 0.4 m, a quarter turn in five.
+TEST(SequenceWay, CornersAreTurnedAtAndReached) {
+  const messages::Goal corners[] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.5}};
+  const auto way = CornerWay({}, corners, 100, 0.4, 0.4);
+  ASSERT_EQ(way.size(), 1u + 3u + 4u + 2u);
+  EXPECT_DOUBLE_EQ(way[1].x_m, 0.4);
+  EXPECT_DOUBLE_EQ(way[3].x_m, 1.0);
+  for (int i = 1; i <= 4; ++i) {
+    const Pose2& turned = way[static_cast<std::size_t>(3 + i)];
+    EXPECT_DOUBLE_EQ(turned.x_m, 1.0);
+    EXPECT_NEAR(turned.heading_rad, i * std::numbers::pi / 8.0, 1e-12);
+  }
+  EXPECT_DOUBLE_EQ(way[8].y_m, 0.4);
+  EXPECT_DOUBLE_EQ(way[9].y_m, 0.5);
+  EXPECT_EQ(CornerWay({}, corners, 6, 0.4, 0.4).size(), 6u);
+}
+
+// Of a way of 1e300 steps, and of as many turns, the first ones.
+TEST(SequenceWay, StepsThatAreNotWantedAreNotTaken) {
+  const std::vector<messages::Goal> corners{{1.0, 0.0}, {1.0, 1.0}};
+  const auto way = CornerWay({}, corners, 3, 1e-300, 0.4);
+  ASSERT_EQ(way.size(), 3u);
+  EXPECT_EQ(way[2].x_m, 2e-300);
+  const auto turned = CornerWay({0.0, 0.0, 3.0}, corners, 3, 1.0, 1e-300);
+  ASSERT_EQ(turned.size(), 3u);
+  EXPECT_EQ(turned[2].x_m, 0.0);
+}
+
+TEST(SequenceWay, TurnsTakeTheShorterWayRound) {
+  const messages::Goal behind[] = {{-1.0, -0.1}};
+  const auto way = CornerWay({0.0, 0.0, 3.0}, behind, 100, 1.0, 0.2);
+  // From 3 rad over pi to -3.04 rad: 0.24 rad, in two turns.
+  ASSERT_EQ(way.size(), 1u + 2u + 2u);
+  EXPECT_NEAR(way[1].heading_rad,
+              3.0 + 0.5 * (2.0 * std::numbers::pi + std::atan2(-0.1, -1.0) - 3.0), 1e-12);
+  // Steps that divide the way, but for rounding, make no further one.
+  const messages::Goal ahead[] = {{0.3, 0.0}};
+  EXPECT_EQ(CornerWay({}, ahead, 100, 0.1, 0.2).size(), 4u);
+}
+
+// Paths from motions against keyframes, against poses put together by hand.
+
+const Transform kStep = MakePose({0.5, 0.1, 0.0}, 0.2, 0.05, 0.0);
+
+vision::OdometryStep Found(std::int64_t number, std::int64_t reference, bool keyframe,
+                           const std::optional<Transform>& X_FS) {
+  vision::OdometryStep step;
+  step.number = number;
+  step.reference = reference;
+  step.keyframe = keyframe;
+  if (X_FS) {
+    step.result.motion.emplace();
+    step.result.motion->X_FS = *X_FS;
+    step.result.motion->covariance = vision::MotionCovariance::Identity();
+  } else if (number != reference) {
+    step.result.reason = vision::NoMotion::kFewMatches;
+  }
+  return step;
+}
+
+PathStep Place(PathTracker& tracker, const vision::OdometryStep& found,
+               const std::optional<Transform>& predicted = std::nullopt) {
+  PathStep step;
+  tracker.Place(found, predicted, step);
+  return step;
+}
+
+TEST(PathTracker, MotionsCountFromTheirKeyframe) {
+  PathTracker tracker;
+  EXPECT_TRUE(Place(tracker, Found(0, 0, true, {})).X_AB.isApprox(Transform::Identity()));
+  EXPECT_TRUE(Place(tracker, Found(1, 0, false, kStep)).X_AB.isApprox(kStep));
+  EXPECT_TRUE(Place(tracker, Found(2, 0, true, kStep * kStep)).X_AB.isApprox(kStep * kStep));
+  const PathStep last = Place(tracker, Found(3, 2, false, kStep));
+  EXPECT_TRUE(last.X_AB.isApprox(kStep * kStep * kStep));
+  ASSERT_TRUE(last.covariance);
+  // Two motions of unit covariance one after the other, with a lever: more than twice one.
+  EXPECT_DOUBLE_EQ((*last.covariance)(5, 5), 2.0);
+  EXPECT_GT((*last.covariance)(0, 0), 2.0);
+}
+
+TEST(PathTracker, TheCovarianceOfAKeyframeCountsOnce) {
+  PathTracker tracker;
+  Place(tracker, Found(0, 0, true, {}));
+  Place(tracker, Found(1, 0, false, kStep));
+  Place(tracker, Found(2, 0, false, kStep));
+  EXPECT_DOUBLE_EQ((*Place(tracker, Found(3, 0, false, kStep)).covariance)(5, 5), 1.0);
+}
+
+TEST(PathTracker, GapsAreFilledByThePredictionAndLoseTheCovariance) {
+  PathTracker tracker;
+  Place(tracker, Found(0, 0, true, {}));
+  Place(tracker, Found(1, 0, true, kStep));
+  const Transform predicted = MakePose({0.4, 0.0, 0.0}, 0.0, 0.0, 0.0);
+  const PathStep gap = Place(tracker, Found(2, 1, true, {}), predicted);
+  EXPECT_TRUE(gap.X_AB.isApprox(kStep * predicted));
+  EXPECT_FALSE(gap.covariance);
+  const PathStep after = Place(tracker, Found(3, 2, false, kStep));
+  EXPECT_TRUE(after.X_AB.isApprox(kStep * predicted * kStep));
+  EXPECT_FALSE(after.covariance);
+
+  PathTracker without;
+  Place(without, Found(0, 0, true, {}));
+  Place(without, Found(1, 0, false, kStep));
+  EXPECT_TRUE(Place(without, Found(2, 0, true, {})).X_AB.isApprox(kStep));
+}
+
+TEST(PathTracker, PredictionsAreToldInTheKeyframe) {
+  PathTracker tracker;
+  Place(tracker, Found(0, 0, true, {}));
+  EXPECT_FALSE(tracker.Predict(Prediction::kSteady, {}));
+  EXPECT_TRUE(tracker.Predict(Prediction::kFile, kStep)->isApprox(kStep));
+  EXPECT_FALSE(tracker.Predict(Prediction::kFile, {}));
+  Place(tracker, Found(1, 0, false, kStep));
+  // The keyframe is still the first pair: two steps from it.
+  EXPECT_TRUE(tracker.Predict(Prediction::kSteady, {})->isApprox(kStep * kStep));
+  EXPECT_FALSE(tracker.Predict(Prediction::kNone, kStep));
+  Place(tracker, Found(2, 0, true, kStep * kStep));
+  EXPECT_TRUE(tracker.Predict(Prediction::kSteady, {})->isApprox(kStep));
+  const Transform other = MakePose({0.1, 0.0, 0.0}, 0.0, 0.0, 0.0);
+  EXPECT_TRUE(tracker.Predict(Prediction::kFile, other)->isApprox(other));
+  // A gap that nobody predicted says nothing of the next step.
+  Place(tracker, Found(3, 2, true, {}));
+  EXPECT_FALSE(tracker.Predict(Prediction::kSteady, {}));
 }
 
 }  // namespace

@@ -1,0 +1,91 @@
+// The cases that baselines and publications are about: what runs gave, kept for later builds to be
+// held against it, and whether a run is of the same case.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "batch/campaign_differences.h"
+#include "campaign/journal.h"
+#include "campaign/run_source.h"
+#include "core/error.h"
+#include "core/result.h"
+#include "report/baseline.h"
+#include "statistics/published_comparison.h"
+#include "statistics/published_values.h"
+
+namespace rockyard::campaign {
+
+struct BaselineRequest {
+  std::vector<std::string> runs;  // folders of runs of drives, or of such folders
+  std::string name;
+  std::string reason;  // why its numbers may be what they are
+};
+
+// Of finished runs with independent trials and names of their own. Memory: the records of one
+// campaign.
+core::Result<report::Baseline> MakeBaseline(const BaselineRequest& request);
+
+// The scenario of a baseline's cell beside that of a run.
+
+struct BaselineScenario {
+  // Settings that the baseline knows, and younger ones that are not at their default: what makes it
+  // another scenario. The seed is none: another seed is another sample of the same.
+  std::vector<batch::ScenarioDifference> differences;
+  // Settings that only the run has, at their default: whether it changes anything is what a check
+  // is for.
+  std::vector<std::string> younger;
+  bool same_fields = true;  // those that decide rocks, start and goal are the same
+};
+
+// Both are JSON texts of resolved scenarios. Throws core::UserError on what is none.
+BaselineScenario CompareWithBaseline(const std::string& baseline, const std::string& run);
+
+// Trials that share rocks are not independent, so that neither intervals nor p-values hold: a
+// problem of `label` where course.trials_per_layout is above 1.
+std::vector<core::Problem> SharedLayoutProblems(const std::string& label,
+                                                const std::string& resolved);
+
+// Whether a run is of the case that published values are about, and which runs of a report can be
+// held against published values.
+
+// The runs for statistics::Compare, with the settings in which each differs from the scenario file
+// that the reference in `folder` names for it: "PATH is VALUE, VALUE in FILE", the seed left out.
+// Where it names none, or the file cannot be read (which is noted), what the run was told by --set
+// and --ablate. `runs` must outlive the views.
+std::vector<statistics::ScenarioRun> PublishedViews(const statistics::PublishedReference& reference,
+                                                    const std::filesystem::path& folder,
+                                                    std::span<const StoredRun* const> runs,
+                                                    Journal& journal);
+
+class PublishedTables {
+ public:
+  // The reference in `file`, or, where that is empty, every reference in results/reference below
+  // the working folder (none where there is no such folder; one that cannot be read is noted and
+  // left out; `journal` must outlive this). Throws core::UserError where `file` is no reference.
+  PublishedTables(const std::string& file, Journal& journal);
+
+  // `PublishedTable` of src/web/report/payload.ts, or "null": of the first reference that names the
+  // scenario of the run. The values of one run are a family for Holm's procedure: what it is held
+  // to does not depend on the other runs that are named. Cost: some seconds.
+  std::string Table(const StoredRun& run) const;
+
+  // Where was looked, for a report whose tables are all "null".
+  std::string WhyNone() const;
+
+  bool empty() const { return references_.empty(); }
+
+ private:
+  struct Reference {
+    std::filesystem::path folder;
+    statistics::PublishedReference values;
+  };
+  void Load(const std::filesystem::path& file);
+
+  Journal& journal_;
+  std::vector<Reference> references_;
+};
+
+}  // namespace rockyard::campaign
