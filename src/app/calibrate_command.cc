@@ -118,7 +118,7 @@ void AddCalibrateCommand(CLI::App& app) {
   command->add_option("--right", request.right,
                       "images by the right camera, of the same targets in the same order");
   command->add_option("--target", request.target, "file that describes the chessboard");
-  command->add_option("--out", request.out, "folder for what comes out; it is made");
+  command->add_option("--out", request.out, "folder for the results; it is created");
   AddExistingFiles(*command, request.existing);
   command->add_option("--model", options->model, "cahvor, or cahv: without distortion (cahvor)")
       ->check(CLI::IsMember({"cahv", "cahvor"}));

@@ -59,7 +59,7 @@ void AddFolderOptions(CLI::App& command, CampaignOptions& options) {
                    "let --resume mix trials of different builds of the program");
   command
       .add_flag("--dry-run", options.dry_run,
-                "say what would be done and what it would cost; run and write nothing else")
+                "print what would be done and what it would cost, from a few pilot trials; do nothing else")
       ->excludes(retry);
 }
 

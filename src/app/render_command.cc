@@ -164,7 +164,7 @@ void AddRenderCommand(CLI::App& app, ExitCode& exit_code) {
       "Takes a picture with either stereo camera of a scenario's rover, with what is true of "
       "them, or a sequence of pairs on its way");
   command->add_option("SCENARIO", options->scenario, "Scenario file or its name")->required();
-  command->add_option("--out", request.out, "folder for what comes out; it is made");
+  command->add_option("--out", request.out, "folder for the results; it is created");
   AddExistingFiles(*command, request.existing, true);
   command
       ->add_option("--trial", request.trial, "Trial index, from 0: its rocks, textures and noise")

@@ -1,4 +1,5 @@
-// What the folder of a campaign says, on standard output; what `--dry-run` says.
+// Prints the results in the folder of a campaign to standard output, and the preview that `--dry-run`
+// gives.
 #pragma once
 
 #include <string>

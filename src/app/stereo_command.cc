@@ -174,7 +174,7 @@ void AddStereoCommand(CLI::App& app) {
       app.get_footer());
   command->add_option("LEFT", request.left, "image of the left eye");
   command->add_option("RIGHT", request.right, "image of the right eye, of the same size");
-  command->add_option("--out", request.out, "folder for what comes out; it is made");
+  command->add_option("--out", request.out, "folder for the results; it is created");
   AddExistingFiles(*command, request.existing);
   command->add_option(
       "--cameras", request.cameras,

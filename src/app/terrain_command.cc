@@ -170,7 +170,7 @@ std::string CorridorDensityText(const scenario::Scenario& scenario, std::uint64_
   const terrain::Course course = trial::TerrainCourse(scenario.drive.course);
   if (terrain::ExpectedInCorridor(params, course).empty()) {
     throw core::UserError(
-        "terrain", "lets expect no density in a corridor along the course",
+        "terrain", "has no expected density of rocks along the course to compare with",
         "use rocks of kind moore or uniform_count, a course straight along x, and a "
         "layout at least 0.5 m wide on either side of it");
   }

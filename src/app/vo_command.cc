@@ -211,7 +211,7 @@ void AddVoCommand(CLI::App& app, ExitCode& exit_code) {
       "cameras' outer frame.\n\n" +
       app.get_footer());
   command->add_option("SEQUENCE", request.sequence, "folder or list of the pairs of images");
-  command->add_option("--out", request.out, "folder for what comes out; it is made");
+  command->add_option("--out", request.out, "folder for the results; it is created");
   AddExistingFiles(*command, request.existing, true);
   command->add_option("--cameras", request.cameras,
                       "file with the cameras of both images (default: KITTI's calib.txt in the "

@@ -31,7 +31,8 @@ std::vector<Problem> CellDifferences(const CellIdentity& stored, const CellIdent
   std::vector<Problem> problems;
   if (stored.fingerprint != wanted.fingerprint) {
     problems = ScenarioDifferences(stored.resolved, wanted.resolved, kPathsShown, words);
-    // The checksums of its rows go by the fingerprint, which goes by the keys.
+    // No value differs, but a key was renamed: the checksums of stored rows are computed from the
+    // fingerprint, and the fingerprint from the names of the keys.
     if (problems.empty()) {
       problems.push_back(
           {"scenario",

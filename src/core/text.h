@@ -36,7 +36,7 @@ struct CodePoint {
 // than needed, a surrogate, beyond U+10FFFF) is one byte of none.
 CodePoint FirstCodePoint(std::string_view text);
 
-// Where a text is UTF-8 no longer; its size where all of it is.
+// Returns the place of the first byte that is not valid UTF-8, or the size of the text.
 std::size_t Utf8Bytes(std::string_view text);
 
 }  // namespace rockyard::core

@@ -78,9 +78,9 @@ void ErrorStateFilterParams::Visit(core::FieldVisitor& v) {
   v.Group("drift", drift, "how the error grows on the way");
   v.Group("gate", gate, "which measurements are believed");
   v.Choice("motion_disagreement", motion_disagreement,
-           Assumed("what becomes of a motion between two moments (visual odometry) that the gate "
-                   "would turn away: doubt_wheels takes it, and takes wheels and gyro to have gone "
-                   "wrong in between by as much as it says; turn_away does not",
+           Assumed("what happens to a motion from visual odometry that the gate would reject: "
+                   "doubt_wheels accepts it and assumes that wheels and gyro were wrong by the "
+                   "difference; turn_away rejects it",
                    "whoever saw the motion has checked that hundreds of points agree on it; wheels "
                    "slip and a gyro that is shaken jumps (Matthies 1995 sec. 8)"));
   v.Real("stretch_m", stretch_m,

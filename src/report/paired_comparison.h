@@ -82,9 +82,9 @@ ResultTable ColumnsOf(const RunComparison& comparison);
 // and its interval.
 std::string RunComparisonCsv(const RunComparison& comparison);
 
-// Two measurements, cell by cell. What was compared; the verdict; a line for each rate; then the
-// cells: those of the main rate (the forty with the smallest p-values where there are more), and of
-// every other rate those that differ. At most 100 columns.
+// Two measurements, cell by cell. What was compared; the verdict; a line for each rate; then, where
+// there are tests, the cells: all of the main rate and of every other rate those that differ, of each at
+// most the forty with the smallest p-values. At most 100 columns.
 std::string CellComparisonText(const ComparedRun& first, const ComparedRun& second,
                                const statistics::CellComparison& comparison);
 

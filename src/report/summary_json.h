@@ -56,7 +56,7 @@ std::string ReasonOf(const statistics::MeanEstimate& estimate);
 // A metric over some trials: {count, mean, ci95} and, where it is no rate, {ci_reason (where ci95
 // is null), median, median_ci95, min, max, std, usual, share_apart {count, rate, ci95}}: the
 // commonest value, and the trials that have another one, exact. ci_method says how ci95 is made:
-// wilson, clopper_pearson or skewed_t (statistics/mean_interval.h); null where there is none.
+// wilson, clopper_pearson or skewed_t (statistics/sample_statistics.h); null where there is none.
 core::JsonValue MetricJson(const statistics::MetricSummary& summary);
 
 // {count, trials, rate, ci95, ci_method}.

@@ -47,7 +47,7 @@ struct Metric {
   // otherwise: default of the equivalence tests, a convention and no result.
   double margin = 0.0;
   double relative_margin = 0.0;
-  // Values from which on the mean gets an interval (mean_interval.h).
+  // Values from which on the mean gets an interval (sample_statistics.h).
   std::int64_t fewest_for_mean = kFewestForMean;
 };
 

@@ -689,7 +689,7 @@ SEEN = [
            r"\(--param (correlator.disparities)=...\)", {"r.pgm": netpbm(OTHER)}),
     stereo(r"check that the cameras are those of these images and that both see the same; widen the range "
            r"\((--nearest)\)", {"c.json": pair(), "r.pgm": netpbm(OTHER)}, fails=CAMERAS),
-    stereo(r"use two images of one scene with texture, whose rows are less than \d+ px apart, or cameras",
+    stereo(r"use two images of one textured scene whose rows are less than \d+ px apart, or give --cameras",
            {"l.pgm": netpbm(0 * LEFT + 9), "r.pgm": netpbm(0 * RIGHT + 10)}, fails=STEREO + " --align"),
     stereo(r"give the known disparities of the left image as it is matched: .*", {"t.pgm": netpbm(LEFT[1:])},
            write(t_pgm=netpbm(0 * LEFT + 5)), fails=STEREO + " --reference t.pgm"),

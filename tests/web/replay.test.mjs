@@ -87,7 +87,7 @@ test("says what the record says, in words that a newcomer reads", async () => {
   const { page } = await open(target);
   assert.match(await page.textContent(".outcome"), /\(It found no way on and gave up\.\)/);
   const turns = payloadOf(file).record.find(({ name }) => name === "point_turns").value;
-  const row = page.locator(".timeline-labels .row", { hasText: "point turn" });
+  const row = page.locator(".timeline-labels .row", { hasText: "turn in place" });
   assert.equal(await row.locator(".count").textContent(), String(turns));
   await page.context().close();
 });

@@ -216,7 +216,7 @@ test("events and numbers in words", () => {
   assert.equal(inWords({ kind: "hazard", detail: "#..#." }), "believes in a hazard: stripes 1, 4 of 5 from the left");
   assert.equal(inWords({ kind: "end", detail: "goal_reached" }), "the trial ended: goal reached");
   assert.equal(inWords({ kind: "new_kind", detail: "" }), "new_kind");
-  assert.deepEqual(["turn", "scan", "new_kind"].map(kindName), ["point turn", "scan", "new_kind"]);
+  assert.deepEqual(["turn", "scan", "new_kind"].map(kindName), ["turn in place", "scan", "new_kind"]);
   assert.equal(clock(65.25), "1:05.3");
   assert.equal(clock(59.96), "1:00.0");
   assert.equal(clock(3661), "1:01:01.0");

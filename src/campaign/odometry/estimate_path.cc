@@ -230,7 +230,7 @@ class PathEstimation {
     result_.steps.push_back(std::move(step));
   }
 
-  // What the file of poses says of the way since the pair before.
+  // The motion since the previous pair, from the file of predicted poses.
   std::optional<math::Transform> ExpectedStep(std::int64_t pair) const {
     if (predicted_.empty() || result_.steps.empty()) return std::nullopt;
     const auto before = static_cast<std::size_t>(result_.steps.back().pair);

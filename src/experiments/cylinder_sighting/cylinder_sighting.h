@@ -100,7 +100,7 @@ void ForEachColumn(const SightingSums& s, const Visitor& visit) {
   ForEachFinderColumn("robust", "rockyard's own finder", kCount, s.robust, visit);
 }
 
-// What is true of a view. L as in rendering/cylinder/cylinder_view.h.
+// What is true of a view. L as in rendering/cylinder/cylinder_scene.h.
 struct CylinderTruth {
   bool present = true;
   double orientation_rad = 0.0;

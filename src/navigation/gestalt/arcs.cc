@@ -65,7 +65,7 @@ CandidateMotion MakePointTurn(double turn_rad, const PathSampling& sampling) {
   return candidate;
 }
 
-// Angles of the point turns to one side, ascending.
+// Angles of the turns in place to one side, ascending.
 std::vector<double> PointTurnAngles(const GestaltArcParams& arcs) {
   if (arcs.num_point_turns == 0) return {arcs.point_turn_amount_rad};
   std::vector<double> angles;

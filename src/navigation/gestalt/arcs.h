@@ -17,7 +17,7 @@ struct PathPoint {
 // A motion and the path that it leads over.
 struct CandidateMotion {
   messages::MotionCommand motion;
-  double turn_rad = 0.0;          // of a point turn, before its straight drive; 0 for arcs
+  double turn_rad = 0.0;          // of a turn in place, before its straight drive; 0 for arcs
   std::vector<PathPoint> points;  // the k-th lies PathSampling::distance_m[k] along the path
 };
 
@@ -37,7 +37,7 @@ struct PathSampling {
 PathSampling SamplePaths(const GestaltPlanParams& params, double cell_m);
 
 // Candidates in rows, as figure 3 of Goldberg 2002 shows them: arcs by curvature from right (most
-// negative) to left, point turns by angle from right to left.
+// negative) to left, turns in place by angle from right to left.
 struct CandidateMotions {
   std::vector<CandidateMotion> forward;
   std::vector<CandidateMotion> backward;
@@ -53,7 +53,7 @@ double ArcCurvature(std::size_t index, std::size_t count, double max_curvature_p
 // mirrored arcs; with an even number and curvature 0, it is the right one of the two in the middle.
 std::size_t NearestArc(double curvature_per_m, std::size_t count, double max_curvature_per_m);
 
-// Returns all candidates. A point turn is a turn in place by point_turn_amount, or by multiples of
+// Returns all candidates. A turn in place is by point_turn_amount, or by multiples of
 // 180 deg / num_point_turns, and a straight drive after it (Howard 2012, "turn-in-place of
 // different angles followed by a straight drive"). Arcs are judged no further than where they have
 // turned max_path_turn.

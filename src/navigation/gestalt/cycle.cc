@@ -116,7 +116,7 @@ NavigatorDecision GestaltCycle::OnCloud(const NavigatorInput& input) {
   return looks_behind ? Look(Stage::kLookingBehind) : Choose(input);
 }
 
-// Step 7 of the paper and what it leaves open: an arc, a point turn, or giving up after a search
+// Step 7 of the paper and what it leaves open: an arc, a turn in place, or giving up after a search
 // all round.
 NavigatorDecision GestaltCycle::Choose(const NavigatorInput& input) {
   MotionVotes& votes = evaluation_.votes();

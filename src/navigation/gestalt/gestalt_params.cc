@@ -163,7 +163,7 @@ namespace {}
 
 void GestaltArcParams::Visit(core::FieldVisitor& v) {
   v.Real("max_curvature_per_m", max_curvature_per_m,
-         Published("curvature of the tightest arcs, close to a point turn", kGoldbergTable1,
+         Published("curvature of the tightest arcs, close to a turn in place", kGoldbergTable1,
                    {0.01, 20.0}));
   v.Integer(
       "num_forward_arcs", num_forward_arcs,
@@ -172,9 +172,9 @@ void GestaltArcParams::Visit(core::FieldVisitor& v) {
             Published("backward arcs to evaluate, spaced evenly in curvature", kGoldbergTable1,
                       {0, 201}));
   v.Angle("point_turn_amount_deg", point_turn_amount_rad,
-          Published("how far to rotate during a point turn", kGoldbergTable1, {1.0, 170.0}));
+          Published("how far to rotate during a turn in place", kGoldbergTable1, {1.0, 170.0}));
   v.Integer("num_point_turns", num_point_turns,
-            Assumed("point turns to either side that compete with the arcs, spaced evenly up to "
+            Assumed("turns in place to either side that compete with the arcs, spaced evenly up to "
                     "180 deg; 0: that of point_turn_amount_deg alone",
                     "Howard 2012 sec. 3: \"different angles followed by a straight drive\"; "
                     "Goldberg 2002 table 1 has the one amount",

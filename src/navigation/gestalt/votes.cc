@@ -140,7 +140,7 @@ MotionVotes ArcVoter::Vote(const GoodnessGrid& grid, const PoseEstimate& estimat
   votes.forward = VoteOnArcs(candidates_.forward, +1, grid, estimate, goal_R);
   votes.backward = VoteOnArcs(candidates_.backward, -1, grid, estimate, goal_R);
   const std::size_t count = candidates_.forward.size();
-  // A point turn is voted on as the straight arc after it; of an even number of arcs the straight
+  // A turn in place is voted on as the straight arc after it; of an even number of arcs the straight
   // one lies between two.
   const double straight = 0.5 * static_cast<double>(count - 1);
   for (const CandidateMotion& turn : candidates_.point_turns) {
@@ -297,7 +297,7 @@ MotionVote* ChooseArc(MotionVotes& votes, const GestaltParams& params) {
   return best.middle;
 }
 
-// When a point turn is preferred, by the reading that the parameters choose.
+// When a turn in place is preferred, by the reading that the parameters choose.
 bool TurnsInPlace(const MotionVote& turn, const MotionVote* arc, const GestaltParams& params) {
   switch (params.drive.point_turns) {
     case PointTurns::kNever:

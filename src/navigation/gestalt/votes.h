@@ -103,7 +103,7 @@ struct MotionVotes {
   std::vector<messages::MotionVote> point_turns;
 };
 
-// Holds the candidates, and votes on them. A point turn's waypoint vote is that of the straight arc
+// Holds the candidates, and votes on them. The waypoint vote of a turn in place is that of the straight arc
 // after the turn. Where votes are whole_numbers each is rounded, half up, as soon as it is formed.
 class ArcVoter {
  public:
@@ -152,11 +152,11 @@ messages::MotionVote* ChooseArc(MotionVotes& votes, const GestaltParams& params)
 bool TurnsInPlace(const messages::MotionVote& turn, const messages::MotionVote* arc,
                   const GestaltParams& params);
 
-// Returns the best of the point turns; of equals one towards the goal, left for a goal straight
+// Returns the best of the turns in place; of equals one towards the goal, left for a goal straight
 // ahead or behind, and of these the smallest.
 messages::MotionVote* ChoosePointTurn(MotionVotes& votes, double goal_bearing_rad);
 
-// Returns the point turn to that side (+1 left, -1 right) whose angle is nearest to `amount_rad`.
+// Returns the turn in place to that side (+1 left, -1 right) whose angle is nearest to `amount_rad`.
 messages::MotionVote* PointTurnTo(MotionVotes& votes, int side, double amount_rad);
 
 // Returns the highest merged vote of a row; 0 for an empty one.

@@ -13,8 +13,8 @@
 
 namespace rockyard::trial {
 
-// Holds the way of the wheels against the true one over the last `min_way_m` that the wheels
-// rolled, once a control tick: what a check that saw everything at once would know.
+// Compares, at every control tick, the distance that the wheels rolled with the true one, over the last
+// `min_way_m` that they rolled: what a perfect check without delay would find.
 class SlipOnset {
  public:
   explicit SlipOnset(const perception::SlipCheckParams& params) : params_(params) {}

@@ -171,7 +171,7 @@ std::vector<Problem> OptionProblems(const RectificationOptions& options) {
   std::vector<Problem> problems;
   if (!(options.focal_px >= 0.0 && std::isfinite(options.focal_px))) {
     problems.push_back({"focal_px", fmt::format("is {}", options.focal_px),
-                        "use a positive number, or 0 for that of the images"});
+                        "use a positive number, or 0 for the focal length of the images"});
   }
   if (!(options.largest_angle_rad > 0.0 && options.largest_angle_rad < 0.5 * std::numbers::pi)) {
     problems.push_back({"largest_angle_rad", fmt::format("is {}", options.largest_angle_rad),

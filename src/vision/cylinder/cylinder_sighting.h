@@ -49,8 +49,8 @@ struct CylinderSighting {
   double orientation_rad = 0.0;
   // The centre of the cylinder in the cameras' outer frame L, m.
   math::Vector3 p_LT_L = math::Vector3::Zero();
-  // Depths of the centre before the left camera along its optical axis: by the disparity (equation
-  // 17) and by the width (equations 15 and 16).
+  // Depths of the centre before the left camera along its optical axis, by the disparity and by the
+  // width: by equations 17, 15 and 16 in the published finder, by its fit in the robust one.
   double distance_by_stereo_m = 0.0;
   double distance_by_size_m = 0.0;
   // Of p_LT_L (m) and the orientation (rad), in this order.

@@ -130,7 +130,7 @@ void EstimationParams::Visit(core::FieldVisitor& v) {
            Assumed("weights of points that are off",
                    "the consistent set leaves mismatches of a pixel in"));
   v.Real("robust_sigma", robust_sigma,
-         Assumed("where they begin to matter less, in standard deviations of their residual",
+         Assumed("residual from which on a point has less weight, in standard deviations",
                  "normal noise loses hardly any weight", {0.1, 100.0}, {1.0, 3.0}));
   v.Integer("max_iterations", max_iterations,
             Assumed("most steps of least squares", "some five are needed", {1, 1000}, {10, 100}));

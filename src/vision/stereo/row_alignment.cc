@@ -124,7 +124,7 @@ double Rms(const std::vector<Equation>& equations, const Eigen::Vector3d& plane,
 
 std::string Advice(const RowAlignmentOptions& options) {
   return fmt::format(
-      "use two images of one scene with texture, whose rows are less than {} px apart, or cameras",
+      "use two images of one textured scene whose rows are less than {} px apart, or give --cameras",
       options.search.max_rows_px);
 }
 
@@ -169,7 +169,7 @@ core::Result<RowAlignment> FindRowAlignment(const GrayImage& left, const GrayIma
   if (!start) {
     return std::vector<core::Problem>{{"right image",
                                        "has points in common with the left one along a line only",
-                                       "use images that overlap more, or cameras"}};
+                                       "use images that overlap more, or give --cameras"}};
   }
   const Eigen::Vector3d plane = Refine(equations, *start, options.agree_px);
   const int agreeing = CountAgreeing(equations, plane, options.agree_px);

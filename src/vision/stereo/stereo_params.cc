@@ -75,7 +75,7 @@ void StereoFilterParams::Visit(core::FieldVisitor& v) {
                  "image a pixel of the window",
                  kSynthetic, {0.0, 500.0}, {0.0, 4.0}));
   v.Real("min_curvature_ratio", min_curvature_ratio,
-         Assumed("smallest curvature over the score of the best match itself", kSynthetic,
+         Assumed("smallest curvature of the scores at the best match, divided by its score", kSynthetic,
                  {0.0, 16.0}, {0.0, 0.5}));
   v.Integer(
       "blob_min_px", blob_min_px,

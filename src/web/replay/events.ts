@@ -51,7 +51,7 @@ const WORDS: Record<string, string> = {
   look: "looked",
   hazard: "believes in a hazard",
   chosen: "chose",
-  turn: "begins a point turn",
+  turn: "begins a turn in place",
   felt: "felt",
   scrape: "scraped a rock",
   stall: "is stuck",
@@ -61,7 +61,7 @@ const WORDS: Record<string, string> = {
 
 /** A kind as the record of the trial names it: its "turns in place" are others, and fewer. */
 export function kindName(kind: string): string {
-  return kind === "turn" ? "point turn" : kind;
+  return kind === "turn" ? "turn in place" : kind;
 }
 
 export function kindTitle(kind: string): string {

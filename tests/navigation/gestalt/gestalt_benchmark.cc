@@ -166,7 +166,7 @@ GoodnessGrid GroundGrid(double cell_m) {
   return map.Evaluate();
 }
 
-// All votes of one cycle: 23 arcs either way and two point turns.
+// All votes of one cycle: 23 arcs either way and two turns in place.
 class PathVotes {
  public:
   static constexpr const Table3Row& kPaper = RowOf("Path votes");
