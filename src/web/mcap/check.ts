@@ -1,97 +1,44 @@
 // Whether a JSON value is the data of a replay (replay/payload.ts), so that nothing after has to ask.
-import type { Motion, ReplayPayload } from "../replay/payload";
-import { first, mismatch, type Shape } from "./shape";
+
+import { type Motion, MOTION_COLUMNS, type ReplayPayload } from "../replay/payload";
 
 const VERSION = 1;
 // The last moment has every digit and those before it are rounded, so it may come a little early.
 const ROUNDING_S = 1e-6;
 
-const PLACE = { x: "number", y: "number" } as const;
-const POSE = { ...PLACE, heading: "number" } as const;
+/** Members that are numbers. */
+const numbers = (...names: string[]): Record<string, Shape> => Object.fromEntries(names.map((name) => [name, "number"]));
 
-/** Columns with an entry for each moment. */
-const MOTION = {
-  t: ["number"],
-  x: ["number"],
-  y: ["number"],
-  z: ["number"],
-  qw: ["number"],
-  qx: ["number"],
-  qy: ["number"],
-  qz: ["number"],
-  believed_x: ["number"],
-  believed_y: ["number"],
-  believed_heading: ["number"],
-  activity: ["number"],
-  tilt: ["number"],
-} as const;
-
-const COLUMNS = Object.keys(MOTION) as (keyof typeof MOTION)[];
+const POSE = numbers("x", "y", "heading");
 
 const REPLAY: Shape = {
-  title: "text",
-  scenario: "text",
-  cell: "text",
-  seed: "any",
-  trial: "number",
-  outcome: "text",
-  detail: "text",
-  repeats_stored: "any",
-  record_hash: "text",
-  command: "text",
-  provenance: {},
+  title: "text", scenario: "text", cell: "text", seed: "any", trial: "number", outcome: "text", detail: "text", repeats_stored: "any",
+  record_hash: "text", command: "text", provenance: {},
   record: [{ name: "text", unit: "text", value: "number?" }],
   course: {
     start: POSE,
-    goal: { ...PLACE, radius: "number" },
-    told_goal: PLACE,
-    bounds: { x_min: "number", x_max: "number", y_min: "number", y_max: "number" },
-    walls: [{ nx: "number", ny: "number", offset: "number" }],
+    goal: numbers("x", "y", "radius"),
+    told_goal: numbers("x", "y"),
+    bounds: numbers("x_min", "x_max", "y_min", "y_max"),
+    walls: [numbers("nx", "ny", "offset")],
   },
-  ground: { x0: "number", y0: "number", step: "number", nx: "number", ny: "number", z: ["number"] },
-  rocks: [{ ...PLACE, z: "number", a: "number", b: "number", c: "number", yaw: "number" }],
-  rock_moves: [{ ...PLACE, rock: "number", t: "number", z: "number" }],
+  ground: { ...numbers("x0", "y0", "step", "nx", "ny"), z: ["number"] },
+  rocks: [numbers("x", "y", "z", "a", "b", "c", "yaw")],
+  rock_moves: [numbers("x", "y", "rock", "t", "z")],
   rover: { links: [{ name: "text", parent: "number", pivot: ["number"], axis: ["number"], shapes: [{ kind: "text" }] }] },
-  motion: { ...MOTION, joints: {}, activity_names: ["text"], breaks: ["number"] },
-  scans: [
-    {
-      ...POSE,
-      t: "number",
-      points: [{ ...PLACE, z: "number", stripe: "number", height: "number" }],
-      hazards: ["boolean"],
-    },
-  ],
-  steps: [
-    {
-      t: "number",
-      step: "number",
-      believed: POSE,
-      behind: "boolean",
-      map: {
-        x0: "number",
-        y0: "number",
-        xstep: "number",
-        ystep: "number",
-        nx: "number",
-        ny: "number",
-        goodness: ["number"],
-        certainty: ["number"],
-        elevation: ["number?"],
-      },
-      votes: [
-        {
-          kind: "text",
-          curvature: "number",
-          hazard: "number",
-          certainty: "number",
-          waypoint: "number",
-          merged: "number",
-          chosen: "boolean",
-        },
-      ],
-      points: [["number"]],
-    },
-  ],
+  motion: {
+    ...Object.fromEntries(MOTION_COLUMNS.map((name) => [name, ["number"]])),
+    joints: {}, activity_names: ["text"], breaks: ["number"],
+  },
+  scans: [{ ...POSE, t: "number", points: [numbers("x", "y", "z", "stripe", "height")], hazards: ["boolean"] }],
+  steps: [{
+    ...numbers("t", "step"),
+    believed: POSE,
+    behind: "boolean",
+    map: { ...numbers("x0", "y0", "xstep", "ystep", "nx", "ny"), goodness: ["number"], certainty: ["number"], elevation: ["number?"] },
+    votes: [{ kind: "text", ...numbers("curvature", "hazard", "certainty", "waypoint", "merged"), chosen: "boolean" }],
+    points: [["number"]],
+  }],
   events: [{ ...POSE, t: "number", kind: "text", detail: "text" }],
 };
 
@@ -110,7 +57,7 @@ function motionProblem(motion: Motion): string | null {
   const asLong = (name: string, column: number[]): string | null =>
     column.length === times.length ? null : `${name} must be as long as motion.t`;
   return (
-    first(COLUMNS, (name) => asLong(`motion.${name}`, motion[name])) ??
+    first(MOTION_COLUMNS, (name) => asLong(`motion.${name}`, motion[name])) ??
     first(Object.entries(joints), ([name, column]) => {
       const path = `motion.joints.${name}`;
       return mismatch(column, ["number"], path) ?? asLong(path, column);
@@ -154,4 +101,50 @@ export function asReplay(value: unknown): ReplayPayload {
     first([...moves, ...steps, ...events, ...scans], ({ t }) => (t >= 0 ? null : `the time ${t} must be at least 0`));
   if (problem) throw new Error(`the data of the replay is damaged: ${problem}`);
   return { ...replay, motion: { ...replay.motion, t: inOrder(replay.motion.t) } };
+}
+
+// ---- What a JSON value must look like, and what about it does not.
+
+/** "number" is finite; a list of one is a list of such; an object is an object with these members. */
+export type Shape =
+  | "number"
+  | "number?"
+  | "text"
+  | "boolean"
+  | "any"
+  | readonly [Shape]
+  | { readonly [member: string]: Shape };
+
+const isObject = (value: unknown): value is Record<string, unknown> =>
+  typeof value === "object" && value !== null && !Array.isArray(value);
+
+const LEAVES: Record<string, { test: (value: unknown) => boolean; words: string }> = {
+  number: { test: Number.isFinite, words: "a number" },
+  "number?": { test: (value) => value === null || Number.isFinite(value), words: "a number or null" },
+  text: { test: (value) => typeof value === "string", words: "text" },
+  boolean: { test: (value) => typeof value === "boolean", words: "true or false" },
+  any: { test: (value) => value !== undefined, words: "there" },
+};
+
+/** The first place in `value` that differs from `shape`, in words; null where there is none. */
+function mismatch(value: unknown, shape: Shape, path = ""): string | null {
+  if (typeof shape === "string") {
+    const { test, words } = LEAVES[shape]!;
+    return test(value) ? null : `${path || "the file"} must be ${words}`;
+  }
+  if (Array.isArray(shape)) {
+    if (!Array.isArray(value)) return `${path} must be a list`;
+    return first(value, (entry, i) => mismatch(entry, shape[0] as Shape, `${path}[${i}]`));
+  }
+  if (!isObject(value)) return `${path || "the file"} must be an object`;
+  return first(Object.entries(shape), ([name, of]) => mismatch(value[name], of, path ? `${path}.${name}` : name));
+}
+
+/** The first answer of `ask` that is not null. */
+export function first<T>(values: readonly T[], ask: (value: T, index: number) => string | null): string | null {
+  for (let i = 0; i < values.length; ++i) {
+    const answer = ask(values[i]!, i);
+    if (answer !== null) return answer;
+  }
+  return null;
 }

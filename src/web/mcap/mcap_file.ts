@@ -12,9 +12,7 @@ class Memory {
   private readonly pieces: Uint8Array[] = [];
   private length = 0;
 
-  position(): bigint {
-    return BigInt(this.length);
-  }
+  position(): bigint { return BigInt(this.length); }
 
   // A copy, because the writer goes on with its buffer.
   async write(piece: Uint8Array): Promise<void> {
@@ -22,9 +20,7 @@ class Memory {
     this.length += piece.length;
   }
 
-  bytes(): Uint8Array {
-    return Buffer.concat(this.pieces);
-  }
+  bytes(): Uint8Array { return Buffer.concat(this.pieces); }
 }
 
 const asText = (value: unknown): string => (typeof value === "string" ? value : JSON.stringify(value));
@@ -33,8 +29,7 @@ const asText = (value: unknown): string => (typeof value === "string" ? value : 
 function metadataOf(replay: ReplayPayload): { name: string; metadata: Map<string, string> }[] {
   const { version, scenario, cell, seed, trial, outcome, detail, record_hash, repeats_stored, command } = replay;
   const described = { version, scenario, cell, seed, trial, outcome, detail, record_hash, repeats_stored, command };
-  const texts = (entries: [string, unknown][]): Map<string, string> =>
-    new Map(entries.map(([key, value]) => [key, asText(value)]));
+  const texts = (entries: [string, unknown][]): Map<string, string> => new Map(entries.map(([key, value]) => [key, asText(value)]));
   return [
     { name: "rockyard.trial", metadata: texts(Object.entries(described)) },
     { name: "rockyard.record", metadata: texts(replay.record.map(({ name, value }) => [name, value])) },
@@ -44,8 +39,7 @@ function metadataOf(replay: ReplayPayload): { name: string; metadata: Map<string
 }
 
 // As the JSON encoding of Foxglove's schemas wants bytes.
-const withBase64 = (_: string, value: unknown): unknown =>
-  value instanceof Uint8Array ? Buffer.from(value).toString("base64") : value;
+const withBase64 = (_: string, value: unknown): unknown => value instanceof Uint8Array ? Buffer.from(value).toString("base64") : value;
 
 const encode = (content: unknown): Uint8Array => Buffer.from(JSON.stringify(content, withBase64), "utf8");
 

@@ -6,8 +6,8 @@ import type { Message } from "./topics";
 
 export const WORLD = "world";
 /** Frame R of the true rover. */
-export const ROVER = "rover";
-export const BELIEVED_ROVER = "believed_rover";
+const ROVER = "rover";
+const BELIEVED_ROVER = "believed_rover";
 
 /** Frame of a link of the true rover; link 0, the chassis, is R itself. */
 export const linkFrame = ({ links }: ReplayPayload["rover"], index: number): string =>
@@ -19,10 +19,7 @@ type Place = Pick<FrameTransform, "translation" | "rotation">;
 function placesAt({ motion }: ReplayPayload, i: number): { real: Place; believed: Place } {
   const { x, y, z, qx, qy, qz, qw, believed_x: bx, believed_y: by, believed_heading: heading } = motion;
   return {
-    real: {
-      translation: vector(x[i]!, y[i]!, z[i]!),
-      rotation: { x: qx[i]!, y: qy[i]!, z: qz[i]!, w: qw[i]! },
-    },
+    real: { translation: vector(x[i]!, y[i]!, z[i]!), rotation: { x: qx[i]!, y: qy[i]!, z: qz[i]!, w: qw[i]! } },
     believed: { translation: vector(bx[i]!, by[i]!, z[i]!), rotation: yaw(heading[i]!) },
   };
 }
@@ -43,9 +40,7 @@ function transformsAt(replay: ReplayPayload, i: number): FrameTransforms {
       rotation: turnAbout(fromList(axis), motion.joints[name]?.[i] ?? 0),
     }),
   );
-  return {
-    transforms: [transform(WORLD, ROVER, real), transform(WORLD, BELIEVED_ROVER, believed), ...links],
-  };
+  return { transforms: [transform(WORLD, ROVER, real), transform(WORLD, BELIEVED_ROVER, believed), ...links] };
 }
 
 /** Five messages for each moment. */
@@ -58,11 +53,7 @@ export function motionMessages(replay: ReplayPayload): Message[] {
       frame_id: WORLD,
       pose: pose(translation, rotation),
     });
-    const state = {
-      timestamp: timestamp(t),
-      activity: motion.activity_names[motion.activity[i]!] ?? "",
-      tilt_rad: motion.tilt[i]!,
-    };
+    const state = { timestamp: timestamp(t), activity: motion.activity_names[motion.activity[i]!] ?? "", tilt_rad: motion.tilt[i]! };
     const joints: JointStates = {
       timestamp: timestamp(t),
       joints: Object.entries(motion.joints).map(([name, angles]) => ({ name, position: angles[i]! })),

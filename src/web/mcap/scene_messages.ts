@@ -1,10 +1,14 @@
 // Ground, course, rocks, rover and paths as entities of a 3-D scene.
-import { type CylinderPrimitive, LineType, type LinePrimitive, type SceneEntity, type SceneUpdate, type SpherePrimitive } from "@foxglove/schemas";
-import { extentOf, GroundHeights, WALL_HEIGHT_M, wallWithin } from "../replay/scene/ground";
-import type { ReplayPayload, Rock } from "../replay/payload";
-import { colour, NO_TURN, pose, timestamp, vector, yaw } from "./geometry";
-import { WORLD } from "./motion_messages";
-import { roverParts } from "./rover_parts";
+
+import {
+  type Color, type CylinderPrimitive, type LinePrimitive, LineType, type Pose, type SceneEntity, type SceneUpdate,
+  type SpherePrimitive, type Vector3,
+} from "@foxglove/schemas";
+
+import type { ReplayPayload, Rock, Shape } from "../replay/payload";
+import { extentOf, gridFaces, GroundHeights, WALL_HEIGHT_M, wallWithin } from "../replay/scene/ground";
+import { alongZ, colour, fromList, NO_TURN, pose, timestamp, vector, yaw } from "./geometry";
+import { linkFrame, WORLD } from "./motion_messages";
 import type { Message, Topic } from "./topics";
 
 const GROUND = colour(0.62, 0.47, 0.36);
@@ -21,29 +25,16 @@ const GOAL_HEIGHT_M = 0.02;
 const TOLD_GOAL_RADIUS_M = 0.1;
 const WALL_THICKNESS_M = 0.01;
 
-type Parts = Partial<
-  Pick<SceneEntity, "arrows" | "cubes" | "spheres" | "cylinders" | "lines" | "triangles" | "texts" | "models">
->;
+type Parts = Partial<Pick<SceneEntity, "cubes" | "spheres" | "cylinders" | "lines" | "triangles">>;
 
 function entity(t: number, frame: string, id: string, parts: Parts): SceneEntity {
   return {
-    timestamp: timestamp(t),
-    frame_id: frame,
-    id,
-    lifetime: { sec: 0, nsec: 0 },
-    frame_locked: true,
-    metadata: [],
-    arrows: [],
-    cubes: [],
-    spheres: [],
-    cylinders: [],
-    lines: [],
-    triangles: [],
-    texts: [],
-    models: [],
-    ...parts,
+    timestamp: timestamp(t), frame_id: frame, id, lifetime: { sec: 0, nsec: 0 }, frame_locked: true, metadata: [],
+    arrows: [], cubes: [], spheres: [], cylinders: [], lines: [], triangles: [], texts: [], models: [], ...parts,
   };
 }
+
+const drum = (place: Pose, size: Vector3, color: Color): CylinderPrimitive => ({ pose: place, size, bottom_scale: 1, top_scale: 1, color });
 
 function update(topic: Topic, t: number, entities: SceneEntity[]): Message {
   const content: SceneUpdate = { deletions: [], entities };
@@ -52,14 +43,7 @@ function update(topic: Topic, t: number, entities: SceneEntity[]): Message {
 
 function groundParts({ ground: { x0, y0, step, nx, ny, z } }: ReplayPayload): Parts {
   const points = z.map((height, i) => vector(x0 + (i % nx) * step, y0 + Math.floor(i / nx) * step, height));
-  const indices: number[] = [];
-  for (let iy = 0; iy + 1 < ny; ++iy) {
-    for (let ix = 0; ix + 1 < nx; ++ix) {
-      const corner = iy * nx + ix;
-      indices.push(corner, corner + 1, corner + nx + 1, corner, corner + nx + 1, corner + nx);
-    }
-  }
-  return { triangles: [{ pose: pose(vector(0, 0, 0)), points, color: GROUND, colors: [], indices }] };
+  return { triangles: [{ pose: pose(vector(0, 0, 0)), points, color: GROUND, colors: [], indices: gridFaces(nx, ny) }] };
 }
 
 function wallParts({ course }: ReplayPayload, heights: GroundHeights): Parts {
@@ -79,16 +63,8 @@ function wallParts({ course }: ReplayPayload, heights: GroundHeights): Parts {
 function course(replay: ReplayPayload, t: number): Message {
   const heights = new GroundHeights(replay.ground);
   const { goal, told_goal: told } = replay.course;
-  const disc = (x: number, y: number, radius: number, color: typeof GOAL): Parts => ({
-    cylinders: [
-      {
-        pose: pose(vector(x, y, heights.at(x, y))),
-        size: vector(2 * radius, 2 * radius, GOAL_HEIGHT_M),
-        bottom_scale: 1,
-        top_scale: 1,
-        color,
-      },
-    ],
+  const disc = (x: number, y: number, radius: number, color: Color): Parts => ({
+    cylinders: [drum(pose(vector(x, y, heights.at(x, y))), vector(2 * radius, 2 * radius, GOAL_HEIGHT_M), color)],
   });
   return update("/scene/course", t, [
     entity(t, WORLD, "ground", groundParts(replay)),
@@ -148,7 +124,7 @@ function rocks(replay: ReplayPayload, t: number): Message[] {
 }
 
 /** One line for each stretch without a break. */
-function path({ motion }: ReplayPayload, x: number[], y: number[], color: typeof GOAL): LinePrimitive[] {
+function path({ motion }: ReplayPayload, x: number[], y: number[], color: Color): LinePrimitive[] {
   const ends = [0, ...motion.breaks, motion.t.length];
   return ends.slice(1).map((end, k) => ({
     type: LineType.LINE_STRIP,
@@ -173,6 +149,54 @@ function paths(replay: ReplayPayload, t: number): Message {
 /** What is there from the first moment on, and every push of a rock. */
 export function sceneMessages(replay: ReplayPayload): Message[] {
   const t = replay.motion.t[0]!;
-  const links = roverParts(replay.rover).map(({ frame, ...parts }) => entity(t, frame, frame, parts));
-  return [course(replay, t), ...rocks(replay, t), update("/scene/rover", t, links), paths(replay, t)];
+  return [course(replay, t), ...rocks(replay, t), update("/scene/rover", t, rover(replay, t)), paths(replay, t)];
+}
+
+// ---- The shapes of the rover's links as cubes, cylinders and spheres in the links' frames.
+
+const BODY = colour(0.75, 0.75, 0.78);
+const PANEL = colour(0.1, 0.2, 0.45);
+const WHEEL = colour(0.2, 0.2, 0.22);
+const ARM = colour(0.55, 0.55, 0.58);
+
+function ball(center: Vector3, radius: number): SpherePrimitive {
+  return { pose: pose(center), size: vector(2 * radius, 2 * radius, 2 * radius), color: ARM };
+}
+
+/** From one end to the other, with flat ends. */
+function cylinder(from: Vector3, to: Vector3, radius: number, color: Color): CylinderPrimitive {
+  const along = vector(to.x - from.x, to.y - from.y, to.z - from.z);
+  const middle = vector((from.x + to.x) / 2, (from.y + to.y) / 2, (from.z + to.z) / 2);
+  return drum(pose(middle, alongZ(along)), vector(2 * radius, 2 * radius, Math.hypot(along.x, along.y, along.z)), color);
+}
+
+function partsOf(shape: Shape): Parts {
+  switch (shape.kind) {
+    case "box":
+      return { cubes: [{ pose: pose(fromList(shape.center)), size: fromList(shape.size), color: shape.part.includes("panel") ? PANEL : BODY }] };
+    case "sphere":
+      return { spheres: [ball(fromList(shape.center), shape.radius)] };
+    case "wheel": {
+      const { x, y, z } = fromList(shape.center);
+      const half = shape.width / 2;
+      return { cylinders: [cylinder(vector(x, y - half, z), vector(x, y + half, z), shape.radius, WHEEL)] };
+    }
+    case "capsule": {
+      const [from, to] = [fromList(shape.from), fromList(shape.to)];
+      return { cylinders: [cylinder(from, to, shape.radius, ARM)], spheres: [ball(from, shape.radius), ball(to, shape.radius)] };
+    }
+  }
+}
+
+/** An entity for each link that has shapes. */
+function rover({ rover: shape }: ReplayPayload, t: number): SceneEntity[] {
+  return shape.links.flatMap(({ shapes }, i) => {
+    const parts = shapes.map(partsOf);
+        const frame = linkFrame(shape, i);
+    return shapes.length > 0 ? [entity(t, frame, frame, {
+      cubes: parts.flatMap(({ cubes = [] }) => cubes),
+      spheres: parts.flatMap(({ spheres = [] }) => spheres),
+      cylinders: parts.flatMap(({ cylinders = [] }) => cylinders),
+    })] : [];
+  });
 }

@@ -82,14 +82,7 @@ function levelOf({ kind }: TrialEvent, outcome: string): LogLevel {
 function eventMessages({ events, outcome }: ReplayPayload): Message[] {
   return events.map((event) => {
     const { t, kind, detail } = event;
-    const content: Log = {
-      timestamp: timestamp(t),
-      level: levelOf(event, outcome),
-      message: detail,
-      name: kind,
-      file: "",
-      line: 0,
-    };
+    const content: Log = { timestamp: timestamp(t), level: levelOf(event, outcome), message: detail, name: kind, file: "", line: 0 };
     return { topic: "/events", t, content };
   });
 }

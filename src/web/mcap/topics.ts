@@ -14,11 +14,7 @@ const STATE = {
   title: "rockyard.State",
   description: "What the rover does, and its tilt",
   type: "object",
-  properties: {
-    timestamp: TIME,
-    activity: { type: "string", description: "Of the stretch that ends here" },
-    tilt_rad: NUMBER,
-  },
+  properties: { timestamp: TIME, activity: { type: "string", description: "Of the stretch that ends here" }, tilt_rad: NUMBER },
   required: ["timestamp", "activity", "tilt_rad"],
 };
 

@@ -1,17 +1,16 @@
 // The page: what it is made of, and what goes on when time, switches or the window change.
-import { el } from "../shared/dom";
+
+import { button, el } from "../shared/dom";
 import { themeSwitch } from "../shared/theme";
-import { button } from "./controls";
 import { timelineEvents } from "./events";
-import { makeHandle, type Handle } from "./handle";
+import { type Handle, makeHandle } from "./handle";
 import { makeView } from "./make_view";
 import { Course as Drive, lastAtOrBefore } from "./motion";
 import { Overview } from "./overview";
-import { pageKeys } from "./page_keys";
 import { CameraBar } from "./panels/camera_bar";
 import { Ending } from "./panels/ending";
 import { EyesPanel } from "./panels/eyes";
-import { bindKeys, helpDialog, type Key } from "./panels/keys";
+import { bindKeys, helpDialog, type Key, pageKeys } from "./panels/keys";
 import { layersPanel, SCENE_LAYERS } from "./panels/layers";
 import { Readout } from "./panels/readout";
 import { originPanel, outcomeBanner, recordPanel } from "./panels/record";
@@ -21,7 +20,7 @@ import { Transport } from "./panels/transport";
 import { VotesPanel } from "./panels/votes";
 import type { ReplayPayload } from "./payload";
 import { Player, standingStretches, type Stretch } from "./player";
-import { beatsOf, type Beat } from "./story";
+import { type Beat, beatsOf } from "./story";
 import { shareTouch } from "./touch";
 import type { CameraMode, Layers, MapKind, Shown, View } from "./view";
 
@@ -49,61 +48,36 @@ export interface Shared {
 }
 
 export class App {
-  private readonly drive: Drive;
-  private readonly player: Player;
-  private readonly view: View;
-  private readonly layers: Layers;
-  private readonly readout: Readout;
+  private readonly drive = new Drive(this.payload.motion);
+  private readonly player = this.shared?.player ?? new Player(this.drive.start, this.drive.end, stretchesOf(this.drive));
+  private readonly scanTimes = this.payload.scans.map((scan) => scan.t);
+  private readonly stepTimes = this.payload.steps.map((step) => step.t);
+  private readonly layers: Layers = {
+    believed: true, wholePath: false, scan: this.payload.steps.length === 0, map: this.payload.steps.length > 0 ? "goodness" : "off",
+    mapAtTruth: false, votes: true, marks: true, grid: true, ...SCENE_LAYERS,
+  };
+  private readonly events = timelineEvents(this.payload);
+  private readonly readout = new Readout(this.payload, this.events);
   private readonly votes = new VotesPanel();
-  private readonly eyes: EyesPanel | null;
-  private readonly timeline: Timeline;
-  private readonly transport: Transport;
-  private readonly overview: Overview;
-  private readonly ending: Ending;
-  private readonly share: SharePanel;
-  private readonly cameras: CameraBar;
-  private layerPanel: HTMLElement;
-  private readonly scanTimes: number[];
-  private readonly stepTimes: number[];
+  private readonly eyes = this.payload.eyes ? new EyesPanel(this.payload.eyes) : null;
+  private readonly timeline = new Timeline(this.payload, this.events, this.player, () => this.refresh());
+  private readonly transport = new Transport(this.player, () => this.timeline.shownTimes);
+  private readonly view = makeView(this.payload, this.drive);
+  private readonly overview = new Overview(
+    this.player, (factor) => this.eachView((view) => view.approach(factor)), this.shared?.beats ?? beatsOf(this.payload, this.events));
+  private readonly ending = new Ending(this.payload, this.events, this.player, this.drive.end, () => this.playOverview());
+  private readonly share = new SharePanel(this.payload, this.player, this.overview, this.view.element, () => this.refresh());
+  private layerPanel = this.makeLayers();
+  private readonly cameras = new CameraBar(this.view.modes, {
+    mode: (mode) => this.setMode(mode),
+    overview: () => this.playOverview(),
+    planOfPaths: () => this.planOfPaths(),
+  });
   private dirty = true;
   private before = 0;
   private frames = 0;
 
-  constructor(
-    private readonly payload: ReplayPayload,
-    private readonly root: HTMLElement,
-    private readonly shared: Shared | null = null,
-  ) {
-    this.drive = new Drive(payload.motion);
-    this.player = shared?.player ?? new Player(this.drive.start, this.drive.end, stretchesOf(this.drive));
-    this.scanTimes = payload.scans.map((scan) => scan.t);
-    this.stepTimes = payload.steps.map((step) => step.t);
-    this.layers = {
-      believed: true,
-      wholePath: false,
-      scan: payload.steps.length === 0,
-      map: payload.steps.length > 0 ? "goodness" : "off",
-      mapAtTruth: false,
-      votes: true,
-      marks: true,
-      grid: true,
-      ...SCENE_LAYERS,
-    };
-    const events = timelineEvents(payload);
-    this.readout = new Readout(payload, events);
-    this.eyes = payload.eyes ? new EyesPanel(payload.eyes) : null;
-    this.timeline = new Timeline(payload, events, this.player, () => this.refresh());
-    this.transport = new Transport(this.player, () => this.timeline.shownTimes);
-    this.view = makeView(payload, this.drive);
-    this.overview = new Overview(this.player, (factor) => this.eachView((view) => view.approach(factor)), shared?.beats ?? beatsOf(payload, events));
-    this.ending = new Ending(payload, events, this.player, this.drive.end, () => this.playOverview());
-    this.share = new SharePanel(payload, this.player, this.overview, this.view.element, () => this.refresh());
-    this.layerPanel = this.makeLayers();
-    this.cameras = new CameraBar(this.view.modes, {
-      mode: (mode) => this.setMode(mode),
-      overview: () => this.playOverview(),
-      planOfPaths: () => this.planOfPaths(),
-    });
+  constructor(private readonly payload: ReplayPayload, private readonly root: HTMLElement, private readonly shared: Shared | null = null) {
     this.build();
     if (this.leads) bindKeys(this.keys());
     this.player.onChange(() => this.refresh());
@@ -111,14 +85,10 @@ export class App {
   }
 
   /** Alone on the page, or the first of two. */
-  private get leads(): boolean {
-    return this.shared?.first ?? true;
-  }
+  private get leads(): boolean { return this.shared?.first ?? true; }
 
   /** Whose camera and layers go as this one's. */
-  private get others(): App[] {
-    return this.leads ? (this.shared?.others ?? []) : [];
-  }
+  private get others(): App[] { return this.leads ? (this.shared?.others ?? []) : []; }
 
   handle(): Handle {
     return makeHandle(this.player, this.drive, this.view, this.overview, {
@@ -224,9 +194,7 @@ export class App {
     this.update();
   }
 
-  private refresh(): void {
-    this.dirty = true;
-  }
+  private refresh(): void { this.dirty = true; }
 
   private frame(now: number): void {
     const passed = (now - this.before) / 1000;

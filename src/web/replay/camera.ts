@@ -22,11 +22,7 @@ export class CameraRig {
   private height = 1;
   private planned: Extent | null = null;
 
-  constructor(
-    element: HTMLElement,
-    private readonly extent: Extent,
-    private readonly length_m: number,
-  ) {
+  constructor(element: HTMLElement, private readonly extent: Extent, private readonly length_m: number) {
     for (const camera of [this.near, this.plan]) camera.up.set(0, 0, 1);
     // x to the right and y up.
     this.plan.up.set(0, 1, 0);
@@ -45,9 +41,7 @@ export class CameraRig {
     this.setMode("follow");
   }
 
-  get camera(): Camera {
-    return this.mode === "top" ? this.plan : this.near;
-  }
+  get camera(): Camera { return this.mode === "top" ? this.plan : this.near; }
 
   onMoved(listener: () => void): void {
     this.orbit.addEventListener("change", listener);

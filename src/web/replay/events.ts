@@ -2,20 +2,7 @@
 import type { ReplayPayload, TrialEvent } from "./payload";
 
 /** The order of the rows; kinds that are not here come after. */
-const ORDER = [
-  "scan",
-  "look",
-  "hazard",
-  "chosen",
-  "turn",
-  "felt",
-  "scrape",
-  "stall",
-  "reflection",
-  "waypoint",
-  "tracker",
-  "end",
-];
+const ORDER = ["scan", "look", "hazard", "chosen", "turn", "felt", "scrape", "stall", "reflection", "waypoint", "tracker", "end"];
 
 export function timelineEvents(payload: ReplayPayload): TrialEvent[] {
   const events = [...payload.events];
@@ -60,9 +47,7 @@ const WORDS: Record<string, string> = {
 };
 
 /** A kind as the record of the trial names it: its "turns in place" are others, and fewer. */
-export function kindName(kind: string): string {
-  return kind === "turn" ? "turn in place" : kind;
-}
+export function kindName(kind: string): string { return kind === "turn" ? "turn in place" : kind; }
 
 export function kindTitle(kind: string): string {
   if (kind === "turn") return "turns in place; one that goes on after a look counts again";
@@ -79,11 +64,7 @@ export function inWords({ kind, detail }: TrialEvent): string {
   return detail ? `${words}: ${detail.replaceAll("_", " ")}` : words;
 }
 
-export interface Run {
-  from: number;
-  to: number;
-  activity: string;
-}
+export interface Run { from: number; to: number; activity: string }
 
 /** Runs of one activity: sample i tells what happened up to its time. */
 export function activityRuns({ motion }: ReplayPayload): Run[] {

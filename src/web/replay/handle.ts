@@ -6,8 +6,7 @@ import type { CameraMode, Drawing, DrawnLink, DrawnPose, View } from "./view";
 
 /** What is shown, and the player; nothing of the trial can be changed. */
 export interface Handle {
-  readonly duration: number;
-  readonly time: number;
+  readonly duration: number; readonly time: number;
   readonly playing: boolean;
   readonly mode: CameraMode;
   /** How many pictures the page has drawn by itself, frame by frame. */
@@ -45,24 +44,12 @@ export function makeHandle(player: Player, drive: Drive, view: View, overview: O
     act();
   };
   return {
-    get duration() {
-      return player.end - player.start;
-    },
-    get time() {
-      return player.time;
-    },
-    get playing() {
-      return player.playing;
-    },
-    get mode() {
-      return view.mode;
-    },
-    get frames() {
-      return page.frames();
-    },
-    get overview() {
-      return overview.running;
-    },
+    get duration() { return player.end - player.start; },
+    get time() { return player.time; },
+    get playing() { return player.playing; },
+    get mode() { return view.mode; },
+    get frames() { return page.frames(); },
+    get overview() { return overview.running; },
     seek: (t) => here(() => player.seek(t)),
     play: () => here(() => player.play()),
     playOverview: () => page.playOverview(),

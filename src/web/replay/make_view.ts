@@ -15,9 +15,7 @@ export function makeView(payload: ReplayPayload, drive: Drive): View {
 }
 
 // Asked of a canvas of its own, because three.js writes errors to the console.
-function hasWebGl(): boolean {
-  return document.createElement("canvas").getContext("webgl2") !== null;
-}
+function hasWebGl(): boolean { return document.createElement("canvas").getContext("webgl2") !== null; }
 
 /** What the plan shows: the drive with start and goal, within the ground. */
 function planExtent({ motion, course }: ReplayPayload): Extent {

@@ -1,31 +1,18 @@
 // What the rover did at any time: samples, and what lies between two of them.
-import type { Motion } from "./payload";
+import type { Motion, Place } from "./payload";
 
-export interface Quaternion {
-  w: number;
-  x: number;
-  y: number;
-  z: number;
-}
-
-export interface Believed {
-  x: number;
-  y: number;
-  heading: number;
-}
+export interface Quaternion { w: number; x: number; y: number; z: number }
 
 /** All that is shown of one moment. */
 export interface Moment {
   t: number;
   /** Of the last sample at or before t. */
   index: number;
-  x: number;
-  y: number;
-  z: number;
+  x: number; y: number; z: number;
   attitude: Quaternion;
   heading: number;
   joints: Record<string, number>;
-  believed: Believed;
+  believed: Place;
   /** What it does until the next sample, which tells of it. */
   activity: string;
   tilt: number;
@@ -67,42 +54,26 @@ export function slerp(a: Quaternion, b: Quaternion, share: number): Quaternion {
   const near = angle < 1e-6;
   const wa = near ? 1 - share : Math.sin((1 - share) * angle) / Math.sin(angle);
   const wb = sign * (near ? share : Math.sin(share * angle) / Math.sin(angle));
-  return {
-    w: wa * a.w + wb * b.w,
-    x: wa * a.x + wb * b.x,
-    y: wa * a.y + wb * b.y,
-    z: wa * a.z + wb * b.z,
-  };
+  return { w: wa * a.w + wb * b.w, x: wa * a.x + wb * b.x, y: wa * a.y + wb * b.y, z: wa * a.z + wb * b.z };
 }
 
-const mix = (a: number, b: number, share: number): number =>
-  share === 0 ? a : share === 1 ? b : a + share * (b - a);
+const mix = (a: number, b: number, share: number): number => share === 0 ? a : share === 1 ? b : a + share * (b - a);
 
 export class Course {
-  private readonly breaks: Set<number>;
-  private readonly names: string[];
+  private readonly breaks: Set<number> = new Set(this.motion.breaks);
+  private readonly names: string[] = Object.keys(this.motion.joints);
 
   constructor(readonly motion: Motion) {
-    this.breaks = new Set(motion.breaks);
-    this.names = Object.keys(motion.joints);
   }
 
-  get length(): number {
-    return this.motion.t.length;
-  }
+  get length(): number { return this.motion.t.length; }
 
-  get start(): number {
-    return this.motion.t[0] ?? 0;
-  }
+  get start(): number { return this.motion.t[0] ?? 0; }
 
-  get end(): number {
-    return this.motion.t[this.length - 1] ?? 0;
-  }
+  get end(): number { return this.motion.t[this.length - 1] ?? 0; }
 
   /** Whether operators set the rover elsewhere between sample `index` - 1 and `index`. */
-  brokenBefore(index: number): boolean {
-    return this.breaks.has(index);
-  }
+  brokenBefore(index: number): boolean { return this.breaks.has(index); }
 
   attitude(index: number): Quaternion {
     const { qw, qx, qy, qz } = this.motion;
@@ -132,17 +103,12 @@ export class Course {
     const hold = span <= 0 || this.brokenBefore(next);
     const share = hold ? 0 : Math.min(1, Math.max(0, (t - from) / span));
     const value = (list: number[]): number => mix(list[index] ?? 0, list[next] ?? 0, share);
-    const attitude =
-      share === 0 ? this.attitude(index) : slerp(this.attitude(index), this.attitude(next), share);
+    const attitude = share === 0 ? this.attitude(index) : slerp(this.attitude(index), this.attitude(next), share);
     const joints: Record<string, number> = {};
     for (const name of this.names) joints[name] = value(motion.joints[name]!);
     const heading = motion.believed_heading[index] ?? 0;
     const turned = angleBetween(heading, motion.believed_heading[next] ?? heading);
-    const believed = {
-      x: value(motion.believed_x),
-      y: value(motion.believed_y),
-      heading: heading + share * turned,
-    };
+    const believed = { x: value(motion.believed_x), y: value(motion.believed_y), heading: heading + share * turned };
     const x = value(motion.x);
     const y = value(motion.y);
     return {

@@ -1,13 +1,13 @@
 // Plays the overview over the picture: captions, a nearer camera as it goes on, and a way out.
-import { el } from "../shared/dom";
-import { button } from "./controls";
+
+import { button, el } from "../shared/dom";
 import type { Player } from "./player";
-import { OVERVIEW_S, OverviewClock, type Beat } from "./story";
+import { type Beat, OVERVIEW_S, OverviewClock } from "./story";
 
 // The camera begins so much further away than it follows the rover afterwards.
 const FURTHER = 2.2;
 
-export type Ended = "whole" | "left" | "skipped";
+type Ended = "whole" | "left" | "skipped";
 
 export class Overview {
   /** Lies over the picture. */
@@ -31,19 +31,13 @@ export class Overview {
     }
   }
 
-  get running(): boolean {
-    return this.clock !== null;
-  }
+  get running(): boolean { return this.clock !== null; }
 
   /** What is said now; "" where nothing runs. */
-  get said(): string {
-    return this.running ? (this.caption.textContent ?? "") : "";
-  }
+  get said(): string { return this.running ? (this.caption.textContent ?? "") : ""; }
 
   /** Viewer's time since it began, s. */
-  get elapsed(): number {
-    return this.seconds;
-  }
+  get elapsed(): number { return this.seconds; }
 
   start(ended: (how: Ended) => void = () => undefined): void {
     this.player.pause();

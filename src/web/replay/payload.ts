@@ -4,13 +4,10 @@
 
 export interface ReplayPayload {
   version: 1;
-  title: string;
-  scenario: string;
-  cell: string;
+  title: string; scenario: string; cell: string;
   seed: number | string;
   trial: number;
-  outcome: string;
-  detail: string;
+  outcome: string; detail: string;
   /** Path of the setting that decided how it ended; "" where none did. */
   cause_setting: string;
   /** Whether the drive repeated the stored record bit for bit; null where there was none. */
@@ -63,10 +60,7 @@ export interface World {
   arena: {
     kind: "open" | "walled" | "virtual_unfolded" | "virtual_reflected";
     /** The arena itself, without margins. */
-    x_min: number;
-    x_max: number;
-    y_min: number;
-    y_max: number;
+    x_min: number; x_max: number; y_min: number; y_max: number;
     /** Of virtual arenas: the layout is mirrored at y = +- this; else 0. */
     mirror_line: number;
   };
@@ -85,24 +79,13 @@ export interface Sensor {
 }
 
 /** Heights of the ground without rocks, row-major: z[iy * nx + ix] at (x0 + ix step, y0 + iy step). */
-export interface Ground {
-  x0: number;
-  y0: number;
-  step: number;
-  nx: number;
-  ny: number;
-  z: number[];
-}
+export interface Ground { x0: number; y0: number; step: number; nx: number; ny: number; z: number[] }
 
 /** An ellipsoid, partly below the ground. */
 export interface Rock {
-  x: number;
-  y: number;
-  z: number;
+  x: number; y: number; z: number;
   /** Semi-axes along its own x, y, z. */
-  a: number;
-  b: number;
-  c: number;
+  a: number; b: number; c: number;
   yaw: number;
   /** Of its top above the ground. */
   height: number;
@@ -113,13 +96,7 @@ export interface Rock {
   growth?: number;
 }
 
-export interface RockMove {
-  rock: number;
-  t: number;
-  x: number;
-  y: number;
-  z: number;
-}
+export interface RockMove { rock: number; t: number; x: number; y: number; z: number }
 
 /**
  * The rover as links with boxes, cylinders, capsules and spheres. Link 0 is the chassis, whose frame
@@ -131,8 +108,7 @@ export interface RoverShape {
   links: {
     name: string;
     parent: number;
-    pivot: [number, number, number];
-    axis: [number, number, number];
+    pivot: [number, number, number]; axis: [number, number, number];
     shapes: Shape[];
   }[];
 }
@@ -144,31 +120,27 @@ export type Shape =
   | { kind: "capsule"; part: string; from: [number, number, number]; to: [number, number, number]; radius: number }
   | { kind: "sphere"; part: string; center: [number, number, number]; radius: number };
 
+/** Of `Motion`, with an entry for each moment. */
+export const MOTION_COLUMNS = [
+  "t",
+  // True pose: origin of R in W, and the unit quaternion of its attitude.
+  "x", "y", "z", "qw", "qx", "qy", "qz",
+  // As the rover believes.
+  "believed_x", "believed_y", "believed_heading",
+  // Of the stretch that ends at the moment: indices into activity_names: drive, turn, steer, scan, stall, image, compute, overhead.
+  "activity",
+  "tilt",
+] as const;
+
 /**
  * One entry per moment, in the order of time; equal lengths. Between two moments positions, joints and
  * the believed pose go linearly in time (headings the short way round), attitudes by slerp: that is
  * within the tolerances of the truth. At a break two moments share one time.
  */
-export interface Motion {
-  t: number[];
-  /** True pose: origin of R in W, and the unit quaternion of its attitude. */
-  x: number[];
-  y: number[];
-  z: number[];
-  qw: number[];
-  qx: number[];
-  qy: number[];
-  qz: number[];
+export interface Motion extends Record<(typeof MOTION_COLUMNS)[number], number[]> {
   /** By link name: rad. */
   joints: Record<string, number[]>;
-  /** As the rover believes. */
-  believed_x: number[];
-  believed_y: number[];
-  believed_heading: number[];
-  /** Of the stretch that ends at the moment: indices into activity_names: drive, turn, steer, scan, stall, image, compute, overhead. */
-  activity: number[];
   activity_names: string[];
-  tilt: number[];
   /** Indices of samples at which operators set the rover back (mirrored arena): the path breaks before. */
   breaks: number[];
   /** m, of true and believed positions. */
@@ -182,9 +154,7 @@ export interface Scan {
   /** When it begins; it ends with the stretch of motion whose activity is scan. */
   t: number;
   /** Of the rover when it scanned. */
-  x: number;
-  y: number;
-  heading: number;
+  x: number; y: number; heading: number;
   /** Points as the rover triangulates them, in W through the true pose; stripe and height as believed. */
   points: { x: number; y: number; z: number; stripe: number; height: number }[];
   /** Per stripe from left to right, of this scan alone. */
@@ -196,8 +166,7 @@ export interface Scan {
  * elevations, points and all of its splines; the others have nulls, none, and the chosen one.
  */
 export interface Step {
-  t: number;
-  step: number;
+  t: number; step: number;
   /** When the points were taken, at most t, and where the rover believed to be then. */
   look: { t: number; believed: Place };
   /** Where the rover believes to be as it decides: the arcs begin there, and the map lies in the believed world. */
@@ -206,12 +175,7 @@ export interface Step {
   pose: Place;
   behind: boolean;
   map: {
-    x0: number;
-    y0: number;
-    xstep: number;
-    ystep: number;
-    nx: number;
-    ny: number;
+    x0: number; y0: number; xstep: number; ystep: number; nx: number; ny: number;
     /** Row-major [iy][ix]; 0 to 255, or -1 where unknown. */
     goodness: number[];
     certainty: number[];
@@ -227,25 +191,16 @@ export interface Step {
   points: [number, number, number][];
 }
 
-export interface Place {
-  x: number;
-  y: number;
-  heading: number;
-}
+export interface Place { x: number; y: number; heading: number }
 
 /** Splines of two clothoids, one entry each: the curvature is linear between its start, the middle and the end. */
 export interface Splines {
   /** 1/m, positive to the left. */
-  start: number[];
-  first: number[];
-  second: number[];
+  start: number[]; first: number[]; second: number[];
   /** m. */
   length: number[];
   /** From 0 to 255. */
-  hazard: number[];
-  certainty: number[];
-  waypoint: number[];
-  merged: number[];
+  hazard: number[]; certainty: number[]; waypoint: number[]; merged: number[];
   /** Whether the steering motors keep up with it. */
   feasible: boolean[];
   /** Which one is driven, -1 where none is. */
@@ -278,10 +233,7 @@ export interface Vote {
   kind: "forward" | "backward" | "turn";
   /** 1/m, positive to the left; of turns the direction. */
   curvature: number;
-  hazard: number;
-  certainty: number;
-  waypoint: number;
-  merged: number;
+  hazard: number; certainty: number; waypoint: number; merged: number;
   chosen: boolean;
 }
 
@@ -290,7 +242,5 @@ export interface TrialEvent {
   /** "hazard", "look", "chosen", "felt", "scrape", "reflection", "turn", "stall", "end", ... */
   kind: string;
   detail: string;
-  x: number;
-  y: number;
-  heading: number;
+  x: number; y: number; heading: number;
 }

@@ -10,10 +10,7 @@ export const STANDING_S = 0.25;
 /** How long a whole replay should take by itself, s. */
 const COMFORTABLE_S = 60;
 
-export interface Stretch {
-  from: number;
-  to: number;
-}
+export interface Stretch { from: number; to: number }
 
 /** Stretches of `t` in which `stands(i)` holds from sample i to i + 1, joined where they touch. */
 export function standingStretches(t: number[], stands: (index: number) => boolean): Stretch[] {
@@ -42,12 +39,10 @@ export function common(a: Stretch[], b: Stretch[]): Stretch[] {
 
 /** Maps simulated time to played time and back: both grow together, piece by piece. */
 export class Pace {
-  private readonly simulated: number[];
-  private readonly played: number[];
+  private readonly simulated = [this.start];
+  private readonly played = [this.start];
 
-  constructor(start: number, end: number, skipped: Stretch[]) {
-    this.simulated = [start];
-    this.played = [start];
+  constructor(private readonly start: number, end: number, skipped: Stretch[]) {
     for (const { from, to } of skipped) {
       if (to - from <= STANDING_S) continue;
       this.add(from, from - this.simulated[this.simulated.length - 1]!);
@@ -57,17 +52,11 @@ export class Pace {
   }
 
   /** Played seconds of the whole. */
-  get duration(): number {
-    return this.played[this.played.length - 1]! - this.played[0]!;
-  }
+  get duration(): number { return this.played[this.played.length - 1]! - this.played[0]!; }
 
-  toPlayed(t: number): number {
-    return Pace.map(this.simulated, this.played, t);
-  }
+  toPlayed(t: number): number { return Pace.map(this.simulated, this.played, t); }
 
-  toSimulated(t: number): number {
-    return Pace.map(this.played, this.simulated, t);
-  }
+  toSimulated(t: number): number { return Pace.map(this.played, this.simulated, t); }
 
   private add(simulated: number, seconds: number): void {
     if (seconds <= 0) return;
@@ -92,28 +81,17 @@ export function comfortableSpeed(duration: number): number {
 }
 
 export class Player {
-  time: number;
+  time = this.start;
   playing = false;
-  speed: number;
   private skipping = true;
-  private readonly whole: Pace;
-  private readonly shortened: Pace;
+  private readonly whole = new Pace(this.start, this.end, []);
+  private readonly shortened = new Pace(this.start, this.end, this.standing);
+  speed = comfortableSpeed(this.shortened.duration);
   private readonly listeners: (() => void)[] = [];
 
-  constructor(
-    readonly start: number,
-    readonly end: number,
-    standing: Stretch[],
-  ) {
-    this.time = start;
-    this.whole = new Pace(start, end, []);
-    this.shortened = new Pace(start, end, standing);
-    this.speed = comfortableSpeed(this.shortened.duration);
-  }
+  constructor(readonly start: number, readonly end: number, private readonly standing: Stretch[]) {}
 
-  get skipStanding(): boolean {
-    return this.skipping;
-  }
+  get skipStanding(): boolean { return this.skipping; }
 
   set skipStanding(skip: boolean) {
     this.skipping = skip;
@@ -127,9 +105,7 @@ export class Player {
   }
 
   /** The time by which `share` of the whole was played. */
-  timeOf(share: number): number {
-    return this.pace.toSimulated(this.start + share * this.pace.duration);
-  }
+  timeOf(share: number): number { return this.pace.toSimulated(this.start + share * this.pace.duration); }
 
   /** Called whenever time, speed or playing have changed. */
   onChange(listener: () => void): void {
@@ -178,9 +154,7 @@ export class Player {
     this.seek(pace.toSimulated(pace.toPlayed(this.time) + seconds * this.speed));
   }
 
-  private get pace(): Pace {
-    return this.skipping ? this.shortened : this.whole;
-  }
+  private get pace(): Pace { return this.skipping ? this.shortened : this.whole; }
 
   private tell(): void {
     for (const listener of this.listeners) listener();
@@ -192,12 +166,5 @@ export class Player {
  * groups: what happened in one look is one step. Null where there is none.
  */
 export function neighbour(times: number[], now: number, by: 1 | -1, gap = 1e-6): number | null {
-  if (by > 0) {
-    const index = lastAtOrBefore(times, now + gap) + 1;
-    return times[index] ?? null;
-  }
-  for (let i = times.length - 1; i >= 0; --i) {
-    if (times[i]! < now - gap) return times[i]!;
-  }
-  return null;
+  return (by > 0 ? times.find((t) => t > now + gap) : times.findLast((t) => t < now - gap)) ?? null;
 }

@@ -14,10 +14,7 @@ const MOST_BEATS = 5;
 // Nearer together than this share of what is played, two moments are one.
 const APART = 0.02;
 
-export interface Beat {
-  t: number;
-  caption: string;
-}
+export interface Beat { t: number; caption: string }
 
 // The first of each kind is told, in this order where there are more than fit.
 const CAPTIONS: [string, string][] = [

@@ -8,17 +8,14 @@ export type CameraMode = "follow" | "top" | "orbit" | "rover";
 export type MapKind = "goodness" | "certainty" | "elevation" | "off";
 
 export interface Layers {
-  believed: boolean;
-  wholePath: boolean;
-  scan: boolean;
+  believed: boolean; wholePath: boolean; scan: boolean;
   map: MapKind;
   /** Whether map and votes lie where the rover truly is instead of where it believes to be. */
   mapAtTruth: boolean;
   votes: boolean;
   /** Of hazards, scrapes and stalls so far. */
   marks: boolean;
-  grid: boolean;
-  tracks: boolean;
+  grid: boolean; tracks: boolean;
   /** Light planes while a scan runs. */
   light: boolean;
   /** What the cameras of the terrain sensor see. */
@@ -30,39 +27,17 @@ export interface Layers {
 }
 
 /** All that a picture shows of one moment. */
-export interface Shown {
-  moment: Moment;
-  scan: Scan | null;
-  step: Step | null;
-}
+export interface Shown { moment: Moment; scan: Scan | null; step: Step | null }
 
 /** The pose that is drawn. */
-export interface DrawnPose {
-  x: number;
-  y: number;
-  z: number;
-  heading: number;
-}
+export interface DrawnPose { x: number; y: number; z: number; heading: number }
 
 /** Where the pivot of a link is drawn, in W, and how the link is turned. */
-export interface DrawnLink {
-  name: string;
-  x: number;
-  y: number;
-  z: number;
-  attitude: Quaternion;
-}
+export interface DrawnLink { name: string; x: number; y: number; z: number; attitude: Quaternion }
 
-interface Place {
-  x: number;
-  y: number;
-  z: number;
-}
+interface Place { x: number; y: number; z: number }
 
-export interface DrawnPlane {
-  emitter: Place;
-  ends: Place[];
-}
+export interface DrawnPlane { emitter: Place; ends: Place[] }
 
 /** What else is drawn in three dimensions, as it is drawn now. */
 export interface Drawing {

@@ -14,8 +14,7 @@ export interface ShownRun {
 
 /** What a chart asks the table of trials to show. */
 export interface TrialQuery {
-  run?: string;
-  outcome?: string;
+  run?: string; outcome?: string;
   /** Only trials that are in the rates. */
   onlyRated?: boolean;
 }
@@ -23,15 +22,14 @@ export interface TrialQuery {
 type Listener = () => void;
 
 export class Context {
-  readonly runs: Run[];
   /** Index of a run to its slot. */
   private slots = new Map<number, number>();
   private listeners: Listener[] = [];
   /** Set by the section of trials; does nothing without it. */
   showTrials: (query: TrialQuery) => void = () => {};
+  readonly runs = this.payload.runs ?? [];
 
   constructor(readonly payload: ReportPayload) {
-    this.runs = payload.runs ?? [];
     for (const index of spread(this.runs.length, MOST_SHOWN)) this.slots.set(index, this.slots.size);
   }
 
@@ -41,17 +39,11 @@ export class Context {
       .sort((a, b) => a.index - b.index);
   }
 
-  drives(): ShownRun[] {
-    return this.shown().filter((each) => each.run.kind !== "measurement");
-  }
+  drives(): ShownRun[] { return this.shown().filter((each) => each.run.kind !== "measurement"); }
 
-  isShown(index: number): boolean {
-    return this.slots.has(index);
-  }
+  isShown(index: number): boolean { return this.slots.has(index); }
 
-  full(): boolean {
-    return this.slots.size >= MOST_SHOWN;
-  }
+  full(): boolean { return this.slots.size >= MOST_SHOWN; }
 
   setShown(index: number, shown: boolean): void {
     if (shown && !this.full()) this.slots.set(index, this.freeSlot());
@@ -59,9 +51,7 @@ export class Context {
     for (const listener of this.listeners) listener();
   }
 
-  onChange(listener: Listener): void {
-    this.listeners.push(listener);
-  }
+  onChange(listener: Listener): void { this.listeners.push(listener); }
 
   private freeSlot(): number {
     const taken = new Set(this.slots.values());
@@ -75,4 +65,17 @@ export class Context {
 function spread(n: number, most: number): number[] {
   if (n <= most) return Array.from({ length: n }, (_, i) => i);
   return Array.from({ length: most }, (_, i) => Math.round((i * (n - 1)) / (most - 1)));
+}
+
+// ---- Cells of a sweep differ in few parameters: the data holds the others once.
+
+/** The same data with every parameter in every run, in the order of the run that has them all. */
+export function withParameters(payload: ReportPayload): ReportPayload {
+  const runs = payload.runs?.map((run) => {
+    const base = payload.runs[run.parameters_as ?? -1];
+    if (!base) return run;
+    const own = new Map(run.parameters.map((each) => [each.path, each]));
+    return { ...run, parameters: base.parameters.map((each) => own.get(each.path) ?? each) };
+  });
+  return { ...payload, runs };
 }

@@ -1,11 +1,10 @@
 // How many drives ended in each way, by cause.
 
-import { causeWords } from "../shared/causes";
+import { causeWords } from "../shared/outcomes";
 import type { Run } from "./payload";
 
 export interface Cause {
-  outcome: string;
-  words: string;
+  outcome: string; words: string;
   count: number;
   /** A limit of the run ended these drives: they had neither arrived nor failed. */
   limit: boolean;

@@ -1,25 +1,21 @@
 // The report page: the data of the page, section by section.
 
-import "../shared/theme.css";
-import "./report.css";
-import "./charts.css";
-import "./trial_table.css";
-import "./answer.css";
-
 import { el } from "../shared/dom";
 import { readPayload } from "../shared/payload";
-import { Context } from "./context";
+import "../shared/theme.css";
+import "./answer.css";
+import "./charts.css";
+import { Context, withParameters } from "./context";
 import type { ReportPayload } from "./payload";
-import { about } from "./sections/about";
+import "./report.css";
 import { abundance } from "./sections/abundance";
 import { answer } from "./sections/answer";
 import { changes } from "./sections/changes";
-import { withParameters } from "./cell_parameters";
 import { comparison } from "./sections/comparison";
 import { distance } from "./sections/distance";
 import { deadReckoning, timeAndEnergy } from "./sections/distributions";
 import { examples } from "./sections/examples";
-import { pageHeader } from "./sections/header";
+import { about, pageHeader } from "./sections/header";
 import { headline } from "./sections/headline";
 import { trackMap } from "./sections/map";
 import { measurements } from "./sections/measurements";
@@ -30,6 +26,7 @@ import { published } from "./sections/published";
 import { runPicker } from "./sections/runs";
 import { sectionElement } from "./sections/section";
 import { trials } from "./sections/trials";
+import "./trial_table.css";
 
 // The answer first, then what there is to see, then the statistics.
 const SECTIONS = [
@@ -40,7 +37,7 @@ const SECTIONS = [
 const FIRST_TO_FOLLOW = distance.id;
 
 function contents(sections: HTMLElement[]): HTMLElement {
-  const items = SECTIONS.filter(({ id }) => sections.some((section) => section.id === id)).map(({ id, short }) =>
+  const items = SECTIONS.filter(({ id }) => sections.some((section) => section.id === id)).map(({ id, title, short = title }) =>
     el("li", {}, el("a", { href: `#${id}` }, short)));
   return el("nav", { class: "contents", "aria-label": "Contents" }, el("ul", {}, ...items));
 }

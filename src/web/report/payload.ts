@@ -67,8 +67,7 @@ export interface Run {
 export interface Course {
   /** Name of the rover; "" where it has the shape of none that is known. */
   rover: string;
-  start: [number, number];
-  goal: [number, number];
+  start: [number, number]; goal: [number, number];
   goal_radius_m: number;
   waypoints: [number, number][];
   /** y of the lines at which operators reflect the rover. */
@@ -83,7 +82,7 @@ export interface Track {
   rocks_cm: number[];
 }
 
-export interface TrialTable {
+interface TrialTable {
   /** Finished trials in the order of their numbers, faults included. */
   trial: number[];
   /** Indices into outcome_names. */
@@ -97,15 +96,13 @@ export interface TrialTable {
 }
 
 export interface Column {
-  name: string;
-  unit: string;
+  name: string; unit: string;
   /** One per trial. */
   values: (number | null)[];
 }
 
 export interface PublishedTable {
-  reference: string;
-  citation: string;
+  reference: string; citation: string;
   /** What the verdicts mean. */
   notes: string[];
   /** In which the run differs from the scenario that the reference is about; not empty: not the published case. */
@@ -114,9 +111,7 @@ export interface PublishedTable {
 }
 
 export interface PublishedRow {
-  id: string;
-  what: string;
-  unit: string;
+  id: string; what: string; unit: string;
   /** As text, the way that it was published: "39/40", ">= 7.6", "1.7". */
   published: string;
   /** The value as a number where it is one: a rate, a mean. */
@@ -129,26 +124,20 @@ export interface PublishedRow {
   /** Adjusted by Holm; null where not judged. */
   p_holm: number | null;
   power: number | null;
-  verdict: string;
-  source: string;
+  verdict: string; source: string;
   /** What else is to be said of it: the kinds of failure, other readings, one layout for all. */
   remarks: string[];
 }
 
 export interface Parameter {
-  path: string;
-  value: string;
-  unit: string;
+  path: string; value: string; unit: string;
   /** "published", "calibrated", "assumed" or "setting". */
   origin: string;
-  range: string;
-  source: string;
-  doc: string;
+  range: string; source: string; doc: string;
 }
 
 export interface Sweep {
-  label: string;
-  folder: string;
+  label: string; folder: string;
   /** summary.json of the sweep, as it is. */
   summary: Record<string, any>;
   curves: Curve[];
@@ -156,9 +145,7 @@ export interface Sweep {
 
 /** Success along a numeric axis. */
 export interface Curve {
-  label: string;
-  axis: string;
-  unit: string;
+  label: string; axis: string; unit: string;
   scale: "linear" | "log";
   success: "declared" | "true";
   /** One per cell. */
@@ -171,34 +158,24 @@ export interface Curve {
 }
 
 export interface Comparison {
-  first: string;
-  second: string;
+  first: string; second: string;
   paired: boolean;
   pairs: number;
   notes: string[];
   /** In which the two runs differ: values as text. */
   settings: { path: string; first: string; second: string }[];
-  successes: {
-    what: string;
-    first: number | null;
-    second: number | null;
-    difference: number | null;
-    low: number | null;
-    high: number | null;
-    p: number | null;
-  }[];
-  columns: {
+  successes: (Differing & { what: string; p: number | null })[];
+  columns: (Differing & {
     trials: "all" | "arrived";
-    name: string;
-    unit: string;
+    name: string; unit: string;
     /** Pairs, or trials of the first run where the two are not paired. */
     n: number;
     /** Of the second run; null where paired. */
     n_second: number | null;
-    first: number | null;
-    second: number | null;
-    difference: number | null;
-    low: number | null;
-    high: number | null;
-  }[];
+  })[];
+}
+
+/** What both runs have, the second less the first, and the 95 % interval of that. */
+interface Differing {
+  first: number | null; second: number | null; difference: number | null; low: number | null; high: number | null;
 }

@@ -8,9 +8,7 @@ import type { Run } from "./payload";
 const shownTrials = (run: Run): number => run.trials?.trial?.length ?? 0;
 
 /** So many trials are in the rates. */
-export function ratedTrials(run: Run): number {
-  return run.prefix_trials ?? shownTrials(run);
-}
+export function ratedTrials(run: Run): number { return run.prefix_trials ?? shownTrials(run); }
 
 /** So many trials at the beginning of the table are in the rates. */
 export function ratedRows(run: Run): number {
@@ -20,9 +18,7 @@ export function ratedRows(run: Run): number {
 }
 
 /** True where the table holds trials that are in no rate. */
-export function hasUnrated(run: Run): boolean {
-  return ratedRows(run) < shownTrials(run);
-}
+export function hasUnrated(run: Run): boolean { return ratedRows(run) < shownTrials(run); }
 
 /** What has to be said where the page holds a part of the trials; "" where it holds all. */
 export function partOfTrials(runs: Run[], what: string): string {

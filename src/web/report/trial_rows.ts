@@ -1,14 +1,15 @@
 // Trials of all runs as rows of one table.
 
+import { isNumber, words } from "../shared/format";
 import type { Run } from "./payload";
 import { ratedRows } from "./prefix";
 import { replayLink } from "./replay_link";
+import { columnWords } from "./words";
 
 export interface TrialRow {
   run: string;
   trial: number;
-  outcome: string;
-  detail: string;
+  outcome: string; detail: string;
   /** Link of its replay page, or "". */
   replay: string;
   /** Index of its run. */
@@ -19,10 +20,7 @@ export interface TrialRow {
   [value: `v_${string}`]: number | null;
 }
 
-export interface ColumnInfo {
-  name: string;
-  unit: string;
-}
+export interface ColumnInfo { name: string; unit: string }
 
 /** A column's field in a row. */
 export const fieldOf = (name: string): `v_${string}` => `v_${name}`;
@@ -58,4 +56,73 @@ function rowsOfRun(run: Run, of: number): TrialRow[] {
 
 export function trialRows(runs: Run[]): TrialRow[] {
   return runs.flatMap((run, of) => (run.trials ? rowsOfRun(run, of) : []));
+}
+
+// ---- The conditions by which some trials are shown, and what is wrong with those that say nothing.
+
+interface TrialFilter { text: string; run: string; outcome: string; onlyReplays: boolean; onlyRated: boolean }
+
+interface Found {
+  rows: TrialRow[];
+  /** Words of the search that could not be understood, each with the reason; they ask for nothing. */
+  problems: string[];
+}
+
+const OPERATORS: Record<string, (a: number, b: number) => boolean> = {
+  "<": (a, b) => a < b,
+  ">": (a, b) => a > b,
+  "<=": (a, b) => a <= b,
+  ">=": (a, b) => a >= b,
+  "=": (a, b) => a === b,
+};
+const OPERATOR = /<=|>=|<|>|=/;
+const NUMBER = /^[-−]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
+const TEXTS = ["outcome", "detail", "run"] as const;
+
+type Condition = (row: TrialRow) => boolean;
+
+const holdsWord = (text: string, wanted: string) => text.toLowerCase().includes(wanted) || words(text).toLowerCase().includes(wanted);
+
+// By its name in trials.csv, or as its title has it, with _ for a blank.
+function fieldNamed(name: string, columns: ColumnInfo[]): "trial" | `v_${string}` | null {
+  if (name === "trial") return "trial";
+  const column = columns.find((each) => each.name === name) ?? columns.find((each) => columnWords(each.name).replaceAll(" ", "_") === name);
+  return column ? fieldOf(column.name) : null;
+}
+
+// "energy_wh>20" compares a column, "outcome=jammed" a text; any other word is looked for in all texts.
+function condition(word: string, columns: ColumnInfo[]): Condition | string {
+  const operator = OPERATOR.exec(word)?.[0];
+  const [name = "", limit = ""] = operator === undefined ? [] : word.toLowerCase().split(operator);
+  if (operator === undefined) {
+    const wanted = word.toLowerCase();
+    return (row) =>
+      String(row.trial) === wanted || [row.run, row.outcome, row.unrated, row.detail].some((text) => holdsWord(text, wanted));
+  }
+  const text = TEXTS.find((each) => each === name);
+  if (text && operator === "=" && limit !== "") return (row) => holdsWord(row[text], limit);
+  const field = fieldNamed(name, columns);
+  if (field === null) return `there is no column “${name}”: see Columns, or a word without ${operator}`;
+  if (!NUMBER.test(limit)) return `${name}${operator} needs a number`;
+  const bound = Number(limit.replace("−", "-"));
+  return (row) => {
+    const value = row[field];
+    return isNumber(value) && OPERATORS[operator]!(value, bound);
+  };
+}
+
+/** The rows that meet every word of the text and every choice. */
+export function matching(rows: TrialRow[], columns: ColumnInfo[], filter: TrialFilter): Found {
+  const searched = filter.text.trim().replace(/\s*(<=|>=|<|>|=)\s*/g, "$1");
+  const read = searched.split(/\s+/).filter(Boolean).map((word) => condition(word, columns));
+  const conditions = read.filter((each): each is Condition => typeof each !== "string");
+  const kept = rows.filter(
+    (row) =>
+      (filter.run === "" || row.run === filter.run) &&
+      (filter.outcome === "" || row.outcome === filter.outcome) &&
+      (!filter.onlyReplays || row.replay !== "") &&
+      (!filter.onlyRated || row.unrated === "") &&
+      conditions.every((holds) => holds(row)),
+  );
+  return { rows: kept, problems: read.filter((each): each is string => typeof each === "string") };
 }

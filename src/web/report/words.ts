@@ -18,9 +18,7 @@ const COLUMNS: Record<string, string> = {
 const UNIT_ENDINGS = /(_per)?_(m_s|m2|m|s|rad|deg|percent|wh|kg|w|px|hz)$/;
 
 /** A column's name for people, without its unit. */
-export function columnWords(name: string): string {
-  return COLUMNS[name] ?? words(name.replace(UNIT_ENDINGS, ""));
-}
+export function columnWords(name: string): string { return COLUMNS[name] ?? words(name.replace(UNIT_ENDINGS, "")); }
 
 /** The same with the unit in brackets. */
 export function columnLabel(name: string, unit: string): string {
@@ -45,14 +43,9 @@ export function methodName(method: unknown): string {
 }
 
 /** Of runs where several trials drive over the same rocks. */
-export const SHARED_LAYOUTS =
-  "Trials share layouts of rocks: intervals allow for it, medians have none.";
+export const SHARED_LAYOUTS = "Trials share layouts of rocks: intervals allow for it, medians have none.";
 
-export interface VerdictWords {
-  mark: string;
-  tone: "good" | "bad" | "unsure" | "none";
-  meaning: string;
-}
+interface VerdictWords { mark: string; tone: "good" | "bad" | "unsure" | "none"; meaning: string }
 
 const VERDICTS: Record<string, VerdictWords> = {
   agrees: { mark: "✓", tone: "good", meaning: "not rejected, and enough published runs to have noticed a difference" },

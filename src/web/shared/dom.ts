@@ -62,3 +62,15 @@ export function select(options: [string, string][], chosen?: string): HTMLSelect
   if (chosen !== undefined) list.value = chosen;
   return list;
 }
+
+export function button(label: string | Child[], title: string, act: () => void, attributes: Attributes = {}): HTMLButtonElement {
+  const element = el("button", { type: "button", title: title || null, ...attributes }, ...(typeof label === "string" ? [label] : label));
+  element.addEventListener("click", act);
+  return element;
+}
+
+export function checkbox(label: string, checked: boolean, act: (on: boolean) => void, title = ""): HTMLLabelElement {
+  const input = el("input", { type: "checkbox", checked });
+  input.addEventListener("change", () => act(input.checked));
+  return el("label", { class: "check", title: title || null }, input, el("span", {}, label));
+}

@@ -19,9 +19,7 @@ export function number(value: Maybe, digits = 4): string {
   // Whole numbers are counts: shown in full.
   if (Number.isInteger(value)) return sign(value.toLocaleString("en-US"));
   const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
-  return sign(
-    value.toLocaleString("en-US", { maximumFractionDigits: Math.min(decimals, 12) }),
-  );
+  return sign(value.toLocaleString("en-US", { maximumFractionDigits: Math.min(decimals, 12) }));
 }
 
 function powerOfTen(value: number, digits: number): string {
@@ -69,9 +67,7 @@ export function percent(rate: Maybe, atLeast = 1): string {
 }
 
 /** A difference of rates in percentage points: 0.35 as "35.0". */
-export function points(difference: Maybe, atLeast = 1): string {
-  return unitless(difference, atLeast);
-}
+export function points(difference: Maybe, atLeast = 1): string { return unitless(difference, atLeast); }
 
 /** [-0.12, 0.001] as "−12.0 to 0.1". */
 export function pointsInterval(low: Maybe, high: Maybe, atLeast = 1): string {
@@ -102,6 +98,4 @@ export function counted(count: number, noun: string): string {
 }
 
 /** A name of the data as words: "false_goal" as "false goal". */
-export function words(name: string): string {
-  return name.replaceAll("_", " ");
-}
+export function words(name: string): string { return name.replaceAll("_", " "); }

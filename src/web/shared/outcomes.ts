@@ -16,6 +16,39 @@ const SENTENCES: Record<string, string> = {
 };
 
 /** What an outcome means; "" of one that is not known. */
-export function outcomeSentence(outcome: string): string {
-  return SENTENCES[outcome] ?? "";
+export function outcomeSentence(outcome: string): string { return SENTENCES[outcome] ?? ""; }
+
+// ---- Why drives end, in plain words, from an outcome and the detail that the referee writes. Each is what a
+// number of drives did: "19 drove too far without coming nearer to the goal".
+
+const BY_OUTCOME: Record<string, string> = {
+  goal_reached: "reached the goal, and believed so",
+  false_goal: "believed that the goal was reached, but stood too far from it",
+  tip_over: "tipped over",
+  high_centred: "came to rest with the belly on a rock",
+  jammed: "got stuck: told to drive, but moved no further",
+  no_path: "found no way on",
+  energy_depleted: "ran out of energy before the goal",
+  time_limit: "ran out of time before the goal",
+  left_arena: "left the area that the rover has to stay in",
+  excessive_slip: "stopped, since the wheels were seen to slip too much",
+  simulator_fault: "ended with a fault of the simulator, which says nothing of the rover",
+};
+
+// Outcomes that have several causes, by the sentences of truth/end_cause.h.
+const BY_DETAIL: Record<string, string> = {
+  "sank into the soil beyond the axles of its wheels": "sank into the soil beyond the axles of the wheels",
+  "found no way on and gave up": "gave up: the navigator found no way on",
+  "noticed that it was stuck, and gave up": "stopped, since the rover noticed that it was stuck",
+  "drove on without coming nearer to the goal until its operator ended the run":
+    "drove too far without coming nearer to the goal",
+  "turned in place without coming nearer to the goal until its operator ended the run":
+    "turned too much without coming nearer to the goal",
+  "came no nearer to the goal for so long that its operator ended the run":
+    "spent too long without coming nearer to the goal",
+};
+
+/** What a drive did that ended so. */
+export function causeWords(outcome: string, detail = ""): string {
+  return BY_DETAIL[detail] ?? BY_OUTCOME[outcome] ?? `ended as ${outcome.replaceAll("_", " ")}`;
 }

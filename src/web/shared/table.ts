@@ -1,16 +1,16 @@
 // Plain tables. A wide one scrolls in its own box, which the keyboard reaches.
 
-import { el, type Child } from "./dom";
+import { type Child, el } from "./dom";
+import { type Maybe, number } from "./format";
 
 export interface Cell {
   content: Child;
   /** The exact number behind the text, for whoever reads the page by program. */
   value?: number | string | null;
-  numeric?: boolean;
-  header?: boolean;
+  numeric?: boolean; header?: boolean;
 }
 
-export interface TableSpec {
+interface TableSpec {
   /** What the table shows: read out, and shown above it where `captionShown`. */
   caption: string;
   captionShown?: boolean;
@@ -24,14 +24,16 @@ export interface TableSpec {
 }
 
 /** A right-aligned number with its exact value. */
-export function numeric(content: Child, value?: number | null): Cell {
-  return { content, value, numeric: true };
-}
+export function numeric(content: Child, value?: Cell["value"]): Cell { return { content, value, numeric: true }; }
+
+/** Numbers as they are shown everywhere, with their exact values. */
+export function numberCells(...values: Maybe[]): Cell[] { return values.map((value) => numeric(number(value), value)); }
+
+/** Heads of columns of numbers. */
+export function numericHeads(...heads: string[]): Cell[] { return heads.map((head) => numeric(head)); }
 
 /** A cell that names its row. */
-export function rowHeader(content: Child): Cell {
-  return { content, header: true };
-}
+export function rowHeader(content: Child): Cell { return { content, header: true }; }
 
 function isCell(cell: Child | Cell): cell is Cell {
   return typeof cell === "object" && cell !== null && !(cell instanceof Node);
@@ -57,9 +59,6 @@ export function table(spec: TableSpec): HTMLElement {
   const labels = spec.head.map((head) => (spec.stacks ? String(typeof head === "string" ? head : head.content) : null));
   for (const row of spec.rows) body.append(el("tr", {}, ...row.map((cell, i) => bodyCell(cell, labels[i] ?? null))));
   const caption = el("caption", { class: spec.captionShown ? null : "visually-hidden" }, spec.caption);
-  return el(
-    "div",
-    { class: spec.tall ? "table-box tall" : "table-box", tabindex: 0, role: "region", "aria-label": spec.caption },
-    el("table", { class: [spec.className, spec.stacks ? "stacks" : ""].join(" ").trim() || null }, caption, head, body),
-  );
+  return el("div", { class: spec.tall ? "table-box tall" : "table-box", tabindex: 0, role: "region", "aria-label": spec.caption },
+    el("table", { class: [spec.className, spec.stacks ? "stacks" : ""].join(" ").trim() || null }, caption, head, body));
 }

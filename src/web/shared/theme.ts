@@ -2,10 +2,10 @@
 
 import { el } from "./dom";
 
-export type Scheme = "light" | "dark";
+type Scheme = "light" | "dark";
 
 /** The scheme that the page shows now. */
-export function currentScheme(): Scheme {
+function currentScheme(): Scheme {
   const chosen = document.documentElement.dataset.theme;
   if (chosen === "light" || chosen === "dark") return chosen;
   return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";

@@ -1,21 +1,15 @@
 // Where the viewer stands, as buttons over the picture.
-import { el } from "../../shared/dom";
-import { button } from "../controls";
+
+import { button, el } from "../../shared/dom";
 import type { CameraMode } from "../view";
 
 const MODE_NAMES: Record<CameraMode, string> = { follow: "Follow", top: "Top", orbit: "Free", rover: "From the rover" };
-
-export interface CameraActions {
-  mode(mode: CameraMode): void;
-  overview(): void;
-  planOfPaths(): void;
-}
 
 export class CameraBar {
   readonly element = el("div", { class: "cameras", role: "group", "aria-label": "Camera" });
   private readonly buttons = new Map<CameraMode, HTMLButtonElement>();
 
-  constructor(modes: readonly CameraMode[], actions: CameraActions) {
+  constructor(modes: readonly CameraMode[], actions: { mode(mode: CameraMode): void; overview(): void; planOfPaths(): void }) {
     for (const mode of modes) {
       const item = button(MODE_NAMES[mode], `Camera: ${MODE_NAMES[mode]}`, () => actions.mode(mode));
       this.buttons.set(mode, item);

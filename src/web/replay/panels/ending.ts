@@ -1,9 +1,9 @@
 // How the drive ended, over its last picture: in words, where it stood, what led there, and what one
 // could try.
-import { causeWords } from "../../shared/causes";
-import { el } from "../../shared/dom";
+
+import { button, el } from "../../shared/dom";
 import { fixed } from "../../shared/format";
-import { button } from "../controls";
+import { causeWords } from "../../shared/outcomes";
 import { inWords } from "../events";
 import { clock } from "../format";
 import type { ReplayPayload, TrialEvent } from "../payload";
@@ -31,7 +31,7 @@ function metres(payload: ReplayPayload, name: string): string {
 }
 
 /** Where it stood, as far as the record says. */
-export function whereItStood(payload: ReplayPayload, end: number): string {
+function whereItStood(payload: ReplayPayload, end: number): string {
   const truth = metres(payload, "true_goal_distance_m");
   const belief = metres(payload, "believed_goal_distance_m");
   const driven = metres(payload, "true_distance_m");
@@ -55,25 +55,19 @@ export class Ending {
     const sentence = `It ${causeWords(payload.outcome, payload.detail)}.`;
     const advice = TRY[payload.outcome] ?? "";
     const setting = payload.cause_setting ? el("p", {}, "The rule behind it: ", el("code", {}, payload.cause_setting)) : null;
-    this.element = el(
-      "section",
-      { class: "ending", "aria-label": "How it ended", hidden: true },
+    this.element = el("section", { class: "ending", "aria-label": "How it ended", hidden: true },
       el("h2", { class: good ? "good" : "bad" }, `${good ? "✓" : "✗"} ${sentence}`),
       el("p", {}, whereItStood(payload, end)),
       good ? null : setting,
       advice ? el("p", {}, advice) : null,
       good ? null : this.links(events),
-      el(
-        "div",
-        { class: "buttons" },
+      el("div", { class: "buttons" },
         button("From the start", "Play the drive from its start", () => {
           player.seek(player.start);
           player.play();
         }),
         button("Overview", "The whole drive in ten seconds (v)", replay),
-        button("Close", "See the picture alone", () => this.dismiss()),
-      ),
-    );
+        button("Close", "See the picture alone", () => this.dismiss())));
     player.onChange(() => this.show());
     this.show();
   }

@@ -18,11 +18,10 @@ export class EyesPanel {
   private readonly left = picture("left");
   private readonly disparity = picture("disparity");
   private readonly pictures = el("div", { class: "pictures" }, this.left.figure, this.disparity.figure);
-  private readonly times: number[];
   private shown: StereoLook | null | undefined;
+  private readonly times = this.eyes.looks.map((look) => look.t);
 
   constructor(private readonly eyes: Eyes) {
-    this.times = eyes.looks.map((look) => look.t);
     this.element.append(el("h2", {}, "What the rover saw"), this.caption, this.pictures);
     if (eyes.every > 1) {
       this.element.append(el("p", { class: "caption" }, `To keep the page small, it has one look out of ${eyes.every}.`));

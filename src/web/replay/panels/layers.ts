@@ -1,7 +1,7 @@
 // What the picture shows, as switches that are its key as well.
-import { el, labelled, select, svg } from "../../shared/dom";
+
+import { checkbox, el, labelled, select, svg } from "../../shared/dom";
 import { number } from "../../shared/format";
-import { checkbox } from "../controls";
 import { rampCss } from "../palette";
 import type { ReplayPayload } from "../payload";
 import { mirrorLines, toldElsewhere } from "../scene/course";
@@ -10,12 +10,7 @@ import { MOST_DRAW_CALLS, MOST_TRIANGLES, ROUGH_DEPTH } from "../scene/limits";
 import { worldKind, type WorldKind } from "../scene/world";
 import type { Layers, MapKind } from "../view";
 
-const MAPS: [MapKind, string][] = [
-  ["goodness", "goodness"],
-  ["certainty", "certainty"],
-  ["elevation", "elevation"],
-  ["off", "off"],
-];
+const MAPS: [MapKind, string][] = [["goodness", "goodness"], ["certainty", "certainty"], ["elevation", "elevation"], ["off", "off"]];
 
 const MAP_WORDS: Record<MapKind, [string, string]> = {
   goodness: ["0, impassable", "255, safe; fainter where less certain"],
@@ -93,15 +88,12 @@ function aboutPicture({ world, course }: ReplayPayload): HTMLElement {
   const kind = worldKind(world);
   const light = kind === "hall" ? "A lamp" : "The sun";
   const around = kind === "hall" ? "the hall and the rim of the arena" : "the sky and the ground beyond the terrain";
-  return el(
-    "details",
-    { class: "about-picture" },
+  return el("details", { class: "about-picture" },
     el("summary", {}, "About the picture"),
     el("p", {}, `${place[kind]}: gravity is ${world.gravity} m/s². ${light} stands ${degrees(elevation)} above the horizon, ${degrees(azimuth)} from x to the left (sensors.sun).`),
     el("p", {}, `Drawn only, and nothing that the rover meets: ${around}, the grain of the soil, wheel tracks, and the rough surface of rocks. It lies within the true one, by at most ${Math.round(100 * ROUGH_DEPTH)} % of the distance from a rock's centre.`),
     course.walls.length > 0 ? el("p", {}, `Walls are drawn ${100 * WALL_HEIGHT_M} cm high; those of the simulator have no upper edge.`) : null,
-    el("p", {}, `All light planes are drawn at once. A picture has at most ${number(MOST_TRIANGLES)} triangles and ${MOST_DRAW_CALLS} draw calls with its shadows: of many rocks those that look small have fewer faces.`),
-  );
+    el("p", {}, `All light planes are drawn at once. A picture has at most ${number(MOST_TRIANGLES)} triangles and ${MOST_DRAW_CALLS} draw calls with its shadows: of many rocks those that look small have fewer faces.`));
 }
 
 function addMap(panel: HTMLElement, { steps }: ReplayPayload, layers: Layers, add: Add, changed: () => void): void {

@@ -1,5 +1,10 @@
 // The mark of each kind of event: a shape and a colour of its own.
 
+import { el, svg } from "../../shared/dom";
+import type { Run } from "../events";
+import { clock } from "../format";
+import type { TrialEvent } from "../payload";
+
 interface Look {
   /** About (0, 0), some 10 wide. */
   path: string;
@@ -22,17 +27,12 @@ const LOOKS: Record<string, Look> = {
 
 const OTHER: Look = { path: "M-3 0a3 3 0 1 1 6 0a3 3 0 1 1-6 0", colour: "--muted" };
 
-export function markOf(kind: string): Look {
-  return LOOKS[kind] ?? OTHER;
-}
+export function markOf(kind: string): Look { return LOOKS[kind] ?? OTHER; }
 
-interface Band {
-  colour: string;
-  height: number;
-}
+interface Band { colour: string; height: number }
 
 /** Activities differ in height too: what moves is high, what stands low. */
-export function bandOf(activity: string): Band {
+function bandOf(activity: string): Band {
   const bands: Record<string, Band> = {
     drive: { colour: "--series-1", height: 16 },
     turn: { colour: "--series-3", height: 12 },
@@ -44,4 +44,67 @@ export function bandOf(activity: string): Band {
     stall: { colour: "--bad", height: 8 },
   };
   return bands[activity] ?? { colour: "--muted", height: 4 };
+}
+
+// ---- What the rover did, as a band along the time line: each activity has a colour and a height.
+
+/** The key of the band. */
+export function activityKey(runs: Run[]): HTMLElement {
+  const key = el("p", { class: "activity-key" }, "Activity: ");
+  for (const name of new Set(runs.map((run) => run.activity))) {
+    const { colour, height } = bandOf(name);
+    const band = svg("rect", { x: 0, y: 16 - height, width: 12, height, style: `fill: var(${colour})` });
+    key.append(el("span", {}, svg("svg", { viewBox: "0 0 12 16", width: 12, height: 16, "aria-hidden": "true" }, band), name));
+  }
+  return key;
+}
+
+/** The band itself: it stands on `bottom`; `place` is where a time is drawn. */
+export function activityBand(runs: Run[], place: (t: number) => number, bottom: number): SVGRectElement[] {
+  return runs.map(({ from, to, activity }) => {
+    const { colour, height } = bandOf(activity);
+    const x = place(from);
+    return svg("rect", { x, y: bottom - height, width: Math.max(0.75, place(to) - x), height, style: `fill: var(${colour})` },
+      svg("title", {}, `${activity}, ${clock(from)} to ${clock(to)}`));
+  });
+}
+
+// ---- Walking along the marks of the time line by keys: left and right along a row, up and down between
+// rows. One stop of the Tab key for all marks.
+
+export interface Mark { event: TrialEvent; element: SVGGElement }
+
+/** Makes the first mark the one that the Tab key stops at. */
+export function startWalk(marks: Mark[]): void { marks[0]?.element.setAttribute("tabindex", "0"); }
+
+/** Goes where the key says; true where it was a key of the walk. */
+export function walk(marks: Mark[], key: string, go: (event: TrialEvent) => void): boolean {
+  const at = marks.findIndex(({ element }) => element === document.activeElement);
+  const here = marks[at];
+  if (!here) return false;
+  const goal = next(marks, at, key);
+  if (goal) {
+    here.element.setAttribute("tabindex", "-1");
+    goal.element.setAttribute("tabindex", "0");
+    goal.element.focus();
+    go(goal.event);
+  } else if (key === "Enter" || key === " ") {
+    go(here.event);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+function next(marks: Mark[], at: number, key: string): Mark | null {
+  const { kind, t } = marks[at]!.event;
+  if (key === "ArrowRight" || key === "ArrowLeft") {
+    const other = marks[at + (key === "ArrowRight" ? 1 : -1)];
+    return other?.event.kind === kind ? other : null;
+  }
+  if (key !== "ArrowDown" && key !== "ArrowUp") return null;
+  const rows = [...new Set(marks.map(({ event }) => event.kind))];
+  const row = rows[rows.indexOf(kind) + (key === "ArrowDown" ? 1 : -1)];
+  const away = (mark: Mark): number => Math.abs(mark.event.t - t);
+  return marks.filter(({ event }) => event.kind === row).sort((a, b) => away(a) - away(b))[0] ?? null;
 }

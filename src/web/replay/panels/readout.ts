@@ -12,16 +12,12 @@ export class Readout {
   private readonly events: TrialEvent[];
   private readonly times: number[];
 
-  constructor(
-    private readonly payload: ReplayPayload,
-    events: TrialEvent[],
-  ) {
+  constructor(private readonly payload: ReplayPayload, events: TrialEvent[]) {
     // Scans and looks come so often that nothing else would ever stand here.
     this.events = events.filter(({ kind }) => kind !== "scan" && kind !== "look");
     this.times = this.events.map((event) => event.t);
     const list = el("dl", {});
-    const names = ["Time", "Activity", "True pose", "Believed pose", "Position error", "To the goal", "Tilt", "Last event"];
-    for (const name of names) this.add(list, name);
+    for (const name of ["Time", "Activity", "True pose", "Believed pose", "Position error", "To the goal", "Tilt", "Last event"]) this.add(list, name);
     const joints = el("dl", {});
     for (const name of this.jointNames()) this.add(joints, name);
     const angles = el("details", {}, el("summary", {}, "Joint angles"), joints);
@@ -61,5 +57,4 @@ export class Readout {
   }
 }
 
-const poseText = (x: number, y: number, heading: number): string =>
-  `x ${fixed(x, 2)} m, y ${fixed(y, 2)} m, ${headingText(heading)}`;
+const poseText = (x: number, y: number, heading: number): string => `x ${fixed(x, 2)} m, y ${fixed(y, 2)} m, ${headingText(heading)}`;

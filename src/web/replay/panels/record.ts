@@ -1,6 +1,6 @@
 // How the trial ended, whether this is what was stored, and all columns of its record.
-import { el } from "../../shared/dom";
-import { button } from "../controls";
+
+import { button, el } from "../../shared/dom";
 import { words } from "../../shared/format";
 import { outcomeSentence } from "../../shared/outcomes";
 import { recorded } from "../format";
@@ -41,15 +41,12 @@ export function recordPanel(payload: ReplayPayload): HTMLElement {
     for (const { row, text } of rows) row.hidden = !text.includes(wanted);
   });
   const head = el("thead", {}, el("tr", {}, el("th", {}, "Column"), el("th", {}, "Value"), el("th", {}, "Unit")));
-  return el(
-    "details",
-    { class: "panel record", open: matchMedia(WIDE).matches },
+  return el("details", { class: "panel record", open: matchMedia(WIDE).matches },
     el("summary", {}, `Record of the trial: ${payload.record.length} columns`),
     find,
     // Scrolled by its keys, too.
     el("div", { class: "table", tabindex: 0, role: "group", "aria-label": "Columns of the record" }, el("table", {}, head, body)),
-    el("p", { class: "caption" }, "6 significant digits; trials.csv of the run holds every digit."),
-  );
+    el("p", { class: "caption" }, "6 significant digits; trials.csv of the run holds every digit."));
 }
 
 export function originPanel(payload: ReplayPayload): HTMLElement {
@@ -71,12 +68,9 @@ export function originPanel(payload: ReplayPayload): HTMLElement {
   for (const [name, value] of Object.entries(payload.provenance)) {
     add(words(name), typeof value === "object" ? JSON.stringify(value) : String(value));
   }
-  return el(
-    "details",
-    { class: "panel origin" },
+  return el("details", { class: "panel origin" },
     el("summary", {}, "Where this comes from"),
     el("p", {}, "To make this page again:"),
     el("p", { class: "command" }, command, " ", copy, said),
-    list,
-  );
+    list);
 }

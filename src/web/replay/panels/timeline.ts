@@ -1,15 +1,13 @@
 // Events over time by kind, what the rover did, and curves of the drive; a click anywhere goes there.
+
 import { el, svg } from "../../shared/dom";
-import { activityRuns, inWords, kindName, kindsOf, kindTitle, type Run } from "../events";
+import { activityRuns, inWords, kindName, kindsOf, kindTitle } from "../events";
 import { clock } from "../format";
 import type { ReplayPayload, TrialEvent } from "../payload";
 import type { Player } from "../player";
 import { niceStep } from "../scene/ground";
-import { activityBand, activityKey } from "./activities";
-import { curve } from "./curves";
-import { driveCurves, steeringKey, type DriveCurve } from "./drive_curves";
-import { startWalk, walk, type Mark } from "./mark_walk";
-import { markOf } from "./marks";
+import { curve, driveCurves, steeringKey } from "./curves";
+import { activityBand, activityKey, type Mark, markOf, startWalk, walk } from "./marks";
 
 const ROW = 24;
 const STRIP = 24;
@@ -23,10 +21,7 @@ const SNAP = 6;
 
 export class Timeline {
   readonly element = el("div", { class: "timeline" });
-  private readonly kinds: string[];
   private readonly hidden = new Set<string>();
-  private readonly runs: Run[];
-  private readonly curves: DriveCurve[];
   private readonly labels = el("div", { class: "timeline-labels" });
   private readonly drawing = svg("svg", { class: "timeline-drawing" });
   private readonly cursor = svg("line", { class: "cursor" });
@@ -34,6 +29,9 @@ export class Timeline {
   private readonly axisLabel = el("div", { class: "axis" });
   private width = 0;
   private shortened = false;
+  private readonly kinds = kindsOf(this.events);
+  private readonly runs = activityRuns(this.payload);
+  private readonly curves = driveCurves(this.payload);
 
   constructor(
     private readonly payload: ReplayPayload,
@@ -41,9 +39,6 @@ export class Timeline {
     private readonly player: Player,
     private readonly filtered: () => void,
   ) {
-    this.kinds = kindsOf(events);
-    this.runs = activityRuns(payload);
-    this.curves = driveCurves(payload);
     this.element.append(this.labels, this.drawing);
     this.drawing.addEventListener("pointerdown", (event) => this.drag(event));
     this.drawing.addEventListener("keydown", (key) => {
@@ -64,9 +59,7 @@ export class Timeline {
     return this.events.filter((event) => !this.hidden.has(event.kind)).map((event) => event.t);
   }
 
-  private get height(): number {
-    return this.kinds.length * ROW + STRIP + this.curves.length * CURVE + AXIS;
-  }
+  private get height(): number { return this.kinds.length * ROW + STRIP + this.curves.length * CURVE + AXIS; }
 
   private makeLabels(): void {
     for (const kind of this.kinds) {
@@ -79,11 +72,8 @@ export class Timeline {
         this.filtered();
       });
       const look = markOf(kind);
-      const mark = svg(
-        "svg",
-        { class: "mark", viewBox: "-7 -7 14 14", "aria-hidden": "true" },
-        svg("path", { d: look.path, style: `fill: var(${look.colour})` }),
-      );
+      const mark = svg("svg", { class: "mark", viewBox: "-7 -7 14 14", "aria-hidden": "true" },
+        svg("path", { d: look.path, style: `fill: var(${look.colour})` }));
       const name = el("span", { class: "kind" }, kindName(kind));
       this.labels.append(
         el("label", { class: "row", title: `${count}: ${kindTitle(kind)}` }, input, mark, name, el("span", { class: "count" }, `${count}`)),
@@ -105,13 +95,9 @@ export class Timeline {
 
   // As played: where standing is shortened it is narrow here too, else a rover that was stuck for
   // hours would leave no room for its drive.
-  private x(t: number): number {
-    return PAD + (this.width - 2 * PAD) * this.player.shareOf(t);
-  }
+  private x(t: number): number { return PAD + (this.width - 2 * PAD) * this.player.shareOf(t); }
 
-  private time(x: number): number {
-    return this.player.timeOf((x - PAD) / Math.max(1, this.width - 2 * PAD));
-  }
+  private time(x: number): number { return this.player.timeOf((x - PAD) / Math.max(1, this.width - 2 * PAD)); }
 
   private draw(): void {
     this.drawing.replaceChildren();

@@ -1,38 +1,30 @@
 // Play, pause, speed and scrubbing.
-import { el, labelled, select } from "../../shared/dom";
-import { button, checkbox } from "../controls";
+
+import { button, checkbox, el, labelled, select } from "../../shared/dom";
 import { clock } from "../format";
-import { neighbour, SPEEDS, STANDING_S, type Player } from "../player";
+import { neighbour, type Player, SPEEDS, STANDING_S } from "../player";
 
 const SLIDER_STEPS = 10_000;
 const EVENT_GAP_S = 0.05;
 
 export class Transport {
   readonly element = el("div", { class: "transport", role: "group", "aria-label": "Player" });
-  private readonly playButton: HTMLButtonElement;
   private readonly slider = el("input", {
     type: "range", min: 0, max: SLIDER_STEPS, step: 1, value: 0, class: "scrub", "aria-label": "Time",
   });
   private readonly time = el("output", { class: "time" });
   private readonly speed = select(SPEEDS.map((speed) => [`${speed}`, `${speed}×`]));
   private readonly skip: HTMLInputElement;
+  private readonly playButton = button("Play", "Play or pause (space)", () => this.player.toggle(), { class: "play" });
 
-  constructor(
-    private readonly player: Player,
-    private readonly eventTimes: () => number[],
-  ) {
-    this.playButton = button("Play", "Play or pause (space)", () => player.toggle(), { class: "play" });
+  constructor(private readonly player: Player, private readonly eventTimes: () => number[]) {
     const skip = checkbox(`Standing takes ${STANDING_S} s`, player.skipStanding, (on) => (player.skipStanding = on),
       `Where nothing moves for longer (scans, computing), it is played as if it were ${STANDING_S} s of the drive (s)`);
     this.skip = skip.querySelector("input")!;
-    this.slider.addEventListener("input", () => {
-      player.seek(player.timeOf(Number(this.slider.value) / SLIDER_STEPS));
-    });
+    this.slider.addEventListener("input", () => player.seek(player.timeOf(Number(this.slider.value) / SLIDER_STEPS)));
     this.speed.addEventListener("change", () => player.setSpeed(Number(this.speed.value)));
     this.element.append(
-      el(
-        "div",
-        { class: "buttons" },
+      el("div", { class: "buttons" },
         button("Start", "To the start (Home)", () => player.seek(player.start)),
         button("◀ event", "Previous event (p)", () => this.step(-1)),
         this.playButton,
@@ -40,8 +32,7 @@ export class Transport {
         button("End", "To the end (End)", () => player.seek(player.end)),
         labelled("Speed", this.speed),
         skip,
-        this.time,
-      ),
+        this.time),
       this.slider,
     );
     player.onChange(() => this.show());

@@ -1,10 +1,10 @@
 // The votes of the decision that is shown, arc by arc or spline by spline.
+
 import { el, svg } from "../../shared/dom";
 import { fixed } from "../../shared/format";
 import { clock } from "../format";
 import { rampCss } from "../palette";
-import type { Step, Vote } from "../payload";
-import { SPLINE_CAPTION, splineGrid } from "./spline_grid";
+import type { Splines, Step, Vote } from "../payload";
 
 const WIDTH = 340;
 const HEIGHT = 84;
@@ -86,12 +86,62 @@ function bar(vote: Vote, x: number, slot: number, y: (vote: number) => number): 
   return group;
 }
 
-function describe(vote: Vote): string {
-  const side = vote.curvature > 0 ? "left" : "right";
-  if (vote.kind === "turn") return `turn ${side}`;
-  return vote.curvature === 0 ? "straight" : `${side} ${fixed(Math.abs(vote.curvature), 2)}/m`;
+const side = (curvature: number): string =>
+  curvature === 0 ? "straight" : `${curvature > 0 ? "left" : "right"} ${fixed(Math.abs(curvature), 2)}/m`;
+
+const describe = ({ kind, curvature }: Vote): string => (kind === "turn" ? `turn ${curvature > 0 ? "left" : "right"}` : side(curvature));
+
+const scores = (merged: number, hazard: number, certainty: number, waypoint: number): string =>
+  `merged ${fixed(merged, 0)}, hazard ${fixed(hazard, 0)} (certainty ${fixed(certainty, 0)}), waypoint ${fixed(waypoint, 0)}`;
+
+const numbers = (vote: Vote): string => `${describe(vote)}: ${scores(vote.merged, vote.hazard, vote.certainty, vote.waypoint)}`;
+
+// ---- The votes on splines as cells: one row a first knot, left above, one column a second knot.
+
+const GRID_TOP = 30;
+const GRID_LEFT = 60;
+
+const SPLINE_CAPTION =
+  "Rows: curvature in the middle of a spline, left turns above; columns: at its end, left turns at the left. Colour: merged vote from 0 to 255; crossed out: the steering motors could not follow; the chosen one is outlined.";
+
+function splineGrid(splines: Splines): SVGSVGElement {
+  const rows = descending(splines.first);
+  const chosen = splines.chosen;
+  const says = chosen < 0 ? "none of these was chosen" : `chosen: ${curvatures(splines, chosen)}`;
+  const most = Math.max(1, ...rows.map((row) => splines.first.filter((first) => first === row).length));
+  const cell = Math.min(26, (WIDTH - GRID_LEFT) / most);
+  const height = GRID_TOP + rows.length * cell + 4;
+  const drawing = svg("svg", { viewBox: `0 0 ${WIDTH} ${height}`, role: "img", class: "splines", "aria-label": `Splines; ${says}` });
+  drawing.append(svg("text", { x: 0, y: 10, class: "title" }, `Splines of ${fixed(splines.length[0] ?? 0, 1)} m: ${says}`));
+  drawing.append(svg("text", { x: GRID_LEFT, y: GRID_TOP - 5 }, "left"),
+    svg("text", { x: GRID_LEFT + most * cell, y: GRID_TOP - 5, "text-anchor": "end" }, "right at the end"));
+  rows.forEach((row, r) => {
+    const members = splines.first.map((_, i) => i).filter((i) => splines.first[i] === row);
+    members.sort((a, b) => splines.second[b]! - splines.second[a]!);
+    const y = GRID_TOP + r * cell;
+    drawing.append(svg("text", { x: GRID_LEFT - 4, y: y + 0.5 * cell + 4, "text-anchor": "end" }, fixed(row, 2)));
+    members.forEach((i, c) => drawing.append(cellOf(splines, i, GRID_LEFT + c * cell, y, cell)));
+  });
+  return drawing;
 }
 
-const numbers = (vote: Vote): string =>
-  `${describe(vote)}: merged ${fixed(vote.merged, 0)}, hazard ${fixed(vote.hazard, 0)} ` +
-  `(certainty ${fixed(vote.certainty, 0)}), waypoint ${fixed(vote.waypoint, 0)}`;
+const descending = (values: number[]): number[] => [...new Set(values)].sort((a, b) => b - a);
+
+function cellOf(splines: Splines, i: number, x: number, y: number, size: number): SVGGElement {
+  const feasible = splines.feasible[i]!;
+  const inner = size - 2;
+  const group = svg("g", { class: `vote${i === splines.chosen ? " chosen" : ""}${feasible ? "" : " infeasible"}` }, svg("title", {}, splineNumbers(splines, i)));
+  const style = feasible ? `fill: ${rampCss(splines.merged[i]! / FULL_VOTE)}` : "fill: none";
+  group.append(svg("rect", { x: x + 1, y: y + 1, width: inner, height: inner, style }));
+  if (!feasible) group.append(svg("path", { d: `M${x + 1} ${y + 1}l${inner} ${inner}m0 ${-inner}l${-inner} ${inner}`, class: "rule" }));
+  return group;
+}
+
+const curvatures = ({ start, first, second }: Splines, i: number): string =>
+  `from ${side(start[i]!)} over ${side(first[i]!)} to ${side(second[i]!)}`;
+
+function splineNumbers(splines: Splines, i: number): string {
+  const { merged, hazard, certainty, waypoint, feasible } = splines;
+  const told = `${curvatures(splines, i)}: ${scores(merged[i]!, hazard[i]!, certainty[i]!, waypoint[i]!)}`;
+  return feasible[i] ? told : `${told}; the steering motors could not follow`;
+}

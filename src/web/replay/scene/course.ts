@@ -40,9 +40,7 @@ function ring(x: number, y: number, radius: number, heights: GroundHeights): Poi
 function disc(x: number, y: number, radius: number, heights: GroundHeights): BufferGeometry {
   const geometry = new CircleGeometry(radius, CORNERS).translate(x, y, 0);
   const position = geometry.getAttribute("position");
-  for (let i = 0; i < position.count; ++i) {
-    position.setZ(i, heights.at(position.getX(i), position.getY(i)) + LIFT_M);
-  }
+  for (let i = 0; i < position.count; ++i) position.setZ(i, heights.at(position.getX(i), position.getY(i)) + LIFT_M);
   return geometry;
 }
 
@@ -82,13 +80,7 @@ export function makeCourse(payload: ReplayPayload, heights: GroundHeights, palet
     line(ring(x, y, WAYPOINT_RADIUS_M, heights), palette.goal);
     sign(`waypoint ${i + 1}`, x, y, 0.25, palette.goal, [1.08, 0]);
   });
-  const fill = new MeshBasicMaterial({
-    color: palette.goal,
-    transparent: true,
-    opacity: 0.25,
-    side: DoubleSide,
-    depthWrite: false,
-  });
+  const fill = new MeshBasicMaterial({ color: palette.goal, transparent: true, opacity: 0.25, side: DoubleSide, depthWrite: false });
   group.add(new Mesh(disc(goal.x, goal.y, goal.radius, heights), fill));
   line(ring(goal.x, goal.y, goal.radius, heights), palette.goal);
   sign("goal", goal.x, goal.y, 0.5, palette.goal, [1.08, 0]);

@@ -4,19 +4,12 @@ import type { Course, Ground } from "../payload";
 /** As walls are drawn: they have none. */
 export const WALL_HEIGHT_M = 0.35;
 
-export interface Extent {
-  xMin: number;
-  xMax: number;
-  yMin: number;
-  yMax: number;
-}
+export interface Extent { xMin: number; xMax: number; yMin: number; yMax: number }
 
 export class GroundHeights {
   constructor(private readonly ground: Ground) {}
 
-  get empty(): boolean {
-    return this.ground.nx < 2 || this.ground.ny < 2;
-  }
+  get empty(): boolean { return this.ground.nx < 2 || this.ground.ny < 2; }
 
   /** Bilinear; beyond the edge as at the edge. */
   at(x: number, y: number): number {
@@ -36,6 +29,14 @@ export class GroundHeights {
 export function extentOf(course: Course): Extent {
   const { x_min, x_max, y_min, y_max } = course.bounds;
   return { xMin: x_min, xMax: x_max, yMin: y_min, yMax: y_max };
+}
+
+/** The triangles of nx by ny points, row by row, as three indices each. */
+export function gridFaces(nx: number, ny: number): number[] {
+  return Array.from({ length: Math.max(0, nx - 1) * Math.max(0, ny - 1) }, (_, i) => {
+    const corner = Math.floor(i / (nx - 1)) * nx + (i % (nx - 1));
+    return [corner, corner + 1, corner + nx + 1, corner, corner + nx + 1, corner + nx];
+  }).flat();
 }
 
 /** 1, 2 or 5 times a power of ten, such that some `count` of them span `length`. */

@@ -4,7 +4,7 @@ import { CanvasTexture, OrthographicCamera, PerspectiveCamera, Sprite, SpriteMat
 const TEXT_PX = 17;
 const FONT_PX = 40;
 
-export interface LabelStyle {
+interface LabelStyle {
   colour: string;
   /** Where the point is within the text: (0.5, 0) is the middle of its lower edge. */
   anchor?: [number, number];

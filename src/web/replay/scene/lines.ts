@@ -5,7 +5,7 @@ import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeome
 
 export type Point = [number, number, number];
 
-export interface LineStyle {
+interface LineStyle {
   width_px: number;
   /** Lengths of dash and gap, m. */
   dash?: [number, number];
@@ -44,9 +44,7 @@ export class Lines {
   }
 
   /** A line through all points. */
-  setPath(points: Point[]): void {
-    this.set(points.slice(1).flatMap((point, i) => [points[i]!, point]));
-  }
+  setPath(points: Point[]): void { this.set(points.slice(1).flatMap((point, i) => [points[i]!, point])); }
 
   /** Shows the first `count` pieces only. */
   showFirst(count: number): void {
@@ -54,9 +52,7 @@ export class Lines {
     this.object.visible = this.count > 0 && count > 0;
   }
 
-  recolour(colour: string): void {
-    this.material.color.set(colour);
-  }
+  recolour(colour: string): void { this.material.color.set(colour); }
 
   /** In front of everything where the picture is a plan. */
   set onTop(on: boolean) {

@@ -1,22 +1,14 @@
 // One decision of a map-based navigator: its map on the ground, the arcs or splines that it weighed,
 // and some of the points that it saw.
-import {
-  BufferGeometry,
-  Color,
-  DoubleSide,
-  Float32BufferAttribute,
-  Group,
-  Mesh,
-  MeshBasicMaterial,
-  Points,
-  PointsMaterial,
-} from "three";
-import { ramp, type Palette } from "../palette";
-import type { Splines, Step, Vote } from "../payload";
+
+import { Color, DoubleSide, Group, Mesh, MeshBasicMaterial, Points, PointsMaterial } from "three";
+
+import { type Palette, ramp } from "../palette";
+import type { Place, Splines, Step, Vote } from "../payload";
 import type { Layers } from "../view";
-import { arcPoint, elevationRange, frameOf, PIECES, turnPoint, type ArcPoint, type Frame } from "./arcs";
+import { arcPoint, drawingOrder, elevationRange, type Frame, frameOf, PIECES, splinePath, turnPoint } from "./arcs";
+import { geometryOf } from "./geometry";
 import type { GroundHeights } from "./ground";
-import { drawingOrder, splinePath } from "./splines";
 
 type Rgb = [number, number, number];
 
@@ -32,12 +24,7 @@ const MOST_ALPHA = 0.75;
 
 export class StepPicture {
   readonly group = new Group();
-  private readonly flat = new MeshBasicMaterial({
-    vertexColors: true,
-    transparent: true,
-    side: DoubleSide,
-    depthWrite: false,
-  });
+  private readonly flat = new MeshBasicMaterial({ vertexColors: true, transparent: true, side: DoubleSide, depthWrite: false });
   private readonly solid = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide });
   private readonly seen = new PointsMaterial({ size: 3, sizeAttenuation: false });
   private chosen: Rgb = PALE;
@@ -83,7 +70,7 @@ export class StepPicture {
         colours.push(...colour);
       }
     }
-    const mesh = new Mesh(coloured(positions, colours, 4), this.flat);
+    const mesh = new Mesh(geometryOf(positions, { color: colours, channels: 4 }), this.flat);
     mesh.renderOrder = 1;
     this.group.add(mesh);
   }
@@ -93,14 +80,14 @@ export class StepPicture {
     const strips = new Strips(this.heights);
     this.addArcs(step.votes, frame, strips);
     if (step.splines) this.addSplines(step.splines, frame, strips);
-    const mesh = new Mesh(coloured(strips.positions, strips.colours, 3), this.solid);
+    const mesh = new Mesh(geometryOf(strips.positions, { color: strips.colours }), this.solid);
     mesh.renderOrder = 2;
     this.group.add(mesh);
   }
 
   private addArcs(votes: Vote[], frame: Frame, strips: Strips): void {
     for (const vote of [...votes].sort((a, b) => Number(a.chosen) - Number(b.chosen) || a.merged - b.merged)) {
-      const at = (share: number): ArcPoint => (vote.kind === "turn" ? turnPoint(vote, share) : arcPoint(vote, share));
+      const at = (share: number): Place => (vote.kind === "turn" ? turnPoint(vote, share) : arcPoint(vote, share));
       const width = (vote.chosen ? 0.03 : 0.006) + 0.022 * (vote.merged / FULL_VOTE);
       const lift = ARC_LIFT_M + (vote.chosen ? 0.006 : 0);
       strips.add({ at, frame: frame.ahead, arrow: vote.chosen }, width + (vote.chosen ? 0.03 : 0.008), lift, vote.chosen ? this.chosen : PALE);
@@ -122,14 +109,12 @@ export class StepPicture {
   }
 
   private addPoints(step: Step): void {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new Float32BufferAttribute(step.points.flat(), 3));
-    this.group.add(new Points(geometry, this.seen));
+    this.group.add(new Points(geometryOf(step.points.flat()), this.seen));
   }
 }
 
 interface Strip {
-  at: (share: number) => ArcPoint;
+  at: (share: number) => Place;
   /** From the frame of its points to the world that is drawn. */
   frame: Frame["ahead"];
   /** Whether it ends in one. */
@@ -189,11 +174,4 @@ function cellColour(
     if (kind === "goodness") alpha = LEAST_ALPHA + (MOST_ALPHA - LEAST_ALPHA) * (certainty / FULL_VOTE);
   }
   return [...linear(ramp(share)), alpha];
-}
-
-function coloured(positions: number[], colours: number[], channels: number): BufferGeometry {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
-  geometry.setAttribute("color", new Float32BufferAttribute(colours, channels));
-  return geometry;
 }

@@ -37,9 +37,7 @@ class Path {
     this.whole.set(this.points);
   }
 
-  get objects(): Lines[] {
-    return [this.done, this.tip, this.whole];
-  }
+  get objects(): Lines[] { return [this.done, this.tip, this.whole]; }
 
   /** Up to where the rover is: whole pieces, and the piece that it is on. */
   show(index: number, here: Point, whole: boolean): void {
@@ -57,10 +55,7 @@ export class Paths {
   private readonly true: Path;
   private readonly believed: Path;
 
-  constructor(
-    course: Course,
-    private readonly heights: GroundHeights,
-  ) {
+  constructor(course: Course, private readonly heights: GroundHeights) {
     const { motion } = course;
     this.true = new Path(course, (i) => this.truePoint(motion.x[i]!, motion.y[i]!, motion.z[i]!));
     this.believed = new Path(course, (i) => this.onGround(motion.believed_x[i]!, motion.believed_y[i]!), [0.09, 0.06]);
@@ -87,7 +82,5 @@ export class Paths {
     return [x, y, Math.max(z, this.heights.at(x, y)) + LIFT_M];
   }
 
-  private onGround(x: number, y: number): Point {
-    return [x, y, this.heights.at(x, y) + LIFT_M];
-  }
+  private onGround(x: number, y: number): Point { return [x, y, this.heights.at(x, y) + LIFT_M]; }
 }

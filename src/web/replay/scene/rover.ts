@@ -1,22 +1,7 @@
 // The articulated rover: its links as groups that turn about their pivots; solid, or as an outline.
 import {
-  Box3,
-  BoxGeometry,
-  BufferGeometry,
-  CapsuleGeometry,
-  Color,
-  CylinderGeometry,
-  EdgesGeometry,
-  Float32BufferAttribute,
-  Group,
-  LineBasicMaterial,
-  LineSegments,
-  Mesh,
-  MeshLambertMaterial,
-  Object3D,
-  Quaternion,
-  SphereGeometry,
-  Vector3,
+  Box3, BoxGeometry, BufferGeometry, CapsuleGeometry, Color, CylinderGeometry, EdgesGeometry, Float32BufferAttribute,
+  Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Object3D, Quaternion, SphereGeometry, Vector3,
 } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import type { Palette } from "../palette";
@@ -28,11 +13,7 @@ type Vec = [number, number, number];
 const GROUSERS = 16;
 const EDGE_ANGLE_DEG = 35;
 
-interface Link {
-  name: string;
-  axis: Vector3;
-  group: Group;
-}
+interface Link { name: string; axis: Vector3; group: Group }
 
 abstract class Rover {
   /** Frame R. */
@@ -72,17 +53,11 @@ abstract class Rover {
   }
 
   setJoints(joints: Record<string, number>): void {
-    for (const { name, axis, group } of this.links.slice(1)) {
-      group.quaternion.setFromAxisAngle(axis, joints[name] ?? 0);
-    }
+    for (const { name, axis, group } of this.links.slice(1)) group.quaternion.setFromAxisAngle(axis, joints[name] ?? 0);
   }
 }
 
-interface Painted {
-  geometry: BufferGeometry;
-  of: keyof Palette;
-  shade: number;
-}
+interface Painted { geometry: BufferGeometry; of: keyof Palette; shade: number }
 
 /** The rover as it is: one mesh for each link, painted corner by corner. */
 export class SolidRover extends Rover {
@@ -160,9 +135,7 @@ export class GhostRover extends Rover {
     this.build(shape);
   }
 
-  recolour(palette: Palette): void {
-    this.material.color.set(palette["believed-path"]);
-  }
+  recolour(palette: Palette): void { this.material.color.set(palette["believed-path"]); }
 
   protected add(group: Group, shape: Shape): void {
     if (shape.kind === "sphere" || shape.kind === "capsule") return;

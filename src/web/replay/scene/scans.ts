@@ -1,14 +1,5 @@
 // What the last scan of the light stripes returned.
-import {
-  Group,
-  IcosahedronGeometry,
-  InstancedMesh,
-  Matrix4,
-  MeshBasicMaterial,
-  OctahedronGeometry,
-  Quaternion,
-  Vector3,
-} from "three";
+import { Group, IcosahedronGeometry, InstancedMesh, Matrix4, MeshBasicMaterial, OctahedronGeometry, Quaternion, Vector3 } from "three";
 import type { Palette } from "../palette";
 import type { Scan } from "../payload";
 import type { GroundHeights } from "./ground";
@@ -83,11 +74,7 @@ export class ScanPoints {
   }
 }
 
-function instances(
-  geometry: IcosahedronGeometry | OctahedronGeometry,
-  material: MeshBasicMaterial,
-  points: Point[],
-): InstancedMesh {
+function instances(geometry: IcosahedronGeometry | OctahedronGeometry, material: MeshBasicMaterial, points: Point[]): InstancedMesh {
   const mesh = new InstancedMesh(geometry, material, Math.max(1, points.length));
   mesh.count = points.length;
   mesh.frustumCulled = false;

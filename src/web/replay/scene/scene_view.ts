@@ -1,5 +1,5 @@
 // The trial in three dimensions.
-import { Color, Group, Mesh, PCFShadowMap, Scene, WebGLRenderer, type CanvasTexture, type Object3D } from "three";
+import { Color, Group, Mesh, PCFShadowMap, Scene, WebGLRenderer, type Object3D } from "three";
 import { CameraRig } from "../camera";
 import { headingOf, type Course as Drive } from "../motion";
 import { readPalette } from "../palette";
@@ -20,30 +20,30 @@ import { makeSurroundings } from "./surroundings";
 import { makeGrid, makeGround, makeWalls } from "./terrain";
 import { rockTexture, soilTexture } from "./textures";
 import { Tracks } from "./tracks";
-import { worldKind, type WorldKind } from "./world";
+import { worldKind } from "./world";
 
 const SCANNING = "scan";
 
 export class SceneView implements View {
-  readonly element: HTMLCanvasElement;
   readonly modes = ["follow", "top", "orbit", "rover"] as const;
-  private readonly renderer: WebGLRenderer;
+  private readonly renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  readonly element = this.renderer.domElement;
   private readonly scene = new Scene();
-  private readonly world: WorldKind;
-  private readonly sunlight: Sunlight;
-  private readonly soil: CanvasTexture;
-  private readonly rig: CameraRig;
-  private readonly extent: Extent;
-  private readonly heights: GroundHeights;
-  private readonly rover: SolidRover;
-  private readonly ghost: GhostRover;
-  private readonly rocks: Rocks;
-  private readonly paths: Paths;
-  private readonly tracks: Tracks;
-  private readonly scan: ScanPoints;
-  private readonly sight: Sight;
-  private readonly step: StepPicture;
-  private readonly marks: EventMarks;
+  private readonly world = worldKind(this.payload.world);
+  private readonly sunlight = new Sunlight(this.payload.world);
+  private readonly soil = soilTexture(this.sunlight.toward);
+  private readonly extent = extentOf(this.payload.course);
+  private readonly heights = new GroundHeights(this.payload.ground);
+  private readonly rover = new SolidRover(this.payload.rover);
+  private readonly ghost = new GhostRover(this.payload.rover);
+  private readonly rocks = new Rocks(this.payload, rockTexture());
+  private readonly paths = new Paths(this.drive, this.heights);
+  private readonly tracks = new Tracks(this.drive, this.payload.rover, this.heights);
+  private readonly scan = new ScanPoints(this.heights);
+  private readonly sight = new Sight(this.payload, this.heights);
+  private readonly step = new StepPicture(this.heights);
+  private readonly marks = new EventMarks(this.payload.events, this.heights);
+  private readonly rig = new CameraRig(this.element, this.extent, this.rover.length());
   // Ground, walls, course and surroundings are made anew with the colours.
   private readonly fixed = new Group();
   private grid: Object3D = new Group();
@@ -51,41 +51,18 @@ export class SceneView implements View {
   private plain = false;
   private trueShapes = false;
 
-  constructor(
-    private readonly payload: ReplayPayload,
-    drive: Drive,
-    private readonly plan: Extent,
-  ) {
-    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  constructor(private readonly payload: ReplayPayload, private readonly drive: Drive, private readonly plan: Extent) {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     // Shadows are drawn first; they count as well.
     this.renderer.info.autoReset = false;
-    this.element = this.renderer.domElement;
-    this.world = worldKind(payload.world);
-    this.sunlight = new Sunlight(payload.world);
-    this.soil = soilTexture(this.sunlight.toward);
-    this.extent = extentOf(payload.course);
-    this.heights = new GroundHeights(payload.ground);
-    this.rover = new SolidRover(payload.rover);
-    this.ghost = new GhostRover(payload.rover);
-    this.rocks = new Rocks(payload, rockTexture());
-    this.paths = new Paths(drive, this.heights);
-    this.tracks = new Tracks(drive, payload.rover, this.heights);
-    this.scan = new ScanPoints(this.heights);
-    this.sight = new Sight(payload, this.heights);
-    this.step = new StepPicture(this.heights);
-    this.marks = new EventMarks(payload.events, this.heights);
-    this.rig = new CameraRig(this.element, this.extent, this.rover.length());
     this.rig.setPlanExtent(plan);
     this.scene.add(this.fixed, this.sunlight.group, this.rocks.group, this.rover.body, this.ghost.body);
     for (const { group } of [this.paths, this.tracks, this.scan, this.sight, this.step, this.marks]) this.scene.add(group);
     this.recolour();
   }
 
-  get mode(): CameraMode {
-    return this.rig.mode;
-  }
+  get mode(): CameraMode { return this.rig.mode; }
 
   setMode(mode: CameraMode): void {
     this.rig.setMode(mode);
@@ -93,13 +70,9 @@ export class SceneView implements View {
     this.paths.onTop = this.marks.onTop = mode === "top";
   }
 
-  approach(factor: number): void {
-    this.rig.approach(factor);
-  }
+  approach(factor: number): void { this.rig.approach(factor); }
 
-  turn(angle: number): void {
-    this.rig.turn(angle);
-  }
+  turn(angle: number): void { this.rig.turn(angle); }
 
   onMoved(listener: () => void): void {
     this.rig.onMoved(listener);
@@ -180,9 +153,7 @@ export class SceneView implements View {
     return { x: position.x, y: position.y, z: position.z, heading: headingOf(quaternion) };
   }
 
-  drawnLinks(): DrawnLink[] {
-    return this.rover.pivots();
-  }
+  drawnLinks(): DrawnLink[] { return this.rover.pivots(); }
 
   drawing(): Drawing {
     const { x, y, z } = this.sunlight.toward;

@@ -1,17 +1,6 @@
 // The sun, or the lamp of a hall, and its shadows: they reach as far as the camera sees around the
 // rover.
-import {
-  AmbientLight,
-  type Camera,
-  Color,
-  DirectionalLight,
-  Frustum,
-  Group,
-  HemisphereLight,
-  Matrix4,
-  OrthographicCamera,
-  Vector3,
-} from "three";
+import { AmbientLight, type Camera, Color, DirectionalLight, Frustum, Group, HemisphereLight, Matrix4, OrthographicCamera, Vector3 } from "three";
 import type { World } from "../payload";
 
 const SHADOW_PX = 2048;
@@ -30,7 +19,7 @@ const SKY = 1.05;
 const AMBIENT = 0.42;
 
 /** Unit vector towards the sun, in W. */
-export function towardSun({ sun }: World): Vector3 {
+function towardSun({ sun }: World): Vector3 {
   const flat = Math.cos(sun.elevation);
   return new Vector3(flat * Math.cos(sun.azimuth), flat * Math.sin(sun.azimuth), Math.sin(sun.elevation));
 }

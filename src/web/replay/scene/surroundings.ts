@@ -1,27 +1,12 @@
 // What lies around the terrain: a sky with its sun, ground to the horizon, or the hall that an arena
 // stands in. All of it is drawn only: the simulator has no terrain there.
 import {
-  AdditiveBlending,
-  BackSide,
-  BoxGeometry,
-  BufferGeometry,
-  CanvasTexture,
-  Color,
-  Float32BufferAttribute,
-  Fog,
-  Group,
-  Mesh,
-  MeshBasicMaterial,
-  MeshLambertMaterial,
-  type Object3D,
-  PlaneGeometry,
-  SphereGeometry,
-  Sprite,
-  SpriteMaterial,
-  type Texture,
-  type Vector3,
+  AdditiveBlending, BackSide, BoxGeometry, type BufferGeometry, CanvasTexture, Color, Fog, Group,
+  Mesh, MeshBasicMaterial, MeshLambertMaterial, type Object3D, PlaneGeometry, SphereGeometry, Sprite, SpriteMaterial,
+  type Texture, type Vector3,
 } from "three";
 import type { Palette } from "../palette";
+import { colouredByHeight, geometryOf } from "./geometry";
 import type { Extent, GroundHeights } from "./ground";
 import { noise3 } from "./noise";
 import { SOIL_TILE_M } from "./textures";
@@ -40,7 +25,7 @@ const HALL_MARGIN_M = 3;
 const HALL_HEIGHT_M = 3.4;
 const RIM = { width_m: 0.06, above_m: 0.05, below_m: 0.12 };
 
-export interface Surroundings {
+interface Surroundings {
   /** Stands still. */
   fixed: Group;
   /** Goes with the camera, so that it is always as far away. */
@@ -66,16 +51,10 @@ export function makeSurroundings(kind: WorldKind, extent: Extent, heights: Groun
 
 /** Half a ball, paler towards the horizon. */
 function makeSky({ sky, zenith }: Palette): Mesh {
-  const geometry = new SphereGeometry(SKY_RADIUS_M, 24, 14).rotateX(Math.PI / 2);
-  const position = geometry.getAttribute("position");
   const [low, high] = [new Color(sky), new Color(zenith)];
-  const colours: number[] = [];
-  for (let i = 0; i < position.count; ++i) {
-    const share = Math.max(0, position.getZ(i) / SKY_RADIUS_M) ** 0.6;
-    colours.push(...low.clone().lerp(high, share).toArray());
-  }
-  geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
-  const mesh = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, side: BackSide, depthWrite: false, fog: false }));
+  const ball = colouredByHeight(new SphereGeometry(SKY_RADIUS_M, 24, 14).rotateX(Math.PI / 2), (z) =>
+    low.clone().lerp(high, Math.max(0, z / SKY_RADIUS_M) ** 0.6));
+  const mesh = new Mesh(ball, new MeshBasicMaterial({ vertexColors: true, side: BackSide, depthWrite: false, fog: false }));
   mesh.renderOrder = -10;
   mesh.frustumCulled = false;
   return mesh;
@@ -118,12 +97,7 @@ function makeHorizon(kind: WorldKind, extent: Extent, heights: GroundHeights, so
       corners.push(a, a + around, b, b, a + around, b + around);
     }
   });
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
-  geometry.setAttribute("uv", new Float32BufferAttribute(uv, 2));
-  geometry.setIndex(corners);
-  geometry.computeVertexNormals();
-  return new Mesh(geometry, new MeshLambertMaterial({ color: palette.around, map: soil }));
+  return new Mesh(geometryOf(positions, { uv, faces: corners }), new MeshLambertMaterial({ color: palette.around, map: soil }));
 }
 
 /** Point i of a ring around the terrain, `away` from its edge, counter-clockwise. */
@@ -164,17 +138,11 @@ function makeHall(extent: Extent, heights: GroundHeights, palette: Palette): Gro
 }
 
 function shadedBox(length: number, width: number, { sky, zenith, around }: Palette): BufferGeometry {
-  const geometry = new BoxGeometry(length, width, HALL_HEIGHT_M, 1, 1, 4);
-  const position = geometry.getAttribute("position");
   const [foot, middle, top] = [new Color(around), new Color(sky), new Color(zenith)];
-  const colours: number[] = [];
-  for (let i = 0; i < position.count; ++i) {
-    const share = position.getZ(i) / HALL_HEIGHT_M + 0.5;
-    const colour = share < 0.2 ? foot.clone().lerp(middle, 0.6) : middle.clone().lerp(top, share);
-    colours.push(...colour.toArray());
-  }
-  geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
-  return geometry;
+  return colouredByHeight(new BoxGeometry(length, width, HALL_HEIGHT_M, 1, 1, 4), (z) => {
+    const share = z / HALL_HEIGHT_M + 0.5;
+    return share < 0.2 ? foot.clone().lerp(middle, 0.6) : middle.clone().lerp(top, share);
+  });
 }
 
 /** Boards along the four edges, down to the floor. */

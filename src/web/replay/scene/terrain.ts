@@ -1,23 +1,12 @@
 // The ground with a grid in metres, and the walls of an arena.
 import {
-  BackSide,
-  BufferGeometry,
-  Color,
-  DoubleSide,
-  Float32BufferAttribute,
-  Group,
-  LineBasicMaterial,
-  LineSegments,
-  Mesh,
-  MeshBasicMaterial,
-  MeshLambertMaterial,
-  PlaneGeometry,
-  type Sprite,
-  type Texture,
+  BackSide, type BufferGeometry, Color, DoubleSide, Group, LineBasicMaterial, LineSegments, Mesh,
+  MeshBasicMaterial, MeshLambertMaterial, PlaneGeometry, type Sprite, type Texture,
 } from "three";
 import type { Palette } from "../palette";
 import type { Course, Ground } from "../payload";
-import { extentOf, GroundHeights, niceStep, WALL_HEIGHT_M, wallWithin, type Extent } from "./ground";
+import { geometryOf } from "./geometry";
+import { type Extent, extentOf, gridFaces, GroundHeights, niceStep, WALL_HEIGHT_M, wallWithin } from "./ground";
 import { makeLabel } from "./labels";
 import { MOST_SOIL_TRIANGLES } from "./limits";
 import { noise3 } from "./noise";
@@ -26,10 +15,7 @@ import { SOIL_TILE_M } from "./textures";
 const GRID_LIFT_M = 0.004;
 // Between drawn points of ground whose heights are further apart.
 const FINEST_STEP_M = 0.25;
-const PATCHES = [
-  { size_m: 2.7, depth: 0.16 },
-  { size_m: 0.7, depth: 0.12 },
-] as const;
+const PATCHES = [{ size_m: 2.7, depth: 0.16 }, { size_m: 0.7, depth: 0.12 }] as const;
 // In steps between labels: further away they would lie on each other.
 const LABEL_REACH = 9;
 
@@ -63,20 +49,7 @@ function relief({ x0, y0, step, nx, ny }: Grid, heights: GroundHeights, palette:
     uv.push(x / SOIL_TILE_M, y / SOIL_TILE_M);
     colours.push(...base.clone().multiplyScalar(patch(x, y)).toArray());
   }
-  const corners: number[] = [];
-  for (let iy = 0; iy + 1 < ny; ++iy) {
-    for (let ix = 0; ix + 1 < nx; ++ix) {
-      const a = iy * nx + ix;
-      corners.push(a, a + 1, a + nx + 1, a, a + nx + 1, a + nx);
-    }
-  }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
-  geometry.setAttribute("uv", new Float32BufferAttribute(uv, 2));
-  geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
-  geometry.setIndex(corners);
-  geometry.computeVertexNormals();
-  return geometry;
+  return geometryOf(positions, { uv, color: colours, faces: gridFaces(nx, ny) });
 }
 
 /** Darker and paler patches of soil, about 1, so that nobody sees the texture repeat. */
@@ -106,12 +79,8 @@ export function makeGrid(heights: GroundHeights, extent: Extent, labelled: Exten
   };
   for (let x = Math.ceil(xMin / step) * step; x <= xMax; x += step) line(x, yMin, x, yMax);
   for (let y = Math.ceil(yMin / step) * step; y <= yMax; y += step) line(xMin, y, xMax, y);
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
   const material = new LineBasicMaterial({ color: palette.grid, transparent: true, opacity: 0.55 });
-  const group = new Group();
-  group.add(new LineSegments(geometry, material), ...gridLabels(heights, labelled, palette));
-  return group;
+  return new Group().add(new LineSegments(geometryOf(points), material), ...gridLabels(heights, labelled, palette));
 }
 
 function gridLabels(heights: GroundHeights, { xMin, xMax, yMin, yMax }: Extent, palette: Palette): Sprite[] {

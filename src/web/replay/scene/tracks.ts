@@ -1,13 +1,15 @@
 // Prints that the wheels leave in the soil, from where the record says that they rolled. The soil of the
 // simulator does not change: prints are drawn only.
-import { BufferGeometry, DoubleSide, Float32BufferAttribute, Group, Mesh, MeshBasicMaterial } from "three";
-import { lastAtOrBefore, type Course, type Moment } from "../motion";
+
+import { type BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, Quaternion, Vector3 } from "three";
+
+import { type Course, lastAtOrBefore, type Moment } from "../motion";
 import type { Palette } from "../palette";
-import type { RoverShape } from "../payload";
+import type { RoverShape, Shape } from "../payload";
+import { geometryOf } from "./geometry";
 import type { GroundHeights } from "./ground";
 import { MOST_TRACK_TRIANGLES } from "./limits";
 import { PRINT_TILE_M, printTexture } from "./textures";
-import { WheelPlaces, type RoverPose, type WheelPlace } from "./wheel_places";
 
 const LIFT_M = 0.003;
 // A wheel whose lowest point is higher above the soil leaves no print: it is on a rock.
@@ -18,19 +20,12 @@ const CORNERS = 6;
 
 /** The print's middle below a wheel, and half of its width across. */
 interface Print {
-  x: number;
-  y: number;
-  acrossX: number;
-  acrossY: number;
+  x: number; y: number; acrossX: number; acrossY: number;
   /** Length of the track so far, m. */
   along: number;
 }
 
-interface Piece {
-  sample: number;
-  from: Print;
-  to: Print;
-}
+interface Piece { sample: number; from: Print; to: Print }
 
 /** Where the track of one wheel may go on: null where the wheel touches no soil. */
 interface Anchors {
@@ -40,25 +35,15 @@ interface Anchors {
 
 export class Tracks {
   readonly group = new Group();
-  private readonly places: WheelPlaces;
   private readonly material = new MeshBasicMaterial({ map: printTexture(), transparent: true, side: DoubleSide, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -2 });
-  private readonly done: Mesh;
-  private readonly tip: Mesh;
-  private readonly pieceSamples: number[];
-  private readonly pieces: Piece[];
-  private readonly anchors: Anchors[];
+  private readonly places = new WheelPlaces(this.rover);
+  private readonly anchors = this.places.wheels.map((): Anchors => ({ samples: [], prints: [] }));
+  private readonly pieces = this.record();
+  private readonly pieceSamples = this.pieces.map(({ sample }) => sample);
+  private readonly done = new Mesh(ribbons(this.pieces, this.heights), this.material);
+  private readonly tip = new Mesh(ribbons([], this.heights), this.material);
 
-  constructor(
-    course: Course,
-    rover: RoverShape,
-    private readonly heights: GroundHeights,
-  ) {
-    this.places = new WheelPlaces(rover);
-    this.anchors = this.places.wheels.map(() => ({ samples: [], prints: [] }));
-    this.pieces = this.record(course);
-    this.pieceSamples = this.pieces.map(({ sample }) => sample);
-    this.done = new Mesh(ribbons(this.pieces, heights), this.material);
-    this.tip = new Mesh(ribbons([], heights), this.material);
+  constructor(private readonly course: Course, private readonly rover: RoverShape, private readonly heights: GroundHeights) {
     for (const mesh of [this.done, this.tip]) {
       mesh.frustumCulled = false;
       // Before the maps and arcs that lie on the soil.
@@ -67,9 +52,7 @@ export class Tracks {
     }
   }
 
-  recolour(palette: Palette): void {
-    this.material.color.set(palette.track);
-  }
+  recolour(palette: Palette): void { this.material.color.set(palette.track); }
 
   show(moment: Moment, visible: boolean): void {
     this.group.visible = visible;
@@ -93,11 +76,10 @@ export class Tracks {
     return drawn.map(({ to: { x, y, acrossX, acrossY } }) => ({ x, y, width: 2 * Math.hypot(acrossX, acrossY) }));
   }
 
-  private countAt(sample: number): number {
-    return lastAtOrBefore(this.pieceSamples, sample) + 1;
-  }
+  private countAt(sample: number): number { return lastAtOrBefore(this.pieceSamples, sample) + 1; }
 
-  private record(course: Course): Piece[] {
+  private record(): Piece[] {
+    const { course } = this;
     const places = Array.from({ length: course.length }, (_, i) => this.places.at(poseOf(course, i)));
     const spacing = Math.max(LEAST_PIECE_M, (2 * travelOf(places)) / MOST_TRACK_TRIANGLES);
     const pieces: Piece[] = [];
@@ -156,8 +138,50 @@ function ribbons(pieces: Piece[], heights: GroundHeights): BufferGeometry {
   for (const { from, to } of pieces) {
     for (const [print, side] of [[from, -1], [to, -1], [to, 1], [from, -1], [to, 1], [from, 1]] as const) put(print, side);
   }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
-  geometry.setAttribute("uv", new Float32BufferAttribute(uv, 2));
-  return geometry;
+  return geometryOf(positions, { uv });
+}
+
+// ---- Where the wheels are, from the pose of the rover and the angles of its joints.
+
+type Wheel = Extract<Shape, { kind: "wheel" }>;
+
+interface WheelPlace {
+  center: Vector3;
+  /** Unit vector along the axle, to the left. */
+  axle: Vector3;
+}
+
+type RoverPose = Pick<Moment, "x" | "y" | "z" | "attitude" | "joints">;
+
+class WheelPlaces {
+  /** In the order of the links. */
+  readonly wheels: { link: number; shape: Wheel }[] = [];
+  private readonly links: { name: string; parent: number; pivot: Vector3; axis: Vector3 }[];
+
+  constructor({ links }: RoverShape) {
+    this.links = links.map(({ name, parent, pivot, axis }) => {
+      return { name, parent, pivot: new Vector3(...pivot), axis: new Vector3(...axis).normalize() };
+    });
+    links.forEach(({ shapes }, link) => {
+      for (const shape of shapes) if (shape.kind === "wheel") this.wheels.push({ link, shape });
+    });
+  }
+
+  at({ x, y, z, attitude, joints }: RoverPose): WheelPlace[] {
+    const turns: Quaternion[] = [];
+    const places: Vector3[] = [];
+    this.links.forEach(({ name, parent, pivot, axis }, i) => {
+      if (i === 0) {
+        turns.push(new Quaternion(attitude.x, attitude.y, attitude.z, attitude.w).normalize());
+        places.push(new Vector3(x, y, z));
+        return;
+      }
+      places.push(pivot.clone().applyQuaternion(turns[parent]!).add(places[parent]!));
+      turns.push(turns[parent]!.clone().multiply(new Quaternion().setFromAxisAngle(axis, joints[name] ?? 0)));
+    });
+    return this.wheels.map(({ link, shape }) => ({
+      center: new Vector3(...shape.center).applyQuaternion(turns[link]!).add(places[link]!),
+      axle: new Vector3(0, 1, 0).applyQuaternion(turns[link]!),
+    }));
+  }
 }

@@ -2,9 +2,8 @@
 
 import { el } from "../../shared/dom";
 
-export interface ChartSpec {
-  id: string;
-  title: string;
+interface ChartSpec {
+  id: string; title: string;
   /** How to read it, and what bands and bars are. */
   caption: string;
   /** What the drawing shows, for who does not see it. */
@@ -58,13 +57,10 @@ export function chartFigure(spec: ChartSpec): HTMLElement {
     }
   });
   observer.observe(box);
-  return el(
-    "figure",
-    { class: "chart-figure", id: spec.id },
+  return el("figure", { class: "chart-figure", id: spec.id },
     el("h3", {}, spec.title),
     spec.key,
     box,
     el("figcaption", {}, spec.caption),
-    numbersOf(spec),
-  );
+    numbersOf(spec));
 }

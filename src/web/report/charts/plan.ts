@@ -3,8 +3,8 @@
 
 import { svg } from "../../shared/dom";
 import { number } from "../../shared/format";
-import { outcomeLines, outcomeMarks } from "../outcome_style";
 import type { Course, Track } from "../payload";
+import { outcomeLines, outcomeMarks } from "../series";
 
 export type Place = [x: number, y: number];
 
@@ -17,7 +17,7 @@ export interface PlanLayer {
   ends: Place[];
 }
 
-export interface PlanSpec {
+interface PlanSpec {
   course: Course;
   /** From below to above. */
   layers: PlanLayer[];
@@ -29,12 +29,7 @@ export interface PlanSpec {
   lineWidth?: number;
 }
 
-export interface Box {
-  x0: number;
-  x1: number;
-  y0: number;
-  y1: number;
-}
+export interface Box { x0: number; x1: number; y0: number; y1: number }
 
 /** The lines of a track, m. */
 export function trackLines(track: Track): Place[][] {
@@ -70,11 +65,7 @@ function ticks(from: number, to: number, scale: number): number[] {
 }
 
 interface Frame {
-  left: number;
-  bottom: number;
-  width: number;
-  height: number;
-  scale: number;
+  left: number; bottom: number; width: number; height: number; scale: number;
   at: (place: Place) => Place;
 }
 
@@ -93,8 +84,7 @@ function frameOf({ box, axes }: PlanSpec, width: number, mostHeight: number): Fr
 function axisElements({ box }: PlanSpec, frame: Frame): SVGElement[] {
   const text = (x: number, y: number, anchor: string, content: string) =>
     svg("text", { x, y, "text-anchor": anchor, class: "plan-text" }, content);
-  const grid = (from: Place, to: Place) =>
-    svg("line", { x1: from[0], y1: from[1], x2: to[0], y2: to[1], class: "plan-grid" });
+  const grid = (from: Place, to: Place) => svg("line", { x1: from[0], y1: from[1], x2: to[0], y2: to[1], class: "plan-grid" });
   const alongX = ticks(box.x0, box.x1, frame.scale).flatMap((x) => {
     const [px] = frame.at([x, 0]);
     return [grid([px, 0], [px, frame.height]), text(px, frame.height + 15, "middle", number(x))];

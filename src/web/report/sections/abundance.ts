@@ -1,18 +1,19 @@
 // Success along the axis of a sweep, such as the abundance of rocks.
 
-import { el, type Child } from "../../shared/dom";
-import { isNumber, percent, pValue, number } from "../../shared/format";
-import { numeric, rowHeader, table } from "../../shared/table";
-import { drawCurves, pointTable, type SlottedCurve } from "../charts/curves";
+import * as Plot from "@observablehq/plot";
+
+import { type Child, el } from "../../shared/dom";
+import { isNumber, number, percent, percentInterval, pValue } from "../../shared/format";
+import { numberCells, numeric, numericHeads, rowHeader, table } from "../../shared/table";
 import { chartFigure } from "../charts/figure";
-import { MOST_SHOWN, type Context } from "../context";
+import { type Context, MOST_SHOWN } from "../context";
 import type { Curve, Sweep } from "../payload";
-import { legend } from "../series";
+import { legend, seriesStyle } from "../series";
+import { unitText } from "../words";
 import type { Section } from "./section";
 
 interface Fit {
-  curve: string;
-  success: string;
+  curve: string; success: string;
   fitted: boolean;
   p_value: number | null;
   crossings?: { rate: number; x: number | null; ci95: [number | null, number | null]; outside_of_data: boolean }[];
@@ -28,7 +29,7 @@ function curveOf(sweep: Sweep, fit: Fit): Curve | undefined {
 }
 
 /** What is to be said of a fit, in words. */
-export function fitWords(curve: Curve, fit: Fit | undefined): string {
+function fitWords(curve: Curve, fit: Fit | undefined): string {
   if ((curve.fit ?? []).length === 0) return `no fit: ${curve.fit_status || "none was made"}`;
   if (typeof curve.fit_rejected !== "boolean") return curve.fit_status || "fitted";
   const p = isNumber(fit?.p_value) ? ` (p ${pValue(fit.p_value)})` : "";
@@ -79,15 +80,13 @@ function crossings(sweep: Sweep): HTMLElement | null {
   if (fits.length === 0) return null;
   return el("details", { class: "numbers" }, el("summary", {}, "Where the fits cross given rates"), table({
     caption: `Crossings of the fits of ${sweep.label}`,
-    head: ["curve", "success", ...["rate", "at", "95 % from", "to"].map((content) => ({ content, numeric: true })), "remark"],
+    head: ["curve", "success", ...numericHeads("rate", "at", "95 % from", "to"), "remark"],
     rows: fits.flatMap((fit) =>
       fit.crossings!.map((crossing) => [
         rowHeader(fit.curve || "all"),
         fit.success,
         numeric(percent(crossing.rate, 0), crossing.rate),
-        numeric(number(crossing.x), crossing.x),
-        numeric(number(crossing.ci95?.[0]), crossing.ci95?.[0]),
-        numeric(number(crossing.ci95?.[1]), crossing.ci95?.[1]),
+        ...numberCells(crossing.x, crossing.ci95?.[0], crossing.ci95?.[1]),
         [
           crossing.outside_of_data ? "outside of the cells" : "",
           curveOf(sweep, fit)?.fit_rejected ? "the fit is rejected" : "",
@@ -121,3 +120,72 @@ export const abundance: Section = {
     return content.length > 0 ? content : null;
   },
 };
+
+// ---- Success along an axis of a sweep: points with intervals, fit with band.
+
+interface SlottedCurve { curve: Curve; slot: number }
+
+function marksOf({ curve, slot }: SlottedCurve): Plot.Markish[] {
+  const style = seriesStyle(slot);
+  const stroke = { stroke: style.colour, strokeWidth: 2 };
+  return [
+    Plot.areaY(curve.fit ?? [], { x: "x", y1: "low", y2: "high", fill: style.colour, fillOpacity: 0.14 }),
+    Plot.lineY(curve.fit ?? [], { x: "x", y: "rate", ...stroke, strokeDasharray: style.dash }),
+    Plot.ruleX(curve.points, { x: "x", y1: "low", y2: "high", ...stroke }),
+    Plot.dot(curve.points, {
+      x: "x", y: "rate", symbol: style.symbol, r: 4.5, strokeWidth: 1.5,
+      stroke: style.symbol === "times" ? style.colour : "var(--ground)",
+      fill: style.symbol === "times" ? "none" : style.colour,
+      tip: { format: { x: (x: number) => number(x), y: (rate: number) => percent(rate) } },
+    }),
+  ];
+}
+
+// Where there are few levels, a tick at each of them, unless two would meet.
+function ticksOf(curves: SlottedCurve[], logarithmic: boolean, width: number): number[] | number {
+  const levels = [...new Set(curves.flatMap(({ curve }) => curve.points.map((point) => point.x)))].sort((a, b) => a - b);
+  const scale = (x: number) => (logarithmic ? Math.log(x) : x);
+  const length = scale(levels[levels.length - 1]!) - scale(levels[0]!) || 1;
+  const kept: number[] = [];
+  for (const level of levels) {
+    const before = kept[kept.length - 1];
+    const gap = before === undefined ? Infinity : ((scale(level) - scale(before)) / length) * (width - 80);
+    if (gap >= 44) kept.push(level);
+  }
+  return kept;
+}
+
+export function drawCurves(curves: SlottedCurve[], width: number): Element {
+  const first = curves[0]!.curve;
+  const logarithmic = first.scale === "log";
+  const unit = first.unit === "" || first.unit === "1" ? "" : ` [${unitText(first.unit)}]`;
+  return Plot.plot({
+    width, height: Math.min(360, Math.max(260, width * 0.62)), marginLeft: 52, marginRight: 22,
+    marginBottom: 42,
+    x: {
+      type: logarithmic ? "log" : "linear",
+      label: first.axis + unit + (logarithmic ? ", logarithmic" : ""),
+      labelAnchor: "center",
+      labelArrow: "none",
+      ticks: ticksOf(curves, logarithmic, width),
+      tickFormat: (x: number) => number(x, 3),
+      inset: 6,
+    },
+    y: { domain: [0, 1], label: `${first.success} success`, labelArrow: "none", grid: true, ticks: 5, tickFormat: (rate: number) => `${Math.round(100 * rate)} %` },
+    marks: [Plot.ruleY([0], { stroke: "var(--line-strong)" }), ...curves.flatMap(marksOf)],
+  });
+}
+
+function pointTable({ curve }: SlottedCurve): HTMLElement {
+  return table({
+    caption: `${curve.label || curve.axis}: ${curve.success} success in each cell`,
+    captionShown: true,
+    head: ["cell", ...numericHeads(curve.axis, "trials", "rate", "95 % interval")],
+    rows: curve.points.map((point) => [
+      point.cell,
+      ...numberCells(point.x, point.trials),
+      numeric(percent(point.rate), point.rate),
+      numeric(percentInterval(point.low, point.high), point.high),
+    ]),
+  });
+}

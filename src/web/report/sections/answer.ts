@@ -75,7 +75,6 @@ function how(run: Run): HTMLElement {
 export const answer: Section = {
   id: "answer",
   title: "In short",
-  short: "In short",
   render: (context: Context) => {
     const [run] = context.runs;
     if (context.runs.length !== 1 || !run?.summary?.declared_success?.trials) return null;

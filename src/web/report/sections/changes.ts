@@ -1,11 +1,10 @@
 // Two runs in short: in which settings they differ, and what became of it.
 
-import { breakable, el, type Child } from "../../shared/dom";
-import { causeWords } from "../../shared/causes";
-import { counted, interval, isNumber, number, percent, pointsInterval, points, pValue, words } from "../../shared/format";
+import { breakable, type Child, el } from "../../shared/dom";
+import { counted, interval, isNumber, number, percent, points, pointsInterval, pValue, words } from "../../shared/format";
+import { causeWords } from "../../shared/outcomes";
 import { rowHeader, table } from "../../shared/table";
 import { boxOf, trackLines } from "../charts/plan";
-import { changesOf, drawnChanges, type Change } from "../changed_trials";
 import type { Context } from "../context";
 import type { Comparison, Run } from "../payload";
 import { replayAnchor } from "../replay_link";
@@ -106,7 +105,6 @@ function content(context: Context, of: Comparison): Child[] {
 export const changes: Section = {
   id: "changes",
   title: "What differs",
-  short: "What differs",
   render: (context: Context) => {
     const all = context.payload.comparisons ?? [];
     return all.length === 0 ? null : [
@@ -115,3 +113,42 @@ export const changes: Section = {
     ];
   },
 };
+
+// ---- Trials of two runs with the same seed that ended in another way.
+
+interface Change {
+  first: string; second: string;
+  /** In the order of their numbers. */
+  trials: number[];
+}
+
+/** The trials that both runs hold in their rates, and those of them that ended otherwise; the commonest change first. */
+function changesOf(first: Run, second: Run): { compared: number; changes: Change[] } {
+  const ends = outcomesOf(first);
+  const changes = new Map<string, Change>();
+  let compared = 0;
+  for (const [trial, outcome] of outcomesOf(second)) {
+    const before = ends.get(trial);
+    if (before === undefined) continue;
+    ++compared;
+    if (before === outcome) continue;
+    const key = `${before} ${outcome}`;
+    if (!changes.has(key)) changes.set(key, { first: before, second: outcome, trials: [] });
+    changes.get(key)!.trials.push(trial);
+  }
+  return { compared, changes: [...changes.values()].sort((a, b) => b.trials.length - a.trials.length) };
+}
+
+function outcomesOf(run: Run): Map<number, string> {
+  const rated = run.prefix_trials ?? Infinity;
+  const ends = (run.trials?.trial ?? []).map((trial, row): [number, string] =>
+    [trial, run.trials.outcome_names[run.trials.outcome[row]!] ?? ""]);
+  return new Map(ends.filter(([trial, outcome]) => trial < rated && outcome !== "simulator_fault"));
+}
+
+/** Of the commonest changes one trial each whose tracks both runs have. */
+function drawnChanges(first: Run, second: Run, changes: Change[], most: number): number[] {
+  return changes
+    .flatMap(({ trials }) => trials.find((trial) => trackOf(first, trial) && trackOf(second, trial)) ?? [])
+    .slice(0, most);
+}

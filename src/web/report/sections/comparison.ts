@@ -1,10 +1,11 @@
 // Differences between two runs.
 
-import { el, type Child } from "../../shared/dom";
+import * as Plot from "@observablehq/plot";
+
+import { type Child, el } from "../../shared/dom";
 import { counted, interval, isNumber, number, percent, points, pointsInterval, pValue } from "../../shared/format";
-import { numeric, rowHeader, table, type Cell } from "../../shared/table";
+import { type Cell, numberCells, numeric, numericHeads, rowHeader, table } from "../../shared/table";
 import { chartFigure } from "../charts/figure";
-import { drawForest, forestTable, type Difference } from "../charts/forest";
 import type { Context } from "../context";
 import type { Comparison } from "../payload";
 import { columnLabel, columnWords } from "../words";
@@ -66,7 +67,7 @@ function successTable(of: Comparison): HTMLElement {
   return table({
     caption: `Success of ${of.first} and ${of.second}`,
     className: "compact",
-    head: ["Success", ...[of.first, of.second, "Difference [points]", "95 % interval", "p"].map((content) => ({ content, numeric: true }))],
+    head: ["Success", ...numericHeads(of.first, of.second, "Difference [points]", "95 % interval", "p")],
     rows: of.successes.map((row) => [
       rowHeader(row.what),
       numeric(percent(row.first), row.first),
@@ -85,8 +86,7 @@ function columnRow(of: Comparison, row: Column): (Child | Cell)[] {
     rowHeader(columnLabel(row.name, row.unit)),
     row.trials === "arrived" ? arrived : "all",
     numeric(n, row.n),
-    numeric(number(row.first), row.first),
-    numeric(number(row.second), row.second),
+    ...numberCells(row.first, row.second),
     numeric(CLEAR(row.low, row.high) ? el("strong", {}, number(row.difference, 3)) : number(row.difference, 3), row.difference),
     numeric(interval(row.low, row.high)),
   ];
@@ -96,7 +96,7 @@ function columnTable(of: Comparison): HTMLElement {
   return table({
     caption: `Means of ${of.first} and ${of.second}`,
     tall: of.columns.length > MOST_DRAWN,
-    head: ["Column", "Trials", ...["n", of.first, of.second, "Difference", "95 % interval"].map((content) => ({ content, numeric: true }))],
+    head: ["Column", "Trials", ...numericHeads("n", of.first, of.second, "Difference", "95 % interval")],
     rows: of.columns.map((row) => columnRow(of, row)),
   });
 }
@@ -106,9 +106,7 @@ function forests(of: Comparison, at: number): HTMLElement {
   const columns = columnRows(of);
   const read = "A square is the difference, the line its 95 % interval: where it crosses zero, the runs may be alike. An arrow: it goes on; a number above it is a difference beyond the axis.";
   // The short chart has its table below it, beside the long one.
-  const success = el(
-    "div",
-    { class: "chart-figure" },
+  const success = el("div", { class: "chart-figure" },
     successes.length > 0 &&
       chartFigure({
         id: `forest-success-${at}`,
@@ -118,11 +116,8 @@ function forests(of: Comparison, at: number): HTMLElement {
         draw: (width) => drawForest(successes, "difference [percentage points]", width),
         numbers: () => [forestTable(successes, "percentage points")],
       }),
-    successTable(of),
-  );
-  return el(
-    "div",
-    { class: "chart-grid" },
+    successTable(of));
+  return el("div", { class: "chart-grid" },
     success,
     columns.length === 0
       ? el("p", { class: "note" }, "No difference of means is drawn, since none has an interval: so few trials are too few for one.")
@@ -133,8 +128,7 @@ function forests(of: Comparison, at: number): HTMLElement {
           alternative: sentence(columns, "%"),
           draw: (width) => drawForest(columns, "difference [%]", width, MOST_PERCENT),
           numbers: () => [forestTable(columns, `% of ${of.first}`)],
-        }),
-  );
+        }));
 }
 
 function content(of: Comparison, at: number): Child[] {
@@ -157,3 +151,69 @@ export const comparison: Section = {
     return all.length === 0 ? null : all.flatMap(content);
   },
 };
+
+// ---- Differences with their intervals, one below the other.
+
+export interface Difference { label: string; difference: number; low: number; high: number }
+
+const LETTER = 7;
+// One wide interval must not press all others into a line: what goes further is cut and gets an arrow.
+const MOST_OF_MEDIAN = 6;
+
+function reach(rows: Difference[], most: number): number {
+  const ends = rows.map((row) => Math.max(Math.abs(row.low), Math.abs(row.high))).sort((a, b) => a - b);
+  const median = ends[Math.floor(ends.length / 2)] ?? 1;
+  return 1.08 * (Math.min(ends[ends.length - 1] ?? 1, MOST_OF_MEDIAN * median, most) || 1);
+}
+
+interface Arrow { label: string; x: number; text: string }
+
+function arrows(rows: Difference[], far: number): Arrow[] {
+  return rows.flatMap(({ label, low, high }) => [
+    ...(low < -far ? [{ label, x: -far, text: "◂" }] : []),
+    ...(high > far ? [{ label, x: far, text: "▸" }] : []),
+  ]);
+}
+
+// The difference itself where its mark would lie beyond the axis.
+function beyond(rows: Difference[], far: number): Arrow[] {
+  return rows
+    .filter((row) => Math.abs(row.difference) > far)
+    .map(({ label, difference }) => ({ label, x: Math.sign(difference) * far, text: number(difference, 3) }));
+}
+
+function forestTable(rows: Difference[], unit: string): HTMLElement {
+  return table({
+    caption: `Differences as drawn, ${unit}`,
+    head: ["", ...numericHeads("difference", "from", "to")],
+    rows: rows.map((row) => [rowHeader(row.label), ...numberCells(row.difference, row.low, row.high)]),
+  });
+}
+
+/** The axis ends at `most` at the latest. On a narrow page labels stand above their bars, on a wide one beside them. */
+function drawForest(rows: Difference[], xLabel: string, width: number, most = Infinity): Element {
+  const longest = LETTER * Math.max(...rows.map((row) => row.label.length));
+  const beside = longest < 0.42 * width;
+  const far = reach(rows, most);
+  const farther = beyond(rows, far);
+  const value = { x: "x", y: "label", text: "text", dy: -10, fill: "currentColor" } as const;
+  const within = (value: number) => Math.min(far, Math.max(-far, value));
+  const line = { y: "label", stroke: "var(--series-1)", strokeWidth: 2 } as const;
+  return Plot.plot({
+    width, height: 54 + rows.length * (beside ? 28 : 44), marginLeft: beside ? longest + 18 : 12,
+    marginRight: 24, marginTop: 8, marginBottom: 42,
+    x: { domain: [-far, far], label: xLabel, labelAnchor: "center", labelArrow: "none", grid: true, ticks: Math.max(3, Math.min(8, width / 90)) },
+    y: { domain: rows.map((row) => row.label), label: null, axis: beside ? "left" : null, tickSize: 0 },
+    marks: [
+      Plot.ruleX([0], { stroke: "var(--line-strong)", strokeWidth: 1.5 }),
+      Plot.ruleY(rows, { x1: (row: Difference) => within(row.low), x2: (row: Difference) => within(row.high), ...line }),
+      Plot.tickX(rows.filter((row) => row.low >= -far), { x: "low", ...line, insetTop: 8, insetBottom: 8 }),
+      Plot.tickX(rows.filter((row) => row.high <= far), { x: "high", ...line, insetTop: 8, insetBottom: 8 }),
+      Plot.text(arrows(rows, far), { x: "x", y: "label", text: "text", fill: "var(--series-1)", fontSize: 16 }),
+      Plot.text(farther.filter((each) => each.x > 0), { ...value, textAnchor: "end" }),
+      Plot.text(farther.filter((each) => each.x < 0), { ...value, textAnchor: "start" }),
+      Plot.dot(rows.filter((row) => Math.abs(row.difference) <= far), { x: "difference", y: "label", symbol: "square", r: 5, fill: "var(--series-1)", stroke: "var(--ground)" }),
+      beside ? null : Plot.text(rows, { y: "label", text: "label", frameAnchor: "left", dy: -15, fill: "currentColor" }),
+    ],
+  });
+}

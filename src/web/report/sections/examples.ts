@@ -1,13 +1,13 @@
 // One drive of each outcome, neither the best nor the worst of it, as a small plan with a link to its replay.
 
-import { breakable, el, type Child } from "../../shared/dom";
-import { causeWords } from "../../shared/causes";
+import { breakable, type Child, el } from "../../shared/dom";
 import { number, words } from "../../shared/format";
-import { boxOf, drawPlan, trackLines, type Box, type Place } from "../charts/plan";
+import { causeWords } from "../../shared/outcomes";
+import { type Box, boxOf, drawPlan, type Place, trackLines } from "../charts/plan";
 import type { Context } from "../context";
-import { outcomeSwatch } from "../outcome_style";
 import type { Run, Track } from "../payload";
 import { replayAnchor } from "../replay_link";
+import { outcomeSwatch } from "../series";
 import { detailOf, outcomeOf, trackOf, valueOf } from "../tracks";
 import type { Section } from "./section";
 

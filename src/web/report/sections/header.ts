@@ -1,11 +1,12 @@
 // The title of the page, and what it is about in facts.
 
-import { breakable, el, type Child } from "../../shared/dom";
+import { breakable, type Child, el } from "../../shared/dom";
 import { counted, number, words } from "../../shared/format";
 import { themeSwitch } from "../../shared/theme";
 import type { Context } from "../context";
 import type { Run, Sweep } from "../payload";
 import { hasUnrated, ratedTrials } from "../prefix";
+import type { Section } from "./section";
 
 /** [planned, completed, faulted, pending], as far as the summary gives them. */
 export function accounting(run: Run): { planned?: number; completed?: number; faulted?: number; pending?: number } {
@@ -22,13 +23,10 @@ function trialsText(run: Run): string {
 }
 
 function facts(entries: [string, Child][]): HTMLElement {
-  return el(
-    "dl",
-    { class: "facts" },
+  return el("dl", { class: "facts" },
     ...entries
       .filter(([, value]) => value !== null && value !== undefined && value !== "")
-      .map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value))),
-  );
+      .map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value))));
 }
 
 /** What the scenario was changed by; null is "not known", of runs of older programs. */
@@ -72,14 +70,19 @@ function manyFacts(runs: Run[], sweeps: Sweep[]): HTMLElement {
 }
 
 /** Of one run all that tells it from others, of several their numbers. */
-export function pageFacts({ runs, payload }: Context): HTMLElement {
+function pageFacts({ runs, payload }: Context): HTMLElement {
   return runs.length === 1 ? runFacts(runs[0]!) : manyFacts(runs, payload.sweeps ?? []);
 }
 
 export function pageHeader({ payload }: Context): HTMLElement {
-  return el(
-    "header",
-    { class: "page-header" },
-    el("div", { class: "title-row" }, el("h1", {}, payload.title || "rockyard report"), themeSwitch()),
-  );
+  return el("header", { class: "page-header" },
+    el("div", { class: "title-row" }, el("h1", {}, payload.title || "rockyard report"), themeSwitch()));
 }
+
+// ---- What was run: the facts of a run or of all of them.
+
+export const about: Section = {
+  id: "about",
+  title: "What was run",
+  render: (context: Context) => (context.runs.length > 0 ? [pageFacts(context)] : null),
+};

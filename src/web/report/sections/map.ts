@@ -1,14 +1,14 @@
 // Where drives went: true paths and ends, by outcome, from above.
 
-import { el, type Child } from "../../shared/dom";
+import { type Child, el } from "../../shared/dom";
 import { counted, number, words } from "../../shared/format";
-import { numeric, rowHeader, table } from "../../shared/table";
+import { numberCells, numeric, rowHeader, table } from "../../shared/table";
 import { chartFigure } from "../charts/figure";
 import { boxOf, drawPlan, type PlanLayer } from "../charts/plan";
 import type { Context } from "../context";
-import { outcomeSwatch } from "../outcome_style";
 import type { Run } from "../payload";
 import { partOfTrials } from "../prefix";
+import { outcomeSwatch } from "../series";
 import { layersOf, outcomeOf } from "../tracks";
 import type { Section } from "./section";
 
@@ -42,11 +42,10 @@ function numbers(run: Run, layers: PlanLayer[]): HTMLElement {
   const tracks = trackCounts(run);
   return table({
     caption: `What the map of ${run.label} shows`,
-    head: ["Outcome", { content: "Ends", numeric: true }, { content: "Paths", numeric: true }],
+    head: ["Outcome", numeric("Ends"), numeric("Paths")],
     rows: layers.map(({ outcome, ends }) => [
       rowHeader(words(outcome)),
-      numeric(number(ends.length), ends.length),
-      numeric(number(tracks.get(outcome) ?? 0), tracks.get(outcome) ?? 0),
+      ...numberCells(ends.length, tracks.get(outcome) ?? 0),
     ]),
   });
 }

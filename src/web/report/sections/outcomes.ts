@@ -1,9 +1,9 @@
 // How trials ended, and by which cause. Every count is a button that shows its trials in the table.
 
-import { breakable, el, type Child } from "../../shared/dom";
+import { breakable, button, el, type Child } from "../../shared/dom";
 import { number, percent, words } from "../../shared/format";
 import { outcomeSentence } from "../../shared/outcomes";
-import { numeric, rowHeader, table, type Cell } from "../../shared/table";
+import { type Cell, numeric, rowHeader, table } from "../../shared/table";
 import type { Context } from "../context";
 import { causesOf } from "../endings";
 import type { Run } from "../payload";
@@ -20,24 +20,16 @@ const total = (run: Run) => Object.values(countsOf(run)).reduce((sum, count) => 
 const TONES: Record<string, string> = { goal_reached: "good", false_goal: "doubtful", simulator_fault: "fault" };
 
 function bar(share: number, outcome: string): HTMLElement {
-  return el(
-    "span",
-    { class: "share-bar", "aria-hidden": "true" },
-    share > 0 && el("span", { class: `share ${TONES[outcome] ?? "failed"}`, style: `width:${(100 * share).toFixed(2)}%` }),
-  );
+  return el("span", { class: "share-bar", "aria-hidden": "true" },
+    share > 0 && el("span", { class: `share ${TONES[outcome] ?? "failed"}`, style: `width:${(100 * share).toFixed(2)}%` }));
 }
 
 function countButton(context: Context, run: Run, outcome: string): HTMLElement | string {
   const count = countsOf(run)[outcome] ?? 0;
   if (count === 0) return el("span", { class: "count-none" }, "0");
-  const button = el(
-    "button",
-    { type: "button", class: "count", title: "Show these trials in the table", "data-outcome": outcome, "data-run": run.label, "data-value": count },
-    number(count),
-    el("span", { class: "visually-hidden" }, ` trials: show ${words(outcome)} of ${run.label} in the table`),
-  );
-  button.addEventListener("click", () => context.showTrials({ run: run.label, outcome, onlyRated: hasUnrated(run) }));
-  return button;
+  return button([number(count), el("span", { class: "visually-hidden" }, ` trials: show ${words(outcome)} of ${run.label} in the table`)],
+    "Show these trials in the table", () => context.showTrials({ run: run.label, outcome, onlyRated: hasUnrated(run) }),
+    { class: "count", "data-outcome": outcome, "data-run": run.label, "data-value": count });
 }
 
 function occurring(runs: Run[]): string[] {
@@ -62,12 +54,12 @@ function oneRun(context: Context, run: Run): HTMLElement {
     caption: "How the trials ended",
     className: "one-run",
     stacks: true,
-    head: ["Outcome", { content: "Trials", numeric: true }, { content: "Share", numeric: true }, "", "What the drives did"],
+    head: ["Outcome", numeric("Trials"), numeric("Share"), "", "What the drives did"],
     rows: occurring([run]).sort((a, b) => countsOf(run)[b]! - countsOf(run)[a]!).map((name) => {
       const count = countsOf(run)[name] ?? 0;
       return [
         rowHeader(words(name)),
-        { content: countButton(context, run, name), numeric: true, value: count },
+        numeric(countButton(context, run, name), count),
         numeric(percent(count / trials), count / trials),
         bar(count / trials, name),
         causes(run, name),
@@ -90,11 +82,8 @@ function manyRuns(context: Context, runs: Run[]): Child[] {
       head: ["Run", ...names.map(words)],
       rows: runs.map((run): (Child | Cell)[] => [rowHeader(breakable(run.label)), ...names.map((name) => cell(context, run, name))]),
     }),
-    el(
-      "dl",
-      { class: "meanings" },
-      ...names.map((name) => el("div", {}, el("dt", {}, words(name)), el("dd", {}, outcomeSentence(name)))),
-    ),
+    el("dl", { class: "meanings" },
+      ...names.map((name) => el("div", {}, el("dt", {}, words(name)), el("dd", {}, outcomeSentence(name))))),
   ];
 }
 

@@ -2,7 +2,7 @@
 
 import { el, labelled, select, type Child } from "../../shared/dom";
 import { counted, number } from "../../shared/format";
-import { rowHeader, table } from "../../shared/table";
+import { numeric, rowHeader, table } from "../../shared/table";
 import type { Context } from "../context";
 import type { Parameter, Run } from "../payload";
 import { unitText } from "../words";
@@ -17,15 +17,12 @@ const ORIGINS: Record<string, string> = {
 
 function countsByOrigin(parameters: Parameter[]): HTMLElement {
   const names = [...new Set([...Object.keys(ORIGINS), ...parameters.map((each) => each.origin)])];
-  return el(
-    "dl",
-    { class: "meanings" },
+  return el("dl", { class: "meanings" },
     ...names.map((name) => {
       const count = parameters.filter((each) => each.origin === name).length;
       return el("div", { "data-origin": name, "data-value": count },
         el("dt", {}, el("span", { class: `origin ${name in ORIGINS ? name : ""}` }, name), ` ${number(count)}`), el("dd", {}, ORIGINS[name] ?? ""));
-    }),
-  );
+    }));
 }
 
 function rowsTable(parameters: Parameter[], caption: string): HTMLElement {
@@ -33,10 +30,10 @@ function rowsTable(parameters: Parameter[], caption: string): HTMLElement {
     caption,
     className: "parameter-table",
     tall: true,
-    head: ["Parameter", { content: "Value", numeric: true }, "Unit", "Origin", "Range", "Source"],
+    head: ["Parameter", numeric("Value"), "Unit", "Origin", "Range", "Source"],
     rows: parameters.map((each) => [
       rowHeader(el("div", {}, el("code", {}, each.path), el("span", { class: "doc" }, each.doc))),
-      { content: each.value, numeric: true, value: each.value },
+      numeric(each.value, each.value),
       each.unit === "1" ? "" : unitText(each.unit),
       el("span", { class: `origin ${each.origin in ORIGINS ? each.origin : ""}` }, each.origin),
       each.range,
@@ -98,7 +95,6 @@ function browser(runs: Run[]): Child[] {
 export const parameters: Section = {
   id: "parameters",
   title: "Parameters",
-  short: "Parameters",
   render: (context: Context) => {
     const runs = context.runs.filter((run) => (run.parameters ?? []).length > 0);
     if (runs.length === 0) return null;

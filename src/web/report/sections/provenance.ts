@@ -38,7 +38,6 @@ function runs(context: Context): HTMLElement {
 export const provenance: Section = {
   id: "provenance",
   title: "Provenance",
-  short: "Provenance",
   render: (context: Context): Child[] => [
     context.runs.length > 0 ? runs(context) : null,
     el("h3", {}, "This page"),

@@ -2,7 +2,7 @@
 
 import { breakable, el, type Child } from "../../shared/dom";
 import { interval, isNumber, MISSING, number, pValue, words } from "../../shared/format";
-import { numeric, rowHeader, table, type Cell } from "../../shared/table";
+import { type Cell, numeric, numericHeads, rowHeader, table } from "../../shared/table";
 import { predictionBar } from "../charts/glyphs";
 import type { Context } from "../context";
 import type { PublishedRow, PublishedTable, Run } from "../payload";
@@ -23,18 +23,11 @@ function verdict(row: PublishedRow): Cell {
 
 function predicted(row: PublishedRow): Cell {
   const text = row.predicted || (isNumber(row.predicted_value) ? number(row.predicted_value, 3) : MISSING);
-  return {
-    content: el(
-      "div",
-      { class: "rate-drawn" },
-      el("span", {}, text),
-      isNumber(row.predicted_low) && !text.includes("..")
-        ? el("span", { class: "of" }, interval(row.predicted_low, row.predicted_high))
-        : null,
-    ),
-    numeric: true,
-    value: row.predicted_value,
-  };
+  return numeric(el("div", { class: "rate-drawn" },
+    el("span", {}, text),
+    isNumber(row.predicted_low) && !text.includes("..")
+      ? el("span", { class: "of" }, interval(row.predicted_low, row.predicted_high))
+      : null), row.predicted_value);
 }
 
 function remarks(row: PublishedRow): HTMLElement | null {
@@ -60,31 +53,22 @@ function cells(row: PublishedRow, tested: boolean): (Child | Cell)[] {
 function meanings(rows: PublishedRow[], tested: boolean): HTMLElement {
   const present = [...new Set(rows.map((row) => row.verdict))];
   const names = [...VERDICTS_IN_ORDER.filter((name) => present.includes(name)), ...present.filter((name) => !VERDICTS_IN_ORDER.includes(name))];
-  return el(
-    "dl",
-    { class: "meanings" },
+  return el("dl", { class: "meanings" },
     ...names.map((name) => {
       const { mark, tone, meaning } = verdictWords(name, !tested);
       const count = rows.filter((row) => row.verdict === name).length;
-      return el(
-        "div",
-        {},
+      return el("div", {},
         el("dt", { class: `verdict ${tone}` }, el("span", { "aria-hidden": "true", class: "verdict-mark" }, mark), `${words(name)} (${count})`),
-        el("dd", {}, meaning),
-      );
-    }),
-  );
+        el("dd", {}, meaning));
+    }));
 }
 
 /** A run of another case than the published one must not be read as a verdict on it. */
 function otherSettings(settings: string[]): HTMLElement | null {
   if (settings.length === 0) return null;
-  return el(
-    "div",
-    { class: "not-published-case", role: "note" },
+  return el("div", { class: "not-published-case", role: "note" },
     el("p", {}, el("strong", {}, "Not the published case."), " This run has other settings than the scenario that the published values are about. The verdicts are as computed, but say nothing of how well the published case is predicted."),
-    el("ul", {}, ...settings.map((setting) => el("li", {}, breakable(setting)))),
-  );
+    el("ul", {}, ...settings.map((setting) => el("li", {}, breakable(setting)))));
 }
 
 function comparison(run: Run, titled: boolean): Child[] {
@@ -112,24 +96,16 @@ function judged(run: Run, published: PublishedTable, tested: boolean): Child[] {
       className: "published-table",
       stacks: true,
       head: [
-        "Number",
-        { content: "Published", numeric: true },
-        { content: "Predicted (95 %)", numeric: true },
-        "Where it lies",
-        "Verdict",
-        ...(tested ? [{ content: "p (Holm)", numeric: true }, { content: "Power", numeric: true }] : []),
-        "Place",
+        "Number", ...numericHeads("Published", "Predicted (95 %)"), "Where it lies", "Verdict",
+        ...(tested ? numericHeads("p (Holm)", "Power") : []), "Place",
       ],
       rows: published.rows.map((row) => cells(row, tested)),
     }),
-    el(
-      "p",
-      { class: "note" },
+    el("p", { class: "note" },
       (tested
         ? "Where it lies: the bar is the 95 % interval of what as many simulated runs would have shown, the dot its middle, "
         : "Where it lies: the dot is the simulated value, the bar its interval, ") +
-        "the diamond the published value; each row has its own scale.",
-    ),
+        "the diamond the published value; each row has its own scale."),
     (published.notes ?? []).length > 0
       ? el("details", { class: "numbers" }, el("summary", {}, "How it is judged"),
           el("ul", {}, ...published.notes.map((note) => el("li", {}, note))))

@@ -24,10 +24,7 @@ export function runPicker(context: Context): HTMLElement | null {
   };
   context.onChange(update);
   update();
-  return el(
-    "fieldset",
-    { class: "run-picker", id: "runs" },
+  return el("fieldset", { class: "run-picker", id: "runs" },
     el("legend", {}, `Runs in the charts (at most ${MOST_SHOWN})`),
-    el("div", { class: "picker-list" }, ...boxes.map(({ run, box, mark }) => el("label", {}, box, mark, breakable(run.label)))),
-  );
+    el("div", { class: "picker-list" }, ...boxes.map(({ run, box, mark }) => el("label", {}, box, mark, breakable(run.label)))));
 }

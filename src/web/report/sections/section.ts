@@ -5,10 +5,9 @@ import { el, type Child } from "../../shared/dom";
 import type { Context } from "../context";
 
 export interface Section {
-  id: string;
-  title: string;
-  /** What the list of contents calls it. */
-  short: string;
+  id: string; title: string;
+  /** What the list of contents calls it, where that is not its title. */
+  short?: string;
   /** True where the content depends on which runs are shown. */
   follows?: boolean;
   /** The content; null where the data has nothing of it. */
