@@ -10,7 +10,6 @@ test("the rules notice a picture without a name", async () => {
   await page.locator("#map-0 svg.plan").waitFor();
   await page.locator("#map-0 svg.plan").evaluate((drawing) => drawing.removeAttribute("aria-label"));
   assert.match((await graveIn(page, ["svg-img-alt"])).join("\n"), /svg-img-alt/);
-  await page.close();
 });
 
 test("the rules notice a button without a name on a replay", async () => {
@@ -20,5 +19,4 @@ test("the rules notice a button without a name on a replay", async () => {
     button.title = "";
   });
   assert.match((await graveIn(page, ["button-name"])).join("\n"), /button-name/);
-  await page.close();
 });

@@ -1,10 +1,10 @@
 // Pages held against the rules of axe-core (WCAG 2.2 A and AA): none may be broken badly on a report.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import path from "node:path";
-import { after, before, test } from "node:test";
-import { launch, openPage, requirePackage, rockyard, temporaryFolder } from "./harness.mjs";
-import { openReport, openTrials } from "./report_pages.mjs";
+import { before, test } from "node:test";
+import * as browser from "./browser.mjs";
+import { at, requirePackage, rockyard, set } from "./harness.mjs";
+import { open, openTrials, runNominal } from "./report_pages.mjs";
 
 const GRAVE = ["serious", "critical"];
 const RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"];
@@ -15,20 +15,12 @@ const WINDOW = { width: 1000, height: 640 };
 export const LOOKS = ["light", "dark", "phone"];
 
 const axe = readFileSync(requirePackage.resolve("axe-core/axe.min.js"), "utf8");
-const folder = temporaryFolder();
-export const at = (...names) => path.join(folder, ...names);
-let browser;
-export const openRun = () => openReport(browser, at("run.html"));
+export const openRun = () => open("run.html");
 export const openReplay = async (name, options) => {
-  const opened = await openPage(browser, at(name), { ...WINDOW, ...options });
+  const opened = await browser.open(at(name), { ...WINDOW, ...options });
   await opened.page.waitForFunction(() => window.rockyardReplay);
   return opened;
 };
-
-function run(name, trials, ...settings) {
-  rockyard(["run", "scenarios/pathfinder/nominal.json", "--trials", `${trials}`, "--seed", "1", "--out", at(name),
-    ...["rover.fidelity=quasi_static", ...settings].flatMap((setting) => ["--set", setting])]);
-}
 
 const report = (page, ...runs) => rockyard(["report", ...runs.map((each) => at(each)), "--out", at(page), "--replays", "1", "--tracks", "10"]);
 const replay = (page, ...of) => rockyard(["replay", ...of, "--trial", "0", "--out", at(page)]);
@@ -36,7 +28,7 @@ const replay = (page, ...of) => rockyard(["replay", ...of, "--trial", "0", "--ou
 const MAKE = {
   "run.html": () => report("run.html", "nominal"),
   "comparison.html": () => {
-    run("dense", 20, "terrain.rocks.k_per_m2=0.008");
+    runNominal("dense", 20, 1, "terrain.rocks.k_per_m2=0.008");
     report("comparison.html", "nominal", "dense");
   },
   "sweep.html": () => {
@@ -47,8 +39,7 @@ const MAKE = {
   "pair.html": () => replay("pair.html", at("nominal"), "--with-trial", "1"),
   // With images, so that every panel is there.
   "steps.html": () =>
-    replay("steps.html", "scenarios/gestalt/narrow_course.json",
-      ...["sensors.stereo.fidelity=image", "sensors.stereo.images.pyramid_level=0"].flatMap((setting) => ["--set", setting])),
+    replay("steps.html", "scenarios/gestalt/narrow_course.json", ...set("sensors.stereo.fidelity=image", "sensors.stereo.images.pyramid_level=0")),
 };
 
 /** Rules of these that the page breaks: "name (impact): what, at how many places, the first of them". */
@@ -63,11 +54,10 @@ async function broken(page, runOnly) {
 export const graveIn = async (page, runOnly = RULES) => (await broken(page, runOnly)).filter(({ impact }) => GRAVE.includes(impact)).map(({ text }) => text);
 
 async function reportIsUsable(name, look) {
-  const { page } = await openReport(browser, at(name), look === "dark" ? { scheme: "dark" } : look === "phone" ? PHONE : {});
+  const { page } = await open(name, look === "dark" ? { scheme: "dark" } : look === "phone" ? PHONE : {});
   await openTrials(page);
   for (const summary of await page.locator("summary:visible").all()) await summary.click();
   assert.deepEqual(await graveIn(page), []);
-  await page.close();
 }
 
 // At the start, and at the end with its card.
@@ -78,17 +68,14 @@ async function replayIsUsable(name, look) {
   await page.keyboard.press("End");
   await page.locator(".ending:visible").first().waitFor();
   assert.deepEqual(await graveIn(page), []);
-  await page.close();
 }
 
 /** Tests that pages break no rule badly: [page, look], made before them from that many trials. */
 export function testUse(reports, replays, trials = 20) {
-  before(async () => {
-    run("nominal", trials);
+  before(() => {
+    runNominal("nominal", trials, 1);
     for (const name of new Set([...reports, ...replays].map(([page]) => page))) MAKE[name]();
-    browser = await launch();
   });
-  after(() => browser?.close());
   for (const [name, look] of reports) test(`${name} breaks no rule badly: ${look}`, () => reportIsUsable(name, look));
   for (const [name, look] of replays) test(`${name} breaks no rule badly: ${look}`, () => replayIsUsable(name, look));
 }

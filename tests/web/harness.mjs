@@ -2,7 +2,7 @@
 //
 // ROCKYARD is the command, ROCKYARD_PAGES_FOLDER holds node_modules, CHROMIUM is the browser.
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import path from "node:path";
@@ -47,11 +47,20 @@ export function rockyard(args, { exit = 0 } = {}) {
   }
 }
 
-/** A folder that goes when the test file ends. */
-export function temporaryFolder() {
-  const folder = mkdtempSync(path.join(tmpdir(), "rockyard-web-"));
-  process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
-  return folder;
+/** Settings as options of the command. */
+export const set = (...settings) => settings.flatMap((setting) => ["--set", setting]);
+
+const folder = mkdtempSync(path.join(tmpdir(), "rockyard-web-"));
+process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
+
+/** A place in a folder that goes when the test file ends. */
+export const at = (...names) => path.join(folder, ...names);
+
+/** A CSV file without quoted fields before the last column, as rows by column name. */
+export function csv(file) {
+  const [head, ...lines] = readFileSync(file, "utf8").trim().split("\n");
+  const columns = head.split(",");
+  return lines.map((line) => Object.fromEntries(line.split(",").map((field, i) => [columns[i], field])));
 }
 
 /** The browser without a window, with 3-D drawing in software. */

@@ -1,20 +1,16 @@
 // Traces as MCAP files: written from replay data, and read back with the library of the format.
 import assert from "node:assert/strict";
-import { before, test } from "node:test";
-import { requirePackage } from "./harness.mjs";
-import { changed, converted, inFolder, open, trial } from "./mcap_trace.mjs";
+import { test } from "node:test";
+import { at, requirePackage } from "./harness.mjs";
+import { changed, converted, open, trial } from "./mcap_trace.mjs";
 
 const foxglove = requirePackage("@foxglove/schemas/jsonschema");
 
-let stripe;
-let mapped;
-before(async () => {
-  // Round rocks, of which one is made pointed below, and a trial that does not arrive.
-  stripe = trial("pathfinder/nominal", "stripe", ["terrain.rocks.pointedness=0", "referee.time_limit_s=2000"]);
-  stripe.trace = await open(stripe.file);
-  mapped = trial("gestalt/narrow_course", "mapped");
-  mapped.trace = await open(mapped.file);
-});
+// Round rocks, of which one is made pointed below, and a trial that does not arrive.
+const stripe = trial("pathfinder/nominal", "stripe", ["terrain.rocks.pointedness=0", "referee.time_limit_s=2000"]);
+stripe.trace = await open(stripe.file);
+const mapped = trial("gestalt/narrow_course", "mapped");
+mapped.trace = await open(mapped.file);
 
 const WELL_KNOWN = {
   "/tf": "FrameTransforms",
@@ -232,7 +228,7 @@ test("pointed rocks are stacks of frusta from base to top", async () => {
   const data = changed(stripe.data, "pointed.json", (replay) => {
     replay.rocks[0].growth = growth;
   });
-  const trace = await open(converted(data, inFolder("pointed.mcap")));
+  const trace = await open(converted(data, at("pointed.mcap")));
   const { spheres, cylinders } = trace.of("/scene/rocks")[0].content.entities[0];
   const { rocks } = stripe.replay;
   assert.equal(spheres.length, rocks.length - 1);
@@ -258,7 +254,7 @@ test("rocks, pushes, walls and settings back are in the scene", async () => {
     replay.course.walls = [{ nx: 0, ny: 1, offset: 1.5 }, { nx: 1, ny: 0, offset: 1e4 }];
     replay.motion.breaks = [20];
   });
-  const trace = await open(converted(data, inFolder("pushed.mcap")));
+  const trace = await open(converted(data, at("pushed.mcap")));
   const spheres = ({ content: { entities } }) => entities[0].spheres;
   const { rocks } = stripe.replay;
   assert.equal(spheres(trace.of("/scene/rocks")[0]).length, rocks.length - 2);

@@ -1,19 +1,17 @@
 // What trace_to_mcap.mjs makes of what it is given: the same bytes, names as text, refusals.
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
-import { before, test } from "node:test";
-import { changed, convert, converted, inFolder, open, trial } from "./mcap_trace.mjs";
+import { test } from "node:test";
+import { at } from "./harness.mjs";
+import { changed, convert, converted, open, trial } from "./mcap_trace.mjs";
 
-let stripe;
-before(() => {
-  stripe = trial("pathfinder/nominal", "stripe");
-});
+const stripe = trial("pathfinder/nominal", "stripe");
 
 test("the same data gives the same bytes", () => {
-  const again = converted(stripe.data, inFolder("again.mcap"));
+  const again = converted(stripe.data, at("again.mcap"));
   assert.ok(readFileSync(stripe.file).equals(readFileSync(again)));
   const other = changed(stripe.data, "other.json", (replay) => void (replay.events[0].detail = "other"));
-  assert.ok(!readFileSync(stripe.file).equals(readFileSync(converted(other, inFolder("other.mcap")))));
+  assert.ok(!readFileSync(stripe.file).equals(readFileSync(converted(other, at("other.mcap")))));
 });
 
 test("names are text: markup, quotes and control characters come back as they were", async () => {
@@ -28,14 +26,14 @@ test("names are text: markup, quotes and control characters come back as they we
   const { stdout } = convert(data);
   assert.doesNotMatch(stdout, /\u001b|\u0000/);
   // Without --out it lies beside the data.
-  const trace = await open(inFolder("names.mcap"));
+  const trace = await open(at("names.mcap"));
   assert.equal(trace.metadata["rockyard.trial"].scenario, name);
   assert.equal(trace.of("/events")[0].content.message, name);
   assert.ok(trace.of("/tf")[0].content.transforms.some((transform) => transform.child_frame_id === `rover/${name}`));
 });
 
 test("bad input exits with 2, says what is wrong and writes nothing", () => {
-  const out = inFolder("never.mcap");
+  const out = at("never.mcap");
   const refused = (message, ...args) => {
     const { status, stderr } = convert(...args);
     assert.equal(status, 2, stderr);
@@ -48,7 +46,7 @@ test("bad input exits with 2, says what is wrong and writes nothing", () => {
   refused(/name one file/, stripe.data, stripe.data, "--out", out);
   refused(/--colour/, stripe.data, "--colour", "red");
   refused(/--out would replace/, stripe.data, "--out", stripe.data);
-  refused(/ENOENT/, inFolder("missing.json"), "--out", out);
+  refused(/ENOENT/, at("missing.json"), "--out", out);
   refused(/JSON/, stripe.file, "--out", out);
   damaged(/not the data of a replay\n  try: rockyard replay/, () => ({ version: 1, runs: [] }));
   damaged(/not the data of a replay/, () => [1, 2]);
@@ -68,7 +66,7 @@ test("bad input exits with 2, says what is wrong and writes nothing", () => {
 });
 
 test("what cannot be written exits with 5", () => {
-  const { status, stderr } = convert(stripe.data, "--out", inFolder("no/such/folder.mcap"));
+  const { status, stderr } = convert(stripe.data, "--out", at("no/such/folder.mcap"));
   assert.equal(status, 5, stderr);
   assert.match(stderr, /ENOENT/);
 });

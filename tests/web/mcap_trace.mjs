@@ -3,13 +3,10 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
-import { pagesFolder, requirePackage, rockyard, temporaryFolder } from "./harness.mjs";
+import { at, pagesFolder, requirePackage, rockyard, set } from "./harness.mjs";
 
 const { McapIndexedReader } = requirePackage("@mcap/core");
 const Ajv = requirePackage("ajv").default;
-
-const folder = temporaryFolder();
-export const inFolder = (name) => path.join(folder, name);
 
 /** Runs the converter. */
 export function convert(...args) {
@@ -29,7 +26,7 @@ const read = (file) => JSON.parse(readFileSync(file, "utf8"));
 /** Replay data with a change, as another file. */
 export function changed(file, name, change) {
   const data = read(file);
-  const target = inFolder(name);
+  const target = at(name);
   writeFileSync(target, JSON.stringify(change(data) ?? data));
   return target;
 }
@@ -65,11 +62,10 @@ export async function open(file) {
 
 /** A trial of a scenario: its replay data, and its trace as a file. */
 export function trial(scenario, name, settings = []) {
-  const run = inFolder(name);
-  const changes = settings.flatMap((setting) => ["--set", setting]);
-  rockyard(["run", `scenarios/${scenario}.json`, "--trials", "1", "--seed", "1", "--threads", "1", "--out", run, ...changes]);
-  const data = inFolder(`${name}.json`);
-  const pages = ["--out", inFolder(`${name}.html`), "--svg", inFolder(`${name}.svg`)];
+  const run = at(name);
+  rockyard(["run", `scenarios/${scenario}.json`, "--trials", "1", "--seed", "1", "--threads", "1", "--out", run, ...set(...settings)]);
+  const data = at(`${name}.json`);
+  const pages = ["--out", at(`${name}.html`), "--svg", at(`${name}.svg`)];
   rockyard(["replay", run, "--trial", "0", "--data", data, ...pages]);
-  return { data, replay: read(data), file: converted(data, inFolder(`${name}.mcap`)) };
+  return { data, replay: read(data), file: converted(data, at(`${name}.mcap`)) };
 }

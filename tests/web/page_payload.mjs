@@ -4,11 +4,11 @@ import { gunzipSync, gzipSync } from "node:zlib";
 
 const PAYLOAD = /(<script type="application\/octet-stream" id="payload">)([^<]*)/;
 
+/** The data of the page, compressed. */
+export const payloadTextOf = (file) => readFileSync(file, "utf8").match(PAYLOAD)[2];
+
 /** What the page was given. */
-export function payloadOf(file) {
-  const [, , text] = readFileSync(file, "utf8").match(PAYLOAD);
-  return JSON.parse(gunzipSync(Buffer.from(text, "base64")));
-}
+export const payloadOf = (file) => JSON.parse(gunzipSync(Buffer.from(payloadTextOf(file), "base64")));
 
 /** The same page as another file, with text in place of its compressed data. */
 export function withPayloadText(file, target, text) {

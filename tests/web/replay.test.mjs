@@ -1,21 +1,18 @@
 // The replay page as a whole, in a browser: it opens, plays, and agrees with the stored record.
 import assert from "node:assert/strict";
 import { statSync } from "node:fs";
-import { before, test } from "node:test";
-import { changed, difference, MOST_BYTES, open, payloadOf, pixels, replayOf, seekShare, time } from "./replay_pages.mjs";
+import { test } from "node:test";
+import { payloadOf } from "./page_payload.mjs";
+import { changed, difference, MOST_BYTES, open, pageTest, pixels, replayOf, seekShare, time } from "./replay_pages.mjs";
 
 // final_x_m and others are compared with what the page draws: it keeps every digit of the last pose.
 const SAME = 1e-9;
 
-let file;
-let stored;
-before(() => {
-  ({ file, stored } = replayOf("pathfinder/nominal", "nominal"));
-});
+const { file, stored } = replayOf("pathfinder/nominal", "nominal");
 
 test("opens from disk with no request but itself and nothing on the console", async () => {
   for (const scheme of ["light", "dark"]) {
-    const { page, requests, problems, url } = await open(file, { scheme });
+    const { page, requests, url } = await open(file, { scheme });
     await page.waitForFunction(() => rockyardReplay.frames > 0);
     assert.equal(await page.evaluate(() => rockyardReplay.playing), false);
     assert.equal(await time(page), payloadOf(file).motion.t[0]);
@@ -24,8 +21,6 @@ test("opens from disk with no request but itself and nothing on the console", as
     await page.waitForFunction((before) => rockyardReplay.frames > before, drawn);
     assert.ok(new Set(await pixels(page)).size > 100, "the picture is blank");
     assert.deepEqual(requests, [url]);
-    assert.deepEqual(problems, []);
-    await page.context().close();
   }
 });
 
@@ -33,8 +28,7 @@ test("is smaller than 3 MB", () => {
   assert.ok(statSync(file).size < MOST_BYTES, `${statSync(file).size} bytes`);
 });
 
-test("plays to its end, where the rover stands as the stored record says", async () => {
-  const { page, problems } = await open(file);
+pageTest("plays to its end, where the rover stands as the stored record says", file, async (page) => {
   for (let i = 0; i < 12; ++i) await page.keyboard.press("+");
   await page.keyboard.press("Space");
   assert.equal(await page.evaluate(() => rockyardReplay.playing), true);
@@ -50,17 +44,13 @@ test("plays to its end, where the rover stands as the stored record says", async
   const text = await page.textContent("main");
   assert.match(text, /repeats the stored record bit for bit/);
   assert.ok(text.includes(stored.outcome.replaceAll("_", " ")));
-  assert.deepEqual(problems, []);
-  await page.context().close();
 });
 
-test("draws something, and something else at the end", async () => {
-  const { page } = await open(file);
+pageTest("draws something, and something else at the end", file, async (page) => {
   const first = await pixels(page);
   assert.ok(new Set(first).size > 100, "the picture is blank");
   await seekShare(page, 1);
   assert.ok(difference(first, await pixels(page)) > 0.2);
-  await page.context().close();
 });
 
 test("readouts tell what the data says", async () => {
@@ -77,7 +67,6 @@ test("readouts tell what the data says", async () => {
   near(rows["Position error"], [Math.hypot(motion.believed_x[i] - motion.x[i], motion.believed_y[i] - motion.y[i])]);
   assert.equal(rows.Activity, motion.activity_names[motion.activity[i]]);
   assert.ok(events.some((event) => event.t <= motion.t[i] && rows["Last event"].length > 0));
-  await page.context().close();
 });
 
 test("says what the record says, in words that a newcomer reads", async () => {
@@ -89,5 +78,4 @@ test("says what the record says, in words that a newcomer reads", async () => {
   const turns = payloadOf(file).record.find(({ name }) => name === "point_turns").value;
   const row = page.locator(".timeline-labels .row", { hasText: "turn in place" });
   assert.equal(await row.locator(".count").textContent(), String(turns));
-  await page.context().close();
 });

@@ -1,16 +1,13 @@
 // Keys, clicks, links and small screens of the replay page.
 import assert from "node:assert/strict";
-import { before, test } from "node:test";
-import { difference, open, payloadOf, pixels, replayOf, seekShare, testBrowser, time } from "./replay_pages.mjs";
-import { openPage } from "./harness.mjs";
+import { test } from "node:test";
+import { open as openAny } from "./browser.mjs";
+import { payloadOf } from "./page_payload.mjs";
+import { difference, pageTest, pixels, replayOf, seekShare, time } from "./replay_pages.mjs";
 
-let file;
-before(() => {
-  ({ file } = replayOf("pathfinder/nominal", "nominal"));
-});
+const { file } = replayOf("pathfinder/nominal", "nominal");
 
-test("keys scrub, step along events and change the camera", async () => {
-  const { page, problems } = await open(file);
+pageTest("keys scrub, step along events and change the camera", file, async (page) => {
   const { duration, start } = await page.evaluate(() => ({ duration: rockyardReplay.duration, start: rockyardReplay.time }));
   await page.keyboard.press("s");
   await page.keyboard.press("ArrowRight");
@@ -44,12 +41,9 @@ test("keys scrub, step along events and change the camera", async () => {
   assert.equal(await page.isVisible("dialog"), true);
   await page.keyboard.press("Escape");
   assert.equal(await page.isVisible("dialog"), false);
-  assert.deepEqual(problems, []);
-  await page.context().close();
 });
 
-test("the slider and a click on the time line go to a time", async () => {
-  const { page } = await open(file);
+pageTest("the slider and a click on the time line go to a time", file, async (page) => {
   // As played, a drive with scans of 20 s is at another time halfway.
   await page.locator(".scrub").fill("5000");
   const played = await time(page);
@@ -63,11 +57,9 @@ test("the slider and a click on the time line go to a time", async () => {
   const box = await page.locator(".timeline-drawing").boundingBox();
   await page.mouse.click(box.x + 8 + 0.25 * (box.width - 16), box.y + box.height - 40);
   assert.ok(Math.abs((await time(page)) - start - 0.25 * duration) < 0.01 * duration);
-  await page.context().close();
 });
 
-test("events on the time line can be clicked, walked by keys and filtered", async () => {
-  const { page } = await open(file);
+pageTest("events on the time line can be clicked, walked by keys and filtered", file, async (page) => {
   const end = page.locator(".event[aria-label*='the trial ended']");
   await end.click();
   assert.equal(await time(page), payloadOf(file).events.find((event) => event.kind === "end").t);
@@ -80,38 +72,31 @@ test("events on the time line can be clicked, walked by keys and filtered", asyn
   const marks = await page.locator(".event").count();
   await page.locator(".timeline-labels .row", { hasText: "scan" }).locator("input").uncheck();
   assert.equal(await page.locator(".event").count(), marks - scans.length);
-  await page.context().close();
 });
 
 test("links lead to a view and a time", async () => {
-  const { page } = await openPage(testBrowser(), file);
+  const { page } = await openAny(file);
   await page.goto(`${page.url()}#view=plan&t=100`);
   await page.reload();
   await page.waitForFunction(() => window.rockyardReplay);
   assert.equal(await page.evaluate(() => rockyardReplay.mode), "top");
   assert.equal(await time(page), 100);
-  await page.context().close();
 });
 
-test("fits a phone", async () => {
-  const { page } = await open(file, { width: 380, height: 800 });
+pageTest("fits a phone", file, async (page) => {
   assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 380);
   const boxes = await Promise.all([".picture", ".transport", ".timeline", ".readout"].map((part) => page.locator(part).boundingBox()));
   for (let i = 1; i < boxes.length; ++i) assert.ok(boxes[i].y >= boxes[i - 1].y + boxes[i - 1].height);
-  await page.context().close();
-});
+}, { width: 380, height: 800 });
 
-test("shows every column of the record and finds one", async () => {
-  const { page } = await open(file);
+pageTest("shows every column of the record and finds one", file, async (page) => {
   const { record } = payloadOf(file);
   assert.equal(await page.locator(".record tbody tr:visible").count(), record.length);
   await page.locator(".record input").fill("max_tilt");
   assert.equal(await page.locator(".record tbody tr:visible").count(), 1);
-  await page.context().close();
 });
 
-test("prints in light colours whatever the screen shows", async () => {
-  const { page } = await open(file, { scheme: "dark" });
+pageTest("prints in light colours whatever the screen shows", file, async (page) => {
   await page.getByRole("button", { name: "Light colours" }).click();
   await page.getByRole("button", { name: "Dark colours" }).click();
   const brightness = (colours) => colours.reduce((sum, colour) => sum + ((colour >> 8) & 255), 0) / colours.length;
@@ -121,5 +106,4 @@ test("prints in light colours whatever the screen shows", async () => {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   assert.ok(brightness(await pixels(page)) > dark + 50);
   assert.equal(await page.locator(".transport .play").isVisible(), false);
-  await page.context().close();
-});
+}, { scheme: "dark" });

@@ -1,13 +1,11 @@
 // The curves below the time line: distance to the goal and steering angles (figures 7 and 8 of
 // Howard 2012), beside tilt and position error.
 import assert from "node:assert/strict";
-import { before, test } from "node:test";
-import { changed, open, payloadOf, replayOf } from "./replay_pages.mjs";
+import { test } from "node:test";
+import { payloadOf } from "./page_payload.mjs";
+import { changed, open, pageTest, replayOf } from "./replay_pages.mjs";
 
-let file;
-before(() => {
-  ({ file } = replayOf("gestalt/narrow_course", "curves"));
-});
+const { file } = replayOf("gestalt/narrow_course", "curves");
 
 // Athena steers all six.
 const WHEELS = ["left_front", "left_middle", "left_rear", "right_front", "right_middle", "right_rear"];
@@ -62,8 +60,7 @@ function compare(line, t, values, { zero, width, scale, height }) {
 
 const label = (page, title) => page.locator(".timeline-labels .curve", { hasText: title }).locator(".count").textContent();
 
-test("shows how far the goal is, truly and as the rover believes", async () => {
-  const { page, problems } = await open(file);
+pageTest("shows how far the goal is, truly and as the rover believes", file, async (page) => {
   const { motion, course } = payloadOf(file);
   const truly = motion.t.map((_, i) => Math.hypot(course.goal.x - motion.x[i], course.goal.y - motion.y[i]));
   const believed = motion.t.map((_, i) => Math.hypot(course.told_goal.x - motion.believed_x[i], course.told_goal.y - motion.believed_y[i]));
@@ -73,8 +70,6 @@ test("shows how far the goal is, truly and as the rover believes", async () => {
   compare(lines[0], motion.t, truly, { ...place, scale, height: HEIGHT });
   compare(lines[1], motion.t, believed, { ...place, scale, height: HEIGHT });
   assert.equal(await label(page, "to the goal"), `≤ ${scale.toFixed(2)} m`);
-  assert.deepEqual(problems, []);
-  await page.context().close();
 });
 
 test("the goal as told is where operators said that it is", async () => {
@@ -85,11 +80,9 @@ test("the goal as told is where operators said that it is", async () => {
   assert.ok(Math.abs(lines[1].points[0][1] - (zero - HEIGHT)) < ROUNDED);
   const near = Math.hypot(course.goal.x - motion.x[0], course.goal.y - motion.y[0]);
   assert.ok(Math.abs(lines[0].points[0][1] - (zero - (HEIGHT * near) / far)) < ROUNDED);
-  await page.context().close();
 });
 
-test("shows the steering angle of each wheel that is steered, to the left above 0", async () => {
-  const { page, problems } = await open(file);
+pageTest("shows the steering angle of each wheel that is steered, to the left above 0", file, async (page) => {
   const { motion } = payloadOf(file);
   const wheels = Object.keys(motion.joints).filter((name) => name.endsWith("_knuckle"));
   assert.deepEqual(wheels.map((name) => name.replace("_knuckle", "")), WHEELS);
@@ -115,8 +108,6 @@ test("shows the steering angle of each wheel that is steered, to the left above 
     }),
   );
   assert.equal(new Set(dashes).size, wheels.length);
-  assert.deepEqual(problems, []);
-  await page.context().close();
 });
 
 test("small angles do not fill the row, and a rover without steering has none", async () => {
@@ -126,7 +117,6 @@ test("small angles do not fill the row, and a rover without steering has none", 
   const first = await open(small);
   const { lines, zero } = await drawn(first.page, "steering");
   for (const [, y] of lines[0].points) assert.ok(Math.abs(y - (zero - HEIGHT / 2 / 5)) < ROUNDED);
-  await first.page.context().close();
   const none = changed(file, "none.html", ({ motion, rover }) => {
     for (const link of rover.links) link.name = link.name.replace("_knuckle", "_strut");
     motion.joints = Object.fromEntries(Object.entries(motion.joints).map(([name, values]) => [name.replace("_knuckle", "_strut"), values]));
@@ -134,6 +124,4 @@ test("small angles do not fill the row, and a rover without steering has none", 
   const second = await open(none);
   assert.equal(await second.page.locator(".timeline-drawing .curve").count(), 3);
   assert.equal(await second.page.locator(".steering-key").count(), 0);
-  assert.deepEqual(second.problems, []);
-  await second.page.context().close();
 });

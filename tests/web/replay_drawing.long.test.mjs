@@ -1,10 +1,10 @@
 // What the scene of the replay draws beside rover and paths: it is held against the data of the page.
 import assert from "node:assert/strict";
-import path from "node:path";
-import { before, test } from "node:test";
-import { loadModule, rockyard } from "./harness.mjs";
+import { test } from "node:test";
+import { at, loadModule, rockyard, set } from "./harness.mjs";
 import { expectedLinks, rotated } from "./link_places.mjs";
-import { changed, difference, folder, open, payloadOf, pixels, replayOf, seekShare } from "./replay_pages.mjs";
+import { payloadOf } from "./page_payload.mjs";
+import { changed, difference, open, pageTest, pixels, replayOf, seekShare } from "./replay_pages.mjs";
 
 const { MOST_DRAW_CALLS, MOST_TRIANGLES, ROUGH_DEPTH } = await loadModule("replay/scene/limits.ts");
 
@@ -13,9 +13,8 @@ const DIGITS = 1e-5;
 
 /** The page of one trial with other settings. */
 function pageOf(scenario, name, settings) {
-  const file = path.join(folder, `${name}.html`);
-  const set = settings.flatMap((setting) => ["--set", setting]);
-  rockyard(["replay", `scenarios/${scenario}.json`, "--trial", "1", "--seed", "1", "--out", file, "--svg", path.join(folder, `${name}.svg`), ...set]);
+  const file = at(`${name}.html`);
+  rockyard(["replay", `scenarios/${scenario}.json`, "--trial", "1", "--seed", "1", "--out", file, "--svg", at(`${name}.svg`), ...set(...settings)]);
   return file;
 }
 
@@ -42,10 +41,7 @@ function wheelPlaces(rover, motion, i) {
   );
 }
 
-let nominal;
-before(() => {
-  nominal = replayOf("pathfinder/nominal", "nominal").file;
-});
+const nominal = replayOf("pathfinder/nominal", "nominal").file;
 
 const shortTrial = ["referee.time_limit_s=300"];
 const crowds = {
@@ -63,8 +59,7 @@ const crowds = {
 };
 
 for (const [name, make] of Object.entries(crowds)) {
-  test(`a picture keeps to its triangles and calls: ${name}`, async () => {
-    const { page, problems } = await open(make());
+  pageTest(`a picture keeps to its triangles and calls: ${name}`, make(), async (page) => {
     await seekShare(page, 0.5);
     await page.keyboard.press("l");
     for (const mode of ["f", "t", "r", "o", "x"]) {
@@ -73,19 +68,15 @@ for (const [name, make] of Object.entries(crowds)) {
       assert.ok(triangles > 10_000 && triangles <= MOST_TRIANGLES, `${triangles} triangles after key ${mode}`);
       assert.ok(calls > 30 && calls <= MOST_DRAW_CALLS, `${calls} calls after key ${mode}`);
     }
-    assert.deepEqual(problems, []);
-    await page.context().close();
   });
 }
 
-test("the page says its limits, and what is drawn only", async () => {
-  const { page } = await open(nominal);
+pageTest("the page says its limits, and what is drawn only", nominal, async (page) => {
   await page.locator(".about-picture summary").click();
   const text = await page.locator(".about-picture").innerText();
   for (const words of [MOST_TRIANGLES.toLocaleString("en-US"), `${MOST_DRAW_CALLS} draw calls`, `${100 * ROUGH_DEPTH} %`, "9.81 m/s²", "Drawn only"]) {
     assert.ok(text.includes(words), words);
   }
-  await page.context().close();
 });
 
 test("the sun stands where the scenario says, and its shadows fall away from it", async () => {
@@ -99,7 +90,6 @@ test("the sun stands where the scenario says, and its shadows fall away from it"
     for (const axis of ["x", "y", "z"]) assert.ok(Math.abs(sun[axis] - expected[axis]) < 2e-5, `${axis}: ${sun[axis]}`);
     await page.keyboard.press("t");
     pictures.push(await pixels(page));
-    await page.context().close();
   }
   assert.ok(difference(...pictures) > 0.02);
 });
@@ -107,10 +97,8 @@ test("the sun stands where the scenario says, and its shadows fall away from it"
 test("what surrounds the terrain is what the world is", async () => {
   const worlds = { hall: nominal, mars: pageOf("mars/mfex_nominal", "mars", shortTrial), field: pageOf("gestalt/narrow_course", "field", shortTrial) };
   for (const [world, file] of Object.entries(worlds)) {
-    const { page, problems } = await open(file);
+    const { page } = await open(file);
     assert.equal((await drawing(page)).world, world);
-    assert.deepEqual(problems, []);
-    await page.context().close();
   }
 });
 
@@ -118,17 +106,14 @@ test("walls are seen from within, and seen through from outside", async () => {
   const { page } = await open(pageOf("pathfinder/nominal", "walled", ["terrain.arena.kind=walled", ...shortTrial]));
   await page.locator(".about-picture summary").click();
   assert.ok((await page.locator(".about-picture").innerText()).includes("Walls are drawn 35 cm high"));
-  const { course } = payloadOf(path.join(folder, "walled.html"));
+  const { course } = payloadOf(at("walled.html"));
   assert.equal(course.walls.length, 4);
-  await page.context().close();
-  const { page: open_ } = await open(changed(path.join(folder, "walled.html"), "no_walls.html", (payload) => (payload.course.walls = [])));
-  const { page: walled } = await open(path.join(folder, "walled.html"));
+  const { page: open_ } = await open(changed(at("walled.html"), "no_walls.html", (payload) => (payload.course.walls = [])));
+  const { page: walled } = await open(at("walled.html"));
   assert.ok(difference(await pixels(open_), await pixels(walled)) > 0.002);
-  for (const other of [open_, walled]) await other.context().close();
 });
 
-test("key x shows the true shapes of rocks, and rough ones lie within them", async () => {
-  const { page } = await open(nominal);
+pageTest("key x shows the true shapes of rocks, and rough ones lie within them", nominal, async (page) => {
   await seekShare(page, 0.5);
   const rough = await drawing(page);
   const picture = await pixels(page);
@@ -143,11 +128,9 @@ test("key x shows the true shapes of rocks, and rough ones lie within them", asy
   assert.ok(difference(picture, await pixels(page)) > 0.002);
   await page.keyboard.press("x");
   assert.equal(difference(picture, await pixels(page)), 0);
-  await page.context().close();
 });
 
-test("tracks lie where the wheels were, and grow with time", async () => {
-  const { page } = await open(nominal);
+pageTest("tracks lie where the wheels were, and grow with time", nominal, async (page) => {
   const { motion, rover } = payloadOf(nominal);
   await page.evaluate((t) => rockyardReplay.seek(t), motion.t[0]);
   assert.equal((await drawing(page)).tracks.length, 0);
@@ -169,11 +152,9 @@ test("tracks lie where the wheels were, and grow with time", async () => {
   await page.getByLabel("Wheel tracks").uncheck();
   assert.equal((await drawing(page)).tracks.length, 0);
   assert.ok(difference(shown, await pixels(page)) > 0.002);
-  await page.context().close();
 });
 
-test("light planes go through their emitters while a scan runs, and end on the ground, a rock or in the air", async () => {
-  const { page } = await open(nominal);
+pageTest("light planes go through their emitters while a scan runs, and end on the ground, a rock or in the air", nominal, async (page) => {
   const { scans, sensor, motion } = payloadOf(nominal);
   const scanning = motion.activity_names.indexOf("scan");
   const sample = motion.activity.findIndex((activity, i) => activity === scanning && motion.t[i] > scans[20].t);
@@ -205,7 +186,6 @@ test("light planes go through their emitters while a scan runs, and end on the g
   const driving = motion.activity.findIndex((activity, i) => motion.activity_names[activity] === "drive" && motion.t[i] > motion.t[i - 1] + 0.1);
   await page.evaluate((t) => rockyardReplay.seek(t), (motion.t[driving - 1] + motion.t[driving]) / 2);
   assert.equal((await drawing(page)).planes.length, 0);
-  await page.context().close();
 });
 
 test("key l shows what each camera sees", async () => {
@@ -217,12 +197,10 @@ test("key l shows what each camera sees", async () => {
     await page.keyboard.press("l");
     assert.equal((await drawing(page)).views, cameras);
     assert.ok(difference(without, await pixels(page)) > 0.002);
-    await page.context().close();
   }
 });
 
-test("shadows reach the rover and the ground about it in every view", async () => {
-  const { page } = await open(nominal);
+pageTest("shadows reach the rover and the ground about it in every view", nominal, async (page) => {
   for (const key of ["f", "t", "r", "o"]) {
     for (const share of [0, 0.5, 1]) {
       await page.keyboard.press(key);
@@ -239,11 +217,9 @@ test("shadows reach the rover and the ground about it in every view", async () =
       assert.ok(shadow.texel < 0.016, `${shadow.texel} m a pixel`);
     }
   }
-  await page.context().close();
 });
 
-test("the plain picture has no textures, and everything else", async () => {
-  const { page } = await open(nominal);
+pageTest("the plain picture has no textures, and everything else", nominal, async (page) => {
   await seekShare(page, 0.5);
   const full = await pixels(page);
   const { triangles } = await drawing(page);
@@ -252,7 +228,6 @@ test("the plain picture has no textures, and everything else", async () => {
   assert.equal((await drawing(page)).triangles, triangles);
   await page.getByLabel("Plain: no textures").uncheck();
   assert.equal(difference(full, await pixels(page)), 0);
-  await page.context().close();
 });
 
 test("mirror lines are explained where operators turn the rover back, and where it drives on", async () => {
@@ -260,6 +235,5 @@ test("mirror lines are explained where operators turn the rover back, and where 
     const { page } = await open(file);
     const text = await page.getByText("Mirror line: the course is mirrored here").innerText();
     assert.ok(text.includes(words), text);
-    await page.context().close();
   }
 });

@@ -1,20 +1,17 @@
 // Two trials on one page: one clock, two pictures, each as its own record says.
 import assert from "node:assert/strict";
 import { statSync } from "node:fs";
-import path from "node:path";
-import { before, test } from "node:test";
-import { loadModule, rockyard } from "./harness.mjs";
-import { folder, MOST_BYTES, open, payloadOf, time } from "./replay_pages.mjs";
+import { test } from "node:test";
+import { at, loadModule, rockyard } from "./harness.mjs";
+import { payloadOf } from "./page_payload.mjs";
+import { MOST_BYTES, open, pageTest, time } from "./replay_pages.mjs";
 
-let pair;
-before(() => {
-  const run = (name, ...settings) => rockyard(["run", "scenarios/pathfinder/nominal.json", "--trials", "3", "--threads", "1",
-    "--set", "rover.fidelity=quasi_static", ...settings, "--out", path.join(folder, name)]);
-  run("one");
-  run("two", "--set", "sensors.gyro.scale=0.8");
-  pair = path.join(folder, "pair.html");
-  rockyard(["replay", path.join(folder, "one"), "--trial", "2", "--with", path.join(folder, "two"), "--out", pair]);
-});
+const run = (name, ...settings) => rockyard(["run", "scenarios/pathfinder/nominal.json", "--trials", "3", "--threads", "1",
+  "--set", "rover.fidelity=quasi_static", ...settings, "--out", at(name)]);
+run("one");
+run("two", "--set", "sensors.gyro.scale=0.8");
+const pair = at("pair.html");
+rockyard(["replay", at("one"), "--trial", "2", "--with", at("two"), "--out", pair]);
 
 test("what stands in both drives is shortened, and nothing else", async () => {
   const { common } = await loadModule("replay/player.ts");
@@ -29,7 +26,7 @@ test("both are drawn from disk, with one player whose end is that of the longer 
   const payload = payloadOf(pair);
   const ends = [payload, payload.beside].map(({ motion }) => motion.t[motion.t.length - 1]);
   assert.notEqual(ends[0], ends[1]);
-  const { page, problems, requests } = await open(pair, { width: 1400 });
+  const { page, requests } = await open(pair, { width: 1400 });
   assert.equal(await page.locator(".picture canvas").count(), 2);
   assert.equal(await page.locator(".transport").count(), 1);
   assert.equal(await page.locator(".timeline").count(), 2);
@@ -37,8 +34,6 @@ test("both are drawn from disk, with one player whose end is that of the longer 
   assert.equal(await time(page), Math.max(...ends));
   await page.waitForFunction(() => [...document.querySelectorAll(".ending")].every((card) => !card.hidden));
   assert.equal(requests.length, 1);
-  assert.deepEqual(problems, []);
-  await page.context().close();
 });
 
 test("each tells its own drive at the common time, also after it has ended", async () => {
@@ -60,29 +55,23 @@ test("each tells its own drive at the common time, also after it has ended", asy
       assert.ok(Math.abs(y - (motion.y[i] + share * (motion.y[next] - motion.y[i]))) < 0.0051, `${shown[k]} at ${t}`);
     });
   }
-  await page.context().close();
 });
 
-test("says where each comes from, and whether the course is the same", async () => {
-  const { page } = await open(pair, { width: 1400 });
+pageTest("says where each comes from, and whether the course is the same", pair, async (page) => {
   const text = await page.textContent("main");
   for (const { command } of [payloadOf(pair), payloadOf(pair).beside]) assert.ok(text.includes(command), command);
   assert.match(text, /Both drive among the same rocks/);
-  await page.context().close();
-  const other = path.join(folder, "other.html");
-  rockyard(["replay", path.join(folder, "one"), "--trial", "2", "--with-trial", "1", "--out", other]);
+  const other = at("other.html");
+  rockyard(["replay", at("one"), "--trial", "2", "--with-trial", "1", "--out", other]);
   const opened = await open(other);
   assert.match(await opened.page.textContent("main"), /Their rocks or goals differ/);
-  await opened.page.context().close();
-});
+}, { width: 1400 });
 
-test("one key moves both cameras, and the overview tells of both", async () => {
-  const { page } = await open(pair, { width: 1400, reducedMotion: "no-preference" });
+pageTest("one key moves both cameras, and the overview tells of both", pair, async (page) => {
   assert.equal(await page.evaluate(() => rockyardReplay.overview), true);
   assert.match(await page.textContent(".overview:not([hidden]) .caption-now"), /^(First|Second): /);
   await page.keyboard.press("t");
   assert.equal(await page.locator('.cameras button[aria-pressed="true"]', { hasText: "Top" }).count(), 2);
   await page.keyboard.press("b");
   assert.equal(await page.locator(".layers label", { hasText: "Believed path" }).locator("input:checked").count(), 0);
-  await page.context().close();
-});
+}, { width: 1400, reducedMotion: "no-preference" });

@@ -1,8 +1,9 @@
 // What the replay page draws in three dimensions, compared with the data.
 import assert from "node:assert/strict";
-import { before, test } from "node:test";
+import { test } from "node:test";
 import { expectedLinks } from "./link_places.mjs";
-import { changed, difference, open, payloadOf, pixels, replayOf, seekShare } from "./replay_pages.mjs";
+import { payloadOf } from "./page_payload.mjs";
+import { changed, difference, open, pageTest, pixels, replayOf, seekShare } from "./replay_pages.mjs";
 
 const WHEEL_RADIUS_M = 0.065;
 
@@ -20,13 +21,9 @@ function panelAt(colours, width) {
   return { x: x / count, y: y / count };
 }
 
-let file;
-before(() => {
-  ({ file } = replayOf("pathfinder/nominal", "nominal"));
-});
+const { file } = replayOf("pathfinder/nominal", "nominal");
 
-test("wheels stand on the ground", async () => {
-  const { page } = await open(file);
+pageTest("wheels stand on the ground", file, async (page) => {
   const { ground } = payloadOf(file);
   const level = ground.z.reduce((sum, z) => sum + z, 0) / ground.z.length;
   for (const share of [0, 0.3, 0.7]) {
@@ -39,7 +36,6 @@ test("wheels stand on the ground", async () => {
     const spread = Math.max(...wheels.map((a) => Math.hypot(a.x - wheels[0].x, a.y - wheels[0].y)));
     assert.ok(spread > 0.5 && spread < 0.8, `wheels are ${spread} m apart`);
   }
-  await page.context().close();
 });
 
 test("every link is where the angles of its sample put it", async () => {
@@ -58,7 +54,6 @@ test("every link is where the angles of its sample put it", async () => {
       assert.ok(Math.abs(cosine) > 1 - 1e-6, `${drawn[k].name} is turned otherwise`);
     });
   }
-  await page.context().close();
 });
 
 // Pictures from above at the start and at half time, of the page with other data.
@@ -69,7 +64,6 @@ async function twoPictures(change) {
   const half = await pixels(page);
   await seekShare(page, 0);
   const start = await pixels(page);
-  await page.context().close();
   return { start, half };
 }
 
@@ -113,7 +107,6 @@ test("the plan has x to the right and y up", async () => {
   const [start, end, high, low] = places;
   assert.ok(end.x > start.x + 50, `${end.x} is not right of ${start.x}`);
   assert.ok(high.y < low.y - 5, `${high.y} is not above ${low.y}`);
-  await page.context().close();
 });
 
 test("mirror lines are drawn where operators turn the rover back, and named", async () => {
@@ -125,7 +118,6 @@ test("mirror lines are drawn where operators turn the rover back, and named", as
     await page.keyboard.press("t");
     pictures.push(await pixels(page));
     assert.equal(await page.getByText("Mirror line").count(), named);
-    await page.context().close();
   }
   for (const [a, b] of [[0, 1], [0, 2], [1, 2]]) assert.ok(difference(pictures[a], pictures[b]) > 0.001, `${a} and ${b}`);
 });

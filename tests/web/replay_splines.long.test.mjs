@@ -1,9 +1,10 @@
 // Splines of a rover that steers while it drives, and how late its plans are: on the page of a drive
 // with GESTALT whose decisions get splines.
 import assert from "node:assert/strict";
-import { before, test } from "node:test";
+import { test } from "node:test";
 import { loadModule } from "./harness.mjs";
-import { changed, difference, open, payloadOf, pixels, replayOf } from "./replay_pages.mjs";
+import { payloadOf } from "./page_payload.mjs";
+import { changed, difference, open, pageTest, pixels, replayOf } from "./replay_pages.mjs";
 
 const KNOTS = [-1, 0, 1];
 const CHOSEN = 5;
@@ -25,13 +26,9 @@ const splines = () => {
   };
 };
 
-let file;
-let withSplines;
-before(() => {
-  ({ file } = replayOf("gestalt/narrow_course", "splines"));
-  withSplines = changed(file, "with_splines.html", ({ steps }) => {
-    for (const step of steps) Object.assign(step, { splines: splines(), spline_start: step.believed, votes: [] });
-  });
+const { file } = replayOf("gestalt/narrow_course", "splines");
+const withSplines = changed(file, "with_splines.html", ({ steps }) => {
+  for (const step of steps) Object.assign(step, { splines: splines(), spline_start: step.believed, votes: [] });
 });
 
 test("paths are those of a curvature that is linear between the knots", async () => {
@@ -80,8 +77,7 @@ test("what was seen and planned late lies where it was seen and planned", async 
   near(truly.along(1, 0.5), [9.5, 3]);
 });
 
-test("says how late a plan is", async () => {
-  const { page } = await open(file);
+pageTest("says how late a plan is", file, async (page) => {
   const { steps } = payloadOf(file);
   for (const step of steps.slice(0, 3)) {
     assert.ok(step.look.t <= step.t);
@@ -92,11 +88,9 @@ test("says how late a plan is", async () => {
     const caption = await page.locator(".votes .caption").first().textContent();
     assert.match(caption, new RegExp(`^Decision ${step.step} at .*, ${(step.t - step.look.t).toFixed(2)} s after the look ${step.behind ? "behind" : "ahead"}`));
   }
-  await page.context().close();
 });
 
-test("draws the splines of a decision and shows their votes", async () => {
-  const { page, problems } = await open(withSplines);
+pageTest("draws the splines of a decision and shows their votes", withSplines, async (page) => {
   const { steps } = payloadOf(withSplines);
   await page.evaluate((t) => rockyardReplay.seek(t), steps[2].t);
   await page.keyboard.press("t");
@@ -110,8 +104,6 @@ test("draws the splines of a decision and shows their votes", async () => {
   assert.equal(await chosen.textContent(), "from left 0.20/m over straight to left 1.00/m: merged 125, hazard 100 (certainty 255), waypoint 150");
   assert.match(await page.locator(".votes svg").getAttribute("aria-label"), /chosen: from left 0\.20\/m over straight to left 1\.00\/m$/);
   assert.match(await page.locator(".votes .caption").last().textContent(), /^Rows: curvature in the middle/);
-  assert.deepEqual(problems, []);
-  await page.context().close();
 });
 
 test("a decision without a choice says so, and arcs keep their bars", async () => {
@@ -119,7 +111,7 @@ test("a decision without a choice says so, and arcs keep their bars", async () =
     steps[0].splines = { ...splines(), chosen: -1 };
     steps[0].votes = [];
   });
-  const { page, problems } = await open(none);
+  const { page } = await open(none);
   const { steps } = payloadOf(none);
   await page.evaluate((t) => rockyardReplay.seek(t), steps[0].t);
   await page.evaluate(() => rockyardReplay.pose());
@@ -129,6 +121,4 @@ test("a decision without a choice says so, and arcs keep their bars", async () =
   await page.evaluate(() => rockyardReplay.pose());
   assert.equal(await page.locator(".votes .vote").count(), steps[1].votes.length);
   assert.match(await page.locator(".votes .caption").last().textContent(), /^Left arcs stand left/);
-  assert.deepEqual(problems, []);
-  await page.context().close();
 });

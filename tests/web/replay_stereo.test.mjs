@@ -1,20 +1,16 @@
 // The replay page of a drive whose stereo cameras took images.
 import assert from "node:assert/strict";
 import { statSync } from "node:fs";
-import path from "node:path";
-import { before, test } from "node:test";
-import { rockyard } from "./harness.mjs";
-import { changed, folder, MOST_BYTES, open, payloadOf } from "./replay_pages.mjs";
+import { test } from "node:test";
+import { at, rockyard, set } from "./harness.mjs";
+import { payloadOf } from "./page_payload.mjs";
+import { changed, MOST_BYTES, open, pageTest } from "./replay_pages.mjs";
 
 const SETTINGS = ["sensors.stereo.fidelity=image", "sensors.stereo.images.pyramid_level=0", "rover.fidelity=quasi_static", "referee.time_limit_s=300"];
 
-let file;
-let looks;
-before(() => {
-  file = path.join(folder, "stereo.html");
-  rockyard(["replay", "scenarios/gestalt/narrow_course.json", "--trial", "0", "--out", file, ...SETTINGS.flatMap((setting) => ["--set", setting])]);
-  ({ looks } = payloadOf(file).eyes);
-});
+const file = at("stereo.html");
+rockyard(["replay", "scenarios/gestalt/narrow_course.json", "--trial", "0", "--out", file, ...set(...SETTINGS)]);
+const { looks } = payloadOf(file).eyes;
 
 /** What the panel shows at a time. */
 const shownAt = (page, t) =>
@@ -37,7 +33,7 @@ test("is smaller than 3 MB", () => {
 });
 
 test("shows the last look at every moment", async () => {
-  const { page, problems, requests } = await open(file);
+  const { page, requests } = await open(file);
   for (const [i, look] of looks.entries()) {
     // At its own moment, and just before the next one.
     for (const t of [look.t, (looks[i + 1]?.t ?? look.t + 1) - 0.01]) {
@@ -50,8 +46,6 @@ test("shows the last look at every moment", async () => {
     }
   }
   assert.deepEqual(requests.filter((url) => !url.startsWith("file:") && !url.startsWith("data:") && !url.startsWith("blob:")), []);
-  assert.deepEqual(problems, []);
-  await page.context().close();
 });
 
 test("names the rear cameras, and says what was left out", async () => {
@@ -60,7 +54,7 @@ test("names the rear cameras, and says what was left out", async () => {
     payload.eyes.looks = payload.eyes.looks.slice(1);
     payload.eyes.looks[0].behind = true;
   });
-  const { page, problems } = await open(target);
+  const { page } = await open(target);
   const first = await shownAt(page, looks[0].t);
   assert.equal(first.caption, "No look yet.");
   assert.equal(first.hidden, true);
@@ -68,13 +62,9 @@ test("names the rear cameras, and says what was left out", async () => {
   assert.match(caption, /^Look 1 of the rear cameras/);
   assert.match(pictures[0].alt, /rear/);
   assert.match(await page.textContent(".eyes"), /one look out of 3/);
-  assert.deepEqual(problems, []);
-  await page.context().close();
 });
 
-test("has no such panel without images", async () => {
-  const { page } = await open(changed(file, "none.html", (payload) => (payload.eyes = null)));
+pageTest("has no such panel without images", changed(file, "none.html", (payload) => (payload.eyes = null)), async (page) => {
   assert.equal(await page.locator(".eyes").count(), 0);
   assert.equal(await page.locator(".readout").count(), 1);
-  await page.context().close();
 });

@@ -1,23 +1,19 @@
 // What the replay tells: an overview of ten seconds, how the drive ended, and what can be handed on.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { before, test } from "node:test";
+import { test } from "node:test";
 import { loadModule } from "./harness.mjs";
-import { changed, open, payloadOf, replayOf, seekShare, time } from "./replay_pages.mjs";
+import { payloadOf } from "./page_payload.mjs";
+import { changed, open, pageTest, replayOf, seekShare, time } from "./replay_pages.mjs";
 
 const { beatsOf, OverviewClock, OVERVIEW_S } = await loadModule("replay/story.ts");
 
-let file;
-let stuck;
-let gestalt;
-before(() => {
-  ({ file } = replayOf("pathfinder/nominal", "nominal"));
-  stuck = changed(file, "stuck.html", (payload) => {
-    const detail = "drove on without coming nearer to the goal until its operator ended the run";
-    Object.assign(payload, { outcome: "no_path", detail, cause_setting: "referee.no_path_distance_m" });
-  });
-  ({ file: gestalt } = replayOf("gestalt/narrow_course", "narrow"));
+const { file } = replayOf("pathfinder/nominal", "nominal");
+const stuck = changed(file, "stuck.html", (payload) => {
+  const detail = "drove on without coming nearer to the goal until its operator ended the run";
+  Object.assign(payload, { outcome: "no_path", detail, cause_setting: "referee.no_path_distance_m" });
 });
+const { file: gestalt } = replayOf("gestalt/narrow_course", "narrow");
 
 const MOVING = { reducedMotion: "no-preference" };
 const start = (page) => page.evaluate(() => rockyardReplay.sample(0).t);
@@ -53,8 +49,7 @@ test("its moments are the first of each kind, in the order of time, and where be
   assert.equal(parting[1].t, motion.t[first]);
 });
 
-test("opens with the overview, which ends at the end with how it ended", async () => {
-  const { page, problems } = await open(stuck, { ...MOVING, stepped: true });
+pageTest("opens with the overview, which ends at the end with how it ended", stuck, async (page) => {
   assert.equal(await runs(page), true);
   await page.clock.runFor(100);
   assert.match(await page.textContent(".overview .caption-now"), /The goal is 7\.6 m away|hazard|scrapes/);
@@ -72,9 +67,7 @@ test("opens with the overview, which ends at the end with how it ended", async (
   assert.ok(said.includes(`It stood ${value("true_goal_distance_m").toFixed(2)} m from the goal`));
   assert.ok(said.includes(`after ${value("true_distance_m").toFixed(2)} m of driving`));
   assert.equal(await page.textContent(".ending code"), "referee.no_path_distance_m");
-  assert.deepEqual(problems, []);
-  await page.context().close();
-});
+}, { ...MOVING, stepped: true });
 
 test("any key or click ends the overview where it is; Escape and its button go to the start", async () => {
   for (const [leave, where] of [
@@ -93,28 +86,23 @@ test("any key or click ends the overview where it is; Escape and its button go t
     if (where === "start") assert.equal(at, await start(page));
     else assert.ok(at > (await start(page)) && at < (await end(page)));
     assert.equal(await page.evaluate(() => rockyardReplay.playing), false);
-    await page.context().close();
   }
 });
 
-test("does not play unasked for who wants less motion, nor where a link leads to a moment", async () => {
-  const { page } = await open(file);
+pageTest("does not play unasked for who wants less motion, nor where a link leads to a moment", file, async (page) => {
   assert.equal(await runs(page), false);
   await page.keyboard.press("v");
   assert.equal(await runs(page), true);
   await page.keyboard.press("Escape");
-  await page.context().close();
   const linked = await open(file, MOVING);
   await linked.page.goto(`${linked.url}#t=120`);
   await linked.page.reload();
   await linked.page.waitForFunction(() => window.rockyardReplay);
   assert.equal(await runs(linked.page), false);
   assert.equal(await time(linked.page), 120);
-  await linked.page.context().close();
 });
 
-test("how it ended goes with the end, can be closed, and leads back to what led there", async () => {
-  const { page } = await open(stuck);
+pageTest("how it ended goes with the end, can be closed, and leads back to what led there", stuck, async (page) => {
   assert.equal(await page.isVisible(".ending"), false);
   await page.keyboard.press("End");
   assert.equal(await page.isVisible(".ending"), true);
@@ -130,7 +118,6 @@ test("how it ended goes with the end, can be closed, and leads back to what led 
   await page.keyboard.press("ArrowLeft");
   await page.keyboard.press("End");
   assert.equal(await page.isVisible(".ending"), true);
-  await page.context().close();
 });
 
 test("a success is told as one, without a rule that decided", async () => {
@@ -141,7 +128,6 @@ test("a success is told as one, without a rule that decided", async () => {
   await page.keyboard.press("End");
   assert.match(await page.textContent(".ending h2.good"), /It reached the goal, and believed so\./);
   assert.equal(await page.locator(".ending code").count(), 0);
-  await page.context().close();
 });
 
 // Names of columns and settings stand in tables and in code.
@@ -161,7 +147,6 @@ test("no sentence has the name of a parameter or an underscore in it", async () 
       const found = (await words()).replaceAll(title, "").replaceAll(scenario, "").match(/\S*[A-Za-z]_[A-Za-z]\S*/g);
       assert.equal(found, null, `${each} at ${t} s: ${found}`);
     }
-    await page.context().close();
   }
 });
 
@@ -170,8 +155,7 @@ async function download(page, act) {
   return { name: saved.suggestedFilename(), bytes: readFileSync(await saved.path()) };
 }
 
-test("the picture is saved as PNG, with what it shows and when", async () => {
-  const { page, problems } = await open(file, { acceptDownloads: true, paints: true });
+pageTest("the picture is saved as PNG, with what it shows and when", file, async (page) => {
   await seekShare(page, 0.5);
   const { name, bytes } = await download(page, () => page.click("text=Save picture"));
   assert.match(name, /^nominal-seed1-trial1-[\d-]+\.png$/);
@@ -188,9 +172,7 @@ test("the picture is saved as PNG, with what it shows and when", async () => {
   assert.ok(decoded.drawn > 100, "the picture is blank");
   assert.ok(decoded.band > 2, "nothing is written below the picture");
   assert.match(await page.textContent(".share .said"), /Saved as nominal-seed1-trial1/);
-  assert.deepEqual(problems, []);
-  await page.context().close();
-});
+}, { acceptDownloads: true, paints: true });
 
 // Films that a browser records do not say how long they are: it is known at their end.
 async function filmLength(context, bytes) {
@@ -208,8 +190,7 @@ async function filmLength(context, bytes) {
   return length;
 }
 
-test("the overview is saved as a film that lasts as long, or given up", async () => {
-  const { page, problems } = await open(file, { acceptDownloads: true, paints: true });
+pageTest("the overview is saved as a film that lasts as long, or given up", file, async (page) => {
   await page.evaluate(() => {
     window.recorded = {};
     for (const name of ["start", "stop"]) {
@@ -235,6 +216,4 @@ test("the overview is saved as a film that lasts as long, or given up", async ()
   await page.click("text=Stop recording");
   assert.match(await page.textContent(".share .said"), /given up/);
   assert.equal(await runs(page), false);
-  assert.deepEqual(problems, []);
-  await page.context().close();
-});
+}, { acceptDownloads: true, paints: true });

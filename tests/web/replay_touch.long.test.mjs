@@ -1,14 +1,11 @@
 // Fingers on the replay page: a phone must be able to scroll past the picture, and to turn it.
 import assert from "node:assert/strict";
-import { before, test } from "node:test";
+import { test } from "node:test";
 import { difference, open, pixels, replayOf } from "./replay_pages.mjs";
 
 const WIDTH = 380;
 
-let file;
-before(() => {
-  ({ file } = replayOf("pathfinder/nominal", "nominal"));
-});
+const { file } = replayOf("pathfinder/nominal", "nominal");
 
 // A page that was pushed goes on for a while.
 async function restsAt(page, frames) {
@@ -56,7 +53,6 @@ test("one finger scrolls past the picture, and turns it sideways", async () => {
   const { scrolled, changed } = await drag(ASIDE);
   assert.equal(scrolled, 0);
   assert.ok(changed > 0.05, `${changed}`);
-  await page.context().close();
 });
 
 test("after a tap one finger turns the picture, until a tap beside it", async () => {
@@ -67,7 +63,6 @@ test("after a tap one finger turns the picture, until a tap beside it", async ()
   assert.ok(changed > 0.05, `${changed}`);
   await tap(20);
   assert.ok((await drag(UP)).scrolled > 100);
-  await page.context().close();
 });
 
 test("two fingers belong to the picture", async () => {
@@ -77,7 +72,6 @@ test("two fingers belong to the picture", async () => {
     assert.equal(scrolled, 0);
     assert.ok(changed > 0.05, `${changed}`);
   }
-  await page.context().close();
 });
 
 test("what a thumb has to hit is large enough, and nothing lies on the picture", async () => {
@@ -91,5 +85,4 @@ test("what a thumb has to hit is large enough, and nothing lies on the picture",
   const bar = await page.locator(".cameras").boundingBox();
   const picture = await page.locator(".picture canvas").boundingBox();
   assert.ok(bar.y + bar.height <= picture.y + 1);
-  await page.context().close();
 });

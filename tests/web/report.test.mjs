@@ -2,28 +2,18 @@
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import path from "node:path";
-import { after, before, test } from "node:test";
-import { launch, rockyard, temporaryFolder } from "./harness.mjs";
+import { test } from "node:test";
+import { at, csv, rockyard } from "./harness.mjs";
 import { payloadOf } from "./page_payload.mjs";
-import { assertNear, csv, numbersOf, openReport, openTrials, SIX_DIGITS, values } from "./report_pages.mjs";
+import { assertNear, look, numbersOf, open, openTrials, pageTest, runNominal, SIX_DIGITS, values } from "./report_pages.mjs";
 
 const TRIALS = 12;
 const REPLAYS = 2;
 
-const folder = temporaryFolder();
-const at = (...names) => path.join(folder, ...names);
 const json = (...names) => JSON.parse(readFileSync(at(...names), "utf8"));
-let browser;
-
-before(async () => {
-  rockyard(["run", "scenarios/pathfinder/nominal.json", "--trials", `${TRIALS}`, "--seed", "1", "--out", at("nominal"),
-    "--set", "rover.fidelity=quasi_static"]);
-  rockyard(["report", at("nominal"), "--out", at("one.html"), "--replays", `${REPLAYS}`,
-    "--against", "results/reference/matthies1995.json"]);
-  browser = await launch();
-});
-
-after(() => browser?.close());
+runNominal("nominal", TRIALS, 1);
+rockyard(["report", at("nominal"), "--out", at("one.html"), "--replays", `${REPLAYS}`,
+  "--against", "results/reference/matthies1995.json"]);
 
 /** The worst failed trials, and one of each outcome. */
 function replayed() {
@@ -32,23 +22,15 @@ function replayed() {
   return new Set([...worst.map(({ trial }) => Number(trial)), ...payloadOf(at("one.html")).runs[0].examples]);
 }
 
-const open = (name, options) => openReport(browser, at(name), options);
-/** One page for the tests that leave it as it is. */
-let shared;
-const look = () => (shared ??= open("one.html"));
-
 test("opens from disk, asks for nothing else and complains of nothing", async () => {
-  const { page, requests, problems, url } = await open("one.html");
+  const { page, requests, url } = await open("one.html");
   await openTrials(page);
   await page.locator("#distance-cdf svg").waitFor();
   assert.deepEqual(requests, [url]);
-  assert.deepEqual(problems, []);
   assert.equal(await page.locator(".problem").count(), 0);
-  await page.close();
 });
 
-test("the headline is that of summary.json", async () => {
-  const { page } = await look();
+pageTest("the headline is that of summary.json", look, async (page) => {
   const { declared_success: declared, true_success: truly, distance_m: distance } = json("nominal", "summary.json");
   const [row] = await values(page.locator("#headline .headline-table"));
   assert.equal(Number(row[1]), TRIALS);
@@ -62,8 +44,7 @@ test("the headline is that of summary.json", async () => {
   assert.match(await page.locator("#headline").innerText(), method);
 });
 
-test("the distance curve has the steps of distance_cdf.csv, in its drawing too", async () => {
-  const { page } = await look();
+pageTest("the distance curve has the steps of distance_cdf.csv, in its drawing too", look, async (page) => {
   const steps = csv(at("nominal", "distance_cdf.csv"));
   const rows = await values((await numbersOf(page, "distance-cdf")).first());
   assert.equal(rows.length, steps.length);
@@ -84,8 +65,7 @@ test("the distance curve has the steps of distance_cdf.csv, in its drawing too",
   drawn.forEach((share, i) => assert.ok(Math.abs(share - expected[i]) < 1e-3, `step ${i} is drawn at ${share}`));
 });
 
-test("distributions count the trials of trials.csv and state summary.json", async () => {
-  const { page } = await look();
+pageTest("distributions count the trials of trials.csv and state summary.json", look, async (page) => {
   const trials = csv(at("nominal", "trials.csv"));
   const { dead_reckoning: errors, sim_time_s, energy_wh } = json("nominal", "summary.json");
   for (const [column, summary] of Object.entries({ ...errors, sim_time_s, energy_wh })) {
@@ -103,8 +83,7 @@ test("distributions count the trials of trials.csv and state summary.json", asyn
   }
 });
 
-test("outcomes are counted as in summary.json, and a count shows its trials", async () => {
-  const { page } = await open("one.html");
+pageTest("outcomes are counted as in summary.json, and a count shows its trials", "one.html", async (page) => {
   const expected = Object.entries(json("nominal", "summary.json").outcomes).filter(([, count]) => count > 0);
   const shown = await page.locator("#outcomes button.count").evaluateAll((all) =>
     all.map(({ dataset }) => [dataset.outcome, Number(dataset.value)]));
@@ -115,11 +94,9 @@ test("outcomes are counted as in summary.json, and a count shows its trials", as
   assert.equal(await page.locator("#trials-found").innerText(), `${count} of ${TRIALS} trials`);
   const cells = await page.locator("#trials .tabulator-row [tabulator-field=outcome]").allInnerTexts();
   assert.deepEqual(cells, new Array(count).fill(name.replaceAll("_", " ")));
-  await page.close();
 });
 
-test("trials are sorted by a header and found by words, numbers and conditions", async () => {
-  const { page } = await open("one.html");
+pageTest("trials are sorted by a header and found by words, numbers and conditions", "one.html", async (page) => {
   await openTrials(page);
   const trials = csv(at("nominal", "trials.csv"));
   const order = () => page.locator("#trials .tabulator-row [tabulator-field=trial]").allInnerTexts();
@@ -143,11 +120,9 @@ test("trials are sorted by a header and found by words, numbers and conditions",
   assert.deepEqual(await found("no such word"), []);
   await page.getByRole("button", { name: "Show all" }).click();
   assert.equal((await order()).length, TRIALS);
-  await page.close();
 });
 
-test("columns are chosen, and a chosen one shows what trials.csv holds", async () => {
-  const { page } = await open("one.html");
+pageTest("columns are chosen, and a chosen one shows what trials.csv holds", "one.html", async (page) => {
   await openTrials(page);
   await page.locator("#trials details > summary").click();
   await page.locator("#trials input[value=rocks]").check();
@@ -155,11 +130,9 @@ test("columns are chosen, and a chosen one shows what trials.csv holds", async (
   assert.deepEqual(await cells.allInnerTexts(), csv(at("nominal", "trials.csv")).map(({ rocks }) => rocks));
   await page.locator("#trials input[value=rocks]").uncheck();
   assert.equal(await cells.first().isVisible(), false);
-  await page.close();
 });
 
-test("every trial has its replay: a page that is there, or the command", async () => {
-  const { page } = await look();
+pageTest("every trial has its replay: a page that is there, or the command", look, async (page) => {
   await openTrials(page);
   const links = page.locator("#trials .tabulator-row a");
   const targets = await links.evaluateAll((all) => all.map((link) => link.getAttribute("href")));
@@ -174,8 +147,7 @@ test("every trial has its replay: a page that is there, or the command", async (
   assert.match(command, new RegExp(`^rockyard replay .*nominal.* --trial ${trial}$`));
 });
 
-test("published values stand with their verdicts", async () => {
-  const { page } = await look();
+pageTest("published values stand with their verdicts", look, async (page) => {
   const { rows } = payloadOf(at("one.html")).runs[0].published;
   const shown = await values(page.locator("#published table"));
   assert.equal(shown.length, rows.length);
@@ -187,8 +159,7 @@ test("published values stand with their verdicts", async () => {
   assert.equal(await page.locator("#published .meanings dd").count(), verdicts.size);
 });
 
-test("parameters are counted by origin and filtered", async () => {
-  const { page } = await open("one.html");
+pageTest("parameters are counted by origin and filtered", "one.html", async (page) => {
   const { parameters } = payloadOf(at("one.html")).runs[0];
   const rows = page.locator("#parameters .parameter-table tbody tr");
   assert.equal(await rows.count(), parameters.length);
@@ -203,5 +174,4 @@ test("parameters are counted by origin and filtered", async () => {
   const paths = await rows.locator("th code").allInnerTexts();
   assert.ok(paths.length > 0 && paths.length < parameters.length);
   assert.ok(paths.includes(parameters.find((each) => each.path.includes("k_per_m2")).path));
-  await page.close();
 });

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { loadModule } from "./harness.mjs";
 
-const { matching } = await loadModule("report/trial_search.ts");
+const { matching } = await loadModule("report/trial_rows.ts");
 
 const COLUMNS = [{ name: "energy_wh", unit: "Wh" }, { name: "true_distance_m", unit: "m" }];
 const row = (trial, outcome, energy, distance, more) =>
