@@ -56,6 +56,7 @@ FILES = {
                           'import "./report.css";\n',
 }
 
+PATHFINDER = "navigation/pathfinder/pathfinder.h:3"  # a line more
 LINKS = {
     "truth": "DEPENDS messages", "rover": "DEPENDS truth terrain PRIVATE_LIBRARIES PkgConfig::BULLET",
     "navigation": "DEPENDS messages", "scenario": "DEPENDS core PARAMS_OF terrain navigation",
@@ -95,8 +96,7 @@ class Tree:
         place = self.root / "src" / folder
         sources = sorted(path.relative_to(place).as_posix() for path in place.rglob("*.cc"))
         lines = "".join(f"    {source}\n" for source in sources)
-        self.write(f"{folder}/CMakeLists.txt",
-                   f"rockyard_module({folder}\n  SOURCES\n{lines}  {arguments})\n")
+        self.write(f"{folder}/CMakeLists.txt", f"rockyard_module({folder}\n  SOURCES\n{lines}  {arguments})\n")
 
     def replace(self, name, old, new):
         text = (self.root / "src" / name).read_text(encoding="utf-8")
@@ -107,11 +107,9 @@ class Tree:
         return check_layers.check_tree(self.root)[0]
 
 
-class PlantedViolations(unittest.TestCase):
+class InATree(unittest.TestCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.tree = Tree(self.folder.name)
+        self.tree = Tree(self.enterContext(tempfile.TemporaryDirectory()))
 
     def assert_caught(self, where, why):
         """Exactly one violation, at the planted place, for the planted reason."""
@@ -120,68 +118,45 @@ class PlantedViolations(unittest.TestCase):
         self.assertIn(where, found[0])
         self.assertIn(why, found[0])
 
-    def test_control_tree_is_in_order(self):
+    def assert_in_order(self):
         self.assertEqual(self.tree.violations(), [])
 
-    def test_navigator_includes_terrain(self):
-        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#include "terrain/terrain.h"')
-        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "navigation may not include terrain")
 
-    def test_navigator_includes_truth(self):
-        self.tree.add_line("navigation/pathfinder/pathfinder.h", '  #  include "truth/state.h"')
-        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "navigation may not include truth")
+class PlantedViolations(InATree):
+    def test_control_tree_is_in_order(self):
+        self.assert_in_order()
 
-    def test_way_around_by_parent_folder(self):
-        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#include "../terrain/terrain.h"')
-        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "never with ..")
-
-    def test_way_around_inside_an_allowed_path(self):
-        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#include "core/../terrain/terrain.h"')
-        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "never with ..")
-
-    def test_own_header_in_angle_brackets(self):
-        self.tree.add_line("navigation/pathfinder/pathfinder.h", "#include <terrain/terrain.h>")
-        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", 'included with "..."')
-
-    def test_header_without_its_module(self):
-        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#include "pathfinder_params.h"')
-        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "no folder of the table")
-
-    def test_header_that_does_not_exist(self):
-        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#include "messages/gone.h"')
-        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "no such header")
-
-    def test_include_hidden_by_has_include(self):
-        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#if __has_include("terrain/terrain.h")')
-        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "__has_include")
-
-    def test_scenario_includes_more_than_parameters(self):
-        self.tree.add_line("scenario/scenario.h", '#include "terrain/terrain.h"')
-        self.assert_caught("src/scenario/scenario.h:5", "only *_params.h of terrain")
+    def test_includes_that_none_may_have(self):
+        for place, line, why in (
+                (PATHFINDER, '#include "terrain/terrain.h"', "navigation may not include terrain"),
+                (PATHFINDER, '  #  include "truth/state.h"', "navigation may not include truth"),
+                (PATHFINDER, '#include "../terrain/terrain.h"', "never with .."),
+                (PATHFINDER, '#include "core/../terrain/terrain.h"', "never with .."),
+                (PATHFINDER, "#include <terrain/terrain.h>", 'included with "..."'),
+                (PATHFINDER, '#include "pathfinder_params.h"', "no folder of the table"),
+                (PATHFINDER, '#include "messages/gone.h"', "no such header"),
+                (PATHFINDER, '#if __has_include("terrain/terrain.h")', "__has_include"),
+                ("scenario/scenario.h:5", '#include "terrain/terrain.h"', "only *_params.h of terrain")):
+            with self.subTest(place=place, line=line):
+                self.setUp()
+                self.tree.add_line(place.split(":")[0], line)
+                self.assert_caught(f"src/{place}", why)
 
     def test_heavy_library_in_a_header_of_its_folder(self):
         self.tree.write("rover/bullet_rover.h", "#pragma once\n#include <btBulletDynamicsCommon.h>\n")
         self.assert_caught("src/rover/bullet_rover.h:2", "Bullet stays in .cc files")
 
-    def test_heavy_library_in_another_folder(self):
-        self.tree.write_source("terrain/mesh.cc", "#include <bullet/LinearMath/btVector3.h>\n")
-        self.assert_caught("src/terrain/mesh.cc:1", "Bullet belongs to rover")
-
-    def test_second_library_of_a_pair(self):
-        self.tree.write_source("core/cache.cc", "#include <sqlite3.h>\n")
-        self.assert_caught("src/core/cache.cc:1", "SQLite belongs to batch")
-
-    def test_heavy_library_without_a_folder(self):
-        self.tree.write_source("terrain/rays.cc", "#include <embree3/rtcore.h>\n")
-        self.assert_caught("src/terrain/rays.cc:1", "gives Embree to no folder")
-
-    def test_library_that_nobody_announced(self):
-        self.tree.write_source("terrain/image.cc", "#include <opencv2/core.hpp>\n")
-        self.assert_caught("src/terrain/image.cc:1", "does not list")
-
-    def test_openmp_pragma_outside_its_folder(self):
-        self.tree.write_source("terrain/loop.cc", "#pragma omp parallel for\n")
-        self.assert_caught("src/terrain/loop.cc:1", "OpenMP belongs to batch")
+    def test_libraries_out_of_their_folders(self):
+        for name, text, why in (
+                ("terrain/mesh.cc", "#include <bullet/LinearMath/btVector3.h>\n", "Bullet belongs to rover"),
+                ("core/cache.cc", "#include <sqlite3.h>\n", "SQLite belongs to batch"),
+                ("terrain/rays.cc", "#include <embree3/rtcore.h>\n", "gives Embree to no folder"),
+                ("terrain/image.cc", "#include <opencv2/core.hpp>\n", "does not list"),
+                ("terrain/loop.cc", "#pragma omp parallel for\n", "OpenMP belongs to batch")):
+            with self.subTest(name=name):
+                self.setUp()
+                self.tree.write_source(name, text)
+                self.assert_caught(f"src/{name}:1", why)
 
     def test_link_beyond_the_table(self):
         self.tree.link("navigation", "DEPENDS messages terrain")
@@ -229,7 +204,7 @@ class PlantedViolations(unittest.TestCase):
 
     def test_math_of_the_first_row_may_not_include_core(self):
         self.tree.replace("README.md", "| core | |\n| math | |", "| math | |\n| core | |")
-        self.assertEqual(self.tree.violations(), [])
+        self.assert_in_order()
         self.tree.add_line("math/pose.h", '#include "core/check.h"')
         self.assert_caught("src/math/pose.h:3", "math may not include core")
 
@@ -249,8 +224,7 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(len(self.tree.violations()), 2)
 
     def test_circle_of_rooms(self):
-        self.tree.write("rover/multibody/solver.h",
-                        '#pragma once\n#include "rover/quasi_static/ground.h"\n')
+        self.tree.write("rover/multibody/solver.h", '#pragma once\n#include "rover/quasi_static/ground.h"\n')
         self.tree.write("rover/quasi_static/ground.h", "#pragma once\n")
         self.assert_caught("src/rover/multibody/solver.h",
                            "circle of rooms rover/multibody -> rover/quasi_static -> rover/multibody")
@@ -299,49 +273,44 @@ class PlantedViolations(unittest.TestCase):
         self.assert_caught("terrain/a.h", "include cycle terrain/a.h -> terrain/b.h -> terrain/c.h")
 
 
-class NoFalseAlarm(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.tree = Tree(self.folder.name)
-
+class NoFalseAlarm(InATree):
     def test_includes_in_comments_do_not_count(self):
         self.tree.add_line("navigation/pathfinder/pathfinder.h", '// #include "terrain/terrain.h"')
         self.tree.add_line("navigation/pathfinder/pathfinder.h", '/*\n#include "truth/state.h"\n*/')
-        self.assertEqual(self.tree.violations(), [])
+        self.assert_in_order()
 
     def test_file_at_the_limit(self):
         self.tree.write_source("terrain/long.cc", "\n" * check_layers.MAX_LINES)
-        self.assertEqual(self.tree.violations(), [])
+        self.assert_in_order()
 
     def test_rooms_may_include_each_other_in_one_direction(self):
         self.tree.write_source("rover/quasi_static/balance.cc", '#include "rover/quasi_static/balance.h"\n'
                                '#include "rover/multibody/wheel.h"\n')
-        self.assertEqual(self.tree.violations(), [])
+        self.assert_in_order()
 
     def test_files_beside_rooms_may_know_them(self):
         self.tree.add_line("rover/bullet_rover.cc", '#include "rover/multibody/wheel.h"')
-        self.assertEqual(self.tree.violations(), [])
+        self.assert_in_order()
 
     def test_import_in_a_comment(self):
         self.tree.add_line("web/shared/dom.ts", '// import { page } from "../report/main";')
-        self.assertEqual(self.tree.violations(), [])
+        self.assert_in_order()
 
     def test_source_that_a_function_of_cmake_names(self):
         self.tree.replace("web/CMakeLists.txt", "page.cc\n", "page.cc\n    ${pages}\n")
         self.tree.write("web/no_pages.cc", "#include <string>\n")
         self.assertEqual(len(self.tree.violations()), 1)
         self.tree.write("../scripts/cmake/Pages.cmake", "set(pages no_pages.cc)\n")
-        self.assertEqual(self.tree.violations(), [])
+        self.assert_in_order()
         self.tree.replace("web/CMakeLists.txt", "    ${pages}\n", "")
         self.assertEqual(len(self.tree.violations()), 1, "nothing holds what the function names")
 
     def test_posix_and_standard_headers(self):
         self.tree.write_source("batch/signals.cc", "#include <csignal>\n#include <unistd.h>\n")
-        self.assertEqual(self.tree.violations(), [])
+        self.assert_in_order()
 
 
-class PublicHeaders(unittest.TestCase):
+class PublicHeaders(InATree):
     """The list of what is installed, in a tree that is otherwise in order."""
 
     PUBLIC = {
@@ -370,21 +339,13 @@ struct Motion {
     LISTED = "# what is installed\nonboard core/check.h\nonboard messages/commands.h\nworld truth/state.h\n"
 
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.tree = Tree(self.folder.name)
+        super().setUp()
         for name, text in self.PUBLIC.items():
             self.tree.write(name, text)
         self.tree.write("public_headers.txt", self.LISTED)
 
-    def assert_caught(self, where, why):
-        found = self.tree.violations()
-        self.assertEqual(len(found), 1, found)
-        self.assertIn(where, found[0])
-        self.assertIn(why, found[0])
-
     def test_control_is_in_order(self):
-        self.assertEqual(self.tree.violations(), [])
+        self.assert_in_order()
 
     def test_include_of_a_header_that_is_not_listed(self):
         self.tree.replace("public_headers.txt", "onboard core/check.h\n", "")
@@ -420,7 +381,7 @@ struct Motion {
 
     def test_comments_of_other_headers_are_free(self):
         self.tree.write("terrain/terrain.h", '// Ground.\n#pragma once\n#include "core/check.h"\n')
-        self.assertEqual(self.tree.violations(), [])
+        self.assert_in_order()
 
     def test_the_project_has_such_a_list(self):
         self.assertTrue((ROOT / "src" / "public_headers.txt").is_file())
@@ -451,8 +412,7 @@ class Rules(unittest.TestCase):
     def test_the_project_forbids_truth_and_terrain_on_board(self):
         rules = layer_rules.read_rules(ROOT / "src" / "README.md")
         for module in ("vision", "perception", "localization", "navigation"):
-            self.assertFalse(rules.allowed[module]
-                             & {"truth", "terrain", "rover", "rendering", "sensing"})
+            self.assertFalse(rules.allowed[module] & {"truth", "terrain", "rover", "rendering", "sensing"})
 
 
 if __name__ == "__main__":

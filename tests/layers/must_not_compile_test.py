@@ -139,8 +139,7 @@ class Reach(unittest.TestCase):
 
     def visible(self, module, headers):
         """Which of `headers` code of `module` can include."""
-        probe = "".join(f'#if __has_include("{header}")\n#warning sees {header}\n#endif\n'
-                        for header in headers)
+        probe = "".join(f'#if __has_include("{header}")\n#warning sees {header}\n#endif\n' for header in headers)
         result = compile_source(module, [], probe)
         self.assertEqual(result.returncode, 0, result.stderr)
         return {header for header in headers if f"sees {header}" in result.stderr}
