@@ -15,9 +15,7 @@ DRIVES = {"a": {"scenario": "a.json", "trials": 20, "set": ["x=1"]}, "b": {"scen
 
 class Hashes(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.kept = self.folder / "hashes.json"
         self.keep({hashes_test.class_of_cpu(): {"a": "aa", "b": "aa"}})
 

@@ -171,8 +171,7 @@ def study(options, folder):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rockyard", type=Path, default=ROOT / "build/asan/bin/rockyard")
     parser.add_argument("--trials", type=int, default=2, help="of each scenario and fidelity (%(default)s)")
     parser.add_argument("--hostile", type=int, default=0, metavar="N",

@@ -125,8 +125,7 @@ def make_bases(rockyard, folder, older):
     check = ["check", "run", "--against", baseline, "--csv", "check.csv"]
     drives = of("drives", [*nominal, "--trials", 12],
                 [[*nominal, "--trials", 12, "--seed", 2], [*nominal, "--trials", 7], gestalt])
-    study.run([rockyard, "baseline", drives.foreign[0], "--reason", "study of damage", "--out",
-               baseline])
+    study.run([rockyard, "baseline", drives.foreign[0], "--reason", "study of damage", "--out", baseline])
     compare = ["compare", "run", drives.foreign[0], "--csv", "compare.csv"]
     drives.commands.update(**reads, check=check, compare=compare)
     shards = [[*nominal, "--trials", 12, "--shard", f"{i}/2"] for i in (1, 2)]
@@ -260,8 +259,7 @@ def edit_value(store, rng, base):
         row = rng.choice(rows)
         (value,), = data.execute(f"SELECT {column} FROM {table} WHERE rowid = ?", (row,))
         try:
-            data.execute(f"UPDATE {table} SET {column} = ? WHERE rowid = ?",
-                         (other_value(rng, value), row))
+            data.execute(f"UPDATE {table} SET {column} = ? WHERE rowid = ?", (other_value(rng, value), row))
         except sqlite3.IntegrityError:
             pass  # a key that is there already, or NULL where there can be none
 
@@ -301,8 +299,7 @@ def foreign_rows(store, rng, base):
         rows = [row for (row,) in data.execute(f"SELECT rowid FROM other.{table}")]
         for row in rng.sample(rows, min(len(rows), rng.choice((1, 1, 2, 5)))):
             try:
-                data.execute(f"REPLACE INTO {table} SELECT * FROM other.{table} WHERE rowid = ?",
-                             (row,))
+                data.execute(f"REPLACE INTO {table} SELECT * FROM other.{table} WHERE rowid = ?", (row,))
             except sqlite3.Error:
                 pass  # a table of other columns
 
@@ -395,8 +392,7 @@ def plan(args, bases, older_bases):
 
 
 def table(title, counts, names):
-    kinds = [kind for kind in (SAME, REFUSED, UNSEEN, *FAULTS)
-             if any(counts[name, kind] for name in names)]
+    kinds = [kind for kind in (SAME, REFUSED, UNSEEN, *FAULTS) if any(counts[name, kind] for name in names)]
     rows = [[title, *kinds]] + [[name, *(counts[name, kind] for kind in kinds)] for name in names]
     rows.append(["all", *(sum(counts[name, kind] for name in names) for kind in kinds)])
     widths = [max(len(str(row[i])) for row in rows) for i in range(len(rows[0]))]
@@ -439,8 +435,7 @@ def main(words=None):
     parser.add_argument("--stores", type=int, default=500, help="damaged stores (500)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, help="stores at a time")
-    parser.add_argument("--older", type=float, default=0.1,
-                        help="share of stores without checksums (0.1)")
+    parser.add_argument("--older", type=float, default=0.1, help="share of stores without checksums (0.1)")
     parser.add_argument("--rockyard", type=Path, default=study.ROOT / "build/release/bin/rockyard")
     parser.add_argument("--out", type=Path, help="new folder (default: a temporary one)")
     args = parser.parse_args(words)

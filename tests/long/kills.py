@@ -102,8 +102,7 @@ class Study:
         else:
             words = ["run", SCENARIO, "--set", TIME_LIMIT, "--trials", TRIALS]
             words += ["--shard", shard] if what == "shard" else []
-        return [str(word) for word in
-                [self.rockyard, *words, "--out", out, "--threads", threads, "--quiet"]]
+        return [str(word) for word in [self.rockyard, *words, "--out", out, "--threads", threads, "--quiet"]]
 
     def merge_words(self, shards, out):
         return [str(word) for word in [self.rockyard, "merge", *shards, "--out", out, "--quiet"]]
@@ -142,8 +141,7 @@ class Study:
                 return struck, f"{' '.join(words)} ends with {code}: {told}"
             done = finished(out)
             if self.chance.random() < KILLED_AGAIN:
-                _, told, code = self.kill(whom, again,
-                                          self.chance.uniform(0, self.seconds[what]))
+                _, told, code = self.kill(whom, again, self.chance.uniform(0, self.seconds[what]))
             else:
                 result = subprocess.run(again, capture_output=True, text=True, check=False)
                 told, code = result.stderr, result.returncode
@@ -195,8 +193,7 @@ def contents(folder):
     if (folder / "made_by.json").is_file():
         return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*")
                 if path.is_file() and path.name not in TIMED}
-    files = {path.name: table_of(path) if path.suffix == ".csv" else b""
-             for path in folder.iterdir()}
+    files = {path.name: table_of(path) if path.suffix == ".csv" else b"" for path in folder.iterdir()}
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     files["trial_hash"] = summary.get("trial_hash")
     return files
@@ -213,8 +210,7 @@ def finished(folder):
 
 def children(process):
     try:
-        return [int(child) for child in
-                Path(f"/proc/{process}/task/{process}/children").read_text("ascii").split()]
+        return [int(child) for child in Path(f"/proc/{process}/task/{process}/children").read_text("ascii").split()]
     except FileNotFoundError:
         return []
 
@@ -254,8 +250,7 @@ def study(options, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
     parser.add_argument("--kills", type=int, default=200, help="campaigns (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="of the moments (default: %(default)s)")

@@ -72,8 +72,7 @@ def names_file(name, path):
     if name.endswith("/"):
         return f"/{path}".rpartition(f"/{name}")[1] != ""
     stem = path.rsplit(".", 1)[0]
-    return any(fnmatchcase(whole, name) or fnmatchcase(whole.rsplit("/", 1)[-1], name)
-               for whole in (path, stem))
+    return any(fnmatchcase(whole, name) or fnmatchcase(whole.rsplit("/", 1)[-1], name) for whole in (path, stem))
 
 
 def check_module(module):
@@ -91,8 +90,7 @@ def check_module(module):
                     if not (is_files and column == 0) and not SOURCE_NAME.match(name):
                         continue
                     here = any(names_file(name, path) for path in files)
-                    below = "/" in name and any((base / name).exists()
-                                                for base in (page.parent, src, root))
+                    below = "/" in name and any((base / name).exists() for base in (page.parent, src, root))
                     if not here and not below:
                         yield f"{page}: a table names {name}, which does not exist"
     for path in files:

@@ -66,8 +66,7 @@ class PagesTest(unittest.TestCase):
                      "scenarios/mars/README.md", "tests/README.md"):
             text = FILES[page].replace("#how", "") + "\n## How to add a file\n[x](gone.md)\n"
             with self.subTest(page):
-                self.assertIn(f"{page}: link to gone.md, which does not exist",
-                              faults_of({page: text}))
+                self.assertIn(f"{page}: link to gone.md, which does not exist", faults_of({page: text}))
 
     def test_links_lead_to_headings(self):
         self.expect({"CONTRIBUTING.md": "## How to remove a file\n"},
@@ -107,8 +106,7 @@ class PagesTest(unittest.TestCase):
         text = FILES["src/core/README.md"]
         for other in ("`check.h` checks.\n", text.replace("files", "law")):
             with self.subTest(other):
-                self.expect({"src/core/README.md": other},
-                            "src/core/check.h: in no table of files of core/README.md")
+                self.expect({"src/core/README.md": other}, "src/core/check.h: in no table of files of core/README.md")
 
 
 if __name__ == "__main__":

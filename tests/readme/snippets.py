@@ -38,8 +38,7 @@ class Snippet:
 def snippets_of(page):
     """The blocks that are run or compared, in order."""
     text = page.read_text(encoding="utf-8")
-    return [Snippet(found[1], found[2], text.count("\n", 0, found.start()) + 1)
-            for found in BLOCK.finditer(text)]
+    return [Snippet(found[1], found[2], text.count("\n", 0, found.start()) + 1) for found in BLOCK.finditer(text)]
 
 
 def run(snippet, folder, environment, python):

@@ -85,8 +85,7 @@ class StripeTrace(unittest.TestCase):
 class MapTrace(unittest.TestCase):
     def test_maps_and_votes(self):
         with tempfile.TemporaryDirectory() as folder:
-            arrays, _ = trace(Path(folder), "gestalt/narrow_course.json", "--set",
-                              "referee.time_limit_s=600")
+            arrays, _ = trace(Path(folder), "gestalt/narrow_course.json", "--set", "referee.time_limit_s=600")
         steps = len(arrays["step_time_s"])
         self.assertGreater(steps, 3)
         self.assertEqual(arrays["map_elevation_m"].shape, arrays["map_goodness"].shape)
@@ -101,8 +100,7 @@ class MapTrace(unittest.TestCase):
 
     def test_splines(self):
         with tempfile.TemporaryDirectory() as folder:
-            arrays, _ = trace(Path(folder), "continuous/csad.json", "--set",
-                              "referee.time_limit_s=120")
+            arrays, _ = trace(Path(folder), "continuous/csad.json", "--set", "referee.time_limit_s=120")
         steps = len(arrays["step_time_s"])
         numpy.testing.assert_array_equal(numpy.bincount(arrays["spline_step"], minlength=steps),
                                          numpy.full(steps, 225))

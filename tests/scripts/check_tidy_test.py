@@ -92,9 +92,7 @@ class Project(unittest.TestCase):
     BATCH = ["src/plant/one.cc", "src/plant/room/two.cc", "src/plant/room/three.cc"]
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name).resolve()
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory())).resolve()
         self.build = self.root / "build"
         for name, text in self.FILES.items():
             self.write(name, text)

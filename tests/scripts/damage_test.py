@@ -87,11 +87,9 @@ class Study(unittest.TestCase):
     def test_each_damage_is_refused_or_harmless(self):
         for number, damage in enumerate(damages.DAMAGES):
             base = self.bases[number % len(self.bases)]
-            verdicts = damages.attempt(ROCKYARD, base, damage, number,
-                                            self.folder / f"{number}")
+            verdicts = damages.attempt(ROCKYARD, base, damage, number, self.folder / f"{number}")
             for command, (verdict, found) in verdicts.items():
-                self.assertIn(verdict, ("same", "refused"),
-                              f"{base.name}, {damage}, {command}: {found}")
+                self.assertIn(verdict, ("same", "refused"), f"{base.name}, {damage}, {command}: {found}")
 
     def test_the_command_prints_both_tables_and_counts_every_answer(self):
         out = io.StringIO()

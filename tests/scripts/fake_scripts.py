@@ -25,9 +25,7 @@ class ScriptTest(unittest.TestCase):
     """A copy of the scripts in a folder where nothing real can be called."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.calls = self.root / "calls"
         self.calls.touch()
         shutil.copytree(ROOT / "scripts", self.root / "scripts")

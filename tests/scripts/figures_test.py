@@ -149,8 +149,7 @@ class DrawnNumbers(FiguresTest):
     def test_paths_end_where_the_trial_did(self):
         drawn = self.draw("matthies1995-16", "nominal", trial=1)
         trial = rows(self.root / "nominal/trials.csv")[1]
-        for path, columns in (("true", ("final_x_m", "final_y_m")),
-                              ("believed", ("believed_x_m", "believed_y_m"))):
+        for path, columns in (("true", ("final_x_m", "final_y_m")), ("believed", ("believed_x_m", "believed_y_m"))):
             for value, column in zip(drawn.numbers[path][-1], columns):
                 self.assertAlmostEqual(value, float(trial[column]), places=9)
         self.assertEqual(len(drawn.numbers["rocks"]), int(trial["rocks"]))
@@ -159,8 +158,7 @@ class DrawnNumbers(FiguresTest):
         trace = Source(self.root / "nominal", ROCKYARD).trace(1)
         hazards = [(float(row["true_x_m"]), float(row["true_y_m"])) for row in trace
                    if row["row"] == "event" and row["kind"] == "hazard"]
-        self.assertEqual(self.draw("matthies1995-16", "nominal", trial=1).numbers["hazards_true"],
-                         hazards)
+        self.assertEqual(self.draw("matthies1995-16", "nominal", trial=1).numbers["hazards_true"], hazards)
 
     def test_rocks_are_counted_without_their_mirror_images(self):
         drawn = self.draw("matthies1995-15", "nominal", fields=3)
@@ -210,8 +208,7 @@ class DrawnNumbers(FiguresTest):
 
     def test_places_that_are_believed_are_named(self):
         legend = self.draw("matthies1995-16", "nominal", trial=1).figure.axes[0].get_legend()
-        self.assertIn("obstacle detected here (believed place)",
-                      [text.get_text() for text in legend.get_texts()])
+        self.assertIn("obstacle detected here (believed place)", [text.get_text() for text in legend.get_texts()])
 
     def test_the_straight_arc_has_a_tick(self):
         drawn = self.draw("goldberg2002-3", "gestalt", step=1)
@@ -365,8 +362,7 @@ class DrawnNumbers(FiguresTest):
         for outline in numbers["seen"]:
             nearest = 0.27 + 0.25 / math.tan(math.pi / 4 + 0.0066 / 0.0048 / 2)
             self.assertAlmostEqual(min(x for x, _ in outline), nearest)
-        self.assertAlmostEqual(max(y for _, y in numbers["seen"][0]),
-                               -min(y for _, y in numbers["seen"][1]))
+        self.assertAlmostEqual(max(y for _, y in numbers["seen"][0]), -min(y for _, y in numbers["seen"][1]))
 
     def test_rays_of_lenses(self):
         for lens in ("equidistant_rows", "equidistant", "pinhole"):
@@ -496,8 +492,7 @@ class CommandLine(FiguresTest):
 
     def test_without_matplotlib_it_says_how_to_get_it(self):
         (self.root / "shadow").mkdir(exist_ok=True)
-        (self.root / "shadow/matplotlib.py").write_text("raise ImportError('no matplotlib')\n",
-                                                        encoding="utf-8")
+        (self.root / "shadow/matplotlib.py").write_text("raise ImportError('no matplotlib')\n", encoding="utf-8")
         result = subprocess.run([ROOT / "scripts/studies/figures/figures.py", "--list"], text=True,
                                 env={"PYTHONPATH": str(self.root / "shadow")}, capture_output=True,
                                 check=False)

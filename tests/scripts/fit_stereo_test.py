@@ -76,8 +76,7 @@ class Fits(unittest.TestCase):
         self.assertEqual(fitted["shadow_dropout_probability"], 0.0)
 
     def test_fragment_is_a_scenario_of_texture_light_and_errors(self):
-        document = fit.fragment(0.5, {"sensors.sun.elevation_deg": 20}, "words",
-                                {"disparity_noise_px": 0.1})
+        document = fit.fragment(0.5, {"sensors.sun.elevation_deg": 20}, "words", {"disparity_noise_px": 0.1})
         self.assertEqual(document, {"description": "words", "sensors": {
             "look": {"soil_graininess": 0.5}, "sun": {"elevation_deg": 20},
             "stereo": {"fidelity": "error_model", "disparity_noise_px": 0.1}}})
@@ -113,8 +112,7 @@ class Recovery(unittest.TestCase):
         settings = {"sensors.stereo.fidelity": "error_model"}
         settings |= {f"sensors.stereo.{name}": value for name, value in self.TRUE.items()}
         with tempfile.TemporaryDirectory() as folder:
-            args = argparse.Namespace(rockyard=ROCKYARD, out=Path(folder), runs=4, threads=1, set=[],
-                                      programs=set())
+            args = argparse.Namespace(rockyard=ROCKYARD, out=Path(folder), runs=4, threads=1, set=[], programs=set())
             cell = fit.Cell(fit.run(args, "model", 1, settings))
         self.assertEqual(cell["looks"], 36)
         fitted = fit.fit(cell, SIDE_PX)
@@ -124,8 +122,7 @@ class Recovery(unittest.TestCase):
         plain = cell["plain_pixels"]
         self.assertGreater(plain, 3e4)
         self.assertLess(abs(fitted["disparity_noise_px"] / 0.12 - 1), 3.9 * math.sqrt(2 * 16 / plain))
-        for name, base in (("dropout_probability", "plain_pixels"),
-                           ("shadow_dropout_probability", "shadow_pixels")):
+        for name, base in (("dropout_probability", "plain_pixels"), ("shadow_dropout_probability", "shadow_pixels")):
             share = self.TRUE[name]
             # Alpha = 1e-4, and half as much again for what one is divided by the other.
             limit = 1.5 * 3.9 * math.sqrt(share * (1 - share) / cell[base])

@@ -54,8 +54,7 @@ class JoinTests(unittest.TestCase):
 
     def write(self, name, factor=2, argument=1, more="", end=""):
         path = self.folder / name
-        path.write_text(FILE.format(factor=factor, argument=argument, more=more) + end,
-                        encoding="utf-8")
+        path.write_text(FILE.format(factor=factor, argument=argument, more=more) + end, encoding="utf-8")
         return path
 
     def join(self, *files):

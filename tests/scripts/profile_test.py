@@ -44,8 +44,7 @@ class Profile(unittest.TestCase):
     """Half of the rocks are seen from 7 to 7.5 cm of height on."""
 
     def seen_from(self, pointedness, heights=None, trials=TRIALS):
-        settings = [f"{path}={ratio}"
-                    for path, ratio in zip(calibrate_profile.HEIGHT_RATIOS, heights or ())]
+        settings = [f"{path}={ratio}" for path, ratio in zip(calibrate_profile.HEIGHT_RATIOS, heights or ())]
         return calibrate_profile.seen_from(ROCKYARD, pointedness, settings, trials)
 
     def test_calibrated_rocks_are_seen_as_late_as_the_paper_says(self):

@@ -49,8 +49,7 @@ class Quickstart(ScriptTest):
 
     def test_an_option_with_a_space_stays_one_word(self):
         script = self.root / "build/release/bin/rockyard"
-        script.write_text('#!/bin/sh\nfor word in "$@"; do echo "[$word]" >> "$CALLS"; done\n',
-                          encoding="utf-8")
+        script.write_text('#!/bin/sh\nfor word in "$@"; do echo "[$word]" >> "$CALLS"; done\n', encoding="utf-8")
         self.run_script("quickstart.sh", "--set", "name=two words")
         self.assertIn("[name=two words]", self.calls.read_text(encoding="utf-8"))
 
@@ -95,8 +94,7 @@ class TestScript(ScriptTest):
     def test_everything_by_default(self):
         self.assertEqual(self.run_script("test.sh", "--jobs", "2").returncode, 0)
         self.assertEqual(self.called("install_dependencies.sh"), ["build mpi pages test figures"])
-        self.assertEqual(self.called("ctest"),
-                         ["--preset test -j 4 -LE ^long$ --no-tests=error --output-on-failure"])
+        self.assertEqual(self.called("ctest"), ["--preset test -j 4 -LE ^long$ --no-tests=error --output-on-failure"])
 
     def test_label_and_lint(self):
         self.run_script("test.sh", "--label", "statistical", "--no-lint")
@@ -105,8 +103,7 @@ class TestScript(ScriptTest):
     def test_fast_tests_of_folders_build_only_these(self):
         self.run_script("test.sh", "--fast", "navigation", "trial/", "--jobs", "2")
         builds = [line for line in self.called("cmake") if line.startswith("--build")]
-        self.assertEqual([line.split("--target ")[1] for line in builds],
-                         ["tests/navigation/all tests/trial/all"])
+        self.assertEqual([line.split("--target ")[1] for line in builds], ["tests/navigation/all tests/trial/all"])
         self.assertEqual(len(self.called("ctest")), 1)
         self.assertIn("-L ^(tests/navigation|tests/trial)$ -L ^fast$", self.called("ctest")[0])
 
@@ -158,8 +155,7 @@ printf 'a_test\\tA.Cheap\\t1.0\\t0.5\\nctest\\tpages\\t9.0\\t8.0\\nb_test\\tB.De
 
     def test_continuous_integration_runs_the_same(self):
         shutil.copytree(ROOT / ".ci", self.root / ".ci")
-        variables = {**os.environ, "CALLS": str(self.calls),
-                     "PATH": f"{self.root / 'bin'}:{os.environ['PATH']}"}
+        variables = {**os.environ, "CALLS": str(self.calls), "PATH": f"{self.root / 'bin'}:{os.environ['PATH']}"}
         subprocess.run([self.root / ".ci/run"], env=variables, check=True, capture_output=True)
         self.assertEqual(len(self.called("ctest")), 1)
 
@@ -265,9 +261,7 @@ class InstallDependencies(unittest.TestCase):
     """The real script with a package system that knows some packages and installs nothing."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
         shutil.copytree(ROOT / "scripts", self.root / "scripts")
         (self.root / "scripts/debian_packages.txt").write_text(
             "# list\nhere  build  reason\naway  build  reason\nmore  test  reason\n", encoding="utf-8")
@@ -285,8 +279,7 @@ class InstallDependencies(unittest.TestCase):
     def install(self, *groups, path=None, **environment):
         calls = self.root / "calls"
         calls.write_text("", encoding="utf-8")
-        variables = {"CALLS": str(calls), **environment,
-                     "PATH": f"{self.root / 'bin'}:{path or os.environ['PATH']}"}
+        variables = {"CALLS": str(calls), **environment, "PATH": f"{self.root / 'bin'}:{path or os.environ['PATH']}"}
         result = subprocess.run([self.root / "scripts/install_dependencies.sh", *groups], text=True,
                                 env=variables, capture_output=True, check=False)
         return result, calls.read_text(encoding="utf-8").splitlines()

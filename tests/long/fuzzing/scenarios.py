@@ -176,8 +176,7 @@ def _one_by_one(rockyard, names, folder, findings):
         end = harness.run(_command(rockyard, [name]), folder, TIMEOUT_S)
         reason = harness.problem_of(end, {harness.DONE, harness.BAD_INPUT})
         if reason:
-            findings.fail(int(name.split(".")[0]), reason, _command(rockyard, [name]), end,
-                          [Path(folder) / name])
+            findings.fail(int(name.split(".")[0]), reason, _command(rockyard, [name]), end, [Path(folder) / name])
 
 
 def run(rockyard, first, count, findings):

@@ -322,8 +322,7 @@ END
         return page.read_text(encoding="utf-8"), result.stderr
 
     def test_stands_beside_what_is_printed(self):
-        self.fake("build/release/tests/navigation/gestalt_benchmark").write_text(
-            self.BENCHMARK, encoding="utf-8")
+        self.fake("build/release/tests/navigation/gestalt_benchmark").write_text(self.BENCHMARK, encoding="utf-8")
         text, _ = self.write()
         self.assertIn("| fit planes | 20 | 0.081 | 140 | 6.50 | 4.76 | 5.31 | 3.01 |", text)
         self.assertIn("| a whole cycle of the map, 16384 points | 50 | 0.500 | - | - |", text)
@@ -340,8 +339,7 @@ class FidelityTable(unittest.TestCase):
                            "ci95_low": low, "ci95_high": high})
 
     def test_a_difference_stands_with_its_interval(self):
-        self.assertEqual(self.cells("-0.0247658", "0.0811931"),
-                         ("7.613", "7.627", "0.01376 (-0.02477..0.08119)"))
+        self.assertEqual(self.cells("-0.0247658", "0.0811931"), ("7.613", "7.627", "0.01376 (-0.02477..0.08119)"))
 
     def test_a_difference_that_few_trials_decide_has_none(self):
         self.assertEqual(self.cells("", ""), ("7.613", "7.627", "0.01376 (no interval)"))
@@ -371,12 +369,10 @@ trial,outcome,detail,path_ratio,turned_in_place_rad
         self.expect("wall_3,gestalt,75,1.5,361", "wall_3,behaviour,76,1.5,361",
                     "wall_6,gestalt,75,1.49,361", "wall_6,behaviour,75,1.5,359")
         result = self.run_well("studies/course/course.py")
-        passed = [line.split("|")[-2].strip() for line in result.stdout.splitlines()
-                  if line.startswith("| wall")]
+        passed = [line.split("|")[-2].strip() for line in result.stdout.splitlines() if line.startswith("| wall")]
         self.assertEqual(passed, ["yes", "**no**", "**no**", "**no**"])
         self.assertIn("1 of 4 passed", result.stdout)
-        self.assertIn("| 75 (30..95) | 75 | 1.50 | 1.5 | 360 | 361 | false_goal 1 | yes |",
-                      result.stdout)
+        self.assertIn("| 75 (30..95) | 75 | 1.50 | 1.5 | 360 | 361 | false_goal 1 | yes |", result.stdout)
 
     def test_both_navigators_meet_the_same_course(self):
         result = self.run_well("studies/course/course.py", "--courses", "ditch", "gravel")
@@ -390,8 +386,7 @@ trial,outcome,detail,path_ratio,turned_in_place_rad
             self.assertTrue(composed["extends"].endswith("abundance_behaviour_stereo.json"))
             self.assertEqual(composed["referee"]["no_path_distance_m"], 12)
         # The ditch stands in a scenario of its own, which the course extends.
-        ditch = json.loads((self.root / "results/runs/courses/ditch_behaviour.json")
-                           .read_text(encoding="utf-8"))
+        ditch = json.loads((self.root / "results/runs/courses/ditch_behaviour.json") .read_text(encoding="utf-8"))
         self.assertEqual(ditch["terrain"]["ground"]["ditches"]["depth_m"], [0.3])
         self.assertEqual(ditch["course"]["goal_x_m"], 6)
         self.assertEqual(ditch["name"], "course_ditch_behaviour")
@@ -433,8 +428,7 @@ class StudyStatistics(unittest.TestCase):
         self.assertTrue(math.isnan(self.study.ratio_interval([0], [0])[0]))
 
     def test_trials_that_all_say_the_same_are_as_sure_as_binomial_ones(self):
-        self.interval(self.study.ratio_interval([1, 2, 3], [10, 20, 30]),
-                      (0.1, *self.study.exact_interval(6, 60)))
+        self.interval(self.study.ratio_interval([1, 2, 3], [10, 20, 30]), (0.1, *self.study.exact_interval(6, 60)))
 
     def test_events_of_one_trial_widen_the_interval(self):
         # 20 of 200 trials miss all of their 10: design effect 10 x 200 / 199, so 20 of 200.

@@ -1,12 +1,10 @@
 """Counts of the study of continuous driving, on numbers made by hand."""
 
 import math
-import sqlite3
 import tempfile
 import unittest
-from pathlib import Path
 
-import context  # noqa: F401  (where studies are)
+from context import write_store
 from continuous import continuous as study
 
 
@@ -99,18 +97,10 @@ class Counts(unittest.TestCase):
 
     def test_fields_are_read_by_abundance_and_number(self):
         with tempfile.TemporaryDirectory() as folder:
-            store = sqlite3.connect(Path(folder) / "results.sqlite")
-            store.execute("create table cells (cell, name)")
-            store.execute("insert into cells values (1, 'cycle=csad,k_per_m2=0.013')")
-            columns = ", ".join(f'"{name}"' for name in study.COLUMNS)
-            store.execute(f"create table trials (campaign_cell, trial, outcome, {columns})")
-            marks = ", ".join("?" * len(study.COLUMNS))
             values = [200.0 if name == "sim_time_s" else 14.0 for name in study.COLUMNS]
             values[study.COLUMNS.index("plan_start_error_m")] = None
-            for trial, outcome in enumerate((study.ARRIVED, "simulator_fault")):
-                store.execute(f"insert into trials values (1, {trial}, '{outcome}', {marks})", values)
-            store.commit()
-            store.close()
+            write_store(folder, (1, "cycle=csad,k_per_m2=0.013"), study.COLUMNS, [
+                (trial, outcome, values) for trial, outcome in enumerate((study.ARRIVED, "simulator_fault"))])
             fields = study.read_fields(folder)
         self.assertEqual(list(fields), [(0.013, 0)])
         row = fields[0.013, 0]["csad"]

@@ -150,8 +150,7 @@ class Study(unittest.TestCase):
                 self.assertEqual(sand.main(), 0)
             with open(folder / "dead_reckoning.csv", encoding="utf-8", newline="") as file:
                 rows = list(csv.DictReader(file))
-            self.assertEqual([row["runs"] for row in rows],
-                             ["level"] * 10 + ["up and down"] * 2 + ["up"])
+            self.assertEqual([row["runs"] for row in rows], ["level"] * 10 + ["up and down"] * 2 + ["up"])
             for column, truth in (("heading_origin", 0.70), ("distance_origin", 0.0039)):
                 mean = sum(float(row[column]) for row in rows[:10]) / 10
                 # The slope of a set scatters by some 30 %: 4 deviations of ten.

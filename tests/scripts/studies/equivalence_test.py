@@ -58,8 +58,7 @@ class Intervals(unittest.TestCase):
         for freedom, wanted in ((1, 6.3138), (2, 2.9200), (10, 1.8125), (120, 1.6577)):
             self.assertAlmostEqual(equivalence.student_quantile(0.95, freedom), wanted, places=4)
         # By hand: 1, 2, 3 have a standard deviation of 1.
-        self.assertAlmostEqual(equivalence.half_width([1.0, 2.0, 3.0]), 2.91999 / math.sqrt(3.0),
-                               places=4)
+        self.assertAlmostEqual(equivalence.half_width([1.0, 2.0, 3.0]), 2.91999 / math.sqrt(3.0), places=4)
         self.assertTrue(math.isnan(equivalence.half_width([1.0])))
 
     def test_differences_are_second_less_first(self):
@@ -75,8 +74,7 @@ class Intervals(unittest.TestCase):
         self.assertAlmostEqual(ratio["second"], 100.0 * 4.0 / 3.0)
         self.assertAlmostEqual(ratio["difference"], 100.0 / 3.0)
         # Residuals 5/3, 4/3, -3: variance 61/9, over 3 trials and a mean of 3.
-        self.assertAlmostEqual(ratio["high"] - ratio["difference"],
-                               291.999 * math.sqrt(61.0 / 27.0) / 3.0, places=2)
+        self.assertAlmostEqual(ratio["high"] - ratio["difference"], 291.999 * math.sqrt(61.0 / 27.0) / 3.0, places=2)
 
     def test_pairs_without_a_number_are_left_out(self):
         rows = [{"d": 1.0}, {"d": math.nan}, {"d": 3.0}]
@@ -106,9 +104,7 @@ class Study(unittest.TestCase):
     """With a rockyard that invents its trials."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.out = self.root / "out"
         self.calls = []
 
@@ -173,8 +169,7 @@ class Study(unittest.TestCase):
         folders = {line.split("--out ")[1] for line in self.runs()}
         names = ["step/nominal_60", "step/nominal_480", "step/vl2_60", "step/vl2_480",
                  "fidelity/nominal_quasi_static"]
-        names += [f"fidelity/{cell}_{side}" for cell in ("obstacles_0.85", "k_0.006", "k_0.0085",
-                                                         "slope_10")
+        names += [f"fidelity/{cell}_{side}" for cell in ("obstacles_0.85", "k_0.006", "k_0.0085", "slope_10")
                   for side in ("multibody", "quasi_static")]
         self.assertEqual(folders, {str(self.out / name) for name in names})
         self.assertEqual(len(self.runs()), len(names))
@@ -250,8 +245,7 @@ class Study(unittest.TestCase):
                 ("high_centred", 130, -0.46, "different", "different"),
                 ("no_path", 130, 0.46, "equivalent", "different")):
             shutil.rmtree(self.out, ignore_errors=True)
-            self.study("--studies", "step", changed="step_s", lost=lost, outcome=outcome,
-                       farther=farther)
+            self.study("--studies", "step", changed="step_s", lost=lost, outcome=outcome, farther=farther)
             self.assertEqual(self.verdict("step", "vl2", "jams (%)"), jams)
             self.assertEqual(self.verdict("step", "vl2", equivalence.RATIO), distance)
             self.assertEqual(self.verdict("step", "nominal", "jams (%)"), "-")
@@ -264,8 +258,7 @@ class Study(unittest.TestCase):
     def test_what_is_undefined_leaves_its_pair_out_of_that_mean_only(self):
         self.study("--studies", "step", "--trials", "20")
         path = self.out / "step/vl2_480/trials.csv"
-        path.write_text(path.read_text(encoding="utf-8").replace("\n1,goal_reached,9,1,",
-                                                                 "\n1,goal_reached,9,,"),
+        path.write_text(path.read_text(encoding="utf-8").replace("\n1,goal_reached,9,1,", "\n1,goal_reached,9,,"),
                         encoding="utf-8")
         result = self.study("--studies", "step", "--trials", "20")
         self.assertEqual(result.returncode, 1, result.stderr)  # 20 pairs prove nothing

@@ -1,12 +1,10 @@
 """Counting of the study of localization, on cells made by hand and on a store made by hand."""
 
 import math
-import sqlite3
 import tempfile
 import unittest
-from pathlib import Path
 
-import context  # noqa: F401  (where studies are)
+from context import write_store
 from localization import localization
 
 
@@ -28,8 +26,7 @@ def cells():
 class Counting(unittest.TestCase):
     def test_reach_counts_what_ends_within_the_radius(self):
         rows = localization.by_key(localization.reach_rows(cells()), "aids", "radius_m")
-        self.assertEqual([rows["dead reckoning", radius]["within"] for radius in (0.24, 0.6, 1.2)],
-                         [1, 2, 3])
+        self.assertEqual([rows["dead reckoning", radius]["within"] for radius in (0.24, 0.6, 1.2)], [1, 2, 3])
         self.assertEqual(rows["all", 0.6]["share"], 0.75)
         self.assertLess(rows["all", 0.6]["low"], 0.75)
         self.assertGreater(rows["all", 0.6]["high"], 0.75)
@@ -58,17 +55,9 @@ class Counting(unittest.TestCase):
 
     def test_a_store_is_read_by_the_names_of_its_cells(self):
         with tempfile.TemporaryDirectory() as folder:
-            store = sqlite3.connect(Path(folder) / "results.sqlite")
-            columns = ", ".join(f'"{name}"' for name in localization.COLUMNS)
-            store.execute("create table cells(cell, name)")
-            store.execute(f"create table trials(campaign_cell, trial, outcome, {columns})")
-            store.execute("insert into cells values (0, 'k_per_m2=0.013,distance_m=5 m,aids=sun')")
-            blanks = ", ".join(["?"] * (3 + len(localization.COLUMNS)))
             values = [0.5] + [None] * (len(localization.COLUMNS) - 1)
-            store.execute(f"insert into trials values ({blanks})", [0, 1, "jammed", *values])
-            store.execute(f"insert into trials values ({blanks})", [0, 0, "simulator_fault", *values])
-            store.commit()
-            store.close()
+            write_store(folder, (0, "k_per_m2=0.013,distance_m=5 m,aids=sun"), localization.COLUMNS,
+                        [(1, "jammed", values), (0, "simulator_fault", values)])
             read = localization.read_cells(folder)
         self.assertEqual(list(read), [("Viking Lander 2", "5 m", "sun")])
         (row,) = read["Viking Lander 2", "5 m", "sun"]

@@ -40,8 +40,7 @@ class Counts(unittest.TestCase):
         look_s, pose_s = 8.974 + 27 + 6.585, 8.974 + 160
         self.assertAlmostEqual(drives.closed_form(rows, "stops by vision", "mer_rad6000"),
                                3600 / (1 / 0.07 + (0.7 + look_s) / 0.35 + pose_s / 0.75))
-        self.assertAlmostEqual(drives.closed_form(rows, "CSAD", "mer_rad6000"),
-                               3600 * 1.0 / (0.5 / 0.07 + look_s))
+        self.assertAlmostEqual(drives.closed_form(rows, "CSAD", "mer_rad6000"), 3600 * 1.0 / (0.5 / 0.07 + look_s))
 
     def test_tables_have_a_line_for_each_drive_and_computer(self):
         rows = model.read_times(ROOT / "results/studies/compute_times.csv")

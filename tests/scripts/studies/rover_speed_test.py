@@ -25,8 +25,7 @@ class Stopping(unittest.TestCase):
         self.assertAlmostEqual(model.speed(ROVER, TIMES, "stop"), 1 / (20 + (3 + 1.5 + 16) / 0.5))
 
     def test_poses_have_their_own_way_and_images(self):
-        self.assertAlmostEqual(model.speed(ROVER, TIMES, "blind", estimator="vision"),
-                               1 / (20 + 3 / 0.5 + 32 / 0.8))
+        self.assertAlmostEqual(model.speed(ROVER, TIMES, "blind", estimator="vision"), 1 / (20 + 3 / 0.5 + 32 / 0.8))
         self.assertAlmostEqual(model.speed(ROVER, TIMES, "stop", estimator="vision"),
                                1 / (20 + 20.5 / 0.5 + 32 / 0.8))
 
@@ -126,8 +125,7 @@ class Study(unittest.TestCase):
         self.assertAlmostEqual(100 * study.WISH_M_S, 6.25)
         spans = (model.Range(250, 226, 251), model.Range(226, 100, 251), model.Range(100, 90, 226),
                  model.Range(100, 90, 224))
-        self.assertEqual([study.meets(span) for span in spans],
-                         ["yes", "by the middle", "where all is fast", "no"])
+        self.assertEqual([study.meets(span) for span in spans], ["yes", "by the middle", "where all is fast", "no"])
 
     def test_the_files_are_those_of_the_program(self):
         with tempfile.TemporaryDirectory() as folder:

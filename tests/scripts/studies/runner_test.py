@@ -54,14 +54,10 @@ class Runner(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.prepared = Path(folder.name).resolve() / "tree"
+        cls.prepared = Path(cls.enterClassContext(tempfile.TemporaryDirectory())).resolve() / "tree"
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name).resolve() / "tree"
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory())).resolve() / "tree"
         if self.prepared.exists():
             shutil.copytree(self.prepared, self.root)
         else:

@@ -1,12 +1,10 @@
 """Counts of the study of slip in closed loop, on numbers made by hand."""
 
 import math
-import sqlite3
 import tempfile
 import unittest
-from pathlib import Path
 
-import context  # noqa: F401  (where studies are)
+from context import write_store
 from slip_loop import slip_loop
 
 
@@ -60,17 +58,8 @@ class Counts(unittest.TestCase):
 
     def test_cells_are_read_by_their_levels(self):
         with tempfile.TemporaryDirectory() as folder:
-            store = sqlite3.connect(Path(folder) / "results.sqlite")
-            store.execute("create table cells (cell, name)")
-            store.execute("insert into cells values (3, 'hollows=deep,navigator=gestalt,check=stop 5 Hz')")
-            columns = ", ".join(f'"{name}"' for name in slip_loop.COLUMNS)
-            store.execute(f"create table trials (campaign_cell, trial, outcome, {columns})")
-            marks = ", ".join("?" * len(slip_loop.COLUMNS))
-            for trial, outcome in enumerate(("no_path", "simulator_fault")):
-                store.execute(f"insert into trials values (3, {trial}, '{outcome}', {marks})",
-                              [None] * len(slip_loop.COLUMNS))
-            store.commit()
-            store.close()
+            write_store(folder, (3, "hollows=deep,navigator=gestalt,check=stop 5 Hz"), slip_loop.COLUMNS, [
+                (trial, outcome, [None] * len(slip_loop.COLUMNS)) for trial, outcome in enumerate(("no_path", "simulator_fault"))])
             cells = slip_loop.read_cells(folder)
         self.assertEqual(list(cells), [("deep", "gestalt", "stop 5 Hz")])
         self.assertEqual(list(cells["deep", "gestalt", "stop 5 Hz"]), [0])

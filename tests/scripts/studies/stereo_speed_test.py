@@ -79,13 +79,11 @@ class ErrorTest(unittest.TestCase):
             path.write_bytes(b"Pf\n2 2\n" + scale + values.tobytes())
             self.assertEqual(pyramid.read_pfm(path), (2, 2, [1.0, 2.0, 3.0, 4.0]))
             values.byteswap()
-            path.write_bytes(b"Pf\n2 2\n" + (b"1\n" if sys.byteorder == "little" else b"-1\n")
-                             + values.tobytes())
+            path.write_bytes(b"Pf\n2 2\n" + (b"1\n" if sys.byteorder == "little" else b"-1\n") + values.tobytes())
             self.assertEqual(pyramid.read_pfm(path), (2, 2, [1.0, 2.0, 3.0, 4.0]))
 
     def test_truth_of_a_level_is_the_mean_in_its_pixels(self):
-        truth = [4.0, 5.0, 8.0, 20.0,
-                 4.0, 5.0, 8.0, 8.0]
+        truth = [4.0, 5.0, 8.0, 20.0, 4.0, 5.0, 8.0, 8.0]
         reduced = pyramid.truth_at(1, 4, 2, truth)
         self.assertEqual(reduced[0], 2.25)
         self.assertTrue(math.isnan(reduced[1]))  # two surfaces
