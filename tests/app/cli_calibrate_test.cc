@@ -1,23 +1,15 @@
 // rockyard calibrate: rendered images of a chessboard to cameras that rockyard stereo reads, and
 // what is said of images that give none.
-#include <gmock/gmock.h>
 
 #include <cmath>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "app/kill_runs.h"
+#include "campaign/cylinder/painted_files.h"
 #include "vision/calibration/rendered_target.h"
 #include "vision/cameras/camera_file.h"
 
 namespace rockyard::app {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::HasSubstr;
 
 constexpr std::size_t kImages = 6;
 // Four deviations of the principal point from six images.
@@ -51,15 +43,14 @@ class CliCalibrate : public KillRuns {
     WriteFile(work() / "board.json", R"({"rows": 6, "columns": 9, "spacing_m": 0.03})");
   }
 
-  static std::vector<std::string> Names(const std::string& eye, std::size_t count = kImages) {
-    std::vector<std::string> names;
+  static Words Names(const std::string& eye, std::size_t count = kImages) {
+    Words names;
     for (std::size_t i = 0; i < count; ++i) names.push_back(eye + std::to_string(i) + ".pgm");
     return names;
   }
 
-  CommandResult Calibrate(const std::vector<std::string>& images,
-                          const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> words{"calibrate"};
+  CommandResult Calibrate(const Words& images, const Words& more = {}) const {
+    Words words{"calibrate"};
     words.insert(words.end(), images.begin(), images.end());
     words.insert(words.end(), {"--target", "board.json", "--out", "out"});
     words.insert(words.end(), more.begin(), more.end());
@@ -67,7 +58,7 @@ class CliCalibrate : public KillRuns {
   }
 
   // Exit code 2, these words, and nothing written.
-  void ExpectRefused(const CommandResult& result, const std::vector<std::string>& words) const {
+  void ExpectRefused(const CommandResult& result, const Words& words) const {
     EXPECT_EQ(result.exit_code, 2);
     for (const std::string& word : words) EXPECT_THAT(result.err, HasSubstr(word));
     EXPECT_FALSE(fs::exists(work() / "out"));
@@ -77,7 +68,7 @@ class CliCalibrate : public KillRuns {
 };
 
 TEST_F(CliCalibrate, AFullDiskHoldsAllOrNothing) {
-  const std::vector<std::string> words =
+  const Words words =
       With(With({"calibrate"}, Names("left")), {"--target", "board.json", "--out", "a"});
   ExpectLacksAreTold(words, words, 1, true);
 }
@@ -96,7 +87,7 @@ double LargestError_px(const vision::CameraModel& found, const vision::Cahvor& t
 }
 
 TEST_F(CliCalibrate, APairOfCamerasThatStereoReads) {
-  std::vector<std::string> right{"--right"};
+  Words right{"--right"};
   for (const std::string& name : Names("right")) right.push_back(name);
   const CommandResult result = Calibrate(Names("left"), right);
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -116,8 +107,7 @@ TEST_F(CliCalibrate, APairOfCamerasThatStereoReads) {
   EXPECT_EQ(report["cameras"][1]["predicted_error"].size(), 25u);
   EXPECT_EQ(report["images"].size(), 12u);
   EXPECT_LT(report["images"][7]["rms_px"], 0.06);
-  const double baseline_m = report["baseline_m"]["value"];
-  EXPECT_NEAR(baseline_m, std::sqrt(0.12 * 0.12 + 0.002 * 0.002 + 0.003 * 0.003),
+  EXPECT_NEAR(report["baseline_m"]["value"], std::sqrt(0.12 * 0.12 + 0.002 * 0.002 + 0.003 * 0.003),
               4.0 * report["baseline_m"]["sd"].get<double>());
   RunTo(0, {"stereo", "left2.pgm", "right2.pgm", "--cameras", "out/cameras.json", "--nearest",
             "0.25", "--out", "pair"});
@@ -209,6 +199,99 @@ TEST_F(CliCalibrate, TargetsThatAreNone) {
   ExpectRefused(Run({"calibrate", "--target", "board.json", "--out", "out"}),
                 {"IMAGE: is missing"});
   ExpectRefused(Run({"calibrate", "left0.pgm", "--target", "board.json"}), {"--out: is missing"});
+}
+
+// rockyard cylinder on files: what it says, its exit codes, and what is said of broken input.
+
+// left.png, right.png and cameras.json of a cylinder 2 m away at 30 deg.
+class CliCylinder : public CommandTest {
+ protected:
+  CliCylinder() { campaign::WritePaintedPair(work()); }
+
+  static Words Pair(const Words& more = {}) {
+    return With({"cylinder", "left.png", "right.png", "--cameras", "cameras.json"}, more);
+  }
+
+  // Exit code 2, these words, and nothing written.
+  void ExpectRefused(const Words& words, const Words& said) const {
+    const CommandResult result = RunTo(2, words);
+    EXPECT_EQ(result.out, "");
+    for (const std::string& word : said) EXPECT_THAT(result.err, HasSubstr(word));
+    EXPECT_FALSE(fs::exists(work() / "seen"));
+  }
+};
+
+class CylinderOnFullDisk : public KillRuns {};
+
+TEST_F(CylinderOnFullDisk, AllOrNothingIsWritten) {
+  campaign::WritePaintedPair(work());
+  const Words words = {"cylinder",     "left.png", "right.png", "--cameras",
+                       "cameras.json", "--out",    "a"};
+  ExpectLacksAreTold(words, words, 1, true);
+}
+
+TEST_F(CliCylinder, AFoundOneIsToldWithItsUnits) {
+  const CommandResult result = RunTo(0, Pair());
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, Says("left   left.png: ", "right  right.png: ", "\nfound\n",
+                               " deg: azimuth of the cameras", " m by stereo, ", " m by size\n"));
+  EXPECT_THAT(result.out, Not(HasSubstr("regions.png")));
+  EXPECT_FALSE(fs::exists(work() / "seen"));
+}
+
+TEST_F(CliCylinder, JsonIsThatOfItsFile) {
+  const CommandResult result = RunTo(0, Pair({"--json", "--out", "seen"}));
+  json printed = json::parse(result.out);
+  EXPECT_EQ(printed["found"], true);
+  EXPECT_NEAR(printed["sighting"]["orientation_deg"].get<double>(), 30.0, 1.0);
+  EXPECT_TRUE(fs::exists(work() / "seen/regions.png"));
+  json written = json::parse(ReadFile(work() / "seen/cylinder.json"));
+  printed.erase("files");
+  written.erase("files");
+  EXPECT_EQ(printed, written);
+}
+
+TEST_F(CliCylinder, FilesAreToldWhereTheyAreAsked) {
+  EXPECT_THAT(RunTo(0, Pair({"--out", "seen", "--published"})).out,
+              Says(" in seen/regions.png\n", " in seen/cylinder.json\n"));
+}
+
+TEST_F(CliCylinder, AMissIsInconclusiveAndSaysWhy) {
+  const Words swapped = {"cylinder",     "right.png", "left.png", "--cameras",
+                         "cameras.json", "--out",     "seen"};
+  EXPECT_THAT(RunTo(4, swapped).out,
+              AllOf(HasSubstr("\nnot found (swapped_eyes): "), Not(HasSubstr("deg"))));
+  EXPECT_EQ(json::parse(ReadFile(work() / "seen/cylinder.json"))["miss"], "swapped_eyes");
+}
+
+TEST_F(CliCylinder, ParametersAreListedAndChangeWhatIsFound) {
+  EXPECT_THAT(RunTo(0, {"cylinder", "--parameters"}).out,
+              Says("robust.fit.least_margin", "cylinder.axis"));
+  RunTo(4, Pair({"--param", "robust.candidates.least_whole_px=100000"}));
+  ExpectRefused(Pair({"--out", "seen", "--param", "robust.fit.least_margins=1"}),
+                {"robust.fit.least_margins", "least_margin"});
+  ExpectRefused(Pair({"--out", "seen", "--param", "robust.fit.noise_grey=-1"}),
+                {"robust.fit.noise_grey"});
+}
+
+TEST_F(CliCylinder, WhatIsMissingIsNamed) {
+  ExpectRefused({"cylinder"}, {"LEFT: is missing"});
+  ExpectRefused({"cylinder", "left.png"}, {"RIGHT: is missing"});
+  ExpectRefused({"cylinder", "left.png", "right.png"}, {"--cameras: is missing"});
+  ExpectRefused({"cylinder", "none.png", "right.png", "--cameras", "cameras.json"}, {"none.png"});
+  ExpectRefused({"cylinder", "left.png", "right.png", "--cameras", "left.png"}, {"left.png"});
+}
+
+TEST_F(CliCylinder, BrokenImagesAreRefusedBeforeAnythingIsWritten) {
+  const std::string good = ReadFile(work() / "right.png");
+  WriteFile(work() / "right.png", good.substr(0, good.size() / 2));
+  ExpectRefused(Pair({"--out", "seen"}), {"right.png: "});
+  WriteFile(work() / "right.png", ReadFile(work() / "left.png"));
+  ExpectRefused(Pair({"--out", "seen"}), {"right.png: ", "the same as the left"});
+}
+
+TEST_F(CliCylinder, AFolderThatCannotBeMadeIsAnError) {
+  EXPECT_THAT(RunTo(2, Pair({"--out", "left.png/seen"})).err, HasSubstr("left.png/seen"));
 }
 
 }  // namespace

@@ -1,17 +1,15 @@
 // rockyard run with shards, stopping rules and dry runs, and rockyard merge.
-#include <gmock/gmock.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "app/command.h"
+#include "batch/older_store.h"
+#include "batch/sqlite_database.h"
 
 namespace rockyard::app {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::HasSubstr;
+using testing::IsEmpty;
 
 class CliCampaign : public CommandTest {
  protected:
@@ -61,7 +59,7 @@ TEST_F(CliCampaign, ShardsThatAreNotAllThereAreRefused) {
 
 // Trials of one second all fail, which is soon known well enough.
 TEST_F(CliCampaign, StopsByPrecisionAndGoesOnWithTheSameRule) {
-  std::vector<std::string> words = QuickRun("a", 7);
+  Words words = QuickRun("a", 7);
   const auto trials = std::find(words.begin(), words.end(), "--trials");
   ASSERT_NE(trials, words.end());
   words.erase(trials, trials + 2);
@@ -88,7 +86,7 @@ TEST_F(CliCampaign, StopsByPrecisionAndGoesOnWithTheSameRule) {
 
 // A half-width of 0.5 is met without any trial.
 TEST_F(CliCampaign, HalfWidthsThatSayNothingAreRefused) {
-  std::vector<std::string> words = QuickRun("a", 7);
+  Words words = QuickRun("a", 7);
   const auto trials = std::find(words.begin(), words.end(), "--trials");
   words.erase(trials, trials + 2);
   for (const char* wrong : {"0.5", "0.491", "1", "0", "-0.1", "0.0004", "nan", "inf", "x"}) {
@@ -103,15 +101,15 @@ TEST_F(CliCampaign, HalfWidthsThatSayNothingAreRefused) {
 
 // What a longer run had stored is no part of a campaign that is content with less.
 TEST_F(CliCampaign, RuleOnALongerRunIsTheRunOfTheRule) {
-  std::vector<std::string> words = QuickRun("a", 30);
-  ASSERT_EQ(Run(words).exit_code, 0);
+  Words words = QuickRun("a", 30);
+  RunTo(0, words);
   const auto trials = std::find(words.begin(), words.end(), "--trials");
   words.erase(trials, trials + 2);
-  const std::vector<std::string> rule = {"--until-half-width", "0.2", "--block", "10"};
+  const Words rule = {"--until-half-width", "0.2", "--block", "10"};
   RunTo(0, With(With(words, rule), {"--resume"}));
-  std::vector<std::string> fresh = With(words, rule);
+  Words fresh = With(words, rule);
   *std::find(fresh.begin(), fresh.end(), "a") = "b";
-  ASSERT_EQ(Run(fresh).exit_code, 0);
+  RunTo(0, fresh);
   EXPECT_LT(Summary("b")["accounting"]["planned"], 30);
   EXPECT_EQ(Summary("a")["accounting"], Summary("b")["accounting"]);
   EXPECT_EQ(Summary("a")["trial_hash"], Summary("b")["trial_hash"]);
@@ -119,7 +117,7 @@ TEST_F(CliCampaign, RuleOnALongerRunIsTheRunOfTheRule) {
 }
 
 TEST_F(CliCampaign, RuleNeedsIndependentTrials) {
-  std::vector<std::string> words = QuickRun("a", 7);
+  Words words = QuickRun("a", 7);
   const auto trials = std::find(words.begin(), words.end(), "--trials");
   words.erase(trials, trials + 2);
   EXPECT_THAT(
@@ -142,10 +140,72 @@ TEST_F(CliCampaign, DryRunWritesNothing) {
 TEST_F(CliCampaign, EveryTrialIsAccountedFor) {
   const CommandResult result = Run(QuickRun("a", 3));
   EXPECT_THAT(result.out, HasSubstr("3 planned = 3 completed + 0 faulted + 0 pending"));
-  const json accounting = Summary("a")["accounting"];
-  EXPECT_EQ(accounting["infrastructure_faults"], 0);
+  EXPECT_EQ(Summary("a")["accounting"]["infrastructure_faults"], 0);
   const CommandResult cell = RunTo(2, {"replay", "a", "--cell", "wrong", "--trial", "0"});
   EXPECT_THAT(cell.err, HasSubstr("is no cell of"));
+}
+
+// What commands say of stores that were changed, or that could not tell.
+
+constexpr const char* kNoChecksums =
+    "run/results.sqlite: an older program made it, without checksums: damage may pass unseen";
+
+class CliStore : public CommandTest {
+ protected:
+  void SetUp() override {
+    RunTo(0, With(QuickRun("run", 3), {"--quiet"}));
+    RunTo(0, With(QuickRun("other", 3), {"--quiet"}));
+  }
+
+  fs::path store() const { return work() / "run" / "results.sqlite"; }
+
+  // Those that read the values of a run.
+  std::vector<Words> Readers() const {
+    return {{"report", "run", "--data", "data.json", "--replays", "0"},
+            {"compare", "run", "other"},
+            {"compare", "other", "run"},
+            {"check", "run", "--against", Source("results/reference/matthies1995.json"),
+             "--replicates", "100"},
+            {"baseline", "run", "--reason", "test", "--out", "b.json"},
+            {"replay", "run", "--trial", "1", "--list"},
+            {"trace", "run", "--trial", "1"},
+            With(QuickRun("run", 3), {"--resume"})};
+  }
+};
+
+TEST_F(CliStore, OfAnOlderProgramIsReadWithALineThatSaysSo) {
+  for (const Words& command : Readers()) {
+    EXPECT_THAT(Run(command).err, Not(HasSubstr("checksums"))) << command.front();
+  }
+  batch::MakeOlder(store());
+  for (const Words& command : Readers()) {
+    const CommandResult result = Run(command);
+    EXPECT_THAT(result.exit_code, testing::AnyOf(0, 1)) << command.front() << result.err;
+    const std::size_t line = result.err.find(kNoChecksums);
+    ASSERT_NE(line, std::string::npos) << command.front() << result.err;
+    EXPECT_EQ(result.err.find(kNoChecksums, line + 1), std::string::npos) << command.front();
+  }
+}
+
+TEST_F(CliStore, OfAShardOfAnOlderProgramIsMergedWithALineThatSaysSo) {
+  RunTo(0, With(QuickRun("shard", 3), {"--quiet", "--shard", "1/2"}));
+  batch::MakeOlder(work() / "shard" / "results.sqlite");
+  const Words merge = {"merge", "shard", "--partial", "--out"};
+  EXPECT_THAT(Run(With(merge, {"a", "--quiet"})).err, IsEmpty());
+  EXPECT_THAT(Run(With(merge, {"b"})).err, HasSubstr("shard/results.sqlite: an older program"));
+}
+
+TEST_F(CliStore, WithAChangedValueIsRefusedByEveryCommand) {
+  batch::SqliteDatabase(store(), batch::Access::kChange)
+      .Execute("UPDATE trials SET sim_time_s = 2.0 WHERE trial = 1");
+  for (const Words& command : Readers()) {
+    const CommandResult result = Run(command);
+    EXPECT_EQ(result.exit_code, 2) << command.front();
+    EXPECT_THAT(result.out, IsEmpty()) << command.front();
+    EXPECT_THAT(result.err,
+                Says("run/results.sqlite", "table trials, cell 0, trial 1", "row_checksum"))
+        << command.front();
+  }
 }
 
 }  // namespace

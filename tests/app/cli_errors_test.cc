@@ -1,5 +1,4 @@
 // What is typed or written wrong: exit code 2, a reason with its place, nothing written.
-#include <gmock/gmock.h>
 
 #include "app/command.h"
 
@@ -8,7 +7,7 @@ namespace {
 
 class CliErrors : public CommandTest {
  protected:
-  void ExpectRefused(const std::vector<std::string>& words, const std::string& where) {
+  void ExpectRefused(const Words& words, const std::string& where) {
     const CommandResult result = Run(words);
     SCOPED_TRACE(testing::PrintToString(words));
     EXPECT_EQ(result.exit_code, 2);
@@ -47,7 +46,7 @@ TEST_F(CliErrors, Arguments) {
 }
 
 TEST_F(CliErrors, EnumerationsNameTheOptionAndWhatItTakes) {
-  const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
+  const std::vector<std::pair<Words, std::string>> refused = {
       {{"run", "nominal", "--interval", "wilsen"},
        "error: --interval: \"wilsen\" is none of its values\n"
        "  try: did you mean \"wilson\"? one of: wilson, clopper-pearson\n"},
@@ -141,8 +140,7 @@ TEST_F(CliErrors, FoldersThatCannotBeWritten) {
 }
 
 TEST_F(CliErrors, CheckAndCompareWithoutRuns) {
-  const std::string reference =
-      std::string(ROCKYARD_SOURCE_DIR) + "/results/reference/matthies1995.json";
+  const std::string reference = Source("results/reference/matthies1995.json");
   ExpectRefused({"check", "nowhere", "--against", reference}, "nowhere");
   ExpectRefused({"check", "nowhere", "--against", Scenario("nominal")}, "error: ");
   ExpectRefused({"compare", "nowhere", "elsewhere"}, "nowhere");

@@ -1,6 +1,5 @@
 // What goes wrong around a campaign and takes long: random kills, and a store that another program
 // keeps locked, for which every statement waits, most of a minute.
-#include <gmock/gmock.h>
 
 #include <random>
 #include <set>
@@ -25,9 +24,8 @@ TEST_F(CliFaultLong, StoreThatStaysLockedEndsTheRun) {
   {
     batch::SqliteDatabase other(batch::StorePath(work() / "a"), batch::Access::kChange);
     other.Execute("BEGIN IMMEDIATE");
-    const CommandResult result = WaitTo(5, process);
-    EXPECT_THAT(result.err, Says("results.sqlite: is locked by another program",
-                                 "could not be stored", "--resume"));
+    EXPECT_THAT(WaitTo(5, process).err, Says("results.sqlite: is locked by another program",
+                                             "could not be stored", "--resume"));
   }
   const auto trials = static_cast<int>(Stored("a")) + 20;
   EXPECT_GE(trials, 30);

@@ -16,12 +16,12 @@ using CliMpiMemoryLong = MpiRuns;
 
 // From too little to begin to enough, on the second rank alone.
 TEST_F(CliMpiMemoryLong, WhatARankLacksIsNoFault) {
-  const std::vector<std::string> look = With(
-      {"run", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/visual_odometry/steps_hazcam.json",
-       "--trials", "4", "--threads", "1", "--quiet"},
-      {"--set", "sensors.stereo.images.pyramid_level=1", "--set", "referee.time_limit_s=20"});
-  ASSERT_EQ(Run(With(look, {"--out", "plain"})).exit_code, 0);
-  const std::vector<std::string> words = With(look, {"--out", "a"});
+  const Words look =
+      With({"run", Source("scenarios/visual_odometry/steps_hazcam.json"), "--trials", "4",
+            "--threads", "1", "--quiet"},
+           {"--set", "sensors.stereo.images.pyramid_level=1", "--set", "referee.time_limit_s=20"});
+  RunTo(0, With(look, {"--out", "plain"}));
+  const Words words = With(look, {"--out", "a"});
   int failed = 0;
   for (const int limit_MiB : {50, 100, 140, 200, 2000}) {
     SCOPED_TRACE("within MiB " + std::to_string(limit_MiB));
@@ -43,7 +43,7 @@ TEST_F(CliMpiMemoryLong, WhatARankLacksIsNoFault) {
     const CommandResult resumed = Run(With(words, {"--resume"}));
     ASSERT_EQ(resumed.exit_code, 0) << result.err << resumed.err;
     EXPECT_EQ(Hash("a"), Hash("plain"));
-    std::filesystem::remove_all(work() / "a");
+    fs::remove_all(work() / "a");
   }
   EXPECT_GT(failed, 0) << "some limit is met";
 }

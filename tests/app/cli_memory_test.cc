@@ -6,7 +6,7 @@ namespace {
 
 class CliMemory : public MemoryRuns {
  protected:
-  CommandResult RunWithin(int limit_MiB, const std::vector<std::string>& words) const {
+  CommandResult RunWithin(int limit_MiB, const Words& words) const {
     std::string line = "ulimit -v " + std::to_string(1024 * limit_MiB) + "; exec";
     for (const std::string& word : words) line += " '" + word + "'";
     return Wait(StartProgram({"/bin/sh", "-c", line}));
@@ -17,7 +17,7 @@ class CliMemory : public MemoryRuns {
 // of it, and the campaign goes on to the hash of one that lacked nothing.
 TEST_F(CliMemory, WhatATrialLacksIsNoFault) {
   // Images of some 50 kB and what is made of them.
-  const std::vector<std::string> look =
+  const Words look =
       Trials("visual_odometry/steps_hazcam", 1, {"sensors.stereo.images.pyramid_level=1"});
   ASSERT_EQ(Wait(StartProgram(With(look, {"--out", "plain"}))).exit_code, 0);
   for (const std::string how : {"--max-faults=1", "--no-supervisor"}) {
@@ -33,7 +33,7 @@ TEST_F(CliMemory, WhatATrialLacksIsNoFault) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_GT(pending, 0) << "some limit is met in a trial";
     EXPECT_EQ(Hash("a"), Hash("plain"));
-    std::filesystem::remove_all(work() / "a");
+    fs::remove_all(work() / "a");
   }
 }
 

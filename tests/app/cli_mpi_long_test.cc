@@ -4,15 +4,12 @@
 namespace rockyard::app {
 namespace {
 
-namespace fs = std::filesystem;
-using testing::HasSubstr;
 using CliMpiLong = MpiRuns;
 
 // Also when the others are sooner: mpirun ends all as soon as one has left with an error.
 TEST_F(CliMpiLong, BadInputIsToldThoughTheFirstRankComesLast) {
   const std::string late = "test $OMPI_COMM_WORLD_RANK != 0 || sleep 1; exec \"$@\"";
-  for (const std::vector<std::string>& wrong :
-       {std::vector<std::string>{"--set", "nothing.at=1"}, {"--nonsense"}}) {
+  for (const Words& wrong : {Words{"--set", "nothing.at=1"}, {"--nonsense"}}) {
     const CommandResult result = Wait(StartProgram(With(
         {MPIRUN, "-n", "3", "sh", "-c", late, "late", ROCKYARD_COMMAND}, Drives("a", 5, wrong))));
     EXPECT_EQ(result.exit_code, 2) << wrong.front();
@@ -36,13 +33,13 @@ TEST_F(CliMpiLong, CtrlCEndsAllRanksPolitely) {
 
 // Rank 0 writes them, while the others wait.
 TEST_F(CliMpiLong, TracesAreThoseOfOneProcess) {
-  const std::vector<std::string> traces{"--traces", "all"};
-  ASSERT_EQ(Run(Drives("plain", 4, traces)).exit_code, 0);
-  std::vector<std::string> words = Drives("a", 4, With(traces, {"--json"}));
+  const Words traces{"--traces", "all"};
+  RunTo(0, Drives("plain", 4, traces));
+  Words words = Drives("a", 4, With(traces, {"--json"}));
   words.erase(std::find(words.begin(), words.end(), "--quiet"));
   const CommandResult result = RunOn(2, words);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(nlohmann::json::parse(result.out)["trials"]["completed"], 4);
+  EXPECT_EQ(json::parse(result.out)["trials"]["completed"], 4);
   EXPECT_THAT(result.err, HasSubstr("4 traces written, in a/traces"));
   for (int trial = 0; trial < 4; ++trial) {
     const std::string file = "traces/trial-00000" + std::to_string(trial) + ".npz";
@@ -52,7 +49,7 @@ TEST_F(CliMpiLong, TracesAreThoseOfOneProcess) {
 }
 
 TEST_F(CliMpiLong, CtrlCDuringTracesLeavesTheRestToResume) {
-  const std::vector<std::string> traces{"--traces", "all", "--trace-format", "csv"};
+  const Words traces{"--traces", "all", "--trace-format", "csv"};
   const pid_t process = StartOn(2, Drives("a", 300, traces));
   const fs::path third = work() / "a/traces/trial-000002.csv";
   ASSERT_TRUE(WaitUntil([&] { return fs::exists(third); }));

@@ -12,22 +12,21 @@ TEST_F(CliMpi, RanksAndThreadsGiveTheSameHash) {
     const CommandResult result = RunOn(ranks, Drives(out, 30, {}, ranks == 3 ? 2 : 1));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(Hash(out), PlainHash(30)) << ranks << " ranks";
-    EXPECT_TRUE(std::filesystem::exists(work() / out / "summary.json"));
+    EXPECT_TRUE(fs::exists(work() / out / "summary.json"));
   }
 }
 
 TEST_F(CliMpi, OneSummaryOnTheTerminal) {
-  std::vector<std::string> words = Drives("a", 30, {"--json"});
+  Words words = Drives("a", 30, {"--json"});
   words.erase(std::find(words.begin(), words.end(), "--quiet"));
   const CommandResult result = RunOn(3, words);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(nlohmann::json::parse(result.out)["trials"]["completed"], 30);
+  EXPECT_EQ(json::parse(result.out)["trials"]["completed"], 30);
 }
 
 // One message, the exit code of bad input, nothing written, no hang.
 TEST_F(CliMpi, BadInputIsToldOnce) {
-  for (const std::vector<std::string>& wrong :
-       {std::vector<std::string>{"--set", "nothing.at=1"}, {"--nonsense"}, {"--shard", "5/4"}}) {
+  for (const Words& wrong : {Words{"--set", "nothing.at=1"}, {"--nonsense"}, {"--shard", "5/4"}}) {
     const CommandResult result = RunOn(3, Drives("a", 5, wrong));
     EXPECT_EQ(result.exit_code, 2) << wrong.front();
     const std::size_t first = result.err.find("error: ");

@@ -1,8 +1,6 @@
 // What holds for options of every command, and for the lines that commands print.
-#include <gmock/gmock.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -11,13 +9,9 @@
 namespace rockyard::app {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::HasSubstr;
-
 class CliOptions : public CommandTest {
  protected:
-  void ExpectRefused(const std::vector<std::string>& words, const std::string& where) {
+  void ExpectRefused(const Words& words, const std::string& where) {
     const CommandResult result = Run(words);
     SCOPED_TRACE(testing::PrintToString(words));
     EXPECT_EQ(result.exit_code, 2);
@@ -72,8 +66,7 @@ TEST_F(CliOptions, NoValueIsEmpty) {
 
 // What is cut off is no answer: programs must see that too.
 TEST_F(CliOptions, ASearchThatWasCutOffSaysSo) {
-  const std::vector<std::string> words = {"plan", "claim",      "--below",
-                                          "1e-7", "--failures", "10000"};
+  const Words words = {"plan", "claim", "--below", "1e-7", "--failures", "10000"};
   EXPECT_THAT(Run(words).out, HasSubstr("that many or more"));
   const json cut = json::parse(Run(With(words, {"--json"})).out);
   EXPECT_EQ(cut["trials_or_more"], true);
@@ -101,24 +94,23 @@ TEST_F(CliOptions, ForceOverwritesNothing) {
 
 // Every file that a campaign writes is one that --force knows.
 TEST_F(CliOptions, ForceKnowsEveryFileOfEveryCampaign) {
-  const std::string scenarios = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/";
+  const std::string scenarios = Source("scenarios/hazard_detection/");
   WriteFile(work() / "s.json", R"({
     "name": "s", "trials": 2, "common_random_numbers": true,
     "set": {"rover.fidelity": "quasi_static", "referee.time_limit_s": 1},
     "axes": [{"path": "terrain.rocks.k_per_m2", "values": [0.001, 0.004]},
              {"ablation": "perfect_localization"}]})");
-  const std::vector<std::vector<std::string>> campaigns = {
+  const std::vector<Words> campaigns = {
       QuickRun("run", 2),
       {"sweep", "s.json", "--out", "sweep"},
       {"run", scenarios + "detection.json", "--trials", "2", "--out", "study", "--set",
        "hazard_detection.scenes_per_run=5"}};
-  for (const std::vector<std::string>& words : campaigns) {
+  for (const Words& words : campaigns) {
     SCOPED_TRACE(testing::PrintToString(words));
     const std::string folder = *(std::find(words.begin(), words.end(), "--out") + 1);
-    const CommandResult first = Run(words);
-    ASSERT_EQ(first.exit_code, 0) << first.err;
+    const CommandResult first = RunTo(0, words);
     const std::set<std::string> files = FilesIn(folder);
-    ASSERT_EQ(Run(With(words, {"--force"})).exit_code, 0);
+    RunTo(0, With(words, {"--force"}));
     const std::set<std::string> after = FilesIn(folder);
     for (const std::string& file : files) {
       if (file.ends_with("-wal") || file.ends_with("-shm")) continue;
@@ -131,7 +123,7 @@ TEST_F(CliOptions, ForceKnowsEveryFileOfEveryCampaign) {
 
 TEST_F(CliOptions, NoLineIsLongerThanAHundredColumns) {
   RunTo(0, QuickRun("a", 2));
-  const std::vector<std::vector<std::string>> commands = {
+  const std::vector<Words> commands = {
       {"metrics"},
       {"plan", "claim", "--below", "1e-7", "--failures", "10000"},
       {"plan", "difference", "--from", "0.85", "--to", "0.86", "--discordant", "0.05"},
@@ -139,7 +131,7 @@ TEST_F(CliOptions, NoLineIsLongerThanAHundredColumns) {
       With(QuickRun("a", 2), {"--force"}),
       {"run", Scenario("nominal"), "--until-half-width", "0.0123", "--budget", "123456789",
        "--dry-run", "--set", "referee.time_limit_s=1", "--out", "c"}};
-  for (const std::vector<std::string>& words : commands) {
+  for (const Words& words : commands) {
     SCOPED_TRACE(testing::PrintToString(words));
     const CommandResult result = RunTo(0, words);
     std::istringstream lines(result.out + result.err);
@@ -150,12 +142,12 @@ TEST_F(CliOptions, NoLineIsLongerThanAHundredColumns) {
 // Processes that mpirun started beside rank 0 leave the terminal to it.
 TEST_F(CliOptions, OnlyRankZeroAnswers) {
   setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
-  const std::vector<std::vector<std::string>> commands = {{"metrics"},
-                                                          {"fly"},
-                                                          {"run", "--bogus"},
-                                                          {"plan", "claim", "--below", "0.01"},
-                                                          With(QuickRun("a", 2), {"--dry-run"})};
-  for (const std::vector<std::string>& words : commands) {
+  const std::vector<Words> commands = {{"metrics"},
+                                       {"fly"},
+                                       {"run", "--bogus"},
+                                       {"plan", "claim", "--below", "0.01"},
+                                       With(QuickRun("a", 2), {"--dry-run"})};
+  for (const Words& words : commands) {
     SCOPED_TRACE(testing::PrintToString(words));
     setenv("OMPI_COMM_WORLD_RANK", "1", 1);
     const CommandResult second = Run(words);
@@ -167,6 +159,107 @@ TEST_F(CliOptions, OnlyRankZeroAnswers) {
   }
   unsetenv("OMPI_COMM_WORLD_RANK");
   unsetenv("OMPI_COMM_WORLD_SIZE");
+}
+
+// The scripts of `rockyard completion`, read and run by the shells themselves.
+
+class CliCompletion : public CommandTest {
+ protected:
+  void Write(const std::string& shell) {
+    const CommandResult script = RunTo(0, {"completion", shell});
+    WriteFile(work() / "script", script.out);
+  }
+
+  // What bash offers for the last of the words, one each line.
+  std::string Offered(const std::string& words) {
+    Write("bash");
+    const std::string program =
+        "source ./script; COMP_WORDS=(" + words +
+        "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _rockyard; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    const CommandResult result = Wait(StartProgram({"/bin/bash", "-c", program}));
+    EXPECT_EQ(result.err, "");
+    return "\n" + result.out;
+  }
+};
+
+TEST_F(CliCompletion, BashTakesItAndRegistersIt) {
+  Write("bash");
+  const CommandResult result =
+      Wait(StartProgram({"/bin/bash", "-c", "source ./script && complete -p rockyard"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("-F _rockyard rockyard"));
+}
+
+TEST_F(CliCompletion, BashCompletesCommandsOptionsAndChoices) {
+  EXPECT_THAT(Offered("rockyard ''"), HasSubstr("\nsweep\n"));
+  EXPECT_EQ(Offered("rockyard comp"), "\ncompare\ncompletion\n");
+  const std::string options = Offered("rockyard run a.json --tr");
+  EXPECT_THAT(options, HasSubstr("\n--trials\n"));
+  EXPECT_THAT(options, Not(HasSubstr("--seed")));
+  EXPECT_EQ(Offered("rockyard run a.json --interval ''"), "\nwilson\nclopper-pearson\n");
+  EXPECT_EQ(Offered("rockyard run a.json --interval = cl"), "\nclopper-pearson\n");
+  EXPECT_EQ(Offered("rockyard completion z"), "\nzsh\n");
+  EXPECT_EQ(Offered("rockyard plan cl"), "\nclaim\n");
+  EXPECT_EQ(Offered("rockyard run a.json --trials ''"), "\n\n") << "a number: nothing to offer";
+}
+
+TEST_F(CliCompletion, BashAsksTheProgramForSettingsAndNames) {
+  const std::string program = ROCKYARD_COMMAND;
+  EXPECT_EQ(Offered(program + " run a.json --set terrain.rocks.k_per"),
+            "\nterrain.rocks.k_per_m2=\n");
+  EXPECT_EQ(Offered(program + " run a.json --set rover.fidelity = ''"),
+            "\nmultibody\nquasi_static\n");
+  EXPECT_EQ(Offered(program + " run a.json --set rover.fidelity ="), "\nmultibody\nquasi_static\n");
+  EXPECT_EQ(Offered(program + " run a.json --set = rover.fidelity = q"), "\nquasi_static\n");
+  EXPECT_EQ(Offered(program + " run a.json --set perception.hazard.enabled = t"), "\ntrue\n");
+  setenv("ROCKYARD_SCENARIOS", Source("scenarios").c_str(), 1);
+  EXPECT_EQ(Offered(program + " run mfex_n"), "\nmfex_nominal\n");
+  EXPECT_EQ(Offered(program + " run gestalt/abundance_b"),
+            "\ngestalt/abundance_behaviour\ngestalt/abundance_behaviour_stereo\n"
+            "gestalt/abundance_behaviour_stereo_stripe\n");
+  EXPECT_EQ(Offered(program + " sweep attr"), "\nattribution\n");
+  setenv("ROCKYARD_SCENARIOS", "/nowhere", 1);
+  EXPECT_EQ(Offered(program + " sweep attr"), "\n\n") << "nothing to offer, and no complaint";
+  unsetenv("ROCKYARD_SCENARIOS");
+}
+
+TEST_F(CliCompletion, BashOffersRunFolders) {
+  RunTo(0, QuickRun("results/runs/first", 1));
+  EXPECT_THAT(Offered(std::string(ROCKYARD_COMMAND) + " report results/runs/f"),
+              HasSubstr("\nresults/runs/first\n"));
+}
+
+TEST_F(CliCompletion, LookUpsOfNoKindOfferNothing) {
+  for (const std::string asked : {"nonsense", "nonsense:", ":", "settings"}) {
+    const CommandResult result = Run({"completion", "--offer", asked});
+    EXPECT_EQ(result.exit_code, 0) << asked;
+    EXPECT_EQ(result.out + result.err, "") << asked;
+  }
+}
+
+TEST_F(CliCompletion, BashCompletesFiles) {
+  WriteFile(work() / "my scenario.json", "{}");
+  WriteFile(work() / "other.json", "{}");
+  EXPECT_EQ(Offered("rockyard run my"), "\nmy scenario.json\n");
+  EXPECT_EQ(Offered("rockyard run a.json --out o"), "\nother.json\n");
+}
+
+TEST_F(CliCompletion, OtherShellsReadTheirs) {
+  for (const std::string shell : {"zsh", "fish"}) {
+    Write(shell);
+    const std::string program = "/usr/bin/" + shell;
+    if (!fs::exists(program)) continue;
+    const CommandResult result = Wait(StartProgram({program, "-n", "./script"}));
+    EXPECT_EQ(result.exit_code, 0) << shell << result.err;
+    EXPECT_EQ(result.err, "");
+  }
+  EXPECT_THAT(Run({"completion", "zsh"}).out, StartsWith("#compdef rockyard\n"));
+  EXPECT_THAT(Run({"completion", "fish"}).out, HasSubstr("complete -c rockyard"));
+}
+
+TEST_F(CliCompletion, UnknownShell) {
+  EXPECT_THAT(RunTo(2, {"completion", "tcsh"}).err, HasSubstr("bash"));
 }
 
 }  // namespace

@@ -1,22 +1,13 @@
 // Standard output that takes nothing, and one that nobody reads; files that may not be written.
-#include <fcntl.h>
-#include <gmock/gmock.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <array>
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "app/command.h"
 #include "core/count_of.h"
 
 namespace rockyard::app {
 namespace {
-
-namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 
 constexpr const char* kLost = "error: standard output: cannot be written: No space left on device";
 
@@ -38,7 +29,7 @@ class OutputTest : public CommandTest {
     return {{"--help"},
             {"--version"},
             {"run", "--help"},
-            {"list", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder"},
+            {"list", Source("scenarios/pathfinder")},
             {"list", "--ablations", "--json"},
             {"defaults"},
             {"schema"},
@@ -90,7 +81,7 @@ TEST_F(OutputTest, ThatIsClosedIsAFailureWhereSomethingIsSaid) {
 // The number of the closed stream would be that of the first file to be opened.
 TEST_F(OutputTest, ThatIsClosedGetsIntoNoFile) {
   ASSERT_EQ(RunInto(kClosed, QuickRun("closed", 2)).exit_code, 5);
-  ASSERT_EQ(Run(QuickRun("open", 2)).exit_code, 0);
+  RunTo(0, QuickRun("open", 2));
   for (const char* name : {"trials.csv", "scenario.resolved.json", "distance_cdf.csv"}) {
     EXPECT_EQ(ReadFile(work() / "closed" / name), ReadFile(work() / "open" / name)) << name;
   }
@@ -128,7 +119,7 @@ TEST_F(OutputTest, OfASweepAndOfARunThatIsLookedAtAgain) {
             R"({"name": "two", "scenario": ")" + Scenario("nominal") +
                 R"(", "trials": 1, "seed": 1,)" +
                 R"( "axes": [{"path": "referee.time_limit_s", "values": [1, 2]}]})");
-  ASSERT_EQ(Run(QuickRun("run", 2)).exit_code, 0);
+  RunTo(0, QuickRun("run", 2));
   const std::vector<Words> commands = {{"trace", "run", "--trial", "0", "--csv", "trace.csv"},
                                        {"replay", "run", "--trial", "0", "--list"},
                                        {"compare", "run", "run"},
@@ -185,6 +176,83 @@ TEST_F(OutputTest, IsNeverAnInput) {
   }
   RunTo(0, {"terrain", "mine", "--out", "scenarios/base.json"});
   RunTo(0, {"trace", "run", "--trial", "0", "--csv", "run/trial.csv"});
+}
+
+// What programs get: one JSON object on standard output.
+
+class CliJson : public CommandTest {
+ protected:
+  // Nothing but the object, and the same exit code as without.
+  json Told(const Words& words, int exit_code) const {
+    const CommandResult result = Run(With(words, {"--json"}));
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    const json object = json::parse(result.out, nullptr, false);
+    EXPECT_TRUE(object.is_object()) << result.out;
+    return object;
+  }
+};
+
+TEST_F(CliJson, ComparisonOfDrives) {
+  RunTo(0, QuickRun("a", 4));
+  RunTo(0, With(QuickRun("b", 4), {"--set", "course.goal_radius_m=0.7"}));
+  const json told = Told({"compare", "a", "b"}, 0);
+  EXPECT_EQ(told["schema_version"], 1);
+  EXPECT_EQ(told["kind"], "drive_comparison");
+  const json& comparison = told["comparison"];
+  EXPECT_EQ(comparison["paired"], true);
+  EXPECT_EQ(comparison["pairs"], 4);
+  EXPECT_EQ(comparison["settings"][0]["path"], "course.goal_radius_m");
+  EXPECT_EQ(comparison["successes"].size(), 2u);
+  EXPECT_FALSE(comparison["columns"].empty());
+}
+
+TEST_F(CliJson, ComparisonOfMeasurements) {
+  for (const char* out : {"a", "b"}) {
+    RunTo(0, {"run", Source("scenarios/hazard_detection/detection.json"), "--trials", "2", "--out",
+              out, "--set", "hazard_detection.scenes_per_run=5"});
+  }
+  const json told = Told({"compare", "a", "b"}, 0);
+  EXPECT_EQ(told["kind"], "cell_comparison");
+  EXPECT_EQ(told["exit_code"], 0);
+  EXPECT_FALSE(told["cells"].empty());
+  EXPECT_EQ(told["cells"][0]["rates"][0]["differs"], false);
+}
+
+TEST_F(CliJson, CheckAgainstPublishedValues) {
+  RunTo(0, QuickRun("a", 3));
+  const Words words = {"check",        "a",
+                       "--against",    Source("results/reference/matthies1995.json"),
+                       "--replicates", "200"};
+  const int code = Run(words).exit_code;
+  const json told = Told(words, code);
+  EXPECT_EQ(told["kind"], "published_check");
+  EXPECT_EQ(told["exit_code"], code);
+  bool found = false;
+  for (const json& value : told["values"]) {
+    if (value["id"] != "nominal.distance.min") continue;
+    found = true;
+    EXPECT_EQ(value["published"], 7.0);
+    EXPECT_EQ(value["simulated_runs"], 3);
+    EXPECT_TRUE(value["verdict"].is_string());
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(CliJson, CheckAgainstABaseline) {
+  RunTo(0, QuickRun("a", 5));
+  RunTo(0, {"baseline", "a", "--out", "base.json", "--reason", "test"});
+  const json told = Told({"check", "a", "--against", "base.json"}, 0);
+  EXPECT_EQ(told["kind"], "baseline_check");
+  EXPECT_EQ(told["exit_code"], 0);
+  EXPECT_EQ(told["cells"][0]["identical"], true);
+  for (const json& metric : told["metrics"]) EXPECT_EQ(metric["verdict"], "equivalent");
+  EXPECT_FALSE(told["metrics"].empty());
+}
+
+TEST_F(CliJson, EveryCommandOfPeopleHasAFormForPrograms) {
+  for (const char* command : {"run", "sweep", "merge", "check", "compare", "list"}) {
+    EXPECT_THAT(Run({command, "--help"}).out, HasSubstr("--json")) << command;
+  }
 }
 
 }  // namespace

@@ -1,25 +1,17 @@
 // Planning, metrics, baselines and the check against them, as typed.
-#include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
 
 #include "app/command.h"
 
 namespace rockyard::app {
 namespace {
 
-using nlohmann::json;
-using testing::HasSubstr;
-
 class CliRegression : public CommandTest {
  protected:
   void MakeBaseline(int trials) {
-    ASSERT_EQ(Run(QuickRun("a", trials)).exit_code, 0);
-    ASSERT_EQ(Run({"baseline", "a", "--reason", "first", "--out", "b.json"}).exit_code, 0);
+    RunTo(0, QuickRun("a", trials));
+    RunTo(0, {"baseline", "a", "--reason", "first", "--out", "b.json"});
   }
-  std::vector<std::string> CheckOf(const std::string& run) const {
-    return {"check", run, "--against", "b.json"};
-  }
+  Words CheckOf(const std::string& run) const { return {"check", run, "--against", "b.json"}; }
   json Baseline() const { return json::parse(ReadFile(work() / "b.json")); }
   void Write(const json& baseline) const { WriteFile(work() / "b.json", baseline.dump()); }
 };
@@ -59,7 +51,7 @@ TEST_F(CliRegression, MetricsAreListed) {
 TEST_F(CliRegression, IdenticalRunsAreDoneHoweverFewAndLonger) {
   MakeBaseline(4);
   EXPECT_THAT(RunTo(0, CheckOf("a")).out, HasSubstr("identical: 4 trials, every bit"));
-  ASSERT_EQ(Run(QuickRun("longer", 6)).exit_code, 0);
+  RunTo(0, QuickRun("longer", 6));
   EXPECT_THAT(RunTo(0, CheckOf("longer")).out, HasSubstr("the first 4 of 6 trials are used"));
 }
 
@@ -111,7 +103,7 @@ TEST_F(CliRegression, ChangedRecordsAreAFindingOfTheirOwn) {
 
 TEST_F(CliRegression, RecordsOfOtherSeedsAreNotComparable) {
   MakeBaseline(4);
-  ASSERT_EQ(Run(With(QuickRun("other", 4), {"--seed", "77"})).exit_code, 0);
+  RunTo(0, With(QuickRun("other", 4), {"--seed", "77"}));
   EXPECT_THAT(RunTo(4, With(CheckOf("other"), {"--same-records"})).out,
               HasSubstr("records: not comparable"));
 }
@@ -127,7 +119,7 @@ TEST_F(CliRegression, UnknownMetricsAreNotPassedOver) {
 
 TEST_F(CliRegression, OtherScenariosAreRefused) {
   MakeBaseline(4);
-  ASSERT_EQ(Run(With(QuickRun("c", 4), {"--set", "terrain.rocks.k_per_m2=0.01"})).exit_code, 0);
+  RunTo(0, With(QuickRun("c", 4), {"--set", "terrain.rocks.k_per_m2=0.01"}));
   EXPECT_THAT(RunTo(2, CheckOf("c")).err, HasSubstr("terrain.rocks.k_per_m2"));
   EXPECT_NE(Run(With(CheckOf("c"), {"--allow-scenario-change"})).exit_code, 2);
 }
@@ -157,7 +149,7 @@ TEST_F(CliRegression, YoungerSettingsAreAnotherScenarioUnlessAtTheirDefault) {
 }
 
 TEST_F(CliRegression, SharedRocksAreRefused) {
-  ASSERT_EQ(Run(With(QuickRun("s", 4), {"--set", "course.trials_per_layout=2"})).exit_code, 0);
+  RunTo(0, With(QuickRun("s", 4), {"--set", "course.trials_per_layout=2"}));
   EXPECT_THAT(RunTo(2, {"baseline", "s", "--reason", "r", "--out", "b.json"}).err,
               HasSubstr("not independent"));
   MakeBaseline(4);
@@ -166,20 +158,19 @@ TEST_F(CliRegression, SharedRocksAreRefused) {
 }
 
 TEST_F(CliRegression, BaselinesNeedAReasonAndARun) {
-  ASSERT_EQ(Run(QuickRun("a", 2)).exit_code, 0);
+  RunTo(0, QuickRun("a", 2));
   RunTo(2, {"baseline", "a"});
   EXPECT_THAT(Run({"baseline", "a", "--reason", " "}).err, HasSubstr("--reason"));
   RunTo(2, {"baseline", "nowhere", "--reason", "r", "--out", "b.json"});
-  EXPECT_FALSE(std::filesystem::exists(work() / "b.json"));
+  EXPECT_FALSE(fs::exists(work() / "b.json"));
 }
 
 // A deliberate change of the vehicle against the committed baseline: stripe points are missed.
 TEST_F(CliRegression, AChangedBuildIsCaught) {
   const std::string root = ROCKYARD_SOURCE_DIR;
   const CommandResult run =
-      Run({"sweep", root + "/scenarios/sweeps/regression.json", "--out", "changed", "--quiet",
-           "--trials", "60", "--set", "sensors.light_stripe.missed_probability=0.05"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+      RunTo(0, {"sweep", root + "/scenarios/sweeps/regression.json", "--out", "changed", "--quiet",
+                "--trials", "60", "--set", "sensors.light_stripe.missed_probability=0.05"});
   const CommandResult result =
       RunTo(1, {"check", "changed", "--against", root + "/results/baselines/regression.json",
                 "--allow-scenario-change"});

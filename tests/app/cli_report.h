@@ -1,13 +1,6 @@
 // Runs and sweeps to report, and what came of it.
 #pragma once
 
-#include <gmock/gmock.h>
-
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
-
 #include "app/command.h"
 
 namespace rockyard::app {
@@ -15,8 +8,7 @@ namespace rockyard::app {
 class CliReportTest : public CommandTest {
  protected:
   // Long enough that something happens, and fast.
-  CommandResult Drive(const std::string& out, int trials,
-                      const std::vector<std::string>& more = {}) const {
+  CommandResult Drive(const std::string& out, int trials, const Words& more = {}) const {
     return Run(With(
         QuickRun(out, trials),
         With({"--set", "rover.fidelity=quasi_static", "--set", "referee.time_limit_s=300"}, more)));
@@ -28,22 +20,22 @@ class CliReportTest : public CommandTest {
       "axes": [{"path": "terrain.rocks.k_per_m2", "values": [0.001, 0.004]}]})");
     return Run({"sweep", "two.json", "--out", out});
   }
-  CommandResult Report(const std::vector<std::string>& words, int replays = 0) const {
+  CommandResult Report(const Words& words, int replays = 0) const {
     return Run(
         With({"report", "--replays", std::to_string(replays), "--data", "data.json"}, words));
   }
-  nlohmann::json Data() const { return nlohmann::json::parse(ReadFile(work() / "data.json")); }
-  nlohmann::json Summary(const std::string& run) const {
-    return nlohmann::json::parse(ReadFile(work() / run / "summary.json"));
+  json Data() const { return json::parse(ReadFile(work() / "data.json")); }
+  json Summary(const std::string& run) const {
+    return json::parse(ReadFile(work() / run / "summary.json"));
   }
   void ExpectRefused(const CommandResult& result, const std::string& why) const {
     EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_THAT(result.err, testing::HasSubstr(why));
+    EXPECT_THAT(result.err, HasSubstr(why));
     EXPECT_EQ(result.out, "");
-    EXPECT_FALSE(std::filesystem::exists(work() / "data.json"));
+    EXPECT_FALSE(fs::exists(work() / "data.json"));
   }
   static std::string Reference(const char* name) {
-    return std::string(ROCKYARD_SOURCE_DIR) + "/results/reference/" + name + ".json";
+    return Source("results/reference/") + name + ".json";
   }
 };
 

@@ -1,18 +1,10 @@
 // rockyard report: which folders it takes, and what its page holds.
 #include "app/cli_report.h"
 
-#include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
-
 #include "batch/older_store.h"
 
 namespace rockyard::app {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::HasSubstr;
 
 using CliReport = CliReportTest;
 
@@ -120,9 +112,8 @@ TEST_F(CliReport, LabelsOfEqualFolderNamesDiffer) {
 }
 
 TEST_F(CliReport, AMeasurementHasItsCells) {
-  const std::string scenario =
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/approach.json";
-  ASSERT_EQ(Run({"run", scenario, "--trials", "40", "--out", "m"}).exit_code, 0);
+  const std::string scenario = Source("scenarios/hazard_detection/approach.json");
+  RunTo(0, {"run", scenario, "--trials", "40", "--out", "m"});
   ASSERT_EQ(Report({"m"}).exit_code, 0);
   const json run = Data()["runs"][0];
   EXPECT_EQ(run["kind"], "measurement");
@@ -164,11 +155,9 @@ TEST_F(CliReport, SaysWhereNoReferenceWasFound) {
 
 TEST_F(CliReport, OtherRunsDoNotChangeWhatIsPublished) {
   ASSERT_EQ(Drive("a", 5).exit_code, 0);
-  ASSERT_EQ(Run({"run", Scenario("obstacles_0.57"), "--out", "b", "--trials", "5", "--set",
-                 "referee.time_limit_s=1"})
-                .exit_code,
-            0);
-  const auto table = [&](const std::vector<std::string>& runs, std::size_t which) {
+  RunTo(0, {"run", Scenario("obstacles_0.57"), "--out", "b", "--trials", "5", "--set",
+            "referee.time_limit_s=1"});
+  const auto table = [&](const Words& runs, std::size_t which) {
     EXPECT_EQ(Report(With(runs, {"--against", Reference("matthies1995")})).exit_code, 0);
     return Data()["runs"][which]["published"];
   };

@@ -1,8 +1,4 @@
 // rockyard run, with real trials of one simulated second; the one next command that it ends with.
-#include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
-#include <string>
 
 #include "app/command.h"
 #include "app/watched_run.h"
@@ -10,11 +6,7 @@
 namespace rockyard::app {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
+using testing::ElementsAre;
 
 class CliRun : public WatchedRunTest {
  protected:
@@ -85,7 +77,7 @@ TEST_F(CliRun, AFolderThatHoldsARunIsRefusedResumedOrSetAside) {
 
 // As "$ROOT/$NAME" makes it where ROOT is "/".
 TEST_F(CliRun, TwoSlashesBeginAPathAsOneDoes) {
-  const std::vector<std::string> words = QuickRun("/" + (work() / "a").string(), 2);
+  const Words words = QuickRun("/" + (work() / "a").string(), 2);
   RunTo(0, words);
   const std::string hash = Hash("a");
   RunTo(0, With(words, {"--force"}));
@@ -111,7 +103,7 @@ TEST_F(CliRun, ADamagedStoreIsRefusedAndKept) {
 
 TEST_F(CliRun, ResumeKeepsThePlanAndNeedsNoRunToBeThere) {
   RunTo(0, With(QuickRun("a", 4), {"--resume"}));
-  std::vector<std::string> words = QuickRun("a", 0);
+  Words words = QuickRun("a", 0);
   words.resize(words.size() - 2);  // without --trials
   RunTo(0, With(words, {"--resume"}));
   EXPECT_EQ(Summary("a")["trials"]["completed"], 4) << "not the 300 of the scenario";
@@ -136,7 +128,7 @@ TEST_F(CliRun, TheResolvedScenarioRunsToTheSameHash) {
 }
 
 TEST_F(CliRun, DefaultFolder) {
-  std::vector<std::string> words = QuickRun("", 1);
+  Words words = QuickRun("", 1);
   words.erase(words.begin() + 2, words.begin() + 4);
   RunTo(0, With(words, {"--seed", "5"}));
   EXPECT_TRUE(fs::exists(work() / "results/runs/nominal-seed5/summary.json"));
@@ -175,6 +167,83 @@ TEST_F(CliNext, IsForPeopleOnly) {
 TEST_F(CliNext, ShardsAreMerged) {
   const CommandResult run = Run(With(QuickRun("a", 4), {"--shard", "1/2"}));
   EXPECT_EQ(LastLine(run.out), "  next: rockyard merge SHARD... --out FOLDER");
+}
+
+// A run with other settings than its scenario's is not taken for the published case.
+
+constexpr const char* kRocks = "terrain.rocks.k_per_m2=0.002";
+
+class CliSettings : public CommandTest {
+ protected:
+  static std::string Reference() { return Source("results/reference/matthies1995.json"); }
+  CommandResult Check(const std::string& run, const Words& more = {}) const {
+    return Run(With({"check", run, "--against", Reference(), "--replicates", "100"}, more));
+  }
+  json Changed(const std::string& run) const {
+    return json::parse(Check(run, {"--json"}).out)["not_the_published_case"];
+  }
+  json Settings(const std::string& run, const std::string& file = "summary.json") const {
+    return json::parse(ReadFile(work() / run / file))["settings"];
+  }
+};
+
+TEST_F(CliSettings, OfARunAreToldAndRecorded) {
+  const CommandResult run =
+      RunTo(0, With(QuickRun("a", 2), {"--set", kRocks, "--ablate", "perfect_localization"}));
+  EXPECT_THAT(run.out, HasSubstr("with referee.time_limit_s=1, terrain.rocks.k_per_m2=0.002"));
+  const json told = {"referee.time_limit_s=1", kRocks, "--ablate perfect_localization"};
+  EXPECT_EQ(Settings("a"), told);
+  EXPECT_EQ(Settings("a", "scenario.resolved.json"), told);
+  // What comes of it, has them too.
+  json more = told;
+  more.push_back("course.goal_x_m=4");
+  for (const char* source : {"a", "a/scenario.resolved.json"}) {
+    const CommandResult again = RunTo(
+        0, {"run", source, "--out", "b", "--force", "--trials", "1", "--set", "course.goal_x_m=4"});
+    EXPECT_EQ(Settings("b"), more) << source;
+  }
+}
+
+TEST_F(CliSettings, OfAnotherCaseStandBesideItsVerdicts) {
+  RunTo(0, With(QuickRun("a", 2), {"--set", kRocks}));
+  EXPECT_THAT(Check("a").out,
+              Says("NOT the published case", "terrain.rocks.k_per_m2 is 0.002, 0.00415 in"));
+  const json changed = Changed("a");
+  ASSERT_EQ(changed.size(), 1U);
+  EXPECT_EQ(changed[0]["scenario"], "nominal");
+  EXPECT_EQ(changed[0]["settings"].size(), 2U);
+}
+
+TEST_F(CliSettings, OfThePublishedCaseAreNot) {
+  RunTo(0, {"run", Scenario("nominal"), "--trials", "1", "--seed", "7", "--out", "a"});
+  EXPECT_EQ(Settings("a"), json::array());
+  EXPECT_THAT(Check("a").out, Not(HasSubstr("NOT the published case")));
+  EXPECT_EQ(Changed("a"), json::array());
+}
+
+// Nothing is recorded of a file that was edited under its name.
+TEST_F(CliSettings, OfAnEditedFileAreFound) {
+  json scenario = json::parse(ReadFile(Scenario("nominal")), nullptr, true, true);
+  scenario["referee"]["time_limit_s"] = 1;
+  WriteFile(work() / "mine.json", scenario.dump());
+  RunTo(0, {"run", "mine.json", "--trials", "1", "--out", "a"});
+  EXPECT_EQ(Settings("a"), json::array());
+  const json changed = Changed("a");
+  ASSERT_EQ(changed.size(), 1U);
+  ASSERT_EQ(changed[0]["settings"].size(), 1U);
+  EXPECT_THAT(changed[0]["settings"][0].get<std::string>(), HasSubstr("referee.time_limit_s is 1"));
+}
+
+// A reference away from its scenarios: what the run itself has recorded.
+TEST_F(CliSettings, AreThoseRecordedWhereTheFileIsNotThere) {
+  RunTo(0, With(QuickRun("a", 1), {"--set", kRocks}));
+  WriteFile(work() / "reference.json", ReadFile(Reference()));
+  const CommandResult result =
+      Run({"check", "a", "--against", "reference.json", "--replicates", "100", "--json"});
+  EXPECT_THAT(result.err, HasSubstr("is not known"));
+  const json changed = json::parse(result.out)["not_the_published_case"];
+  ASSERT_EQ(changed.size(), 1U);
+  EXPECT_THAT(changed[0]["settings"], ElementsAre("referee.time_limit_s=1", kRocks));
 }
 
 }  // namespace

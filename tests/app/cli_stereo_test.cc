@@ -1,24 +1,15 @@
 // rockyard stereo: what it writes of a pair whose disparities are known, and what it says of pairs
 // that are none.
-#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "app/command.h"
 
 namespace rockyard::app {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr int kWidth = 160;
 constexpr int kHeight = 96;
@@ -99,9 +90,8 @@ class CliStereo : public CommandTest {
 
 TEST_F(CliStereo, FindsTheDisparitiesOfAnAlignedPair) {
   WriteFile(work() / "truth.pgm", Truth());
-  const CommandResult result = Run({"stereo", "left.pgm", "right.pgm", "--out", "pair",
-                                    "--reference", "truth.pgm", "--reference-samples", "4"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, {"stereo", "left.pgm", "right.pgm", "--out", "pair",
+                                         "--reference", "truth.pgm", "--reference-samples", "4"});
   EXPECT_THAT(result.out, HasSubstr("160 x 96 pixels, taken as aligned, disparities -1 to 20 px"));
   const json summary = Summary("pair");
   EXPECT_GT(summary["pixels"]["density"], 0.6);
@@ -121,9 +111,8 @@ TEST_F(CliStereo, FindsTheDisparitiesOfAnAlignedPair) {
 
 TEST_F(CliStereo, CamerasGivePointsAtTheirDepths) {
   WriteFile(work() / "cameras.txt", Cameras());
-  const CommandResult result = Run({"stereo", "left.pgm", "right.pgm", "--out", "pair", "--cameras",
-                                    "cameras.txt", "--nearest", "1", "--json"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, {"stereo", "left.pgm", "right.pgm", "--out", "pair",
+                                         "--cameras", "cameras.txt", "--nearest", "1", "--json"});
   const json summary = json::parse(result.out);
   EXPECT_NEAR(summary["cameras"]["baseline_m"], 0.1, 1e-12);
   // f B / 1 m = 20 px, and one more at either end.
@@ -150,19 +139,17 @@ TEST_F(CliStereo, CamerasGivePointsAtTheirDepths) {
 }
 
 TEST_F(CliStereo, ThreadsAndRepetitionChangeNothing) {
-  ASSERT_EQ(Run({"stereo", "left.pgm", "right.pgm", "--out", "one"}).exit_code, 0);
-  ASSERT_EQ(Run({"stereo", "left.pgm", "right.pgm", "--out", "three", "--threads", "3"}).exit_code,
-            0);
+  RunTo(0, {"stereo", "left.pgm", "right.pgm", "--out", "one"});
+  RunTo(0, {"stereo", "left.pgm", "right.pgm", "--out", "three", "--threads", "3"});
   EXPECT_EQ(ReadFile(work() / "one/disparity.pfm"), ReadFile(work() / "three/disparity.pfm"));
-  ASSERT_EQ(Run({"stereo", "left.pgm", "right.pgm", "--out", "one"}).exit_code, 0);
+  RunTo(0, {"stereo", "left.pgm", "right.pgm", "--out", "one"});
 }
 
 TEST_F(CliStereo, ParametersAreListedAndChanged) {
   EXPECT_THAT(RunTo(0, {"stereo", "--parameters"}).out, HasSubstr("`correlator.window_side_px`"));
-  const CommandResult result =
-      Run({"stereo", "left.pgm", "right.pgm", "--out", "pair", "--param",
-           "correlator.window_side_px=9", "--param", "correlator.min_disparity_px=3", "--json"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(
+      0, {"stereo", "left.pgm", "right.pgm", "--out", "pair", "--param",
+          "correlator.window_side_px=9", "--param", "correlator.min_disparity_px=3", "--json"});
   const json parameters = json::parse(result.out)["parameters"];
   EXPECT_EQ(parameters["correlator"]["window_side_px"], 9);
   EXPECT_EQ(parameters["correlator"]["min_disparity_px"], 3);
@@ -177,8 +164,7 @@ TEST_F(CliStereo, AlignsRowsByTheMatchesOfThePair) {
   WriteFile(work() / "lower.pgm", lower);
   const CommandResult without = RunTo(2, {"stereo", "left.pgm", "lower.pgm", "--out", "without"});
   const CommandResult result =
-      Run({"stereo", "left.pgm", "lower.pgm", "--align", "--out", "aligned"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+      RunTo(0, {"stereo", "left.pgm", "lower.pgm", "--align", "--out", "aligned"});
   EXPECT_THAT(result.out, HasSubstr("rows of the right image moved by -3.0"));
   const json summary = Summary("aligned");
   EXPECT_NEAR(summary["alignment"]["offset_px"], 3.0, 0.1);
@@ -201,7 +187,7 @@ TEST_F(CliStereo, RefusesWhatIsNoPair) {
   WriteFile(work() / "large.txt", Cameras(1024));
   WriteFile(work() / "truth.pgm", SmallPgm());
   struct Wrong {
-    std::vector<std::string> words;
+    Words words;
     std::string said;
   };
   const std::vector<Wrong> all{
@@ -224,7 +210,7 @@ TEST_F(CliStereo, RefusesWhatIsNoPair) {
       {{"left.pgm", "right.pgm", "--white", "0"}, "--white"},
   };
   for (const Wrong& wrong : all) {
-    std::vector<std::string> words{"stereo"};
+    Words words{"stereo"};
     words.insert(words.end(), wrong.words.begin(), wrong.words.end());
     words.insert(words.end(), {"--out", "wrong"});
     const CommandResult result = Run(words);
@@ -253,7 +239,7 @@ TEST_F(CliStereo, EightBitsInSixteenAreToldOfWithTheWhiteThatHelps) {
   };
   in_sixteen("left.pgm");
   in_sixteen("right.pgm");
-  const std::vector<std::string> words{"stereo", "16_left.pgm", "16_right.pgm", "--out"};
+  const Words words{"stereo", "16_left.pgm", "16_right.pgm", "--out"};
   EXPECT_THAT(RunTo(0, With(words, {"dark"})).out, HasSubstr("--white 255 would keep more"));
   EXPECT_THAT(RunTo(0, With(words, {"right", "--white", "255"})).out, Not(HasSubstr("--white")));
 }
@@ -281,6 +267,69 @@ TEST_F(CliStereo, AFolderThatCannotBeMadeIsSaid) {
   WriteFile(work() / "file", "");
   EXPECT_THAT(RunTo(2, {"stereo", "left.pgm", "right.pgm", "--out", "file/pair"}).err,
               HasSubstr("file/pair: cannot be made"));
+}
+
+// rockyard render: files that rockyard stereo reads, and truth that it can be held against.
+
+class CliRender : public CommandTest {
+ protected:
+  static Words Render(const std::string& folder, int level = 0) {
+    return {"render", Source("scenarios/gestalt/abundance.json"),
+            "--out",  folder,
+            "--set",  "sensors.stereo.images.pyramid_level=" + std::to_string(level)};
+  }
+};
+
+TEST_F(CliRender, WhatItWritesIsMatchedAndHeldAgainstTheTruth) {
+  const CommandResult rendered = RunTo(0, Render("pair", 1));
+  EXPECT_THAT(rendered.out, Says("256 x 256 pixels each, exposed for ",
+                                 "rover at x 0.00 m, y 0.00 m, heading 0.0 deg"));
+  for (const char* name :
+       {"left.png", "right.png", "cameras.json", "disparity.pfm", "disparity.png"}) {
+    EXPECT_TRUE(fs::exists(work() / "pair" / name)) << name;
+  }
+  const CommandResult matched = RunTo(
+      0, {"stereo", "pair/left.png", "pair/right.png", "--cameras", "pair/cameras.json",
+          "--nearest", "0.3", "--reference", "pair/disparity.pfm", "--out", "stereo", "--json"});
+  const json summary = json::parse(matched.out);
+  // f = 128 px / tan(55 deg), as the scenario has the view.
+  EXPECT_NEAR(summary["cameras"]["focal_px"], 89.63, 0.01);
+  EXPECT_NEAR(summary["cameras"]["baseline_m"], 0.12, 1e-9);
+  EXPECT_EQ(summary["size"]["rows"], 256);
+  EXPECT_GT(summary["score"]["density"], 0.6);
+  EXPECT_LT(summary["score"]["bad"]["above_1_px"], 0.06);
+  EXPECT_LT(std::abs(summary["score"]["mean_error_px"].get<double>()), 0.2);
+}
+
+TEST_F(CliRender, PlaceDirectionTrialAndLightChangeTheImages) {
+  RunTo(0, Render("start"));
+  const std::string left = ReadFile(work() / "start/left.png");
+  RunTo(0, Render("again"));
+  EXPECT_EQ(ReadFile(work() / "again/left.png"), left);
+  const std::vector<Words> changes = {{"--x", "1.5"},
+                                      {"--y", "-0.5"},
+                                      {"--heading", "40"},
+                                      {"--behind"},
+                                      {"--trial", "1"},
+                                      {"--seed", "5"},
+                                      {"--set", "sensors.sun.elevation_deg=15"}};
+  for (const Words& change : changes) {
+    Words command = Render("other");
+    command.insert(command.end(), change.begin(), change.end());
+    const CommandResult result = RunTo(0, command);
+    EXPECT_NE(ReadFile(work() / "other/left.png"), left) << change.front();
+  }
+}
+
+TEST_F(CliRender, MistakesAreExplained) {
+  EXPECT_THAT(RunTo(2, {"render", Source("scenarios/gestalt/abundance.json")}).err,
+              HasSubstr("--out: is missing"));
+  Words command = Render("pair");
+  command.insert(command.end(), {"--set", "sensors.look.soil_graininess=2"});
+  EXPECT_THAT(RunTo(2, command).err, HasSubstr("sensors.look.soil_graininess"));
+  EXPECT_FALSE(fs::exists(work() / "pair"));
+  WriteFile(work() / "file", "x");
+  RunTo(2, Render("file"));
 }
 
 }  // namespace

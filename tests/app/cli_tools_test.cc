@@ -1,17 +1,11 @@
 // The subcommands beside run.
-#include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
 
 #include "app/command.h"
 
 namespace rockyard::app {
 namespace {
 
-using nlohmann::json;
-using testing::HasSubstr;
-using testing::StartsWith;
-
+using CliStart = CommandTest;
 using CliTools = CommandTest;
 
 TEST_F(CliTools, VersionAndHelp) {
@@ -34,9 +28,9 @@ TEST_F(CliTools, DefaultsAreAValidScenario) {
 }
 
 TEST_F(CliTools, ListIsWholeWherePiped) {
-  const CommandResult result = RunTo(0, {"list", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios"});
+  const CommandResult result = RunTo(0, {"list", Source("scenarios")});
   EXPECT_THAT(result.out, Says("/pathfinder\n", "  obstacles_0.28.json "));
-  EXPECT_THAT(result.out, testing::Not(HasSubstr("not valid")));
+  EXPECT_THAT(result.out, Not(HasSubstr("not valid")));
   EXPECT_THAT(result.out, HasSubstr("open towards the start; the goal lies behind it.\n"));
 }
 
@@ -48,7 +42,7 @@ TEST_F(CliTools, ParametersAsTableAndCsv) {
   RunTo(2, {"parameters", "--origin", "guessed"});
   const CommandResult found = Run({"parameters", "--csv", "--search", "SLOPE_deg"});
   EXPECT_THAT(found.out, HasSubstr("\nterrain.ground.slope_deg,"));
-  EXPECT_THAT(found.out, testing::Not(HasSubstr("referee.no_path_distance_m")));
+  EXPECT_THAT(found.out, Not(HasSubstr("referee.no_path_distance_m")));
   EXPECT_THAT(Run({"parameters", "--search", "moore"}).out, HasSubstr("terrain.rocks.k_per_m2"))
       << "in the source alone";
   EXPECT_THAT(RunTo(2, {"parameters", "--search", "blurgh"}).err,
@@ -57,8 +51,8 @@ TEST_F(CliTools, ParametersAsTableAndCsv) {
 }
 
 TEST_F(CliTools, CompareAndCheck) {
-  ASSERT_EQ(Run(QuickRun("runs/a", 3)).exit_code, 0);
-  ASSERT_EQ(Run(With(QuickRun("other/b", 3), {"--set", "name=b"})).exit_code, 0);
+  RunTo(0, QuickRun("runs/a", 3));
+  RunTo(0, With(QuickRun("other/b", 3), {"--set", "name=b"}));
   const CommandResult compare = RunTo(0, {"compare", "runs/a", "other/b"});
   EXPECT_THAT(compare.out, Says("3 pairs", "equal rocks and equal noise"));
   Run(With(QuickRun("dense", 3), {"--set", "terrain.rocks.k_per_m2=0.01"}));
@@ -71,8 +65,7 @@ TEST_F(CliTools, CompareAndCheck) {
   EXPECT_EQ(whole.out.find("every column"), std::string::npos);
   EXPECT_THAT(ReadFile(work() / "columns.csv"), HasSubstr("all,true_distance_m,m,3,"));
 
-  const std::string reference =
-      std::string(ROCKYARD_SOURCE_DIR) + "/results/reference/matthies1995.json";
+  const std::string reference = Source("results/reference/matthies1995.json");
   const CommandResult check = Run({"check", "runs", "other/b", "--against", reference, "--junit",
                                    "junit.xml", "--csv", "table.csv", "--replicates", "200"});
   // Three trials that all end after one second: whether that differs is not the question here.
@@ -82,7 +75,7 @@ TEST_F(CliTools, CompareAndCheck) {
   EXPECT_THAT(ReadFile(work() / "junit.xml"), HasSubstr("<testsuite"));
   EXPECT_THAT(ReadFile(work() / "table.csv"), StartsWith("id,scenario"));
 
-  ASSERT_EQ(Run(QuickRun("runs/again", 1)).exit_code, 0);
+  RunTo(0, QuickRun("runs/again", 1));
   EXPECT_THAT(RunTo(2, {"check", "runs", "--against", reference}).err,
               HasSubstr("is a run of nominal, and so is"));
 }
@@ -98,7 +91,7 @@ TEST_F(CliTools, RoverIsDescribed) {
 }
 
 TEST_F(CliTools, RoverOfAFileOfItsOwn) {
-  const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/rovers/mfex.json";
+  const std::string file = Source("scenarios/rovers/mfex.json");
   const CommandResult result = RunTo(0, {"rover", file, "--set", "rover.mass.wheel_kg=0.25"});
   EXPECT_THAT(result.out, StartsWith("rover of mfex\n"));
   EXPECT_THAT(result.out, Says("11.5 kg", "wheels 6 x 0.25"));
@@ -115,7 +108,7 @@ TEST_F(CliTools, RoverAsUrdf) {
 }
 
 TEST_F(CliTools, OutputsThatCannotBeMeantAreRefusedBeforeTheWork) {
-  const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
+  const std::vector<std::pair<Words, std::string>> refused = {
       {{"rover", Scenario("nominal"), "--out", "rover.xml"}, "does not end in .urdf"},
       {{"rover", Scenario("nominal"), "--out", "no/rover.urdf"}, "in a folder that does not exist"},
       {{"terrain", Scenario("nominal"), "--out", "no/field.svg"},
@@ -134,6 +127,80 @@ TEST_F(CliTools, Terrain) {
   const CommandResult result = RunTo(0, {"terrain", Scenario("nominal"), "--out", "field.svg"});
   EXPECT_EQ(result.err, "  terrain in field.svg\n");
   EXPECT_THAT(ReadFile(work() / "field.svg"), HasSubstr("<svg"));
+}
+
+// What somebody sees who does not know the program yet; the scenarios and rovers that come with it,
+// by their names.
+
+TEST_F(CliStart, TheCommandAloneSaysWhatToDo) {
+  const CommandResult alone = RunTo(0, {});
+  EXPECT_EQ(alone.err, "");
+  EXPECT_THAT(alone.out, AllOf(StartsWith("rockyard simulates"), HasSubstr("README.md"),
+                               HasSubstr("  rockyard list "), HasSubstr("  rockyard run nominal "),
+                               HasSubstr("\n  sweep       Runs scenarios")));
+  EXPECT_EQ(Run({"help"}).out, alone.out);
+  EXPECT_TRUE(NothingWritten());
+}
+
+TEST_F(CliStart, ItsFirstRunWorksAnywhere) {
+  EXPECT_THAT(
+      RunTo(0, {"run", "nominal", "--trials", "20", "--set", "rover.fidelity=quasi_static"}).out,
+      HasSubstr("next: "));
+}
+
+TEST_F(CliStart, HelpOfACommandIsWhatItsOptionShows) {
+  EXPECT_EQ(Run({"help", "run"}).out, Run({"run", "--help"}).out);
+  EXPECT_EQ(Run({"help", "plan", "claim"}).out, Run({"plan", "claim", "--help"}).out);
+  EXPECT_THAT(RunTo(2, {"help", "rnu"}).err,
+              Says("error: help: \"rnu\" is no subcommand of rockyard", "did you mean \"run\"?"));
+}
+
+TEST_F(CliStart, PagesOfEveryCommandIntoAFolder) {
+  RunTo(0, {"help", "--format", "man", "--out", "man"});
+  EXPECT_EQ(ReadFile(work() / "man/rockyard-run.1"), Run({"help", "run", "--format", "man"}).out);
+  EXPECT_EQ(ReadFile(work() / "man/rockyard.1"), Run({"help", "--format", "man"}).out);
+  RunTo(0, {"help", "--format", "markdown", "--out", "md"});
+  EXPECT_EQ(ReadFile(work() / "md/README.md"), Run({"help", "--format", "markdown"}).out);
+  for (const Words& words :
+       {Words{"help", "--out", "x"}, {"help", "run", "--format", "man", "--out", "x"}}) {
+    EXPECT_THAT(RunTo(2, words).err, HasSubstr("error: --out: is for the pages of all commands"));
+  }
+}
+
+using CliFind = CommandTest;
+
+TEST_F(CliFind, AreTheFilesOfThatName) {
+  const std::string file = Source("scenarios/pathfinder/nominal.json");
+  const std::string fingerprint = Run({"validate", file}).out.substr(file.size());
+  for (const char* name : {"nominal", "pathfinder/nominal", "nominal.json"}) {
+    const CommandResult result = RunTo(0, {"validate", name});
+    EXPECT_TRUE(result.out.ends_with(fingerprint)) << result.out;
+  }
+  EXPECT_THAT(Run({"run", "nominal", "--dry-run"}).out, StartsWith("nominal, seed 1: 300 trials"));
+  EXPECT_THAT(Run({"trace", "nominal", "--trial", "0", "--set", "rover.fidelity=quasi_static"}).out,
+              StartsWith("nominal, seed 1, trial 0"));
+  RunTo(0, {"terrain", "vl2", "--out", "field.svg"});
+}
+
+TEST_F(CliFind, AMistypedPathSuggestsTheName) {
+  for (const char* word : {"nominl", "scenarios/pathfinder/nominl.json", "Nominal"}) {
+    EXPECT_THAT(RunTo(2, {"run", word}).err, HasSubstr("did you mean \"nominal\"?")) << word;
+  }
+}
+
+TEST_F(CliFind, ErrorsNameTheKindThatIsMeant) {
+  EXPECT_THAT(Run({"sweep", "nominal"}).err, HasSubstr("is no file, and no name of a sweep\n"));
+  EXPECT_THAT(Run({"run", "mfex"}).err, HasSubstr("is no file, and no name of a scenario\n"));
+  EXPECT_THAT(Run({"rover", "abc"}).err, HasSubstr("no name of a scenario or rover\n"));
+  EXPECT_THAT(Run({"validate", "abc"}).err, HasSubstr("no name of a scenario or sweep\n"));
+}
+
+TEST_F(CliFind, ARoverByItsFileAlone) {
+  const CommandResult rover = RunTo(0, {"rover", "athena_sdm"});
+  EXPECT_THAT(rover.out, StartsWith("rover of athena_sdm\n"));
+  EXPECT_THAT(rover.out, HasSubstr("61.8 kg"));
+  EXPECT_THAT(Run({"rover", "athena_sdm", "--set", "rover.mass.total_kg=70"}).out,
+              HasSubstr("70 kg"));
 }
 
 }  // namespace

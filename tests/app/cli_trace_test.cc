@@ -1,9 +1,6 @@
 // rockyard trace
-#include <gmock/gmock.h>
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "app/command.h"
 #include "batch/older_store.h"
@@ -11,17 +8,11 @@
 namespace rockyard::app {
 namespace {
 
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::StartsWith;
-
 class CliTrace : public CommandTest {
  protected:
   // A minute of simulated time: some scans and some driving.
   void MakeRun() const {
-    ASSERT_EQ(
-        Run(With(QuickRun("run", 3), {"--set", "referee.time_limit_s=60", "--quiet"})).exit_code,
-        0);
+    RunTo(0, With(QuickRun("run", 3), {"--set", "referee.time_limit_s=60", "--quiet"}));
   }
 };
 
@@ -63,8 +54,8 @@ TEST_F(CliTrace, AnotherRecordThanTheStoredOneIsFound) {
 }
 
 TEST_F(CliTrace, OfAScenarioWithOverrides) {
-  const std::vector<std::string> words = {"trace", Scenario("nominal"),       "--trial", "4",
-                                          "--set", "referee.time_limit_s=60", "--seed",  "9"};
+  const Words words = {"trace", Scenario("nominal"),       "--trial", "4",
+                       "--set", "referee.time_limit_s=60", "--seed",  "9"};
   EXPECT_THAT(RunTo(0, words).out, HasSubstr("seed 9, trial 4: time_limit"));
   RunTo(0, With(words, {"--all"}));
   EXPECT_TRUE(NothingWritten());

@@ -1,24 +1,14 @@
 // rockyard vo on what rockyard render takes: files, errors, and what is said of broken input.
-#include <gmock/gmock.h>
-
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "app/command.h"
 
 namespace rockyard::app {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::HasSubstr;
-
 class CliVo : public CommandTest {
  protected:
-  static std::vector<std::string> RenderWords(const std::string& folder) {
-    return {"render",   std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/abundance.json",
+  static Words RenderWords(const std::string& folder) {
+    return {"render",   Source("scenarios/gestalt/abundance.json"),
             "--out",    folder,
             "--pairs",  "5",
             "--step-m", "0.1",
@@ -34,13 +24,12 @@ class CliVo : public CommandTest {
                                    "next: rockyard vo way --cameras way/cameras.json"));
   }
 
-  static std::vector<std::string> VoWords(const std::vector<std::string>& more = {}) {
+  static Words VoWords(const Words& more = {}) {
     return With({"vo", "way", "--cameras", "way/cameras.json", "--out", "path"}, more);
   }
 
   // Exit code 2, these words, and nothing written.
-  void ExpectRefused(const std::vector<std::string>& words,
-                     const std::vector<std::string>& said) const {
+  void ExpectRefused(const Words& words, const Words& said) const {
     const CommandResult result = RunTo(2, words);
     for (const std::string& word : said) EXPECT_THAT(result.err, HasSubstr(word));
     EXPECT_FALSE(fs::exists(work() / "path"));
@@ -48,8 +37,8 @@ class CliVo : public CommandTest {
 };
 
 TEST_F(CliVo, ARenderedSequenceAndItsErrors) {
-  const CommandResult result = Run(VoWords({"--truth", "way/poses.txt", "--lengths", "0.2,0.3"}));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result =
+      RunTo(0, VoWords({"--truth", "way/poses.txt", "--lengths", "0.2,0.3"}));
   EXPECT_THAT(result.out,
               Says("5 of 5 pairs of way, folders left and right",
                    "160 x 128 pixels, aligned as they are: focal length 56.0 px",
@@ -86,8 +75,7 @@ TEST_F(CliVo, MarksBeforeTextAndEndsOfLinesMeanNothing) {
 }
 
 TEST_F(CliVo, JsonIsThatOfItsFileAndQuietSaysNothing) {
-  const CommandResult result = Run(VoWords({"--json"}));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunTo(0, VoWords({"--json"}));
   json printed = json::parse(result.out);
   EXPECT_TRUE(printed["errors"].is_null());
   EXPECT_EQ(printed["gaps"], 0);
@@ -101,7 +89,7 @@ TEST_F(CliVo, JsonIsThatOfItsFileAndQuietSaysNothing) {
 
 TEST_F(CliVo, SettingsChangeWhatIsFound) {
   EXPECT_THAT(RunTo(0, {"vo", "--parameters"}).out, HasSubstr("keyframe.max_way_m"));
-  ASSERT_EQ(Run(VoWords({"--param", "keyframe.max_way_m=0"})).exit_code, 0);
+  RunTo(0, VoWords({"--param", "keyframe.max_way_m=0"}));
   EXPECT_THAT(ReadFile(work() / "path/trajectory.csv"), HasSubstr("\n4,4,3,1,1,,"));
   fs::remove_all(work() / "path");
   ExpectRefused(VoWords({"--param", "keyframe.max_wey_m=0"}), {"keyframe.max_wey_m"});
@@ -163,8 +151,7 @@ TEST_F(CliVo, InterruptedLeavesAPathAndKilledGoesOn) {
     list += "way/left/" + name + " way/right/" + name + "\n";
   }
   WriteFile(work() / "list.txt", list);
-  const std::vector<std::string> words{"vo",    "list.txt", "--cameras", "way/cameras.json",
-                                       "--out", "path"};
+  const Words words{"vo", "list.txt", "--cameras", "way/cameras.json", "--out", "path"};
   const fs::path journal = work() / "path/journal.jsonl";
   const auto has = [&](std::uintmax_t bytes) {
     return core::WaitUntil([&] {
@@ -189,8 +176,8 @@ TEST_F(CliVo, InterruptedLeavesAPathAndKilledGoesOn) {
 }
 
 TEST_F(CliVo, OptionsOfSequencesThatMakeNoSense) {
-  const auto refused = [&](const std::vector<std::string>& more, const std::string& said) {
-    std::vector<std::string> words = RenderWords("path");
+  const auto refused = [&](const Words& more, const std::string& said) {
+    Words words = RenderWords("path");
     words.insert(words.end(), more.begin(), more.end());
     ExpectRefused(words, {said});
   };

@@ -4,8 +4,6 @@
 // and can be repeated as well. By exit code 2 it says so only where it has changed nothing.
 #pragma once
 
-#include <gmock/gmock.h>
-
 #include <functional>
 #include <iostream>
 #include <map>
@@ -33,33 +31,30 @@ class KillRuns : public WatchedRunTest {
     WatchedRunTest::TearDown();
   }
 
-  std::vector<std::string> Drive(const std::string& out, int trials,
-                                 const std::vector<std::string>& more) const {
+  Words Drive(const std::string& out, int trials, const Words& more) const {
     return With(QuickRun(out, trials), With({"--threads", "1", "--quiet"}, more));
   }
 
-  std::vector<std::string> Shard(int index) const {
+  Words Shard(int index) const {
     const std::string number = std::to_string(index);
     return Drive("s" + number, 4, {"--shard", number + "/2", "--no-supervisor"});
   }
 
   // Pairs of small images.
-  static std::vector<std::string> Render(const std::string& out,
-                                         const std::vector<std::string>& more) {
+  static Words Render(const std::string& out, const Words& more) {
     return With(
-        {"render", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/abundance.json", "--out",
-         out, "--set", "sensors.stereo.columns=128", "--set", "sensors.stereo.rows=96", "--set",
+        {"render", Source("scenarios/gestalt/abundance.json"), "--out", out, "--set",
+         "sensors.stereo.columns=128", "--set", "sensors.stereo.rows=96", "--set",
          "sensors.stereo.images.pyramid_level=0", "--set", "sensors.stereo.max_disparity_px=32"},
         more);
   }
-  static std::vector<std::string> Vo(const std::string& out) {
+  static Words Vo(const std::string& out) {
     return {"vo", "way", "--cameras", "way/cameras.json", "--out", out, "--quiet"};
   }
 
   // `what` happens at that call of the shim; 0: never.
-  CommandResult RunShimmed(const char* what, int call,
-                           const std::vector<std::string>& words) const {
-    std::filesystem::remove(Mark());
+  CommandResult RunShimmed(const char* what, int call, const Words& words) const {
+    fs::remove(Mark());
     setenv(what, std::to_string(call).c_str(), 1);
     setenv("LD_PRELOAD", KILL_SHIM, 1);
     const pid_t process = StartProgram(With({ROCKYARD_COMMAND}, words));
@@ -70,16 +65,15 @@ class KillRuns : public WatchedRunTest {
 
   // Whether the command came to the call. It may have been killed itself, or have replaced a worker
   // that was.
-  bool WasStruck() const { return std::filesystem::exists(Mark()); }
+  bool WasStruck() const { return fs::exists(Mark()); }
 
-  std::filesystem::path Mark() const { return work().parent_path() / "mark"; }
+  fs::path Mark() const { return work().parent_path() / "mark"; }
 
   // What the folder holds, by name: the bytes of what follows from the trials alone.
   std::map<std::string, std::string> Contents(const std::string& out) const {
-    if (std::filesystem::exists(work() / out / "made_by.json")) return Bytes(work() / out);
+    if (fs::exists(work() / out / "made_by.json")) return Bytes(work() / out);
     std::map<std::string, std::string> files;
-    for (const std::filesystem::directory_entry& entry :
-         std::filesystem::directory_iterator(work() / out)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(work() / out)) {
       const std::string name = entry.path().filename();
       files[name] = name.ends_with(".csv") ? ReadFile(entry.path()) : "";
     }
@@ -88,9 +82,9 @@ class KillRuns : public WatchedRunTest {
   }
 
   // Hashes of all files below the folder, but of those that hold how long something took.
-  static std::map<std::string, std::string> Bytes(const std::filesystem::path& folder) {
+  static std::map<std::string, std::string> Bytes(const fs::path& folder) {
     std::map<std::string, std::string> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       const std::string name = entry.path().lexically_relative(folder);
       const bool timed = name.ends_with("times.csv") || name.ends_with("vo.json") ||
                          name.ends_with("journal.jsonl");
@@ -139,22 +133,20 @@ class KillRuns : public WatchedRunTest {
   // `prepare` makes what is there before. Killed at each call (or each `step`th), or on a disk that
   // is full from there on, the command ends well or is repeated as `again`, with the contents of
   // "whole".
-  void ExpectEveryKillIsOvercome(const std::vector<std::string>& words,
-                                 const std::vector<std::string>& again, int step,
+  void ExpectEveryKillIsOvercome(const Words& words, const Words& again, int step,
                                  const std::function<void()>& prepare = {}) {
     ExpectOvercome(kKill, words, again, step, prepare);
     ExpectOvercome(kFull, words, again, step, prepare);
     ExpectOvercome(kDenied, words, again, step, prepare);
   }
 
-  void ExpectOvercome(const char* what, const std::vector<std::string>& words,
-                      const std::vector<std::string>& again, int step,
+  void ExpectOvercome(const char* what, const Words& words, const Words& again, int step,
                       const std::function<void()>& prepare) {
     const auto whole = Contents("whole");
     int kills = 0;
     for (int call = 1; !HasFailure(); call += step) {
       SCOPED_TRACE(std::string(what) + "=" + std::to_string(call));
-      std::filesystem::remove_all(work() / "a");
+      fs::remove_all(work() / "a");
       if (prepare) prepare();
       const auto before = State();
       CommandResult result = RunShimmed(what, call, words);
@@ -175,15 +167,14 @@ class KillRuns : public WatchedRunTest {
                       [](const auto& file) { return file.first.starts_with("results.sqlite-"); });
       }
       EXPECT_EQ(contents, whole);
-      EXPECT_THAT(NamesIn(work()), testing::Each(testing::Not(testing::HasSubstr(".tmp-"))));
+      EXPECT_THAT(NamesIn(work()), testing::Each(Not(HasSubstr(".tmp-"))));
     }
     EXPECT_GT(kills, 20 / step) << "the command is not under the shim";
   }
 
   // `words` write what begins with "a" and nothing else; `again` is the command once there is room.
   // `at_once`: all is written or nothing.
-  void ExpectLacksAreTold(const std::vector<std::string>& words,
-                          const std::vector<std::string>& again, int step, bool at_once = false) {
+  void ExpectLacksAreTold(const Words& words, const Words& again, int step, bool at_once = false) {
     SCOPED_TRACE(testing::PrintToString(words));
     const auto before = Bytes(work());
     RunTo(0, words);
@@ -199,10 +190,10 @@ class KillRuns : public WatchedRunTest {
         if (!WasStruck()) break;
         ++cases_;
         ExpectTold(what, result, before);
-        EXPECT_THAT(result.err, testing::HasSubstr(sentence));
+        EXPECT_THAT(result.err, HasSubstr(sentence));
         if (at_once) {
           EXPECT_EQ(Bytes(work()), before);
-          EXPECT_FALSE(std::filesystem::exists(work() / "a"));
+          EXPECT_FALSE(fs::exists(work() / "a"));
         }
         RunTo(0, again);
         EXPECT_EQ(Bytes(work()), whole);
@@ -216,46 +207,44 @@ class KillRuns : public WatchedRunTest {
     RunTo(0, Render("way", {"--pairs", "3", "--step-m", "0.1"}));
     RunTo(0, Render("pair", {}));
     RunTo(0, Drive("run", 2, {}));
-    const std::vector<std::string> sequence = Render("a", {"--pairs", "3", "--step-m", "0.1"});
+    const Words sequence = Render("a", {"--pairs", "3", "--step-m", "0.1"});
     ExpectLacksAreTold(sequence, With(sequence, {"--resume"}), step);
     ExpectLacksAreTold(Vo("a"), With(Vo("a"), {"--resume"}), step);
-    const std::vector<std::string> stereo = {"stereo",
-                                             "pair/left.png",
-                                             "pair/right.png",
-                                             "--cameras",
-                                             "pair/cameras.json",
-                                             "--param",
-                                             "correlator.disparities=32"};
-    for (const std::vector<std::string>& words :
-         {With(stereo, {"--out", "a"}),
-          Render("a", {}),
-          {"terrain", Scenario("nominal"), "--out", "a.svg"},
-          {"rover", Scenario("nominal"), "--out", "a.urdf"},
-          {"trace", "run", "--trial", "0", "--csv", "a.csv"},
-          {"compare", "run", "run", "--csv", "a.csv"},
-          {"baseline", "run", "--reason", "full disks", "--out", "a.json"}}) {
+    const Words stereo = {"stereo",
+                          "pair/left.png",
+                          "pair/right.png",
+                          "--cameras",
+                          "pair/cameras.json",
+                          "--param",
+                          "correlator.disparities=32"};
+    for (const Words& words : {With(stereo, {"--out", "a"}),
+                               Render("a", {}),
+                               {"terrain", Scenario("nominal"), "--out", "a.svg"},
+                               {"rover", Scenario("nominal"), "--out", "a.urdf"},
+                               {"trace", "run", "--trial", "0", "--csv", "a.csv"},
+                               {"compare", "run", "run", "--csv", "a.csv"},
+                               {"baseline", "run", "--reason", "full disks", "--out", "a.json"}}) {
       ExpectLacksAreTold(words, words, step, true);
     }
-    const std::vector<std::string> replay = {"replay", "run", "--trial", "0", "--out", "a.html"};
+    const Words replay = {"replay", "run", "--trial", "0", "--out", "a.html"};
     ExpectLacksAreTold(replay, replay, step);
-    const std::vector<std::string> report = {"report", "run", "--out", "a.html"};
+    const Words report = {"report", "run", "--out", "a.html"};
     ExpectLacksAreTold(report, report, step);
   }
 
   // Both are killed and gone on with.
   void ExpectOfSequences(int step) {
-    const std::vector<std::string> pairs = {"--pairs", "4", "--step-m", "0.1"};
+    const Words pairs = {"--pairs", "4", "--step-m", "0.1"};
     RunTo(0, Render("way", pairs));
-    std::filesystem::copy(work() / "way", work() / "whole",
-                          std::filesystem::copy_options::recursive);
+    fs::copy(work() / "way", work() / "whole", fs::copy_options::recursive);
     ExpectEveryKillIsOvercome(Render("a", pairs), With(Render("a", pairs), {"--resume"}), step);
-    std::filesystem::remove_all(work() / "whole");
+    fs::remove_all(work() / "whole");
     RunTo(0, Vo("whole"));
     ExpectEveryKillIsOvercome(Vo("a"), With(Vo("a"), {"--resume"}), step);
   }
 
   void ExpectOfRuns(int step) {
-    ASSERT_EQ(Run(Drive("whole", 2, {"--no-supervisor"})).exit_code, 0);
+    RunTo(0, Drive("whole", 2, {"--no-supervisor"}));
     ExpectEveryKillIsOvercome(Drive("a", 2, {"--no-supervisor"}), Drive("a", 2, {"--resume"}),
                               step);
   }
@@ -263,33 +252,32 @@ class KillRuns : public WatchedRunTest {
   // The worker is killed, and the command goes on by itself; in the plain case, where it may not go
   // on with a folder of somebody else, and in that of --force, where it may not set its own aside.
   void ExpectOfSupervisedRuns(int step) {
-    ASSERT_EQ(Run(Drive("whole", 2, {})).exit_code, 0);
-    const std::vector<std::string> again = Drive("a", 2, {"--resume"});
+    RunTo(0, Drive("whole", 2, {}));
+    const Words again = Drive("a", 2, {"--resume"});
     ExpectEveryKillIsOvercome(Drive("a", 2, {}), again, step);
     ExpectEveryKillIsOvercome(Drive("a", 2, {"--force"}), again, 3 * step);
   }
 
   void ExpectOfResumedRuns(int step) {
-    ASSERT_EQ(Run(Drive("whole", 3, {"--no-supervisor"})).exit_code, 0);
-    ASSERT_EQ(Run(Drive("begun", 1, {"--no-supervisor"})).exit_code, 0);
-    const std::vector<std::string> resume = Drive("a", 3, {"--no-supervisor", "--resume"});
+    RunTo(0, Drive("whole", 3, {"--no-supervisor"}));
+    RunTo(0, Drive("begun", 1, {"--no-supervisor"}));
+    const Words resume = Drive("a", 3, {"--no-supervisor", "--resume"});
     ExpectEveryKillIsOvercome(resume, resume, step,
-                              [&] { std::filesystem::copy(work() / "begun", work() / "a"); });
+                              [&] { fs::copy(work() / "begun", work() / "a"); });
   }
 
   void ExpectOfSweeps(int step) {
-    const std::vector<std::string> sweep = {"sweep", "sweep.json", "--threads",
-                                            "1",     "--quiet",    "--no-supervisor"};
-    ASSERT_EQ(Run(With(sweep, {"--out", "whole"})).exit_code, 0);
+    const Words sweep = {"sweep", "sweep.json", "--threads", "1", "--quiet", "--no-supervisor"};
+    RunTo(0, With(sweep, {"--out", "whole"}));
     ExpectEveryKillIsOvercome(With(sweep, {"--out", "a"}), With(sweep, {"--out", "a", "--resume"}),
                               step);
   }
 
   void ExpectOfMerges(int step) {
-    ASSERT_EQ(Run(Shard(1)).exit_code, 0);
-    ASSERT_EQ(Run(Shard(2)).exit_code, 0);
-    ASSERT_EQ(Run({"merge", "s1", "s2", "--out", "whole", "--quiet"}).exit_code, 0);
-    const std::vector<std::string> merge = {"merge", "s1", "s2", "--out", "a", "--quiet"};
+    RunTo(0, Shard(1));
+    RunTo(0, Shard(2));
+    RunTo(0, {"merge", "s1", "s2", "--out", "whole", "--quiet"});
+    const Words merge = {"merge", "s1", "s2", "--out", "a", "--quiet"};
     ExpectEveryKillIsOvercome(merge, merge, step);
   }
 
@@ -298,14 +286,13 @@ class KillRuns : public WatchedRunTest {
 
   void RemoveOutput() const {
     for (const std::string& name : NamesIn(work())) {
-      if (name.starts_with("a")) std::filesystem::remove_all(work() / name);
+      if (name.starts_with("a")) fs::remove_all(work() / name);
     }
   }
 
-  static std::vector<std::string> NamesIn(const std::filesystem::path& folder) {
-    std::vector<std::string> names;
-    for (const std::filesystem::directory_entry& entry :
-         std::filesystem::directory_iterator(folder)) {
+  static Words NamesIn(const fs::path& folder) {
+    Words names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
       names.push_back(entry.path().filename());
     }
     return names;

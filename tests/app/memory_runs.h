@@ -2,8 +2,6 @@
 // one that the machine failed, and what is gone on with comes to the records of an undisturbed run.
 #pragma once
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <random>
 
@@ -16,17 +14,15 @@ class MemoryRuns : public WatchedRunTest {
   MemoryRuns() : WatchedRunTest(1) {}
 
   // Trials of a shipped scenario.
-  static std::vector<std::string> Trials(const std::string& scenario, int trials,
-                                         const std::vector<std::string>& settings) {
-    std::vector<std::string> words = {
-        ROCKYARD_COMMAND,
-        "run",
-        std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/" + scenario + ".json",
-        "--trials",
-        std::to_string(trials),
-        "--threads",
-        "1",
-        "--quiet"};
+  static Words Trials(const std::string& scenario, int trials, const Words& settings) {
+    Words words = {ROCKYARD_COMMAND,
+                   "run",
+                   Source("scenarios/") + scenario + ".json",
+                   "--trials",
+                   std::to_string(trials),
+                   "--threads",
+                   "1",
+                   "--quiet"};
     for (const std::string& setting : settings) words = With(words, {"--set", setting});
     return words;
   }
@@ -38,8 +34,7 @@ class MemoryRuns : public WatchedRunTest {
   }
 
   // One allocation out of all that the command makes fails, at so many random points.
-  void ExpectStarvationIsNoResult(const std::vector<std::string>& words, int points,
-                                  std::mt19937& random) {
+  void ExpectStarvationIsNoResult(const Words& words, int points, std::mt19937& random) {
     SCOPED_TRACE(testing::PrintToString(words));
     const std::string total = work().parent_path() / "allocations";
     setenv("ROCKYARD_STARVED_OF", total.c_str(), 1);
@@ -57,15 +52,15 @@ class MemoryRuns : public WatchedRunTest {
       const CommandResult again = Wait(StartProgram(With(words, {"--out", "a", "--resume"})));
       ASSERT_EQ(again.exit_code, 0) << result.err << again.err;
       EXPECT_EQ(Hash("a"), Hash("plain"));
-      std::filesystem::remove_all(work() / "a");
+      fs::remove_all(work() / "a");
     }
-    std::filesystem::remove_all(work() / "plain");
+    fs::remove_all(work() / "plain");
   }
 
   void ExpectOfExperiments(int points) {
     std::mt19937 random(20261128);
     const std::string brief = "referee.time_limit_s=2";
-    for (const std::vector<std::string>& words :
+    for (const Words& words :
          {Trials("pathfinder/nominal", 2, {brief}), Trials("gestalt/abundance", 2, {brief}),
           Trials("continuous/csod", 2, {brief}),
           Trials("mission/sun", 2, {brief, "mission.sols=1"}),
@@ -79,7 +74,7 @@ class MemoryRuns : public WatchedRunTest {
 
  private:
   // `allocation`: the number of the one that fails; 0: none.
-  CommandResult RunStarved(long allocation, const std::vector<std::string>& words) const {
+  CommandResult RunStarved(long allocation, const Words& words) const {
     setenv("ROCKYARD_STARVED_AT", std::to_string(allocation).c_str(), 1);
     setenv("LD_PRELOAD", ALLOCATION_SHIM, 1);
     const pid_t process = StartProgram(words);

@@ -1,9 +1,6 @@
 // Campaigns on several ranks with the real mpirun, all on this machine.
 #pragma once
 
-#include <cstdlib>
-#include <nlohmann/json.hpp>
-
 #include "app/watched_run.h"
 
 namespace rockyard::app {
@@ -20,12 +17,10 @@ class MpiRuns : public WatchedRunTest {
     setenv("LSAN_OPTIONS", "detect_leaks=0", 1);
   }
 
-  pid_t StartOn(int ranks, const std::vector<std::string>& words) const {
+  pid_t StartOn(int ranks, const Words& words) const {
     return StartProgram(With({MPIRUN, "-n", std::to_string(ranks), ROCKYARD_COMMAND}, words));
   }
-  CommandResult RunOn(int ranks, const std::vector<std::string>& words) const {
-    return Wait(StartOn(ranks, words));
-  }
+  CommandResult RunOn(int ranks, const Words& words) const { return Wait(StartOn(ranks, words)); }
 
   // What is stored stays when the rank of that number is killed, and others go on: on so many
   // ranks, or without mpirun (0).
@@ -39,7 +34,7 @@ class MpiRuns : public WatchedRunTest {
     const std::size_t stored = Stored("a");
     EXPECT_GE(stored, 30U);
     EXPECT_LT(stored, 400U);
-    const std::vector<std::string> resume = Drives("a", 400, {"--resume"});
+    const Words resume = Drives("a", 400, {"--resume"});
     const CommandResult resumed =
         ranks_of_resume > 0 ? RunOn(ranks_of_resume, resume) : Run(resume);
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;

@@ -1,10 +1,7 @@
 // Runs of the real command that a test watches, and meddles with, while they go on.
 #pragma once
 
-#include <gmock/gmock.h>
-
 #include <iterator>
-#include <span>
 
 #include "app/command.h"
 #include "batch/result_store.h"
@@ -19,9 +16,7 @@ class WatchedRunTest : public CommandTest {
   explicit WatchedRunTest(int threads) : threads_(threads) {}
 
   // Trials of some milliseconds.
-  std::vector<std::string> Drives(const std::string& out, int trials,
-                                  const std::vector<std::string>& more = {},
-                                  int threads = 0) const {
+  Words Drives(const std::string& out, int trials, const Words& more = {}, int threads = 0) const {
     return With({"run", Scenario("nominal"), "--out", out, "--set", "referee.time_limit_s=300",
                  "--threads", std::to_string(threads > 0 ? threads : threads_), "--quiet",
                  "--trials", std::to_string(trials)},
@@ -77,7 +72,7 @@ class WatchedRunTest : public CommandTest {
     ASSERT_GT(worker, 0) << "the run is long enough to be hit";
     ASSERT_EQ(kill(worker, signal), 0);
     const CommandResult result = WaitTo(0, process);
-    EXPECT_THAT(result.err, testing::HasSubstr(name));
+    EXPECT_THAT(result.err, HasSubstr(name));
     EXPECT_EQ(Hash("a"), expected);
   }
 

@@ -1,9 +1,9 @@
 // What is written reads back to the same bits, for random values of every kind.
+
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "core/archive.h"
 #include "core/json_text.h"

@@ -1,3 +1,4 @@
+
 #include "core/json_file.h"
 
 #include <fcntl.h>
@@ -6,11 +7,8 @@
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <cstring>
-#include <exception>
 #include <fstream>
-#include <string>
 
 #include "core/error.h"
 #include "core/json_text.h"
@@ -40,6 +38,15 @@ class JsonFileTest : public testing::Test {
     return {};
   }
 
+  static void ExpectLoads(const fs::path& file, std::string_view json) {
+    EXPECT_EQ(DumpJson(LoadJsonFile(file)), DumpJson(ParseJson(json, "test")));
+  }
+  static void ExpectProblem(const fs::path& file, std::string_view path, const char* reason) {
+    const Problem problem = ProblemOf(file);
+    EXPECT_EQ(problem.path, path);
+    EXPECT_THAT(problem.reason, HasSubstr(reason));
+  }
+
   TestFolder own_;
   const fs::path& folder_ = own_.path();
 };
@@ -47,9 +54,8 @@ class JsonFileTest : public testing::Test {
 TEST_F(JsonFileTest, ExtendsIsRelativeToTheFileThatSaysIt) {
   Write("base.json", R"({"a": {"x": 1, "y": 2}, "b": 1})");
   Write("sub/middle.json", R"({"extends": "../base.json", "a": {"y": 3}})");
-  const fs::path top = Write("top.json", R"({"extends": "sub/middle.json", "b": 4})");
-  EXPECT_EQ(DumpJson(LoadJsonFile(top)),
-            DumpJson(ParseJson(R"({"a": {"x": 1, "y": 3}, "b": 4})", "test")));
+  ExpectLoads(Write("top.json", R"({"extends": "sub/middle.json", "b": 4})"),
+              R"({"a": {"x": 1, "y": 3}, "b": 4})");
 }
 
 TEST_F(JsonFileTest, CyclesAreErrorsThatNameTheFiles) {
@@ -73,12 +79,10 @@ TEST_F(JsonFileTest, LongChainsAreErrors) {
 TEST_F(JsonFileTest, AnyObjectMayExtendAFile) {
   Write("sub/part.json", R"({"x": 1, "deep": {"extends": "deeper.json", "z": 3}})");
   Write("sub/deeper.json", R"({"y": 2, "z": 2})");
-  const fs::path top = Write("top.json", R"({"a": {"b": {"extends": "sub/part.json", "x": 5}},
-                                             "list": [1, {"extends": "sub/deeper.json"}]})");
-  EXPECT_EQ(DumpJson(LoadJsonFile(top)),
-            DumpJson(ParseJson(R"({"a": {"b": {"x": 5, "deep": {"y": 2, "z": 3}}},
-                                   "list": [1, {"y": 2, "z": 2}]})",
-                               "test")));
+  ExpectLoads(Write("top.json", R"({"a": {"b": {"extends": "sub/part.json", "x": 5}},
+                                             "list": [1, {"extends": "sub/deeper.json"}]})"),
+              R"({"a": {"b": {"x": 5, "deep": {"y": 2, "z": 3}}},
+                                   "list": [1, {"y": 2, "z": 2}]})");
 }
 
 // The part that the top file names replaces the values that it shares with the base's part.
@@ -86,53 +90,45 @@ TEST_F(JsonFileTest, PartsOfAFileLieOverThoseOfItsBase) {
   Write("one.json", R"({"x": 1, "y": 1})");
   Write("two.json", R"({"y": 2})");
   Write("base.json", R"({"part": {"extends": "one.json", "w": 0}})");
-  const fs::path top =
-      Write("top.json", R"({"extends": "base.json", "part": {"extends": "two.json", "v": 3}})");
-  EXPECT_EQ(DumpJson(LoadJsonFile(top)),
-            DumpJson(ParseJson(R"({"part": {"x": 1, "y": 2, "w": 0, "v": 3}})", "test")));
+  ExpectLoads(
+      Write("top.json", R"({"extends": "base.json", "part": {"extends": "two.json", "v": 3}})"),
+      R"({"part": {"x": 1, "y": 2, "w": 0, "v": 3}})");
 }
 
 // The same part twice is no cycle.
 TEST_F(JsonFileTest, OneFileMayBeExtendedTwice) {
   Write("part.json", R"({"x": 1})");
-  const fs::path top =
-      Write("top.json", R"({"a": {"extends": "part.json"}, "b": {"extends": "part.json"}})");
-  EXPECT_EQ(DumpJson(LoadJsonFile(top)),
-            DumpJson(ParseJson(R"({"a": {"x": 1}, "b": {"x": 1}})", "test")));
+  ExpectLoads(
+      Write("top.json", R"({"a": {"extends": "part.json"}, "b": {"extends": "part.json"}})"),
+      R"({"a": {"x": 1}, "b": {"x": 1}})");
 }
 
 TEST_F(JsonFileTest, FilesOfAListLieOverEachOther) {
   Write("one.json", R"({"x": 1, "deep": {"y": 1, "z": 1}})");
   Write("two.json", R"({"x": 2, "deep": {"y": 2}})");
-  const fs::path top =
-      Write("top.json", R"({"extends": ["one.json", "two.json"], "deep": {"z": 3}})");
-  EXPECT_EQ(DumpJson(LoadJsonFile(top)),
-            DumpJson(ParseJson(R"({"x": 2, "deep": {"y": 2, "z": 3}})", "test")));
-  const Problem problem = ProblemOf(Write("bad.json", R"({"extends": ["one.json", 3]})"));
-  EXPECT_EQ(problem.path, "extends");
-  EXPECT_THAT(problem.reason, HasSubstr("is 3, not a file name"));
+  ExpectLoads(Write("top.json", R"({"extends": ["one.json", "two.json"], "deep": {"z": 3}})"),
+              R"({"x": 2, "deep": {"y": 2, "z": 3}})");
+  ExpectProblem(Write("bad.json", R"({"extends": ["one.json", 3]})"), "extends",
+                "is 3, not a file name");
 }
 
 TEST_F(JsonFileTest, ErrorsOfPartsNameTheirPath) {
-  Problem problem = ProblemOf(Write("type.json", R"({"a": [0, {"b": {"extends": 3}}]})"));
-  EXPECT_EQ(problem.path, "a[1].b.extends");
-  EXPECT_THAT(problem.reason, HasSubstr("is 3, not a file name"));
+  ExpectProblem(Write("type.json", R"({"a": [0, {"b": {"extends": 3}}]})"), "a[1].b.extends",
+                "is 3, not a file name");
   Write("inner.json", R"({"c": {"extends": ""}})");
   EXPECT_EQ(ProblemOf(Write("in_part.json", R"({"a": {"extends": "inner.json"}})")).path,
             "a.c.extends");
   EXPECT_EQ(ProblemOf(Write("empty_key.json", R"({"a": {"": {"extends": 3}}})")).path,
             "a.\"\".extends");
   EXPECT_EQ(ProblemOf(Write("empty_keys.json", R"({"": {"extends": 3}})")).path, "\"\".extends");
-  problem = ProblemOf(Write("loop.json", R"({"a": {"b": {"extends": "loop.json"}}})"));
-  EXPECT_EQ(problem.path, "a.b.extends");
-  EXPECT_THAT(problem.reason, HasSubstr("cycle: loop.json -> loop.json"));
+  ExpectProblem(Write("loop.json", R"({"a": {"b": {"extends": "loop.json"}}})"), "a.b.extends",
+                "cycle: loop.json -> loop.json");
 }
 
 TEST_F(JsonFileTest, OnlyObjectsCanBeExtended) {
   Write("list.json", "[1]");
-  const Problem problem = ProblemOf(Write("top.json", R"({"a": {"extends": "list.json"}})"));
-  EXPECT_EQ(problem.path, "a.extends");
-  EXPECT_THAT(problem.reason, HasSubstr("names list.json, which holds a list"));
+  ExpectProblem(Write("top.json", R"({"a": {"extends": "list.json"}})"), "a.extends",
+                "names list.json, which holds a list");
 }
 
 // 3^8 files if nothing stopped it.

@@ -4,7 +4,6 @@
 
 #include <cstdlib>
 #include <new>
-#include <string>
 
 #include "core/json_text.h"
 #include "core/json_value.h"

@@ -1,10 +1,7 @@
 // Parameters read from a JSON text, and what is wrong with it, for tests of parameter structs.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <map>
-#include <string>
 
 #include "core/archive.h"
 #include "core/json_text.h"

@@ -4,9 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <ostream>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/error.h"
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/random.h"
 
@@ -88,16 +87,13 @@ TEST(SpaceFillingTest, SobolPointsHaveLowDiscrepancy) {
 
 TEST(SpaceFillingTest, MoreSobolPointsGoOnWithTheSameSequence) {
   const UnitPoints small = SobolPoints(20, 4, 7);
-  const UnitPoints large = SobolPoints(64, 4, 7);
-  EXPECT_TRUE(std::equal(small.begin(), small.end(), large.begin()));
+  EXPECT_TRUE(std::equal(small.begin(), small.end(), SobolPoints(64, 4, 7).begin()));
 }
 
 // Joe and Kuo's sequence begins with the origin and then halves; the shift moves all points alike.
 TEST(SpaceFillingTest, TheShiftIsTheSameForAllPoints) {
   const UnitPoints points = SobolPoints(2, 3, 7);
-  for (std::size_t d = 0; d < 3; ++d) {
-    EXPECT_EQ(std::fabs(points[0][d] - points[1][d]), 0.5);
-  }
+  for (std::size_t d = 0; d < 3; ++d) EXPECT_EQ(std::fabs(points[0][d] - points[1][d]), 0.5);
 }
 
 TEST(SpaceFillingTest, SeedsDecideTheDesign) {

@@ -1,32 +1,31 @@
 #include "core/units.h"
 
-#include <gtest/gtest.h>
+#include <memory>
 
+#include "core/provenance.h"
+#include "core/refusals.h"
+#include "core/result.h"
 #include "math/angles.h"
 
 namespace rockyard::core {
 namespace {
 
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
 TEST(UnitsTest, SuffixesNameUnits) {
-  EXPECT_EQ(UnitOf("wheel_radius_m"), "m");
-  EXPECT_EQ(UnitOf("slope_deg"), "deg");
-  EXPECT_EQ(UnitOf("speed_m_s"), "m/s");
-  EXPECT_EQ(UnitOf("radio_bit_s"), "bit/s");
-  EXPECT_EQ(UnitOf("image_bits"), "bit");
-  EXPECT_EQ(UnitOf("latency_min"), "min");
-  EXPECT_EQ(UnitOf("x_min_m"), "m");
-  EXPECT_EQ(UnitOf("variance_deg2_per_m"), "deg2/m");
-  EXPECT_EQ(UnitOf("rocks_per_m2"), "1/m2");
-  EXPECT_EQ(UnitOf("stall_torque_Nm"), "Nm");
-  EXPECT_EQ(UnitOf("damping_Ns_m"), "Ns/m");
-  EXPECT_EQ(UnitOf("gravity_m_s2"), "m/s2");
-  EXPECT_EQ(UnitOf("control_rate_hz"), "Hz");
-  EXPECT_EQ(UnitOf("error_percent"), "%");
-  EXPECT_EQ(UnitOf("input_power_w"), "W");
-  EXPECT_EQ(UnitOf("irradiance_w_m2_nm"), "W/m2/nm");
-  EXPECT_EQ(UnitOf("distance_au"), "au");
-  EXPECT_EQ(UnitOf("read_noise_e"), "e");
-  EXPECT_EQ(UnitOf("dark_current_e_s"), "e/s");
+  const std::pair<const char*, const char*> units[] = {
+      {"wheel_radius_m", "m"},    {"slope_deg", "deg"},
+      {"speed_m_s", "m/s"},       {"radio_bit_s", "bit/s"},
+      {"image_bits", "bit"},      {"latency_min", "min"},
+      {"x_min_m", "m"},           {"variance_deg2_per_m", "deg2/m"},
+      {"rocks_per_m2", "1/m2"},   {"stall_torque_Nm", "Nm"},
+      {"damping_Ns_m", "Ns/m"},   {"gravity_m_s2", "m/s2"},
+      {"control_rate_hz", "Hz"},  {"error_percent", "%"},
+      {"input_power_w", "W"},     {"irradiance_w_m2_nm", "W/m2/nm"},
+      {"distance_au", "au"},      {"read_noise_e", "e"},
+      {"dark_current_e_s", "e/s"}};
+  for (const auto& [name, unit] : units) EXPECT_EQ(UnitOf(name), unit) << name;
 }
 
 TEST(UnitsTest, NamesWithoutUnitsHaveUnitOne) {
@@ -41,6 +40,61 @@ TEST(UnitsTest, DegreesComeBackShortAndExact) {
     EXPECT_EQ(ExactDegrees(math::DegToRad(degrees)), degrees);
   }
 }
+
+TEST(ProvenanceTest, EverythingIsFilled) {
+  const Provenance provenance = CurrentProvenance();
+  EXPECT_THAT(provenance.version, MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
+  EXPECT_THAT(provenance.commit, MatchesRegex("unknown|[0-9a-f]+(-dirty)?"));
+  EXPECT_FALSE(provenance.compiler.empty());
+  EXPECT_FALSE(provenance.host.empty());
+  EXPECT_FALSE(provenance.cpu_model.empty());
+  EXPECT_FALSE(provenance.cpu_level.empty());
+  EXPECT_GE(provenance.cpu_threads, 0);
+}
+
+TEST(ProvenanceTest, FlagsTellHowFloatingPointIsCompiled) {
+  EXPECT_THAT(CurrentProvenance().flags, HasSubstr("-ffp-contract=off"));
+}
+
+TEST(ProvenanceTest, VersionLineNamesVersionAndCommit) {
+  const Provenance provenance = CurrentProvenance();
+  EXPECT_THAT(VersionLine(), HasSubstr("rockyard " + provenance.version));
+  EXPECT_THAT(VersionLine(), HasSubstr(provenance.commit));
+}
+
+Result<int> Parse(const std::string& text) {
+  return Attempt([&] {
+    if (text.empty()) throw UserError({{"a", "is empty", "say 1"}, {"b", "is empty", ""}});
+    return std::stoi(text);
+  });
+}
+
+TEST(Result, HoldsAValue) {
+  const Result<int> result = Parse("7");
+  EXPECT_TRUE(result.ok());
+  EXPECT_EQ(*result, 7);
+  EXPECT_TRUE(result.problems().empty());
+}
+
+TEST(Result, HoldsEveryProblem) {
+  const Result<int> result = Parse("");
+  EXPECT_FALSE(result.ok());
+  ASSERT_EQ(result.problems().size(), 2U);
+  EXPECT_EQ(result.problems().front().suggestion, "say 1");
+}
+
+TEST(Result, ThrowsWhereTheValueIsAskedFor) {
+  EXPECT_EQ(Parse("7").OrThrow(), 7);
+  EXPECT_EQ(ProblemsIn([] { Parse("").OrThrow(); }).size(), 2U);
+}
+
+TEST(Result, MovesWhatCannotBeCopied) {
+  auto result = Attempt([] { return std::make_unique<int>(3); });
+  EXPECT_EQ(*std::move(result).OrThrow(), 3);
+}
+
+// What is no user's error is nobody's value.
+TEST(Result, LetsOtherExceptionsPass) { EXPECT_THROW(Parse("seven"), std::invalid_argument); }
 
 }  // namespace
 }  // namespace rockyard::core

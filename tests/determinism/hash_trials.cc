@@ -3,13 +3,9 @@
 //
 // Usage: hash_trials SCENARIO TRIALS THREADS [PATH=VALUE]...
 // Exit code 0; 2: bad usage or scenario.
-#include <atomic>
-#include <cstdint>
+
 #include <cstdlib>
 #include <iostream>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "batch/executor.h"
 #include "batch/trial_hash.h"

@@ -1,11 +1,10 @@
 // Moments of points and planes through them, in closed form.
+
 #include "math/plane_fit.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/random.h"

@@ -6,8 +6,6 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -211,10 +209,10 @@ inline FeltSource Nothing() {
 enum class HazardSensor { kOn, kOff };
 
 struct DriveSetup {
-  PathfinderParams params;
+  PathfinderParams params{};
   messages::Goal goal{7.6, 0.0};
-  math::Pose2 start;
-  FakeRoverConfig rover;
+  math::Pose2 start{};
+  FakeRoverConfig rover{};
   HazardSource hazards = Always(kClear);
   HazardSensor sensor = HazardSensor::kOn;
   FeltSource felt = Nothing();
@@ -227,11 +225,11 @@ struct DriveSetup {
 // One control tick: what the navigator saw and decided.
 struct Tick {
   double time_s = 0.0;
-  messages::PoseEstimate estimate;
-  math::Pose2 X_WR;
+  messages::PoseEstimate estimate{};
+  math::Pose2 X_WR{};
   bool has_report = false;
   Stripes report{};
-  NavigatorDecision decision;
+  NavigatorDecision decision{};
 
   bool moves() const {
     return !decision.looks() && decision.status == NavigatorStatus::kDriving &&
@@ -253,10 +251,9 @@ class Drive final : public LoggedDrive<Tick, PathfinderNavigator> {
         setup_(setup) {}
 
   const Tick& Step() override {
-    Tick tick;
-    tick.time_s = static_cast<double>(log_.size()) * setup_.rover.tick_s;
-    tick.estimate = rover_.estimate();
-    tick.X_WR = rover_.X_WR();
+    Tick tick{.time_s = static_cast<double>(log_.size()) * setup_.rover.tick_s,
+              .estimate = rover_.estimate(),
+              .X_WR = rover_.X_WR()};
     messages::HazardReport report;
     NavigatorInput input{.time_s = tick.time_s, .estimate = tick.estimate};
     if (!log_.empty() && log_.back().decision.looks()) {

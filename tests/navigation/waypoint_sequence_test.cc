@@ -4,10 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <memory>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "navigation/stuck_reaction.h"
 
@@ -60,6 +57,12 @@ class WaypointSequenceTest : public testing::Test {
     auto fake = std::make_unique<FakeNavigator>(goals.front());
     inner_ = fake.get();
     sequence_ = std::make_unique<WaypointSequence>(goals, std::move(fake), pass_within_m);
+  }
+
+  // How many waypoints are reached there.
+  std::size_t ReachedAt(double x_m, double y_m) {
+    sequence_->Decide({.estimate = {.x_m = x_m, .y_m = y_m}});
+    return sequence_->reached();
   }
 
   NavigatorDecision At(double x_m) { return sequence_->Decide({.estimate = {.x_m = x_m}}); }
@@ -180,15 +183,11 @@ TEST_F(WaypointSequenceTest, ABendIsPassedFromAsFarAsItIsTold) {
 TEST_F(WaypointSequenceTest, ABendThatLiesBehindIsPassed) {
   Make({{2.0, 0.0}, {2.0, 3.0}, {6.0, 3.0}}, 0.5);
   sequence_->Decide(InputAt(0.0, 0.0));
-  sequence_->Decide(InputAt(1.85, 1.4));
-  EXPECT_EQ(sequence_->reached(), 0U);
-  sequence_->Decide(InputAt(2.15, 1.4));
-  EXPECT_EQ(sequence_->reached(), 1U);
+  EXPECT_EQ(ReachedAt(1.85, 1.4), 0U);
+  EXPECT_EQ(ReachedAt(2.15, 1.4), 1U);
   // The second leg begins at the first waypoint and leads along y.
-  sequence_->Decide(InputAt(3.0, 2.9));
-  EXPECT_EQ(sequence_->reached(), 1U);
-  sequence_->Decide(InputAt(3.0, 3.1));
-  EXPECT_EQ(sequence_->reached(), 2U);
+  EXPECT_EQ(ReachedAt(3.0, 2.9), 1U);
+  EXPECT_EQ(ReachedAt(3.0, 3.1), 2U);
   EXPECT_TRUE(sequence_->IsOnLastLeg());
 }
 
@@ -196,14 +195,10 @@ TEST_F(WaypointSequenceTest, ABendThatLiesBehindIsPassed) {
 TEST_F(WaypointSequenceTest, LegsBeginWhereTheOneBeforeEnded) {
   Make({{2.0, 0.0}, {0.0, 0.0}, {6.0, 0.0}}, 0.05);
   sequence_->Decide(InputAt(3.0, 1.0));  // the first leg leads to (2, 0) from there
-  sequence_->Decide(InputAt(2.5, 0.6));
-  EXPECT_EQ(sequence_->reached(), 0U);
-  sequence_->Decide(InputAt(1.92, 0.1));  // the navigator's own arrival, or beyond
-  EXPECT_EQ(sequence_->reached(), 1U);
-  sequence_->Decide(InputAt(1.0, 0.3));
-  EXPECT_EQ(sequence_->reached(), 1U);
-  sequence_->Decide(InputAt(-0.01, 0.3));
-  EXPECT_EQ(sequence_->reached(), 2U);
+  EXPECT_EQ(ReachedAt(2.5, 0.6), 0U);
+  EXPECT_EQ(ReachedAt(1.92, 0.1), 1U);  // the navigator's own arrival, or beyond
+  EXPECT_EQ(ReachedAt(1.0, 0.3), 1U);
+  EXPECT_EQ(ReachedAt(-0.01, 0.3), 2U);
 }
 
 // At (2, 0) the navigator itself arrives. From there to (5, 5) the way leads along (3, 5), and
@@ -211,10 +206,8 @@ TEST_F(WaypointSequenceTest, LegsBeginWhereTheOneBeforeEnded) {
 TEST_F(WaypointSequenceTest, ALegAfterAnArrivalBeginsThere) {
   Make({{2.0, 0.0}, {5.0, 5.0}, {9.0, 9.0}}, 0.01);
   sequence_->Decide(InputAt(0.0, 0.0));
-  sequence_->Decide(InputAt(1.95, 0.0));
-  EXPECT_EQ(sequence_->reached(), 1U);
-  sequence_->Decide(InputAt(4.0, 5.8));
-  EXPECT_EQ(sequence_->reached(), 2U);
+  EXPECT_EQ(ReachedAt(1.95, 0.0), 1U);
+  EXPECT_EQ(ReachedAt(4.0, 5.8), 2U);
 }
 
 TEST_F(WaypointSequenceTest, BendsCloseTogetherArePassedAtOnceAndTheLastGoalNever) {

@@ -17,14 +17,12 @@ constexpr double kTick_s = 0.02;
 
 // A six-wheel rover with steered corners.
 messages::DriveCalibration SixWheels() {
-  messages::DriveCalibration calibration;
-  calibration.wheel_radius_m = 0.065;
-  calibration.wheel_x_m = {0.22, 0.0, -0.20, 0.22, 0.0, -0.20};
-  calibration.wheel_y_m = {0.19, 0.19, 0.19, -0.19, -0.19, -0.19};
-  calibration.steered = {true, false, true, true, false, true};
-  calibration.max_steer_rad = 1.5;
-  calibration.max_wheel_speed_m_s = 0.15;
-  return calibration;
+  return {.wheel_radius_m = 0.065,
+          .wheel_x_m = {0.22, 0.0, -0.20, 0.22, 0.0, -0.20},
+          .wheel_y_m = {0.19, 0.19, 0.19, -0.19, -0.19, -0.19},
+          .steered = {true, false, true, true, false, true},
+          .max_steer_rad = 1.5,
+          .max_wheel_speed_m_s = 0.15};
 }
 
 messages::MotionCommand Arc(double curvature_per_m, int direction = 1) {
@@ -159,8 +157,7 @@ TEST(WheelDriver, NewMotionWhileStandingCountsFromWhereTheWheelsAre) {
   WheelDriver driver(SixWheels(), params);
   // 0.1 s at 60 deg/s: 6 deg from straight, less than is steered while driving.
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(Stands(driver.Tick(TurnInPlace(1), kTick_s)));
-  const double back_ticks = 0.1 / kTick_s;
-  EXPECT_LE(StandingTicks(driver, Arc(0.0)), back_ticks + 1.0);
+  EXPECT_LE(StandingTicks(driver, Arc(0.0)), (0.1 / kTick_s) + 1.0);
 }
 
 TEST(WheelDriver, StopRollsNoWheel) {
@@ -213,8 +210,7 @@ TEST(WheelDriver, FollowsTheSpeedOfAMotion) {
 
 // Commands of the last motion are kept: none may outlive it.
 TEST(WheelDriver, EveryMotionGetsItsOwnCommand) {
-  WheelDriverParams at_once;
-  at_once.steer_rate_rad_s = 1e3;
+  WheelDriverParams at_once{.steer_rate_rad_s = 1e3};
   WheelDriver driver(SixWheels(), at_once);
   messages::MotionCommand backward = Arc(1.5);
   backward.direction = -1;
@@ -241,8 +237,7 @@ TEST(WheelDriver, SaysForHowLongSetPointsAreHeld) {
 }
 
 TEST(WheelDriver, FasterSteeringMotorsStandShorter) {
-  WheelDriverParams fast;
-  fast.steer_rate_rad_s = 4.0 * WheelDriverParams{}.steer_rate_rad_s;
+  WheelDriverParams fast{.steer_rate_rad_s = 4.0 * WheelDriverParams{}.steer_rate_rad_s};
   WheelDriver slow_driver(SixWheels(), {});
   WheelDriver fast_driver(SixWheels(), fast);
   EXPECT_GT(StandingTicks(slow_driver, TurnInPlace(1)),

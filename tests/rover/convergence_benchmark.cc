@@ -4,7 +4,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <string>
 
 #include "rover_drive.h"
 #include "stop_and_go.h"

@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-#include <cstdint>
 #include <memory>
 
 #include "core/random.h"

@@ -1,8 +1,8 @@
 // Rocks that yield to a push: how hard, where to, and who notices.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "core/hash.h"
 #include "rover/multibody/loose_rocks.h"
@@ -62,8 +62,7 @@ Push PushFor6s(Rover& rover, const terrain::Terrain& terrain) {
 
 Push PushLoose(const terrain::RockHoldingParams& holding) {
   terrain::Terrain terrain = FlatTerrain({BeltHighRock(0.45, 0.0)});
-  const auto rover = MakeRover(SmoothRover(), holding, terrain);
-  return PushFor6s(*rover, terrain);
+  return PushFor6s(*MakeRover(SmoothRover(), holding, terrain), terrain);
 }
 
 // The rover pushes with exactly the holding force, and the rock keeps ahead of it.
@@ -177,9 +176,7 @@ TEST(LooseRock, SoilTakesItsHoldingForceTimesTheStep) {
   const double mass_kg = terrain::RockMass(terrain.rocks()[0], 1000.0);
   const double loss_m_s = Holding_N(holding) * kStep_s / mass_kg;
   LooseRocks rocks(holding, kEarth_m_s2, kStep_s, terrain);
-  Contact contact;
-  contact.other = 0;
-  contact.active = true;
+  Contact contact{.other = 0, .active = true};
   rocks.Start({contact});
   LooseRock* rock = rocks.Find(0);
   ASSERT_NE(rock, nullptr);

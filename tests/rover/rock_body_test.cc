@@ -1,9 +1,9 @@
 // Nearest points of rocks against optimality conditions and a search.
+
 #include "rover/rock_body.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 #include "core/random.h"

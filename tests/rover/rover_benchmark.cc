@@ -5,9 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
-#include <cmath>
 #include <numbers>
-#include <string>
 
 #include "core/hash.h"
 #include "rover_drive.h"

@@ -1,8 +1,6 @@
 // Every rover of scenarios/rovers stands, drives, turns and climbs in the multibody simulation.
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "rover_drive.h"
 #include "scenario/load.h"
 

@@ -2,10 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "core/hash.h"
 #include "messages/commands.h"

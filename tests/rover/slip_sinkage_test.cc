@@ -1,7 +1,6 @@
 // Wheels that slip dig in: the law by plain references, and rovers of both fidelities on slopes.
-#include <gtest/gtest.h>
 
-#include <cmath>
+#include <gtest/gtest.h>
 
 #include "rover/wheel_soil.h"
 #include "rover_drive.h"

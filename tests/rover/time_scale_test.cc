@@ -1,8 +1,4 @@
 // A slow rover simulated faster than real against the same rover in real time.
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
 
 #include "core/archive.h"
 #include "core/json_text.h"

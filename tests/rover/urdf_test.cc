@@ -1,12 +1,11 @@
 // The URDF of each rover, read back by urdfdom.
+
 #include "rover/urdf.h"
 
 #include <gtest/gtest.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <array>
 #include <cmath>
-#include <string>
 
 #include "math/pose.h"
 #include "rover/rover_layout_params.h"
@@ -182,8 +181,7 @@ TEST_P(Urdf, ShapesAreWheelsBodyAndPanel) {
   EXPECT_NEAR(cylinder->radius, params_.geometry.wheel_radius_m, 1e-12);
   EXPECT_NEAR(cylinder->length, params_.geometry.wheel_width_m, 1e-12);
   // Its axis is the wheel's: along y.
-  const Vector3 axis = ToTransform(wheel->collision->origin).linear().col(2);
-  EXPECT_NEAR(std::abs(axis.y()), 1.0, 1e-9);
+  EXPECT_NEAR(std::abs(ToTransform(wheel->collision->origin).linear().col(2).y()), 1.0, 1e-9);
 
   double lowest = 1.0;
   double highest = 0.0;

@@ -1,11 +1,7 @@
 #include "scenario/ablations.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "core/json_text.h"
 #include "core/refusals.h"

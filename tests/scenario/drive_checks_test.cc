@@ -1,11 +1,5 @@
 // Settings that every module accepts alone and that would mislead together are refused, where the
 // groups are in use.
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <ostream>
-#include <string>
-#include <vector>
 
 #include "core/error.h"
 #include "core/refusals.h"
@@ -15,8 +9,8 @@
 namespace rockyard::scenario {
 namespace {
 
-using core::OneProblem;
 using Overrides = std::vector<std::string>;
+using core::OneProblem;
 
 std::vector<core::Problem> ProblemsOf(const std::string& name, const Overrides& overrides,
                                       const std::string& family = "gestalt") {
@@ -281,6 +275,78 @@ TEST(DesignatedGoalsTest, MayLieAnywhereWithoutMirrorLinesOrErrors) {
   EXPECT_TRUE(DesignatedGoals({far, "terrain.arena.kind=open"}).empty());
   EXPECT_TRUE(DesignatedGoals({far, "terrain.arena.kind=virtual_unfolded"}).empty());
   EXPECT_TRUE(DesignatedGoals({far, "course.designation.enabled=false"}).empty());
+}
+
+// What a scenario of driving without stopping is refused for, and with what words.
+
+std::vector<core::Problem> Continuous(const std::string& name, const Overrides& overrides) {
+  return ProblemsOf(name, overrides, "continuous");
+}
+
+struct Case {
+  std::string scenario;
+  Overrides beyond;
+  std::string path;
+  std::string reason;
+};
+
+TEST(ContinuousChecks, WhatCannotBeDrivenIsRefusedWithPathReasonAndSuggestion) {
+  const std::string cycle = "navigation.gestalt.continuous.cycle";
+  const std::vector<Case> cases{
+      {"csod",
+       {"clock.overlap.imaging=false", "clock.overlap.computing=false"},
+       cycle,
+       "stop for each look"},
+      {"csad", {"clock.overlap.steering=false"}, cycle, "stand to steer"},
+      {"csad",
+       {"navigation.gestalt.continuous.motion_m=3.5"},
+       "navigation.gestalt.continuous.motion_m",
+       "blindly past what it judged"},
+      {"csad",
+       {"navigation.gestalt.splines.length_m=0.5", "navigation.gestalt.splines.waypoint_m=0.5"},
+       "navigation.gestalt.continuous.motion_m",
+       "beyond the end of the splines"},
+      {"csad",
+       {"navigation.gestalt.splines.max_curvature_rate_per_m_s=0.001"},
+       "navigation.gestalt.splines.max_curvature_rate_per_m_s",
+       "leaves no spline"},
+      {"csad", {"clock.compute.acquisition_s=-1"}, "clock.compute.acquisition_s", ""},
+      {"csad",
+       {"navigation.gestalt.speed.min_speed_share=1.5"},
+       "navigation.gestalt.speed.min_speed_share",
+       ""},
+      {"csod",
+       {"navigation.gestalt.continuous.replan_fraction=0"},
+       "navigation.gestalt.continuous.replan_fraction",
+       ""},
+      {"csad",
+       {"navigation.gestalt.splines.waypoint_m=3.5"},
+       "navigation.gestalt.splines.waypoint_m",
+       "beyond the end"},
+  };
+  for (const Case& tested : cases) {
+    SCOPED_TRACE(tested.beyond.front());
+    const std::vector<core::Problem> found = Continuous(tested.scenario, tested.beyond);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].path, tested.path);
+    EXPECT_NE(found[0].reason.find(tested.reason), std::string::npos) << found[0].reason;
+    EXPECT_FALSE(found[0].suggestion.empty());
+  }
+}
+
+// What is not used misleads nobody.
+TEST(ContinuousChecks, WhatIsNotInUseIsNotAsked) {
+  for (const char* name : {"stop_and_look", "csod", "csad"}) {
+    EXPECT_TRUE(Continuous(name, {}).empty()) << name;
+  }
+  EXPECT_TRUE(
+      Continuous("stop_and_look", {"clock.overlap.imaging=false", "clock.overlap.computing=false"})
+          .empty());
+  EXPECT_TRUE(Continuous("stop_and_look", {"navigation.gestalt.continuous.motion_m=3.5"}).empty());
+  EXPECT_TRUE(Continuous("csod", {"clock.overlap.imaging=false"}).empty());
+  EXPECT_TRUE(Continuous("csod", {"navigation.gestalt.splines.length_m=0.5",
+                                  "navigation.gestalt.splines.waypoint_m=0.5"})
+                  .empty());
 }
 
 }  // namespace

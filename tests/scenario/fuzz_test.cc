@@ -2,10 +2,6 @@
 // UserError whose problems name a path and a reason. Deterministic: fixed seeds.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <string>
-#include <vector>
-
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"

@@ -1,10 +1,5 @@
 // The committed scenarios of the map-based navigator hold what Goldberg 2002 states, and pairs of
 // them meet the same rocks.
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "core/archive.h"
 #include "core/json_file.h"

@@ -1,11 +1,6 @@
 #include "scenario/load.h"
 
-#include <gmock/gmock.h>
-
-#include <filesystem>
 #include <fstream>
-#include <string>
-#include <vector>
 
 #include "core/error.h"
 #include "core/json_text.h"

@@ -1,21 +1,25 @@
 // Rules that every parameter of every module keeps.
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
-#include <string>
-#include <vector>
 
+#include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "core/refusals.h"
+#include "scenario/former_keys.h"
 #include "scenario/load.h"
+#include "scenario/sweep.h"
 
 namespace rockyard::scenario {
 namespace {
 
 using core::FieldKind;
 using core::ParameterInfo;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
 
 bool IsNumber(const ParameterInfo& parameter) {
   return parameter.kind == FieldKind::kReal || parameter.kind == FieldKind::kAngle ||
@@ -119,6 +123,182 @@ TEST(ParametersTest, TheSchemaDescribesEveryParameter) {
     ASSERT_NE(at, nullptr) << parameter.path;
     EXPECT_NE(at->Find("description"), nullptr) << parameter.path;
   }
+}
+
+std::string EstimatorOf(const std::string& json, const std::vector<std::string>& overrides = {}) {
+  return std::string(ParseScenario(json, overrides).drive.localization.estimators.chosen().name());
+}
+
+constexpr const char* kFormerOracle = R"({"sensors": {"localization": "oracle"}})";
+
+TEST(FormerKeys, FilesWithThemAreReadAsTheyWere) {
+  EXPECT_EQ(EstimatorOf("{}"), "dead_reckoning");
+  EXPECT_EQ(EstimatorOf(kFormerOracle), "oracle");
+  EXPECT_EQ(Fingerprint(ParseScenario(kFormerOracle)),
+            Fingerprint(ParseScenario(R"({"localization": {"estimator": "oracle"}})")));
+}
+
+TEST(FormerKeys, AreNotWritten) {
+  const std::string text = ResolvedJson(ParseScenario(kFormerOracle));
+  EXPECT_THAT(text, HasSubstr(R"("estimator": "oracle")"));
+  EXPECT_THAT(text, Not(HasSubstr(R"("localization": "oracle")")));
+}
+
+TEST(FormerKeys, WhatIsSetLastCounts) {
+  EXPECT_EQ(EstimatorOf("{}", {"sensors.localization=oracle"}), "oracle");
+  EXPECT_EQ(EstimatorOf(kFormerOracle, {"localization.estimator=dead_reckoning"}),
+            "dead_reckoning");
+  EXPECT_EQ(EstimatorOf(R"({"localization": {"estimator": "oracle"}})",
+                        {"sensors.localization=dead_reckoning"}),
+            "dead_reckoning");
+  EXPECT_EQ(
+      EstimatorOf("{}", {"localization.estimator=oracle", "sensors.localization=dead_reckoning"}),
+      "dead_reckoning");
+}
+
+TEST(FormerKeys, BothWithDifferentValuesAreRefused) {
+  EXPECT_THAT(core::RefusalOf([] {
+                ParseScenario(R"({"sensors": {"localization": "oracle"},
+                                  "localization": {"estimator": "dead_reckoning"}})");
+              }),
+              AllOf(StartsWith("sensors.localization: "),
+                    HasSubstr("former name of localization.estimator")));
+  EXPECT_EQ(EstimatorOf(R"({"sensors": {"localization": "oracle"},
+                            "localization": {"estimator": "oracle"}})"),
+            "oracle");
+}
+
+TEST(FormerKeys, WrongValuesAreNamedByTheKeyOfToday) {
+  for (const char* wrong :
+       {R"({"sensors": {"localization": "oracel"}})", R"({"sensors": {"localization": 7}})",
+        R"({"sensors": {"localization": {"estimator": "oracle"}}})"}) {
+    EXPECT_THAT(core::RefusalOf([&] { ParseScenario(wrong); }),
+                StartsWith("localization.estimator: "))
+        << wrong;
+  }
+  // What holds groups now is no group in these files.
+  EXPECT_THROW(ParseScenario(R"({"sensors": {"localization": "oracle"}, "localization": 3})"),
+               core::UserError);
+  EXPECT_THROW(ParseScenario(R"({"sensors": 3})"), core::UserError);
+}
+
+TEST(FormerKeys, AreAxesAndSettingsOfSweeps) {
+  const Sweep axis = ParseSweep(
+      R"({"axes": [{"path": "sensors.localization", "values": ["dead_reckoning", "oracle"]}]})");
+  ASSERT_EQ(axis.cells.size(), 2U);
+  EXPECT_EQ(axis.cells[1].scenario.drive.localization.estimators.chosen().name(), "oracle");
+  const Sweep setting = ParseSweep(
+      R"({"set": {"sensors": {"localization": "oracle"}},
+          "axes": [{"path": "course.goal_x_m", "values": [5, 6]}]})");
+  EXPECT_EQ(setting.cells[0].scenario.drive.localization.estimators.chosen().name(), "oracle");
+  // Whichever name the base has, the setting lies over it.
+  for (const char* base : {R"({"sensors": {"localization": "oracle"}})",
+                           R"({"localization": {"estimator": "oracle"}})"}) {
+    for (const char* key : {"sensors.localization", "localization.estimator"}) {
+      const Sweep over = ParseSweep(
+          std::string(R"({"scenario": )") + base + R"(, "set": {")" + key +
+          R"(": "dead_reckoning"}, "axes": [{"path": "course.goal_x_m", "values": [5, 6]}]})");
+      EXPECT_EQ(over.cells[0].scenario.drive.localization.estimators.chosen().name(),
+                "dead_reckoning")
+          << base << key;
+    }
+  }
+}
+
+constexpr const char* kOpenArena =
+    R"("terrain": {"arena": {"kind": "open", "length_m": 70, "width_m": 30}})";
+
+trial::RefereeParams RefereeOf(const std::string& members) {
+  return ParseScenario("{" + members + "}").drive.referee;
+}
+
+TEST(OpenValues, AreThoseOfThePublishedCourseUpToItsLength) {
+  for (const char* goal : {"3", "7.6"}) {
+    const auto referee = RefereeOf(std::string(R"("course": {"goal_x_m": )") + goal + "}");
+    EXPECT_EQ(referee.no_path_progress_m, 0.25);
+    EXPECT_EQ(referee.no_path_distance_m, 4.0);
+    EXPECT_EQ(referee.no_path_time_s, 3600.0);
+    EXPECT_NEAR(referee.time_limit_s, 14400.0, 1e-9);
+  }
+}
+
+// 30 m by way of (10, 0), (10, 10) and (20, 10), for a rover 0.8 m wide.
+TEST(OpenValues, FollowCourseAndRover) {
+  const auto referee = RefereeOf(std::string(R"("course": {"goal_x_m": 20, "goal_y_m": 10,
+                               "waypoints": {"x_m": [10, 10], "y_m": [0, 10]}},
+                    "rover": {"geometry": {"width_m": 0.8}},)") +
+                                 kOpenArena);
+  EXPECT_DOUBLE_EQ(referee.no_path_progress_m, 0.4);
+  EXPECT_DOUBLE_EQ(referee.no_path_distance_m, 15.0);
+  EXPECT_DOUBLE_EQ(referee.no_path_time_s, 13500.0);
+  EXPECT_DOUBLE_EQ(referee.time_limit_s, 14400.0 * 30.0 / 7.6);
+}
+
+TEST(OpenValues, WhatIsStatedStaysAndNullIsOpen) {
+  const std::string far = std::string(R"("course": {"goal_x_m": 60},)") + kOpenArena;
+  const auto stated =
+      RefereeOf(R"("referee": {"no_path_distance_m": 4, "time_limit_s": 0},)" + far);
+  EXPECT_EQ(stated.no_path_distance_m, 4.0);
+  EXPECT_EQ(stated.time_limit_s, 0.0);
+  EXPECT_EQ(stated.no_path_time_s, 27000.0);
+  const auto open =
+      RefereeOf(R"("referee": {"no_path_distance_m": null, "stall_window_s": 7},)" + far);
+  EXPECT_EQ(open.no_path_distance_m, 30.0);
+  EXPECT_EQ(open.stall_window_s, 7.0);
+  EXPECT_THROW(RefereeOf(R"("referee": {"stall_window_s": null})"), core::UserError);
+}
+
+// A file that states a limit can be told to leave it open, also on the command line.
+TEST(OpenValues, OverridesMayOpenThem) {
+  const std::string text = std::string(R"({"referee": {"no_path_distance_m": 4},
+      "course": {"goal_x_m": 60},)") +
+                           kOpenArena + "}";
+  const std::vector<std::string> open = {"referee.no_path_distance_m=null"};
+  EXPECT_EQ(ParseScenario(text, open).drive.referee.no_path_distance_m, 30.0);
+}
+
+// Cameras beside gates or on a core of today are not those of the Athena SDM; older computers keep
+// its time.
+TEST(OpenValues, ImagesTakeAsLongAsTheComputerSuggests) {
+  const auto acquisition_s = [](const std::string& compute) {
+    return ParseScenario(R"({"clock": {"compute": {)" + compute + "}}}")
+        .drive.clock.compute.acquisition_s;
+  };
+  for (const char* fast : {"virtex_5_fpga", "athena_2012", "sapphire_rapids_core"}) {
+    const std::string computer = std::string(R"("computer": ")") + fast + '"';
+    EXPECT_EQ(acquisition_s(computer), 0.1) << fast;
+    EXPECT_EQ(acquisition_s(computer + R"(, "acquisition_s": null)"), 0.1) << fast;
+    EXPECT_EQ(acquisition_s(computer + R"(, "acquisition_s": 8.974)"), 8.974) << fast;
+    EXPECT_EQ(acquisition_s(computer + R"(, "acquisition_s": 0)"), 0.0) << fast;
+  }
+  for (const char* slow :
+       {"none", "r3000_12mhz", "pentium_3_500mhz", "sparc_300mhz", "rad6000_20mhz", "mer_rad6000",
+        "msl_rad750", "sparc_10", "powerpc_750_133mhz", "powerpc_g4_500mhz"}) {
+    EXPECT_EQ(acquisition_s(std::string(R"("computer": ")") + slow + '"'), 8.974) << slow;
+  }
+  EXPECT_EQ(ParseScenario("{}").drive.clock.compute.acquisition_s, 8.974);
+}
+
+TEST(OpenValues, AResolvedScenarioReadsBackToTheSame) {
+  const Scenario scenario =
+      ParseScenario(std::string(R"({"course": {"goal_x_m": 60},)") + kOpenArena + "}");
+  EXPECT_EQ(ResolvedJson(ParseScenario(ResolvedJson(scenario))), ResolvedJson(scenario));
+}
+
+TEST(OpenValues, TheSchemaKnows) {
+  const core::JsonValue schema = core::ParseJson(SchemaJson(), "schema");
+  const auto type = [&](const char* key) {
+    return core::DumpJson(
+        *schema.Find("properties")->Find("referee")->Find("properties")->Find(key)->Find("type"));
+  };
+  EXPECT_THAT(type("no_path_time_s"), testing::HasSubstr("null"));
+  EXPECT_THAT(type("stall_window_s"), testing::Not(testing::HasSubstr("null")));
+  const core::JsonValue& clock = *schema.Find("properties")->Find("clock")->Find("properties");
+  const core::JsonValue& compute = *clock.Find("compute")->Find("properties");
+  EXPECT_THAT(core::DumpJson(*compute.Find("acquisition_s")->Find("type")),
+              testing::HasSubstr("null"));
+  EXPECT_THAT(core::DumpJson(*compute.Find("behaviour_s")->Find("type")),
+              testing::Not(testing::HasSubstr("null")));
 }
 
 }  // namespace

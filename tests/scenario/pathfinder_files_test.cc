@@ -2,10 +2,8 @@
 // the lander's map, and its sweeps, may differ in.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <map>
 #include <set>
-#include <string>
 
 #include "core/json_file.h"
 #include "core/json_text.h"

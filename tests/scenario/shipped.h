@@ -1,9 +1,6 @@
 // The scenarios that come with the program.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "scenario/load.h"
 
 namespace rockyard::scenario {

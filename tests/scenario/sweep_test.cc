@@ -3,14 +3,11 @@
 #include "scenario/sweep.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "core/json_text.h"
 #include "core/refusals.h"

@@ -1,10 +1,10 @@
 // Published sets of which a known number of runs arrived, and the power of statistics of quantities
 // with a lower limit.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/random.h"
 #include "statistics/predictive.h"

@@ -4,14 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "core/random.h"
 #include "statistics/sample_statistics.h"

@@ -1,11 +1,8 @@
 // Rates and means of trials that hang together: which do, and whether their intervals hold.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "core/random.h"
 #include "statistics/clustered_rate.h"
@@ -60,27 +57,25 @@ double Coverage(const Law& law, bool independent) {
 // of 30,000 such tests.
 const double kLeast = 0.93 - 4.0 * std::sqrt(0.93 * 0.07 / kCampaigns);
 
-TEST(ClusteredRate, HoldsOnLayoutsOfFive) {
-  for (const std::size_t runs : {8, 20, 60}) {
-    for (const double rate : {0.03, 0.2, 0.85}) {
-      for (const double together : {0.0, 0.4, 0.73, 0.95}) {
-        const double coverage = Coverage({runs, 5, rate, together}, false);
+void ExpectHeld(std::size_t size, const std::vector<std::size_t>& all_runs,
+                const std::vector<double>& rates, const std::vector<double>& all_together) {
+  for (const std::size_t runs : all_runs) {
+    for (const double rate : rates) {
+      for (const double together : all_together) {
+        const double coverage = Coverage({runs, size, rate, together}, false);
         EXPECT_GT(coverage, kLeast) << runs << " runs, " << rate << ", together " << together;
       }
     }
   }
 }
 
+TEST(ClusteredRate, HoldsOnLayoutsOfFive) {
+  ExpectHeld(5, {8, 20, 60}, {0.03, 0.2, 0.85}, {0.0, 0.4, 0.73, 0.95});
+}
+
 // Design effects of missions were 1.9 to 4.1: correlations within a mission of 0.03 to 0.11.
 TEST(ClusteredRate, HoldsForMissionsOfThirtyGoals) {
-  for (const std::size_t runs : {10, 30}) {
-    for (const double rate : {0.05, 0.3, 0.9}) {
-      for (const double together : {0.0, 0.18, 0.33, 0.55}) {
-        const double coverage = Coverage({runs, 30, rate, together}, false);
-        EXPECT_GT(coverage, kLeast) << runs << " runs, " << rate << ", together " << together;
-      }
-    }
-  }
+  ExpectHeld(30, {10, 30}, {0.05, 0.3, 0.9}, {0.0, 0.18, 0.33, 0.55});
 }
 
 TEST(ClusteredRate, HoldsForHazardsOfFortyFields) {

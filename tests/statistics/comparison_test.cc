@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "statistics/published_comparison.h"
 #include "statistics/sample_statistics.h"
@@ -97,9 +96,8 @@ ComparedValue CompareOneValue(const PublishedValue& value, const std::vector<Sce
 }
 
 Verdict SuccessVerdict(std::int64_t n, double value, double rate, std::uint32_t pool = 2000) {
-  const auto trials = SyntheticTrials({.success_rate = rate}, 5, pool);
   return CompareOneValue(Value("success", StatisticKind::kOutcomeCount, n, value),
-                         {RunOf("nominal", trials)}, 100)
+                         {RunOf("nominal", SyntheticTrials({.success_rate = rate}, 5, pool))}, 100)
       .verdict;
 }
 

@@ -8,7 +8,6 @@
 // is made of trials of both. Writes one line of CSV for each interval, column and size;
 // scripts/studies/coverage/coverage.py makes the pools and the page.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,8 +15,6 @@
 #include <iostream>
 #include <limits>
 #include <map>
-#include <string>
-#include <vector>
 
 #include "core/random.h"
 #include "statistics/cumulative_incidence.h"
@@ -224,9 +221,8 @@ void StudyCurves(const Pool& pool, std::uint32_t samples) {
       const std::vector<IncidenceStep> steps = CumulativeIncidence(durations);
       for (const int percent : {10, 50, 90, 100}) {
         const double at = Quantile(sorted, percent / 100.0);
-        IncidenceStep now;
-        now.band = ProportionInterval(0, static_cast<std::int64_t>(size), kConfidence,
-                                      IntervalMethod::kClopperPearson);
+        IncidenceStep now{.band = ProportionInterval(0, static_cast<std::int64_t>(size),
+                                                     kConfidence, IntervalMethod::kClopperPearson)};
         for (const IncidenceStep& step : steps) {
           if (step.at <= at) now = step;
         }

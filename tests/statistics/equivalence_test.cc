@@ -1,9 +1,9 @@
+
 #include "statistics/equivalence.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "core/json_file.h"
 #include "oracles.h"
@@ -76,8 +76,7 @@ TEST(PairedRates, NoDiscordantPairInClosedForm) {
 TEST(PairedRates, EndIsZeroWhereMcNemarsScoreIsCritical) {
   const PairedCounts counts{.both = 20, .only_first = 3, .only_second = 13, .neither = 8};
   const double score = 10.0 / std::sqrt(16.0);
-  const double confidence = std::erf(score / std::sqrt(2.0));
-  EXPECT_NEAR(DifferenceInterval(counts, confidence).low, 0.0, 1e-9);
+  EXPECT_NEAR(DifferenceInterval(counts, std::erf(score / std::sqrt(2.0))).low, 0.0, 1e-9);
 }
 
 // The same for two groups: the pooled z score.

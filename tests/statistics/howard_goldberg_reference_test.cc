@@ -1,17 +1,15 @@
 // The rows of Howard 2012 and of Goldberg 2002: which of the computed ones hold, and that they
 // compute with the program's times and with what was measured; that the rows that take more than
 // one column, or hardly a sample, can fail.
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <fstream>
 #include <initializer_list>
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "core/json_file.h"
 #include "report/comparison_reference.h"

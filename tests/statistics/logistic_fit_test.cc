@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "core/json_file.h"
 #include "statistics/oracles.h"

@@ -1,9 +1,6 @@
 // Known answers computed with SciPy, in tests/data/statistics_oracles.json.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/json_file.h"
 #include "core/json_value.h"
 

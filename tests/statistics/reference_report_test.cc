@@ -1,7 +1,5 @@
 // The committed reference, its parser, and the tables made from a comparison.
-#include <gmock/gmock.h>
 
-#include <filesystem>
 #include <set>
 #include <sstream>
 

@@ -2,10 +2,7 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-#include <string>
-#include <vector>
 
 #include "core/random.h"
 #include "statistics/published_comparison.h"

@@ -1,19 +1,24 @@
 // The committed numbers of hazard detection, and mistakes in such a file.
-#include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <set>
-#include <string>
+#include <sstream>
 
+#include "core/json_file.h"
 #include "core/json_text.h"
 #include "core/refusals.h"
+#include "report/baseline.h"
 #include "report/comparison_reference.h"
 #include "report/comparison_table.h"
+#include "report/parameter_table.h"
 #include "statistics/published_comparison.h"
 
 namespace rockyard::report {
 namespace {
 
+using Ids = std::set<std::string>;
 using statistics::StatisticKind;
 using statistics::Verdict;
 using testing::HasSubstr;
@@ -125,6 +130,135 @@ TEST(RatioSumReference, MistakesAreNamed) {
                          R"("terms": [)" +
                          term + "]"),
               HasSubstr("nothing is simulated"));
+}
+
+// Every outcome that Matthies 1995 states has a row in a reference, or a reason why it has none.
+
+Ids IdsOfReferences() {
+  Ids ids;
+  for (const char* file : {"matthies1995", "matthies1995_hazard_detection", "matthies1995_mission",
+                           "matthies1995_dead_reckoning", "matthies1995_cylinder"}) {
+    const auto path = std::string(ROCKYARD_SOURCE_DIR "/results/reference/") + file + ".json";
+    for (const auto& value : LoadReference(path).values) {
+      EXPECT_TRUE(ids.insert(value.id).second) << value.id << " stands in two references";
+    }
+  }
+  return ids;
+}
+
+const std::vector<core::JsonValue>& Targets() {
+  static const core::JsonValue document =
+      core::LoadJsonFile(ROCKYARD_SOURCE_DIR "/tests/data/matthies1995_targets.json");
+  return document.Find("targets")->list();
+}
+
+// Names of rows that are not among `ids`, and of targets with neither a row nor a reason.
+Ids Unanswered(const Ids& ids) {
+  Ids missing;
+  for (const core::JsonValue& target : Targets()) {
+    const core::JsonValue* rows = target.Find("rows");
+    const core::JsonValue* reason = target.Find("reason");
+    const bool answered = rows != nullptr ? !rows->list().empty() && reason == nullptr
+                                          : reason != nullptr && !reason->text().empty();
+    if (!answered) missing.insert(target.Find("id")->text());
+    if (rows == nullptr) continue;
+    for (const core::JsonValue& row : rows->list()) {
+      if (!ids.contains(row.text())) missing.insert(row.text());
+    }
+  }
+  return missing;
+}
+
+TEST(PublishedTargets, EachHasARowOrAReason) {
+  const Ids ids = IdsOfReferences();
+  EXPECT_EQ(Targets().size(), 67u);
+  EXPECT_EQ(Unanswered(ids), Ids());
+}
+
+// Negative control: a row that is taken out of its reference is missed.
+TEST(PublishedTargets, ARowThatIsGoneIsMissed) {
+  Ids ids = IdsOfReferences();
+  for (const char* id : {"nominal.success", "traverse.hour", "moore.cover_vl2"}) ids.erase(id);
+  EXPECT_EQ(Unanswered(ids), (Ids{"nominal.success", "traverse.hour", "moore.cover_vl2"}));
+}
+
+// Baselines as files, and the table of metrics in README.md.
+
+Baseline SampleBaseline() {
+  using truth::TrialOutcome;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const truth::RecordSchema schema = {{"max_tilt_deg", "deg", ""}, {"sim_time_s", "s", ""}};
+  const std::vector<truth::Record> records = {{0, TrialOutcome::kGoalReached, "", {5.1234567, 10}},
+                                              {1, TrialOutcome::kJammed, "", {nan, 20}},
+                                              {2, TrialOutcome::kSimulatorFault, "", {}}};
+  BaselineCell cell{.name = "a \"cell\"",
+                    .scenario = "s",
+                    .fingerprint = "f",
+                    .resolved = "{\"k\": 1}",
+                    .seed = 9000000000000000001ULL,
+                    .trial_hash = "h",
+                    .outcomes = {},
+                    .metrics = {}};
+  FillBaselineCell(schema, records, cell);
+  return {.name = "n", .reason = "because", .build = "b", .cells = {cell}};
+}
+
+TEST(Baseline, ReadsBackWhatWasWritten) {
+  const Baseline before = SampleBaseline();
+  const core::JsonValue json = core::ParseJson(BaselineJson(before), "baseline");
+  ASSERT_TRUE(IsBaseline(json));
+  const Baseline after = ParseBaseline(json);
+  ASSERT_EQ(after.cells.size(), 1u);
+  EXPECT_EQ(after.cells[0].name, "a \"cell\"");
+  EXPECT_EQ(after.cells[0].seed, 9000000000000000001ULL);
+  EXPECT_EQ(after.cells[0].outcomes, before.cells[0].outcomes);
+  ASSERT_EQ(after.cells[0].metrics.size(), before.cells[0].metrics.size());
+  for (std::size_t i = 0; i < after.cells[0].metrics.size(); ++i) {
+    const statistics::BaselineMetric& a = before.cells[0].metrics[i];
+    const statistics::BaselineMetric& b = after.cells[0].metrics[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.margin, b.margin);
+    ASSERT_EQ(b.values.size(), 3u);
+    for (std::size_t t = 0; t < 3; ++t) {
+      EXPECT_TRUE(a.values[t] == b.values[t] ||
+                  (std::isnan(a.values[t]) && std::isnan(b.values[t])));
+    }
+  }
+}
+
+// A mean of 0 gives a relative margin no scale; the file must still be one that can be read.
+TEST(Baseline, AMetricThatIsAlwaysZeroHasAMargin) {
+  const truth::RecordSchema schema = {{"true_distance_m", "m", ""}};
+  const std::vector<truth::Record> records = {{0, truth::TrialOutcome::kJammed, "", {0.0}},
+                                              {1, truth::TrialOutcome::kJammed, "", {0.0}}};
+  Baseline still = SampleBaseline();
+  BaselineCell& cell = still.cells[0];
+  cell.outcomes.clear();
+  cell.metrics.clear();
+  FillBaselineCell(schema, records, cell);
+  const Baseline read = ParseBaseline(core::ParseJson(BaselineJson(still), "baseline"));
+  for (const statistics::BaselineMetric& metric : read.cells.at(0).metrics) {
+    EXPECT_GT(metric.margin, 0.0) << metric.name;
+  }
+  EXPECT_EQ(read.cells[0].metrics.back().values, std::vector<double>(2, 0.0));
+}
+
+TEST(Baseline, EveryMistakeIsNamed) {
+  const core::JsonValue json = core::ParseJson(
+      R"({"kind": "rockyard_baseline", "schema_version": 2, "name": 1, "reason": "r", "build": "b",
+          "cells": [{"name": "c", "scenario": "s", "fingerprint": "f", "trial_hash": "h",
+                     "seed": "x", "outcomes": "G?", "resolved": {},
+                     "margins": {"max_tilt_deg": 0}, "metrics": {"max_tilt_deg": ["a"]}}]})",
+      "baseline");
+  EXPECT_EQ(core::ProblemsIn([&] { ParseBaseline(json); }).size(), 6u);
+}
+
+TEST(MetricTable, StandsInTheReadme) {
+  std::ifstream file(ROCKYARD_SOURCE_DIR "/src/statistics/README.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_NE(text.str().find(MetricTableMarkdown()), std::string::npos)
+      << "put the output of rockyard metrics --markdown into src/statistics/README.md";
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 // Numbers that are judged by a tolerance: verdicts, intervals and closed forms.
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <initializer_list>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/json_file.h"
 #include "core/random.h"

@@ -4,10 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 #include "core/random.h"
 #include "core/statistical_checks.h"
@@ -23,11 +21,8 @@ constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 // Long enough that one swath in 10^4 meets nothing.
 TerrainParams PoissonField() {
-  TerrainParams params;
-  params.arena.kind = ArenaKind::kOpen;
-  params.arena.length_m = 44.0;
-  params.rocks.overlap = OverlapRule::kAllow;
-  params.rocks.clear_radius_m = 0.0;
+  TerrainParams params{.rocks = {.overlap = OverlapRule::kAllow, .clear_radius_m = 0.0},
+                       .arena = {.kind = ArenaKind::kOpen, .length_m = 44.0}};
   params.rocks.k_reference_per_m2 = params.rocks.k_per_m2;
   return params;
 }

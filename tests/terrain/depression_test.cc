@@ -1,11 +1,9 @@
 // Ditches and pits against closed forms, finite differences and rays sampled finely.
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <optional>
 
 #include "core/random.h"
 #include "math/angles.h"

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <sstream>
-#include <string>
 #include <vector>
 
 #include "core/count_of.h"

@@ -1,12 +1,9 @@
 // The family of rocks from dome to cone: against its definition, written down a second time here.
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
-#include <optional>
-#include <vector>
 
 #include "core/random.h"
 #include "terrain/arena.h"

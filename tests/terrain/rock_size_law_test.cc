@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 #include "core/json_text.h"
+#include "terrain/placed_rocks.h"
+#include "terrain/rock.h"
 #include "terrain/test_fields.h"
 
 namespace rockyard::terrain {
@@ -114,6 +115,115 @@ TEST(MakeSizeLawTest, NoneHasNoLaw) {
   RockFieldParams params{.kind = RockFieldKind::kNone};
   EXPECT_EQ(MakeSizeLaw(params), nullptr);
   EXPECT_EQ(params.RocksPerM2(), 0.0);
+}
+
+// Points of rocks for drawings against the queries of the terrain.
+
+constexpr double kGround_m = 0.3;
+
+// Turned, three quarters as wide as long, and with that height above the ground.
+Rock Standing(double pointedness) {
+  Rock rock =
+      ShapeRock({.diameter_m = 0.6, .width_ratio = 0.75, .half_height_m = 0.2, .height_m = 0.28},
+                pointedness);
+  rock.center_W += math::Vector3(4.0, -2.0, kGround_m);
+  rock.yaw_rad = 0.7;
+  return rock;
+}
+
+TEST(RockPoints, LieOnTheSurfaceFromTheGroundToTheTop) {
+  for (const double pointedness : {0.0, 0.5, 0.9}) {
+    const Rock rock = Standing(pointedness);
+    const RockShape shape(rock);
+    double lowest_m = 1e9;
+    double highest_m = -1e9;
+    for (const math::Vector3& point : PointsAbove(rock, kGround_m)) {
+      lowest_m = std::min(lowest_m, point.z());
+      highest_m = std::max(highest_m, point.z());
+      if (point.z() < rock.center_W.z() + 1e-9) continue;  // an ellipsoid's lower half
+      // A little inwards, where the query is not beside the rock.
+      const math::Vector3 within = point + 1e-9 * (rock.center_W - point);
+      EXPECT_NEAR(shape.Top(within.x(), within.y()), point.z(), 1e-3) << pointedness;
+    }
+    EXPECT_NEAR(lowest_m, kGround_m, 1e-12) << pointedness;
+    EXPECT_NEAR(highest_m, kGround_m + rock.height_m, 1e-12) << pointedness;
+  }
+}
+
+// (p / semi-axes)^2 adds up to 1 on all of an ellipsoid.
+TEST(RockPoints, TheLowerHalfOfAnEllipsoidIsOnItToo) {
+  const Rock rock = Standing(0.0);
+  const RockShape shape(rock);
+  for (const math::Vector3& point : PointsAbove(rock, kGround_m)) {
+    EXPECT_NEAR(shape.Map(point - rock.center_W).norm(), 1.0, 1e-12);
+  }
+}
+
+TEST(RockPoints, NothingOfABuriedRock) {
+  const Rock rock = Standing(0.0);
+  EXPECT_TRUE(PointsAbove(rock, kGround_m + rock.height_m + 0.01).empty());
+  EXPECT_FALSE(PointsAbove(rock, kGround_m + rock.height_m - 0.01).empty());
+}
+
+TEST(RockPoints, TheOutlineIsAnOctagonOfTheEllipse) {
+  const Rock rock = Standing(0.0);
+  const std::vector<math::Vector3> outline = PlanOutline(rock);
+  ASSERT_EQ(outline.size(), 8u);
+  const RockShape shape(rock);
+  for (const math::Vector3& corner : outline) {
+    EXPECT_NEAR(shape.Map(corner - rock.center_W).norm(), 1.0, 1e-12);
+    EXPECT_EQ(corner.z(), rock.center_W.z());
+  }
+}
+
+// Holding forces against the numbers of a pocket calculator.
+
+constexpr double kEarth_m_s2 = 9.81;
+
+// An ellipsoid of 2 a x 2 b x 2 c, buried to a depth of depth_m.
+Rock MakeRock(double a_m, double b_m, double c_m, double depth_m) {
+  return EllipsoidRock(0.0, 0.0, c_m - depth_m, a_m, b_m, c_m);
+}
+
+TEST(RockHolding, MassIsThatOfTheEllipsoid) {
+  EXPECT_NEAR(RockMass(MakeRock(0.1, 0.1, 0.1, 0.0), 2700.0), 11.310, 1e-3);
+  EXPECT_NEAR(RockMass(MakeRock(0.2, 0.1, 0.05, 0.0), 2700.0), 11.310, 1e-3);
+}
+
+TEST(RockHolding, UnburiedRockIsHeldByFrictionUnderWeightAndLoad) {
+  const RockHoldingParams params;
+  const Rock rock = MakeRock(0.1, 0.1, 0.1, 0.0);
+  const double weight_N = 11.3097 * kEarth_m_s2;
+  const auto force = [&](double load_N) {
+    return HoldingForce(rock, params, kEarth_m_s2, load_N, math::Vector3::UnitX());
+  };
+  EXPECT_NEAR(force(0.0), 0.6 * weight_N, 1e-3);
+  EXPECT_NEAR(force(50.0), 0.6 * (weight_N + 50.0), 1e-3);
+  EXPECT_NEAR(force(-50.0), 0.6 * (weight_N - 50.0), 1e-3);
+  EXPECT_EQ(force(-2.0 * weight_N), 0.0);  // lifted
+}
+
+// Rankine: K = 3 at 30 degrees. Half of 3 x 1600 x 9.81 N/m3 x (0.1 m)^2 x 0.3 m is 70.63 N.
+TEST(RockHolding, BuriedRockIsAlsoHeldByThePassivePressureOnItsFront) {
+  RockHoldingParams params{.soil_friction_angle_rad = math::DegToRad(30.0),
+                           .rock_soil_friction = 0.0};
+  const auto force = [&](double depth_m, const math::Vector3& push_W) {
+    return HoldingForce(MakeRock(0.15, 0.1, 0.15, depth_m), params, kEarth_m_s2, 0.0, push_W);
+  };
+  EXPECT_NEAR(force(0.1, math::Vector3::UnitY()), 70.63, 0.01);
+  EXPECT_NEAR(force(0.1, math::Vector3::UnitX()), 70.63 * 2.0 / 3.0, 0.01);  // 0.2 m wide
+  EXPECT_NEAR(force(0.2, math::Vector3::UnitY()), 4.0 * 70.63, 0.04);
+  EXPECT_EQ(force(0.0, math::Vector3::UnitY()), 0.0);
+}
+
+TEST(RockHolding, WidthFollowsTheRocksYaw) {
+  RockHoldingParams params{.rock_soil_friction = 0.0};
+  Rock rock = MakeRock(0.15, 0.1, 0.15, 0.1);
+  const double across_N =
+      HoldingForce(rock, params, kEarth_m_s2, 0.0, 7.0 * math::Vector3::UnitY());
+  rock.yaw_rad = 0.5 * std::numbers::pi;
+  EXPECT_NEAR(HoldingForce(rock, params, kEarth_m_s2, 0.0, -math::Vector3::UnitX()), across_N,
+              1e-9);
 }
 
 }  // namespace

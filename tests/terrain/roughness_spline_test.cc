@@ -1,13 +1,12 @@
 // The roughness as one spline against its octaves, and rays by it against rays that march.
+
 #include "terrain/roughness_spline.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <thread>
-#include <vector>
 
 #include "core/random.h"
 #include "terrain/ground.h"
@@ -98,13 +97,10 @@ TEST(RoughnessSpline, RaysStraightDownUpAndFromBelow) {
 
 // Ground with a pit is marched over either way.
 TEST(RoughnessSpline, PitsAreMet) {
-  GroundParams params;
-  params.roughness_rms_m = 0.01;
-  params.pits.x_m = {0.0};
-  params.pits.y_m = {0.0};
-  params.pits.diameter_m = {1.0};
-  params.pits.depth_m = {0.4};
-  params.pits.flank_m = {0.3};
+  GroundParams params{
+      .roughness_rms_m = 0.01,
+      .pits = {
+          .x_m = {0.0}, .y_m = {0.0}, .diameter_m = {1.0}, .depth_m = {0.4}, .flank_m = {0.3}}};
   const Ground ground(params, kKey);
   const Vector3 above(0.0, 0.0, 1.0);
   EXPECT_EQ(ground.CastRay(above, -Vector3::UnitZ(), 10.0, RayWay::kSpline),

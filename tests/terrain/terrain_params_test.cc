@@ -1,9 +1,7 @@
+
 #include "terrain/terrain_params.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
-#include <string>
 
 #include "core/params_text.h"
 #include "core/says.h"

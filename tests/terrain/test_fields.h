@@ -1,7 +1,6 @@
 // Terrain parameters that several tests start from.
 #pragma once
 
-#include <cstdint>
 #include <numbers>
 
 #include "terrain/rock_size_law.h"

@@ -1,9 +1,6 @@
 // Aids of localization in a drive.
+
 #include "trial/aids/aid_suite.h"
-
-#include <gmock/gmock.h>
-
-#include <cmath>
 
 #include "core/refusals.h"
 #include "trial/course/goal_designation.h"

@@ -3,10 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include "math/angles.h"
 #include "navigation/navigator.h"

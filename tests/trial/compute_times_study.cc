@@ -1,7 +1,7 @@
 // What looks take on every computer, as CSV: scripts/studies/rover_speed/rover_speed.py reads
 // results/studies/compute_times.csv, which this prints. Cells of 20 cm on 9 m x 9 m; nothing
 // stated, so that acquisition is what suits the computer.
-#include <cstddef>
+
 #include <iostream>
 
 #include "core/fields.h"

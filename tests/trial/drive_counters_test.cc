@@ -1,15 +1,13 @@
 // Counts of stops, turns on the spot, moves and turns of the steering motors; the slope of squared
 // errors along a run, and hazards believed and begun: closed forms, scripts and traced drives.
+
 #include "trial/counters/drive_counters.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdint>
 #include <initializer_list>
 #include <map>
 #include <set>
-#include <vector>
 
 #include "core/check.h"
 #include "math/angles.h"

@@ -1,11 +1,10 @@
 // Goals as a lander designates them: Matthies 1995, section 4 and figure 4.
+
 #include "trial/course/goal_designation.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "core/statistical_checks.h"
 

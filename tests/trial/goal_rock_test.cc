@@ -1,11 +1,6 @@
 // Rocks at goals: what the rover finds, and how drives to them end.
+
 #include "trial/referee/goal_rock.h"
-
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
 
 #include "core/refusals.h"
 #include "math/angles.h"

@@ -1,13 +1,10 @@
 // What a lander's map holds of the rocks, by their range and height, as CSV.
 //   lander_map_study SCENARIO FIELDS [PATH=VALUE]...
 // Rocks of the layout alone count, not their mirror images.
-#include <array>
+
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <iostream>
-#include <string>
-#include <vector>
 
 #include "core/error.h"
 #include "scenario/load.h"

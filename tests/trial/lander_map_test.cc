@@ -1,10 +1,9 @@
 // The rocks as a lander's stereo pair shows them: Matthies 1995, sections 2.1.1 and 4.
+
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 #include "core/statistical_checks.h"
 #include "trial/course/goal_designation.h"
@@ -28,12 +27,10 @@ CourseParams ExactCourse() {
 
 // A dome on the ground.
 terrain::Rock Dome(double x_m, double y_m, double radius_m, double height_m) {
-  terrain::Rock rock;
-  rock.center_W = {x_m, y_m, 0.0};
-  rock.semi_axes_m = {radius_m, radius_m, height_m};
-  rock.diameter_m = 2.0 * radius_m;
-  rock.height_m = height_m;
-  return rock;
+  return {.center_W = {x_m, y_m, 0.0},
+          .semi_axes_m = {radius_m, radius_m, height_m},
+          .diameter_m = 2.0 * radius_m,
+          .height_m = height_m};
 }
 
 // 2 m across the x axis and 4 mm thick.

@@ -12,7 +12,6 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
-#include <cmath>
 
 #include "math/angles.h"
 #include "trial/shipped_trials.h"
@@ -185,16 +184,14 @@ TEST(LevelSandSlopeTest, OtherGainsOfTheEncodersAreRejected) {
 constexpr const char* kNoNoise = "sensors.encoders.distance_variance_m2_per_m=1.2e-5";
 
 TEST(LevelSandTest, DistanceScaleIsTheCalibratedOne) {
-  const Drives drives = DriveAll(kNoiselessRuns, {kNoNoise});
-  EXPECT_TRUE(NoMeanDistanceError(drives));
+  EXPECT_TRUE(NoMeanDistanceError(DriveAll(kNoiselessRuns, {kNoNoise})));
 }
 
 TEST(LevelSandTest, DistanceScaleThatIsOnePerCentOffIsRejected) {
   const std::string scale =
       std::to_string(1.01 * Pathfinder("level_sand").perception.dead_reckoning.distance_scale);
-  const Drives drives =
-      DriveAll(kNoiselessRuns, {kNoNoise, "perception.dead_reckoning.distance_scale=" + scale});
-  EXPECT_FALSE(NoMeanDistanceError(drives));
+  EXPECT_FALSE(NoMeanDistanceError(
+      DriveAll(kNoiselessRuns, {kNoNoise, "perception.dead_reckoning.distance_scale=" + scale})));
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 // What wrong calibrations do to a rover that is true to its description, and what a wrong mount of
 // stereo cameras makes of the points that they see.
+
 #include "trial/eyes/onboard_calibration.h"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
 
 #include "math/angles.h"
 #include "perception/triangulation.h"
@@ -62,8 +60,7 @@ TEST(OnboardCalibrationTest, DriveErrorsAreWhatIsBelievedTooMuch) {
 
 // Elevations of flat ground seen by the true sensor and read with a wrong calibration.
 messages::ElevationScan FlatGround(const perception::CalibrationErrorParams& errors) {
-  sensing::LightStripeParams params;
-  params.wrong_place_probability = 0.0;
+  sensing::LightStripeParams params{.wrong_place_probability = 0.0};
   const messages::StripeScan scan = sensing::LightStripe(params).Scan(
       terrain::Terrain(terrain::Ground(), {}, {}), math::Transform::Identity(), {1, 0}, 0);
   return perception::Triangulator(OnboardStripeCalibration(params, errors)).Elevations(scan);

@@ -1,13 +1,10 @@
 // A navigator that steers at every tick while images are taken and computed: what happens when,
 // what it costs and where data were taken, against times that were worked out by hand.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "localization/estimator.h"
 #include "localization/estimator_set_params.h"

@@ -1,10 +1,6 @@
 // A run without patience tells, trial by trial, what a run with some gives.
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

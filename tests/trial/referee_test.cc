@@ -1,9 +1,9 @@
+
 #include "trial/referee/referee.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace rockyard::trial {

@@ -3,9 +3,7 @@
 
 #include <bit>
 #include <cstdint>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "scenario/shipped.h"
 #include "trial/run_trial.h"

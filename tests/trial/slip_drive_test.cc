@@ -1,8 +1,6 @@
 // Rovers whose wheels slip, with a check of slip by what they see.
-#include <gmock/gmock.h>
 
-#include <cmath>
-#include <string>
+#include <gmock/gmock.h>
 
 #include "math/angles.h"
 #include "trial/referee/slip_onset.h"

@@ -1,14 +1,10 @@
 // The closed loop on rendered images: points of stereo at the image fidelity, and drives by them.
 // Who looks over the shoulder of the cameras is shown what the navigator gets, and changes nothing.
-#include "trial/eyes/stereo_eyes.h"
 
-#include <gmock/gmock.h>
+#include "trial/eyes/stereo_eyes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "core/error.h"
 #include "core/refusals.h"
@@ -84,8 +80,7 @@ TEST(StereoEyesTest, WithoutTextureThereIsLittleToMatch) {
   }
   const std::size_t textured =
       Seen(Gestalt("abundance", kImages), Flat(), LookDirection::kAhead).size();
-  const std::size_t bare = Seen(Gestalt("abundance", plain), Flat(), LookDirection::kAhead).size();
-  EXPECT_LT(5 * bare, textured);
+  EXPECT_LT(5 * Seen(Gestalt("abundance", plain), Flat(), LookDirection::kAhead).size(), textured);
 }
 
 // A rock is where it is, and behind it nothing is seen.
@@ -141,8 +136,7 @@ TEST(StereoEyesTest, AWrongCalibrationMovesThePointsRigidly) {
 TEST(StereoEyesTest, ADriveByImagesRepeatsBitForBitAndArrives) {
   const DriveParams drive = Gestalt("abundance", kImages + kShortAndEmpty);
   const DriveResult once = RunTrial(drive, kKey);
-  const DriveResult again = RunTrial(drive, kKey);
-  EXPECT_THAT(Differences(once, again), testing::IsEmpty());
+  EXPECT_THAT(Differences(once, RunTrial(drive, kKey)), testing::IsEmpty());
   EXPECT_EQ(once.outcome, truth::TrialOutcome::kGoalReached) << once.detail;
 }
 

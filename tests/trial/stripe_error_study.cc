@@ -3,8 +3,6 @@
 // fit_stripe_errors.py runs it and fits the error model of the geometric level.
 #include <cstdlib>
 #include <iostream>
-#include <string>
-#include <vector>
 
 #include "core/error.h"
 #include "scenario/load.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 
 #include "scenario/scenario.h"
 #include "sensing/light_stripe.h"

@@ -1,9 +1,7 @@
+
 #include "trial/drive/timeline.h"
 
 #include <gtest/gtest.h>
-
-#include <memory>
-#include <optional>
 
 namespace rockyard::trial {
 namespace {

@@ -2,10 +2,6 @@
 // is told to, and sees three points of level ground ahead.
 #pragma once
 
-#include <memory>
-#include <utility>
-#include <vector>
-
 #include "core/fields.h"
 #include "math/pose.h"
 #include "scenario/load.h"

@@ -3,10 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <string>
-#include <vector>
 
 #include "math/angles.h"
 #include "trial/shipped_trials.h"

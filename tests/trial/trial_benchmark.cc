@@ -1,12 +1,11 @@
 // Closed loop: trials per CPU-second by field and fidelity of the rover, and the parts of a trial
 // that are not the rover's motion. Each benchmark prints a hash of all that it computed, so that
 // nobody gets faster by computing something else unnoticed.
+
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "core/hash.h"
 #include "navigation/pathfinder/pathfinder_params.h"

@@ -1,11 +1,8 @@
 // Visual odometry of a drive: when it looks, what the estimator is told and when, what it costs.
+
 #include "trial/aids/visual_aid.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
-#include <memory>
-#include <optional>
 
 #include "core/refusals.h"
 #include "trial/eyes/compute_profile.h"

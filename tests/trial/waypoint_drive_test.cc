@@ -1,9 +1,8 @@
 // Whole drives from waypoint to waypoint, and to a goal that is tracked.
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/pathfinder/pathfinder_params.h"
@@ -141,8 +140,7 @@ TEST_P(TrackingDrive, ATrackedGoalIsReachedInSpiteOfDrift) {
 TEST_P(TrackingDrive, AGoalThatIsNeverSeenStaysWhereItWasTold) {
   const Overrides short_sighted = kTracking + Overrides{"course.tracking.range_m=0.1"};
   const DriveResult blind = RunTrial(Make(kDrifting), {1, 0});
-  const DriveResult tracked = RunTrial(Make(kDrifting + short_sighted), {1, 0});
-  EXPECT_TRUE(Differences(blind, tracked).empty());
+  EXPECT_TRUE(Differences(blind, RunTrial(Make(kDrifting + short_sighted), {1, 0})).empty());
 }
 
 // Waypoints are designated, and the goal alone is tracked.
@@ -163,8 +161,7 @@ TEST_P(TrackingDrive, ATargetThatMovesIsFollowed) {
   const Overrides moving = kBareGround + kKnowsItsPlace +
                            Overrides{"course.goal_x_m=4", "course.target_speed_m_s=0.002",
                                      "course.target_heading_deg=90", "course.goal_radius_m=0.3"};
-  const DriveResult told = RunTrial(Make(moving), {1, 0});
-  EXPECT_EQ(told.outcome, TrialOutcome::kFalseGoal);
+  EXPECT_EQ(RunTrial(Make(moving), {1, 0}).outcome, TrialOutcome::kFalseGoal);
   const DriveResult tracked = RunTrial(Make(moving + kTracking), {1, 0});
   EXPECT_EQ(tracked.outcome, TrialOutcome::kGoalReached) << tracked.detail;
   const truth::DriveRecord& record = tracked.record;

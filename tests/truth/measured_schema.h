@@ -1,9 +1,6 @@
 // Schemas of measurements, for tests that need columns with roles and no experiment.
 #pragma once
 
-#include <span>
-#include <string_view>
-
 #include "truth/measurement_record.h"
 
 namespace rockyard::truth {

@@ -1,12 +1,10 @@
 // GESTALT on the move: where it looks, waits and stops, and what it drives meanwhile.
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
-#include "moving_drive.h"
+#include "drive.h"
 
 namespace rockyard::navigation {
 namespace {

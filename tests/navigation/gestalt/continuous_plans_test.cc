@@ -1,11 +1,8 @@
 // GESTALT on the move: when it asks for a plan, what that is made of, and what comes of it.
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "moving_drive.h"
+#include "drive.h"
 #include "navigation/gestalt/curvature_law.h"
 
 namespace rockyard::navigation {

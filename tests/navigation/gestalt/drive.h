@@ -3,11 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
-#include <functional>
 #include <optional>
-#include <vector>
 
 #include "navigation/fake_rover.h"
 #include "navigation/gestalt/gestalt.h"
@@ -89,12 +86,12 @@ using AtTick = std::function<bool(int tick)>;
 inline bool Never(int) { return false; }
 
 struct GestaltSetup {
-  GestaltParams params;
+  GestaltParams params{};
   messages::Goal goal{5.0, 0.0};
-  math::Pose2 start;
-  FakeRoverConfig rover;
+  math::Pose2 start{};
+  FakeRoverConfig rover{};
   HeightAt height = Flat();
-  FakeRange range;
+  FakeRange range{};
   int latency_ticks = 0;  // from a look on the move to its answer
   bool loses_answers = false;
   std::function<std::optional<messages::VehicleHazard>(const FakeRover&)> felt = Nothing();
@@ -109,11 +106,11 @@ struct GestaltSetup {
 
 struct GestaltTick {
   double time_s = 0.0;
-  messages::PoseEstimate estimate;
-  math::Pose2 X_WR;
+  messages::PoseEstimate estimate{};
+  math::Pose2 X_WR{};
   bool has_cloud = false;
-  NavigatorDecision decision;
-  messages::MotionCommand motion;  // that the wheels were told, after the follower
+  NavigatorDecision decision{};
+  messages::MotionCommand motion{};  // that the wheels were told, after the follower
 
   bool moves() const { return !decision.looks() && decision.status == NavigatorStatus::kDriving; }
   bool turns() const {
@@ -139,10 +136,9 @@ class GestaltDrive final : public LoggedDrive<GestaltTick, GestaltNavigator> {
 
   const GestaltTick& Step() override {
     const int number = static_cast<int>(log_.size());
-    GestaltTick tick;
-    tick.time_s = number * setup_.rover.tick_s;
-    tick.estimate = rover_.estimate();
-    tick.X_WR = rover_.X_WR();
+    GestaltTick tick{.time_s = number * setup_.rover.tick_s,
+                     .estimate = rover_.estimate(),
+                     .X_WR = rover_.X_WR()};
     NavigatorInput input{.time_s = tick.time_s,
                          .estimate = tick.estimate,
                          .attitude = setup_.attitude(number),
@@ -256,17 +252,45 @@ inline bool HoldSameData(const messages::MapView& a, const messages::MapView& b)
 }
 
 // A rover whose encoders and gyro tell the truth.
-inline FakeRoverConfig TrueRover() {
-  FakeRoverConfig rover;
-  rover.gyro_scale = 1.0;
-  rover.odometer_scale = 1.0;
-  return rover;
+inline FakeRoverConfig TrueRover() { return {.gyro_scale = 1.0, .odometer_scale = 1.0}; }
+
+inline GestaltSetup TrueSetup() { return {.rover = TrueRover()}; }
+
+// What tests of GESTALT on the move share.
+
+using messages::LookDirection;
+using messages::MotionKind;
+
+inline GestaltSetup SetupOf(DriveCycle cycle) {
+  GestaltSetup setup = TrueSetup();
+  setup.goal = {8.0, 0.0};
+  setup.params.continuous.cycle = cycle;
+  setup.params.waypoints.goal_tolerance_m = 0.5;
+  setup.params.drive.arrival_check = ArrivalCheck::kWhileDriving;
+  setup.rover.speed_m_s = 0.07;
+  return setup;
 }
 
-inline GestaltSetup TrueSetup() {
-  GestaltSetup setup;
-  setup.rover = TrueRover();
-  return setup;
+inline constexpr DriveCycle kOnTheMove[] = {DriveCycle::kCsod, DriveCycle::kCsad};
+
+inline void SeeNearGroundOnly(GestaltSetup& setup) {
+  setup.range.range_m = 1.2;
+  setup.params.plan.plan_max_dist_m = setup.params.splines.length_m = 1.1;
+}
+
+// What holds for either cycle that looks on the move.
+class OnTheMove : public testing::TestWithParam<DriveCycle> {
+ protected:
+  GestaltSetup setup_ = SetupOf(GetParam());
+};
+
+// Blocks hold no place of the vehicle's centre: obstacles grow by half its width, 0.42 m, in the
+// map; a cell of 0.2 m may be half covered.
+inline void ExpectClearOf(const GestaltDrive& drive, const Block& block) {
+  for (const GestaltTick& tick : drive.log()) {
+    ASSERT_FALSE(block.Holds(tick.X_WR.x_m, tick.X_WR.y_m, 0.42 - 0.1))
+        << tick.X_WR.x_m << ", " << tick.X_WR.y_m;
+  }
 }
 
 }  // namespace rockyard::navigation

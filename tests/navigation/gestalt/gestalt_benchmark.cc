@@ -10,19 +10,15 @@
 // and 8.0, more than 4: step 3 of section 4 merges a patch of the rover's size for every cell, and
 // such a patch holds four times as many cells too. From 50 to 20 cm its planes grow by 4.8, 5.3
 // and 3.0 alone, as a part of their time does not go with the cells.
+
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <ctime>
-#include <string>
-#include <string_view>
 
 #include "core/hash.h"
 #include "core/random.h"
 #include "navigation/gestalt/map.h"
-#include "navigation/gestalt/spline_reference.h"
+#include "navigation/gestalt/reference.h"
 #include "navigation/gestalt/splines.h"
 #include "navigation/gestalt/votes.h"
 #include "trial/eyes/compute_tables.h"

@@ -1,8 +1,6 @@
 // The fast map against the plain one, cell for cell, on random ground with gaps.
-#include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
+#include <gtest/gtest.h>
 
 #include "core/random.h"
 #include "navigation/gestalt/map.h"

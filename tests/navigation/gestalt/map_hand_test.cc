@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 
 #include "math/angles.h"
 #include "navigation/gestalt/clouds.h"
@@ -161,8 +160,7 @@ TEST(GestaltHandTest, CellsInThePlaneAreNoOutliers) {
   for (int i = 9; i < 12; ++i) {
     for (int j = 9; j < 12; ++j) cloud.points_R.push_back({Edge(i) + 0.1, Edge(j) + 0.1, 0.0});
   }
-  const GoodnessGrid grid = MapOf(params, cloud).Evaluate();
-  EXPECT_EQ(grid.Cell(10, 10), kBest);
+  EXPECT_EQ(MapOf(params, cloud).Evaluate().Cell(10, 10), kBest);
 }
 
 // Without the cell that stands 1 m above level ground its patch is level; with it the residual

@@ -1,5 +1,6 @@
 // What the map keeps of what it saw and of what the rover felt, what it forgets, and what it leaves
 // out.
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,11 +28,7 @@ bool HasData(GestaltMap& map, double x, double y) {
   return view.Cell(ix, iy).has_data;
 }
 
-messages::PointCloud OnePoint(double x, double y, double z) {
-  messages::PointCloud cloud;
-  cloud.points_R = {{x, y, z}};
-  return cloud;
-}
+messages::PointCloud OnePoint(double x, double y, double z) { return {.points_R = {{x, y, z}}}; }
 
 TEST(GestaltMemoryTest, CellIsZeroedAfterMaxIdlesCyclesWithoutData) {
   GestaltMapParams params = HandParams();

@@ -1,9 +1,9 @@
 // Properties of the map that hold on any ground.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 #include "core/random.h"
@@ -35,8 +35,7 @@ std::vector<Vector3> RandomPoints(std::uint32_t trial, double height, double gap
 }
 
 GoodnessGrid GridOf(const GestaltMapParams& params, std::vector<Vector3> points) {
-  messages::PointCloud cloud;
-  cloud.points_R = std::move(points);
+  messages::PointCloud cloud{.points_R = std::move(points)};
   return MapOf(params, cloud).Evaluate();
 }
 

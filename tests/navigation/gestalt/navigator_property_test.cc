@@ -200,8 +200,7 @@ TEST(GestaltProperty, RandomBlocksAreNeverDrivenOverAndDrivesEnd) {
 }
 
 TEST(GestaltProperty, EqualInputsGiveEqualDecisions) {
-  GestaltSetup setup;
-  setup.height = Blocks({{2.0, 2.6, -0.5, 0.5}});
+  GestaltSetup setup{.height = Blocks({{2.0, 2.6, -0.5, 0.5}})};
   GestaltDrive a(setup);
   GestaltDrive b(setup);
   a.Run();

@@ -1,7 +1,4 @@
 // Names and published defaults of the parameters of GESTALT, and what a user may not set.
-#include <gmock/gmock.h>
-
-#include <cmath>
 
 #include "core/params_text.h"
 #include "core/says.h"
@@ -240,8 +237,7 @@ TEST(GestaltSplineParams, RateIsThatOfTheSteeringMotors) {
     return std::atan2(0.42 * curvature, 1.0 - 0.36 * curvature);
   };
   const double slope_m = (angle(c + 1e-6) - angle(c - 1e-6)) / 2e-6;
-  const double limit = math::DegToRad(20.0) / slope_m;
-  EXPECT_NEAR(splines.max_curvature_rate_per_m_s, 0.9 * limit, 0.02);
+  EXPECT_NEAR(splines.max_curvature_rate_per_m_s, 0.9 * (math::DegToRad(20.0) / slope_m), 0.02);
 }
 
 // From knot to knot: 2 / m in 14 spaces, over 1.5 m. A single knot has no next one.

@@ -5,13 +5,10 @@
 // the plain ones but for the last digits, and where votes are whole numbers the same.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/random.h"
 #include "grids.h"
 #include "math/angles.h"
-#include "spline_reference.h"
+#include "reference.h"
 
 namespace rockyard::navigation {
 namespace {

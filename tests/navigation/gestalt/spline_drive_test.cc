@@ -1,7 +1,6 @@
 // A point that replans every half metre and drives the chosen splines exactly, on open ground.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "grids.h"

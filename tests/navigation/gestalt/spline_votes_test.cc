@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "core/random.h"
@@ -345,13 +344,11 @@ TEST(GestaltSplineVotes, GoOnBeyondTheEndOfTheSpline) {
 }
 
 SplineVote Voted(double merged, double start, double first, double second, double error_rad = 0.0) {
-  SplineVote vote;
-  vote.spline = {start, first, second, 3.0};
-  vote.hazard = 200.0;
-  vote.merged = merged;
-  vote.waypoint_error_rad = error_rad;
-  vote.feasible = true;
-  return vote;
+  return {.spline = {start, first, second, 3.0},
+          .hazard = 200.0,
+          .waypoint_error_rad = error_rad,
+          .merged = merged,
+          .feasible = true};
 }
 
 // The place of the spline that is chosen; -1: none.

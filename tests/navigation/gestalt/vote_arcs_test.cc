@@ -1,10 +1,9 @@
 // Candidate motions against their closed forms; mirrored and turned worlds give mirrored and the
 // same choices.
+
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "core/random.h"
 #include "grids.h"
@@ -52,8 +51,7 @@ TEST(GestaltArcs, SamplesLieInTheMiddlesOfPiecesFromPlanMinToPlanMax) {
 }
 
 TEST(GestaltArcs, WeightsFallAsTheyAreNamed) {
-  GestaltPlanParams plan;
-  plan.far_weight = 0.2;
+  GestaltPlanParams plan{.far_weight = 0.2};
   const PathSampling linear = SamplePaths(plan, kCell_m);
   plan.path_weight = PathWeight::kInverse;
   const PathSampling inverse = SamplePaths(plan, kCell_m);
@@ -95,8 +93,7 @@ TEST(GestaltArcs, PointsLieOnTheirCircle) {
 }
 
 TEST(GestaltArcs, ArcsEndWhereTheyHaveTurnedEnough) {
-  GestaltPlanParams plan;
-  plan.max_path_turn_rad = 0.5 * std::numbers::pi;
+  GestaltPlanParams plan{.max_path_turn_rad = 0.5 * std::numbers::pi};
   const PathSampling sampling = SamplePaths(plan, kCell_m);
   const CandidateMotions motions = MakeCandidates({}, plan, sampling);
   // The tightest arc turns 90 deg over pi/4 m = 0.785 m: points at 0.35 ... 0.75.
@@ -105,10 +102,8 @@ TEST(GestaltArcs, ArcsEndWhereTheyHaveTurnedEnough) {
 }
 
 TEST(GestaltArcs, ArcsThatTurnTooFastAreJudgedAtTheirFirstPoint) {
-  GestaltArcParams arcs;
-  arcs.max_curvature_per_m = 20.0;
-  GestaltPlanParams plan;
-  plan.max_path_turn_rad = 0.2;
+  GestaltArcParams arcs{.max_curvature_per_m = 20.0};
+  GestaltPlanParams plan{.max_path_turn_rad = 0.2};
   const CandidateMotions motions = MakeCandidates(arcs, plan, SamplePaths(plan, 0.2));
   EXPECT_EQ(motions.forward.front().points.size(), 1u) << "7 rad at 0.35 m";
 }

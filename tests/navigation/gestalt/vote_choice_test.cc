@@ -1,9 +1,9 @@
 // Which motion is chosen (Goldberg 2002, section 4, step 7), from votes written by hand; and point
 // turns of several angles: which there are, which is chosen, and how far they turn.
+
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "drive.h"
 #include "navigation/gestalt/arcs.h"
@@ -20,11 +20,10 @@ using messages::MotionVote;
 std::vector<MotionVote> Row(const std::vector<double>& merged, int direction, int best) {
   std::vector<MotionVote> row;
   for (std::size_t i = 0; i < merged.size(); ++i) {
-    MotionVote vote;
-    vote.motion = {MotionKind::kArc, ArcCurvature(i, merged.size(), 2.0), direction};
-    vote.hazard = merged[i];
-    vote.merged = merged[i];
-    vote.waypoint = 255.0 - 10.0 * std::abs(static_cast<int>(i) - best);
+    MotionVote vote{.motion = {MotionKind::kArc, ArcCurvature(i, merged.size(), 2.0), direction},
+                    .hazard = merged[i],
+                    .waypoint = 255.0 - 10.0 * std::abs(static_cast<int>(i) - best),
+                    .merged = merged[i]};
     row.push_back(vote);
   }
   return row;
@@ -222,10 +221,9 @@ MotionVotes TurnVotes(const std::vector<double>& merged) {
   MotionVotes votes;
   const std::vector<double> degrees{-120, -60, 60, 120};
   for (std::size_t i = 0; i < degrees.size(); ++i) {
-    MotionVote turn;
-    turn.motion = {messages::MotionKind::kTurnInPlace, 0.0, degrees[i] < 0.0 ? -1 : +1};
-    turn.turn_rad = math::DegToRad(degrees[i]);
-    turn.merged = merged[i];
+    MotionVote turn{.motion = {messages::MotionKind::kTurnInPlace, 0.0, degrees[i] < 0.0 ? -1 : +1},
+                    .turn_rad = math::DegToRad(degrees[i]),
+                    .merged = merged[i]};
     votes.point_turns.push_back(turn);
   }
   return votes;
@@ -250,8 +248,7 @@ TEST(GestaltPointTurns, ASearchTakesTheAngleNearestToItsAmount) {
 }
 
 GestaltSetup GoalBehind(double behind_deg) {
-  GestaltSetup setup;
-  setup.params = SixTurns();
+  GestaltSetup setup{.params = SixTurns()};
   setup.params.votes.min_fwd_threshold = 256.0;  // looks behind at every step
   setup.range.half_angle_rad = math::DegToRad(90.0);
   setup.rover = TrueRover();

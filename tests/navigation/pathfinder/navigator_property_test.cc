@@ -1,5 +1,4 @@
 // What holds for every navigator decision, over random parameters, reports and poses.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 

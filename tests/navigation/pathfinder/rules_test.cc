@@ -1,10 +1,8 @@
 // The rules of Matthies 1995, section 7, as a truth table; and that mirrored reports and poses give
 // mirrored decisions, except where the rules prefer the right.
-#include <gtest/gtest.h>
 
 #include <array>
 #include <set>
-#include <string>
 #include <string_view>
 
 #include "core/check.h"

@@ -1,9 +1,6 @@
 // The reaction to hazards that the rover feels: stop, back off, turn away, scan, go on.
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
-#include <utility>
 
 #include "navigation/fake_rover.h"
 
@@ -80,8 +77,7 @@ TEST(VehicleReactionTest, TurnsAwayFromTheSide) {
 }
 
 TEST(VehicleReactionTest, BlindRoverGoesStraightOnAfterTheTurn) {
-  DriveSetup setup;
-  setup.sensor = HazardSensor::kOff;
+  DriveSetup setup{.sensor = HazardSensor::kOff};
   const Reaction reaction = TouchOnce(HazardSide::kLeft, setup);
   const auto& log = reaction.log;
   EXPECT_EQ(reaction.scans, log.size());
@@ -106,9 +102,8 @@ TEST(VehicleReactionTest, AReactionHoldsTurnsTowardsTheGoalBack) {
   EXPECT_TRUE(log[reaction.scans + 1].drives());
   const std::size_t turns_back = Find(log, reaction.scans, Turns);
   const std::size_t arrives = log.size() - 1;
-  const double driven_m =
-      MotionBetween(log, reaction.scans, std::min(turns_back, arrives)).driven_m;
-  EXPECT_GE(driven_m, setup.params.point_turn_after_m - 1e-12);
+  EXPECT_GE(MotionBetween(log, reaction.scans, std::min(turns_back, arrives)).driven_m,
+            setup.params.point_turn_after_m - 1e-12);
   EXPECT_EQ(log.back().decision.status, NavigatorStatus::kArrived);
 }
 
@@ -137,8 +132,7 @@ TEST(VehicleReactionTest, TouchBehindEndsTheBackOffAndNothingElse) {
   EXPECT_LE(turn.turned_rad, setup.params.vehicle_reaction.turn_rad + setup.rover.tick_turn_rad());
   EXPECT_EQ(turn.driven_m, 0.0);
   // Felt behind all the way, it changes nothing.
-  DriveSetup behind;
-  behind.felt = FeltBeyond(0.5, Touch(HazardSide::kBehind));
+  DriveSetup behind{.felt = FeltBeyond(0.5, Touch(HazardSide::kBehind))};
   Drive calm(behind);
   EXPECT_EQ(calm.Run(), NavigatorStatus::kArrived);
   EXPECT_EQ(Find(calm.log(), 0, Backs), calm.log().size());
@@ -161,9 +155,8 @@ TEST(VehicleReactionTest, TouchBehindEndsTheBackOffFromATiltThatLasts) {
 
 // One tick of slip, as every image of it gives: back by back_off_m, then to the right by turn_rad.
 TEST(VehicleReactionTest, BacksOffAndTurnsAwayWhereItSlips) {
-  DriveSetup setup;
-  setup.params.vehicle_reaction.back_off_m = 0.25;
-  setup.felt = FeltOnceBeyond(1.0, {VehicleHazardKind::kSlip, HazardSide::kAhead});
+  DriveSetup setup{.params = {.vehicle_reaction = {.back_off_m = 0.25}},
+                   .felt = FeltOnceBeyond(1.0, {VehicleHazardKind::kSlip, HazardSide::kAhead})};
   Drive drive(setup);
   ASSERT_TRUE(drive.StepUntil(Backs));
   const double slipped_m = drive.log().back().estimate.distance_m;
@@ -178,19 +171,17 @@ int BackOffs(const std::vector<Tick>& log) { return Stretches(log, Backs); }
 
 // A lasting hazard does not keep the rover from ending its reaction; then it starts another one.
 TEST(VehicleReactionTest, GivesUpAfterReactionsWithoutProgress) {
-  DriveSetup setup;
-  setup.params.vehicle_reaction.max_repeats = 3;
-  setup.felt = FeltBeyond(-100.0, Touch(HazardSide::kLeft));
+  DriveSetup setup{.params = {.vehicle_reaction = {.max_repeats = 3}},
+                   .felt = FeltBeyond(-100.0, Touch(HazardSide::kLeft))};
   Drive drive(setup);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kGaveUp);
   EXPECT_EQ(BackOffs(drive.log()), 3);
 }
 
 TEST(VehicleReactionTest, GoesOnWhereItIsTold) {
-  DriveSetup setup;
-  setup.params.vehicle_reaction.max_repeats = 2;
-  setup.params.vehicle_reaction.on_exhausted = ReactionsExhausted::kGoOn;
-  setup.params.vehicle_reaction.ignore_m = 1.0;
+  DriveSetup setup{.params = {.vehicle_reaction = {.max_repeats = 2,
+                                                   .on_exhausted = ReactionsExhausted::kGoOn,
+                                                   .ignore_m = 1.0}}};
   setup.felt = FeltBetween(0.9, 1.1, kTouchAhead);  // a ridge across the whole way
   Drive drive(setup);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
@@ -201,8 +192,7 @@ TEST(VehicleReactionTest, GoesOnWhereItIsTold) {
 }
 
 TEST(VehicleReactionTest, ProgressForgetsEarlierReactions) {
-  DriveSetup setup;
-  setup.params.vehicle_reaction.max_repeats = 1;
+  DriveSetup setup{.params = {.vehicle_reaction = {.max_repeats = 1}}};
   int touches = 0;
   // Once every metre.
   setup.felt = [&](const FakeRover& rover) -> std::optional<VehicleHazard> {
@@ -257,8 +247,7 @@ struct FirstReaction {
 };
 
 FirstReaction ReactTo(const FeltSource& felt) {
-  DriveSetup setup;
-  setup.felt = felt;
+  DriveSetup setup{.felt = felt};
   Drive drive(setup);
   EXPECT_TRUE(drive.StepUntil(Turns));
   EXPECT_TRUE(drive.StepUntil(Scans));
@@ -306,8 +295,7 @@ TEST(VehicleReactionTest, ATouchDuringALastingTiltStartsAgain) {
 }
 
 TEST(VehicleReactionTest, PoseUpdateKeepsWhatWasTurned) {
-  DriveSetup setup;
-  setup.felt = FeltBetween(1.0, 1.005, Touch(HazardSide::kLeft));
+  DriveSetup setup{.felt = FeltBetween(1.0, 1.005, Touch(HazardSide::kLeft))};
   Drive drive(setup);
   ASSERT_TRUE(drive.StepUntil(Turns));
   for (int i = 0; i < 10; ++i) drive.Step();

@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
-#include <string>
 
 #include "core/hash.h"
 #include "fields.h"

@@ -1,10 +1,7 @@
 // Rock fields that the quasi-static rover is measured in.
 #pragma once
 
-#include <cmath>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 #include "rover/rover_drive.h"
 #include "terrain/rock.h"

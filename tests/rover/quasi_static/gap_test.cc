@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "rover/part_shapes.h"
@@ -57,23 +56,31 @@ double ProjectedGap(const Part& part, const Placement& placement) {
   return surface.distance_m - part.margin_m;
 }
 
-TEST(WheelRockGap, EqualsAlternatingProjections) {
+// How many of these placements were compared. Projections see the flank of a rock that
+// `ends_at_ground` go on below its base: those are left out.
+template <typename PlacementAt>
+int CompareWithProjections(int placements, bool ends_at_ground, const PlacementAt& at) {
   const RoverGeometryParams params;
   const WheelShape wheel(params);
   const Part part = MakeParts(params)[0];
   int compared = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const Placement placement = MakePlacement(i);
+  for (int i = 0; i < placements; ++i) {
+    const Placement placement = at(i);
     const double expected = ProjectedGap(part, placement);
     // Penetrations that the projections can follow, and gaps that a stretch can close.
     if (expected < -0.015 || expected > 0.03) continue;
     const RockSupport rock(placement.rock);
     const WheelRockGap gap = FindGap(wheel, placement.center_W, placement.R_WB.col(1), rock, 1.0,
                                      rock.GuessNormal(placement.center_W));
+    if (ends_at_ground && (gap.p_W - gap.gap_m * gap.n_W).z() < 1e-6) continue;
     EXPECT_NEAR(gap.gap_m, expected, 1e-5) << i;
     ++compared;
   }
-  EXPECT_GT(compared, 300);
+  return compared;
+}
+
+TEST(WheelRockGap, EqualsAlternatingProjections) {
+  EXPECT_GT(CompareWithProjections(2000, false, MakePlacement), 300);
 }
 
 TEST(WheelRockGap, BoundNeverExceedsTheGap) {
@@ -163,23 +170,8 @@ TEST_P(CapGap, SupportIsTheFarthestPoint) {
 }
 
 TEST_P(CapGap, EqualsAlternatingProjections) {
-  const RoverGeometryParams params;
-  const WheelShape wheel(params);
-  const Part part = MakeParts(params)[0];
-  int compared = 0;
-  for (int i = 0; i < 300; ++i) {
-    const Placement placement = MakeCapPlacement(i, GetParam());
-    const double expected = ProjectedGap(part, placement);
-    if (expected < -0.015 || expected > 0.03) continue;
-    const RockSupport rock(placement.rock);
-    const WheelRockGap gap = FindGap(wheel, placement.center_W, placement.R_WB.col(1), rock, 1.0,
-                                     rock.GuessNormal(placement.center_W));
-    // Projections see the flank go on below the base, where the ground is.
-    if ((gap.p_W - gap.gap_m * gap.n_W).z() < 1e-6) continue;
-    EXPECT_NEAR(gap.gap_m, expected, 1e-5) << i;
-    ++compared;
-  }
-  EXPECT_GT(compared, 30);
+  const auto cap = [](int i) { return MakeCapPlacement(i, GetParam()); };
+  EXPECT_GT(CompareWithProjections(300, true, cap), 30);
 }
 
 // Straight above the top the first normal is the answer, and no step leaves it: an arc of the

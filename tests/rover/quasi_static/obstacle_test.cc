@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "rover/quasi_static/fields.h"
 #include "rover/rover_drive.h"

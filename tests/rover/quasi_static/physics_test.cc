@@ -1,7 +1,6 @@
 // The quasi-static rover against closed forms.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "rover/rover_drive.h"
@@ -277,9 +276,8 @@ TEST(QuasiStaticDrive, FollowsTheArcOfItsSteering) {
   RunFor(*rover, command, 10.0);
   const math::Transform& X = rover->state().X_WR;
   // The chord of an arc: sin(heading / 2) = chord / (2 R).
-  const double radius_m =
-      X.translation().head<2>().norm() / (2.0 * std::sin(0.5 * math::Heading(X)));
-  EXPECT_NEAR(radius_m, 1.0, 0.02);
+  EXPECT_NEAR(X.translation().head<2>().norm() / (2.0 * std::sin(0.5 * math::Heading(X))), 1.0,
+              0.02);
 }
 
 // Put down anew while it drives, the rover stands with straight wheels and motors at rest.

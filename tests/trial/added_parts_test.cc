@@ -1,22 +1,20 @@
 // A navigator that no file of rockyard knows drives a trial: all that the trial asks it are its
 // traits.
-#include <gmock/gmock.h>
-
-#include <memory>
-#include <string>
 
 #include "core/archive.h"
+#include "core/error.h"
 #include "core/refusals.h"
+#include "localization/toy_estimator.h"
 #include "navigation/navigator.h"
 #include "scenario/shipped.h"
 #include "trial/eyes/compute_profile.h"
 #include "trial/shipped_trials.h"
+#include "trial/toy_terrain_sensor.h"
 
 namespace rockyard::trial {
 namespace {
 
 using core::Assumed;
-
 using navigation::CostOfJudgement;
 using navigation::CostOfLook;
 using navigation::CostOfMap;
@@ -145,8 +143,7 @@ TEST(AddedNavigator, MeetsHazardsWithinTheArrayOfItsSensor) {
 }
 
 TEST(AddedNavigator, FollowsTheRouteOfAnOracleWhereItAsksForOne) {
-  ToyParams params;
-  params.follows_route = true;
+  ToyParams params{.follows_route = true};
   RunTrial(WithToy(params), {1, 0});
   EXPECT_GE(params.seen->corners, 1U);
   EXPECT_THAT(ProblemOf(params, {"course.waypoints.x_m=[2]", "course.waypoints.y_m=[0]"}),
@@ -219,6 +216,99 @@ TEST(AddedNavigator, ItsConditionsNameItsOwnParameters) {
   EXPECT_THAT(
       ProblemOf({.size = navigation::BelievedSize{"long", length_m, "wide", 3.0 * width_m, ""}}),
       HasSubstr("navigation.toy.wide is more than a factor of two"));
+}
+
+// An estimator that no file of rockyard knows localizes the rover of a trial.
+
+DriveParams WithEstimator(const Overrides& overrides) {
+  scenario::Scenario defaults;
+  defaults.drive.localization.estimators.Add(localization::DescribeToy());
+  const Overrides gestalt = {"rover.fidelity=quasi_static", "navigation.navigator=gestalt"};
+  const Overrides all = kShortAndEmpty + gestalt + kTrueEncoders + overrides;
+  return scenario::Shipped("gestalt/abundance", all, defaults).drive;
+}
+
+// It counts what one wheel rolls, without dead reckoning's distance scale.
+TEST(AddedEstimator, TellsTheRoverWhereItIs) {
+  const auto toy = RunTrial(WithEstimator({"localization.estimator=toy"}), {1, 0});
+  const auto flown =
+      RunTrial(WithEstimator({"perception.dead_reckoning.distance_scale=1.0"}), {1, 0});
+  EXPECT_EQ(toy.outcome, flown.outcome);
+  EXPECT_GT(toy.record.dead_reckoned_distance_m, 2.0);
+  EXPECT_NEAR(toy.record.dead_reckoned_distance_m, flown.record.dead_reckoned_distance_m, 0.02);
+  // The control: one that believes its wheels to roll less far drives on.
+  const auto scaled =
+      RunTrial(WithEstimator({"perception.dead_reckoning.distance_scale=0.8"}), {1, 0});
+  EXPECT_GT(scaled.record.true_distance_m, toy.record.true_distance_m + 0.3);
+}
+
+TEST(AddedEstimator, HasItsGroupInAScenario) {
+  const DriveParams drive = WithEstimator({"localization.toy.variance_m=0.25"});
+  EXPECT_EQ(drive.localization.estimators.params<localization::ToyParams>().variance_m, 0.25);
+  EXPECT_EQ(drive.localization.estimators.chosen().name(), "dead_reckoning");
+  EXPECT_THAT(core::RefusalOf([] { WithEstimator({"localization.toy.variance_m=2"}); }),
+              HasSubstr("localization.toy.variance_m"));
+}
+
+// A terrain sensor that no file of rockyard knows looks in a trial.
+
+DriveParams WithSensor(const ToySensorParams& params, const Overrides& overrides) {
+  const Overrides all = kShortAndEmpty + Overrides{"rover.fidelity=quasi_static"} + overrides;
+  return scenario::Shipped("gestalt/abundance", all, WithToySensor(params)).drive;
+}
+
+// Both readings of a look, by a map and by a behaviour controller: each look takes its time.
+TEST(AddedTerrainSensor, ShowsTheGroundToEitherNavigator) {
+  for (const char* navigator : {"gestalt", "pathfinder"}) {
+    const ToySensorParams params;
+    const DriveParams drive =
+        WithSensor(params, {"sensors.terrain_sensor=toy", "clock.compute.computer=none",
+                            std::string("navigation.navigator=") + navigator});
+    const DriveResult result = RunTrial(drive, {1, 0});
+    const double looks = result.record.image_sets;
+    EXPECT_EQ(result.outcome, truth::TrialOutcome::kGoalReached) << navigator << result.detail;
+    EXPECT_GT(looks, 2.0) << navigator;
+    EXPECT_EQ(looks, static_cast<double>(params.poses->size())) << navigator;
+    EXPECT_NEAR(result.record.imaging_time_s, 0.12 * looks, 1e-9) << navigator;
+    EXPECT_NEAR(result.record.compute_time_s, 0.2 * looks, 1e-9) << navigator;
+    EXPECT_EQ(result.record.scans, 0.0) << navigator;
+  }
+}
+
+TEST(AddedTerrainSensor, HasItsGroupAndItsConditionsInAScenario) {
+  const auto problem = [](const Overrides& overrides) -> std::string {
+    return core::RefusalOf([&] { WithSensor({}, overrides); });
+  };
+  EXPECT_EQ(problem({"sensors.toy.computing_s=60"}), "");  // of a sensor that is not chosen
+  EXPECT_THAT(problem({"sensors.terrain_sensor=toy", "sensors.toy.computing_s=60"}),
+              HasSubstr("sensors.toy.computing_s"));
+  EXPECT_THAT(problem({"sensors.toy.imaging_s=-1"}), HasSubstr("sensors.toy.imaging_s"));
+  EXPECT_THAT(problem({"sensors.terrain_sensor=toi"}), HasSubstr("toy"));
+}
+
+TEST(AddedTerrainSensor, ANameOfAnotherGroupIsRefused) {
+  class NamedGyro final : public TerrainSensorKind {
+   public:
+    NamedGyro() : TerrainSensorKind("gyro", "") {}
+    bool has_params() const override { return false; }
+    void Visit(core::FieldVisitor&) override {}
+    std::unique_ptr<TerrainSensorKind> Clone() const override { return nullptr; }
+    bool uses_computer() const override { return false; }
+    bool takes_image_sets() const override { return false; }
+    void Require(const DriveParams&, core::FieldVisitor&) const override {}
+    void RequireDrive(const DriveParams&, core::FieldVisitor&) const override {}
+    ReportArray report_array(const DriveParams&) const override { return {}; }
+    Zone reported_zone(const DriveParams&) const override { return {}; }
+    LookTime look_time(const DriveParams&, const ComputeTimes&) const override { return {}; }
+    const sensing::StereoParams* cameras(const DriveParams&) const override { return nullptr; }
+    std::unique_ptr<TerrainSensorModel> Make(const DriveParams&, core::TrialKey,
+                                             const Watchers&) const override {
+      return nullptr;
+    }
+  };
+  TerrainSensorSet sensors = StandardTerrainSensors();
+  EXPECT_THROW(sensors.Add(std::make_unique<NamedGyro>()), core::UserError);
+  EXPECT_THROW(sensors.Add(StandardTerrainSensors().Named("stereo").Clone()), core::UserError);
 }
 
 }  // namespace
