@@ -32,7 +32,7 @@ const withSplines = changed(file, "with_splines.html", ({ steps }) => {
 });
 
 test("paths are those of a curvature that is linear between the knots", async () => {
-  const { splinePath, drawingOrder } = await loadModule("replay/scene/splines.ts");
+  const { splinePath, drawingOrder } = await loadModule("replay/scene/arcs.ts");
   const one = { ...splines(), start: [0.2], first: [0.8], second: [-0.4], length: [2], merged: [0] };
   const path = splinePath(one, 0);
   // By sums over tenths of a millimetre.
