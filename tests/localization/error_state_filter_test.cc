@@ -35,8 +35,7 @@ void DriveStraight(Estimator& estimator, double way_m) {
 }
 
 messages::PoseFix FixOf(int coordinate, messages::CaptureNumber capture, double value, double sd) {
-  messages::PoseFix fix;
-  fix.capture = capture;
+  messages::PoseFix fix{.capture = capture, .measured = {}};
   fix.measured.set(static_cast<std::size_t>(coordinate));
   fix.pose[coordinate] = value;
   fix.covariance(coordinate, coordinate) = sd * sd;
@@ -241,10 +240,9 @@ TEST(ErrorStateFilter, LearnsHowItsSensorsAreWrong) {
 
 // Angles that differ by a whole turn are one.
 TEST(ErrorStateFilter, TakesAHeadingAcrossTheBack) {
-  ErrorStateFilterParams params{.prior = {.heading_sd_rad = 0.1}};
   EstimatorSetup setup = FilterSetup();
   setup.start.heading_rad = math::DegToRad(179.0);
-  ErrorStateFilter filter(params, setup);
+  ErrorStateFilter filter({.prior = {.heading_sd_rad = 0.1}}, setup);
   filter.Capture(1);
   EXPECT_EQ(filter.Update(FixOf(kHeading, 1, math::DegToRad(-179.0), 1e-4)), AidUse::kUsed);
   EXPECT_NEAR(filter.estimate().pose.heading_rad, math::DegToRad(-179.0), 1e-4);
@@ -322,8 +320,7 @@ TEST_F(WayBack, DoubtsTheHeadingByTheWaySinceTheLastPlace) {
   ASSERT_EQ(Tell(2.0, -2.0), AidUse::kUsed);
   DriveStraight(filter_, 1.0);
   const double after_a_metre = doubt(2.5);
-  ErrorStateFilter fresh({}, AlongX());
-  filter_ = fresh;
+  filter_ = ErrorStateFilter({}, AlongX());
   DriveStraight(filter_, 2.0);
   EXPECT_GT(after_a_metre, 2.0 * doubt(2.5));
 }
@@ -447,8 +444,7 @@ TEST(ErrorStateFilter, CarriesTheCovarianceOnByStretches) {
 TEST(ErrorStateFilter, HasNoInterestInAFixOfNothing) {
   ErrorStateFilter filter({}, FilterSetup());
   filter.Capture(1);
-  messages::PoseFix fix;
-  fix.capture = 1;
+  messages::PoseFix fix{.capture = 1, .measured = {}};
   EXPECT_EQ(filter.Update(fix), AidUse::kNoInterest);
 }
 

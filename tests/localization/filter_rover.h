@@ -26,8 +26,7 @@ inline messages::MotionMeasurement Rolled(double forward_m, double turn_rad, dou
 // Of x and y, both with that standard deviation.
 inline messages::PoseFix PlaceFix(messages::CaptureNumber capture, double x_m, double y_m,
                                   double sd_m) {
-  messages::PoseFix fix;
-  fix.capture = capture;
+  messages::PoseFix fix{.capture = capture, .measured = {}};
   fix.measured.set(error::kX).set(error::kY);
   fix.pose[error::kX] = x_m;
   fix.pose[error::kY] = y_m;

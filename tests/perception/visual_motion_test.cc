@@ -16,6 +16,7 @@ using math::Vector3;
 using messages::Index;
 using messages::PoseCoordinate;
 using messages::PoseVector;
+using messages::RelativeMotion;
 
 struct Pose {
   Vector3 p_W = Vector3::Zero();
@@ -31,8 +32,7 @@ const Pose kFirst{{3.0, -2.0, 0.4}, kHeading0_rad, 0.21, -0.13};
 const Pose kSecond{{2.4, -1.5, 0.55}, kHeading0_rad + 0.5, 0.08, 0.17};
 
 vision::Motion MotionBetween(const Pose& first, const Pose& second) {
-  vision::Motion motion;
-  motion.X_FS = first.X_W().inverse() * second.X_W();
+  vision::Motion motion{.X_FS = first.X_W().inverse() * second.X_W()};
   return motion;
 }
 
@@ -53,15 +53,12 @@ PoseVector Expected(const Pose& first, const Pose& second) {
 }
 
 TEST(VisualMotionTest, IsTheDifferenceOfTwoPosesInTheFirstLevelledFrame) {
-  const messages::RelativeMotion levelled =
-      LevelledMotion(MotionBetween(kFirst, kSecond), StanceOf(kFirst));
+  const RelativeMotion levelled = LevelledMotion(MotionBetween(kFirst, kSecond), StanceOf(kFirst));
   EXPECT_LT((levelled.motion_F - Expected(kFirst, kSecond)).norm(), 1e-12);
 }
 
 TEST(VisualMotionTest, StandingStillIsNoMotion) {
-  const messages::RelativeMotion levelled =
-      LevelledMotion(MotionBetween(kFirst, kFirst), StanceOf(kFirst));
-  EXPECT_LT(levelled.motion_F.norm(), 1e-12);
+  EXPECT_LT(LevelledMotion(MotionBetween(kFirst, kFirst), StanceOf(kFirst)).motion_F.norm(), 1e-12);
 }
 
 // Covariance by differences: X_FS disturbed by each of its six errors.
@@ -88,16 +85,15 @@ TEST(VisualMotionTest, TheCovarianceIsThatOfDisturbedMotions) {
   for (double& value : root.reshaped()) value = stream.Uniform() - 0.5;
   motion.covariance = root * root.transpose();
   const messages::PoseCovariance expected = by_error * motion.covariance * by_error.transpose();
-  const messages::RelativeMotion levelled = LevelledMotion(motion, StanceOf(kFirst));
+  const RelativeMotion levelled = LevelledMotion(motion, StanceOf(kFirst));
   EXPECT_LT((levelled.covariance - expected).norm(), 1e-8 * expected.norm());
 }
 
 TEST(VisualMotionTest, AWrongStanceTiltsTheWay) {
   FirstStance stance = StanceOf(kFirst);
   stance.tilt_sd_rad = 0.02;
-  const messages::RelativeMotion sure =
-      LevelledMotion(MotionBetween(kFirst, kSecond), StanceOf(kFirst));
-  const messages::RelativeMotion unsure = LevelledMotion(MotionBetween(kFirst, kSecond), stance);
+  const RelativeMotion sure = LevelledMotion(MotionBetween(kFirst, kSecond), StanceOf(kFirst));
+  const RelativeMotion unsure = LevelledMotion(MotionBetween(kFirst, kSecond), stance);
   messages::PoseCovariance added = unsure.covariance - sure.covariance;
   const int z = Index(PoseCoordinate::kZ);
   EXPECT_NEAR(added(z, z), 0.02 * 0.02 * (0.6 * 0.6 + 0.5 * 0.5), 1e-12);
@@ -105,8 +101,8 @@ TEST(VisualMotionTest, AWrongStanceTiltsTheWay) {
   EXPECT_EQ(added.norm(), 0.0);
 }
 
-messages::RelativeMotion Seen(double x_m, double y_m, double sd_x_m, double sd_y_m) {
-  messages::RelativeMotion motion;
+RelativeMotion Seen(double x_m, double y_m, double sd_x_m, double sd_y_m) {
+  RelativeMotion motion;
   motion.motion_F[Index(PoseCoordinate::kX)] = x_m;
   motion.motion_F[Index(PoseCoordinate::kY)] = y_m;
   motion.covariance(0, 0) = sd_x_m * sd_x_m;
@@ -131,8 +127,7 @@ TEST(SlipCheckTest, AsksForAsManyStandardDeviations) {
 
 // Backwards and aslant: along the way that was rolled.
 TEST(SlipCheckTest, GoesAlongTheWayOfTheWheels) {
-  const auto back = SlipOf({-0.5, 0.0}, Seen(-0.4, 0.0, 0.0, 0.0), kParams);
-  EXPECT_NEAR(back->slip, 0.2, 1e-12);
+  EXPECT_NEAR(SlipOf({-0.5, 0.0}, Seen(-0.4, 0.0, 0.0, 0.0), kParams)->slip, 0.2, 1e-12);
   const auto aslant = SlipOf({0.3, 0.4}, Seen(0.3, 0.4, 0.01, 0.02), kParams);
   EXPECT_NEAR(aslant->slip, 0.0, 1e-12);
   EXPECT_NEAR(aslant->sd, std::hypot(0.6 * 0.01, 0.8 * 0.02) / 0.5, 1e-12);

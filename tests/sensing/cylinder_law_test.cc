@@ -215,8 +215,7 @@ TEST(CylinderFixTest, IsMissedAndWrongAsOftenAsTold) {
   params.cylinder.found.intercept = std::log(0.7 / 0.3);
   params.cylinder.wrong.intercept = std::log(0.2 / 0.8);
   params.cylinder.heading.least = DegToRad(0.01);
-  int found = 0;
-  int wrong = 0;
+  int found = 0, wrong = 0;
   for (int i = 0; i < kFixes; ++i) {
     const auto fix = FixOf(params, 40.0, i);
     if (!fix) continue;
@@ -245,8 +244,7 @@ TEST(CylinderFixTest, DoesNotKnowThatItIsWrong) {
   params.cylinder.wrong.intercept = 1000.0;
   params.cylinder.wrong_turn_rad = DegToRad(120.0);
   params.cylinder.wrong_range = 0.3;
-  std::vector<double> turns;
-  std::vector<double> ranges;
+  std::vector<double> turns, ranges;
   for (int i = 0; i < kFixes; ++i) {
     const auto fix = FixOf(params, 40.0, i);
     turns.push_back(HeadingError(*fix, 40.0));

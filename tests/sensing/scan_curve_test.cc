@@ -1,4 +1,5 @@
 // Chords along curved scanlines against the curve itself, and what the sensor makes of them.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -96,8 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Sensors, ScanCurveTest,
 
 TEST(ScanCurveTest, RowsOfPlanesAreStraight) {
   for (const Lens lens : {Lens::kPinhole, Lens::kEquidistantRows}) {
-    const auto calibration = TrueCalibration(WithLens(lens, 0.0048));
-    EXPECT_EQ(ScanCurve(calibration, 3, 0).vertices().size(), 2u);
+    EXPECT_EQ(ScanCurve(TrueCalibration(WithLens(lens, 0.0048)), 3, 0).vertices().size(), 2u);
   }
   // Negative control: a radially symmetric lens bends them by more than a chord's error.
   const auto calibration = TrueCalibration(WithLens(Lens::kEquidistant, 0.0048));
@@ -129,10 +129,8 @@ TEST(ScanCurveTest, TakesOneStretchOfSeveral) {
 
 // The chords of separable rows find what the straight path of the sensor finds.
 TEST(ScanCurveTest, AgreesWithStraightLines) {
-  const LightStripeParams params = NoiselessParams();
-  const LightStripe sensor(params);
-  const auto rock = EllipsoidRock(0.5, 0.05, 0.0, 0.1, 0.1, 0.08);
-  const terrain::Terrain terrain = FlatWith({rock});
+  const LightStripe sensor(NoiselessParams());
+  const terrain::Terrain terrain = FlatWith({EllipsoidRock(0.5, 0.05, 0.0, 0.1, 0.1, 0.08)});
   const auto scan = sensor.Scan(terrain, PoseAt(0, 0, 0), {1, 0}, 0);
   const std::vector<int> rocks{0};
   int on_rock = 0;

@@ -1,5 +1,6 @@
 // Time per stereo look. Each run prints a hash of the points, so that a faster sensor that sees
 // something else does not pass unnoticed.
+
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -61,9 +62,7 @@ void Look(benchmark::State& state, const terrain::Terrain& terrain, const Stereo
     for (const math::Vector3& p_R : cloud.points_R) hash.Real(p_R.x()).Real(p_R.y()).Real(p_R.z());
   }
   std::int64_t number = 0;
-  for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(LookAt(sensor, terrain, number++));
-  }
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(LookAt(sensor, terrain, number++));
   state.counters["points"] = static_cast<double>(points) / kHashedLooks;
   state.SetLabel("hash " + core::Hex(hash.value()));
 }

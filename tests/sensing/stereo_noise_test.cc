@@ -1,20 +1,29 @@
-// Spread of stereo range and rate of dropouts against their laws.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
+#include <filesystem>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "core/archive.h"
+#include "core/json_file.h"
 #include "noise_laws.h"
+#include "perception/cloud_elevations.h"
+#include "perception/hazard_detector.h"
+#include "perception/hazard_params.h"
 #include "stereo_scene.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::sensing {
 namespace {
 
 using math::Vector3;
 using messages::LookDirection;
+
+// Spread of stereo range and rate of dropouts against their laws.
 
 // Cameras that look straight at a wall at this depth.
 constexpr double kDepth_m = 2.0;
@@ -267,13 +276,11 @@ TEST(StereoNoiseTest, MarginsOfBothImagesHaveNoMatch) {
   StereoParams params = LevelCameras();
   params.margin_px = 3;
   const DepthImage seen_px = Matched(params, {3, 0}, 0, Even(8.25));
-  for (int row = 0; row < 128; ++row) {
-    for (int column = 0; column < 128; ++column) {
-      // Column c is c - 8.25 in the right image, whose margin ends at 2.5.
-      const bool seen = row >= 3 && row <= 124 && column <= 124 && column >= 11;
-      EXPECT_EQ(seen_px(row, column) > 0.0, seen) << row << " " << column;
-    }
-  }
+  vision::ForEachPixel(128, 128, [&](int column, int row) {
+    // Column c is c - 8.25 in the right image, whose margin ends at 2.5.
+    const bool seen = row >= 3 && row <= 124 && column <= 124 && column >= 11;
+    EXPECT_EQ(seen_px(row, column) > 0.0, seen) << row << " " << column;
+  });
 }
 
 TEST(StereoNoiseTest, MoreDropsOutBesideAJumpInDepth) {
@@ -288,22 +295,95 @@ TEST(StereoNoiseTest, MoreDropsOutBesideAJumpInDepth) {
   double beside = 0.0, lost = 0.0, lost_elsewhere = 0.0;
   for (std::uint32_t look = 0; look < 20; ++look) {
     const DepthImage seen_px = Matched(params, {1, 0}, look, all_px);
-    for (int row = 0; row < view.rows; ++row) {
-      for (int column = 0; column < view.columns; ++column) {
-        bool edge = false;
-        for (int at = std::max(column - 2, 1); at <= std::min(column + 3, 127); ++at) {
-          edge = edge || std::abs(all_px(row, at) - all_px(row, at - 1)) >= 1.0;
-        }
-        const bool is_lost = seen_px(row, column) == 0.0;
-        beside += edge;
-        (edge ? lost : lost_elsewhere) += is_lost;
+    vision::ForEachPixel(view.columns, view.rows, [&](int column, int row) {
+      bool edge = false;
+      for (int at = std::max(column - 2, 1); at <= std::min(column + 3, 127); ++at) {
+        edge = edge || std::abs(all_px(row, at) - all_px(row, at - 1)) >= 1.0;
       }
-    }
+      const bool is_lost = seen_px(row, column) == 0.0;
+      beside += edge;
+      (edge ? lost : lost_elsewhere) += is_lost;
+    });
   }
   EXPECT_GT(beside, 5000.0);
   EXPECT_EQ(lost_elsewhere, 0.0);
   EXPECT_GT(BinomialP(lost, beside, 0.5), kAlpha);
   EXPECT_LT(BinomialP(lost, beside, 0.53), kAlpha);  // negative control
+}
+
+// The published hazard criteria on elevation arrays from noisy stereo looks.
+
+constexpr int kLooks = 300;
+
+// What the behaviour controller sees and judges with stereo, as its scenario has it.
+struct Rover {
+  StereoParams stereo;
+  perception::CloudElevationParams bins;
+  perception::HazardParams hazard;
+};
+
+Rover Stored(const std::string& name) {
+  const core::JsonValue scenario = core::LoadJsonFile(std::filesystem::path(ROCKYARD_SOURCE_DIR) /
+                                                      "scenarios" / "gestalt" / (name + ".json"));
+  const core::JsonValue& perception = *scenario.Find("perception");
+  Rover rover;
+  core::ReadParams(*scenario.Find("sensors")->Find("stereo"), rover.stereo);
+  core::ReadParams(*perception.Find("cloud_elevations"), rover.bins);
+  core::ReadParams(*perception.Find("hazard"), rover.hazard);
+  return rover;
+}
+
+Rover Rocky() { return Stored("abundance_rocky_3_2_behaviour_stereo"); }
+Rover Athena() { return Stored("abundance_behaviour_stereo"); }
+
+// Looks with a hazard, of kLooks at ground with a dome of that height somewhere in the array.
+int Alarms(const Rover& rover, double height_m) {
+  const StereoSensor sensor(rover.stereo);
+  int alarms = 0;
+  for (int look = 0; look < kLooks; ++look) {
+    const double middle_m = 0.5 * (rover.bins.near_m + rover.bins.far_m);
+    const double x_m =
+        middle_m + 0.35 * (rover.bins.far_m - rover.bins.near_m) * std::sin(3.1 * look);
+    const double y_m = 0.5 * rover.bins.half_width_m * std::sin(1.7 * look);
+    std::vector<terrain::Rock> rocks;
+    if (height_m > 0.0) {
+      rocks.push_back(EllipsoidRock(x_m, y_m, 0.0, height_m, 0.8 * height_m, height_m));
+    }
+    const auto cloud = sensor.Look(FlatWith(std::move(rocks)), PoseAt(0, 0, 0), {1, 0}, look,
+                                   LookDirection::kAhead);
+    const auto scan = perception::CloudElevations(cloud, {}, rover.bins);
+    alarms += perception::ReportHazards(scan, rover.hazard).any();
+  }
+  return alarms;
+}
+
+// Were the rate 2 %, none of 300 looks would be an alarm once in 400 seeds, and 15 or more once in
+// 2000 (binomial law).
+TEST(StereoHazardTest, FlatGroundIsHardlyEverAHazard) {
+  EXPECT_LT(Alarms(Rocky(), 0.0), 15);
+  EXPECT_LT(Alarms(Athena(), 0.0), 15);
+  // Negative control: wrong matches that the check from left to right has let through. (Noise of
+  // any size is none: it raises the highest point of all bins alike.)
+  Rover mistaken = Athena();
+  mistaken.stereo.mismatch_probability = 0.02;
+  EXPECT_GT(Alarms(mistaken, 0.0), 100);
+}
+
+// The thresholds are the clearance of the belly: 20 and 13 cm.
+TEST(StereoHazardTest, RocksHigherThanTheBellyAreHazardsAndHalfAsHighAreNot) {
+  for (const Rover& rover : {Athena(), Rocky()}) {
+    EXPECT_EQ(Alarms(rover, 1.25 * rover.hazard.neighbour_threshold_m), kLooks);
+    EXPECT_LT(Alarms(rover, 0.5 * rover.hazard.neighbour_threshold_m), kLooks / 10);
+  }
+}
+
+// Rocks of 12 cm, which cover less than half a bin, at the published thresholds for single points.
+TEST(StereoHazardTest, AMedianOverlooksRocksThatFillLessThanHalfABin) {
+  Rover rover = Athena();
+  rover.hazard = {};
+  EXPECT_EQ(Alarms(rover, 0.12), kLooks);
+  rover.bins.quantile = 0.5;
+  EXPECT_LT(Alarms(rover, 0.12), kLooks / 2);
 }
 
 }  // namespace

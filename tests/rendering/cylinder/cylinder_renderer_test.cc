@@ -1,4 +1,5 @@
 // Pictures of the cylinder against the geometry of Matthies 1995, appendix A.
+
 #include "rendering/cylinder/cylinder_renderer.h"
 
 #include <gtest/gtest.h>
@@ -7,10 +8,25 @@
 #include <numbers>
 
 #include "rendering/cylinder/colour_readout.h"
-#include "rendering/cylinder/cylinder_scenes.h"
+#include "rendering/cylinder/cylinder_params.h"
+#include "rendering/cylinder/cylinder_scene.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::rendering {
 namespace {
+
+// Pure colours (blue wall in the blue channel, pink in the red one, the third in the green one) in
+// even light before black ground: a channel's sum over a line is what is seen of that colour.
+CylinderPictureParams PureColours() {
+  return {.target = {.blue = {0.0, 0.0, 1.0}, .pink = {1.0, 0.0, 0.0}, .orange = {0.0, 1.0, 0.0}},
+          .light = {.sun = {0.0, 0.0, 0.0}, .sky = {1.0, 1.0, 1.0}},
+          .backdrop = {.ground = {0.0, 0.0, 0.0}, .contrast = 0.0, .hue_contrast = 0.0},
+          .edge_samples = 16};
+}
+
+CylinderView ViewAt(double distance_m, double orientation_deg, double bearing_deg = 0.0) {
+  return {distance_m, math::DegToRad(bearing_deg), math::DegToRad(orientation_deg), true};
+}
 
 constexpr core::TrialKey kKey{7, 3};
 
@@ -81,8 +97,7 @@ TEST(CylinderPicture, PinkIsOnTheSidesThatTheAppendixTells) {
   const auto images = RenderCylinder(params, ViewAt(2.0, 70.0), kKey);
   // At theta = 70 deg the wide pink B = rho (1 - cos 70) is to the right of blue.
   const int row = static_cast<int>(params.cameras.rows) / 2;
-  double right = 0.0;
-  double left = 0.0;
+  double right = 0.0, left = 0.0;
   bool past_blue = false;
   for (int column = 0; column < images[0][0].width(); ++column) {
     if (images[0][2].At(column, row) > 0.01F) past_blue = true;
@@ -107,8 +122,7 @@ TEST(CylinderPicture, NearCylindersAreWiderByEquationSixteen) {
 
 double CentroidOf(const ColourPlanes& planes) {
   const int row = planes[0].height() / 2;
-  double sum = 0.0;
-  double moment = 0.0;
+  double sum = 0.0, moment = 0.0;
   for (int column = 0; column < planes[0].width(); ++column) {
     const double light = PixelOf(planes, column, row).sum();
     sum += light;
@@ -139,14 +153,11 @@ TEST(CylinderPicture, MirroredLightGivesTheMirroredPicture) {
   params.light.azimuth_rad = -params.light.azimuth_rad;
   const auto mirrored = RenderCylinder(params, ViewAt(3.0, 65.0), kKey);
   const int columns = images[0][0].width();
-  for (int row = 0; row < 240; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        ASSERT_NEAR(images[0][i].At(column, row), mirrored[1][i].At(columns - 1 - column, row),
-                    2e-3);
-      }
+  vision::ForEachPixel(columns, 240, [&](int column, int row) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      ASSERT_NEAR(images[0][i].At(column, row), mirrored[1][i].At(columns - 1 - column, row), 2e-3);
     }
-  }
+  });
   params.light.azimuth_rad = -params.light.azimuth_rad;
   const auto same_light = RenderCylinder(params, ViewAt(3.0, 65.0), kKey);
   float most = 0.0F;
@@ -189,8 +200,7 @@ TEST(CylinderPicture, SurroundingsStayWhereTheCylinderTurnsOrGoes) {
   const auto alone = RenderCylinder(params, without, kKey);
   const auto other = RenderCylinder(params, ViewAt(5.0, 0.0), {7, 4});
   EXPECT_EQ(first, again);
-  int unlike = 0;
-  int other_unlike = 0;
+  int unlike = 0, other_unlike = 0;
   for (int row = 0; row < 480; ++row) {
     for (int column = 0; column < 180; ++column) {  // the cylinder is right of it
       EXPECT_EQ(first[0][0].At(column, row), turned[0][0].At(column, row));
@@ -229,8 +239,7 @@ TEST(CylinderPicture, GroundIsMottledAsMuchAsAskedForAndAlikeForBothEyes) {
   for (std::uint32_t scene = 0; scene < kScenes; ++scene) {
     const auto images = RenderCylinder(params, view, {1, scene});
     // Hills: pixels are square there.
-    double sum = 0.0;
-    double squares = 0.0;
+    double sum = 0.0, squares = 0.0;
     for (int row = 20; row < 200; ++row) {
       for (int column = 0; column < 512; ++column) {
         const double light = images[0][1].At(column, row);

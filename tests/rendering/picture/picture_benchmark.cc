@@ -9,6 +9,7 @@
 #include "rendering/picture/picture_kit.h"
 #include "rendering/picture/picture_readout.h"
 #include "terrain/field.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::rendering {
 namespace {
@@ -89,12 +90,10 @@ std::vector<double> Reduced(const terrain::Terrain& terrain, const LookParams& l
   PictureRenderer(scene, look, pair.rays.front(), math::Transform::Identity())
       .RenderRows(0, kSide, seen, picture);
   std::vector<double> reduced(static_cast<std::size_t>(kSide / side) * (kSide / side));
-  for (int row = 0; row < kSide; ++row) {
-    for (int column = 0; column < kSide; ++column) {
-      reduced[static_cast<std::size_t>(row / side * (kSide / side) + column / side)] +=
-          static_cast<double>(picture.radiance_w_m2_sr.At(column, row)) / (side * side);
-    }
-  }
+  vision::ForEachPixel(kSide, kSide, [&](int column, int row) {
+    reduced[static_cast<std::size_t>(row / side * (kSide / side) + column / side)] +=
+        static_cast<double>(picture.radiance_w_m2_sr.At(column, row)) / (side * side);
+  });
   return reduced;
 }
 

@@ -6,6 +6,7 @@
 // the right one, by pixel of the left one; NaN where the right eye does not see the point) and
 // OUT_disparity.png, the same to look at. PATH names a member of PairSettings ("columns=1024",
 // "sun.elevation_deg=20", "picture.look.soil_graininess=1").
+
 #include <png.h>
 
 #include <algorithm>
@@ -26,6 +27,7 @@
 #include "scenario/former_keys.h"
 #include "scenario/load.h"
 #include "terrain/field.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::rendering {
 namespace {
@@ -87,12 +89,10 @@ void WritePfm(const std::string& path, const vision::Image<float>& values) {
 vision::Image<float> Disparity(const StereoTruth& truth) {
   vision::Image<float> disparity(truth.other.width(), truth.other.height(),
                                  std::numeric_limits<float>::quiet_NaN());
-  for (int row = 0; row < disparity.height(); ++row) {
-    for (int column = 0; column < disparity.width(); ++column) {
-      if (truth.other.At(column, row) != OtherEye::kVisible) continue;
-      disparity.At(column, row) = static_cast<float>(column - truth.other_column.At(column, row));
-    }
-  }
+  vision::ForEachPixel(disparity.width(), disparity.height(), [&](int column, int row) {
+    if (truth.other.At(column, row) != OtherEye::kVisible) return;
+    disparity.At(column, row) = static_cast<float>(column - truth.other_column.At(column, row));
+  });
   return disparity;
 }
 

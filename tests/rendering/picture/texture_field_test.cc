@@ -1,4 +1,5 @@
 // The noise of textures against its definition, and its filter against means of many samples.
+
 #include "rendering/picture/texture_field.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "rendering/image_readout.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::rendering {
 namespace {
@@ -138,9 +140,7 @@ TEST(TextureField, TrimmingChangesNothing) {
   TextureField field(FewOctaves(), kKey, kPurpose);
   const double before = field.Mean(0.1, 0.2, Point()).value;
   // More pages than are kept: 70 x 70 of the finest octave.
-  for (int i = 0; i < 70; ++i) {
-    for (int k = 0; k < 70; ++k) field.Mean(1.07 * i, 1.07 * k, Point());
-  }
+  vision::ForEachPixel(70, 70, [&](int k, int i) { field.Mean(1.07 * i, 1.07 * k, Point()); });
   field.Trim();
   EXPECT_EQ(field.Mean(0.1, 0.2, Point()).value, before);
 }
@@ -149,14 +149,12 @@ TEST(TextureField, TrimmingChangesNothing) {
 double MeanOfSamples(TextureField& field, double u, double v, const Footprint& footprint) {
   constexpr int kSide = 24;
   double sum = 0.0;
-  for (int i = 0; i < kSide; ++i) {
-    for (int k = 0; k < kSide; ++k) {
-      const Eigen::Vector2d p = Eigen::Vector2d(u, v) +
-                                ((i + 0.5) / kSide - 0.5) * footprint.column_m +
-                                ((k + 0.5) / kSide - 0.5) * footprint.row_m;
-      sum += field.Mean(p.x(), p.y(), Point()).value;
-    }
-  }
+  vision::ForEachPixel(kSide, kSide, [&](int k, int i) {
+    const Eigen::Vector2d p = Eigen::Vector2d(u, v) +
+                              ((i + 0.5) / kSide - 0.5) * footprint.column_m +
+                              ((k + 0.5) / kSide - 0.5) * footprint.row_m;
+    sum += field.Mean(p.x(), p.y(), Point()).value;
+  });
   return sum / (kSide * kSide);
 }
 

@@ -1,3 +1,4 @@
+
 #include "vision/calibration/rendered_target.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/random.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::vision {
 namespace {
@@ -42,12 +44,10 @@ std::vector<double> PixelWeights(double blur_px) {
 TargetRenderer::TargetRenderer(const CameraModel& camera)
     : camera_(camera),
       directions_(camera.size.columns * kRays, camera.size.rows * kRays, Vector3::Zero()) {
-  for (int y = 0; y < directions_.height(); ++y) {
-    for (int x = 0; x < directions_.width(); ++x) {
-      const Pixel at((x + 0.5) / kRays - 0.5, (y + 0.5) / kRays - 0.5);
-      if (const auto ray = BackProject(camera, at)) directions_.At(x, y) = ray->direction;
-    }
-  }
+  ForEachPixel(directions_.width(), directions_.height(), [&](int x, int y) {
+    const Pixel at((x + 0.5) / kRays - 0.5, (y + 0.5) / kRays - 0.5);
+    if (const auto ray = BackProject(camera, at)) directions_.At(x, y) = ray->direction;
+  });
 }
 
 Image<float> TargetRenderer::Rays(const ChessboardParams& board, const Transform& X_AT,
@@ -62,20 +62,18 @@ Image<float> TargetRenderer::Rays(const ChessboardParams& board, const Transform
   // Half a ray's distance on the board, in squares.
   const double soft = 0.5 * X_AT.translation().norm() / (260.0 * kRays * board.spacing_m);
   Image<float> rays(directions_.width(), directions_.height());
-  for (int y = 0; y < rays.height(); ++y) {
-    for (int x = 0; x < rays.width(); ++x) {
-      const Vector3 direction = R_TA * directions_.At(x, y);
-      const double range = -centre.z() / direction.z();
-      const double u = (centre.x() + range * direction.x()) / board.spacing_m;
-      const double v = (centre.y() + range * direction.y()) / board.spacing_m;
-      double value = middle;  // the wall
-      if (range > 0.0 && u > -1.5 && u < columns + 0.5 && v > -1.5 && v < rows + 0.5) {
-        const bool margin = u < -1.0 || u > columns || v < -1.0 || v > rows;
-        value = margin ? look.bright : middle - half * Stripe(u, soft) * Stripe(v, soft);
-      }
-      rays.At(x, y) = static_cast<float>(value);
+  ForEachPixel(rays.width(), rays.height(), [&](int x, int y) {
+    const Vector3 direction = R_TA * directions_.At(x, y);
+    const double range = -centre.z() / direction.z();
+    const double u = (centre.x() + range * direction.x()) / board.spacing_m;
+    const double v = (centre.y() + range * direction.y()) / board.spacing_m;
+    double value = middle;  // the wall
+    if (range > 0.0 && u > -1.5 && u < columns + 0.5 && v > -1.5 && v < rows + 0.5) {
+      const bool margin = u < -1.0 || u > columns || v < -1.0 || v > rows;
+      value = margin ? look.bright : middle - half * Stripe(u, soft) * Stripe(v, soft);
     }
-  }
+    rays.At(x, y) = static_cast<float>(value);
+  });
   return rays;
 }
 

@@ -182,8 +182,7 @@ TEST(CameraDomainTest, NothingWildGivesNaN) {
     for (const AnyLens& lens : lenses) {
       const CameraModel camera{lens, {200, 200}};
       PixelJacobian by_point;
-      const Vector3 p = vector(1.0);
-      if (const auto pixel = Project(camera, p, &by_point)) {
+      if (const auto pixel = Project(camera, vector(1.0), &by_point)) {
         ASSERT_TRUE(pixel->allFinite() && !by_point.hasNaN());
         ++seen;
       }

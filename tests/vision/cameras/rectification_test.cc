@@ -249,11 +249,9 @@ TEST(RectificationTest, AFieldBeyondARightAngleIsKeptToTheLargestAngleToo) {
 
 TEST(RectificationTest, SourcesAreInsideOfTheImageOrNowhere) {
   const CameraModel left = ModelCameras()[1].camera;
-  const CameraModel right = RightOf(left);
-  const auto pair = Rectify(left, right, {.field = RectifiedField::kLeft});
+  const auto pair = Rectify(left, RightOf(left), {.field = RectifiedField::kLeft});
   ASSERT_TRUE(pair.ok());
-  int outside = 0;
-  int inside = 0;
+  int outside = 0, inside = 0;
   for (int column = -20; column < pair->size.columns + 20; column += 5) {
     for (int row = -20; row < pair->size.rows + 20; row += 5) {
       const auto source = SourceOf(left, pair->left, Pixel(column, row));

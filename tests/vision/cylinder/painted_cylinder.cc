@@ -1,3 +1,4 @@
+
 #include "vision/cylinder/painted_cylinder.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "core/random.h"
 #include "math/angles.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::vision {
 namespace {
@@ -117,20 +119,18 @@ class EyePainter {
   ColourImage Image() const {
     ColourImage image(camera_.size.columns, camera_.size.rows);
     core::RandomStream noise({scene_.seed, eye_}, core::Purpose::kTest, 1);
-    for (int y = 0; y < image.height(); ++y) {
-      for (int x = 0; x < image.width(); ++x) {
-        const PaintColour seen = Seen(x, y).cwiseProduct(scene_.light);
-        const PaintColour mixed = (1.0 - 3.0 * scene_.crosstalk) * seen +
-                                  PaintColour::Constant(scene_.crosstalk * seen.sum());
-        std::array<std::uint8_t, 3> levels{};
-        for (int i = 0; i < 3; ++i) {
-          double grey = scene_.exposure * mixed[i];
-          if (scene_.noise_grey > 0.0) grey += core::SampleNormal(noise, 0.0, scene_.noise_grey);
-          levels.at(static_cast<std::size_t>(i)) = Level(grey);
-        }
-        image.At(x, y) = {levels[0], levels[1], levels[2]};
+    ForEachPixel(image.width(), image.height(), [&](int x, int y) {
+      const PaintColour seen = Seen(x, y).cwiseProduct(scene_.light);
+      const PaintColour mixed = (1.0 - 3.0 * scene_.crosstalk) * seen +
+                                PaintColour::Constant(scene_.crosstalk * seen.sum());
+      std::array<std::uint8_t, 3> levels{};
+      for (int i = 0; i < 3; ++i) {
+        double grey = scene_.exposure * mixed[i];
+        if (scene_.noise_grey > 0.0) grey += core::SampleNormal(noise, 0.0, scene_.noise_grey);
+        levels.at(static_cast<std::size_t>(i)) = Level(grey);
       }
-    }
+      image.At(x, y) = {levels[0], levels[1], levels[2]};
+    });
     return image;
   }
 
@@ -169,13 +169,11 @@ class EyePainter {
     const PaintColour background = Background(x, y);
     if (!IsNearCylinder(x, y)) return background;
     PaintColour sum = PaintColour::Zero();
-    for (int i = 0; i < scene_.rays; ++i) {
-      for (int j = 0; j < scene_.rays; ++j) {
-        const double offset_x = (i + 0.5) / scene_.rays - 0.5;
-        const double offset_y = (j + 0.5) / scene_.rays - 0.5;
-        sum += CylinderAt(x + offset_x, y + offset_y).value_or(background);
-      }
-    }
+    ForEachPixel(scene_.rays, scene_.rays, [&](int j, int i) {
+      const double offset_x = (i + 0.5) / scene_.rays - 0.5;
+      const double offset_y = (j + 0.5) / scene_.rays - 0.5;
+      sum += CylinderAt(x + offset_x, y + offset_y).value_or(background);
+    });
     return sum / (scene_.rays * scene_.rays);
   }
 
@@ -199,21 +197,19 @@ ColourImage Blurred(const ColourImage& image) {
   // 1 4 6 4 1 over 16, along rows and columns: a variance of one.
   constexpr std::array<double, 5> kWeights = {1.0 / 16, 4.0 / 16, 6.0 / 16, 4.0 / 16, 1.0 / 16};
   ColourImage blurred(image.width(), image.height());
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      PaintColour sum = PaintColour::Zero();
-      for (int j = -2; j <= 2; ++j) {
-        for (int i = -2; i <= 2; ++i) {
-          const Rgb& pixel = image.At(std::clamp(x + i, 0, image.width() - 1),
-                                      std::clamp(y + j, 0, image.height() - 1));
-          sum += kWeights.at(static_cast<std::size_t>(i + 2)) *
-                 kWeights.at(static_cast<std::size_t>(j + 2)) *
-                 PaintColour(pixel.red, pixel.green, pixel.blue);
-        }
+  ForEachPixel(image.width(), image.height(), [&](int x, int y) {
+    PaintColour sum = PaintColour::Zero();
+    for (int j = -2; j <= 2; ++j) {
+      for (int i = -2; i <= 2; ++i) {
+        const Rgb& pixel = image.At(std::clamp(x + i, 0, image.width() - 1),
+                                    std::clamp(y + j, 0, image.height() - 1));
+        sum += kWeights.at(static_cast<std::size_t>(i + 2)) *
+               kWeights.at(static_cast<std::size_t>(j + 2)) *
+               PaintColour(pixel.red, pixel.green, pixel.blue);
       }
-      blurred.At(x, y) = {Level(sum[0]), Level(sum[1]), Level(sum[2])};
     }
-  }
+    blurred.At(x, y) = {Level(sum[0]), Level(sum[1]), Level(sum[2])};
+  });
   return blurred;
 }
 

@@ -63,8 +63,7 @@ TEST(RobustFinderTest, CleanImagesTellTheirPoseToParts) {
 // Errors over their standard deviations, of scenes with all there is.
 TEST(RobustFinderTest, ErrorsAreWithinTheirCovariance) {
   double squares = 0.0;
-  int found = 0;
-  int runs = 0;
+  int found = 0, runs = 0;
   for (const double d_m : {1.2, 4.0, 9.0}) {
     for (int i = 0; i < 5; ++i) {
       const double theta_rad = DegToRad(-160.0 + 69.0 * i);
@@ -184,8 +183,7 @@ PaintedPair PaintSideLit(const PaintedScene& at, double sun_deg) {
 // What the cylinder is told to be 4 % narrower than has rims that are wrong by a pixel: boundaries
 // may be, too.
 TEST(RobustFinderTest, AWallTooWideForItsRadiusIsLessSure) {
-  const PaintedScene scene = SceneAt(4.5, DegToRad(20.0));
-  const PaintedPair pair = Paint(scene);
+  const PaintedPair pair = Paint(SceneAt(4.5, DegToRad(20.0)));
   ColourCylinder narrow;
   narrow.diameter_m *= 0.96;
   RobustFinderParams params;
@@ -235,8 +233,7 @@ TEST(RobustFinderTest, AQuadrantMayBeBrighterAtASide) {
   // Control: a finder that expects brightness to change as little as colour.
   RobustFinderParams even;
   even.fit.shading_sd = even.fit.tint_sd;
-  double error_rad = 0.0;
-  double of_even_rad = 0.0;
+  double error_rad = 0.0, of_even_rad = 0.0;
   const std::array<double, 6> thetas_deg = {-160.0, -120.0, -100.0, 20.0, 60.0, 110.0};
   for (const double theta_deg : thetas_deg) {
     const double theta_rad = DegToRad(theta_deg);

@@ -70,8 +70,7 @@ TEST_P(ConsistentSetTest, OfTwoGroupsTheLargerIsTakenWhole) {
     PointsSeenTwice points = SeeTwice(kOdometryPair, TestMotion(), Exact(60), stream);
     const PointsSeenTwice group = SeeTwice(kOdometryPair, other, Exact(moving), stream);
     points.insert(points.end(), group.begin(), group.end());
-    SelectionParams params = By(GetParam());
-    const auto set = FindConsistentSet(points, kOdometryPair, params, stream);
+    const auto set = FindConsistentSet(points, kOdometryPair, By(GetParam()), stream);
     ASSERT_TRUE(set);
     EXPECT_EQ(MembersBelow(*set, 60), 60u);
     EXPECT_LE(set->members.size(), 60u + moving / 10);

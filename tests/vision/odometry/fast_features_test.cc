@@ -1,4 +1,5 @@
 // Features and matches have the bits of their plain definitions, with every instruction set.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -323,8 +324,7 @@ TEST(FastFeaturesTest, TheBestOfManyWindows) {
   for (std::size_t i = 0; i < kFirst; ++i) {
     const PlainWindow window = PlainWindowAt(image, first_features[i], 3);
     for (std::size_t j = 0; j < kSecond; ++j) {
-      const PlainWindow other = PlainWindowAt(image, second_features[j], 3);
-      const int difference = PlainDifference(window, other);
+      const int difference = PlainDifference(window, PlainWindowAt(image, second_features[j], 3));
       offer(j, difference, expected.of_first[i]);
       offer(i, difference, expected.of_second[j]);
     }

@@ -82,8 +82,7 @@ TEST(FeaturesTest, HalfTheContrastIsASixteenthOfTheStrength) {
   const Features bright = Detect(Texture(0, 0, 8.0, 0.0, 0), AllCorners());
   const Features dark = Detect(Texture(0, 0, 4.0, 0.0, 0), AllCorners());
   int compared = 0;
-  double bright_sum = 0.0;
-  double dark_sum = 0.0;
+  double bright_sum = 0.0, dark_sum = 0.0;
   for (const Feature& b : bright) {
     for (const Feature& d : dark) {
       if (b.column != d.column || b.row != d.row) continue;

@@ -126,9 +126,8 @@ TEST(PlaceInMapTest, RangesAreThoseOfTheParameters) {
   const RectifiedPair pair = PlanePair(kSize);
   const GrayImage left = SeePlane(pair, math::Transform::Identity(), {}, 0).left;
   GrayImage right(kSize.columns, kSize.rows, 90);
-  for (int y = 0; y < kSize.rows; ++y) {
-    for (int x = 0; x < kSize.columns - 8; ++x) right.At(x, y) = left.At(x + 8, y);
-  }
+  ForEachPixel(kSize.columns - 8, kSize.rows,
+               [&](int x, int y) { right.At(x, y) = left.At(x + 8, y); });
   const auto placed = [&](double min_px, double max_px) {
     const PlacementParams params{.min_disparity_px = min_px, .max_disparity_px = max_px};
     const DisparityImage map = MakePlacementMap(left, right, params);

@@ -1,6 +1,7 @@
 // Time of whole steps of visual odometry: detection in one new left image, matching with the
 // keyframe, places from the right eye, selection and least squares (Howard 2012 section 3: 512 x
 // 384 pixels, 400 features).
+
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -104,10 +105,7 @@ void Features(benchmark::State& state) {
   params.detector.max_features = state.range(0) / params.detector.regions();
   params.detector.min_features = std::min<std::int64_t>(10, params.detector.max_features);
   const std::vector<KnownStep>& steps = KnownSteps();  // not timed
-  double squares_m2 = 0.0;
-  double squares_rad2 = 0.0;
-  double features = 0.0;
-  double found = 0.0;
+  double squares_m2 = 0.0, squares_rad2 = 0.0, features = 0.0, found = 0.0;
   for (auto _ : state) {
     for (const KnownStep& known : steps) {
       VisualOdometer odometer(params, PlanePair(kSize), {}, {1, 0});

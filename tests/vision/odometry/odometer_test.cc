@@ -72,15 +72,13 @@ TEST(VisualOdometerTest, FindsHowTheCamerasMoved) {
 // 40 cm and 12 deg are more than windows bear unless they are warped by a motion.
 TEST(VisualOdometerTest, LargeStepsAreFoundInTwoRoundsAndByPrediction) {
   const Transform moved = Ahead(0.4, 0.2);
-  VisualOdometer odometer = Started();
-  const OdometryStep twice = odometer.Add(See(moved, 1));
+  const OdometryStep twice = Started().Add(See(moved, 1));
   ExpectNear(twice, moved, 0.015, 0.006);
   OdometerParams once;
   once.rounds = 1;
   VisualOdometer plain = Started(once);
   EXPECT_LT(plain.Add(See(moved, 1)).result.counts.consistent, twice.result.counts.consistent);
-  VisualOdometer predicted = Started(once);
-  const OdometryStep step = predicted.Add(See(moved, 1), Ahead(0.36, 0.17));
+  const OdometryStep step = Started(once).Add(See(moved, 1), Ahead(0.36, 0.17));
   ExpectNear(step, moved, 0.015, 0.006);
 }
 
@@ -117,8 +115,7 @@ TEST(VisualOdometerTest, SmallWindowsKnowLess) {
     OdometerParams params;
     params.placement.window_px = window_px;
     params.placement.noise_px = 0.001;
-    VisualOdometer odometer = Started(params);
-    const OdometryStep step = odometer.Add(See(Ahead(0.1), 1), Ahead(0.1));
+    const OdometryStep step = Started(params).Add(See(Ahead(0.1), 1), Ahead(0.1));
     EXPECT_TRUE(step.result.motion);
     return step.result.motion.value_or(Motion{}).covariance;
   };
@@ -154,9 +151,7 @@ std::string Keyframes(const std::vector<AlignedImages>& images, const KeyframePa
 
 TEST(VisualOdometerTest, KeyframesAreRenewedByWayByTurnAndByShare) {
   std::vector<AlignedImages> images;
-  for (int i = 0; i < 6; ++i) {
-    images.push_back(See(AfterSteps(i), static_cast<std::uint32_t>(i)));
-  }
+  for (int i = 0; i < 6; ++i) images.push_back(See(AfterSteps(i), static_cast<std::uint32_t>(i)));
   EXPECT_EQ(Keyframes(images, {.max_way_m = 10.0, .max_turn_rad = 3.0, .min_share = 0.0}),
             "K.....");
   EXPECT_EQ(Keyframes(images, {.max_way_m = 0.1, .max_turn_rad = 3.0, .min_share = 0.0}), "K..K..");
@@ -205,8 +200,7 @@ TEST(VisualOdometerTest, RenewBeginsANewPath) {
 
 // Another place altogether: nothing looks alike, or nothing moved as one.
 TEST(VisualOdometerTest, AnotherPlaceIsNoMotion) {
-  VisualOdometer odometer = Started();
-  const OdometryStep step = odometer.Add(See(Ahead(40.0), 1));
+  const OdometryStep step = Started().Add(See(Ahead(40.0), 1));
   EXPECT_FALSE(step.result.motion);
   EXPECT_TRUE(step.result.reason == NoMotion::kFewMatches ||
               step.result.reason == NoMotion::kFewPoints ||
@@ -217,8 +211,7 @@ TEST(VisualOdometerTest, AnotherPlaceIsNoMotion) {
 // A share of the points that is large enough, but one point fewer than are asked for.
 TEST(VisualOdometerTest, FewerConsistentPointsThanAskedForAreNoMotion) {
   const auto result = [](const OdometerParams& params) {
-    VisualOdometer odometer = Started(params);
-    return odometer.Add(See(Ahead(0.1), 1)).result;
+    return Started(params).Add(See(Ahead(0.1), 1)).result;
   };
   OdometerParams params;
   const MotionCounts counts = result(params).counts;

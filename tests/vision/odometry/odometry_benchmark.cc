@@ -164,8 +164,7 @@ void HundredPairs(benchmark::State& state) {
   for (std::uint32_t number = 0; number < kPairs; ++number) pairs.push_back(MakePair(number));
   const FeatureDetector detector(DetectorOf(Adapted::kThreshold), {kWidth, kHeight});
   std::vector<double> detect_ms, match_ms, all_ms;
-  double features = 0.0;
-  double matched = 0.0;
+  double features = 0.0, matched = 0.0;
   for ([[maybe_unused]] auto _ : state) {
     for (const ImagePair& pair : pairs) {
       const double start = ThreadTime_ms();
@@ -237,8 +236,7 @@ void OpenCvDetectAndMatch(benchmark::State& state) {
   cv::setNumThreads(1);
   const cv::Mat first = MatOf(Pair().first);
   const cv::Mat second = MatOf(Pair().second);
-  std::size_t features = 0;
-  std::size_t matches = 0;
+  std::size_t features = 0, matches = 0;
   for ([[maybe_unused]] auto _ : state) {
     const auto first_corners = OpenCvCorners(first);
     const auto second_corners = OpenCvCorners(second);

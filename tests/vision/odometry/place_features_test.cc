@@ -1,4 +1,5 @@
 // Places of features: differences along rows, fractions of a pixel, and covariances.
+
 #include "vision/odometry/place_features.h"
 
 #include <gtest/gtest.h>
@@ -71,9 +72,7 @@ TEST(TemplateSumsTest, AreThePlainSumsToTheBit) {
   core::RandomStream stream({257, 0}, core::Purpose::kTest, 0);
   std::array<std::array<float, kTemplateRows * kTemplateLanes>, 3> rows{};
   for (auto& numbers : rows) {
-    for (float& number : numbers) {
-      number = static_cast<float>(core::SampleUniform(stream, -60, 60));
-    }
+    for (float& number : numbers) number = static_cast<float>(core::SampleUniform(stream, -60, 60));
   }
   const TemplatePlace place{&image.At(5, 2), 40, 0.3F, 0.7F};
   const auto plain_sums = [&](std::size_t side) {
@@ -140,9 +139,7 @@ TEST(FeaturePlacerTest, PlacesFeaturesOnThePlaneThatTheyAreOf) {
   const PlacementParams params;
   const FeaturePlacer placer(pair, params, images.left, images.right);
   int wrong = 0;  // another place altogether
-  double sum_px = 0.0;
-  double squares_px2 = 0.0;
-  double count = 0.0;
+  double sum_px = 0.0, squares_px2 = 0.0, count = 0.0;
   for (const Feature& feature : features) {
     const Pixel pixel(feature.column, feature.row);
     const auto place = placer.Place(pixel, 0.04 * Eigen::Matrix2d::Identity());
@@ -223,9 +220,7 @@ TEST(FeaturePlacerTest, HasNoPlaceWhereAnotherDisparityIsAlmostAsGood) {
   constexpr ImageSize kWide{120, 40};
   const Pixel pixel(80, 20);
   GrayImage left = Noise(kWide.columns, kWide.rows, 4);
-  for (std::uint8_t& value : left.values()) {
-    value = static_cast<std::uint8_t>(value / 2 + 60);
-  }
+  for (std::uint8_t& value : left.values()) value = static_cast<std::uint8_t>(value / 2 + 60);
   const auto placed = [&](int other_px, int other_off) {
     GrayImage right = Noise(kWide.columns, kWide.rows, 5);
     for (const auto& [disparity_px, off] : {std::pair{40, 10}, std::pair{other_px, other_off}}) {

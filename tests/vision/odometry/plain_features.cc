@@ -7,6 +7,8 @@
 #include <optional>
 #include <tuple>
 
+#include "vision/each_pixel.h"
+
 namespace rockyard::vision {
 namespace {
 
@@ -117,8 +119,7 @@ Features OfRegion(const GrayImage& image, const FeatureDetectorParams& params,
     }
     return corners;
   }
-  double low = 0.0;
-  double high = 0.24;
+  double low = 0.0, high = 0.24;
   double weight = params.weight;
   Features corners;
   for (int tries = 0; tries <= 8; ++tries) {
@@ -208,15 +209,13 @@ Features PlainFeatures(const GrayImage& image, const FeatureDetectorParams& para
   const auto down = static_cast<int>(params.regions_down);
   Features features;
   Responses responses;
-  for (int j = 0; j < down; ++j) {
-    for (int i = 0; i < across; ++i) {
-      const PlainRegion region{i * image.width() / across, (i + 1) * image.width() / across,
-                               j * image.height() / down, (j + 1) * image.height() / down};
-      for (const Feature& feature : OfRegion(image, params, free, region, responses)) {
-        features.push_back(feature);
-      }
+  ForEachPixel(across, down, [&](int i, int j) {
+    const PlainRegion region{i * image.width() / across, (i + 1) * image.width() / across,
+                             j * image.height() / down, (j + 1) * image.height() / down};
+    for (const Feature& feature : OfRegion(image, params, free, region, responses)) {
+      features.push_back(feature);
     }
-  }
+  });
   return features;
 }
 

@@ -106,9 +106,7 @@ Motion MotionInSpace(const PointsSeenTwice& points, const Transform& start) {
               .inverse();
       Eigen::Matrix<double, 3, 6> J;
       J.leftCols<3>().setIdentity();
-      for (int axis = 0; axis < 3; ++axis) {
-        J.col(3 + axis) = Vector3d::Unit(axis).cross(turned);
-      }
+      for (int axis = 0; axis < 3; ++axis) J.col(3 + axis) = Vector3d::Unit(axis).cross(turned);
       N += J.transpose() * W * J;
       side -= J.transpose() * W * r;
     }

@@ -3,13 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/json_file.h"
+#include "image_files/raw_image.h"
+#include "image_files/read_image.h"
+#include "math/pose.h"
 #include "vision/cameras/camera_model.h"
+#include "vision/cameras/rectification.h"
 #include "vision/each_pixel.h"
-#include "vision/odometry/kitti_excerpt.h"
+#include "vision/odometry/odometer.h"
 #include "vision/odometry/plain_motion.h"
 #include "vision/odometry/refine_match.h"
 #include "vision/stereo/rectification_table.h"
@@ -18,6 +26,53 @@ namespace rockyard::vision {
 namespace {
 
 using math::Transform;
+
+// Ten frames of a drive in KITTI's layout (Geiger, Lenz and Urtasun 2012).
+struct KittiExcerpt {
+  RectifiedPair cameras;
+  std::vector<AlignedImages> images;
+  std::vector<Transform> X_WC;  // camera: x right, y down, z ahead
+};
+
+std::vector<double> NumbersOf(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  std::vector<double> numbers;
+  for (double number = 0.0; file >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+GrayImage ReadGray(const std::filesystem::path& path) {
+  return image_files::ToGray(image_files::ReadImage(path)).image;
+}
+
+KittiExcerpt ReadKittiExcerpt(const std::filesystem::path& folder) {
+  KittiExcerpt excerpt;
+  const std::vector<double> P = NumbersOf(folder / "calib.txt");  // P0, then P1
+  const std::vector<double> poses = NumbersOf(folder / "poses.txt");
+  for (std::size_t i = 0; i + 12 <= poses.size(); i += 12) {
+    Transform X = Transform::Identity();
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        X.matrix()(row, column) = poses[i + static_cast<std::size_t>(4 * row + column)];
+      }
+    }
+    X.linear() = Eigen::Quaterniond(X.linear()).normalized().toRotationMatrix();
+    excerpt.X_WC.push_back(X);
+    const std::string name = "00000" + std::to_string(i / 12) + ".png";
+    excerpt.images.push_back(
+        {ReadGray(folder / "image_l" / name), ReadGray(folder / "image_r" / name)});
+  }
+  RectifiedPair& pair = excerpt.cameras;
+  pair.focal_px = P[0];
+  pair.baseline_m = -P[15] / P[12];
+  pair.left.H = {P[0], 0.0, P[2]};
+  pair.left.V = {0.0, P[5], P[6]};
+  pair.right = pair.left;
+  pair.right.C = {pair.baseline_m, 0.0, 0.0};
+  pair.size = {excerpt.images[0].left.width(), excerpt.images[0].left.height()};
+  return excerpt;
+}
 
 const std::filesystem::path kFolder = ROCKYARD_REAL_SEQUENCES;
 
@@ -53,11 +108,9 @@ TEST(KittiTest, EveryPairMovedAsSurveyed) {
   ASSERT_EQ(frames, 10);
   const double mean_m = drive.X_WC[0].inverse().operator*(drive.X_WC[9]).translation().z() / 9.0;
   std::vector<double> of_neighbours_m;
-  int good_by_mean = 0;
-  int pairs = 0;
+  int good_by_mean = 0, pairs = 0;
   for (int apart = 1; apart <= 3; ++apart) {
-    std::vector<double> errors_m;
-    std::vector<double> turns_deg;
+    std::vector<double> errors_m, turns_deg;
     for (int first = 0; first < frames; ++first) {
       for (const int second : {first - apart, first + apart}) {
         if (second < 0 || second >= frames) continue;
@@ -159,8 +212,7 @@ double ShareInRow(const AlignedImages& images, double limit_px, int least) {
   const FeatureDetector detector({}, {images.left.width(), images.left.height()});
   const Features left = detector.Detect(images.left);
   const Features right = detector.Detect(images.right);
-  int all = 0;
-  int in_row = 0;
+  int all = 0, in_row = 0;
   for (const FeatureMatch& match : MatchFeatures(images.left, left, images.right, right, {})) {
     const Feature& l = left[static_cast<std::size_t>(match.first)];
     const Feature& r = right[static_cast<std::size_t>(match.second)];

@@ -1,3 +1,4 @@
+
 #include "textured_image.h"
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::vision {
 namespace {
@@ -37,13 +39,11 @@ GrayImage WaveTexture::Render(int width, int height, double left, double top, do
                               double noise, std::uint32_t noise_number) const {
   core::RandomStream stream({2013, number_}, core::Purpose::kTest, noise_number);
   GrayImage image(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double grey = 110.0 + contrast * At(left + x, top + y) +
-                          (noise > 0.0 ? noise * core::SampleNormal(stream, 0.0, 1.0) : 0.0);
-      image.At(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(grey), 0L, 255L));
-    }
-  }
+  ForEachPixel(width, height, [&](int x, int y) {
+    const double grey = 110.0 + contrast * At(left + x, top + y) +
+                        (noise > 0.0 ? noise * core::SampleNormal(stream, 0.0, 1.0) : 0.0);
+    image.At(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(grey), 0L, 255L));
+  });
   return image;
 }
 

@@ -1,4 +1,5 @@
 // Errors of trajectories against closed forms and a search over alignments.
+
 #include "vision/odometry/trajectory_error.h"
 
 #include <gtest/gtest.h>
@@ -212,9 +213,8 @@ TEST(TrajectoryError, NormalizedErrorsFollowChiSquared) {
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) root(i, j) = (i == j ? 0.01 : 0.0) + 0.002 * stream.Uniform();
   }
-  Motion motion;
-  motion.X_FS = MakePose({0.7, 0.1, -0.2}, 0.4, 0.2, -0.3);
-  motion.covariance = root * root.transpose();
+  Motion motion{.X_FS = MakePose({0.7, 0.1, -0.2}, 0.4, 0.2, -0.3),
+                .covariance = root * root.transpose()};
   constexpr int kDraws = 4000;
   double sum = 0.0;
   for (int i = 0; i < kDraws; ++i) {

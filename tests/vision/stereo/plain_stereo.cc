@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "vision/each_pixel.h"
+
 namespace rockyard::vision {
 namespace {
 
@@ -100,17 +102,15 @@ GrayImage PlainDifferenceOfGaussians(const GrayImage& image, const DogParams& pa
   const std::int64_t parts = gradient ? 4 : narrow * wide;
   const std::int64_t q = std::llround(1048576.0 * params.gain / static_cast<double>(parts));
   GrayImage out(image.width(), image.height());
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      const std::int64_t difference =
-          gradient ? column(x + 1, y) - column(x - 1, y)
-                   : SquareSum(image, x, y, static_cast<int>(params.narrow_side_px)) * wide -
-                         SquareSum(image, x, y, static_cast<int>(params.wide_side_px)) * narrow;
-      const std::int64_t value = FloorDivide(q * difference + 524288, 1048576);
-      out.At(x, y) =
-          static_cast<std::uint8_t>(std::clamp(value, -params.limit, params.limit) + params.limit);
-    }
-  }
+  ForEachPixel(image.width(), image.height(), [&](int x, int y) {
+    const std::int64_t difference =
+        gradient ? column(x + 1, y) - column(x - 1, y)
+                 : SquareSum(image, x, y, static_cast<int>(params.narrow_side_px)) * wide -
+                       SquareSum(image, x, y, static_cast<int>(params.wide_side_px)) * narrow;
+    const std::int64_t value = FloorDivide(q * difference + 524288, 1048576);
+    out.At(x, y) =
+        static_cast<std::uint8_t>(std::clamp(value, -params.limit, params.limit) + params.limit);
+  });
   return out;
 }
 

@@ -157,16 +157,14 @@ TEST(StereoQualityTest, AStepLosesWhatIsHidden) {
   const int checked = wrong_where_hidden(found);
   // Without the line-of-sight check, hidden pixels find something.
   params.filters.line_of_sight_px = 1000.0;
-  const int unchecked = wrong_where_hidden(MatchStereo(pair.left, pair.right, params));
-  EXPECT_GT(unchecked, 2 * checked);
+  EXPECT_GT(wrong_where_hidden(MatchStereo(pair.left, pair.right, params)), 2 * checked);
 }
 
 // Bias against the fraction t of the true disparity: a parabola through sums of absolute
 // differences says t / (2 (1 - t)) up to a half (SubPixel); two lines say t.
 TEST(StereoQualityTest, PixelLocking) {
   StereoPipelineParams params = Range(0, 24);
-  std::vector<double> parabola;
-  std::vector<double> lines;
+  std::vector<double> parabola, lines;
   for (int eighth = 0; eighth < 8; ++eighth) {
     Scene scene = SceneOf(10 + eighth, [eighth](double, double) { return 8.0 + eighth / 8.0; });
     scene.width = 200;

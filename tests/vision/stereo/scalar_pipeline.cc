@@ -81,9 +81,7 @@ void ScalarPipeline::Correlate(const GrayImage& left, const GrayImage& right, Ro
                      full ? right.Row(y - side).data() : zeros_.data());
     if (y + 1 < side || last == RowStage::kPrepare) continue;
     stages_->compare(rows_);
-    if (last == RowStage::kDecide) {
-      stages_->decide(rows_, limits_, out.Row(y - rows_.after).data());
-    }
+    if (last == RowStage::kDecide) stages_->decide(rows_, limits_, out.Row(y - rows_.after).data());
   }
 }
 

@@ -1,4 +1,5 @@
 // Stages beside closed forms and hand-made cases: pyramid, rectification, range, parameters, codes.
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,15 +32,13 @@ TEST(PyramidTest, PixelsAreRoundedMeansOfSquares) {
     const GrayImage reduced = ReduceImage(image, level);
     ASSERT_EQ(reduced.width(), 43 / side);
     ASSERT_EQ(reduced.height(), 38 / side);
-    for (int y = 0; y < reduced.height(); ++y) {
-      for (int x = 0; x < reduced.width(); ++x) {
-        double sum = 0.0;
-        for (int k = 0; k < side * side; ++k) {
-          sum += image.At(x * side + k % side, y * side + k / side);
-        }
-        ASSERT_EQ(reduced.At(x, y), std::floor(sum / (side * side) + 0.5)) << level;
+    ForEachPixel(reduced.width(), reduced.height(), [&](int x, int y) {
+      double sum = 0.0;
+      for (int k = 0; k < side * side; ++k) {
+        sum += image.At(x * side + k % side, y * side + k / side);
       }
-    }
+      ASSERT_EQ(reduced.At(x, y), std::floor(sum / (side * side) + 0.5)) << level;
+    });
   }
   EXPECT_EQ(ReduceImage(GrayImage(70, 70, 255), 6), GrayImage(1, 1, 255));
   EXPECT_TRUE(ReduceImage(RandomImage(3, 9, 2), 2).empty());
@@ -56,13 +55,11 @@ TEST(RectificationTest, APlaneOfGreyIsSampledExactly) {
   };
   const RectificationTable table(Positions(38, 30, source), 40, 30);
   const GrayImage out = table.Rectify(plane);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 38; ++x) {
-      const SourcePosition from = source(x, y);
-      // Half a grey level of rounding, and 1/512 px of position in x and y.
-      ASSERT_NEAR(out.At(x, y), 3 * from.x_px + 4 * from.y_px + 5, 0.5 + 7.0 / 512.0);
-    }
-  }
+  ForEachPixel(38, 30, [&](int x, int y) {
+    const SourcePosition from = source(x, y);
+    // Half a grey level of rounding, and 1/512 px of position in x and y.
+    ASSERT_NEAR(out.At(x, y), 3 * from.x_px + 4 * from.y_px + 5, 0.5 + 7.0 / 512.0);
+  });
 }
 
 TEST(RectificationTest, FourPixelsWeighAsTheirAreas) {

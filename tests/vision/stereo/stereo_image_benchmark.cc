@@ -15,6 +15,7 @@
 
 #include "instruction_sets.h"
 #include "synthetic_pair.h"
+#include "vision/each_pixel.h"
 #include "vision/stereo/blob.h"
 #include "vision/stereo/correlator.h"
 #include "vision/stereo/dog.h"
@@ -134,11 +135,9 @@ void Rectify(benchmark::State& state) {
   const Size size = SizeOf(state);
   const SyntheticPair& pair = PairOf(size);
   Image<SourcePosition> positions(size.width, size.height);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      positions.At(x, y) = {0.99 * x + 0.01 * y + 0.3, 0.98 * y - 0.005 * x + 5.0};
-    }
-  }
+  ForEachPixel(size.width, size.height, [&](int x, int y) {
+    positions.At(x, y) = {0.99 * x + 0.01 * y + 0.3, 0.98 * y - 0.005 * x + 5.0};
+  });
   const RectificationTable table(positions, size.width, size.height);
   GrayImage out(size.width, size.height);
   for ([[maybe_unused]] auto _ : state) table.RectifyRows(pair.left, 0, size.height, out);
@@ -168,12 +167,10 @@ void OpenCv(benchmark::State& state, int speckle_window) {
   cv::Mat disparities;
   for ([[maybe_unused]] auto _ : state) matcher->compute(left, right, disparities);
   DisparityImage out(size.width, size.height);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const auto value = disparities.at<std::int16_t>(y, x);
-      out.At(x, y) = value < 0 ? Dropped(Drop::kOutside) : static_cast<std::int16_t>(2 * value);
-    }
-  }
+  ForEachPixel(size.width, size.height, [&](int x, int y) {
+    const auto value = disparities.at<std::int16_t>(y, x);
+    out.At(x, y) = value < 0 ? Dropped(Drop::kOutside) : static_cast<std::int16_t>(2 * value);
+  });
   Label(state, out);
   state.SetLabel("OpenCV " CV_VERSION ", hash " + HashOf(out));
 }

@@ -23,6 +23,7 @@
 #include "instruction_sets.h"
 #include "scalar_pipeline.h"
 #include "synthetic_pair.h"
+#include "vision/each_pixel.h"
 #include "vision/stereo/blob.h"
 #include "vision/stereo/correlator.h"
 #include "vision/stereo/dog.h"
@@ -80,9 +81,9 @@ Images MakeImages(const Case& c) {
   const int width = c.width >> c.level;
   const int height = c.height >> c.level;
   Image<SourcePosition> positions(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) positions.At(x, y) = {0.99 * x + 0.3, 0.98 * y + 0.5};
-  }
+  ForEachPixel(width, height, [&](int x, int y) {
+    positions.At(x, y) = {0.99 * x + 0.3, 0.98 * y + 0.5};
+  });
   return {pair.left, pair.right, ReduceImage(pair.left, c.level), ReduceImage(pair.right, c.level),
           RectificationTable(positions, width, height)};
 }
@@ -108,36 +109,6 @@ void Rectify(const Images& images, GrayImage& out) {
   }
 }
 
-void TimeBlobs(const StereoPipelineParams& params, DisparityImage& disparities, Runs& runs) {
-  Keep(runs.blob_s, [&] { FilterBlobs(params.filters, disparities); });
-  runs.hash = HashOf(disparities);
-}
-
-void TimeScalar(const ScalarStages& stages, const Case& c, const Images& images, Runs& runs) {
-  const StereoPipelineParams params = ParamsOf(c);
-  const int width = images.left_level.width();
-  const int height = images.left_level.height();
-  ScalarPipeline pipeline(stages, width, params);
-  GrayImage left(width, height);
-  GrayImage right(width, height);
-  DisparityImage out(width, height);
-  if (c.level == 0) runs.reduce_s = 0.0;
-  Keep(runs.reduce_s, [&] {
-    left = pipeline.Reduce(images.left, c.level);
-    right = pipeline.Reduce(images.right, c.level);
-  });
-  Keep(runs.rectify_s, [&] { Rectify(images, left); });
-  Keep(runs.filter_s, [&] {
-    pipeline.Filter(images.left_level, left);
-    pipeline.Filter(images.right_level, right);
-  });
-  const auto correlate = [&](RowStage last) { pipeline.Correlate(left, right, last, out); };
-  Keep(runs.prepare_s, [&] { correlate(RowStage::kPrepare); });
-  Keep(runs.compare_s, [&] { correlate(RowStage::kCompare); });
-  Keep(runs.decide_s, [&] { correlate(RowStage::kDecide); });
-  TimeBlobs(params, out, runs);
-}
-
 // CorrelateRows (correlator.cc) without its last stages.
 void CorrelateFast(const GrayImage& left, const GrayImage& right,
                    const StereoPipelineParams& params, RowStage last) {
@@ -155,27 +126,46 @@ void CorrelateFast(const GrayImage& left, const GrayImage& right,
   }
 }
 
-void TimeFast(const Case& c, const Images& images, Runs& runs) {
-  const StereoPipelineParams params = ParamsOf(c);
-  const int width = images.left_level.width();
-  const int height = images.left_level.height();
-  GrayImage left(width, height);
-  GrayImage right(width, height);
-  DisparityImage out(width, height);
+// The fast code's stages by the names of ScalarPipeline.
+struct FastPipeline {
+  StereoPipelineParams params;
+
+  static GrayImage Reduce(const GrayImage& image, int level) { return ReduceImage(image, level); }
+  void Filter(const GrayImage& image, GrayImage& out) const {
+    DifferenceOfGaussiansRows(image, params.dog, 0, image.height(), out);
+  }
+  void Correlate(const GrayImage& left, const GrayImage& right, RowStage last,
+                 DisparityImage& out) const {
+    if (last == RowStage::kDecide) {
+      CorrelateRows(left, right, params, 0, left.height(), out);
+    } else {
+      CorrelateFast(left, right, params, last);
+    }
+  }
+};
+
+template <typename Pipeline>
+void TimeStages(Pipeline pipeline, const Case& c, const Images& images, Runs& runs) {
+  const StereoFilterParams filters = ParamsOf(c).filters;
+  GrayImage left(images.left_level.width(), images.left_level.height());
+  GrayImage right = left;
+  DisparityImage out(left.width(), left.height());
   if (c.level == 0) runs.reduce_s = 0.0;
   Keep(runs.reduce_s, [&] {
-    left = ReduceImage(images.left, c.level);
-    right = ReduceImage(images.right, c.level);
+    left = pipeline.Reduce(images.left, c.level);
+    right = pipeline.Reduce(images.right, c.level);
   });
   Keep(runs.rectify_s, [&] { Rectify(images, left); });
   Keep(runs.filter_s, [&] {
-    DifferenceOfGaussiansRows(images.left_level, params.dog, 0, height, left);
-    DifferenceOfGaussiansRows(images.right_level, params.dog, 0, height, right);
+    pipeline.Filter(images.left_level, left);
+    pipeline.Filter(images.right_level, right);
   });
-  Keep(runs.prepare_s, [&] { CorrelateFast(left, right, params, RowStage::kPrepare); });
-  Keep(runs.compare_s, [&] { CorrelateFast(left, right, params, RowStage::kCompare); });
-  Keep(runs.decide_s, [&] { CorrelateRows(left, right, params, 0, height, out); });
-  TimeBlobs(params, out, runs);
+  const auto correlate = [&](RowStage last) { pipeline.Correlate(left, right, last, out); };
+  Keep(runs.prepare_s, [&] { correlate(RowStage::kPrepare); });
+  Keep(runs.compare_s, [&] { correlate(RowStage::kCompare); });
+  Keep(runs.decide_s, [&] { correlate(RowStage::kDecide); });
+  Keep(runs.blob_s, [&] { FilterBlobs(filters, out); });
+  runs.hash = HashOf(out);
 }
 
 Times TimesOf(const Runs& runs) {
@@ -247,11 +237,12 @@ void Measure(const Case& c, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     for (Side& side : sides) {
       if (side.stages != nullptr) {
-        TimeScalar(*side.stages, c, images, side.runs);
+        const int width = images.left_level.width();
+        TimeStages(ScalarPipeline(*side.stages, width, ParamsOf(c)), c, images, side.runs);
         continue;
       }
       const UseInstructionSet use(side.set);
-      TimeFast(c, images, side.runs);
+      TimeStages(FastPipeline{ParamsOf(c)}, c, images, side.runs);
     }
   }
   for (const Side& side : sides) {

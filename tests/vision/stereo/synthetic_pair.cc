@@ -1,3 +1,4 @@
+
 #include "synthetic_pair.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "core/hash.h"
 #include "core/random.h"
+#include "vision/each_pixel.h"
 
 namespace rockyard::vision {
 namespace {
@@ -67,9 +69,8 @@ double LeftPlace(const Scene& scene, double x, double y, double most) {
 
 double MostDisparity(const Scene& scene) {
   double most = 0.0;
-  for (int y = 0; y < scene.height; ++y) {
-    for (int x = 0; x < scene.width; ++x) most = std::max(most, std::abs(scene.disparity(x, y)));
-  }
+  ForEachPixel(scene.width, scene.height,
+               [&](int x, int y) { most = std::max(most, std::abs(scene.disparity(x, y))); });
   return most + 2.0;
 }
 
@@ -87,21 +88,19 @@ SyntheticPair MakePair(const Scene& scene) {
   SyntheticPair pair{GrayImage(scene.width, scene.height), GrayImage(scene.width, scene.height),
                      Image<double>(scene.width, scene.height),
                      Image<std::uint8_t>(scene.width, scene.height)};
-  for (int y = 0; y < scene.height; ++y) {
-    for (int x = 0; x < scene.width; ++x) {
-      const double here = scene.mean + scene.contrast * texture.At(x, y);
-      pair.left.At(x, y) = ToByte(core::SampleNormal(left_noise, here, scene.noise));
-      const double d = scene.disparity(x, y);
-      pair.truth.At(x, y) = d;
-      const double seen = LeftPlace(scene, x - d, y, most);
-      pair.hidden.At(x, y) = std::abs(seen - x) > 0.5 || x - d < 0.0 || x - d > scene.width - 1;
-      const double row = scene.left_row(x, y);
-      const double there =
-          scene.mean + scene.contrast * texture.At(LeftPlace(scene, x, row, most), row);
-      pair.right.At(x, y) = ToByte(core::SampleNormal(
-          right_noise, scene.right_gain * there + scene.right_offset, scene.noise));
-    }
-  }
+  ForEachPixel(scene.width, scene.height, [&](int x, int y) {
+    const double here = scene.mean + scene.contrast * texture.At(x, y);
+    pair.left.At(x, y) = ToByte(core::SampleNormal(left_noise, here, scene.noise));
+    const double d = scene.disparity(x, y);
+    pair.truth.At(x, y) = d;
+    const double seen = LeftPlace(scene, x - d, y, most);
+    pair.hidden.At(x, y) = std::abs(seen - x) > 0.5 || x - d < 0.0 || x - d > scene.width - 1;
+    const double row = scene.left_row(x, y);
+    const double there =
+        scene.mean + scene.contrast * texture.At(LeftPlace(scene, x, row, most), row);
+    pair.right.At(x, y) = ToByte(core::SampleNormal(
+        right_noise, scene.right_gain * there + scene.right_offset, scene.noise));
+  });
   return pair;
 }
 
