@@ -1,4 +1,4 @@
-// Did you mean ...?
+// Texts of others: did you mean ...?, UTF-8, XML.
 #pragma once
 
 #include <cstddef>
@@ -38,5 +38,9 @@ CodePoint FirstCodePoint(std::string_view text);
 
 // Returns the place of the first byte that is not valid UTF-8, or the size of the text.
 std::size_t Utf8Bytes(std::string_view text);
+
+// Characters that XML takes for its own are written as entities, control characters as blanks: fit
+// for elements and for quoted attributes.
+std::string EscapeXml(std::string_view text);
 
 }  // namespace rockyard::core

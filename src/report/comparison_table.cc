@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/numbers.h"
+#include "core/text.h"
 #include "report/line_text.h"
 #include "report/reference_fields.h"
 #include "report/xml_text.h"
@@ -308,9 +309,10 @@ std::string ChangedXml(const ComparisonResult& result) {
   std::string xml = "  <properties>\n";
   for (const statistics::OtherSettings& changed : result.changed) {
     for (const std::string& setting : changed.settings) {
-      xml += fmt::format("    <property name=\"{}\" value=\"{}\"/>\n",
-                         EscapeXml(fmt::format("{}: {}", changed.scenario, kNotPublishedCase)),
-                         EscapeXml(setting));
+      xml +=
+          fmt::format("    <property name=\"{}\" value=\"{}\"/>\n",
+                      core::EscapeXml(fmt::format("{}: {}", changed.scenario, kNotPublishedCase)),
+                      core::EscapeXml(setting));
     }
   }
   return xml + "  </properties>\n";

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/text.h"
 #include "report/line_text.h"
 #include "report/result_table.h"
 #include "report/run_description.h"
@@ -312,7 +313,8 @@ class Drawing {
         "font-family=\"sans-serif\" font-size=\"11\">\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         "<text x=\"12\" y=\"20\" font-size=\"14\">{}: {} against {}, bands of 95 %</text>\n",
-        width, height, EscapeXml(title), summary_.rates[rate_].name, summary_.factors[0].name);
+        width, height, core::EscapeXml(title), summary_.rates[rate_].name,
+        summary_.factors[0].name);
     svg += Legend(curves);
     for (std::size_t row = 0; row < rows.size(); ++row) {
       for (std::size_t column = 0; column < columns.size(); ++column) {

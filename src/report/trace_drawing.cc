@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/text.h"
 #include "math/angles.h"
 #include "report/trace_view.h"
 #include "report/xml_text.h"
@@ -108,7 +109,7 @@ void DrawMarks(const truth::Trace& trace, std::string_view kind, Canvas& canvas)
     if (drawn != nullptr && Apart_m(drawn->pose, event.pose) < kMarkSpacing_m) continue;
     drawn = &event;
     const std::string name =
-        EscapeXml(fmt::format("{} {} at {:.0f} s", event.kind, event.detail, event.time_s));
+        core::EscapeXml(fmt::format("{} {} at {:.0f} s", event.kind, event.detail, event.time_s));
     if (kind == "scrape") {
       canvas.DrawPlus(event.pose, name);
       continue;
@@ -134,9 +135,9 @@ void DrawFooter(const truth::TracedTrial& trial, Canvas& canvas) {
   canvas.DrawPlus({left_m + 7.6, keys_y_m, 0.0}, "key");
   canvas.DrawText(left_m + 7.75, keys_y_m - 0.06, "scrape");
   canvas.DrawText(left_m, top_m - 0.65,
-                  EscapeXml(fmt::format("{}, seed {}, trial {}: {} ({})", trial.scenario,
-                                        trial.seed, trial.record.trial,
-                                        truth::Name(trial.record.outcome), trial.record.detail)));
+                  core::EscapeXml(fmt::format(
+                      "{}, seed {}, trial {}: {} ({})", trial.scenario, trial.seed,
+                      trial.record.trial, truth::Name(trial.record.outcome), trial.record.detail)));
   canvas.GrowDown(kPlanFooter_m);
 }
 

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <vector>
 
+#include "core/text.h"
+
 namespace rockyard::report {
 namespace {
 
@@ -21,29 +23,6 @@ std::string PointsElement(std::string_view name, std::span<const SvgPoint> point
 
 }  // namespace
 
-std::string EscapeXml(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return escaped;
-}
-
 std::string JUnitReport(std::string_view name, std::span<const JUnitCase> cases,
                         std::string_view properties) {
   const auto count = [&](std::string_view element) {
@@ -53,13 +32,13 @@ std::string JUnitReport(std::string_view name, std::span<const JUnitCase> cases,
   std::string xml = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}",
-      EscapeXml(name), cases.size(), count("failure"), count("skipped"), properties);
+      core::EscapeXml(name), cases.size(), count("failure"), count("skipped"), properties);
   for (const JUnitCase& each : cases) {
-    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", EscapeXml(each.suite),
-                       EscapeXml(each.name));
+    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", core::EscapeXml(each.suite),
+                       core::EscapeXml(each.name));
     xml += each.element.empty() ? "/>\n"
                                 : fmt::format(">\n    <{} message=\"{}\"/>\n  </testcase>\n",
-                                              each.element, EscapeXml(each.message));
+                                              each.element, core::EscapeXml(each.message));
   }
   return xml + "</testsuite>\n";
 }
@@ -67,12 +46,12 @@ std::string JUnitReport(std::string_view name, std::span<const JUnitCase> cases,
 std::string SvgText(double x, double y, std::string_view text, double size) {
   return fmt::format(
       "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.0f}\" font-family=\"sans-serif\">{}</text>\n",
-      x, y, size, EscapeXml(text));
+      x, y, size, core::EscapeXml(text));
 }
 
 std::string SvgStyledText(double x, double y, std::string_view text, std::string_view style) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style,
-                     EscapeXml(text));
+                     core::EscapeXml(text));
 }
 
 std::string SvgBox(double x, double y, double width, double height, std::string_view style) {

@@ -1,4 +1,4 @@
-// Text inside XML and SVG files; reports in JUnit's form; elements of SVG drawings, whose lengths
+// Reports in JUnit's form; elements of SVG drawings, whose lengths
 // are in px, x to the right and y down.
 #pragma once
 
@@ -12,10 +12,6 @@
 #include "image_files/raw_image.h"
 
 namespace rockyard::report {
-
-// Characters that XML takes for its own are written as entities, control characters as blanks: fit
-// for elements and for quoted attributes.
-std::string EscapeXml(std::string_view text);
 
 // One test of a JUnit report.
 struct JUnitCase {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "report/xml_text.h"
+#include "core/text.h"
 
 namespace rockyard::web {
 namespace {
@@ -26,7 +26,7 @@ void Fill(std::string& html, std::string_view mark, std::string_view value) {
 
 std::string MakePage(Page page, std::string_view title, std::string_view payload_json) {
   std::string html(page == Page::kReport ? kReportPage : kReplayPage);
-  Fill(html, "<!-- title -->", report::EscapeXml(title));
+  Fill(html, "<!-- title -->", core::EscapeXml(title));
   Fill(html, "<!-- payload -->", Base64(Gzip(payload_json)));
   return html;
 }
