@@ -1,4 +1,4 @@
-// Reads parameter structs from a JSON object and collects everything that is wrong with it.
+// Parameter structs read from JSON, with all that is wrong with it, and written to it.
 #pragma once
 
 #include <initializer_list>

@@ -1,4 +1,4 @@
-// Files of others, read whole.
+// Files of others, read whole; files of our own, that take their names when they are whole.
 #pragma once
 
 #include <sys/types.h>

@@ -1,4 +1,4 @@
-// Counter-based random numbers: Philox 4x32-10 (Salmon et al. 2011; Random123).
+// Counter-based random numbers, Philox 4x32-10 (Salmon et al. 2011; Random123), and samplers.
 //
 // A stream is named by what it is for, never by when it is used, so that adding a sensor or a scan
 // shifts nobody's noise. The key is the campaign seed; the counter holds the trial, the purpose,

@@ -1,4 +1,4 @@
-// Whether a measurement is believed, and the way back after good ones were not.
+// Fixes by aids of localization: what they say of the pose, and whether they are believed.
 //
 // A measurement of m values is let in where r' S^-1 r is at most the chi-squared quantile of
 // 1 - chance with m degrees of freedom: a filter that knows its own error turns away one good

@@ -1,4 +1,4 @@
-// Roll, pitch and height from accelerometers and odometry.
+// Dead reckoning: roll, pitch and height from accelerometers; the pose from wheels and gyro.
 //
 // At rest the specific force f points up. With R turned by heading, pitch and roll as in
 // math::MakePose, its direction is (-sin p, sin r cos p, cos r cos p), so that

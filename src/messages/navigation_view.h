@@ -52,7 +52,7 @@ struct MapView {
 /// A candidate motion and its votes. Votes run from 0 to 255.
 struct MotionVote {
   MotionCommand motion;
-  double turn_rad = 0.0;  ///< of a point turn, positive left
+  double turn_rad = 0.0;  ///< of a turn in place, left positive
   double hazard = 0.0;
   double hazard_certainty = 0.0;
   double waypoint = 0.0;

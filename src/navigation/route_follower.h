@@ -1,4 +1,4 @@
-// From a motion command to the motion of each tick: along a clothoid, and to rest before its end.
+// From a motion command to the motion of each tick, and along a route that was given.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How on-board stereo matches the images of a pair.
+// Parameters of on-board stereo, of what is made of its points, and of motions that are seen.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Where in an image the stripe of a point can be, as the rover's calibration has it.
+// From images to stripes: where one can be, the peaks of a scanline, and whose laser each is.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Standard normal numbers for pixels, by place in the image and not by order of use.
+// From expected photoelectrons to numbers, with noise drawn by place in the image.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What a viewing ray meets.
+// What a viewing ray meets, what shades it, and what a lamp reaches.
 #pragma once
 
 #include <span>

@@ -1,9 +1,9 @@
 // Dimensions of the six-wheel rocker-bogie rover. The defaults describe Rocky 3.2.
 //
 // Frame R: x forward, y left, z up, origin on the ground under the chassis centre while the rover
-// stands on level ground. The pivots of Rocky 3.2 are not public: the defaults take most
-// lateral and vertical dimensions of Rocky 7, whose wheels have the same size, and spread the
-// wheels over the published length. Every such value is marked as assumed with a range.
+// stands on level ground. The pivots of Rocky 3.2 are not public: the defaults take the widths of
+// wheels and belly and the height of the rocker's pivot from Rocky 7, whose wheels have the same
+// size, and spread the wheels over the published length. Each is marked as assumed, with a range.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Where the parts of the rover are, in frame R while it stands on level ground.
+// Where the parts of the rover are, in frame R on level ground, and how heavy each body is.
 #pragma once
 
 #include <Eigen/Geometry>

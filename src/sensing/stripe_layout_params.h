@@ -1,4 +1,4 @@
-// The layout that the parameters of the light stripe sensor describe, and whether it can work.
+// The layout of the light stripe sensor: what parameters describe, and whether it can work.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// Where a scanline meets a light plane, for lenses whose scanlines are no planes.
+// The light of a stripe: where a scanline meets its plane, and how bright it is there.
 #pragma once
 
 #include <cmath>

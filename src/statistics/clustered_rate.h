@@ -1,4 +1,4 @@
-// Which trials hang together, and what a rate or a mean of such trials says.
+// Rates and means of trials that hang together, and of runs that all met the same rocks.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Intervals for one proportion and exact tests for two.
+// Rates and counts of independent trials: intervals, exact tests, predictions.
 #pragma once
 
 #include <cstdint>

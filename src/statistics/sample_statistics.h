@@ -1,4 +1,4 @@
-// Statistics of one sample: moments, quantiles, empirical distribution function, modes.
+// One sample: moments, quantiles, distribution function, modes, and the interval of its mean.
 #pragma once
 
 #include <cstdint>

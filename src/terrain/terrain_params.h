@@ -1,4 +1,4 @@
-// Ditches and pits in the ground, one by one.
+// Parameters of a terrain: all of them together, and its ditches and pits one by one.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Where the cylinder stands before the cameras, and the cameras themselves.
+// The cameras and the coloured cylinder before them, with all that stands around it.
 //
 // Frame L: origin on the ground below the cameras' centre of rotation, from which distances count;
 // x along the cameras' line of sight over the ground, y left, z up. Frame T: the cylinder, its

@@ -1,4 +1,4 @@
-// What a rover asks of the aids of localization at one tick, and what they answer.
+// Aids of localization in a drive: when they are asked, when they answer, what became of it.
 #pragma once
 
 #include <cmath>

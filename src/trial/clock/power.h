@@ -1,4 +1,4 @@
-// Electrical power by activity, as the sum of what is switched on.
+// Electrical power: what is switched on for each activity, and what solar cells give over the day.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Watches the true drive and sums up what reports ask for.
+// What reports ask for of the true drive, and of the belief held against it.
 #pragma once
 
 #include <array>

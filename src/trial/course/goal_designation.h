@@ -1,4 +1,4 @@
-// What the operators know of the rocks from the lander's stereo pair.
+// What operators know and tell: the lander's map of the rocks, the goal that they designate.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Which regions of both eyes may be the coloured cylinder: by size, shape and depth.
+// Candidates for the coloured cylinder among regions of both eyes, and its fit to pixels.
 #pragma once
 
 #include <Eigen/Core>
