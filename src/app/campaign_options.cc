@@ -59,7 +59,8 @@ void AddFolderOptions(CLI::App& command, CampaignOptions& options) {
                    "let --resume mix trials of different builds of the program");
   command
       .add_flag("--dry-run", options.dry_run,
-                "print what would be done and what it would cost, from a few pilot trials; do nothing else")
+                "print what would be done and what it would cost, from a few pilot trials; do "
+                "nothing else")
       ->excludes(retry);
 }
 

@@ -1,5 +1,5 @@
-// Prints the results in the folder of a campaign to standard output, and the preview that `--dry-run`
-// gives.
+// Prints the results in the folder of a campaign to standard output, and the preview that
+// `--dry-run` gives.
 #pragma once
 
 #include <string>

@@ -102,10 +102,10 @@ class ResultStore {
   // what each said is kept as an infrastructure fault. Returns how many.
   std::int64_t RetryFaults();
 
-  // The stored records of a cell, by trial index. Trials beyond those planned stay in the store and are
-  // not loaded: an earlier call asked for more of them than the stopping rule of today, and the
-  // campaign is the same as if they had not run. Cost: reads all of them into memory, some 500 bytes for each drive
-  // (truth/value_table.h).
+  // The stored records of a cell, by trial index. Trials beyond those planned stay in the store and
+  // are not loaded: an earlier call asked for more of them than the stopping rule of today, and the
+  // campaign is the same as if they had not run. Cost: reads all of them into memory, some 500
+  // bytes for each drive (truth/value_table.h).
   std::vector<truth::Record> Load(int cell = 0) const;
   // The same with the values of these columns of the schema alone, in this order, and without the
   // sentences that say why trials ended: 96 bytes and the values. Checks the outcomes; the values

@@ -41,8 +41,8 @@ class TemporaryFile {
   // -1 after Close.
   int descriptor() const { return descriptor_; }
 
-  // For a library that opens the file by its name. Releases the lock. Before that the caller must have
-  // claimed the folder, or another process may delete the file as the leftover of a dead one.
+  // For a library that opens the file by its name. Releases the lock. Before that the caller must
+  // have claimed the folder, or another process may delete the file as the leftover of a dead one.
   void Close();
 
   // Brings the file to the disk: what fails does so before Commit.

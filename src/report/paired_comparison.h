@@ -83,8 +83,8 @@ ResultTable ColumnsOf(const RunComparison& comparison);
 std::string RunComparisonCsv(const RunComparison& comparison);
 
 // Two measurements, cell by cell. What was compared; the verdict; a line for each rate; then, where
-// there are tests, the cells: all of the main rate and of every other rate those that differ, of each at
-// most the forty with the smallest p-values. At most 100 columns.
+// there are tests, the cells: all of the main rate and of every other rate those that differ, of
+// each at most the forty with the smallest p-values. At most 100 columns.
 std::string CellComparisonText(const ComparedRun& first, const ComparedRun& second,
                                const statistics::CellComparison& comparison);
 

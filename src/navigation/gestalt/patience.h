@@ -48,7 +48,8 @@ class Search {
  public:
   explicit Search(const GestaltParams& params);
 
-  // Returns the turn in place that competes with arcs: the next one of a search, or the best of all.
+  // Returns the turn in place that competes with arcs: the next one of a search, or the best of
+  // all.
   messages::MotionVote& NextTurn(MotionVotes& votes, double goal_bearing_rad) const;
 
   bool HasTurnedAround() const;

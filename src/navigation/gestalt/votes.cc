@@ -140,8 +140,8 @@ MotionVotes ArcVoter::Vote(const GoodnessGrid& grid, const PoseEstimate& estimat
   votes.forward = VoteOnArcs(candidates_.forward, +1, grid, estimate, goal_R);
   votes.backward = VoteOnArcs(candidates_.backward, -1, grid, estimate, goal_R);
   const std::size_t count = candidates_.forward.size();
-  // A turn in place is voted on as the straight arc after it; of an even number of arcs the straight
-  // one lies between two.
+  // A turn in place is voted on as the straight arc after it; of an even number of arcs the
+  // straight one lies between two.
   const double straight = 0.5 * static_cast<double>(count - 1);
   for (const CandidateMotion& turn : candidates_.point_turns) {
     const GoalDirection after_turn{goal_R.distance_m,

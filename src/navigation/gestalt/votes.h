@@ -103,8 +103,9 @@ struct MotionVotes {
   std::vector<messages::MotionVote> point_turns;
 };
 
-// Holds the candidates, and votes on them. The waypoint vote of a turn in place is that of the straight arc
-// after the turn. Where votes are whole_numbers each is rounded, half up, as soon as it is formed.
+// Holds the candidates, and votes on them. The waypoint vote of a turn in place is that of the
+// straight arc after the turn. Where votes are whole_numbers each is rounded, half up, as soon as
+// it is formed.
 class ArcVoter {
  public:
   explicit ArcVoter(const GestaltParams& params);
@@ -156,7 +157,8 @@ bool TurnsInPlace(const messages::MotionVote& turn, const messages::MotionVote* 
 // ahead or behind, and of these the smallest.
 messages::MotionVote* ChoosePointTurn(MotionVotes& votes, double goal_bearing_rad);
 
-// Returns the turn in place to that side (+1 left, -1 right) whose angle is nearest to `amount_rad`.
+// Returns the turn in place to that side (+1 left, -1 right) whose angle is nearest to
+// `amount_rad`.
 messages::MotionVote* PointTurnTo(MotionVotes& votes, int side, double amount_rad);
 
 // Returns the highest merged vote of a row; 0 for an empty one.

@@ -101,8 +101,8 @@ class ConstraintSolver {
   void KeepForNextStep(const ContactRows& rows) const;
   void Dig();
 
-  // One sweep over all rows. Returns the largest change of an impulse, the measure of convergence: N s,
-  // of motors N m s.
+  // One sweep over all rows. Returns the largest change of an impulse, the measure of convergence:
+  // N s, of motors N m s.
   double Sweep(LooseRocks* loose_rocks);
   // Returns what the row's left side lacks to its target.
   double Residual(const Row& row) const;

@@ -13,8 +13,8 @@
 
 namespace rockyard::trial {
 
-// Compares, at every control tick, the distance that the wheels rolled with the true one, over the last
-// `min_way_m` that they rolled: what a perfect check without delay would find.
+// Compares, at every control tick, the distance that the wheels rolled with the true one, over the
+// last `min_way_m` that they rolled: what a perfect check without delay would find.
 class SlipOnset {
  public:
   explicit SlipOnset(const perception::SlipCheckParams& params) : params_(params) {}

@@ -124,7 +124,8 @@ double Rms(const std::vector<Equation>& equations, const Eigen::Vector3d& plane,
 
 std::string Advice(const RowAlignmentOptions& options) {
   return fmt::format(
-      "use two images of one textured scene whose rows are less than {} px apart, or give --cameras",
+      "use two images of one textured scene whose rows are less than {} px apart, or give "
+      "--cameras",
       options.search.max_rows_px);
 }
 

@@ -75,8 +75,8 @@ void StereoFilterParams::Visit(core::FieldVisitor& v) {
                  "image a pixel of the window",
                  kSynthetic, {0.0, 500.0}, {0.0, 4.0}));
   v.Real("min_curvature_ratio", min_curvature_ratio,
-         Assumed("smallest curvature of the scores at the best match, divided by its score", kSynthetic,
-                 {0.0, 16.0}, {0.0, 0.5}));
+         Assumed("smallest curvature of the scores at the best match, divided by its score",
+                 kSynthetic, {0.0, 16.0}, {0.0, 0.5}));
   v.Integer(
       "blob_min_px", blob_min_px,
       Assumed("pixels of the smallest region that is kept", kSynthetic, {0, 1000000}, {0, 400}));
