@@ -1,4 +1,3 @@
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -106,7 +105,7 @@ TEST(NoisyWalkTest, AScaleErrorGrowsWithTheWay) {
 
 TEST(WalkSumsTest, SumSquaresAndDeviationByHand) {
   const std::vector<WalkError> errors{{.along_m = 1.0}, {.along_m = 3.0}, {.along_m = 8.0}};
-  const ErrorSums sums = SumsOf(errors, &WalkError::along_m);
+  const WalkErrorSums sums = SumsOf(errors, &WalkError::along_m);
   EXPECT_EQ(sums.sum, 12.0);
   EXPECT_EQ(sums.squares, 74.0);
   EXPECT_NEAR(sums.deviation, 3.0 * std::sqrt((9.0 + 1.0 + 16.0) / 2.0), 1e-12);

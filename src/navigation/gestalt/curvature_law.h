@@ -35,7 +35,7 @@ inline math::Pose2 Planar(const messages::PoseEstimate& estimate) {
 // of which arcs (c' = 0) and straight lines (c = c' = 0) are cases like any other.
 //
 // Error of x and y: below 1e-12 m a metre of length, for any curvatures: the length is cut into
-// pieces over which the integrand hardly turns (clothoid.cc has the bounds). Cost: one sine and
+// pieces over which the integrand hardly turns (the source has the bounds). Cost: one sine and
 // cosine if it turns by 1/8 rad or less, otherwise 13 a radian.
 math::Pose2 AlongClothoid(const math::Pose2& from, double curvature_per_m, double rate_per_m2,
                           double length_m);

@@ -199,8 +199,11 @@ TEST(ColourRegionsTest, RandomImagesHaveTheRegionsOfAFloodFill) {
 
 TEST(ColourRegionsTest, TheLargestIsTheFirstOfSeveral) {
   EXPECT_FALSE(LargestOf({}));
-  ColourRegion small{.pixels = 3};
-  ColourRegion large{.left = 1, .pixels = 5};
+  ColourRegion small;
+  small.pixels = 3;
+  ColourRegion large;
+  large.left = 1;
+  large.pixels = 5;
   ColourRegion other = large;
   other.left = 2;
   EXPECT_EQ(LargestOf({small, large, other})->left, 1);

@@ -47,7 +47,8 @@ ColourOrder OrderSeen(const std::array<double, 4>& widths, ColourQuantities& k) 
   const std::size_t right = (middle + 1) % 4;
   const std::size_t left = (middle + 3) % 4;
   k = {widths.at(middle), widths.at(right), widths.at(left)};
-  ColourOrder order{.middle = kQuadrantColours.at(middle)};
+  ColourOrder order;
+  order.middle = kQuadrantColours.at(middle);
   if (k.k2 > 0.0) order.right = kQuadrantColours.at(right);
   if (k.k3 > 0.0) order.left = kQuadrantColours.at(left);
   return order;
@@ -326,12 +327,14 @@ TEST(PublishedFinderTest, TheCovarianceIsThatOfPixelErrors) {
   const double m_px = 0.5 * (Find(pair).sighting->regions[0][0].Width() +
                              Find(pair).sighting->regions[1][0].Width());
   EXPECT_NEAR(std::sqrt(one(3, 3)), CoarsestTurn(m_px), 1e-9);
-  PublishedFinderParams two_pixels{.pixel_error_px = 2.0};
+  PublishedFinderParams two_pixels;
+  two_pixels.pixel_error_px = 2.0;
   EXPECT_TRUE(Find(pair, two_pixels).sighting->covariance.isApprox(4.0 * one, 1e-9));
 }
 
 TEST(PublishedFinderTest, WidthsTellTheSameAsPixels) {
-  PublishedFinderParams params{.measure = QuadrantMeasure::kWidth};
+  PublishedFinderParams params;
+  params.measure = QuadrantMeasure::kWidth;
   const CylinderFinding finding = Find(Paint(SceneAt(2.0, DegToRad(70.0))), params);
   ASSERT_TRUE(finding.sighting) << finding.reason;
   EXPECT_NEAR(RadToDeg(finding.sighting->orientation_rad), 70.0, 3.0);
@@ -348,7 +351,8 @@ TEST(PublishedFinderTest, AClippedCylinderIsClipped) {
   scene.cylinders.front().p_LT_L.y() = 0.45;
   ExpectMiss(Find(Paint(scene)), CylinderMiss::kClipped, "border");
   // The area of interest has a border, too.
-  PublishedFinderParams params{.sky_share = 0.5};
+  PublishedFinderParams params;
+  params.sky_share = 0.5;
   ExpectMiss(Find(Paint(SceneAt(2.0, 0.5)), params), CylinderMiss::kClipped, "border");
 }
 
