@@ -1,4 +1,3 @@
-
 #include "batch/executor.h"
 
 #include <fmt/format.h>

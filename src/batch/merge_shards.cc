@@ -1,4 +1,3 @@
-
 #include "batch/merge_shards.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "batch/result_store.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "batch/run_folder.h"
 
 #include <fcntl.h>

@@ -1,4 +1,3 @@
-
 #include "batch/sqlite_database.h"
 
 #include <fmt/format.h>

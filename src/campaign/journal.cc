@@ -1,4 +1,3 @@
-
 #include "campaign/journal.h"
 
 #include <sys/mman.h>

@@ -1,4 +1,3 @@
-
 #include "campaign/open_run.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "campaign/output_folder.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "campaign/report_replays.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "report/comparison_reference.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "report/line_text.h"
 
 #include <fmt/format.h>

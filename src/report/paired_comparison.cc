@@ -1,4 +1,3 @@
-
 #include "report/paired_comparison.h"
 
 #include <fmt/format.h>

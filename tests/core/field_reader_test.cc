@@ -1,4 +1,3 @@
-
 #include <cmath>
 
 #include "core/archive.h"

@@ -1,4 +1,3 @@
-
 #include "core/json_file.h"
 
 #include <fcntl.h>

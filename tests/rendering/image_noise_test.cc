@@ -1,4 +1,3 @@
-
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/chi_squared.hpp>

@@ -1,4 +1,3 @@
-
 #include "statistics/equivalence.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-
 #include "statistics/proportions.h"
 
 #include <gtest/gtest.h>

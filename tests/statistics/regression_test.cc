@@ -1,4 +1,3 @@
-
 #include "statistics/regression.h"
 
 #include <gtest/gtest.h>

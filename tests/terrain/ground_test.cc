@@ -1,4 +1,3 @@
-
 #include "terrain/ground.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-
 #include "terrain/terrain_params.h"
 
 #include <cmath>

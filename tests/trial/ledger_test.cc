@@ -1,4 +1,3 @@
-
 #include "trial/clock/ledger.h"
 
 #include <gtest/gtest.h>

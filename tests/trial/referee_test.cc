@@ -1,4 +1,3 @@
-
 #include "trial/referee/referee.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-
 #include "trial/drive/timeline.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-
 #include "campaign/calibrate/calibrate_cameras.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "campaign/cylinder/find_cylinder.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "campaign/odometry/estimate_path.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "campaign/odometry/pair_reader.h"
 
 #include <fmt/format.h>

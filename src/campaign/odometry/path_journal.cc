@@ -1,4 +1,3 @@
-
 #include "campaign/odometry/path_journal.h"
 
 #include <fmt/format.h>

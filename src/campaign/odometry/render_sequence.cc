@@ -1,4 +1,3 @@
-
 #include "campaign/odometry/render_sequence.h"
 
 #include <fmt/format.h>

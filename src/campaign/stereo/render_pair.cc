@@ -1,4 +1,3 @@
-
 #include "campaign/stereo/render_pair.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "experiments/cylinder_sighting/cylinder_sighting.h"
 
 #include <Eigen/Cholesky>

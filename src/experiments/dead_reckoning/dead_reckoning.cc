@@ -1,4 +1,3 @@
-
 #include "experiments/dead_reckoning/dead_reckoning.h"
 
 #include <cmath>

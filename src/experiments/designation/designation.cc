@@ -1,4 +1,3 @@
-
 #include "experiments/designation/designation.h"
 
 #include <cmath>

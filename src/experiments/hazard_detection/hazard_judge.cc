@@ -1,4 +1,3 @@
-
 #include "experiments/hazard_detection/hazard_judge.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-
 #include "experiments/mission/mission.h"
 
 #include <algorithm>

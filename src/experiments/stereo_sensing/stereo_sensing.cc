@@ -1,4 +1,3 @@
-
 #include "experiments/stereo_sensing/stereo_sensing.h"
 
 #include <cstddef>

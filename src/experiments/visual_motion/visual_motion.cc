@@ -1,4 +1,3 @@
-
 #include "experiments/visual_motion/visual_motion.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-
 #include "vision/calibration/rendered_target.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "vision/cylinder/painted_cylinder.h"
 
 #include <algorithm>

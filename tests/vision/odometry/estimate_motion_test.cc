@@ -1,4 +1,3 @@
-
 #include "vision/odometry/estimate_motion.h"
 
 #include <gtest/gtest.h>

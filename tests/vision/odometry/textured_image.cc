@@ -1,4 +1,3 @@
-
 #include "textured_image.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "synthetic_pair.h"
 
 #include <algorithm>
