@@ -65,8 +65,8 @@ void ForEachFinderColumn(const std::string& finder, const std::string& called,
   visit({right, "1", "of these, not wrong", kCount, found}, s.right);
   for (std::size_t i = 1; i < kCylinderMisses; ++i) {
     const std::string reason(core::EnumNames<vision::CylinderMiss>::kNames[i]);
-    visit({finder + "_" + reason, "1", "without a pose, for the reason " + reason, kCount,
-           "measurements"},
+    visit({std::string(finder).append("_").append(reason), "1",
+           "without a pose, for the reason " + reason, kCount, "measurements"},
           s.misses[i]);
   }
   const auto error = [&](const std::string& name, const std::string& ending,
