@@ -65,8 +65,8 @@ std::string WholeProblem(const std::string& text) {
 }
 
 // Options that name a file to be written.
-constexpr std::array<std::string_view, 5> kOutputs = {"--out", "--csv", "--svg", "--data",
-                                                      "--junit"};
+constexpr std::array<std::string_view, 6> kOutputs = {"--out", "--csv",  "--svg",
+                                                      "--npz", "--data", "--junit"};
 
 bool IsOutput(const CLI::Option& option) {
   return std::find(kOutputs.begin(), kOutputs.end(), option.get_name()) != kOutputs.end();

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -26,8 +25,11 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 constexpr std::string_view kMagic{"\x93NUMPY\x01\x00", 8};
 constexpr std::size_t kAlignment = 64;
 
-// Zip knows no earlier time, and the present one would make equal files differ.
-constexpr std::time_t kNoTime = 315532800;  // 1980-01-01
+// Of every member: 1980-01-01, 0 h, in the words of MS-DOS that zip keeps. Zip knows no earlier
+// time, the present one would make equal files differ, and libzip writes a std::time_t in the time
+// zone of the machine.
+constexpr zip_uint16_t kNoTime = 0;
+constexpr zip_uint16_t kNoDate = (1 << 5) | 1;  // years since 1980, month, day
 
 constexpr char32_t kNoCharacter = U'\ufffd';
 
@@ -91,7 +93,7 @@ void AddFile(zip_t& archive, const std::string& name, const std::string& bytes) 
     zip_source_free(source);
     Fail(name, zip_strerror(&archive));
   }
-  if (zip_file_set_mtime(&archive, static_cast<zip_uint64_t>(index), kNoTime, 0) != 0) {
+  if (zip_file_set_dostime(&archive, static_cast<zip_uint64_t>(index), kNoTime, kNoDate, 0) != 0) {
     Fail(name, zip_strerror(&archive));
   }
 }

@@ -208,13 +208,16 @@ struct EventKind {
   std::string_view plural;
 };
 
-// In the order in which a folded line names them. Looks are told where nothing else happened.
+// In the order in which a folded line names them. Looks are told where nothing else happened, and
+// motions that visual odometry saw where nothing was looked at either.
 constexpr EventKind kLook{"look", "look", "looks"};
-constexpr std::array<EventKind, 7> kEventKinds{{{"waypoint", "waypoint", "waypoints"},
+constexpr EventKind kVision{"vision", "motion seen", "motions seen"};
+constexpr std::array<EventKind, 8> kEventKinds{{{"waypoint", "waypoint", "waypoints"},
                                                 {"tracker", "tracker change", "tracker changes"},
                                                 {"chosen", "choice", "choices"},
                                                 {"hazard", "hazard scan", "hazard scans"},
                                                 {"felt", "felt hazard", "felt hazards"},
+                                                {"slip", "slip alarm", "slip alarms"},
                                                 {"scrape", "scrape", "scrapes"},
                                                 {"reflection", "reflection", "reflections"}}};
 
@@ -252,7 +255,8 @@ std::string What(Fold fold) {
     const std::string told = Told(fold, kind);
     if (!told.empty()) text += fmt::format("{}{}", text.empty() ? "" : ", ", told);
   }
-  return text.empty() ? Told(fold, kLook) : text;
+  if (text.empty()) text = Told(fold, kLook);
+  return text.empty() ? Told(fold, kVision) : text;
 }
 
 // Rounded to a multiple of `unit`, without a negative zero.

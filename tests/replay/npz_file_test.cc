@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <zip.h>
 
+#include <cstdlib>
 #include <cstring>
+#include <ctime>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -98,7 +101,21 @@ TEST(NpzFile, TextsAreCharactersOfTheirShortestForm) {
   }
 }
 
-TEST(NpzFile, EqualArraysGiveEqualBytes) { EXPECT_EQ(Sample().Bytes(), Sample().Bytes()); }
+TEST(NpzFile, EqualArraysGiveEqualBytesInEveryTimeZone) {
+  const std::string here = Sample().Bytes();
+  EXPECT_EQ(Sample().Bytes(), here);
+  const char* zone = std::getenv("TZ");
+  const std::optional<std::string> former = zone != nullptr ? std::optional(zone) : std::nullopt;
+  setenv("TZ", "NZST-12", 1);
+  tzset();
+  EXPECT_EQ(Sample().Bytes(), here);
+  if (former) {
+    setenv("TZ", former->c_str(), 1);
+  } else {
+    unsetenv("TZ");
+  }
+  tzset();
+}
 
 #ifdef ROCKYARD_CONTRACTS
 TEST(NpzFile, AShapeThatDoesNotFitOrANameTwiceIsADefect) {

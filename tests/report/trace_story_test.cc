@@ -74,6 +74,20 @@ TEST(TraceStory, AWaypointHasALineOfItsOwnAndTheTrackerSharesOne) {
                                 "  2 tracker changes goal in view to goal out of view"));
 }
 
+// Motions that were seen stand behind everything else, and an alarm of slip is never dropped.
+TEST(TraceStory, MotionsAreToldWhereNothingElseHappened) {
+  truth::TracedTrial trial = SampleTrial();
+  const auto story = [&](const std::string& between) {
+    trial.trace.events = {{1.0, {}, "vision", "0.101 m, 0.2 deg"},
+                          {1.1, {}, between, "70 % +- 5 % of the way"},
+                          {1.2, {}, "vision", "0.099 m, 0.1 deg"}};
+    return TraceStory(trial, StoryLength::kFolded);
+  };
+  EXPECT_THAT(story("slip"), HasSubstr("  1 slip alarm 70 % +- 5 % of the way"));
+  EXPECT_THAT(story("look"), HasSubstr("  1 look 70 %"));
+  EXPECT_THAT(story("vision"), HasSubstr("  3 motions seen 0.101 m, 0.2 deg to 0.099 m, 0.1 deg"));
+}
+
 TEST(TraceStory, EveryEventOnALineOfItsOwn) {
   const truth::TracedTrial trial = SampleTrial();
   const std::string all = TraceStory(trial, StoryLength::kAll);

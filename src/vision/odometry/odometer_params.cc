@@ -170,6 +170,9 @@ void KeyframeParams::Visit(core::FieldVisitor& v) {
 void OdometerParams::Visit(core::FieldVisitor& v) {
   v.Group("detector", detector, "corners of an image");
   v.Group("matcher", matcher, "which corners of two images are the same");
+  v.Require("detector.border_px", detector.border_px >= matcher.window_px / 2,
+            "is less than half of matcher.window_px: windows would reach beyond the image",
+            "use at least half the side of a window");
   v.Group("placement", placement, "where they lie, from the right eye");
   v.Group("selection", selection, "which of them moved as one rigid body");
   v.Group("estimation", estimation, "the motion of these, by least squares");
