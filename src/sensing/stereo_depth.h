@@ -110,9 +110,6 @@ class RockOutline {
   int last_row_ = -1;
 };
 
-// A value for each pixel, [row][column]: one over a depth, 1/m, or a disparity, px; 0 where the
-// pixel shows nothing.
-using DepthImage = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using PixelFlags = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // The terrain as a stereo pair meets it from one place. Pinhole pixels make one over the depth of

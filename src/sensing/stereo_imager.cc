@@ -8,7 +8,6 @@
 #include "rendering/picture/picture.h"
 #include "rendering/picture/picture_renderer.h"
 #include "sensing/rover_parts.h"
-#include "sensing/stereo_view.h"
 #include "vision/cameras/rig_drift.h"
 
 namespace rockyard::sensing {
@@ -19,39 +18,6 @@ using messages::LookDirection;
 using vision::Image;
 
 constexpr std::int64_t kMostLooks = std::int64_t{1} << 30;
-
-// As the view has it before images are reduced.
-StereoView FullView(StereoParams params, LookDirection direction) {
-  params.columns = params.image_columns();
-  params.rows = params.image_rows();
-  return MakeStereoView(params, direction);
-}
-
-// The linear camera at `eye` whose pixel (0, 0) looks along view.first: the inverse of the rays
-// e(column, row) of StereoView.
-vision::CameraModel CameraAt(const StereoView& view, const Vector3& eye) {
-  const double middle_column = 0.5 * (view.columns - 1);
-  const double middle_row = 0.5 * (view.rows - 1);
-  const Vector3 A =
-      (view.first + middle_column * view.along_row + middle_row * view.along_column).normalized();
-  // along_row = h' / f_h, hence H = f_h h' + c_h A with f_h h' = along_row / |along_row|^2.
-  const Vector3 H = view.along_row / view.along_row.squaredNorm() + middle_column * A;
-  const Vector3 V = view.along_column / view.along_column.squaredNorm() + middle_row * A;
-  return {vision::Cahv{eye, A, H, V}, {view.columns, view.rows}};
-}
-
-// 1 where the ray of a pixel meets no part of the rover.
-Image<std::uint8_t> FreePixels(const rendering::PixelRays& rays, const rendering::RoverBody& body) {
-  Image<std::uint8_t> free(rays.columns(), rays.rows(), 1);
-  for (int row = 0; row < free.height(); ++row) {
-    for (int column = 0; column < free.width(); ++column) {
-      const vision::Ray ray = rays.At(column, row);
-      const bool blocked = std::isfinite(body.Distance(ray.origin, ray.direction));
-      if (blocked) free.At(column, row) = 0;
-    }
-  }
-  return free;
-}
 
 }  // namespace
 
@@ -68,9 +34,7 @@ StereoImager::StereoImager(const StereoParams& params, const rendering::SunParam
 
 StereoImager::Pair StereoImager::MakePair(const StereoParams& params, LookDirection direction,
                                           core::TrialKey key) const {
-  const StereoView view = FullView(params, direction);
-  const vision::CameraModel left = CameraAt(view, view.eye);
-  const vision::CameraModel right = CameraAt(view, view.right_eye);
+  const auto [left, right] = CalibratedCameras(params, direction);
   const int first = direction == LookDirection::kAhead ? 0 : 2;  // cameras of a rover count from 0
   const auto eye = [&](const vision::CameraModel& camera, int number) {
     rendering::PixelRays rays(camera);
@@ -80,10 +44,7 @@ StereoImager::Pair StereoImager::MakePair(const StereoParams& params, LookDirect
   core::RandomStream stream(key, core::Purpose::kRigDrift, static_cast<std::uint32_t>(first / 2));
   const vision::CameraModel true_right =
       vision::DriftedRight(left, right, vision::DrawRigDrift(params.images.drift, stream));
-  Pair pair{{left, right, {}, {}}, true_right, {eye(left, first), eye(true_right, first + 1)}};
-  pair.rig.left_free = FreePixels(pair.eyes[0].rays, body_);
-  pair.rig.right_free = FreePixels(rendering::PixelRays(right), body_);
-  return pair;
+  return {true_right, {eye(left, first), eye(true_right, first + 1)}};
 }
 
 rendering::PictureScene StereoImager::SceneOf(const terrain::Terrain& terrain,

@@ -1,10 +1,9 @@
 // The stereo cameras at the rover's front and rear down to digital images of a true scene.
 //
 // Image formation, in the order in which a look runs through it (equations beside the code):
-//   scene          terrain, sun and shadows, the rover's own parts
-//   rendering/picture/picture_scene.h picture        light on every pixel
-//   rendering/picture/picture_renderer.h read-out       lens, exposure, noise, counts
-//   rendering/picture/picture_readout.h
+//   scene, picture_scene.h: terrain, sun and shadows, the rover's own parts;
+//   picture, picture_renderer.h: light on every pixel;
+//   read-out, picture_readout.h: lens, exposure, noise, counts.
 // Goldberg 2002 section 2 begins with such images. What it does not say of camera, light and soil
 // is assumed, so that results from these images are sensitivities to those assumptions.
 #pragma once
@@ -25,32 +24,24 @@
 #include "rendering/sun_params.h"
 #include "rover/rover_geometry_params.h"
 #include "sensing/stereo_params.h"
+#include "sensing/stereo_rig.h"
 #include "terrain/terrain.h"
 #include "vision/image.h"
-#include "vision/stereo/stereo_rig.h"
 
 namespace rockyard::sensing {
-
-// What one look delivers: 8 bits a pixel, the highest ones of imagers that have more.
-struct StereoImages {
-  vision::GrayImage left;
-  vision::GrayImage right;
-  double exposure_s = 0.0;  // of both: exposure control looks at the left image
-};
 
 // The sensor at the image fidelity: two pairs of linear cameras with the view of MakeStereoView, of
 // 2^pyramid_level times its columns and rows.
 //
 // A pair may have drifted since its calibration (images.drift): the images are those of the drifted
-// right camera, the rig is told as it was calibrated.
+// right camera, while CalibratedRig, which on-board code goes by, does not know of it.
 //
 // Limits: no lens distorts; wheels and arms stay where they are on level ground; both eyes expose
 // at once, for no time at all as far as motion goes.
 class StereoImager {
  public:
   // The cameras of a trial: faults of pixels belong to (key, camera), drift to (key, pair). Making
-  // them costs some 50 ms
-  // and 60 MB for 512 x 512 images.
+  // them costs some 50 ms and 60 MB for 512 x 512 images.
   StereoImager(const StereoParams& params, const rendering::SunParams& sun,
                const rendering::LookParams& look, const rover::RoverGeometryParams& rover,
                core::TrialKey key);
@@ -67,18 +58,12 @@ class StereoImager {
   vision::Image<float> TrueDisparities(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                        messages::LookDirection direction) const;
 
-  // The pair as it was calibrated, in R, with a mask of the rover's own parts.
-  const vision::StereoRig& rig(messages::LookDirection direction) const {
-    return PairOf(direction).rig;
-  }
-
  private:
   struct Eye {
     rendering::PixelRays rays;
     rendering::PictureReadout readout;
   };
   struct Pair {
-    vision::StereoRig rig;
     vision::CameraModel true_right;
     std::array<Eye, 2> eyes;  // left, right
   };

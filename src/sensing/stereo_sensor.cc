@@ -208,28 +208,11 @@ DepthImage StereoSensor::InverseDepths(const terrain::Terrain& terrain, const ma
   return seen;
 }
 
-messages::PointCloud StereoSensor::PointsOf(const DepthImage& inverse_depths,
-                                            std::int64_t look_number,
-                                            LookDirection direction) const {
-  const StereoView& view_R = this->view_R(direction);
-  messages::PointCloud cloud{.number = look_number, .direction = direction, .points_R = {}};
-  cloud.points_R.reserve(static_cast<std::size_t>(inverse_depths.size()));
-  for (int row = 0; row < view_R.rows; ++row) {
-    for (int column = 0; column < view_R.columns; ++column) {
-      const double inverse_depth = inverse_depths(row, column);
-      if (inverse_depth <= 0.0) continue;
-      // Pixel (c, r) at depth Z: eye + Z e(c, r), in R.
-      const Vector3 p_RoP_R = view_R.eye + view_R.Ray(column, row) / inverse_depth;
-      if (IsWanted(params_, p_RoP_R, direction)) cloud.points_R.push_back(p_RoP_R);
-    }
-  }
-  return cloud;
-}
-
 messages::PointCloud StereoSensor::Look(const terrain::Terrain& terrain,
                                         const math::Transform& X_WR, core::TrialKey key,
                                         std::int64_t look_number, LookDirection direction) const {
-  return PointsOf(InverseDepths(terrain, X_WR, key, look_number, direction), look_number,
+  return PointsOf(params_, view_R(direction),
+                  InverseDepths(terrain, X_WR, key, look_number, direction), look_number,
                   direction);
 }
 

@@ -80,13 +80,11 @@ class StereoSensor {
                             core::TrialKey key, std::int64_t look_number,
                             messages::LookDirection direction) const;
 
-  // The two halves of Look: one over the depths of a look's pixels, 1/m, as they are measured, 0
-  // where there is no point; and the points that these stand for.
+  // The measurement alone: one over the depths of a look's pixels, 1/m, 0 where there is no point.
+  // Points are worked out of it (sensing::PointsOf).
   DepthImage InverseDepths(const terrain::Terrain& terrain, const math::Transform& X_WR,
                            core::TrialKey key, std::int64_t look_number,
                            messages::LookDirection direction) const;
-  messages::PointCloud PointsOf(const DepthImage& inverse_depths, std::int64_t look_number,
-                                messages::LookDirection direction) const;
 
   const StereoView& view_R(messages::LookDirection direction) const {
     return direction == messages::LookDirection::kAhead ? ahead_R_ : behind_R_;

@@ -55,4 +55,21 @@ bool IsWanted(const StereoParams& params, const math::Vector3& p_RoP_R,
          std::abs(p_RoP_R.y()) <= window.half_width_m;
 }
 
+messages::PointCloud PointsOf(const StereoParams& params, const StereoView& view_R,
+                              const DepthImage& inverse_depths, std::int64_t look_number,
+                              messages::LookDirection direction) {
+  messages::PointCloud cloud{.number = look_number, .direction = direction, .points_R = {}};
+  cloud.points_R.reserve(static_cast<std::size_t>(inverse_depths.size()));
+  for (int row = 0; row < view_R.rows; ++row) {
+    for (int column = 0; column < view_R.columns; ++column) {
+      const double inverse_depth = inverse_depths(row, column);
+      if (inverse_depth <= 0.0) continue;
+      // Pixel (c, r) at depth Z: eye + Z e(c, r), in R.
+      const Vector3 p_RoP_R = view_R.eye + view_R.Ray(column, row) / inverse_depth;
+      if (IsWanted(params, p_RoP_R, direction)) cloud.points_R.push_back(p_RoP_R);
+    }
+  }
+  return cloud;
+}
+
 }  // namespace rockyard::sensing

@@ -1,6 +1,7 @@
 // One rectified pinhole pair, as a rover carries it, and which of its points are handed on.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 
 #include "math/pose.h"
@@ -34,6 +35,10 @@ struct StereoView {
   StereoView From(const math::Transform& X_WR) const;
 };
 
+// A value for each pixel, [row][column]: one over a depth, 1/m, or a disparity, px; 0 where the
+// pixel shows nothing.
+using DepthImage = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 // Returns the view in R. The ideal sensor has one eye in the middle of the pair.
 StereoView MakeStereoView(const StereoParams& params, messages::LookDirection direction);
 
@@ -41,5 +46,11 @@ StereoView MakeStereoView(const StereoParams& params, messages::LookDirection di
 // lies in stripe_window, which is ahead of the rover or behind it as the look is.
 bool IsWanted(const StereoParams& params, const math::Vector3& p_RoP_R,
               messages::LookDirection direction);
+
+// Returns the points of a look in R, as far as they are wanted: one for each pixel that has one
+// over a depth, 1/m, on the pixel's ray of `view_R`, in the order of rows.
+messages::PointCloud PointsOf(const StereoParams& params, const StereoView& view_R,
+                              const DepthImage& inverse_depths, std::int64_t look_number,
+                              messages::LookDirection direction);
 
 }  // namespace rockyard::sensing

@@ -121,10 +121,9 @@ StereoImager ImagerOf(const StereoParams& params, const rover::RoverGeometryPara
 TEST(StereoImagerTest, CamerasSeeAsTheViewOfTheRangePointsDoes) {
   for (const std::int64_t level : {0, 2}) {
     const StereoParams params = Images(level);
-    const StereoImager imager = ImagerOf(params);
     for (const LookDirection direction : {LookDirection::kAhead, LookDirection::kBehind}) {
       const StereoView view = MakeStereoView(params, direction);
-      const vision::StereoRig& rig = imager.rig(direction);
+      const vision::StereoRig rig = CalibratedRig(params, {}, direction);
       EXPECT_EQ(rig.left.size, (vision::ImageSize{32 << level, 24 << level}));
       const vision::CameraModel left = vision::Reduced(rig.left, 1 << level);
       const vision::CameraModel right = vision::Reduced(rig.right, 1 << level);
@@ -148,8 +147,7 @@ TEST(StereoImagerTest, TheMaskIsWhereAPictureShowsTheRover) {
   params.front.ahead_m = -0.2;  // behind the front of the body, above it
   params.front.height_m = 0.6;
   const rover::RoverGeometryParams rover;
-  const StereoImager imager = ImagerOf(params, rover);
-  const vision::StereoRig& rig = imager.rig(LookDirection::kAhead);
+  const vision::StereoRig rig = CalibratedRig(params, rover, LookDirection::kAhead);
   const rendering::RoverBody body = MakeRoverBody(rover);
   const terrain::Terrain& terrain = Flat();
   // High above the ground: nothing stands between the camera and the rover's parts.
@@ -209,13 +207,15 @@ TEST(StereoImagerTest, LooksRepeatBitForBitAndDifferInNoiseFromLookToLook) {
 TEST(StereoImagerTest, ADriftedPairIsToldAsItWasCalibrated) {
   StereoParams params = Images(1);
   const StereoImager stiff = ImagerOf(params);
+  const StereoParams calibrated = params;
   params.images.drift.yaw_sd_rad = 0.01;
   const StereoImager drifted = ImagerOf(params);
   const math::Transform X_WR = math::Transform::Identity();
   for (const LookDirection direction : {LookDirection::kAhead, LookDirection::kBehind}) {
-    EXPECT_TRUE(stiff.rig(direction).right_free == drifted.rig(direction).right_free);
-    EXPECT_EQ(std::get<vision::Cahv>(drifted.rig(direction).right.lens),
-              std::get<vision::Cahv>(stiff.rig(direction).right.lens));
+    const vision::StereoRig told = CalibratedRig(params, {}, direction);
+    const vision::StereoRig before = CalibratedRig(calibrated, {}, direction);
+    EXPECT_TRUE(told.right_free == before.right_free);
+    EXPECT_EQ(std::get<vision::Cahv>(told.right.lens), std::get<vision::Cahv>(before.right.lens));
   }
   const auto shift_px = [&](LookDirection direction) {
     const vision::Image<float> a = stiff.TrueDisparities(Flat(), X_WR, direction);

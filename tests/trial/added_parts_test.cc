@@ -301,8 +301,12 @@ TEST(AddedTerrainSensor, ANameOfAnotherGroupIsRefused) {
     Zone reported_zone(const DriveParams&) const override { return {}; }
     LookTime look_time(const DriveParams&, const ComputeTimes&) const override { return {}; }
     const sensing::StereoParams* cameras(const DriveParams&) const override { return nullptr; }
-    std::unique_ptr<TerrainSensorModel> Make(const DriveParams&, core::TrialKey,
-                                             const Watchers&) const override {
+    std::unique_ptr<TerrainSensor> MakeSensor(const DriveParams&, core::TrialKey,
+                                              RoverCameras&) const override {
+      return nullptr;
+    }
+    std::unique_ptr<TerrainReader> MakeReader(const DriveParams&,
+                                              const SightWatchers&) const override {
       return nullptr;
     }
   };

@@ -187,10 +187,11 @@ terrain::Terrain Flat() { return {terrain::Ground(), {}, {}}; }
 Points Seen(const Overrides& overrides, LookDirection direction) {
   const DriveParams drive = Gestalt("abundance", overrides);
   TerrainSensing terrain_sensing(drive);
-  const auto sensor = drive.sensors.terrain_sensors.chosen().Make(drive, kKey, {});
+  RoverCameras cameras(drive, kKey);
+  const auto sensor = drive.sensors.terrain_sensors.chosen().MakeSensor(drive, kKey, cameras);
   const LookOrder order = terrain_sensing.Order(direction, {});
-  const Percept percept =
-      terrain_sensing.Take(order, sensor->Answer(order, Flat(), math::Transform::Identity()));
+  const Percept percept = terrain_sensing.Take(
+      order, sensor->Look(Flat(), math::Transform::Identity(), direction, order.number));
   return percept.cloud ? percept.cloud->points_R : Points{};
 }
 

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/refusals.h"
 #include "sensing/stereo_view.h"
-#include "trial/eyes/terrain_sensing.h"
+#include "trial/eyes/stereo_reader.h"
 #include "trial/shipped_trials.h"
 #include "vision/cameras/rectification.h"
 
@@ -29,7 +29,9 @@ terrain::Terrain Flat() { return {terrain::Ground(), {}, {}}; }
 
 Points Seen(const DriveParams& drive, const terrain::Terrain& terrain, LookDirection direction,
             const math::Transform& X_WR = math::Transform::Identity()) {
-  return StereoEyes(drive, kKey).Look(terrain, X_WR, 0, direction).points_R;
+  RoverCameras cameras(drive, kKey);
+  const LookData data = StereoEyes(drive, kKey, cameras).Look(terrain, X_WR, direction, 0);
+  return StereoReader(drive).Points({.direction = direction}, data).points_R;
 }
 
 // A point of flat ground lies on the ray of a pixel whose true depth is where the ray meets z = 0:
@@ -119,11 +121,7 @@ TEST(StereoEyesTest, OnlyTheWindowIsHandedOnWhereItIsAskedFor) {
 // The calibration is on board: what is photographed does not know of it.
 TEST(StereoEyesTest, AWrongCalibrationMovesThePointsRigidly) {
   const auto cloud = [](const Overrides& overrides) {
-    const DriveParams drive = Gestalt("abundance", kImages + overrides);
-    return drive.sensors.terrain_sensors.chosen()
-        .Make(drive, kKey, {})
-        ->Points({Flat(), math::Transform::Identity(), LookDirection::kAhead, {}, 0})
-        .points_R;
+    return Seen(Gestalt("abundance", kImages + overrides), Flat(), LookDirection::kAhead);
   };
   const Points right = cloud({});
   const Points wrong = cloud({"perception.calibration.stereo_front.z_m=0.02"});

@@ -7,7 +7,7 @@
 #include "scenario/load.h"
 #include "trial/counters/hazard_watch.h"
 #include "trial/eyes/compute_profile.h"
-#include "trial/eyes/terrain_sensor_model.h"
+#include "trial/eyes/terrain_sensor.h"
 #include "trial/eyes/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
@@ -25,25 +25,34 @@ struct ToySensorParams {
   }
 };
 
-class ToySensor final : public TerrainSensorModel {
+class ToySensor final : public TerrainSensor {
  public:
   explicit ToySensor(const ToySensorParams& params) : params_(params) {}
 
-  bool LooksBehind() const override { return false; }
-  messages::ElevationScan Elevations(const TerrainLook& look) const override {
-    params_.poses->push_back(look.X_WR);
-    messages::ElevationScan scan;
-    scan.number = look.number;
-    for (messages::ElevationPoint& point : scan.points.points()) point.detected = true;
-    return scan;
-  }
-  messages::PointCloud Points(const TerrainLook& look) const override {
-    params_.poses->push_back(look.X_WR);
-    return {look.number, look.direction, {{0.5, -0.2, 0.0}, {0.5, 0.0, 0.0}, {0.5, 0.2, 0.0}}};
+  LookData Look(const terrain::Terrain& /*terrain*/, const math::Transform& X_WR,
+                messages::LookDirection direction, std::int64_t number) const override {
+    if (direction == messages::LookDirection::kBehind) return {};
+    params_.poses->push_back(X_WR);
+    return messages::PointCloud{
+        number, direction, {{0.5, -0.2, 0.0}, {0.5, 0.0, 0.0}, {0.5, 0.2, 0.0}}};
   }
 
  private:
   ToySensorParams params_;
+};
+
+class ToyReader final : public TerrainReader {
+ public:
+  messages::ElevationScan Elevations(const LookOrder& order,
+                                     const LookData& /*data*/) const override {
+    messages::ElevationScan scan;
+    scan.number = order.number;
+    for (messages::ElevationPoint& point : scan.points.points()) point.detected = true;
+    return scan;
+  }
+  messages::PointCloud Points(const LookOrder& /*order*/, const LookData& data) const override {
+    return std::get<messages::PointCloud>(data);
+  }
 };
 
 class ToySensorKind final : public core::KindWithParams<TerrainSensorKind, ToySensorParams> {
@@ -66,9 +75,13 @@ class ToySensorKind final : public core::KindWithParams<TerrainSensorKind, ToySe
     return {.imaging_s = params.imaging_s, .computing_s = params.computing_s};
   }
   const sensing::StereoParams* cameras(const DriveParams&) const override { return nullptr; }
-  std::unique_ptr<TerrainSensorModel> Make(const DriveParams&, core::TrialKey,
-                                           const Watchers&) const override {
+  std::unique_ptr<TerrainSensor> MakeSensor(const DriveParams&, core::TrialKey,
+                                            RoverCameras&) const override {
     return std::make_unique<ToySensor>(params);
+  }
+  std::unique_ptr<TerrainReader> MakeReader(const DriveParams&,
+                                            const SightWatchers&) const override {
+    return std::make_unique<ToyReader>();
   }
 };
 

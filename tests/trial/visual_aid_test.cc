@@ -68,14 +68,16 @@ class VisualAidTest : public testing::Test {
 
   // Images of a rover that truly stands there.
   bool Look(const math::Transform& X_WR, double time_s, double ready_s) {
-    const VisualStep step = eyes_->Look(X_WR, aid_.Expected(listener_.believed));
+    const VisualStep step = odometry_.Read(eyes_.Look(X_WR), aid_.Expected(listener_.believed));
     truth_.OnLook(step.number, math::ToPose2(X_WR));
     return aid_.Take(step, time_s, ready_s, listener_);
   }
 
   DriveParams drive_;
   terrain::Terrain terrain_{terrain::Ground(), {}, {}};
-  std::unique_ptr<VisualEyes> eyes_ = MakeVisualEyes(drive_, {1, 0}, terrain_);
+  RoverCameras cameras_{drive_, {1, 0}};
+  VisualEyes eyes_{drive_, {1, 0}, terrain_, cameras_};
+  VisualReader odometry_{drive_, {1, 0}};
   SlipOnset truth_{drive_.perception.visual_odometry.slip_check};
   CaptureCounter captures_;
   VisualAid aid_{drive_, captures_};

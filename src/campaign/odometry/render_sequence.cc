@@ -180,7 +180,7 @@ SequenceResult RenderSequence(const SequenceRequest& request, const SequenceProg
   RenderStage stage(request.scene);
   const std::vector<math::Pose2> way = PlannedWay(request, stage);
   CheckArena(way, stage.scenario().drive.terrain.arena);
-  const vision::StereoRig& rig = stage.imager().rig(request.scene.direction);
+  const vision::StereoRig rig = stage.CalibratedRig(request.scene.direction);
   SequenceResult result;
   result.planned = std::ssize(way);
   result.size = rig.left.size;

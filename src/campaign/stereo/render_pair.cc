@@ -94,7 +94,7 @@ RenderResult RenderPair(const RenderRequest& request) {
   result.pose = FirstPose(request, stage.scenario().drive.course.Start());
   const math::Transform& X_WR = stage.Stand(result.pose);
   const sensing::StereoImager& imager = stage.imager();
-  const vision::StereoRig& rig = imager.rig(request.direction);
+  const vision::StereoRig rig = stage.CalibratedRig(request.direction);
   const sensing::StereoImages images = imager.Expose(stage.terrain(), X_WR, 0, request.direction);
   const Image<float> disparities = imager.TrueDisparities(stage.terrain(), X_WR, request.direction);
   const Seen seen = Summary(disparities);

@@ -64,6 +64,10 @@ class RenderStage {
   const scenario::Scenario& scenario() const { return scenario_; }
   const terrain::Terrain& terrain() const { return terrain_; }
   const sensing::StereoImager& imager() const { return imager_; }
+  vision::StereoRig CalibratedRig(messages::LookDirection direction) const {
+    return sensing::CalibratedRig(scenario_.drive.sensors.stereo, scenario_.drive.rover.geometry,
+                                  direction);
+  }
 
   // Stands the rover there and gives back where it came to rest.
   const math::Transform& Stand(const math::Pose2& X_WR);

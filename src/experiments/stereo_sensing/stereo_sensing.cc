@@ -11,6 +11,7 @@
 #include "sensing/stereo_ground_truth.h"
 #include "sensing/stereo_sensor.h"
 #include "trial/eyes/stereo_eyes.h"
+#include "trial/eyes/stereo_reader.h"
 
 namespace rockyard::experiments {
 namespace {
@@ -64,7 +65,8 @@ struct StereoSensingExperiment::Cell {
         bin{nearest_m, params.FarthestOf(nearest_m)},
         truth(drive.sensors.stereo, drive.sensors.sun, drive.rover.geometry,
               static_cast<int>(drive.perception.stereo.window_side_px)),
-        rays(OfRays(drive.sensors.stereo)) {}
+        rays(OfRays(drive.sensors.stereo)),
+        rays_R(sensing::MakeStereoView(rays, kAhead)) {}
 
   // What of a look's pixels belongs to it.
   PixelLimits Limits() const {
@@ -76,7 +78,9 @@ struct StereoSensingExperiment::Cell {
   trial::DriveParams drive;
   DistanceBin bin;
   sensing::StereoGroundTruth truth;
-  sensing::StereoSensor rays;  // of both eyes: for the points that disparities stand for
+  // Of both eyes: for the points that disparities stand for.
+  sensing::StereoParams rays;
+  sensing::StereoView rays_R;
 };
 
 StereoSensingExperiment::StereoSensingExperiment(const StereoSensingParams& params,
@@ -94,7 +98,9 @@ StereoSensingExperiment::~StereoSensingExperiment() = default;
 std::vector<double> StereoSensingExperiment::Measure(std::size_t number, core::TrialKey key) const {
   const Cell& cell = cells_[number];
   // One rover, whose cameras keep their faults, at one place after the other.
-  const trial::StereoEyes eyes(cell.drive, key);
+  trial::RoverCameras cameras(cell.drive, key);
+  const trial::StereoEyes eyes(cell.drive, key, cameras);
+  const trial::StereoReader reader(cell.drive);
   const sensing::StereoView& view_R = cell.truth.view_R(kAhead);
   const double scale_px_m = view_R.focal_px * view_R.baseline_m;
   StereoSums sums;
@@ -103,13 +109,14 @@ std::vector<double> StereoSensingExperiment::Measure(std::size_t number, core::T
     const terrain::Terrain terrain = SceneTerrainOf(cell.drive, scene);
     const math::Transform X_WR = RandomPlace(cell.drive, terrain, params_.hazard_height_m, scene);
     const sensing::StereoTruth truth = cell.truth.See(terrain, X_WR, kAhead);
-    const trial::StereoSeen seen = eyes.See(terrain, X_WR, look, kAhead);
+    const trial::StereoSeen seen =
+        reader.See({.direction = kAhead, .number = look}, eyes.Look(terrain, X_WR, kAhead, look));
     sums.looks += 1.0;
     AddPixels(truth, seen.disparities_px, view_R, cell.Limits(), sums);
     const auto& navigator = cell.drive.navigation.navigators.chosen();
-    const messages::MapView perfect = MapOfLook(
-        navigator, cell.rays.PointsOf(PerfectMatches(truth, cell.drive.sensors.stereo, scale_px_m),
-                                      look, kAhead));
+    const messages::MapView perfect =
+        MapOfLook(navigator, PointsOf(cell.rays, cell.rays_R,
+                                      PerfectMatches(truth, cell.rays, scale_px_m), look, kAhead));
     const messages::MapView map = MapOfLook(navigator, seen.cloud);
     AddRocksInView(params_, terrain, truth, view_R, {perfect, map}, cell.bin, sums);
     AddCellsOfMap(params_, view_R, {perfect, map}, cell.bin, sums);

@@ -106,9 +106,11 @@ std::vector<double> VisualMotionExperiment::Measure(std::size_t cell, core::Tria
     const Transform level = RandomPlace(drive, terrain, params_.hazard_height_m, scene);
     const StudiedStep step =
         DrawStep(params_, level, factors[0], math::DegToRad(factors[1]), scene);
-    const auto eyes = trial::MakeVisualEyes(drive, scene, terrain);
-    eyes->Look(step.X_WF, Transform::Identity());
-    AddStep(step, eyes->Look(step.X_WS, step.predicted_FS).result, sums);
+    trial::RoverCameras cameras(drive, scene);
+    trial::VisualEyes eyes(drive, scene, terrain, cameras);
+    trial::VisualReader odometry(drive, scene);
+    odometry.Read(eyes.Look(step.X_WF), Transform::Identity());
+    AddStep(step, odometry.Read(eyes.Look(step.X_WS), step.predicted_FS).result, sums);
   }
   return ValuesOf(sums);
 }

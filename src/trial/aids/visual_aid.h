@@ -9,7 +9,7 @@
 #include "perception/visual_motion.h"
 #include "trial/aids/aid_suite.h"
 #include "trial/drive_params.h"
-#include "trial/eyes/visual_eyes.h"
+#include "trial/eyes/visual_reader.h"
 
 namespace rockyard::trial {
 

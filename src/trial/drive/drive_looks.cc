@@ -70,7 +70,7 @@ std::optional<Verdict> Drive::SeeMotion() {
   const double imaging_s = onboard_.vision().imaging_s();
   const double computing_s = onboard_.vision().computing_s();
   const double now_s = time_s();
-  const VisualStep step = world_.LookForMotion(onboard_.ExpectedMotion());
+  const VisualStep step = onboard_.ReadMotion(world_.LookForMotion());
   observer_.OnMotionSeen(step);
   const bool compares = onboard_.TakeMotion(step, now_s, now_s + imaging_s + computing_s);
   if (compares) tracer_.Vision(step);

@@ -28,6 +28,21 @@ double WatchedHeight(const DriveParams& drive) {
 
 }  // namespace
 
+SightWatchers WithTruth(const Watchers& watchers, const World& world) {
+  SightWatchers on_board;
+  if (watchers.scan) {
+    on_board.scan = [watch = watchers.scan, &world](const messages::StripeScan& scan) {
+      watch({world.params(), world.field().terrain, world.state().X_WR, world.key(), scan});
+    };
+  }
+  if (watchers.stereo) {
+    on_board.stereo = [watch = watchers.stereo, &world](const StereoSightView& seen) {
+      watch({world.state().X_WR, seen.sight, seen.pair, seen.matching, seen.cloud});
+    };
+  }
+  return on_board;
+}
+
 DriveObserver::DriveObserver(const World& world, const Onboard& onboard, const Ledger& ledger,
                              std::vector<messages::Goal> told)
     : world_(world),

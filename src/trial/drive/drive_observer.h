@@ -17,9 +17,14 @@
 #include "trial/referee/referee.h"
 #include "trial/referee/slip_onset.h"
 #include "trial/run_trial.h"
+#include "trial/watchers.h"
 #include "truth/drive_record.h"
 
 namespace rockyard::trial {
+
+// Shows watchers what the rover makes of a look, with the truth of that moment beside it. `world`
+// outlives them.
+SightWatchers WithTruth(const Watchers& watchers, const World& world);
 
 // Holds what the rover believes against what is true, for the referee and for the record. Changes
 // nothing.

@@ -50,14 +50,15 @@ void StuckWatch::OnPlaced() {
   noticed_ = false;
 }
 
-Onboard::Onboard(const DriveParams& drive, std::vector<messages::Goal> goals,
-                 std::unique_ptr<navigation::Navigator> navigator, double ramp_s)
+Onboard::Onboard(const DriveParams& drive, core::TrialKey key, std::vector<messages::Goal> goals,
+                 std::unique_ptr<navigation::Navigator> navigator, double ramp_s,
+                 const SightWatchers& watchers)
     : navigator_(WithSearch(std::move(goals), drive.course.goal_rock), std::move(navigator),
                  PassingOf(drive)),
-      terrain_sensing_(drive),
+      terrain_sensing_(drive, watchers),
       parts_(LocomotionOf(drive, ramp_s), VehicleGuard(drive), StuckWatch(drive),
              SlipAlarms(drive.navigation.on_slip), AidSuite(drive.sensors.aids, captures_),
-             VisualAid(drive, captures_)) {}
+             VisualAid(drive, captures_), VisualReader(drive, key)) {}
 
 void Onboard::Place(const messages::PoseUpdate& update) {
   const messages::PoseEstimate before = estimate().pose;
@@ -107,10 +108,10 @@ std::optional<perception::StuckSign> Onboard::NoticeStuck(
 
 void Onboard::FeelStance(double duration_s) { estimator_->Feel(guard().measured(), duration_s); }
 
-std::unique_ptr<SeenLook> Onboard::TakeLook(const LookOrder& order, LookAnswer answer,
+std::unique_ptr<SeenLook> Onboard::TakeLook(const LookOrder& order, const LookData& data,
                                             double time_s) {
   auto seen = std::make_unique<SeenLook>();
-  seen->percept = terrain_sensing_.Take(order, std::move(answer));
+  seen->percept = terrain_sensing_.Take(order, data);
   const messages::LocalizationEstimate& believed = estimate();
   seen->moment = {order.number, time_s, believed.pose, believed.odometry, believed.attitude};
   return seen;
@@ -126,6 +127,7 @@ AidNews Onboard::TakeAids(const AidRequest& request, const AidAnswer& answer, do
   if (news.slip && news.slip->seen.exceeded) {
     parts_.get<SlipAlarms>().Raise();
     vision.BeginAnew(*estimator_);
+    parts_.get<VisualReader>().Renew();
   }
   return news;
 }

@@ -24,6 +24,7 @@
 #include "trial/drive/vehicle_guard.h"
 #include "trial/drive_params.h"
 #include "trial/eyes/terrain_sensing.h"
+#include "trial/eyes/visual_reader.h"
 
 namespace rockyard::trial {
 
@@ -66,10 +67,12 @@ struct AidNews {
 
 class Onboard {
  public:
-  // `goals`: what the rover is told to drive to, in the order of driving. `navigator` has the first
-  // for its goal. ramp_s: of its motors.
-  Onboard(const DriveParams& drive, std::vector<messages::Goal> goals,
-          std::unique_ptr<navigation::Navigator> navigator, double ramp_s);
+  // `drive` outlives it. `goals`: what the rover is told to drive to, in the order of driving.
+  // `navigator` has the first for its goal. ramp_s: of its motors. `key`: of what it draws itself,
+  // the samples of visual odometry. `watchers` are shown what it makes of a look.
+  Onboard(const DriveParams& drive, core::TrialKey key, std::vector<messages::Goal> goals,
+          std::unique_ptr<navigation::Navigator> navigator, double ramp_s,
+          const SightWatchers& watchers = {});
   Onboard(const Onboard&) = delete;
   Onboard& operator=(const Onboard&) = delete;
 
@@ -108,7 +111,7 @@ class Onboard {
   LookOrder OrderLook(messages::LookDirection direction) {
     return terrain_sensing_.Order(direction, estimate().attitude);
   }
-  std::unique_ptr<SeenLook> TakeLook(const LookOrder& order, LookAnswer answer, double time_s);
+  std::unique_ptr<SeenLook> TakeLook(const LookOrder& order, const LookData& data, double time_s);
 
   // Aids: what is due, and what was measured of that.
   AidRequest DueAids(double time_s) { return parts_.get<AidSuite>().Due(*estimator_, time_s); }
@@ -116,7 +119,10 @@ class Onboard {
 
   // Visual odometry.
   bool SeesMotionNow(double time_s) const { return vision().IsDue(estimate(), time_s); }
-  math::Transform ExpectedMotion() const { return vision().Expected(estimate()); }
+  // What a look adds, worked out at once; the computer has it ready later.
+  VisualStep ReadMotion(const MotionData& data) {
+    return parts_.get<VisualReader>().Read(data, vision().Expected(estimate()));
+  }
   bool TakeMotion(const VisualStep& step, double time_s, double ready_s) {
     return parts_.get<VisualAid>().Take(step, time_s, ready_s, *estimator_);
   }
@@ -137,7 +143,8 @@ class Onboard {
   navigation::WaypointSequence navigator_;
   TerrainSensing terrain_sensing_;
   CaptureCounter captures_;
-  PartSet<Locomotion, VehicleGuard, StuckWatch, SlipAlarms, AidSuite, VisualAid> parts_;
+  PartSet<Locomotion, VehicleGuard, StuckWatch, SlipAlarms, AidSuite, VisualAid, VisualReader>
+      parts_;
 };
 
 }  // namespace rockyard::trial

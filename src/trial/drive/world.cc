@@ -13,12 +13,6 @@ std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::
   return rover::MakeRover(drive.rover, rocks.holding, terrain);
 }
 
-std::unique_ptr<VisualEyes> EyesOf(const DriveParams& drive, core::TrialKey key,
-                                   const terrain::Terrain& terrain) {
-  if (!drive.sensors.visual_odometry.enabled) return nullptr;
-  return MakeVisualEyes(drive, key, terrain);
-}
-
 // A goal rock is recognized by what would track a goal.
 bool TracksGoal(const CourseParams& course) {
   return course.tracking.enabled ||
@@ -54,17 +48,17 @@ messages::VehicleState MotionPart::Feel(const truth::RoverState& state,
   return vehicle_.Measure(state, command, duration_s);
 }
 
-World::World(const DriveParams& drive, core::TrialKey key, const Watchers& watchers,
-             const terrain::Field* given)
+World::World(const DriveParams& drive, core::TrialKey key, const terrain::Field* given)
     : params_(drive),
       key_(key),
       field_(given != nullptr ? *given
                               : terrain::BuildField(drive.terrain, LayoutKey(drive, key),
                                                     TerrainCourse(drive.course))),
       rover_(MakeTrialRover(drive, field_.terrain)),
-      terrain_sensor_(drive.sensors.terrain_sensors.chosen().Make(drive, key, watchers)),
+      cameras_(drive, key),
+      terrain_sensor_(drive.sensors.terrain_sensors.chosen().MakeSensor(drive, key, cameras_)),
       aids_(drive, key, field_.terrain),
-      parts_(MotionPart(drive, key), VisualPart(EyesOf(drive, key, field_.terrain))),
+      parts_(MotionPart(drive, key), VisualEyes(drive, key, field_.terrain, cameras_)),
       goal_rock_(GoalRockOf(drive, field_.terrain)) {
   if (TracksGoal(drive.course)) tracker_.emplace(drive.course.tracking, key);
 }

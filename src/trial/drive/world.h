@@ -19,10 +19,10 @@
 #include "trial/drive/aid_sensors.h"
 #include "trial/drive/part_set.h"
 #include "trial/drive_params.h"
-#include "trial/eyes/terrain_sensor_model.h"
+#include "trial/eyes/rover_cameras.h"
+#include "trial/eyes/terrain_sensor.h"
 #include "trial/eyes/visual_eyes.h"
 #include "trial/referee/goal_rock.h"
-#include "trial/watchers.h"
 
 namespace rockyard::trial {
 
@@ -53,20 +53,6 @@ class MotionPart {
   sensing::VehicleSensors vehicle_;
 };
 
-// The eyes of visual odometry, where there are any.
-class VisualPart {
- public:
-  explicit VisualPart(std::unique_ptr<VisualEyes> eyes) : eyes_(std::move(eyes)) {}
-
-  VisualEyes& eyes() { return *eyes_; }
-  void OnPlaced(const truth::RoverState& /*state*/) {
-    if (eyes_) eyes_->Renew();
-  }
-
- private:
-  std::unique_ptr<VisualEyes> eyes_;
-};
-
 // One look of the tracker for what the rover drives to.
 struct GoalLook {
   std::optional<messages::FeatureSighting> sighting = {};
@@ -77,8 +63,7 @@ struct GoalLook {
 class World {
  public:
   // `drive` outlives it. Without `given` the field is built that the trial's key names.
-  World(const DriveParams& drive, core::TrialKey key, const Watchers& watchers,
-        const terrain::Field* given = nullptr);
+  World(const DriveParams& drive, core::TrialKey key, const terrain::Field* given = nullptr);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -101,18 +86,15 @@ class World {
     return parts_.get<MotionPart>().Feel(state(), command, duration_s);
   }
 
-  LookAnswer Look(const LookOrder& order) const {
-    return terrain_sensor_->Answer(order, field_.terrain, state().X_WR);
+  LookData Look(const LookOrder& order) const {
+    return terrain_sensor_->Look(field_.terrain, state().X_WR, order.direction, order.number);
   }
   AidAnswer AskAids(const AidRequest& request, double time_s) const {
     return aids_.Answer(request, state().X_WR, time_s);
   }
-  // `expected`: where the rover expects R, in R of the keyframe (visual_eyes.h).
-  VisualStep LookForMotion(const math::Transform& expected) {
-    return parts_.get<VisualPart>().eyes().Look(state().X_WR, expected);
-  }
+  MotionData LookForMotion() { return parts_.get<VisualEyes>().Look(state().X_WR); }
   // What was seen before is of no use any more.
-  void RenewEyes() { parts_.get<VisualPart>().eyes().Renew(); }
+  void RenewEyes() { parts_.get<VisualEyes>().Renew(); }
 
   bool tracks_goal() const { return tracker_.has_value(); }
   // The tracker's next look for the goal, or for the rock at it; nothing before it is due.
@@ -131,9 +113,10 @@ class World {
   core::TrialKey key_;
   terrain::Field field_;
   std::unique_ptr<rover::Rover> rover_;
-  std::unique_ptr<TerrainSensorModel> terrain_sensor_;
+  RoverCameras cameras_;
+  std::unique_ptr<TerrainSensor> terrain_sensor_;
   AidSensors aids_;
-  PartSet<MotionPart, VisualPart> parts_;
+  PartSet<MotionPart, VisualEyes> parts_;
   std::optional<sensing::FeatureTracker> tracker_;
   std::optional<GoalRock> goal_rock_;
   std::int64_t next_sighting_ = 0;  // number of the tracker's next look

@@ -1,49 +1,16 @@
 #include <memory>
-#include <utility>
 
-#include "perception/cloud_elevations.h"
-#include "perception/triangulation.h"
 #include "rover/rover_layout_params.h"
 #include "sensing/stripe_layout_params.h"
 #include "trial/counters/hazard_watch.h"
 #include "trial/drive_params.h"
 #include "trial/eyes/compute_profile.h"
-#include "trial/eyes/hazard_scanner.h"
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/eyes/stripe_eyes.h"
+#include "trial/eyes/stripe_reader.h"
 #include "trial/eyes/terrain_sensor_kinds.h"
-#include "trial/eyes/terrain_sensor_model.h"
-#include "trial/watchers.h"
 
 namespace rockyard::trial {
 namespace {
-
-class LightStripeModel final : public TerrainSensorModel {
- public:
-  LightStripeModel(const DriveParams& drive, core::TrialKey key, ScanWatcher watcher)
-      : key_(key),
-        scanner_(drive, std::move(watcher)),
-        triangulator_(
-            OnboardStripeCalibration(drive.sensors.light_stripe, drive.perception.calibration)) {}
-
-  bool LooksBehind() const override { return false; }
-
-  messages::ElevationScan Elevations(const TerrainLook& look) const override {
-    return triangulator_.Elevations(Scan(look));
-  }
-
-  messages::PointCloud Points(const TerrainLook& look) const override {
-    return perception::StripeCloud(Scan(look), triangulator_);
-  }
-
- private:
-  messages::StripeScan Scan(const TerrainLook& look) const {
-    return scanner_.Scan(look.terrain, look.X_WR, key_, look.number);
-  }
-
-  core::TrialKey key_;
-  HazardScanner scanner_;
-  perception::Triangulator triangulator_;
-};
 
 void RequireFinder(const DriveParams& drive, core::FieldVisitor& v) {
   const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
@@ -102,9 +69,13 @@ class LightStripe final : public TerrainSensorKind {
     return nullptr;
   }
 
-  std::unique_ptr<TerrainSensorModel> Make(const DriveParams& drive, core::TrialKey key,
-                                           const Watchers& watchers) const override {
-    return std::make_unique<LightStripeModel>(drive, key, watchers.scan);
+  std::unique_ptr<TerrainSensor> MakeSensor(const DriveParams& drive, core::TrialKey key,
+                                            RoverCameras& /*cameras*/) const override {
+    return std::make_unique<StripeEyes>(drive, key);
+  }
+  std::unique_ptr<TerrainReader> MakeReader(const DriveParams& drive,
+                                            const SightWatchers& watchers) const override {
+    return std::make_unique<StripeReader>(drive, watchers.scan);
   }
 };
 

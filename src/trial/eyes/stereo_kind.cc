@@ -4,39 +4,16 @@
 #include <memory>
 #include <numbers>
 #include <string_view>
-#include <utility>
 
-#include "perception/cloud_elevations.h"
 #include "trial/counters/hazard_watch.h"
 #include "trial/drive_checks_params.h"
 #include "trial/eyes/compute_profile.h"
 #include "trial/eyes/stereo_eyes.h"
+#include "trial/eyes/stereo_reader.h"
 #include "trial/eyes/terrain_sensor_kinds.h"
-#include "trial/eyes/terrain_sensor_model.h"
-#include "trial/watchers.h"
 
 namespace rockyard::trial {
 namespace {
-
-class StereoModel final : public TerrainSensorModel {
- public:
-  StereoModel(const DriveParams& drive, core::TrialKey key, StereoWatcher watcher)
-      : eyes_(drive, key, std::move(watcher)), elevations_(drive.perception.cloud_elevations) {}
-
-  bool LooksBehind() const override { return true; }
-
-  messages::ElevationScan Elevations(const TerrainLook& look) const override {
-    return perception::CloudElevations(Points(look), look.attitude, elevations_);
-  }
-
-  messages::PointCloud Points(const TerrainLook& look) const override {
-    return eyes_.Look(look.terrain, look.X_WR, look.number, look.direction);
-  }
-
- private:
-  StereoEyes eyes_;
-  perception::CloudElevationParams elevations_;
-};
 
 // Without images, the outlines of rocks in both eyes are worked out for ellipsoids.
 void RequireRoundRocks(const DriveParams& drive, core::FieldVisitor& v) {
@@ -155,9 +132,13 @@ class StereoCameras final : public TerrainSensorKind {
     return &drive.sensors.stereo;
   }
 
-  std::unique_ptr<TerrainSensorModel> Make(const DriveParams& drive, core::TrialKey key,
-                                           const Watchers& watchers) const override {
-    return std::make_unique<StereoModel>(drive, key, watchers.stereo);
+  std::unique_ptr<TerrainSensor> MakeSensor(const DriveParams& drive, core::TrialKey key,
+                                            RoverCameras& cameras) const override {
+    return std::make_unique<StereoEyes>(drive, key, cameras);
+  }
+  std::unique_ptr<TerrainReader> MakeReader(const DriveParams& drive,
+                                            const SightWatchers& watchers) const override {
+    return std::make_unique<StereoReader>(drive, watchers.stereo);
   }
 };
 

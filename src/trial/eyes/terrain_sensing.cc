@@ -1,15 +1,16 @@
 #include "trial/eyes/terrain_sensing.h"
 
-#include <utility>
+#include <variant>
 
 namespace rockyard::trial {
 
 using messages::LookDirection;
 
-TerrainSensing::TerrainSensing(const DriveParams& drive)
+TerrainSensing::TerrainSensing(const DriveParams& drive, const SightWatchers& watchers)
     : takes_image_sets_(drive.sensors.terrain_sensors.chosen().takes_image_sets()),
       reads_points_(drive.navigation.navigators.chosen().traits().reads ==
                     navigation::LookReading::kPoints),
+      reader_(drive.sensors.terrain_sensors.chosen().MakeReader(drive, watchers)),
       hazard_detector_(drive.perception.hazard),
       look_time_(MakeLookTime(drive)) {}
 
@@ -19,14 +20,14 @@ LookOrder TerrainSensing::Order(LookDirection direction,
   return {direction, attitude, looks_, reads_points_};
 }
 
-Percept TerrainSensing::Take(const LookOrder& order, LookAnswer answer) {
-  if (!answer.points && !answer.elevations) {
+Percept TerrainSensing::Take(const LookOrder& order, const LookData& data) {
+  if (std::holds_alternative<std::monostate>(data)) {
     return {.cloud = messages::PointCloud{order.number, order.direction, {}}};
   }
   ++looks_;
   if (order.direction == LookDirection::kBehind) ++looks_behind_;
-  if (answer.points) return {.time = look_time_, .cloud = std::move(answer.points)};
-  return Judge(*answer.elevations);
+  if (order.points) return {.time = look_time_, .cloud = reader_->Points(order, data)};
+  return Judge(reader_->Elevations(order, data));
 }
 
 Percept TerrainSensing::Judge(const messages::ElevationScan& elevations) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "messages/estimates.h"
@@ -10,7 +11,7 @@
 #include "perception/hazard_detector.h"
 #include "trial/drive_params.h"
 #include "trial/eyes/compute_profile.h"
-#include "trial/eyes/terrain_sensor_model.h"
+#include "trial/eyes/look.h"
 #include "trial/eyes/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
@@ -30,7 +31,8 @@ struct Percept {
 //   light stripe, map: the triangulated points as a cloud; nothing is seen behind, at no cost.
 class TerrainSensing {
  public:
-  explicit TerrainSensing(const DriveParams& drive);
+  // `watchers` are shown what its sensor's reader makes of a look.
+  explicit TerrainSensing(const DriveParams& drive, const SightWatchers& watchers = {});
 
   // The next look is from a new pose.
   void Begin() { hazard_detector_.Reset(); }
@@ -39,7 +41,7 @@ class TerrainSensing {
   // counted over the trial.
   LookOrder Order(messages::LookDirection direction, const messages::AttitudeEstimate& attitude);
   // Takes what came of it.
-  Percept Take(const LookOrder& order, LookAnswer answer);
+  Percept Take(const LookOrder& order, const LookData& data);
 
   std::int64_t looks() const { return looks_; }  // so far: the number of the next one
   // Looks are scans or sets of images, by the kind of the sensor.
@@ -58,6 +60,7 @@ class TerrainSensing {
 
   bool takes_image_sets_;  // else scans
   bool reads_points_;      // the navigator
+  std::unique_ptr<TerrainReader> reader_;
   perception::HazardDetector hazard_detector_;
   LookTime look_time_;
 

@@ -17,9 +17,11 @@ namespace rockyard::trial {
 struct ComputeTimes;
 struct DriveParams;
 struct LookTime;
-struct Watchers;
+struct SightWatchers;
 struct Zone;
-class TerrainSensorModel;
+class RoverCameras;
+class TerrainReader;
+class TerrainSensor;
 
 // The array of a hazard report that the sensor leads to.
 struct ReportArray {
@@ -53,8 +55,12 @@ class TerrainSensorKind : public core::Kind {
   // Whose view can be drawn; nullptr where it has none.
   virtual const sensing::StereoParams* cameras(const DriveParams& drive) const = 0;
 
-  virtual std::unique_ptr<TerrainSensorModel> Make(const DriveParams& drive, core::TrialKey key,
-                                                   const Watchers& watchers) const = 0;
+  // Its two halves: what measures the world, with `cameras`, which outlive it, where it takes
+  // images; and what reads its measurements on board.
+  virtual std::unique_ptr<TerrainSensor> MakeSensor(const DriveParams& drive, core::TrialKey key,
+                                                    RoverCameras& cameras) const = 0;
+  virtual std::unique_ptr<TerrainReader> MakeReader(const DriveParams& drive,
+                                                    const SightWatchers& watchers) const = 0;
 };
 
 class TerrainSensorSet : public core::KindSet<TerrainSensorKind> {

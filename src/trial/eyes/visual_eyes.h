@@ -1,42 +1,50 @@
-// The cameras of visual odometry as the closed loop uses them: a pose in, a motion out.
+// The cameras of visual odometry as the closed loop uses them: a pose in, images out, or the motion
+// that images would give.
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
+#include <variant>
 
 #include "core/random.h"
 #include "math/pose.h"
+#include "sensing/visual_motion.h"
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
-#include "vision/odometry/estimate_motion.h"
+#include "trial/eyes/rover_cameras.h"
+#include "trial/eyes/visual_reader.h"
+#include "truth/rover_state.h"
 
 namespace rockyard::trial {
 
-// What one pair of images adds. `reference` and this pair are numbers of looks; where a motion was
-// found it is that of R from the reference to this one.
-struct VisualStep {
-  std::int64_t number = 0;
-  std::int64_t reference = 0;
-  bool keyframe = false;  // whether later looks are compared with this one
-  vision::MotionResult result;
-};
-
-// One interface for both fidelities (sensors.visual_odometry.fidelity).
+// One interface for both fidelities (sensors.visual_odometry.fidelity). The error model stands for
+// cameras and odometry together, keyframes included: it is the one that knows the true motion.
 class VisualEyes {
  public:
-  virtual ~VisualEyes() = default;
+  // `drive`, `terrain` and `cameras` outlive it.
+  VisualEyes(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain,
+             RoverCameras& cameras);
 
-  // Takes the next pair of images, of a rover at X_WR. `predicted` is where on-board software
-  // expects R, in R of the keyframe. Cost: 1 us, or that of two rendered images and a step of
-  // vision::VisualOdometer.
-  virtual VisualStep Look(const math::Transform& X_WR, const math::Transform& predicted) = 0;
+  // The next look, of a rover at X_WR; looks count from 0. Cost: 1 us, or that of two rendered
+  // images.
+  MotionData Look(const math::Transform& X_WR);
 
-  // What was seen before is of no use any more: the next pair is a keyframe.
-  virtual void Renew() = 0;
+  // What was seen before is of no use any more: the next look is a keyframe.
+  void Renew() { X_WK_.reset(); }
+  void OnPlaced(const truth::RoverState& /*state*/) { Renew(); }
+
+ private:
+  VisualStep Model(const math::Transform& X_WR);
+  bool IsFar(const math::Transform& X_KR) const;
+
+  const sensing::VisualMotionParams& params_;
+  sensing::VisualMotion motion_;
+  const terrain::Terrain& terrain_;
+  RoverCameras& cameras_;
+  std::int64_t next_ = 0;
+  // Of the error model: its keyframe, and where the rover truly was.
+  std::int64_t keyframe_ = 0;
+  std::optional<math::Transform> X_WK_;
 };
-
-// `terrain` outlives it.
-std::unique_ptr<VisualEyes> MakeVisualEyes(const DriveParams& drive, core::TrialKey key,
-                                           const terrain::Terrain& terrain);
 
 }  // namespace rockyard::trial

@@ -1,0 +1,66 @@
+// On-board perception of stereo cameras: from images, or from what matching would make of them, to
+// points and elevations.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "math/pose.h"
+#include "messages/point_cloud.h"
+#include "perception/cloud_elevations.h"
+#include "perception/stereo_points.h"
+#include "sensing/stereo_view.h"
+#include "trial/drive_params.h"
+#include "trial/eyes/look.h"
+
+namespace rockyard::trial {
+
+// What one look shows, pixel by pixel and as points.
+struct StereoSeen {
+  sensing::DepthImage disparities_px;  // of the reduced left image; 0 where there is no match
+  messages::PointCloud cloud;          // of those pixels, as far as they are wanted and in range
+};
+
+// Images are matched by perception::StereoPoints. Points come out where the cameras were calibrated
+// to be; a wrong mount (perception.calibration) then moves them rigidly, whatever the fidelity.
+class StereoReader final : public TerrainReader {
+ public:
+  // The watcher is shown every look that has images.
+  explicit StereoReader(const DriveParams& drive,
+                        std::function<void(const StereoSightView&)> watcher = {});
+
+  StereoSeen See(const LookOrder& order, const LookData& data) const;
+
+  messages::PointCloud Points(const LookOrder& order, const LookData& data) const override;
+  // The highest points of the cloud.
+  messages::ElevationScan Elevations(const LookOrder& order, const LookData& data) const override {
+    return perception::CloudElevations(Points(order, data), order.attitude, elevations_);
+  }
+
+ private:
+  // One of the two pairs of cameras, as the rover believes to have it.
+  struct Pair {
+    Pair(const DriveParams& drive, messages::LookDirection direction);
+
+    void Misplace(messages::PointCloud& cloud) const;
+
+    sensing::StereoView view_R;                     // reduced
+    std::optional<perception::StereoPoints> match;  // of images
+    std::optional<math::Transform> misplaced;       // in R; none where the mount is right
+  };
+
+  const Pair& PairOf(messages::LookDirection direction) const {
+    return direction == messages::LookDirection::kAhead ? ahead_ : behind_;
+  }
+  StereoSeen Match(const LookOrder& order, const sensing::StereoImages& images) const;
+  void Show(const Pair& pair, const perception::StereoSight& sight,
+            const messages::PointCloud& cloud) const;
+
+  sensing::StereoParams params_;
+  perception::CloudElevationParams elevations_;
+  Pair ahead_;
+  Pair behind_;
+  std::function<void(const StereoSightView&)> watcher_;
+};
+
+}  // namespace rockyard::trial
