@@ -72,6 +72,7 @@ void AddTraceOptions(CLI::App& command, campaign::TraceOptions& options) {
                       "afterwards drive chosen trials again and write their course into the "
                       "folder traces: all, failures, worst:N (failures that ended furthest from "
                       "the goal, of each cell), share:P (a random share); repeat for more")
+          // Completion and the pages of commands read the choices from the name of the type.
           ->type_name("RULE:{all,failures,worst:N,share:P}")
           ->allow_extra_args(false);
   command

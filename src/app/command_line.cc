@@ -171,6 +171,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   app.require_subcommand(1);
   app.footer(kFooter);
   app.set_version_flag("--version", VersionText);
+  // In the order of help and documentation.
   AddRunCommand(app, exit_code);
   AddSweepCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
@@ -196,6 +197,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddMetricsCommand(app);
   AddHelpCommand(app);
   AddCompletionCommand(app);
+  // These go over all options that are there.
   AddExamples(app);
   CheckEveryValue(app);
   KeepEveryInput(app);

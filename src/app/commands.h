@@ -1,5 +1,9 @@
-// The subcommands, one file each. Add...() describes one to the parser; when the user names it, its
-// callback runs, and throws core::UserError for what is wrong with the input.
+// The subcommands, most in a file each. Add...() describes one to the parser; when the user names
+// it, its callback runs, and throws core::UserError for what is wrong with the input. The callback
+// runs after Add...() has returned: it owns the options that the parser fills.
+//
+// docs/commands is made from these descriptions, and a test compares: after a change
+// `rockyard help --format markdown --out docs/commands`.
 #pragma once
 
 #include <string>

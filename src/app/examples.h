@@ -17,7 +17,7 @@ struct CommandExample {
   std::string_view what;     // it does, in a few words
 };
 
-// One to three for every subcommand.
+// One to three for every subcommand. A test parses each.
 std::span<const CommandExample> Examples();
 
 // Those of a command as its help shows them, with the empty line that parts them from what follows;

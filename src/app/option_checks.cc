@@ -64,7 +64,8 @@ std::string WholeProblem(const std::string& text) {
   return result.ec == std::errc() && result.ptr == end ? "" : text + " is no whole decimal number";
 }
 
-// Options that name a file to be written.
+// Options that name a file to be written. One that is missing here counts as one whose file is
+// read.
 constexpr std::array<std::string_view, 6> kOutputs = {"--out", "--csv",  "--svg",
                                                       "--npz", "--data", "--junit"};
 

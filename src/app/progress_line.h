@@ -9,10 +9,10 @@
 
 namespace rockyard::app {
 
-// "  120/300 done, 4.1/s, ETA 0:44, success 91.7 % (95 %: 84.9 .. 95.6 of 118), faults 0". Of
-// several cells how many have ended; with a stopping rule the widest half-width at the last look,
-// and the one that is wanted. Success
-// is declared success over the contiguous prefix of finished trials, without simulator faults.
+// "  120/300 done, 4.1/s, ETA 0:44, declared success 91.7 % (95 %: 84.9 .. 95.6 of 118), faults 0".
+// Of several cells how many have ended; with a stopping rule the widest half-width at the last
+// look, and the one that is wanted. Success is over the contiguous prefix of finished trials,
+// without simulator faults.
 std::string ProgressText(const batch::Progress& progress);
 
 // One line that is rewritten on a terminal, and plain lines every few seconds elsewhere.

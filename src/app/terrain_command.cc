@@ -38,6 +38,8 @@ using terrain::CorridorClass;
 using terrain::LineRule;
 using terrain::OverlapRule;
 
+// Of each field, ascending. Fields are independent, also where trials of the scenario share
+// layouts.
 std::vector<double> Distances(const scenario::Scenario& scenario, std::uint64_t seed,
                               std::int64_t fields, const terrain::BlindSwath& swath,
                               double first_x_m) {

@@ -52,6 +52,7 @@ void WriteOutputs(const StoryOptions& options, const campaign::TrialSource& sour
     Print(fmt::format("  plan view in {}\n", report::Printable(options.svg)));
   }
   if (!options.npz.empty()) {
+    // The bytes that `run --traces` writes of the same trial.
     report::WriteFileAtomically(
         options.npz,
         campaign::TraceBytes(source.scenario, source.cell, recording, campaign::TraceFormat::kNpz));
@@ -80,6 +81,8 @@ ExitCode Trace(const StoryOptions& options) {
   try {
     WriteOutputs(options, source, recording);
   } catch (const core::UserError& failure) {
+    // Thrown on, it would end as bad input. It outweighs a record that differs, which has been
+    // told.
     PrintProblems(failure.problems());
     return ExitCode::kFailed;
   }

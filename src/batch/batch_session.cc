@@ -95,6 +95,7 @@ BatchResult BatchSession::Close() {
 }
 
 void BatchSession::StoreEnds() {
+  // From now on the store says how many trials the rule asked for; until now, how many at most.
   if (!options_.rule) return;
   for (int cell = 0; cell < plan_.cells(); ++cell) {
     if (plan_.planned(cell) != store_.planned(cell)) store_.SetPlanned(cell, plan_.planned(cell));

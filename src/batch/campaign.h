@@ -12,7 +12,8 @@
 namespace rockyard::batch {
 
 // One part of a campaign that is divided between machines: it runs the trials t of every cell with
-// t % count == index - 1. The default is the whole campaign.
+// t % count == index - 1. The default is the whole campaign. A store keeps index and count alone:
+// by another formula its trials would be foreign to it.
 struct Shard {
   int index = 1;  // 1 .. count
   int count = 1;
@@ -24,7 +25,8 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
-// What decides the records of one cell. Plain texts, so that the store knows no scenario.
+// What decides the records of one cell. Plain texts, so that the store knows no scenario. The
+// checksum of every stored trial begins with fingerprint and seed: of a store neither can change.
 struct CellIdentity {
   std::string name;         // "" in a campaign of one cell
   std::string scenario;     // name

@@ -20,6 +20,7 @@ using core::Problem;
 constexpr std::size_t kCellsShown = 3;
 constexpr std::size_t kPathsShown = 12;
 
+// Names alone: meanings are sentences for people, and stores keep no roles.
 std::string ColumnList(const truth::RecordSchema& schema) {
   std::string text;
   for (const truth::ValueInfo& value : schema) text += (text.empty() ? "" : ", ") + value.name;

@@ -60,7 +60,8 @@ std::optional<Launch> FindLaunch();
 // core::UserError in a build without MPI.
 std::unique_ptr<Communicator> StartMpi();
 
-// Bytes of messages between ranks: the bits of every number, for machines of one kind.
+// Bytes of messages between ranks, and of processes that share a campaign's journal: the bits of
+// every number, for machines of one kind. No file is of this form, so that it may change.
 
 class PacketWriter {
  public:

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// To rank 0.
+// Tags; campaign/campaign_process.cc has others, from 10 on. To rank 0.
 constexpr int kReport = 1;  // records, trials wanted, 1 where the rank wants to end
 constexpr int kBye = 2;     // records, trials that were not begun, trials that are overdue
 // From rank 0.

@@ -19,8 +19,8 @@ namespace rockyard::batch {
 
 // Rank 0 has the store and the plan, hands out trials on demand, and computes, too; the others ask
 // for small blocks, compute with their threads, and send their records back, which
-// rank 0 stores as its own. On every rank the calling thread alone speaks to the others and
-// computes nothing; it sleeps while there is nothing to do.
+// rank 0 stores as its own. On every rank the calling thread alone speaks to the others, as
+// StartMpi asks, and computes nothing; it sleeps while there is nothing to do.
 //
 // A message is answered within a few milliseconds; a record reaches rank 0 within 0.1 s. Records do
 // not depend on the number of ranks. A rank whose `stop` becomes true gives back what it has not
@@ -61,9 +61,9 @@ void RunTrialsOnRanks(Communicator& communicator, std::span<const CellWork> work
                       const OverdueTrials& overdue,
                       const std::function<void(const std::vector<TrialId>&)>& give_up);
 
-// Both throw what RunTrials throws.
 // On every other rank: returns when rank 0 has no more trials or `stop` is true, and everything
 // that was begun has been sent. A trial that is overdue is waited for: rank 0 ends the job before.
+// Both throw what RunTrials throws.
 void ServeBatch(Communicator& communicator, std::span<const CellWork> work, int threads,
                 const std::atomic<bool>& stop, const OverdueTrials& overdue);
 

@@ -29,6 +29,7 @@ truth::Record RunOne(const experiments::Experiment& experiment, std::uint64_t se
                               fmt::format("the record has {} values for {} columns",
                                           record.values.size(), experiment.schema().size()));
     }
+    // Stores take infinite values for damage.
     const auto infinite = std::find_if(record.values.begin(), record.values.end(),
                                        [](double value) { return std::isinf(value); });
     if (infinite != record.values.end()) {
@@ -179,6 +180,7 @@ void LocalWorkSource::Finish(CellRecord record) {
   {
     const std::lock_guard lock(mutex_);
     const TrialId id{record.cell, static_cast<std::int64_t>(record.record.trial)};
+    // The plan does not wait for the disk: a record that is lost is run again, to the same bits.
     if (!plan_.Finish(id, record.record.outcome)) return;
   }
   changed_.notify_all();

@@ -178,7 +178,8 @@ struct BatchResult {
 int ThreadCount(const BatchOptions& options);
 
 // Runs one trial. An exception out of it, or a record that does not fit the schema, comes back as a
-// simulator fault; a failure of the machine (core::IsMachineFailure) is thrown on.
+// simulator fault; a failure of the machine (core::IsMachineFailure) is thrown on, as no machine is
+// to decide a record.
 CellRecord RunTrial(std::span<const CellWork> work, TrialId id);
 
 // Takes trials from the source on that many threads until it has none left. Where one throws, none

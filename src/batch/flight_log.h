@@ -147,7 +147,7 @@ struct WatchdogOptions {
   double cpu_limit_s = 600.0;  // of one trial; 0: none, and no thread is started
   std::chrono::milliseconds look_every{500};
   // From the end of the last trial that is not overdue to the end of the process: the time that the
-  // writer of the store needs to store it.
+  // writer of the store needs to store it: more than BatchOptions::interval and a commit.
   std::chrono::milliseconds grace{1500};
 };
 

@@ -144,7 +144,7 @@ class ResultStore {
 bool HasChecksums(const std::filesystem::path& folder);
 
 // The records 0, 1, 2, ... up to the first trial that is missing: what rates may be computed from
-// (prefix_counter.h). `records` by trial index.
+// (PrefixCounter). `records` by trial index.
 std::span<const truth::Record> ContiguousPrefix(std::span<const truth::Record> records);
 
 }  // namespace rockyard::batch

@@ -16,6 +16,8 @@
 namespace rockyard::batch {
 namespace {
 
+// A read that fails is a damaged file. Whatever else fails of input and output is taken for a disk
+// without room: the machine's (IsOfTheMachine), so that the same command may succeed later.
 StoreProblem Kind(int code, int reason) {
   if (code == SQLITE_IOERR_NOMEM) return StoreProblem::kMemory;
   switch (code & 0xff) {

@@ -17,7 +17,8 @@ class SqliteStatement;
 
 // CRC-32 (zlib) over the values in order, each one with its type: a letter, then eight
 // little-endian bytes of a number, or the length and the bytes of a text. Numbers count by their
-// bits; NaN counts as the NULL that SQLite makes of it.
+// bits; NaN counts as the NULL that SQLite makes of it. Every row of a store has its own: by
+// another form of bytes all of them would be damaged.
 //
 // Finds accidents: one that changes a row goes unseen with probability 2^-32. No protection against
 // anyone who changes the checksum as well.
@@ -61,7 +62,8 @@ struct TableShape {
 inline constexpr std::string_view kTrialsTable = "trials";
 
 // All rows of a table together; in the table `inventory`. The sum of the checksums does not depend
-// on the order of the rows, and is taken modulo 2^64.
+// on the order of the rows, and is taken modulo 2^64, so that whoever adds or changes a row needs
+// none of the others.
 struct TableTally {
   std::int64_t rows = 0;
   std::uint64_t checksums = 0;

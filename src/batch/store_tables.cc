@@ -18,6 +18,8 @@ constexpr std::string_view kMetaTable = "meta";
 
 namespace fs = std::filesystem;
 
+// Of the layout of all tables. Stores outlive programs: tables or columns that other versions would
+// misread take another number, which these then refuse.
 constexpr std::int64_t kSchemaVersion = 3;
 constexpr std::int64_t kVersionWithoutChecksums = 2;
 
@@ -157,7 +159,8 @@ TableShape CellsOf(Checksums checksums) {
 }
 
 std::string CreateTrialsSql(const truth::RecordSchema& schema) {
-  // Records may have a column "cell" of their own.
+  // Records may have a column "cell" of their own. Order: as TrialInsert (store_trials.cc) binds
+  // values, whose statement names no columns.
   std::string sql =
       "CREATE TABLE trials(campaign_cell INTEGER NOT NULL, trial INTEGER NOT NULL, "
       "outcome TEXT NOT NULL, detail TEXT NOT NULL";

@@ -31,6 +31,7 @@ std::vector<std::int64_t> RowBeginnings(const CampaignIdentity& identity) {
   return beginnings;
 }
 
+// OR IGNORE: a trial that was run twice has the same record, and the first one stays.
 std::string InsertSql(std::size_t values, Checksums checksums) {
   std::string sql = "INSERT OR IGNORE INTO trials VALUES (?, ?, ?, ?";
   for (std::size_t i = 0; i < values; ++i) sql += ", ?";
@@ -111,7 +112,7 @@ class TrialReader {
   }
 
  private:
-  // Of those who could, no more can have.
+  // Of those who could, no more can have. Bases that are lengths (unit m) bound no count.
   void RequireAtMostBase(const truth::RecordSchema& schema, std::span<const double> values,
                          std::size_t count) const {
     if (!truth::IsCount(schema[count].role)) return;

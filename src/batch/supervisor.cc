@@ -117,6 +117,7 @@ class Supervisor {
           if (!flight.overdue) NotePassed(flight.id, end);
           return;
         case Alone::kCrashed:
+          // No option, unlike the retries below: it decides a record.
           if (++crashed > 1) return GiveUp(flight.id, last);
           NoteCrashed(flight.id, last);
           break;

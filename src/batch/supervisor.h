@@ -73,7 +73,9 @@ class LeavingOutSource final : public WorkSource {
   int running_ = 0;
 };
 
-// Where the cells of a store ended, decided again from what is stored.
+// Where the cells of a store ended, decided again from what is stored. A store keeps its rule and
+// not the decisions: every session that goes on and every reader of runs begins with this plan, so
+// that all of them end each cell where the run did.
 
 // The plan of a store under a rule, with its finished trials; before the first Next.
 WorkPlan StoredPlan(const ResultStore& store, const std::optional<StoppingRule>& rule,
@@ -83,7 +85,8 @@ WorkPlan StoredPlan(const ResultStore& store, const std::optional<StoppingRule>&
 // planned cells. Cost: reads cell, trial and outcome of every row.
 std::vector<CellState> StoredEnds(const ResultStore& store);
 
-// A worker ends with this code when a trial found the machine short of memory, files or disk.
+// A worker ends with this code when a trial found the machine short of memory, files or disk. As
+// kOverdueExit it is none of the exit codes of the program (campaign/work.h), which pass through.
 inline constexpr int kShortExit = 76;
 
 // A trial that stays pending, as what it needs is not there: no result, in no hash, exit code 5.
@@ -114,23 +117,24 @@ using Worker = std::function<int(const Mission&)>;
 
 // How often things are tried again.
 struct SupervisorOptions {
-  int hung_retries = 2;           // of a trial that used up its CPU time
-  int killed_retries = 2;         // of a trial whose process was ended by SIGKILL, or kShortExit
-  int fruitless_restarts = 3;     // of workers that die and store no trial
-  int failed_exit = 5;            // exit code when that is too often
-  int interrupted_exit = 130;     // exit code when a polite signal ended the worker
-  bool faults_are_stored = true;  // false: a trial that crashes is left out as well
+  int hung_retries = 2;        // of a trial that used up its CPU time
+  int killed_retries = 2;      // of a trial whose process was ended by SIGKILL, or kShortExit
+  int fruitless_restarts = 3;  // of workers that die and store no trial
+  int failed_exit = 5;         // exit code when that is too often
+  int interrupted_exit = 130;  // exit code when a polite signal ended the worker
+  // False where work stores no trials, as the writing of traces: one that crashes is left out too.
+  bool faults_are_stored = true;
   std::string fruit = "storing a trial";  // of which fruitless workers did nothing
 };
 
 // Forks the worker, waits for it, and returns its exit code. When it dies by a signal (a crash, the
-// out-of-memory killer) the trials that were in flight are run one by one, each in a process of its
-// own: one that crashes again (in two crashes, one of them alone) is stored as a simulator fault,
-// one that passes leaves an infrastructure fault behind (the machine failed, not the trial); then
-// another worker goes on. SIGKILL comes from outside, where memory is short: such a trial is tried
-// again alone, and left out, pending, when it is killed again; no machine decides what is a fault.
-// Work that has no place for faults (faults_are_stored) is given neither of the missions that store
-// one.
+// out-of-memory killer) the trials that were in flight, by the log that outlives it, are run one by
+// one, each in a process of its own: one that crashes again (in two crashes, one of them alone) is
+// stored as a simulator fault, one that passes leaves an infrastructure fault behind (the machine
+// failed, not the trial); then another worker goes on. SIGKILL comes from outside, where memory is
+// short: such a trial is tried again alone, and left out, pending, when it is killed again; no
+// machine decides what is a fault. Work that has no place for faults (faults_are_stored) is given
+// neither of the missions that store one.
 // A worker that ends with kShortExit found the machine short of memory, files or disk in a trial,
 // which is as if it had been killed from outside.
 // A worker that ends with kOverdueExit (flight_log.h) left hanging trials: each is tried again

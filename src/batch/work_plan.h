@@ -110,9 +110,10 @@ struct CellState {
 // The work of a campaign in rounds. A round is decided from the outcomes of the rounds before it
 // alone, all of which are finished by then, and never from the order in which trials finish: the
 // same trials run whatever threads, ranks, order and interruptions, and stored trials beyond a
-// decision do not enter it. Within a round the cells take turns, trial by trial. Not for two
-// threads at once. Draws nothing (kShuffled permutes by a fixed stream). Memory: one byte per
-// trial.
+// decision do not enter it. Decisions are not stored: sessions that go on and readers of a store
+// (StoredPlan) decide again, so that another way to decide ends stored cells elsewhere. Within a
+// round the cells take turns, trial by trial. Not for two threads at once. Draws nothing (kShuffled
+// permutes by a fixed stream). Memory: one byte per trial.
 class WorkPlan {
  public:
   // `planned`: trials of each cell, with a rule at most. With a rule the shard must be the whole.

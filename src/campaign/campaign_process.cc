@@ -125,7 +125,7 @@ void Serve(batch::Communicator& communicator, const std::string& campaign,
   batch::ServeBatch(communicator, received.work(), options.threads, log.stop(), overdue);
 }
 
-// On rank 0, before batch::RunDistributedBatch: every other rank gets the resolved scenario of each
+// On rank 0, before batch::RunTrialsOnRanks: every other rank gets the resolved scenario of each
 // cell, so that no other file has to be there, and serves.
 void StartRanks(batch::Communicator& communicator, const batch::CampaignIdentity& campaign) {
   batch::PacketWriter packet;
@@ -320,6 +320,7 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
     batch::RunTrials(logged.work(), source, threads);
   }
   batch::BatchResult result = session.Close();
+  // Not before: until the end of the session its writer has the store.
   NoteOverdue(store, overdue_elsewhere_);
   // The overdue trial has ended after all, and the stop was not the user's wish.
   if (watchdog.bit() && supervised) _exit(batch::kOverdueExit);

@@ -129,8 +129,6 @@ Outcome RunContained(ContainmentOptions options, const Contact& contact, const C
 // The command that runs the trial again. `cell` as in the store.
 std::string ReplayLine(const batch::ResultStore& store, batch::TrialId id);
 
-// What the ranks that mpirun started say to each other before and after the trials.
-
 // Trials that are noted in a flight log and heed the wish to stop.
 
 // Passes the caller's wish on to the log.
@@ -189,6 +187,7 @@ class HeededWork {
         }) {
     for (const batch::CellWork& cell : work) {
       const int number = static_cast<int>(work_.size());
+      // The log outside: when the machine fails the trial is in flight, by which it is found again.
       const auto& stopped =
           stopped_.emplace_back(*cell.experiment, number, stop, log, machine_failed_);
       const auto& logged = logged_.emplace_back(stopped, number, log);

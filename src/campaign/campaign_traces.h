@@ -1,4 +1,5 @@
-// Traces of chosen trials of a campaign, written once its trials are stored.
+// Traces of chosen trials of a campaign, written once its trials are stored: which of them failed,
+// and which are the worst, is known then alone. Trials repeat bit for bit, and so are driven again.
 #pragma once
 
 #include <charconv>
@@ -89,7 +90,7 @@ struct TraceRequest {
   TraceDriver drive = RecordDrive;
 };
 
-// The bytes of a trace file.
+// The bytes of a trace file, of a campaign and of `rockyard trace` alike.
 std::string TraceBytes(const scenario::Scenario& scenario, const std::string& cell,
                        const DriveRecording& recording, TraceFormat format);
 

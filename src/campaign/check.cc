@@ -330,6 +330,7 @@ class BaselineComparison {
 // `unknown`: whether the baseline has metrics that this program does not know.
 Outcome OutcomeOf(const report::RegressionReport& report, RecordChange record_change,
                   bool unknown) {
+  // Other records of the same build are a defect, whatever their distributions say.
   if (report::BrokenDeterminism(report)) return Outcome::kDiffers;
   const auto outcome = static_cast<Outcome>(statistics::ExitCode(report.result));
   const report::RecordFinding records = report::FindingOfRecords(report);

@@ -201,6 +201,7 @@ CampaignCost ExpectedCost(const PlannedTrials& planned,
     cost.pilots += pilot.trials;
     cost.total_s += trials * pilot.mean_s;
     cost.slowest_s = std::max(cost.slowest_s, pilot.slowest_s);
+    // Of N trials by the mean of n pilots: scatter N s^2, and N^2 s^2 / n of the mean.
     variance += pilot.variance_s2 * trials * (1.0 + trials / static_cast<double>(pilot.trials));
     scatter = scatter || pilot.trials > 1;
   }

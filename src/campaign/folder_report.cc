@@ -70,6 +70,7 @@ SweepShardReport ReportSweepShard(const batch::ResultStore& store) {
 
 RunReport ReportRun(const std::filesystem::path& folder, const ReportSettings& settings) {
   const StoredRun run = ReadRun(folder);
+  // Trials that a rule ended are no sample of fixed size: only kStopped allows for that.
   RunReport told{.folder = run.folder,
                  .description = Describe(run, batch::ThreadCount({.threads = settings.threads})),
                  .summary = {},

@@ -102,6 +102,7 @@ Account Journal::Read() const {
   return account;
 }
 
+// Processes that were forked share the place at which is written: each goes on behind the others.
 // What is told counts; an account that the machine has no memory for is only shorter.
 // NOLINTNEXTLINE(readability-make-member-function-const): it changes what Read gives
 void Journal::Append(const std::string& bytes) {

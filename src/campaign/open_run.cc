@@ -60,7 +60,9 @@ void RefuseForeignFolder(const OpenRequest& request) {
   }
 }
 
-// As report/run_files.h and report/sweep_files.h write them, and the folder of campaign_traces.h.
+// As report/run_files.h and report/sweep_files.h write them, and the folder of campaign_traces.h. A
+// file that is not listed stays beside the results of another run after --force, and other commands
+// may be told to write over it (IsRunFile).
 constexpr std::array kDerivedFiles = {
     "attribution.csv", "cells.csv",        "cells.svg",
     "curves.csv",      "distance_cdf.csv", "differences.csv",

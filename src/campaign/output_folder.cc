@@ -247,6 +247,7 @@ void OutputFolder::WriteNow(std::string_view name, std::string_view bytes) {
 void OutputFolder::Finish(bool finished) {
   Begin();
   Change([&] {
+    // The last to be committed: only then does the folder say that it is whole.
     Stage(kMadeByFile, Maker(finished));
     CommitAll();
   });

@@ -49,7 +49,8 @@ struct OutputPlan {
 };
 
 // The file by which a folder says which command of which build made what it holds, and whether that
-// is all: {"command", "program", "finished", "request"}.
+// is all: {"command", "program", "finished", "request"}. Later programs read it before they touch
+// the folder.
 inline constexpr const char* kMadeByFile = "made_by.json";
 
 // Nothing is changed before the first WriteNow, or Finish: a folder that was made for work that

@@ -103,6 +103,8 @@ bool AtDefault(const std::string& path, const std::vector<ScenarioDifference>& f
   });
 }
 
+// Whether it moves rocks, start or goal, so that trials of equal seed and index are no pairs. The
+// same groups as FieldsOf (run_source.cc).
 bool DecidesFields(const std::string& path) {
   return path.starts_with("terrain.") || path.starts_with("course.");
 }

@@ -317,6 +317,7 @@ void AddShape(const rover::Part& part, replay::ReplayLink& link) {
   link.shapes.push_back(std::move(shape));
 }
 
+// The field that the trial met: no record holds it, scenario and key give it again.
 terrain::Field BuildField(const scenario::Scenario& scenario, const truth::TracedTrial& traced) {
   const core::TrialKey key{traced.seed, static_cast<std::uint32_t>(traced.record.trial)};
   try {

@@ -48,7 +48,8 @@ struct CampaignRequest {
 
 // Throws core::UserError with everything that is asked of this plan and that cannot be: a stopping
 // rule of a shard, where nothing drives, or where trials share layouts and are not independent;
-// traces that are asked for with a rule that is none, or where nothing drives.
+// traces that are asked for with a rule that is none, the worst of a shard, or where nothing
+// drives.
 void CheckPlan(const CampaignRequest& request, const CampaignPlan& plan);
 
 // What a caller is told of a campaign while it goes on.

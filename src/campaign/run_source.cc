@@ -199,6 +199,7 @@ report::Accounting AccountingOf(const StoredRun& run) {
 
 std::optional<report::StoppingReport> StoppingOf(const StoredRun& run) {
   if (!run.rule) return std::nullopt;
+  // By batch::CellEnd, in its order; in summary.json.
   constexpr std::array kEndNames = {"open", "max_trials", "precise", "budget"};
   const bool adaptive = run.rule->allocation == batch::Allocation::kAdaptive;
   return report::StoppingReport{.half_width = run.rule->half_width,
@@ -291,7 +292,8 @@ std::vector<std::string> StoreNotes(std::span<const std::string> paths) {
 
 namespace {
 
-// The settings that decide which rocks a trial meets, and where it starts and ends.
+// The settings that decide which rocks a trial meets, and where it starts and ends: trials of runs
+// that share them, and the seed, are pairs. The same groups as DecidesFields (reference_cases.cc).
 std::string FieldsOf(const StoredRun& run) {
   const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
   std::string text;

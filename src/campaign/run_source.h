@@ -92,7 +92,8 @@ std::string CellName(const StoredRun& run);
 // prefix: no rate can be told from it alone.
 void RequireWhole(const StoredRun& run);
 
-// The program, its compiler and the CPU level that records may depend on.
+// The program, its compiler and the CPU level that records may depend on. Stores and baselines keep
+// it, and rank 0 tells it the others, to be compared as text.
 std::string BuildName();
 
 // What a report says of a run, with the provenance of this program.

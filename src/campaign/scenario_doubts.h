@@ -17,7 +17,8 @@ namespace rockyard::campaign {
 // against the course, mass and goal against size, the odometer's scale against the slip of these
 // wheels in this soil, gravity and sand of Earth against a name that says Mars; and of what
 // settings say of each other (doubts/setting_doubts.h). None that the scenario calls accepted, word
-// by word: of other numbers it is another doubt.
+// by word: of other numbers it is another doubt, and so is one whose path or reason is worded anew.
+// Doubts warn: they refuse nothing and change no record.
 std::vector<core::Problem> Doubts(const scenario::Scenario& scenario);
 
 // Of a scenario file, or the folder of a run, with overrides. Throws core::UserError.

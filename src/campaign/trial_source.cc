@@ -120,6 +120,8 @@ std::vector<core::Problem> CompareWithStore(const TrialRequest& request, const T
 
 namespace {
 
+// Points are where the calibration that the rover believes puts them, as seen from its true pose: a
+// replay shows the error of a calibration beside the true rocks.
 class Recorder {
  public:
   explicit Recorder(const scenario::Scenario& scenario)

@@ -16,6 +16,10 @@
 ///   };
 ///
 /// Modules know neither JSON nor their siblings; core/archive.h holds the JSON side.
+///
+/// A default decides the records of every scenario that leaves the field out, and the baselines
+/// made of them; a bound or a Require only refuses files. Key, place in Visit and value of each
+/// field enter the fingerprint by which stored runs are resumed (scenario/load.h).
 #pragma once
 
 #include <cstddef>

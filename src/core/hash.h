@@ -1,7 +1,9 @@
 // FNV-1a, 64 bit (Fowler, Noll and Vo): fingerprints of records and scenarios.
 //
 // Detects accidental differences (two different inputs agree with probability 2^-64); no protection
-// against anyone who looks for collisions.
+// against anyone who looks for collisions. Stored runs, baselines and the kept hashes of first
+// trials hold its values, and seeds of sweep cells are made of them: neither the algorithm nor the
+// way in which texts and numbers enter may change.
 #pragma once
 
 #include <cstddef>

@@ -80,7 +80,9 @@ class Level {
   bool empty_ = true;
 };
 
-// What a text is for, which decides on plain lists and on the digits of reals.
+// What a text is for, which decides on plain lists and on the digits of reals. Fingerprints of
+// stored runs hash texts of the first kind, and files of the second are compared as text: neither
+// layout may change.
 enum class TextUse { kReading, kResults };
 
 class TextWriter {

@@ -25,6 +25,7 @@ JsonValue ParseJson(std::string_view text, std::string_view source_name,
 
 // Pretty text, members in their order, lists of plain values on one line, doubles as the shortest
 // decimal that reads back to the same bits. Numbers must be finite. Ends with a newline.
+// Fingerprints of stored runs hash this text (scenario/load.h): its layout stays.
 std::string DumpJson(const JsonValue& value);
 
 // A text as JSON, with its quotes. What is no UTF-8 becomes U+FFFD, one for each bad byte or

@@ -82,7 +82,7 @@ int FindKind(const KindSetWords& words, std::span<const std::string_view> names,
              std::string_view name);
 
 /// A value: a copy has parameters of its own. The first kind that is added is chosen until another
-/// one is.
+/// one is. Resolved scenarios list the kinds in the order in which they were added.
 template <typename Base>
 class KindSet {
  public:

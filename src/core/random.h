@@ -95,7 +95,8 @@ class RandomStream {
 };
 
 // Samplers built on RandomStream by inverse CDF: one uniform each (Poisson may take more), portable
-// across standard libraries, unlike std::*_distribution.
+// across standard libraries, unlike std::*_distribution. How many they take, and their last bits,
+// are part of every record.
 
 // Value below which a chi-squared number of `degrees` >= 1 degrees of freedom lies with probability
 // p, 0 <= p < 1 (Boost.Math).

@@ -10,6 +10,7 @@ namespace rockyard::core {
 // One point of [0, 1)^dimensions per element.
 using UnitPoints = std::vector<std::vector<double>>;
 
+// Substreams of Sobol points begin here: another number is another design for every seed.
 inline constexpr std::size_t kMaxDesignDimensions = 100;
 
 // Latin hypercube (McKay, Beckman and Conover 1979): every axis is cut into `points` slices of

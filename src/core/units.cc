@@ -18,6 +18,7 @@ struct Unit {
   std::string_view text;   // for people
 };
 
+// A token that is added gives a unit to every name that ends in it.
 constexpr std::array<Unit, 37> kUnits = {{{"m", "m"},
                                           {"m2", "m2"},
                                           {"m3", "m3"},

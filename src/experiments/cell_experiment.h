@@ -3,6 +3,9 @@
 //
 // A run is a block of scenes of one cell, a combination of the values of its factors. Run i belongs
 // to cell i modulo their number, so that every prefix of the runs covers the cells evenly.
+//
+// Names and order of the columns are part of a stored run: where one is renamed, moved or added,
+// the run cannot be resumed, and it has another hash.
 #pragma once
 
 #include <cstddef>

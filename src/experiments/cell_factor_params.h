@@ -1,4 +1,5 @@
-// One list of a scenario whose values name cells of an experiment.
+// One list of a scenario whose values name cells of an experiment. Cells are numbered by their
+// places in these lists: another list is another table, into which no stored run fits.
 #pragma once
 
 #include <string_view>

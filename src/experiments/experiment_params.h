@@ -21,7 +21,8 @@
 
 namespace rockyard::experiments {
 
-// What one run of the experiment is.
+// What one run of the experiment is. Scenario files and stored runs hold the names, so that these
+// stay.
 enum class ExperimentKind {
   kDrive,             // the closed-loop drive to a goal
   kHazardDetection,   // what the light stripe sensor sees and misses

@@ -20,6 +20,7 @@
 namespace rockyard::image_files {
 namespace {
 
+// The product of two of them does not overflow.
 constexpr std::int64_t kMostOfSide = 1'000'000'000;
 constexpr std::size_t kBytesAValue = 4;
 

@@ -11,7 +11,8 @@ namespace rockyard::image_files {
 
 class HeaderText {
  public:
-  // Of the file `name`. What is read is taken from the front of `bytes`.
+  // Of the file `name`. What is read is taken from the front of `bytes`. Both must outlive this,
+  // and `bytes` the words that it gives back.
   HeaderText(std::string_view bytes, const std::string& name) : rest_(bytes), name_(name) {}
 
   // The next run of characters without white space. Comments, from # to the end of the line, count

@@ -61,6 +61,7 @@ GrayConversion ToGray(const RawImage& image, const GrayOptions& options) {
       const std::int64_t luminance = Luminance(image, x, y);
       brightest = std::max(brightest, luminance);
       if (luminance > white) ++done.clipped;
+      // `white` is even, as kUnit is, so that its half is exact.
       const std::int64_t gray = (255 * std::min(luminance, white) + white / 2) / white;
       done.image.At(x, y) = static_cast<std::uint8_t>(gray);
     }

@@ -10,6 +10,7 @@
 namespace rockyard::image_files {
 namespace {
 
+// The product of two such sides does not overflow.
 constexpr std::int64_t kMostOfHeader = 1'000'000'000;
 constexpr std::int64_t kMostOfSample = 65535;
 

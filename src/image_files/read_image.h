@@ -1,4 +1,5 @@
-// Image files of others: recognized by what they hold, not by their names.
+// Image files of others: recognized by what they hold, not by their names. Every command that is
+// given images reads them here, so that limits and refusals are the same for all.
 #pragma once
 
 #include <filesystem>

@@ -23,6 +23,7 @@ GateAnswer Gate::Ask(double mahalanobis_squared, int values) {
     turned_away_ = 0;
     return GateAnswer::kIn;
   }
+  // In a row: one good measurement in between shows that the filter is not lost.
   ++turned_away_;
   if (patience_ == 0 || turned_away_ < patience_) return GateAnswer::kOut;
   turned_away_ = 0;
@@ -90,7 +91,8 @@ messages::PoseFix HeadingFromSun(const messages::SunSighting& sighting,
   fix.measured.set(kHeading);
   fix.pose[kHeading] =
       math::WrapAngle(std::atan2(sun_W.y(), sun_W.x()) - std::atan2(sun_L.y(), sun_L.x()));
-  // cos(elevation) = level, tan(elevation) = tangent.
+  // cos(elevation) = level, tan(elevation) = tangent. By the almanac's elevation, as the
+  // weight of a fix must not depend on its own error.
   const double across_rad = sighting.direction_sd_rad / level;
   const double tilt_rad = tilt_sd_rad * tangent;
   fix.covariance(kHeading, kHeading) = across_rad * across_rad + tilt_rad * tilt_rad;

@@ -54,6 +54,7 @@ double MeanRoll(const messages::MotionMeasurement& motion,
                 const messages::DriveCalibration& calibration, OdometryWheels wheels) {
   const bool all_steered = std::all_of(calibration.steered.begin(), calibration.steered.end(),
                                        [](bool steered) { return steered; });
+  // Where all wheels steer, none would be left to take the mean of.
   const bool every_wheel = wheels != OdometryWheels::kUnsteered || all_steered;
   const bool forward = wheels == OdometryWheels::kForward;
   double sum = 0.0;

@@ -53,7 +53,8 @@ class AttitudeEstimator {
   messages::AttitudeEstimate estimate_;
 };
 
-// Dead reckoning from wheel encoders and gyro (Matthies 1995, section 5):
+// Dead reckoning from wheel encoders and gyro (Matthies 1995, section 5). The error-state filter
+// goes on by the same free functions, so that without aids it is this to the last bit:
 //   x += dr cos(h), y += dr sin(h), heading += dtheta
 // with dr the mean wheel increment times the believed wheel radius and the distance scale, dtheta
 // the integrated gyro rate, and h the heading at the middle or at the start of the step. When the

@@ -1,5 +1,8 @@
 /// @file
-/// Parameters of the attitude that the rover believes.
+/// Parameters of dead reckoning, and of the attitude that the rover believes.
+///
+/// They belong to `perception` and are handed to every estimator, not to one. A default decides the
+/// records of every scenario that leaves it out; a bound only refuses files.
 #pragma once
 
 #include <array>
@@ -42,9 +45,6 @@ struct AttitudeParams {
                            "odometry along the slope is what a rover without visual odometry has"));
   }
 };
-
-/// @file
-/// Parameters of dead reckoning.
 
 /// Whose encoders give the distance.
 enum class OdometryWheels {

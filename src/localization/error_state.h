@@ -10,7 +10,8 @@ namespace rockyard::localization {
 
 /// Rows of the error, which is true less believed. The first six are those of
 /// messages::PoseCoordinate, in W, m and rad; the others say how wrong sensors are read, the
-/// rover's own and the pan axis of the lander's mast.
+/// rover's own and the pan axis of the lander's mast. The filter lists its prior, and remembers
+/// covariances overnight, in this order.
 namespace error {
 
 /// Indices of rows and columns.

@@ -100,7 +100,8 @@ TickNoise ErrorStateFilter::NoiseOf(const messages::MotionMeasurement& motion,
 
 void ErrorStateFilter::Propagate(const messages::MotionMeasurement& motion) {
   const double forward_m = ForwardIncrement(motion, calibration_, dead_reckoning_) * wheel_scale_;
-  // What the gyro's model makes of its reading: turn = scale * true turn + bias * time.
+  // What the gyro's model makes of its reading: turn = scale * true turn + bias * time. Scales of 1
+  // and a bias of 0, as before the first aid, leave every bit of dead reckoning.
   const double turn_rad = (motion.turn_rad - gyro_bias_rad_s_ * motion.duration_s) / gyro_scale_;
   const double share = dead_reckoning_.step_heading == StepHeading::kMidpoint ? 0.5 : 0.0;
   const TickNoise noise = NoiseOf(motion, forward_m);
@@ -176,6 +177,7 @@ EstimatorMemory ErrorStateFilter::Remember() const {
 }
 
 void ErrorStateFilter::Capture(messages::CaptureNumber capture) {
+  // A clone is of now, not of the last stretch's end.
   EndStretch();
   errors_.Clone(capture);
   moments_[capture] = PoseNow();
@@ -272,6 +274,7 @@ void ErrorStateFilter::DoubtWheels(const messages::RelativeMotion& motion,
   };
   std::vector<ClonedCovariance::Part> parts{{std::nullopt, by_error(PoseNow())}};
   for (const auto& [capture, pose] : moments_) {
+    // Numbers rise with time: what lay before the motion is not in doubt by it.
     if (capture > motion.from) parts.push_back({capture, by_error(pose)});
   }
   errors_.Inflate(parts, difference.cwiseAbs2().asDiagonal().toDenseMatrix());

@@ -5,8 +5,8 @@
 // (error_state.h) grow as error_stretch.h says. The covariance is carried on every `stretch_m` of
 // way and before a measurement, not each tick, so that estimate().covariance is as old as the last
 // of these. A measurement of moments that were captured (one, or two with a motion between them)
-// corrects the state of now and of every kept moment (cloned_covariance.h). gate.h decides which
-// are believed.
+// corrects the state of now and of every kept moment (cloned_covariance.h). aid_fixes.h says
+// which are believed.
 //
 // Goals, and the fixes of the mast that designates them, are wrong by one pan angle. It is one of
 // the errors: a fix in the lander's frame tells of pose and pan together, one in the world frame

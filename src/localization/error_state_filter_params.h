@@ -1,4 +1,6 @@
-// Parameters of the error-state filter: what it takes itself to know of its sensors.
+// Parameters of the error-state filter: what it takes itself to know of its sensors. The simulated
+// sensors have parameters of their own (sensors.gyro and others); where a scenario changes one of
+// these, nothing makes the filter's belief follow.
 #pragma once
 
 #include <array>

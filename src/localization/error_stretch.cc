@@ -19,7 +19,8 @@ struct TickRows {
         turn_share(tick.turn_share),
         tilt_kept(kept) {}
 
-  // M <- A M, row by row; a row is changed after those that need it as it was.
+  // M <- A M, row by row; a row is changed after those that need it as it was: place before heading
+  // and pitch.
   template <typename Matrix>
   void Apply(Matrix&& M) const {
     const auto turn = (turn_bias * M.row(error::kGyroBias) +  //

@@ -36,7 +36,8 @@ enum class AidUse {
 
 /// An estimator of one drive. Wheels and gyro carry it on; aids correct it, perhaps late: it keeps
 /// the pose of each moment at which an aid took its data until these have arrived (stochastic
-/// cloning; Roumeliotis and Burdick 2002).
+/// cloning; Roumeliotis and Burdick 2002). It is a pure function of these calls, as trials repeat
+/// bit for bit.
 class Estimator {
  public:
   virtual ~Estimator() = default;

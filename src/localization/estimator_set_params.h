@@ -44,7 +44,7 @@ struct EstimatorSetup {
 /// without parameters takes core::NoParams.
 template <typename Params>
 struct EstimatorDescription {
-  /// In localization.estimator, and of the group of its parameters; a literal.
+  /// In localization.estimator, and of the group of its parameters; a literal. Scenarios name it.
   std::string_view name;
   std::string_view doc;  ///< of that group; a literal
   std::unique_ptr<Estimator> (*make)(const Params&, const EstimatorSetup&) = nullptr;

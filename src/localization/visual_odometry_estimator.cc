@@ -36,6 +36,7 @@ void VisualOdometryEstimator::Propagate(const messages::MotionMeasurement& motio
   wheels_.Propagate(motion);
   estimate_.odometry = wheels_.estimate().odometry;
   estimate_.pose.distance_m = estimate_.odometry.distance_m;
+  // The wheels' step as seen from where they stood before, laid off from the corrected pose.
   TakePose(PoseNow() * math::SeenFrom(before, ToPose2(estimate_.odometry)));
 }
 
@@ -62,6 +63,7 @@ AidUse VisualOdometryEstimator::Update(const messages::RelativeMotion& motion) {
   if (from == moments_.end() || to == moments_.end()) return AidUse::kUnknown;
   const Pose2 before = to->second;
   const Pose2 after = from->second * PlanarStep(motion);
+  // Moments after `to` move along, as the next motion will begin at one of them.
   for (auto later = to; later != moments_.end(); ++later) {
     later->second = after * math::SeenFrom(before, later->second);
   }

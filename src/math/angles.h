@@ -1,5 +1,6 @@
 /// @file
 /// Angles in radians; degrees appear only in JSON and in reports.
+/// core includes this header, so that nothing here may include core.
 #pragma once
 
 #include <cmath>

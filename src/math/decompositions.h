@@ -1,4 +1,5 @@
-// Decompositions of Eigen that take seconds to compile, compiled once.
+// Decompositions of Eigen that take seconds to compile, compiled once. Estimates of motions and
+// calibrations use them; each is by the method named, whose rounding their results hang on.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,11 @@
 // Several numbers that go through the same operations side by side, in SIMD registers: the vector
 // types of GCC and Clang. Each operation rounds as its scalar form does, so that doing it side by
 // side changes no result.
+//
+// The planes of a map of GESTALT go through here, and with them every drive that has one. A process
+// takes the widest registers that its processor has, so results must not hang on the width: no
+// fused or approximated operation, and no sum across lanes. No Eigen and no containers either: the
+// linker could take their code from a file that is compiled for wider registers.
 #pragma once
 
 #include <cmath>
@@ -71,6 +76,8 @@ Twin<Register> Sqrt(const Twin<Register>& x) {
   return {Sqrt(x.a), Sqrt(x.b)};
 }
 
+// Unlike std::max and std::min, Max and Min return b where both are equal, as zeros of either sign
+// are, or where one is not a number. This has to stay: it decides bits of what is computed.
 template <typename Number>
 Number Max(const Number& a, const Number& b) {
   return Select(a > b, a, b);

@@ -16,6 +16,8 @@ static_assert(kCountRow == std::size_t{PointMoments::kCount} &&
               kMomentRows == std::size_t{PointMoments::kSize});
 
 #if defined(__x86_64__)
+// From the narrowest to the widest: RunnableKernels counts from the front, BestPlaneKernel takes
+// the back.
 constexpr std::array<PlaneKernel, 3> kKernels = {{{"pairs", FitPlanesByPairs},
                                                   {"quads (AVX2)", FitPlanesByQuads},
                                                   {"octets (AVX-512)", FitPlanesByOctets}}};

@@ -32,7 +32,8 @@ struct PlaneFit {
 // Returns the plane of the eigenvalues of a covariance, ascending, and the axis of the smallest.
 inline PlaneFit PlaneFrom(double smallest_m2, double middle_m2, double largest_m2,
                           const Vector3& axis) {
-  // What rounding leaves of an eigenvalue of zero, of either sign.
+  // What rounding leaves of an eigenvalue of zero, of either sign. PlanesOf in plane_lanes.h has
+  // the same floor: a plane must be the same bits by itself and in a batch, as maps fit both ways.
   const double floor = 4.0 * std::numeric_limits<double>::epsilon() * largest_m2;
   PlaneFit fit;
   fit.normal = axis.z() < 0.0 ? Vector3(-axis) : axis;

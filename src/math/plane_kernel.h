@@ -8,6 +8,8 @@
 
 namespace rockyard::math {
 
+// Kernels fit whole registers, up to twice 8 numbers, and go on past the last set to fill one: a
+// multiple of 16.
 inline constexpr std::size_t kPlaneBatch = 32;
 
 // What a kernel reads and writes: rows of kPlaneBatch numbers.

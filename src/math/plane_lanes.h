@@ -24,7 +24,7 @@ struct PlaneLanes {
 template <EigenParts kParts, typename Number>
 PlaneLanes<Number> PlanesOf(const SymmetricMatrix<Number>& covariance_m2) {
   const SymmetricEigenLanes<Number> eigen = EigenOf<kParts>(covariance_m2);
-  // What rounding leaves of an eigenvalue of zero, of either sign.
+  // What rounding leaves of an eigenvalue of zero, of either sign: as in PlaneFrom of plane_fit.h.
   constexpr double kFloor = 4.0 * std::numeric_limits<double>::epsilon();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Number floor = kFloor * eigen.largest;

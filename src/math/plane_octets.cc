@@ -1,4 +1,5 @@
-// The kernel of registers of 8 numbers.
+// The kernel of registers of 8 numbers, compiled with AVX-512: it runs only where plane_batch.cc
+// has asked the processor, and leaves no code that other files could use.
 #include "math/plane_lanes.h"
 #include "math/plane_widths.h"
 

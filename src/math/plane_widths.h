@@ -1,4 +1,6 @@
-// The kernels of plane_batch, by the registers that they are compiled for.
+// The kernels of plane_batch, by the registers that they are compiled for. Another one needs its
+// file here, its flags in CMakeLists.txt, a row in plane_batch.cc, where the processor is asked,
+// and its whole numbers in spread_lanes.h.
 #pragma once
 
 #include <cstddef>

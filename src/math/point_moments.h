@@ -84,7 +84,8 @@ inline constexpr std::int64_t kExactPoints = 65536;
 
 // Returns mean and covariance; there must be a point. The second moments are shifted in whole
 // numbers to the unit next to the mean before anything is rounded, so that nothing cancels however
-// far the origin is.
+// far the origin is. CovarianceOf in spread_lanes.h has the same operations in the same order, and
+// with them the same bits: one cannot change without the other.
 inline PointSpread Spread(const PointMoments& moments) {
   using M = PointMoments;
   const auto& s = moments.sums;

@@ -68,7 +68,7 @@ inline Pose2 Carried(const Pose2& X_AR, const Pose2& X_BR, const Pose2& X_BL) {
 }
 
 /// Returns the pose turned about a place by `angle_rad`, positive from +x towards +y; bit for bit
-/// as it was where that is 0.
+/// as it was where that is 0, so that a believed pan angle of 0 changes no drive.
 inline Pose2 TurnedAbout(const Pose2& pose, double x_m, double y_m, double angle_rad) {
   if (angle_rad == 0.0) return pose;
   return Carried({x_m, y_m, angle_rad}, {x_m, y_m, 0.0}, pose);

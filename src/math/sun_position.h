@@ -8,6 +8,9 @@
 // sin(delta) = sin(obliquity) sin(Ls), with an obliquity of 25.19 deg (Allison and McEwen 2000).
 // Limits: true solar time runs evenly, at 24 hours a sol; within a sol the season stands still, and
 // refraction (0.01 deg at most on Mars) is left out.
+//
+// The simulated sky and the almanac of the rover are both this: the rover errs about its sun sensor
+// and its tilt, never about where the sun stands. Solar power follows the same law.
 #pragma once
 
 #include <cmath>

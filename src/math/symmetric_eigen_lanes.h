@@ -46,7 +46,7 @@ LaneVector<Number> Normalized(const LaneVector<Number>& v) {
 }
 
 // Returns the unit vector v of a matrix k v v^T, k > 0: its column with the largest diagonal
-// element.
+// element. Of equal ones z goes first, then x: normals of planes, and so drives, hang on it.
 template <typename Number>
 LaneVector<Number> AxisOf(const SymmetricMatrix<Number>& m) {
   const auto use_x = (m.xx > m.zz) & (m.xx >= m.yy);

@@ -11,7 +11,8 @@
 namespace rockyard::messages {
 
 /// The moment at which data of an aid were taken, which may arrive much later. Counts from 0 in a
-/// drive; each moment has a number of its own.
+/// drive; each moment has a number of its own, larger than those before: estimators take the order
+/// of numbers for the order in time.
 using CaptureNumber = std::int64_t;
 
 /// A measured pose: a lander's fix, the sun's azimuth, an operator. Coordinates that were not

@@ -1,6 +1,8 @@
 /// @file
 /// What the rover believes of its own geometry. On-board code uses these copies; the simulated
-/// hardware has its own, so that a scenario can make a calibration wrong on purpose.
+/// hardware has its own, so that a scenario can make a calibration wrong on purpose. Each is made
+/// in one place, from the truth and the errors that the scenario states, so that all parts of one
+/// rover believe the same.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 /// @file
-/// A camera of whatever sensor: where it sits, what its lens does, how large its image is.
+/// A camera of whatever sensor: where it sits, what its lens does, how large its image is. What
+/// renders images and what looks into them on board count pixels by it alike.
 #pragma once
 
 #include "math/pose.h"

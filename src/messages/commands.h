@@ -16,7 +16,8 @@ enum class MotionKind {
   kTurnInPlace,  ///< rotate about the chassis centre
 };
 
-/// A motion that lasts until the next command. On-board code ends it by what it measures.
+/// A motion that lasts until the next command. On-board code ends it by what it measures. Every
+/// member takes part in ==, by which a repeated command is told from a new move.
 struct MotionCommand {
   MotionKind kind = MotionKind::kStop;
   double curvature_per_m = 0.0;  ///< kArc: positive turns left; where the command is first given
@@ -38,7 +39,8 @@ struct MotionCommand {
 struct WheelCommand {
   PerWheel<double> rate_rad_s{};  ///< positive rolls forward
   PerWheel<double> steer_rad{};   ///< positive steers left (about +z)
-  /// When others are known to follow, s: the next tick, along a clothoid.
+  /// When others are known to follow, s: the next tick, along a clothoid. The quasi-static rover
+  /// plans no farther ahead than this.
   double held_s = std::numeric_limits<double>::infinity();
 };
 

@@ -103,7 +103,8 @@ struct HazardReport {
   }
 };
 
-/// Corners of a way in the world frame, the first one to drive to first; the last one is the goal.
+/// Corners of a way in the frame in which goals are told, the first one to drive to first, without
+/// the start; the last one is exactly the goal, which a follower replaces where the goal moves.
 /// Empty: there is no way.
 struct Route {
   std::vector<Goal> corners;

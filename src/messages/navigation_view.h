@@ -1,6 +1,7 @@
 /// @file
 /// What a map-based navigator shows of a decision: the diagnostic image of Goldberg 2002, figure 3,
-/// as data. For people; nothing on board reads it.
+/// as data. A NavigationView is for people and nothing on board decides by it; of its parts,
+/// splines and votes are also what GESTALT itself chooses among.
 #pragma once
 
 #include <cstddef>

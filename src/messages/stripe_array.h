@@ -18,7 +18,8 @@ namespace rockyard::messages {
 
 /// Rows of the published array.
 inline constexpr std::size_t kStripeRows = 4;
-/// Stripes of the published array, and the largest array.
+/// Stripes of the published array, and the largest array: parameters of sensor and hazard array are
+/// bounded by it.
 inline constexpr std::size_t kStripes = 5;
 inline constexpr std::size_t kMaxStripeRows = 7;
 inline constexpr std::size_t kMaxStripes = 9;

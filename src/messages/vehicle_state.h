@@ -22,7 +22,7 @@ struct Articulation {
 };
 
 /// Strips that close where something presses on the edge of the solar panel or on the leading edge
-/// of the undercarriage.
+/// of the undercarriage. False touches are drawn strip by strip in this order.
 enum class ContactSwitch : std::size_t {
   kFrontLeft,
   kFrontCentre,

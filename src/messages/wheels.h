@@ -10,7 +10,8 @@ namespace rockyard::messages {
 /// How many wheels there are.
 inline constexpr std::size_t kWheelCount = 6;
 
-/// A wheel, by side and axle.
+/// A wheel, by side and axle. Code relies on this order: the side is the number / 3, left first,
+/// the axle the number % 3 from the front.
 enum class Wheel : std::size_t {
   kLeftFront,
   kLeftMiddle,

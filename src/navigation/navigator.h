@@ -1,6 +1,7 @@
 /// @file
 /// The interface of every path selection algorithm. A navigator sees measurements and estimates
-/// only.
+/// only. Wrappers (waypoints, the reaction to being stuck) are navigators around another one: what
+/// is added to the interface has to be passed on by each of them.
 #pragma once
 
 #include <cstdint>

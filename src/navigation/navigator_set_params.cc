@@ -7,6 +7,8 @@ namespace {
 
 using core::Setting;
 
+// What else the group holds (NavigationParams of trial/drive_params.h): no navigator may take one
+// of these names.
 constexpr std::array<std::string_view, 3> kOtherKeys{"on_board_stuck", "on_slip", "wheel_driver"};
 
 }  // namespace

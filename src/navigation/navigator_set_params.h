@@ -86,7 +86,8 @@ class NavigatorSet : public core::KindSet<NavigatorKind> {
   };
 };
 
-/// The one list of them: pathfinder (chosen), gestalt, route.
+/// The one list of them: pathfinder (chosen), gestalt, route. Scenarios that name none drive with
+/// the first. Scenario files and stored runs hold the names, so that these stay.
 NavigatorSet StandardNavigators();
 
 }  // namespace rockyard::navigation

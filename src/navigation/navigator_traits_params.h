@@ -1,5 +1,7 @@
 /// @file
-/// What the rest of a trial has to know of a navigator beside its decisions.
+/// What the rest of a trial has to know of a navigator beside its decisions. A drive goes by these
+/// and by no navigator's name: its conditions, the time that a decision takes, what is made of a
+/// look. One that a program adds works in the same way.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// What a rover does that notices that it is stuck, or whose check of slip raises an alarm.
+// What a rover does that notices that it is stuck, or whose check of slip raises an alarm. The
+// defaults add no manoeuvre to those of the papers.
 #pragma once
 
 #include <array>

@@ -12,7 +12,8 @@
 
 namespace rockyard::navigation {
 
-// Follows the command that it is given at each tick, by the odometer:
+// Stands between the navigator, whichever it is, and the wheel driver. Follows the command that it
+// is given at each tick, by the odometer:
 //   curvature = c + c' s, with s what was driven since the command began,
 // at the middle of the tick, where a rover at full speed has driven v tick / 2 more: what is held
 // for a tick is off to either side alike. It stops in time: braking takes v T / 2 for a ramp of T

@@ -1,4 +1,5 @@
-// How a rover follows a route that it was given.
+// How a rover follows a route that it was given. A default decides the records of scenarios that
+// leave it out; a bound only refuses files.
 #pragma once
 
 #include "core/fields.h"

@@ -7,6 +7,8 @@ namespace rockyard::navigation {
 
 NavigatorSet StandardNavigators() {
   NavigatorSet set;
+  // The first is the default. Resolved scenarios list their groups in this order, and fingerprints
+  // hash that text.
   set.Add(DescribePathfinder());
   set.Add(DescribeGestalt());
   set.Add(DescribeRouteFollower());

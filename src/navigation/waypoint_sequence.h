@@ -1,6 +1,7 @@
 // Any navigator, driven from waypoint to waypoint: where it says that it is at one, it is given the
 // next. The last of them is the goal of the drive. Everything else that the navigator says passes
-// through. Draws no random numbers.
+// through. It is the outermost navigator of every drive, also of one with a single goal. Draws no
+// random numbers.
 #pragma once
 
 #include <cstddef>

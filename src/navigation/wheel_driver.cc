@@ -42,7 +42,7 @@ double SteeringAngle(const PlanarVelocity& velocity) {
   return angle;
 }
 
-// Whether they lead to the same set points.
+// Whether they lead to the same set points: compares all that SteadyWheelCommand reads of a motion.
 bool Same(const MotionCommand& a, const MotionCommand& b) {
   return a.kind == b.kind && a.curvature_per_m == b.curvature_per_m && a.direction == b.direction &&
          a.speed_share == b.speed_share;
@@ -121,6 +121,8 @@ WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
     // The wheel then stands the offset away from the angle that the rover believes in.
     if (calibration_.steered[i]) command.steer_rad[i] += calibration_.steering_offset_rad;
   }
+  // Along a clothoid the next tick has other set points, which a rover model with long steps needs
+  // to know.
   if (motion.curvature_rate_per_m2 != 0.0) command.held_s = duration_s;
   return command;
 }

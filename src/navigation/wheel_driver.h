@@ -12,7 +12,7 @@ namespace rockyard::navigation {
 // about the common centre of rotation: for an arc of curvature c that is (0, 1/c) in R, for a turn
 // in place the origin. Unsteered wheels take the forward component of their velocity. The fastest
 // rim moves at speed_share times max_wheel_speed_m_s. Steering angles beyond max_steer_rad are
-// clamped.
+// clamped. `calibration` is what the rover believes of its wheels, not what they are.
 messages::WheelCommand SteadyWheelCommand(const messages::MotionCommand& motion,
                                           const messages::DriveCalibration& calibration);
 

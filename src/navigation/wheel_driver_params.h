@@ -1,4 +1,6 @@
-// Parameters of the wheel driver.
+// Parameters of the wheel driver, with what the rover believes of its steering motors: the true
+// rate is that of rover.drive. A default decides the records of scenarios that leave it out; a
+// bound only refuses files.
 #pragma once
 
 #include "core/fields.h"

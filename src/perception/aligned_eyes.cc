@@ -61,6 +61,7 @@ AlignedEyes::Eye AlignedEyes::MakeEye(const vision::CameraModel& reduced,
                                       const Image<std::uint8_t>& free) const {
   Eye eye{std::nullopt, ReducedMask(free, pyramid_level_)};
   const vision::Cahv* linear = std::get_if<vision::Cahv>(&reduced.lens);
+  // Cameras that are aligned already are left as they are: resampling would blur.
   if (linear != nullptr && *linear == aligned && reduced.size == pair_.size) return eye;
   constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
   Image<vision::SourcePosition> positions(pair_.size.columns, pair_.size.rows,

@@ -13,6 +13,10 @@
 namespace rockyard::perception {
 
 // Images are reduced by 2^level and resampled where the cameras are not aligned as they are.
+//
+// Stereo and visual odometry see through it, in drives and in recorded pairs. `rig` is what the
+// rover believes of its cameras; the images are those of the true ones, which may have drifted.
+// Pixels that are not free are not blanked: whoever matches leaves them out.
 class AlignedEyes {
  public:
   // Throws core::UserError where the cameras cannot be aligned.

@@ -1,5 +1,7 @@
 // How wrong the rover is about its own geometry. All zero by default: on-board code then works with
 // the truth. Every error is what the rover believes less what is true, except steering_offset_rad.
+// A trial joins truth and errors in one place (trial/eyes/onboard_calibration.h), from which all
+// that computes on board takes its geometry; sensors and physics keep the true one.
 #pragma once
 
 #include <array>

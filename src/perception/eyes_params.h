@@ -1,4 +1,5 @@
 // Parameters of on-board stereo, of what is made of its points, and of motions that are seen.
+// Defaults decide records and baselines of drives by stereo; bounds only refuse files.
 #pragma once
 
 #include <array>

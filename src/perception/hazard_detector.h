@@ -1,5 +1,6 @@
 // The three hazard criteria of Matthies 1995, section 6, on one scan, and the agreement of two
-// scans.
+// scans. Drives, studies of the sensor and replays all judge scans here, so that a study measures
+// what drives do, and a page shows what the rover found.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,6 @@
-// Parameters of hazard detection with the light stripe sensor (Matthies 1995, section 6).
+// Parameters of hazard detection with the light stripe sensor (Matthies 1995, section 6), or with
+// stereo points that are binned to an array like its own (cloud_elevations.h). The paper gives the
+// criteria and one threshold; what is assumed says so. Defaults decide records and baselines.
 #pragma once
 
 #include <array>

@@ -121,7 +121,8 @@ Score ScoreOf(const StripeSearch& search, const StripePeak& peak, PeakChoice cho
 
 // Best assignment of the first lasers to the first peaks, for all numbers of both. Dynamic
 // programming over pairs in order, as in the alignment of two sequences: an entry (l, p) is the
-// best of leaving peak p unused, leaving laser l unseen, and matching both.
+// best of leaving peak p unused, leaving laser l unseen, and matching both. On a tie the earlier of
+// these stays, so that of two peaks that are equally good for a laser the left one is taken.
 class BestAssignments {
  public:
   BestAssignments(std::span<const StripeSearch> searches, std::span<const StripePeak> peaks,

@@ -1,4 +1,6 @@
-// Parameters of the program that finds light stripes in images (Matthies 1995, section 6).
+// Parameters of the program that finds light stripes in images (Matthies 1995, section 6). Only the
+// image fidelity of the sensor asks for them; errors of the geometric one may be fitted to what
+// this program finds (fit_stripe_errors.py).
 #pragma once
 
 #include <array>

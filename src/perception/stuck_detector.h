@@ -5,8 +5,8 @@
 //   no turn: the wheels were told to turn the rover by min_told_turn or more, and the gyro has
 //            measured less than min_turn_share of that, the way it was told;
 //   strain:  strained_wheels drive motors or more have each measured strain_current for
-//   strain_share
-//            of the window, where the rover measures its motor currents (sensors.vehicle).
+//            strain_share of the window, where the rover measures its motor currents
+//            (sensors.vehicle).
 //
 // What the wheels are told: with u_i the forward part of wheel i's rim and y_i its place,
 // u_i = v - w y_i about any common centre of rotation, so that the turn rate w is the slope of u

@@ -19,7 +19,8 @@ class Triangulator {
   // Returns the elevations above the datum plane of the calibration, along R's z, m.
   messages::ElevationScan Elevations(const messages::StripeScan& scan) const;
 
-  // Returns the elevation at one column of one point's scanline.
+  // Returns the elevation at one column of one point's scanline: the height of Point above the
+  // datum plane, by a closed form where the scanline is a plane, as searches ask for many columns.
   messages::ElevationPoint Elevation(std::size_t row, std::size_t stripe, double column_px) const;
 
   // Returns where that column shows its stripe, p_RoP_R; none where Elevation is no detection.

@@ -36,7 +36,8 @@ struct WheelTurns {
   messages::PerWheel<double> turned_rad{};
 };
 
-// What the rover feels after an on-board tick.
+// What the rover feels after an on-board tick. `by_kind` follows VehicleHazardKind, whose order is
+// that in which the rover gets away from hazards (HazardToAvoid).
 struct FeltHazards {
   std::array<std::optional<messages::VehicleHazard>, messages::kVehicleHazardKindCount> by_kind;
   bool touches_behind = false;  // whatever else is touched

@@ -50,6 +50,9 @@ struct MeasuredSlip {
 // and the limit is exceeded where slip - sigma sd > limit. Nothing where r is below min_way_m: a
 // turn in place has no slip of that kind, and a short way is noise. The wheels' own noise is part
 // of what is measured. Negative where a rover slides on.
+//
+// The experimenter asks the same with the true way and no covariance, to tell when slip truly began
+// and which alarms were right: both have to be one law.
 std::optional<MeasuredSlip> SlipOf(const Eigen::Vector2d& rolled_F,
                                    const messages::RelativeMotion& seen,
                                    const SlipCheckParams& params);

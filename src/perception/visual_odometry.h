@@ -27,6 +27,7 @@ class VisualOdometry {
     return odometer_.Add({eyes_.Left(left), eyes_.Right(right)}, predicted);
   }
 
+  // Begins a new path with the next pair, as when the rover was moved by hand.
   void Renew() { odometer_.Renew(); }
 
   const vision::RectifiedPair& pair() const { return eyes_.pair(); }

@@ -15,6 +15,9 @@ namespace rockyard::rendering {
 // takes 16 bits of it through a table of the inverse cumulative function at the middles of 65536
 // equally likely cells. The numbers are therefore discrete, symmetric, at most 4.3 in size, and
 // have the variance 0.99995; what averages tens of pixels cannot tell. Cost: about 3 ns each.
+//
+// Images, textures and the stereo error model all draw from it, by place and never in turn: its
+// table and the layout of its counter are part of their records.
 class PixelNoise {
  public:
   static constexpr int kBlock = 8;

@@ -15,7 +15,7 @@ using math::Vector3;
 
 // Rays end here: far ground shows no detail.
 constexpr double kFarthest_m = 100.0;
-// Rough ground further than this towards the sun casts no shadow.
+// Rough ground further than this towards the sun casts no shadow: as far as in sun_shadows.cc.
 constexpr double kGroundShadow_m = 2.0;
 
 double Reach(const terrain::Rock& rock) { return rock.semi_axes_m.maxCoeff() + kRounding_m; }

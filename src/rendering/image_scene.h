@@ -1,4 +1,5 @@
-// What a viewing ray meets, what shades it, and what a lamp reaches.
+// What a viewing ray meets, what shades it, and what a lamp reaches: for images line by line, as of
+// the light stripe sensor. Pictures of the terrain have picture/picture_scene.h.
 #pragma once
 
 #include <span>

@@ -1,4 +1,6 @@
-// Parameters of what turns light into numbers: lens, filter, imager, exposure control.
+// Parameters of what turns light into numbers: lens, filter, imager, exposure control. Defaults are
+// those of the light stripe sensor's camera; a camera of another kind starts from values of its own
+// (picture/picture_params.h). Only images depend on them: no error model does.
 #pragma once
 
 #include <array>

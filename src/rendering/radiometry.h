@@ -1,4 +1,5 @@
-// From light to electrons: the sun in the passband, and the camera equation.
+// From light to electrons: the sun in the passband, and the camera equation. Stripe images,
+// pictures of the terrain and colour images of the cylinder share them.
 #pragma once
 
 #include <vector>

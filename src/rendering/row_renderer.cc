@@ -11,7 +11,8 @@ namespace rockyard::rendering {
 
 namespace {
 
-// Short enough for a narrow cone, long enough to be worth a search for the rocks in it.
+// Short enough for a narrow cone, long enough to be worth a search for the rocks in it. Cones only
+// sift rocks: this decides time alone.
 constexpr int kSegmentPixels = 32;
 
 ViewRow::Segment MakeSegment(const ViewRow& view, int first_edge, int last_edge) {

@@ -1,4 +1,5 @@
-// Sunlight (or a lamp) on the terrain, and how much of it the terrain sends back.
+// Sunlight (or a lamp) on the terrain, and how much of it the terrain sends back: for the images
+// and shadows of every sensor that sees terrain. The sun of the aid sensors.aids.sun is set apart.
 #pragma once
 
 #include "core/fields.h"

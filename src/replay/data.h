@@ -185,7 +185,8 @@ inline constexpr std::size_t kMaxDetailedSteps = 240;
 // every second look of the cameras at either end is there, or every third, ...
 inline constexpr std::size_t kMaxLookBytes = 1'500'000;
 
-// As src/web/replay/payload.ts says, on one line. Moments of little change are left out (see
+// On one line, as src/web/replay/payload.ts says, by which the page and the converter to MCAP
+// (src/web/mcap) read it: a member changes there too. Moments of little change are left out (see
 // motion.h), lengths have 0.1 mm, but the last moment has every digit of its pose.
 std::string ReplayJson(const ReplayData& data, const ReplayData* beside = nullptr);
 

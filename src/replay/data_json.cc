@@ -17,6 +17,7 @@ namespace {
 using core::JsonList;
 using core::JsonObject;
 
+// Pages read numbers as doubles, to which larger integers lose digits.
 constexpr std::uint64_t kMaxExactInteger = std::uint64_t{1} << 53;
 
 std::string RecordText(const ReplayData& data) {

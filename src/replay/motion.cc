@@ -126,7 +126,8 @@ using core::JsonList;
 using core::JsonNumber;
 using core::JsonObject;
 
-// In the order of the indices that a page holds.
+// In the order of the indices that a page holds: all that trial/drive/drive_tracer.cc names. One
+// that is missing here would be shown as the activity before it.
 constexpr std::array<std::string_view, 8> kActivities{"drive", "turn",  "steer",   "scan",
                                                       "stall", "image", "compute", "overhead"};
 

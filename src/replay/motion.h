@@ -1,4 +1,4 @@
-// Which moments of a drive a replay needs.
+// Which moments of a drive the page of a replay needs. Trace files (trace_npz.h) keep all of them.
 #pragma once
 
 #include <cstddef>

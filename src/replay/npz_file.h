@@ -25,8 +25,8 @@ class NpzFile {
   // An array without dimensions.
   void AddText(std::string_view name, const std::string& text);
 
-  // The file: the same bytes for the same arrays, whenever and wherever. Throws std::runtime_error
-  // where memory ends.
+  // The file: the same bytes for the same arrays, whenever and wherever it is made. Throws
+  // std::runtime_error where memory ends.
   std::string Bytes() const;
 
  private:

@@ -47,6 +47,7 @@ using messages::MapCellView;
 using messages::MotionVote;
 using messages::SplineVote;
 
+// Of the arrays that README.md of this folder lists, which programs of others read by name.
 constexpr int kFormatVersion = 1;
 constexpr std::int64_t kUnknownCell = -1;
 
@@ -217,6 +218,7 @@ void AddMaps(std::span<const ReplayStep> steps, NpzFile& file) {
       certainty.push_back(cell.known ? std::int64_t{cell.certainty} : kUnknownCell);
     }
   }
+  // The maps of a trial have one size, or they would be no array.
   NpzFile::Shape shape{steps.size(), 0, 0};
   if (!steps.empty()) {
     shape[1] = static_cast<std::size_t>(steps.front().view.map.ny);

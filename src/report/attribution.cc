@@ -38,6 +38,8 @@ std::vector<std::size_t> AblationAxes(const Sweep& sweep) {
   return axes;
 }
 
+// The levels of an axis of ablations are "off" and "on" (scenario/sweep_axes.cc), and a grid has
+// every combination of them.
 Combination CombinationOf(const scenario::SweepCell& cell, std::span<const std::size_t> axes) {
   Combination combination = 0;
   for (std::size_t i = 0; i < axes.size(); ++i) {

@@ -1,5 +1,6 @@
 // Baselines: what a campaign gave, kept in the repository so that later builds can be held against
-// it.
+// it (`rockyard check`). Later builds read what earlier ones wrote: letters of outcomes and names
+// of metrics keep their meaning, and a new outcome gets a letter of its own.
 #pragma once
 
 #include <cstdint>

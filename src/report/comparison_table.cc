@@ -110,6 +110,7 @@ std::string Changed(const ComparisonResult& result, std::string_view scenario) {
 
 std::string Footnotes(const ComparisonResult& result) {
   std::vector<std::string> notes = ComparisonNotes(result);
+  // Behind what columns and verdicts mean, which ComparisonNotes says in its first three.
   notes.insert(notes.begin() + 3, kMarks);
   std::string text;
   for (const std::string& note : notes) text += Wrap(note, 0);

@@ -56,7 +56,8 @@ std::string Shown(std::string_view text, const Replace& replace) {
   return safe;
 }
 
-// The escape character alone: what follows it is shown as it is.
+// The escape character alone: what follows it is shown as it is. These are all that reports and
+// commands write themselves; another one would come out as '?'.
 bool BeginsColour(std::string_view text) {
   constexpr std::array<std::string_view, 5> kColours = {"\x1b[0m", "\x1b[1m", "\x1b[31m",
                                                         "\x1b[32m", "\x1b[33m"};

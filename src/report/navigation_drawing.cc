@@ -152,7 +152,8 @@ std::string BytePanel(std::string_view title, const MapPanel& panel, double left
          });
 }
 
-// Candidates from the leftmost to the rightmost turn.
+// Candidates from the leftmost to the rightmost turn; the view has them the other way round
+// (messages/navigation_view.h).
 std::vector<const MotionVote*> LeftToRight(const std::vector<MotionVote>& votes) {
   std::vector<const MotionVote*> ordered;
   ordered.reserve(votes.size());

@@ -48,6 +48,7 @@ std::vector<Pair> Pairs(const ComparedRun& first, const ComparedRun& second) {
   std::map<std::size_t, std::size_t> in_first;
   std::map<std::size_t, std::size_t> in_second;
   std::vector<Pair> pairs;
+  // Records are contiguous prefixes: place i is trial i of both.
   const std::size_t common = std::min(first.records.size(), second.records.size());
   for (std::size_t i = 0; i < common; ++i) {
     const Record& a = first.records[i];
@@ -62,6 +63,7 @@ std::vector<Pair> Pairs(const ComparedRun& first, const ComparedRun& second) {
   return pairs;
 }
 
+// Trials of one layout follow each other (trial/course/layout.h), so that neighbours tell.
 bool ShareGroups(const std::vector<Pair>& pairs) {
   return std::adjacent_find(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
            return a.group == b.group;

@@ -1,5 +1,6 @@
 // What a pinhole camera sees of points, surfaces and convex bodies; the map of a navigator as a
-// surface, as its rover believes to stand before it.
+// surface, as its rover believes to stand before it. For drawings alone: what a rover sees comes
+// from other cameras (vision/cameras).
 #pragma once
 
 #include <array>

@@ -12,6 +12,7 @@
 #include "core/fields.h"
 #include "statistics/published_values.h"
 
+// In the order of the enums. Files in results/reference spell these names and the keys below.
 template <>
 struct rockyard::core::EnumNames<rockyard::statistics::StatisticKind> {
   static constexpr std::array<std::string_view, 15> kNames{

@@ -1,4 +1,6 @@
 // The files of a run folder that are derived from its store; the records of a run as tables.
+// The name of a new file belongs into the list of campaign/open_run.cc too, by which --force sets
+// the files of a run aside.
 #pragma once
 
 #include <array>
@@ -41,7 +43,7 @@ statistics::MeasurementSummary WriteMeasurementFiles(const std::filesystem::path
                                                      statistics::IntervalMethod method);
 
 // trials.csv: one line per record, trial, outcome, every value (the names carry the units; empty
-// where undefined), and the sentence that says why it ended. Memory: a line.
+// where undefined), the cause, and the sentence that says why it ended. Memory: a line.
 void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,
                const TextSink& out);
 

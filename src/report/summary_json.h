@@ -42,8 +42,8 @@ std::string MeasurementJson(const RunDescription& run,
 // cpu_level, cpu_threads.
 core::JsonValue ProvenanceJson(const core::Provenance& provenance);
 
-// scenario.resolved.json: {"scenario": every effective value, "fingerprint", "provenance"}. The
-// command line reads it wherever it reads a scenario.
+// scenario.resolved.json: {"scenario": every effective value, "fingerprint", "settings",
+// "provenance"}. The command line reads it wherever it reads a scenario.
 std::string ResolvedScenarioJson(const RunDescription& run);
 
 // What a report says where the mean of a metric has no interval; JSON values that several result
@@ -55,14 +55,15 @@ std::string ReasonOf(const statistics::MeanEstimate& estimate);
 
 // A metric over some trials: {count, mean, ci95} and, where it is no rate, {ci_reason (where ci95
 // is null), median, median_ci95, min, max, std, usual, share_apart {count, rate, ci95}}: the
-// commonest value, and the trials that have another one, exact. ci_method says how ci95 is made:
-// wilson, clopper_pearson or skewed_t (statistics/sample_statistics.h); null where there is none.
+// commonest value, and the trials that have another one, exact. ci_method says how ci95 is made: of
+// a rate statistics::MethodName, of a mean skewed_t (statistics/sample_statistics.h); null where
+// there is none.
 core::JsonValue MetricJson(const statistics::MetricSummary& summary);
 
 // {count, trials, rate, ci95, ci_method}.
 core::JsonValue RateJson(const statistics::Proportion& rate);
 
-// Of summary.json and its like.
+// Of summary.json and its like, which programs of others read: members are only ever added.
 inline constexpr int kSchemaVersion = 2;
 
 }  // namespace rockyard::report

@@ -25,7 +25,7 @@ struct SweepDescription {
 // every outcome, for declared and true success: rate, 95 % interval, and the interval that holds
 // for all cells at once; hash; pending trials and failures of the machine; and with a stopping rule
 // where it ended the cell ("precise", "max_trials", "budget", "open"), after how many trials, and
-// the interval of declared success there.
+// the interval of declared success there; the drives that a limit ended.
 std::string SweepCellsCsv(const scenario::Sweep& sweep, const SweepSummary& summary);
 
 // curves.csv: one line per cell and metric (statistics/metrics.h): cell, the axes, metric, unit, n,
@@ -54,8 +54,8 @@ std::string SweepSvg(const scenario::Sweep& sweep, const SweepSummary& summary);
 std::string SweepText(const scenario::Sweep& sweep, const SweepSummary& summary,
                       const SweepDescription& description, TextStyle style);
 
-// summary.json of a sweep: schema_version, kind "sweep", name, design, seed, common_random_numbers,
-// axes, trials (planned, stored, completed, faults), accounting, cells (with the rule and where it
+// summary.json of a sweep: schema_version, kind "sweep", name, seed, common_random_numbers, axes,
+// trials (planned, stored, completed, faults), accounting, cells (with the rule and where it
 // ended each), fits, differences, attribution, notes,
 // trial_hash, provenance. What is undefined or infinite is null.
 core::JsonValue SweepValue(const scenario::Sweep& sweep, const SweepSummary& summary,
@@ -63,8 +63,10 @@ core::JsonValue SweepValue(const scenario::Sweep& sweep, const SweepSummary& sum
 std::string SweepJson(const scenario::Sweep& sweep, const SweepSummary& summary,
                       const SweepDescription& description);
 
-// Writes sweep.json, summary.json and all files above, each whole or not at all. Throws
-// core::UserError where one cannot be written.
+// Writes sweep.json, summary.json, all files above and, where there is one, attribution.csv
+// (attribution.h), each whole or not at all. Throws core::UserError where one cannot be written.
+// The name of a new file belongs into the list of campaign/open_run.cc too, by which --force sets
+// the files of a run aside.
 void WriteSweepFiles(const std::filesystem::path& folder, const scenario::Sweep& sweep,
                      const SweepSummary& summary, const SweepDescription& description);
 

@@ -27,6 +27,7 @@ using statistics::FitScale;
 using statistics::FitStatus;
 using statistics::LogisticFit;
 
+// In the order of the columns x90 and x50 of fits.csv, and of the text's.
 constexpr std::array<double, 2> kCrossingRates{0.9, 0.5};
 constexpr int kFitPoints = 61;
 

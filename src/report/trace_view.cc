@@ -103,7 +103,8 @@ using truth::Trace;
 using truth::TraceEvent;
 using truth::TraceSample;
 
-// Path length counts chords of this size, as records do: jitter is no travel.
+// Path length counts chords of this size: jitter is no travel. Records have the same size
+// (trial/counters/drive_monitor.h), so that the lines of a story add up to about its distance.
 constexpr double kChord_m = 0.01;
 constexpr double kToldTurn_deg = 1.0;
 constexpr double kToldDrive_m = 0.05;

@@ -65,7 +65,8 @@ double GoalDistanceOrInfinity(const truth::Record& record, std::optional<std::si
 
 // At most `most` failed trials, those that ended furthest from the goal (true_goal_distance_m)
 // first (where that is unknown, before all others), ties by trial number. By trial number alone
-// where the schema has no such column.
+// where the schema has no such column. Equal records give equal trials, so that a run that is gone
+// on with writes the traces that are missing.
 std::vector<std::uint64_t> WorstTrials(const truth::RecordSchema& schema,
                                        std::span<const truth::Record> records, std::size_t most);
 

@@ -1,4 +1,5 @@
-// Where a wheel touches ground that may bend more sharply than its rim.
+// Where a wheel touches ground that may bend more sharply than its rim: the same for both
+// fidelities.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,8 @@ struct GroundTouch {
   double gap_m = 0.0;
 };
 
-// One touch, or two where a wheel stands between the flanks of a ditch, the one farther back first.
+// One touch, or two where a wheel stands between the flanks of a ditch, the one farther back first:
+// by this order each keeps its load from step to step.
 struct GroundTouches {
   std::array<GroundTouch, 2> touches;
   std::size_t count = 1;
@@ -118,6 +120,7 @@ GroundTouches FindGroundTouches(const terrain::Ground& ground, const math::Vecto
   }
   GroundTouches result{{TouchAlong(ground, below_W, support), {}}, 0};
   for (std::size_t i = 1; i < 2 * kPlaces; ++i) {
+    // Of equal neighbours the last one counts, so that a level stretch is one place.
     if (heights_m[i] > heights_m[i - 1] || heights_m[i] >= heights_m[i + 1]) continue;
     const double angle_rad = kStep_rad * (static_cast<double>(i) - kPlaces);
     const GroundTouch touch = rim.At(rim.Least(angle_rad - kStep_rad, angle_rad + kStep_rad));

@@ -15,6 +15,7 @@ std::unique_ptr<Rover> MakeRover(const RoverParams& params, const terrain::Terra
 std::unique_ptr<Rover> MakeRover(const RoverParams& params,
                                  const terrain::RockHoldingParams& holding,
                                  terrain::Terrain& terrain) {
+  // Scenarios with another fidelity have been refused before.
   EXPECT(params.fidelity == Fidelity::kMultibody);
   return std::make_unique<RockerBogie>(params, holding, terrain);
 }

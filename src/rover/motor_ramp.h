@@ -26,7 +26,8 @@ class MotorRamp {
   // The motors stand.
   void Reset() { rate_rad_s_.fill(0.0); }
 
-  // Returns the rates of the next step of `step_s` of real time.
+  // Returns the rates of the next step of `step_s`. Where physics.time_scale makes the motion
+  // faster, this is time of the physics and the rates are still those of real time.
   MotorRates Advance(const messages::PerWheel<double>& commanded_rad_s, double step_s);
 
  private:

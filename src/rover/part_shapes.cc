@@ -13,7 +13,7 @@ using truth::BodyPart;
 
 // Rounding of the wheels' edges as a share of the width, and of chassis and panel, m. Contacts are
 // found between cores, so a margin must exceed any penetration (some 1 mm).
-constexpr double kWheelRounding = 0.25;
+constexpr double kWheelRounding = 0.25;  // as WheelShape in quasi_static/wheel_rock_gap.cc
 constexpr double kBoxRounding_m = 0.01;
 
 // A capsule of that radius about the line from a to b, in the frame of the body.
@@ -94,6 +94,7 @@ std::vector<Part> MakeParts(const RoverGeometryParams& params) {
   std::vector<Part> parts;
   AddWheels(params, parts);
   AddArms(params, parts);
+  // The panel is as thick as in BodyBoxes (rover_layout_params.h), which hide the view of sensors.
   const double panel_z_m = params.height_m - 2.5 * kBoxRounding_m;
   const Vector3 belly(0.5 * params.belly_length_m, 0.5 * params.belly_width_m, 0.0);
   const Vector3 panel(0.5 * params.length_m, 0.5 * params.width_m, 0.0);

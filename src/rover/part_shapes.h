@@ -43,11 +43,11 @@ struct Part {
   double bounding_radius_m;
 };
 
-// Makes the parts, wheels first, in the order of messages::Wheel. Wheels are cylinders with rounded
-// edges. Arms are capsules along the lines pivot to pivot, pivot to knee and, as strut beside the
-// wheel, knee to hub; hubs are balls at the inner face of each wheel, the panel is a slab of the
-// overall length and width on top. Corners of chassis and panel stand for those two against ground
-// and walls.
+// Makes the parts, wheels first, in the order of messages::Wheel: users take the index of a wheel's
+// part for the wheel. Wheels are cylinders with rounded edges. Arms are capsules along the lines
+// pivot to pivot, pivot to knee and, as strut beside the wheel, knee to hub; hubs are balls at the
+// inner face of each wheel, the panel is a slab of the overall length and width on top. Corners of
+// chassis and panel stand for those two against ground and walls.
 std::vector<Part> MakeParts(const RoverGeometryParams& params);
 
 // Returns the point of the core nearest to p, both in the frame of the body.

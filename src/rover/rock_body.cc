@@ -22,7 +22,8 @@ RockBody::RockBody(const terrain::Rock& rock)
 
 double RockBody::DistanceBound(const Vector3& p_W) const {
   // Division by the semi-axes a maps the ellipsoid onto the unit sphere and shrinks no length by
-  // more than 1 / min(a), so distance >= (|p / a| - 1) min(a) for points outside.
+  // more than 1 / min(a), so distance >= (|p / a| - 1) min(a) for points outside. A cap lies within
+  // the ellipsoid of its semi-axes, so that the bound holds for it as well.
   const Vector3 u = ToLocal(p_W - center_W_).cwiseProduct(inverse_axes_per_m_);
   return (u.norm() - 1.0) * smallest_axis_m_;
 }

@@ -1,4 +1,8 @@
 // A simulated rover on a terrain: truth moves in answer to wheel commands.
+//
+// Every record of a drive hangs on the last bit of this motion: another constant, order of contacts
+// or order of sums is a change of results, which kept hashes of trials show. Both fidelities answer
+// to the same parameters, and tests hold one against the other.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,8 @@
 // Frame R: x forward, y left, z up, origin on the ground under the chassis centre while the rover
 // stands on level ground. The pivots of Rocky 3.2 are not public: the defaults take the widths of
 // wheels and belly and the height of the rocker's pivot from Rocky 7, whose wheels have the same
-// size, and spread the wheels over the published length. Each is marked as assumed, with a range.
+// size, and spread the wheels over the published length. Each is marked as assumed, with a range. A
+// default decides the records of every scenario that leaves it out; a bound only refuses files.
 #pragma once
 
 #include <array>

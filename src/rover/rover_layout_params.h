@@ -28,7 +28,8 @@ struct RoverGeometry {
 // Spreads the wheels over the wheelbase and puts the bogies at the end that the parameters name.
 RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params);
 
-// Returns the true drive geometry, of which on-board code gets a copy.
+// Returns the true drive geometry. On-board code gets a copy that may be wrong, from
+// trial/eyes/onboard_calibration.h alone.
 messages::DriveCalibration MakeDriveCalibration(const RoverParams& params);
 
 // Returns the sinkage up to which the law of the rut holds, m: a sixth of the wheel's diameter
@@ -76,7 +77,9 @@ struct RoverMasses {
   BodyMass wheel;
 };
 
-// The chassis has the mass that wheels, rockers and bogies leave of the total.
+// The chassis has the mass that wheels, rockers and bogies leave of the total. Rockers, bogies and
+// wheels have their centres of mass at their joints, and wheels are alike about both axes across
+// the axle: the inverse of the mass matrix is made for that (joint_space_inertia.cc).
 RoverMasses MakeRoverMasses(const RoverParams& params);
 
 }  // namespace rockyard::rover

@@ -1,4 +1,5 @@
-// The rover as a tree of links: which turns about what, and which parts each carries.
+// The rover as a tree of links: which turns about what, and which parts each carries. Replays draw
+// it and URDF files describe it; both show the names.
 #pragma once
 
 #include <cstddef>

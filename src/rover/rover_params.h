@@ -1,4 +1,6 @@
-// Parameters of the six-wheel rocker-bogie rover. The defaults describe Rocky 3.2.
+// Parameters of the six-wheel rocker-bogie rover. The defaults describe Rocky 3.2. A default
+// decides the records of every scenario that leaves it out, and the baselines; a bound only refuses
+// files.
 #pragma once
 
 #include <array>

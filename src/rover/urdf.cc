@@ -18,7 +18,7 @@ namespace {
 using math::Vector3;
 using tinyxml2::XMLElement;
 
-// Share of a steered wheel's mass and inertia that its knuckle takes.
+// Share of a steered wheel's mass and inertia that its knuckle takes. No simulation here uses it.
 constexpr double kKnuckleShare = 0.05;
 // Rate at which passive joints are said to turn at most, rad/s: URDF wants one.
 constexpr double kPassiveRate_rad_s = 10.0;

@@ -39,6 +39,7 @@ Rut WheelRut::RutUnder(double load_N) const {
 
 Rut WheelRut::RutUnder(double load_N, double dug_slip) const {
   Rut rut = RutUnder(load_N);
+  // Without slip sinkage the law's own bits, which records of all such scenarios hang on.
   if (per_slip_ * dug_slip == 0.0) return rut;
   // Ding et al. 2010: n = n_0 + n_1 i, in Bekker's N = (3 - n)/3 b k sqrt(D) z^(n + 1/2) and
   // R = b k z^(n + 1)/(n + 1). Contact length and traction stay.

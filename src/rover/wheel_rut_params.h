@@ -1,4 +1,5 @@
 // The rut of a rigid wheel in soil: sinkage, motion resistance and largest traction by its load.
+// Both fidelities, and the condition that the soil holds a braked rover on its slope, go by it.
 //
 // Sinkage (Bekker 1969; Wong 2008 sec. 2.5): plates sink under the pressure p = k z^n with
 // k = k_c / b + k_phi, and a wheel of diameter D and width b carries

@@ -94,6 +94,7 @@ WheelSoilTable::WheelSoilTable(const WheelSoil& soil, double max_N, bool digs) :
 SoilAnswer WheelSoilTable::At(double load_N) const { return At(load_N, 0.0); }
 
 SoilAnswer WheelSoilTable::At(double load_N, double dug_slip) const {
+  // Not a number would pass the clamp below and index the table anywhere.
   if (std::isnan(load_N)) throw std::runtime_error("a wheel load is not a number");
   // Position among the nodes; loads beyond max_N are taken as max_N.
   const double at = kIntervals * std::sqrt(std::clamp(load_N / max_N_, 0.0, 1.0));

@@ -96,10 +96,11 @@ struct SoilAnswer {
   double shear_ratio;  // contact length over shear modulus; u of a slip of 1
 };
 
-// WheelSoil by interpolation, for callers that ask for every wheel many times. The table is linear
-// between nodes that lie evenly in the root of the load, and linear in the slip that the wheel has
-// dug in for (slip_sinkage.h). It is within 1 % of WheelSoil from a hundredth of max_N on; loads
-// beyond max_N are taken as max_N. A call costs 10 ns, and twice that with a slip.
+// WheelSoil by interpolation, for the quasi-static rover, which asks for every wheel many times;
+// the multibody takes WheelSoil itself. The table is linear between nodes that lie evenly in the
+// root of the load, and linear in the slip that the wheel has dug in for (SlipSinkage). It is
+// within 1 % of WheelSoil from a hundredth of max_N on; loads beyond max_N are taken as max_N. A
+// call costs 10 ns, and twice that with a slip.
 class WheelSoilTable {
  public:
   // With `digs` it also knows wheels that have dug in by slipping; making it takes 0.3 ms then.

@@ -19,7 +19,8 @@ constexpr std::array<Settings, 1> kPerfectDesignation{"course.designation.enable
 
 constexpr std::array<Settings, 1> kPerfectLocalization{"localization.estimator=oracle"};
 
-// Whole groups are emptied, so that their defaults hold, which are no errors.
+// Whole groups are emptied, so that their defaults hold, which are no errors. An error that a
+// terrain sensor gets outside of these groups has to be listed here.
 constexpr std::array<Settings, 13> kPerfectSensing{
     "sensors.light_stripe.fidelity=geometric",    "sensors.light_stripe.columns=16384",
     "sensors.light_stripe.column_noise_px=0",     "sensors.light_stripe.missed_probability=0",

@@ -1,5 +1,5 @@
 // Named changes of a scenario that take one cause of failure away: what is left says how much that
-// cause accounts for.
+// cause accounts for. Sweep files and command lines hold the names, so that these stay.
 #pragma once
 
 #include <span>

@@ -1,5 +1,6 @@
 // Keys that had another name in earlier versions: files and settings with the former names go on
-// working.
+// working, and stored scenarios are compared by the names of today. Who renames a key of a group of
+// the top level adds it.
 #pragma once
 
 #include <string>

@@ -51,6 +51,7 @@ Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults)
   Scenario scenario = defaults;
   core::JsonValue current = document;
   RenameFormerKeys(current);
+  // Out before reading, which refuses null, and in after it, as they follow what was read.
   const auto open = TakeOpenValues(current);
   core::ReadParams(current, scenario);
   SetOpenValues(open, scenario);

@@ -38,9 +38,11 @@ std::string ResolvedJson(const Scenario& scenario);
 inline constexpr std::array<std::string_view, 4> kNoInfluence = {"name", "description", "accepted",
                                                                  "trials"};
 
-// Hash of all others.
+// Hash of all others, as ResolvedJson writes them. Stored runs go on only where it is the same: a
+// key that is added, renamed or moved changes it for every scenario, also where no record changes.
 std::uint64_t Fingerprint(const Scenario& scenario);
-// The same of ResolvedJson, read.
+// The same of ResolvedJson, read. A stored run whose scenario does not give its fingerprint counts
+// as damaged: neither the text of core::DumpJson nor core::Hasher may change.
 std::uint64_t ResolvedFingerprint(core::JsonValue resolved);
 
 // JSON Schema (draft 2020-12) of scenario files; "extends" included in every group.

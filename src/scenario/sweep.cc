@@ -20,7 +20,8 @@ namespace {
 using core::JsonValue;
 using core::Problem;
 
-// "k_per_m2=0.01,navigator=gestalt"; a listed cell has its own name.
+// "k_per_m2=0.01,navigator=gestalt"; a listed cell has its own name. Seeds are made of it, and
+// stored runs, baselines and traces know cells by it: numbers in it have to keep their digits.
 std::string NameOf(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
   if (spec.params.design.kind == DesignKind::kList) return levels.front().text;
   std::string name;

@@ -78,8 +78,8 @@ bool IsSweep(const core::JsonValue& document);
 // else that of the file; "set" of the file and the overrides; the settings of each axis, in the
 // order of the axes. A setting that is an object changes the members that it names. Its seed is
 // that of the campaign with common random numbers, so that cells can be compared in pairs; else a
-// hash of that seed and the settings of the cell, so that cells keep their trials when a design
-// grows.
+// hash of that seed and the name of the cell (its axes and levels, or what the file calls it), so
+// that cells keep their trials when a design grows.
 //
 // Every value that was asked for is read back from the resolved scenario and must be there.
 // Throws core::UserError with everything that is wrong: unknown keys, cells that are no valid
@@ -93,7 +93,8 @@ Sweep ParseSweep(std::string_view text, const SweepChanges& changes = {},
                  const std::filesystem::path& folder = ".");
 
 // Names of cells as names of files: "0007-k_per_m2_0.01.json" without its ending. Letters, digits
-// and "-._" stay, anything else becomes '_'; the number, counted from 1, keeps them apart.
+// and "-._" stay, anything else becomes '_'; the number, counted from 1, keeps them apart. Folders
+// of stored traces have these names.
 std::string CellFileName(std::size_t index, std::string_view cell_name);
 
 }  // namespace rockyard::scenario

@@ -120,6 +120,7 @@ ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& le
     CheckScope(path, cell.problems);
     ReadBack(value, cell.document, path, cell.problems);
   }
+  // Over all settings, which they may replace; WithAblations refuses one that another undoes.
   const std::vector<std::string> ablations = AblationsOf(levels);
   if (ablations.empty()) return cell;
   cell.scenario = WithAblations(cell.scenario, ablations).scenario;

@@ -14,6 +14,7 @@ namespace {
 
 using Cells = std::vector<std::vector<LevelSpec>>;
 
+// Names of cells hold these digits, and seeds are made of names: another rounding is other trials.
 double Rounded(double value) {
   const std::string text = fmt::format("{:.6g}", value);
   double rounded = value;

@@ -1,5 +1,5 @@
 // The fixed keys of sweep files. Keys that hold settings or levels, whose shape is free, are read
-// by sweep_axes.cc.
+// by sweep_axes.cc. A default decides the cells of sweep files that leave it out.
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
-// Parameters of the aids of localization.
+// Parameters of the aids of localization. All are off by default; where one is on, defaults decide
+// records. The numbers of CylinderLawParams are one fit (fit_lander_fix.py), to be changed
+// together.
 #pragma once
 
 #include <array>

@@ -17,6 +17,7 @@ namespace {
 using messages::PoseCoordinate;
 
 constexpr double kQuadrant_rad = 0.5 * std::numbers::pi;
+// Part of the fit: intercepts are log odds at this width.
 constexpr double kWidthOfIntercept_px = 20.0;
 
 bool ShowsNoBlue(double theta_rad) {

@@ -1,5 +1,6 @@
 // Aids of localization: the rover's pose as the lander's cameras find it, the direction to the sun,
-// range and bearing by radio (Matthies 1995, sections 5 and 8 and appendix A).
+// range and bearing by radio (Matthies 1995, sections 5 and 8 and appendix A). Here a measurement
+// is a pure function of pose and number; when one is due and when its data arrive is the trial's.
 #pragma once
 
 #include <cstdint>
@@ -34,9 +35,9 @@ struct CylinderDeviations {
 //
 //   chances      1 / (1 + exp(-odds)), odds = intercept + width ln(m / 20) + no_blue B
 //                + pink_aside sin(2 theta) + light sin(e)
-//   sd heading   least^2 + (pixels 2 / (m cos(delta)))^2     equations 18 and 19 at 0 and 45 deg
-//   sd range     least^2 + (pixels / m)^2                    equation 22
-//   sd bearing   least^2 + (pixels 2 tan(phi / 2) / M)^2     one pixel of the image
+//   sd^2 heading   least^2 + (pixels 2 / (m cos(delta)))^2   equations 18 and 19 at 0 and 45 deg
+//   sd^2 range     least^2 + (pixels / m)^2                  equation 22
+//   sd^2 bearing   least^2 + (pixels 2 tan(phi / 2) / M)^2   one pixel of the image
 //
 // B is 1 where no blue is seen, -180 < theta < -90 deg, else 0. Limits: light from any side; the
 // sun's elevation changes chances and no deviation; one clutter, the mix of the fitted views.

@@ -201,6 +201,8 @@ LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) con
   const Vector3 aside = laser.normal_R.cross(line.direction_R);
   const double gap = scanline.dot(camera.X_RC.translation() - laser.p_RoE_R) / scanline.dot(aside);
   line.start_R = laser.p_RoE_R + gap * aside;
+  // Rounding, where emitters are on the axis. Elsewhere the way from the emitter may be hidden too,
+  // which FindOnLine then asks.
   constexpr double kOnAxis_m = 1e-9;
   line.is_light_ray = std::abs(gap) < kOnAxis_m;
 

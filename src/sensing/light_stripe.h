@@ -61,7 +61,7 @@ class StripeErrors {
 // the scanline plane that holds the camera's lateral axis and lies row_angle[r] below its optical
 // axis; a stripe's point is the first surface along the line in which scanline plane and light
 // plane meet, starting at the emitter. Other lenses see curved surfaces, which meet the light plane
-// in a curve (scan_curve.h) that is followed in the same way, from the image border on. The point
+// in a curve (ScanCurve) that is followed in the same way, from the image border on. The point
 // is found if
 //   - light reaches it: within the fan and unobstructed from the emitter (with emitters on the
 //     cameras' lateral axis, the layout of the defaults, the line itself is the light ray),
@@ -69,7 +69,8 @@ class StripeErrors {
 //   - its column belongs to the searched part of the scanline: those of elevations between
 //     search_low and search_high.
 // The column is rounded to a whole pixel. Then the measured errors of detection are added
-// (stripe_errors.h).
+// (StripeErrors). Columns are all that it reports: elevations are made on board, by the geometry
+// that the rover believes.
 //
 // Deviations. Beam width, partly lit pixels, stray light, and the rover's own wheels are left out;
 // of several lit points on one scanline only the one nearest to the emitter counts.

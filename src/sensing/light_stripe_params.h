@@ -1,4 +1,6 @@
-// Parameters of the images of the light stripe sensor: light emitters and imager.
+// Parameters of the light stripe sensor: of its images (light emitters and imager), then of the
+// sensor itself. Defaults decide records and baselines; bounds only refuse files. Chances of errors
+// may be fitted to images (fit_stripe_errors.py) and then belong to one light and one layout.
 #pragma once
 
 #include <array>

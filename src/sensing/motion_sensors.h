@@ -112,7 +112,7 @@ class ScrapeDetector {
   double total_jump_rad_ = 0.0;
 };
 
-// Gyro, encoders and scrapes of one trial.
+// Gyro, encoders and scrapes of one trial. Steering angles are told without error.
 class MotionSensors {
  public:
   // Starts at `state`. wheel_radius_m is the true radius, m.

@@ -7,7 +7,7 @@
 namespace rockyard::sensing {
 
 // Returns chassis and solar panel as boxes and the wheels, where they are on level ground; the thin
-// arms are left out.
+// arms are left out. Images, masks and shadows of all sensors take this one shape.
 rendering::RoverBody MakeRoverBody(const rover::RoverGeometryParams& params);
 
 }  // namespace rockyard::sensing

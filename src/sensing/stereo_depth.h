@@ -115,7 +115,8 @@ using PixelFlags = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::Row
 // The terrain as a stereo pair meets it from one place. Pinhole pixels make one over the depth of
 // every plane linear in column and row, and that of an ellipsoid a root of a quadratic
 // (RockOutline), so that each rock costs its own pixels only. An eye below the ground, in a rock or
-// beyond a wall sees nothing.
+// beyond a wall sees nothing. Pointed rocks have no such outline: scenarios refuse them where range
+// points are not matched in images.
 //
 // src/sensing/README.md has the cost at 128 x 128 pixels with both eyes; on rough ground each pixel
 // costs a ray march.

@@ -77,7 +77,8 @@ StereoTruth StereoGroundTruth::See(const terrain::Terrain& terrain, const math::
   truth.both_px *= scale_px_m;
 
   // Jumps are those of surfaces: what is so far that it differs from the sky by less than a jump
-  // counts as sky. |e| of a pixel is below 4 for every field of view that is allowed.
+  // counts as sky. |e| of a pixel is below 4 for fields of view up to 150 by 90 deg; in the corners
+  // of larger ones surfaces may count as sky a little too early.
   constexpr double kLongestRay = 4.0;
   const double far_m = std::max(max_range_m_, kLongestRay * scale_px_m / edge_disparity_px_);
   const DepthImage all_px = scale_px_m * StereoScene(terrain, view_W, far_m).InverseDepths();

@@ -31,7 +31,8 @@ struct StereoTruth {
 };
 
 // Holds for every fidelity of the sensor: by rays, without images. Rocks have to be ellipsoids
-// (StereoScene).
+// (StereoScene). Studies of stereo sort errors and dropouts by it, and the error model's rates are
+// fitted to their counts: jumps, margins and shade have to mean the same here and there.
 class StereoGroundTruth {
  public:
   // `window_side_px` is that of the windows that are matched.

@@ -1,9 +1,9 @@
 // The stereo cameras at the rover's front and rear down to digital images of a true scene.
 //
 // Image formation, in the order in which a look runs through it (equations beside the code):
-//   scene, picture_scene.h: terrain, sun and shadows, the rover's own parts;
-//   picture, picture_renderer.h: light on every pixel;
-//   read-out, picture_readout.h: lens, exposure, noise, counts.
+//   scene      terrain, sun and shadows, the rover's own parts   rendering/picture/picture_scene.h
+//   picture    light on every pixel                              picture_renderer.h
+//   read-out   lens, exposure, noise, counts                     picture_readout.h
 // Goldberg 2002 section 2 begins with such images. What it does not say of camera, light and soil
 // is assumed, so that results from these images are sensitivities to those assumptions.
 #pragma once
@@ -48,7 +48,8 @@ class StereoImager {
 
   // Takes the images of one look with the rover at X_WR. Pure function of its arguments. Draws from
   // (key, kImageNoise) by look number and eye, from kSoilTexture, kRockTexture and kRockLook.
-  // look_number < 2^30.
+  // look_number < 2^30. Users in one trial need numbers of their own, or their noise is the same:
+  // terrain sensing counts from 0, visual odometry from 2^29.
   StereoImages Expose(const terrain::Terrain& terrain, const math::Transform& X_WR,
                       std::int64_t look_number, messages::LookDirection direction) const;
 

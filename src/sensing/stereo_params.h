@@ -1,4 +1,7 @@
-// Parameters of range sensing by stereo cameras at the rover's front and rear.
+// Parameters of range sensing by stereo cameras at the rover's front and rear. Defaults decide
+// records and baselines; bounds only refuse files. Where images are matched on board, the search
+// there takes pyramid_level, min_ and max_disparity_px and max_range_m from here; noise, mismatches
+// and dropouts are the error model's alone, and may be fitted to images (fit_stereo_errors.py).
 #pragma once
 
 #include <array>

@@ -15,7 +15,8 @@ using math::Vector3;
 using messages::LookDirection;
 using vision::Image;
 
-// As the view has it before images are reduced.
+// As the view has it before images are reduced: with the same field of view, so that the mean of
+// 2^level x 2^level pixels lies around the ray of its range point.
 StereoView FullView(StereoParams params, LookDirection direction) {
   params.columns = params.image_columns();
   params.rows = params.image_rows();
@@ -60,6 +61,7 @@ std::pair<vision::CameraModel, vision::CameraModel> CalibratedCameras(const Ster
 
 vision::StereoRig CalibratedRig(const StereoParams& params, const rover::RoverGeometryParams& rover,
                                 LookDirection direction) {
+  // The rover knows where it shows in the images of the pair as it was calibrated.
   const rendering::RoverBody body = MakeRoverBody(rover);
   auto [left, right] = CalibratedCameras(params, direction);
   return {left, right, FreePixels(left, body), FreePixels(right, body)};

@@ -20,7 +20,8 @@ namespace {
 using math::Vector3;
 using messages::LookDirection;
 
-// Below which a standard normal number lies with the given probability.
+// Below which a standard normal number lies with the given probability. PixelNoise has 2^16
+// numbers: chances are met to 1/65536, and those of less than half of that never happen.
 float Quantile(double probability) {
   if (probability <= 0.0) return -std::numeric_limits<float>::infinity();
   return static_cast<float>(core::NormalQuantile(probability));
@@ -58,7 +59,8 @@ StereoMatcher::StereoMatcher(const StereoParams& params)
            ByLight(params.edge_dropout_probability, params.shadow_dropout_probability)}} {}
 
 // In the order of stereo_sensor.h: noise, rounding, wrong matches, the searched range,
-// dropouts. 0 stays 0.
+// dropouts. 0 stays 0. Each step draws from a stream of its own, by pixel, so that one that is off
+// shifts no other's numbers.
 void StereoMatcher::Match(core::TrialKey key, std::uint32_t look, const DepthImage& all,
                           DepthImage& seen, const PixelFlags& shaded) const {
   AddNoise(key, look, seen);
@@ -144,7 +146,8 @@ void StereoMatcher::MismatchEdge(std::span<const double> row_px, std::size_t col
   if (across_px > 0.0) pixel += across_px - row_px[column];
 }
 
-// Jumps are taken from what the left camera sees (`all`), whether the right one sees it or not.
+// Jumps are taken from what the left camera sees (`all`), whether the right one sees it or not: the
+// window that is matched is cut out of the left image.
 void StereoMatcher::DropOut(core::TrialKey key, std::uint32_t look, const DepthImage& all,
                             const PixelFlags& shaded, DepthImage& seen) const {
   const rendering::PixelNoise noise(key, core::Purpose::kStereoDropout, look);

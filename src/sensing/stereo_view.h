@@ -1,4 +1,6 @@
-// One rectified pinhole pair, as a rover carries it, and which of its points are handed on.
+// One rectified pinhole pair, as a rover carries it, and which of its points are handed on. Range
+// points, rendered images and the ground truth all look along these rays, so that one pixel means
+// one direction at every fidelity.
 #pragma once
 
 #include <Eigen/Core>

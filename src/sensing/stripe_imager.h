@@ -2,7 +2,7 @@
 //
 // Image formation, in the order in which a scan runs through it (equations beside the code):
 //   radiometry     sun and sky in the passband, camera equation           radiometry.h
-//   view           lens, the rover's own parts                            view_row.h, rover_body.h
+//   view           lens, the rover's own parts                    row_renderer.h, rover_body.h
 //   scene          what a ray meets, shadows                              image_scene.h
 //   light          sunlight on each pixel                                 row_renderer.h
 //                  laser stripes on each pixel                            sensing/stripe_light.h
@@ -35,7 +35,8 @@
 
 namespace rockyard::sensing {
 
-// Names an image of a trial.
+// Names an image of a trial: 64 numbers for each scan, all different, as equal ones would share
+// their noise. 2^26 scans use up the 32 bits.
 struct StripeImageName {
   static constexpr std::int64_t kScans = std::int64_t{1} << 26;  // that have names of their own
 

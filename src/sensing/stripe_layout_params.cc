@@ -292,7 +292,7 @@ std::optional<Vector3> StripePoint(const messages::StripeCalibration& calibratio
   double far_m = kFarthest_m;
   std::optional<vision::PixelPosition> imaged;
   // Farther points of the stripe are imaged higher up.
-  constexpr int kHalvings = 55;
+  constexpr int kHalvings = 55;  // of 100 m: to less than its rounding
   for (int i = 0; i < kHalvings; ++i) {
     const double middle_m = 0.5 * (near_m + far_m);
     imaged = vision::Project(camera, X_CR * (foot + middle_m * forward));

@@ -20,7 +20,8 @@ int LaserGroups(const LightStripeParams& params);
 
 // Returns what a perfectly calibrated rover knows of this sensor. The depression of each scanline
 // is rounded to a whole image row, so that the points of a row land within a few millimetres of
-// row_ahead_m.
+// row_ahead_m. Both fidelities of the sensor see by this geometry, and what the rover believes
+// starts from it: rounding alone makes no elevation wrong.
 messages::StripeCalibration TrueCalibration(const LightStripeParams& params);
 
 // Returns whether "ahead" and "below" make sense for the layout; the other checks rely on it.

@@ -10,7 +10,8 @@
 namespace rockyard::sensing {
 
 // Shadows of rocks, of rough ground and of the rover; walls cast none (src/rendering/README.md). By
-// the middle of the sun's disc, and however much of the light comes from the sky.
+// the middle of the sun's disc, and however much of the light comes from the sky. The stereo error
+// model drops points by it, at rates that are counted by it in images (stereo_ground_truth.h).
 class SunShade {
  public:
   SunShade(const rendering::SunParams& sun, const rover::RoverGeometryParams& rover);

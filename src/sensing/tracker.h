@@ -19,7 +19,7 @@ namespace rockyard::sensing {
 // the systematic error of a trial is constant, uniform in a disc of radius systematic_position and
 // uniform within +-systematic_heading; each sample adds normal noise, its position noise shared
 // equally by x and y. In the arena the systematic error varies with place; over one run it is taken
-// as constant.
+// as constant. Where it is on, errors are reported against it; nothing on board sees it.
 class Tracker {
  public:
   Tracker(const TrackerParams& params, core::TrialKey key);

@@ -1,5 +1,6 @@
 // Parameters of visual odometry as a sensor of a trial: when it takes images, and what comes out of
-// them where none are matched.
+// them where none are matched. The numbers of the error model are one fit to rendered images
+// (fit_visual_motion.py), to be changed together.
 #pragma once
 
 #include <array>

@@ -13,6 +13,7 @@
 
 namespace rockyard::statistics {
 
+// A sweep along more ablations gets no attribution.
 inline constexpr std::size_t kMaxFunctions = 8;
 
 // A set of functions: bit i says that function i is perfect. 0 is the rover as flown.

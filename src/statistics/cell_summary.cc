@@ -32,6 +32,7 @@ struct Sums {
 
 std::vector<KnownColumn> KnownColumns(const truth::RecordSchema& schema) {
   std::vector<KnownColumn> columns;
+  // The first column is the number of the cell (truth/measurement_record.h).
   for (std::size_t i = 1; i < schema.size(); ++i) {
     if (schema[i].role != ColumnRole::kValue) columns.push_back({&schema[i], i});
   }

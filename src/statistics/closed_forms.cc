@@ -100,6 +100,7 @@ std::size_t FormulaArity(Formula formula) {
 }
 
 bool InDomain(Formula formula, std::span<const double> inputs) {
+  // Bounds the time of ExactMoments, whose steps a reference file names.
   constexpr double kMaxSteps = 1e4;
   switch (formula) {
     case Formula::kPowerLawCover:

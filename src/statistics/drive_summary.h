@@ -1,4 +1,5 @@
-// What a set of drive trials says, in numbers.
+// What a set of drive trials says, in numbers. summary.json, the terminal, the cells of a sweep and
+// the report page all take theirs from here, so that they agree.
 #pragma once
 
 #include <array>

@@ -97,6 +97,7 @@ double TwoSampleStatistic(std::span<const double> a, std::span<const double> b) 
 double TwoSampleExactPValue(double statistic, std::size_t n, std::size_t m) {
   const double rows = static_cast<double>(n);
   const double columns = static_cast<double>(m);
+  // A distance equal to the statistic reaches it, whatever rounding made of the two quotients.
   const double limit = statistic * (1.0 - 1e-12);
   std::vector<double> inside(m + 1, 0.0);
   for (std::size_t i = 0; i <= n; ++i) {

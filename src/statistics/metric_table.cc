@@ -75,13 +75,16 @@ constexpr Metric ShareWith(std::string_view name, std::string_view column,
 }
 
 // The least of 30, 40, 100 and 300 values from which on the interval of the mean held in both pools
-// of coverage.py, where it is not the first; never for a quotient whose denominator
-// may be nearly 0.
+// of scripts/studies/coverage/coverage.py, where it is not the first; never for a quotient whose
+// denominator may be nearly 0.
 constexpr Metric Needing(std::int64_t values, Metric metric) {
   metric.fewest_for_mean = values;
   return metric;
 }
 
+// In the order of reports. Baselines keep names and margins: one that has a metric whose name is
+// gone no longer passes `rockyard check`, and a new margin holds for new baselines alone. README.md
+// has this table, and a test compares.
 constexpr std::array kMetrics = {
     OutcomeRate("declared_success", Bit(TrialOutcome::kGoalReached) | Bit(TrialOutcome::kFalseGoal),
                 "share of trials in which the rover believes that it arrived"),

@@ -31,7 +31,9 @@ Interval Wilson(double count, double trials, double confidence) {
           count == trials ? 1.0 : std::min(1.0, centre + half)};
 }
 
-// Of the chance to miss, where the half-width ends the trials (proportions.h).
+// Of the chance to miss, where the half-width ends the trials (proportions.h). Campaigns stop by
+// this interval, and a later session decides again from the stored trials (batch/work_plan.h):
+// another share would end the cells of stored campaigns elsewhere.
 constexpr double kStoppedShare = 0.8;
 
 // Clopper and Pearson 1934: ends at which a tail of the binomial law is (1 - confidence)/2, as

@@ -7,7 +7,8 @@
 
 namespace rockyard::statistics {
 
-// The confidence of every interval, unless a caller asks for another.
+// The confidence of every interval, unless a caller asks for another. Reports write "95 %" and
+// "ci95" for it without asking.
 inline constexpr double kConfidence = 0.95;
 
 // Two ends of an interval, low <= high.

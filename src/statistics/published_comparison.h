@@ -1,8 +1,9 @@
 // Simulated trials against published numbers: predictive intervals, p-values, verdicts.
 //
 // Null hypothesis of each row: the published runs and the simulated trials follow one law. Its
-// p-value is two-sided and contains the simulation's own uncertainty (counts.h, predictive.h).
-// Holm's procedure over all judged rows keeps the chance of any false `differs` at or below alpha.
+// p-value is two-sided and contains the simulation's own uncertainty (proportions.h,
+// predictive.h). Holm's procedure over all judged rows keeps the chance of any false `differs` at
+// or below alpha.
 //
 // Numbers that are published without a sample, but with a tolerance, are judged by an interval of
 // the simulated value: `agrees` inside of the tolerance (`holds` where nothing lies outside of it),
@@ -30,7 +31,7 @@ namespace rockyard::statistics {
 // rate 0.20 lower for success; 0.20 nearer to one half for any other count; for kinds of failure, a
 // share of the commonest simulated kind 0.20 lower, spread evenly over the other kinds.
 inline constexpr double kAlternativeRateShift = 0.20;
-// For minimum, maximum and mode: the published runs shifted by half a standard deviation of the
+// For minimum and maximum: the published runs shifted by half a standard deviation of the
 // simulated trials, up or down. Where the column has a lower limit (absolute errors, distances)
 // also moved by scale, so that the mean moves by as much: distances from the limit times
 // 1 + 0.5 deviation / mean, or divided by it. Of all these the one that is hardest to see counts. A
@@ -139,8 +140,9 @@ struct ComparisonResult {
 ComparisonResult Compare(const PublishedReference& reference, std::span<const ScenarioRun> runs,
                          const ComparisonOptions& options = {});
 
-// Returns 0 where all judged rows agree or hold, 1 where something differs, and 4 where nothing
-// differs, but something is underpowered or nothing could be judged.
+// The numbers are those of campaign::Outcome, into which callers cast them. Returns 0 where all
+// judged rows agree or hold, 1 where something differs, and 4 where nothing differs, but something
+// is underpowered or nothing could be judged.
 int ExitCode(const ComparisonResult& result);
 
 }  // namespace rockyard::statistics

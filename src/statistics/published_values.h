@@ -10,7 +10,9 @@
 
 namespace rockyard::statistics {
 
-// What a published number says about its set of runs.
+// What a published number says about its set of runs. The order decides HasTolerance and
+// SplitsByArrival, and here and in the two enums below the names in reference files
+// (report/reference_fields.h).
 enum class StatisticKind {
   kOutcomeCount,     // runs with one of `outcomes`
   kFailureKinds,     // how the failures divide into `kinds` and all others, given their number
@@ -84,7 +86,9 @@ struct FailureKind {
 };
 
 struct PublishedValue {
-  std::string id;        // unique, e.g. "nominal.distance.mode"
+  // Unique, e.g. "nominal.distance.mode". It keys the draws of the row: another id gives other
+  // digits.
+  std::string id;
   std::string what;      // for people
   std::string place;     // in the publication
   std::string scenario;  // whose trials it is compared with

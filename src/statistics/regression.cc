@@ -20,7 +20,8 @@ namespace {
 
 using core::kInfinity;
 
-// "distance" and "time" of every trial, arrived or not.
+// "distance" and "time" of every trial, arrived or not. A metric that joins or leaves changes the
+// levels that Holm's procedure grants all others, and so verdicts against stored baselines.
 constexpr std::array<std::string_view, 7> kPrimary = {
     "declared_success",       "true_success",      "true_distance_m", "active_time_s",
     "distance_error_percent", "heading_error_deg", "position_error_m"};

@@ -130,8 +130,9 @@ struct RegressionResult {
 RegressionResult CheckRegression(std::span<const RegressionCell> cells,
                                  const RegressionOptions& options = {});
 
-// Returns 1 where something changed, of either family; else 4 where something of the primary family
-// is inconclusive, a metric has values on one side only, or there is nothing; else 0.
+// The numbers are those of campaign::Outcome, into which callers cast them. Returns 1 where
+// something changed, of either family; else 4 where something of the primary family is
+// inconclusive, a metric has values on one side only, or there is nothing; else 0.
 int ExitCode(const RegressionResult& result);
 
 // Returns the value with five significant digits, as it enters a baseline and the comparison with

@@ -16,7 +16,8 @@ namespace {
 using Binomial = boost::math::binomial_distribution<
     double, boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
 
-constexpr std::int64_t kUnknown = -2;  // no critical count has been looked for
+// No critical count has been looked for; -1 can be the answer (FisherCritical).
+constexpr std::int64_t kUnknown = -2;
 
 // Smallest number that is enough, where enough stays enough; else one that is while the number
 // before is not.

@@ -1,4 +1,5 @@
-// How many trials a question needs.
+// How many trials a question needs: for `rockyard plan`, and for what a check against a baseline
+// would have seen (regression_samples.h).
 #pragma once
 
 #include <cstdint>

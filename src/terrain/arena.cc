@@ -69,6 +69,7 @@ std::vector<Wall> ArenaWalls(const ArenaParams& arena) {
 std::vector<Rock> MirrorImages(const ArenaParams& arena, const Rock& rock) {
   if (!arena.IsVirtual()) return {};
   const bool unfolded = arena.kind == ArenaKind::kVirtualUnfolded;
+  // One strip on each side fills virtual_reflected, whose margin is no wider than a strip.
   const int strips = unfolded ? static_cast<int>(arena.unfolded_strips) : 1;
   std::vector<Rock> images;
   for (int strip = -strips; strip <= strips; ++strip) {

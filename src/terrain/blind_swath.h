@@ -1,5 +1,6 @@
 // Where a rover that drives straight along x first touches a rock, and how far a blind swath gets
-// through a rock field before that.
+// through a rock field before that: yardsticks of fields (rockyard terrain --blind-swath) and of
+// studies of hazard detection. No drive asks for them.
 #pragma once
 
 #include <optional>

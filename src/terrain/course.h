@@ -24,7 +24,7 @@ struct Course {
   double goal_x_m = 7.6;
   double goal_y_m = 0.0;
   std::vector<CoursePoint> waypoints = {};  // between start and goal
-  CourseRock goal_rock = {};                // at the goal: the last rock of a terrain
+  CourseRock goal_rock = {};                // at the goal: the last rock of a terrain (field.h)
 
   // Start, waypoints and goal, in the order of driving.
   std::vector<CoursePoint> Points() const {

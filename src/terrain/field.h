@@ -13,6 +13,8 @@
 
 namespace rockyard::terrain {
 
+// Both heights are for audit and drawings: what is a hazard is for the rover to decide.
+
 // Height above the ground from which the light stripe sees a rock on average: 1.5 times its
 // threshold of 5 cm (Matthies 1995 sec. 6).
 inline constexpr double kDetectableHeight_m = 0.075;
@@ -41,7 +43,7 @@ struct FieldAudit {
   // drawn diameters, and the elliptic outlines. Overlap is not deducted.
   double expected_cover = 0.0;
   double disc_cover = 0.0;
-  double outline_cover = 0.0;
+  double outline_cover = 0.0;  // in every drive's record, as rock_cover
 
   double detectable_per_m2 = 0.0;  // at least kDetectableHeight_m above the ground
   double belly_high_per_m2 = 0.0;  // at least kBellyHeight_m above the ground
@@ -58,8 +60,9 @@ struct Field {
 // count comes from kRockCount; so no choice about one rock shifts another, and fields that differ
 // only in k_per_m2 nest: the smaller field's rocks come first in the larger one's list, with the
 // same position, size and shape (virtual arenas list the rocks of the strip first, then the
-// images). See README.md of this folder for the equations and for the bias of each overlap rule.
-// Throws core::UserError where start or goal lie outside the arena, std::runtime_error where an
+// images). A goal rock is the last of all, by which the referee finds it; the audit leaves it out.
+// See README.md of this folder for the equations and for the bias of each overlap rule. Throws
+// core::UserError where start, waypoints or goal lie outside the arena, std::runtime_error where an
 // exact count finds no place. Cost: about 0.1 ms for the nominal virtual arena.
 Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& course);
 
@@ -87,8 +90,7 @@ double AreaNear(const Rectangle& area, double x_m, double y_m, double radius_m);
 //   moore:          integral of n(D) (|C| - |C and Z(D)|) dD, as rocks drawn in the zones are
 //                   dropped, for .1 to .2, .2 to .3, .3 to .5, .5 to 1 m and what exceeds these;
 //   uniform_count:  count times the mean of (|C| - |C and Z(D)|) / (|A| - |A and Z(D)|), as they
-//   are
-//                   drawn again, in one class.
+//                   are drawn again, in one class.
 // Good to 1e-5 of itself. Empty where there is no law, where the course does not lead straight
 // along x, where its clear zones meet, or where the corridor leaves the layout area (uniform_count:
 // the count area).

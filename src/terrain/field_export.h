@@ -10,10 +10,12 @@
 
 namespace rockyard::terrain {
 
-// Returns one line per rock: index, mirror image or not, centre, semi-axes, yaw, diameter, height.
+// Returns one line per rock: index, mirror image or not, centre, semi-axes, yaw, diameter, height,
+// growth of a cap. Numbers read back to the same bits.
 std::string ToCsv(const Field& field);
 
-// Returns rocks, arena, course and audit as one JSON object. The ground is not part of it.
+// Returns rocks, arena, course and audit as one JSON object. The ground is not part of it. Studies
+// of rocks (scripts/studies) read it by its keys.
 std::string ToJson(const Field& field, const TerrainParams& params, const Course& course);
 
 // Returns a Wavefront OBJ file with one group for the ground (a 0.1 m grid where rough, else one

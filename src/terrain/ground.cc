@@ -10,7 +10,8 @@ namespace rockyard::terrain {
 namespace {
 
 // Smallest step of a ray over ground that is no plane, m: far below the finest wavelength of the
-// roughness and the narrowest flank.
+// roughness and the narrowest flank. Steps decide how a crossing is bracketed, and so the last bits
+// of what is recorded on such ground.
 constexpr double kSmallestStep_m = 1e-3;
 
 // The ray stays above the ground for the t with gap - rate t - bend t^2 / 2 > 0, where the rate

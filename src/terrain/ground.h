@@ -12,9 +12,9 @@
 
 namespace rockyard::terrain {
 
-class RoughnessField;   // smooth height field, see roughness_field.h
+class RoughnessField;   // smooth height field, see relief.h
 class RoughnessSpline;  // the same for many rays, see roughness_spline.h
-class DepressionField;  // ditches and pits, see depression_field.h
+class DepressionField;  // ditches and pits, see relief.h
 
 // How a ray finds rough ground. Both ways lead to the same point within 1e-9 m; only the first one
 // has the bits that drives are recorded with, the other one takes a thirtieth of its time. Ground

@@ -69,8 +69,9 @@ ReliefSample DepressionField::Sample(double x_m, double y_m) const {
 namespace {
 
 // Finest wavelength, m: roughness shorter than the contact patch of a 13 cm wheel is averaged by
-// it.
+// it. Another one is other ground in every rough trial.
 constexpr double kFinestWavelength_m = 0.1;
+// Not reached: 100 m, the longest wavelength that parameters allow, has ten.
 constexpr int kMaxOctaves = 12;
 // Integral of the squared cubic B-spline over its support.
 constexpr double kSplineMeanSquare = 151.0 / 315.0;

@@ -26,7 +26,7 @@ struct Approach {
 
 // Returns a zero of `gap` between `above`, where it is positive, and `below`, where it is not, to
 // 1e-12 m: false position with the Illinois rule (Dowell and Jarratt 1971), which halves the value
-// at an end that stays.
+// at an end that stays. The march and the spline of images both end here, and so meet one point.
 template <typename Gap>
 double FindCrossing(const Gap& gap, double above, double gap_above, double below,
                     double gap_below) {
@@ -120,7 +120,8 @@ class RoughnessField {
   ReliefSample Sample(double x_m, double y_m) const;
 
   // These are upper bounds of the magnitudes anywhere: of the height, m, of the slope, and of the
-  // second derivative in any direction, 1/m.
+  // second derivative in any direction, 1/m. Rays step by them: a bound that is too small lets rays
+  // through crests, one that is too large costs steps.
   double MaxHeight() const { return max_height_m_; }
   double MaxSlope() const { return max_slope_; }
   double MaxCurvature() const { return max_curvature_per_m_; }

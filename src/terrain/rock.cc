@@ -10,7 +10,9 @@ namespace rockyard::terrain {
 
 namespace {
 
+// For drawings alone.
 constexpr int kPlanCorners = 8;
+// These leave 1 - cos(pi / 16) = 2 % of a rock's width outside of their hull (PointsAbove).
 constexpr int kRingPoints = 16;
 constexpr int kRings = 6;
 

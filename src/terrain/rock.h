@@ -33,7 +33,8 @@ struct Rock {
 // its full height 2 c below the ground A = 4 (1 - beta). Below A = 2 its widest part would lie
 // under the ground; there the outline is kept on the ground instead, B = 1 - A: a cap of an
 // ellipsoid down to A = 1, a paraboloid, and of a hyperboloid down to A = 0, a cone. All of them
-// are convex.
+// are convex. Both fidelities of the rover and the replay page work this surface out for themselves
+// from the numbers of Rock: another profile has to reach them too.
 
 // What a rock's profile does not change. Lengths in m.
 struct RockOutline {

@@ -20,10 +20,10 @@ namespace {
 using core::Purpose;
 using core::RandomStream;
 
-// Attempts to place one rock before it is given up.
+// Attempts to place one rock before it is given up: moore drops it, an exact count is an error.
 constexpr int kMaxAttempts = 1000;
 // Substream of the first rock outside the count area, so that the rocks inside keep their streams
-// when the count changes.
+// when the count changes. Above every count that parameters allow.
 constexpr std::uint32_t kFirstOutsideCount = 1u << 20;
 
 // A rock of the marked reference field; it belongs to every field with k > mark * k_reference.
@@ -51,7 +51,8 @@ std::vector<MarkedRock> DrawMarkedField(const TerrainParams& params, core::Trial
   return kept;
 }
 
-// A rock at the origin with random size, shape and yaw.
+// A rock at the origin with random size, shape and yaw. The order of its draws is part of the field
+// of a seed.
 Rock DrawRock(const RockFieldParams& params, const RockSizeLaw& law, core::TrialKey key,
               std::uint32_t substream) {
   RandomStream size(key, Purpose::kRockSize, substream);
@@ -216,6 +217,7 @@ RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Co
 
 namespace {
 
+// Cells decide time and memory alone.
 constexpr double kSmallestCell_m = 0.5;
 // Bounds the memory for wide, sparse fields: the cells grow instead.
 constexpr double kMaxCells = 250000.0;

@@ -1,4 +1,6 @@
-// Parameters of a rock field: how many rocks, how large, where, of which shape.
+// Parameters of a rock field: how many rocks, how large, where, of which shape. Defaults decide
+// records and baselines, k_reference_per_m2 among them: another one changes no density, but is
+// another field for the same seed. Bounds only refuse files.
 #pragma once
 
 #include <array>

@@ -7,7 +7,8 @@
 
 namespace rockyard::terrain {
 
-// The distribution of one rock's diameter.
+// The distribution of one rock's diameter. Rocks are drawn by Diameter; audits and closed forms
+// expect what Cdf and MeanPower say: all three describe one law.
 class RockSizeLaw {
  public:
   virtual ~RockSizeLaw() = default;

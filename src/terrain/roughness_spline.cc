@@ -12,7 +12,8 @@ namespace {
 // Parts of a line shorter than this are not looked into.
 constexpr double kShortest_m = 1e-3;
 
-// The four uniform cubic B-splines over a cell, and their derivatives, at t in [0, 1).
+// The four uniform cubic B-splines over a cell, and their derivatives, at t in [0, 1): those of
+// relief.cc, as both tell one surface.
 struct CellSplines {
   explicit CellSplines(double t) {
     const double s = 1.0 - t;

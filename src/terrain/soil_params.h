@@ -1,5 +1,6 @@
 // What the soil between the rocks does to a wheel: the quantities of Bekker, Wong, and Janosi and
-// Hanamoto. rover/wheel_rut_params.h and wheel_soil.h have the equations.
+// Hanamoto. rover/wheel_rut_params.h and wheel_soil.h have the equations. Both fidelities of the
+// rover drive on them, so that every drive's record hangs on the values of its preset.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@ namespace rockyard::terrain {
 
 enum class SoilPreset { kLandscapingSand, kMarsDrift, kHardGround };
 
-// How wheels that slip dig in; rover/wheel_rut_params.h and slip_sinkage.h have the law.
+// How wheels that slip dig in; rover/wheel_rut_params.h has the law.
 struct SlipSinkageParams {
   bool enabled = false;
   double exponent_per_slip = 0.5;
@@ -33,8 +34,7 @@ struct SoilParams {
   SlipSinkageParams slip_sinkage{};
 
   // Visits the preset first: choosing another one replaces the defaults of the values that follow
-  // it;
-  // slip_sinkage stays.
+  // it, which the same file may then state; slip_sinkage stays.
   void Visit(core::FieldVisitor& v);
 };
 

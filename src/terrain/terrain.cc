@@ -10,6 +10,7 @@
 namespace rockyard::terrain {
 namespace {
 
+// Cells decide time and memory alone: queries look at every rock that a cell lists.
 constexpr double kSmallestGridCell_m = 0.25;
 // Bounds the grid's memory for wide, sparse fields: the cells grow instead.
 constexpr double kMaxGridCells = 250000.0;
@@ -191,7 +192,7 @@ void Terrain::MeetRocks(std::span<const int> rocks, const math::Vector3& origin_
                         const math::Vector3& direction_W, Nearest& nearest) const {
   for (const int rock : rocks) {
     const double distance = shapes_[static_cast<std::size_t>(rock)].Distance(origin_W, direction_W);
-    // Of equally near rocks the first stays.
+    // Of equally near rocks the first stays, and ground or wall before any rock.
     if (distance < nearest.distance_m) nearest = {distance, Surface::kRock, rock};
   }
 }

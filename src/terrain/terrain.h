@@ -1,5 +1,9 @@
 // A queryable piece of Mars (or of a test arena): ground, rocks, walls. One per trial. Every query
 // is const and thread-safe; only MoveRock changes anything.
+//
+// Physics, sensors, pictures and the experimenter's counts ask this one geometry, so that the rover
+// meets what it sees. Who works out a query in another way, as the stereo sensor does, is held to
+// CastRay by a test. A rock's index names it all through a trial, in contacts too.
 #pragma once
 
 #include <algorithm>
@@ -55,7 +59,8 @@ class Terrain {
   }
 
   // Lists the rocks that may reach into the disc around (x, y): indices of a superset, ascending,
-  // no duplicates, from a uniform grid. `out` is cleared first.
+  // no duplicates, from a uniform grid. `out` is cleared first. Physics relies on the order: it
+  // finds the contacts of the step before again by it.
   void RocksNear(double x_m, double y_m, double radius_m, std::vector<int>& out) const;
 
   // Returns the first surface that the ray from origin_W along the unit vector direction_W meets

@@ -16,7 +16,8 @@ namespace {
 using core::Assumed;
 using core::Published;
 
-// Bounds on the work of one field: rocks kept, and rocks drawn before thinning.
+// Bounds on the work of one field, which messages below name: rocks kept, and rocks drawn before
+// thinning.
 constexpr double kMaxRocks = 50000.0;
 constexpr double kMaxReferenceRocks = 1e6;
 

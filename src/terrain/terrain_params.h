@@ -1,4 +1,6 @@
-// Parameters of a terrain: all of them together, and its ditches and pits one by one.
+// Parameters of a terrain: all of them together, and its ditches and pits one by one. Defaults are
+// the terrain of every scenario that leaves them out, and decide its records and baselines; bounds
+// only refuse files.
 #pragma once
 
 #include <array>
@@ -134,7 +136,8 @@ struct TerrainParams {
   RockFieldParams rocks{};
   ArenaParams arena{};
 
-  // Returns the area over which the rocks are laid out at random, before mirroring, m2.
+  // Returns the area over which the rocks are laid out at random, before mirroring, m2: that of
+  // LayoutBounds (arena.h). Expected counts and what is drawn are held together by it.
   double LayoutArea() const;
   // Returns the expected number of rocks with all mirror images.
   double ExpectedRocks() const;

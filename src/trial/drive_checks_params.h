@@ -14,10 +14,11 @@ enum class LightStripeUse {
 };
 
 // Requires, for every experiment:
-// - start and goal lie in the arena, between the mirror lines of a virtual one;
+// - start, waypoints and goal lie in the arena, between the mirror lines of a virtual one;
+// - the centre of mass lies where every wheel carries something on level ground;
 // - no more than one control step per step of the physics, and rocks that move only in multibody;
 // - the goal radius holds the tolerance of the navigator in use;
-// - the behaviour controller names every stripe of the array that it judges;
+// - a navigator that tells stripes apart names every stripe of the array that it judges;
 // - where the light stripe is used: its finder averages no more lines than are read, and the rover
 //   hides no point of flat ground from its images.
 // Each failure names the parameter, what is wrong and a remedy.
@@ -33,13 +34,18 @@ inline constexpr double kSame_m = 1e-9;
 //   the cameras ahead can show (bounds that no view exceeds; the view may be narrower), and asks
 //   for no more points than an image has pixels;
 // - the soil holds the braked rover on the slope of the ground;
+// - no ditch or pit reaches under the rover at the start;
 // - listed rocks leave start, waypoints and goal of a drive free by terrain.rocks.clear_radius_m;
 // - goals and waypoints that a lander designates stay between the mirror lines of a
 //   virtual_reflected arena, and so do targets: they stand;
 // - an oracle's route leads to one goal that nobody tracks;
 // - a route has somebody who follows it or drives along its corners, not both, and no other
 //   waypoints; the map of a lander has a lander (course.designation);
-// - GESTALT takes its vehicle for at most twice and at least half as long and wide as it is.
+// - GESTALT takes its vehicle for at most twice and at least half as long and wide as it is;
+// - a stuck rover that runs on has batteries that can be empty;
+// - aids, visual odometry and the check of slip have somebody who listens and answers;
+// - a navigator that looks or steers on the move has the sensor, overlap and steering rate for it;
+// - a rock at the goal can be found by what the navigator reads.
 // Each failure names the parameter, what is wrong and a remedy.
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v);
 

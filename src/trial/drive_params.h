@@ -1,4 +1,6 @@
 // Everything that one drive needs to know: the parameters of every module below, and trial's own.
+// A default decides the records of every scenario that leaves it out; each of them, and the order
+// of the groups, is part of every fingerprint.
 #pragma once
 
 #include "core/fields.h"
@@ -30,7 +32,8 @@
 
 namespace rockyard::trial {
 
-// The one list of them: dead_reckoning (chosen), oracle.
+// The one list of them (drive/make_estimator.cc). The first one, dead_reckoning, is that of
+// scenarios which name none.
 localization::EstimatorSet StandardEstimators();
 
 // Electrical power by activity and the batteries.
@@ -111,8 +114,8 @@ struct DriveParams {
   EnergyParams energy;
 
   // Lists its groups in the group that is being visited: it has no name of its own in a file. What
-  // holds across them is required by drive_checks_params.h, which
-  // asks for more or less by what the experiment does with the drive.
+  // holds across them is required by drive_checks_params.h, which asks for more or less by what the
+  // experiment does with the drive.
   void Visit(core::FieldVisitor& v);
 };
 

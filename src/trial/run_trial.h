@@ -40,10 +40,11 @@ struct DriveResult {
   DriveEnd end;
 };
 
-// Drives the trial that `key` names: a pure function of (drive, key). With `trace` the course of
-// the drive is recorded too, and `watchers` are shown what is seen and decided; all without any
-// influence on it. Throws what the simulation throws: a contract violation, a blow-up of the
-// physics; the experiment turns that into a simulator fault.
+// Drives the trial that `key` names: a pure function of (drive, key), bit for bit, on which stores,
+// pairs of runs, replays and kept hashes rely. With `trace` the course of the drive is recorded
+// too, and `watchers` are shown what is seen and decided; all without any influence on it. Throws
+// what the simulation throws: a contract violation, a blow-up of the physics; the experiment turns
+// that into a simulator fault.
 DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, truth::Trace* trace = nullptr,
                      const Watchers& watchers = {});
 

@@ -1,5 +1,5 @@
 // Whoever looks over the shoulder of a trial: for pictures and for tests. A trial is the same with
-// any of them and without.
+// any of them and without: they get references to const alone.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,8 @@
 // What one drive trial leaves behind: every number that reports and comparisons use.
+//
+// Stores, metrics and baselines know the values by the names of kDriveColumns, and hashes go over
+// their bits in its order. So columns are appended, never moved or renamed, and a new one changes
+// the hash of every drive.
 #pragma once
 
 #include <array>
@@ -9,6 +13,7 @@
 
 namespace rockyard::truth {
 
+// Doubles only, each with one column: a test counts them by the size of the struct.
 struct DriveRecord {
   double true_distance_m = 0.0;
   double dead_reckoned_distance_m = 0.0;
@@ -137,7 +142,7 @@ struct DriveColumn {
   std::string_view unit;
   std::string_view meaning;
   double DriveRecord::*member;
-  bool may_lack = false;  // NaN where there is nothing to tell
+  bool may_lack = false;  // NaN where there is nothing to tell; any other NaN is a simulator fault
 };
 
 inline constexpr std::array kDriveColumns = {

@@ -1,4 +1,7 @@
 // Why a drive ended: what its outcome alone leaves open.
+//
+// Records keep no cause but the sentence of one, by which it is found again to the letter. A
+// sentence that changes takes the cause from all runs that are stored; hashes leave it out.
 #pragma once
 
 #include <array>
@@ -38,6 +41,7 @@ struct EndCauseInfo {
   std::string_view setting;   // parameter of a scenario that decided, where one did
 };
 
+// In the order of EndCause. No two of one outcome have the same sentence.
 inline constexpr std::array<EndCauseInfo, 17> kEndCauses = {{
     {"arrived", TrialOutcome::kGoalReached, "arrived", "arrived at the goal",
      "course.goal_radius_m"},

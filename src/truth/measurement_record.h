@@ -14,7 +14,8 @@
 
 namespace rockyard::truth {
 
-// First column of every such record: the number of the cell.
+// First column of every such record: the number of the cell. Stored runs are told from drives by
+// this name in this place.
 inline constexpr std::string_view kCellColumn = "cell";
 
 // Whether records of this schema are measurements, for which no drive succeeds or fails.

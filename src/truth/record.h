@@ -52,6 +52,7 @@ constexpr bool IsStuck(TrialOutcome outcome) {
 }
 
 /// What a column is within a cell, where records of one cell add up (truth/measurement_record.h).
+/// Stores keep no roles: experiments give them again to columns of these names.
 enum class ColumnRole {
   kValue,      ///< of one trial: nothing adds it up
   kFactor,     ///< constant within a cell

@@ -1,4 +1,5 @@
-// The true state of the rover. On-board code never includes this.
+// The true state of the rover. On-board code never includes this. Both fidelities fill all of it;
+// sensors measure from it, referee and counters judge by it.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,6 @@
-// The course of one trial over time, recorded on request.
+// The course of one trial over time, recorded on request. A trial is the same with and without.
+// Replays, drawings and files of traces tell activities and kinds of events apart by the texts
+// below.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +47,9 @@ struct TraceRest {
 struct TraceEvent {
   double time_s = 0.0;
   math::Pose2 pose;  // true, when it happened
-  std::string kind;  // "hazard", "look", "chosen", "felt", "scrape", "reflection", "end"
+  // "hazard", "look", "chosen", "felt", "scrape", "reflection", "waypoint", "tracker", "vision",
+  // "slip", "end".
+  std::string kind;
   std::string detail;
 };
 

@@ -14,8 +14,9 @@ namespace {
 constexpr std::size_t kMostDistinct = ValueTable::kBlockRows / 4;
 constexpr std::size_t kMostNarrow = 256;
 
-// The distinct values by their bits, in the order in which they come first, and which of them each
-// value is; no values where there are too many.
+// The distinct values by their bits, as zeros of either sign and NaNs have to come back, in the
+// order in which they come first, and which of them each value is; no values where there are too
+// many.
 struct Distinct {
   std::vector<double> values;
   std::vector<std::uint16_t> which;

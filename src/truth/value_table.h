@@ -18,9 +18,9 @@ namespace rockyard::truth {
 
 /// Rows of equally many values, which keep their bits. Rows are appended only. A block of
 /// kBlockRows rows holds each column as its distinct values and, of each row, which of them it is;
-/// plainly where there are many: 0, 1, 2 or 8 bytes a value. About 350 bytes a row of a drive,
-/// whose 80 columns are 640; the last, unfinished block is plain. Reading is safe from any number
-/// of threads.
+/// plainly where there are many: 0, 1, 2 or 8 bytes a value. That is about half of what the columns
+/// of a drive take plainly, as many of them are constants or counts; the last, unfinished block is
+/// plain. Reading is safe from any number of threads.
 class ValueTable {
  public:
   static constexpr std::size_t kBlockRows = 4096;

@@ -1,4 +1,5 @@
-// An image: a rectangle of values, row by row from the upper left corner.
+// An image: a rectangle of values, row by row from the upper left corner. Rows follow each other
+// without padding: fast stages step by width() from row to row, and indices count over all pixels.
 #pragma once
 
 #include <cstddef>
@@ -26,6 +27,7 @@ class Image {
   int height() const { return height_; }
   bool empty() const { return values_.empty(); }
 
+  // (x, y) lies inside; nothing checks it.
   Value& At(int x, int y) { return values_[Index(x, y)]; }
   const Value& At(int x, int y) const { return values_[Index(x, y)]; }
 

@@ -13,6 +13,10 @@
 // 4 mm = 1.65 rad hold for both equidistant models; a pinhole would give 1.68 x 1.38 rad. A real
 // f-theta lens is radially symmetric; the separable model is what remains of it where software
 // straightens the rows by a calibration.
+//
+// The simulated stripe sensor images through these functions, and the triangulation on board goes
+// back through them: what differs between both is the calibration, never the lens. Project and
+// PixelRay have to stay each other's inverse, or ranges are wrong without any noise.
 #pragma once
 
 #include <optional>

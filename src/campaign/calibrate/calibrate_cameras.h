@@ -21,7 +21,7 @@ struct CalibrateRequest {
   std::filesystem::path out;                  // a folder, which is made
   ExistingFiles existing = ExistingFiles::kRefuse;
   vision::EstimatedLens lens = vision::EstimatedLens::kCahvor;
-  std::optional<int> white;  // the sample that becomes 255 (image_files/luminance.h)
+  std::optional<int> white;  // the sample that becomes 255 (image_files::ToGray)
 };
 
 struct CalibrateResult {
@@ -54,7 +54,8 @@ CalibrateResult CalibrateCameras(const CalibrateRequest& request);
 
 // What came out of a calibration, for programs.
 
-// The file calibration.json: described in src/campaign/README.md.
+// The file calibration.json: described in src/campaign/README.md. Programs read it (--json):
+// members are only added.
 core::JsonValue CalibrateJson(const CalibrateRequest& request, const CalibrateResult& result);
 
 struct PredictedPixel {

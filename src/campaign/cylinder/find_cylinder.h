@@ -58,6 +58,8 @@ CylinderResult FindCylinderInFiles(const CylinderRequest& request);
 // what was read and done. Throws core::UserError.
 vision::ColourImage ReadColour(const std::filesystem::path& path, std::string& what);
 
+// The file cylinder.json: described in src/campaign/README.md. Programs read it (--json): members
+// are only added.
 core::JsonValue CylinderJson(const CylinderRequest& request, const CylinderResult& result);
 
 }  // namespace rockyard::campaign

@@ -20,6 +20,7 @@ std::vector<core::Problem> DoubtsOfSettings(const scenario::Scenario& scenario) 
   const auto ask = [&](std::initializer_list<void (*)(Values&)> rules) {
     for (const auto rule : rules) rule(s);
   };
+  // DoubtUnusual last: units are doubted only of what no rule has doubted before.
   switch (scenario.experiment.kind) {
     case experiments::ExperimentKind::kDrive:
       ask({DoubtTask, DoubtRover, DoubtSensing, DoubtGestalt, DoubtBelief, DoubtUnusual});

@@ -18,8 +18,7 @@
 
 namespace rockyard::campaign {
 
-// The settings of a drive by their paths, and what is doubted of them: for the rules of
-// setting_doubts.h.
+// The settings of a drive by their paths, and what is doubted of them: for the rules below.
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
@@ -87,7 +86,9 @@ void DoubtUnusual(Values& s);  // one by one: usual values, and studies' ranges
 // Each with the path of one of the settings, what is doubtful, and what would be right. The rules
 // ask only what the chosen navigator, sensor and estimator use; their thresholds, assumptions all,
 // stand where they are applied. They leave room for rovers and sites that are merely unusual: what
-// they doubt would end drives, or hide what is to be found out.
+// they doubt would end drives, or hide what is to be found out. Tests hold them to lists of
+// misfits, most of which they have to name (tests/data/misfits), and to the scenarios that come
+// with rockyard, of which they doubt none.
 std::vector<core::Problem> DoubtsOfSettings(const scenario::Scenario& scenario);
 
 }  // namespace rockyard::campaign

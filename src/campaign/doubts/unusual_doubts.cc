@@ -10,7 +10,8 @@
 namespace rockyard::campaign {
 namespace {
 
-// A group, or a parameter, that nothing reads unless.
+// A group, or a parameter, that nothing reads unless. Of one that is missing here values are
+// doubted that have no effect.
 struct Unread {
   std::string_view path;  // of which it begins
   bool read;

@@ -121,7 +121,7 @@ struct LookFile {
 // core::UserError or std::filesystem::filesystem_error.
 //
 // Of each look, whose name begins with "front" or "rear": left.png, grid.png, disparity.png,
-// elevation.png, cloud.ply (look_pictures.h); pictures but left.png are enlarged to some 512
+// elevation.png, cloud.ply (src/campaign/README.md); pictures but left.png are enlarged to some 512
 // pixels.
 std::vector<LookFile> WriteLookFiles(const std::filesystem::path& folder,
                                      std::span<const CapturedLook> looks,

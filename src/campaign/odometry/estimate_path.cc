@@ -78,7 +78,8 @@ std::vector<math::Transform> PredictedPoses(const OdometryRequest& request, std:
   return std::move(file.poses);
 }
 
-// What decides the path and the files, but for the images themselves.
+// What decides the path and the files, but for the images themselves. A setting that is left out
+// may differ when a path is gone on with, and nobody notices.
 core::JsonValue PathRequestJson(const OdometryRequest& request, const ImageSequence& sequence,
                                 const OdometryResult& result) {
   const auto bytes_of = [](const fs::path& file) {

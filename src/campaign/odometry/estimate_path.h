@@ -47,7 +47,7 @@ struct OdometryRequest {
   std::optional<std::int64_t> count;
 
   std::uint64_t seed = 1;    // of RANSAC's draws
-  std::optional<int> white;  // the sample that becomes 255 (image_files/luminance.h)
+  std::optional<int> white;  // the sample that becomes 255 (image_files::ToGray)
 
   std::vector<double> lengths_m;  // of segments; empty: KITTI's
   std::int64_t delta = 1;         // steps of the relative pose error
@@ -55,7 +55,8 @@ struct OdometryRequest {
       pictured;  // the pair whose features are drawn; absent: the middle one
 };
 
-// Where the time of a pair goes.
+// Where the time of a pair goes. From kDetected on in the order of vision::OdometryStage. The names
+// are in times.csv and vo.json.
 enum class PairStage {
   kRead,
   kAligned,

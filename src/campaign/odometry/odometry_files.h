@@ -21,7 +21,8 @@ std::vector<std::string> OdometryFileNames();
 void WriteOdometryFiles(const OdometryRequest& request, OutputFolder& folder,
                         OdometryResult& result);
 
-// The file vo.json: described in src/campaign/README.md.
+// The file vo.json: described in src/campaign/README.md. Programs read it (--json): members are
+// only added.
 core::JsonValue OdometryJson(const OdometryRequest& request, const OdometryResult& result);
 
 // Of one stage over all pairs, s: median and largest. Nothing of no pairs.

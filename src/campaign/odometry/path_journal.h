@@ -21,7 +21,9 @@ struct PairEntry {
   StageSeconds seconds{};
 };
 
-// A line of JSON a pair; reals read back to the same bits.
+// A line of JSON a pair; reals read back to the same bits, as the path that goes on has to be the
+// one that was not cut off. Only the program that began it reads it (OutputFolder): its form may
+// change.
 class PathJournal {
  public:
   // Entries that the file holds, where there is one; a last line that was cut off is removed from

@@ -14,7 +14,7 @@
 namespace rockyard::campaign {
 
 // A pose a line: twelve numbers, the rows of [R p], of X_AB from the body B to A (the odometry
-// benchmark of KITTI). They read back to the same bits.
+// benchmark of KITTI). The numbers read back to the same bits; ReadPoses makes rotations exact.
 std::string KittiPoses(std::span<const math::Transform> poses);
 
 // A pose a line: "time x y z qx qy qz qw" (TUM RGB-D benchmark), with a first line of comment. As

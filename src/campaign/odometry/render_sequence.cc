@@ -84,7 +84,8 @@ std::vector<math::Transform> PosesByWheels(const std::vector<math::Pose2>& way,
   return poses;
 }
 
-// All that decides what is rendered.
+// All that decides what is rendered. A setting that is left out may differ when a sequence is gone
+// on with, and nobody notices.
 core::JsonValue SequenceRequestJson(const SequenceRequest& request, const RenderStage& stage) {
   const RenderRequest& scene = request.scene;
   const auto number = [](const std::optional<double>& value) {

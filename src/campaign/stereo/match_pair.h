@@ -63,10 +63,10 @@ struct StereoRequest {
   std::optional<Depths> depths;  // the range that is searched; else that of the settings, or 1/8 of
                                  // the width of the image from infinity on
 
-  std::optional<int> white;  // the sample that becomes 255 (image_files/luminance.h)
+  std::optional<int> white;  // the sample that becomes 255 (image_files::ToGray)
 
   std::filesystem::path reference;      // known disparities of the left image; empty: none
-  double reference_samples_a_px = 1.0;  // image_files/disparity_file.h
+  double reference_samples_a_px = 1.0;  // image_files::ReadDisparity
 
   double cell_m = 0.1;  // of the elevation map
   int threads = 1;
@@ -96,7 +96,8 @@ struct StereoResult {
 StereoResult MatchPair(const StereoRequest& request);
 
 // The file stereo.json: inputs, size, cameras, parameters, range, how many pixels each filter
-// dropped, the score against known disparities, points, files. Described in src/campaign/README.md.
+// dropped, the score against known disparities, points, files. Programs read it (--json): members
+// are only added.
 core::JsonValue StereoJson(const StereoRequest& request, const StereoResult& result);
 
 }  // namespace rockyard::campaign

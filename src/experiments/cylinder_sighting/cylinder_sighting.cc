@@ -81,6 +81,7 @@ CylinderSightingExperiment::CylinderSightingExperiment(const CylinderSightingPar
 
 StudiedView CylinderSightingExperiment::Draw(std::size_t cell, core::TrialKey key) const {
   StudiedView studied{params_.picture, {}, params_.published, params_.robust};
+  // Everything is drawn, also what a factor or a parameter then replaces: the other numbers stay.
   core::RandomStream stream(key, core::Purpose::kExperiment);
   studied.view.present = params_.present;
   studied.view.orientation_rad = SampleUniform(stream, -std::numbers::pi, std::numbers::pi);
@@ -131,6 +132,7 @@ std::vector<double> CylinderSightingExperiment::Measure(std::size_t cell,
 
 namespace {
 
+// The meaning of the columns "..._wrong" tells these numbers.
 constexpr double kWrongDeviations = 3.0;
 constexpr double kWrongTurn_rad = math::DegToRad(10.0);
 constexpr double kWrongShare = 0.10;

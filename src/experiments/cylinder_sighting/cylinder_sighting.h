@@ -63,6 +63,7 @@ void ForEachFinderColumn(const std::string& finder, const std::string& called,
          kCount, found},
         s.wrong);
   visit({right, "1", "of these, not wrong", kCount, found}, s.right);
+  // Another reason, or another name of one, is another column of stored runs.
   for (std::size_t i = 1; i < kCylinderMisses; ++i) {
     const std::string reason(core::EnumNames<vision::CylinderMiss>::kNames[i]);
     visit({std::string(finder).append("_").append(reason), "1",

@@ -1,4 +1,5 @@
-// Parameters of the experiment on the coloured cylinder before the lander's cameras.
+// Parameters of the experiment on the coloured cylinder before the lander's cameras. A default
+// decides the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <cstdint>

@@ -16,6 +16,7 @@ namespace {
 
 WalkingRover RoverOf(const trial::DriveParams& drive) {
   return {
+      // Without errors of calibration what the rover believes is the truth.
       .wheels = trial::OnboardDriveCalibration(drive.rover, {}),
       .believed = trial::OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
       .dead_reckoning = drive.perception.dead_reckoning};

@@ -1,4 +1,5 @@
-// Parameters of the experiment on dead reckoning along a straight line.
+// Parameters of the experiment on dead reckoning along a straight line. A default decides the
+// records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <cstdint>

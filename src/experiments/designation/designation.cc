@@ -186,6 +186,7 @@ std::vector<double> DesignationExperiment::Measure(std::size_t cell, core::Trial
   const Vector3 p_goal_L(range_m, 0.0, params_.goal_height_m);
   const LanderPair pair(cameras_, p_goal_L);
   const trial::CourseParams course = CourseOf(range_m);
+  // RequireDesignable refuses ranges at which a camera does not image the goal.
   const StereoPick seen = pair.See(p_goal_L).value();
   DesignationSums sums;
   for (std::int64_t i = 0; i < params_.designations_per_run; ++i) {

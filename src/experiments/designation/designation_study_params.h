@@ -1,4 +1,5 @@
-// Parameters of the experiment on goals designated in the lander's stereo images.
+// Parameters of the experiment on goals designated in the lander's stereo images. A default decides
+// the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <cstdint>

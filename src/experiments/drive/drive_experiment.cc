@@ -12,6 +12,7 @@
 namespace rockyard::experiments {
 namespace {
 
+// A number that is none is a fault of the simulation (RecordOf), unless its column may lack one.
 std::vector<double> Values(const truth::DriveRecord& drive) {
   std::vector<double> values;
   values.reserve(truth::kDriveColumns.size());

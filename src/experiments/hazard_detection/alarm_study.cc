@@ -70,6 +70,7 @@ class AlarmStudy final : public CellExperiment {
       return;
     }
     const messages::ElevationScan second = judge.Scan(sand_, X_WR, key, 1);
+    // It begins with the same scans: equal numbers have equal noise.
     const Percept percept = judge.Look(sand_, X_WR, key, 0);
     sums[1] += static_cast<double>(percept.scans);
     sums[2] += 1.0;

@@ -17,7 +17,7 @@ namespace rockyard::experiments {
 
 // Every column of any study but the number of the cell: first the factors that name a cell, then
 // the bases, and counts and sums of these. A study takes those that it measures, and its factors
-// those of their lists (CellFactor::column).
+// those of their lists (CellFactor::column). Its sums stand in the order in which it names them.
 const truth::RecordSchema& HazardColumns();
 
 // What hazard_detection.scenes_per_run scenes of one cell count. Draws from the sensor's streams

@@ -1,4 +1,5 @@
-// Parameters of the experiments on the detection performance of the light stripe sensor.
+// Parameters of the experiments on the detection performance of the light stripe sensor. A default
+// decides the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <array>
@@ -28,7 +29,8 @@ enum class RockProportions {
   kNatural,  // the diameter follows from the height by the terrain's height ratios and burial
 };
 
-// Of the emitter on the left that stands on the cameras' axis, outwards from the left camera.
+// Of the emitter on the left that stands on the cameras' axis, outwards from the left camera. The
+// study moves emitters there, and the condition on baselines_m asks whether the sensor works there.
 constexpr double BaselineEmitterY(double camera_separation_m, double baseline_m) {
   return 0.5 * camera_separation_m + baseline_m;
 }

@@ -124,6 +124,7 @@ class PlaneStudy final : public CellExperiment {
       for (std::size_t stripe = 0; stripe < truth.lasers.size(); ++stripe) {
         const Scanline seen(believed, row, stripe);
         const Scanline real(truth, row, stripe);
+        // Stripes whose emitters do not move, as the centre one, are no part of the cell.
         constexpr double kSame_m = 1e-6;
         if (std::abs(real.Baseline() - factors[0]) > kSame_m) continue;
         AddPoint(seen, real, scan.pixels[row][stripe], plane_m - truth.datum_z_m, sums);

@@ -166,6 +166,7 @@ Sol Mission::RunSol(std::int64_t number, const Window& window, messages::Goal& t
   Sol sol;
   SolBooks books(SunFrom(number, 0.0), battery_wh_);
   double asleep_from_s = 0.0;
+  // Loads are booked in the order of time: each finds the batteries as earlier ones left them.
   if (number % SolsPerCommand(params_.day) == 0) {
     books.AddLoad(params_.power.sleep_W, 0.0, window.begin_s, books.energy().sleep_wh);
     books.AddDrive(DriveOn(number, window, sol, told));
@@ -263,6 +264,7 @@ void Mission::TellBelief(Sol& sol) const {
 
 void Mission::JudgeGoal(const messages::Goal& told, Sol& sol, MissionCourse& course) {
   const double radius_m = drive_.course.goal_radius_m;
+  // Operators compare in the frame in which goals are told: belief and told place are both in it.
   sol.believed_reached = Distance_m(memory_.pose, told) <= radius_m;
   sol.truly_reached = Distance_m(truth_, goals_[goal_]) <= radius_m;
   if (!sol.believed_reached) {
@@ -281,6 +283,7 @@ void Mission::JudgeGoal(const messages::Goal& told, Sol& sol, MissionCourse& cou
 
 std::optional<MissionEnd> Mission::EndAfter(const Sol& sol) {
   stuck_sols_ = sol.end == SolEnd::kStuck ? stuck_sols_ + 1 : 0;
+  // Where several reasons hold, the first of these is told.
   if (sol.end == SolEnd::kTipped) return MissionEnd::kTipped;
   if (Distance_m(truth_, {params_.lander_x_m, params_.lander_y_m}) > params_.radio_range_m) {
     return MissionEnd::kLost;

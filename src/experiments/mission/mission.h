@@ -26,6 +26,7 @@
 
 namespace rockyard::experiments {
 
+// Each is a column of the records, called "end_" and its name: stored runs hold them.
 enum class MissionEnd {
   kSolsDone,
   kGoalsDone,  // operators believe to have been at every goal, or have given it up

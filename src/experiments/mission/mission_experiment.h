@@ -25,6 +25,7 @@ namespace rockyard::experiments {
 // The values of one mission, each beside its column.
 
 // Sols after which the paper's mission is over: its primary one of a week, and its goal of four.
+// Columns are named by them.
 inline constexpr std::array<std::int64_t, 2> kCheckpoints{7, 30};
 
 // Where the rover is at a checkpoint, or where its mission ended before that.
@@ -68,6 +69,7 @@ truth::ValueInfo Sum(const std::string& name, const std::string& unit, const std
 // Calls visit(column, value) for what a sum of energies holds.
 template <typename Visitor>
 void ForEachEnergyColumn(const SolEnergy& e, Visitor visit) {
+  // In the order of trial::Activity.
   constexpr std::array<std::string_view, trial::kActivityCount> kActivities{
       "drive", "turn", "steer", "scan", "stall", "imaging", "compute", "overhead"};
   const auto sum = [&](const std::string& name, const std::string& meaning, double value) {
@@ -181,6 +183,7 @@ void ForEachSolColumn(std::int64_t number, const Sol* sol, Visitor visit) {
     visit(truth::ValueInfo{prefix + name, unit, meaning}, sol == nullptr ? kNothing : x);
   };
   const auto flag = [](bool yes) { return yes ? 1.0 : 0.0; };
+  // Records hold the numbers of SolEnd and LanderSight.
   value("end", "1",
         "0 goal, 1 time, 2 energy, 3 stuck, 4 no path, 5 slip, 6 tipped, 7 no command, 8 patience",
         static_cast<double>(s.end));

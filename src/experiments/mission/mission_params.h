@@ -1,4 +1,5 @@
-// Parameters of a mission of many sols.
+// Parameters of a mission of many sols. A default decides the records of scenarios that leave it
+// out; a bound only refuses files.
 #pragma once
 
 #include <array>
@@ -13,7 +14,8 @@
 
 namespace rockyard::experiments {
 
-// Most sols of a mission.
+// Most sols of a mission, and the stride of their random keys (SolKey): another number is other
+// noise in every mission of a seed but number 0.
 inline constexpr std::uint32_t kMostSols = 1024;
 
 // When operators find the rover in the lander's images of a day.

@@ -77,6 +77,7 @@ SolEnd SolEndOf(truth::TrialOutcome outcome, std::optional<truth::EndCause> caus
       return SolEnd::kTime;
     case TrialOutcome::kExcessiveSlip:
       return SolEnd::kSlip;
+    // A mission's arena is open, and a fault of the simulation is thrown.
     case TrialOutcome::kLeftArena:
     case TrialOutcome::kSimulatorFault:
     case TrialOutcome::kMeasured:

@@ -59,7 +59,7 @@ class SolBooks {
   SolEnergy energy_;
 };
 
-// What ended the drive of a sol.
+// What ended the drive of a sol. Records hold its number and, in columns, its name: append only.
 enum class SolEnd {
   kGoal,       // the rover declared to be at its goal, truly or not
   kTime,       // the window closed
@@ -78,7 +78,7 @@ inline constexpr std::array<std::string_view, kSolEnds> kSolEndNames{
 // Throws std::logic_error for outcomes that drives of a mission do not have.
 SolEnd SolEndOf(truth::TrialOutcome outcome, std::optional<truth::EndCause> cause);
 
-// What became of the lander's image of the day.
+// What became of the lander's image of the day. Records hold its number: append only.
 enum class LanderSight {
   kNotTaken,
   kFound,

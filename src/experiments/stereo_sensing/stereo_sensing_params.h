@@ -1,4 +1,5 @@
-// Parameters of the experiment on what stereo cameras measure and miss.
+// Parameters of the experiment on what stereo cameras measure and miss. A default decides the
+// records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <cstdint>

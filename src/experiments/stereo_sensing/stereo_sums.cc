@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+// In the order of kPixelKinds.
 enum PixelKind : std::size_t { kPlain, kFront, kBehind, kShadow };
 
 class RowErrors {

@@ -89,6 +89,7 @@ HeadingStages StagesOf(const RunHistory& history) {
 
 namespace {
 
+// Activities and events are known by the names that truth/trace.h lists.
 std::vector<Moment> MomentsOf(const truth::Trace& trace) {
   std::vector<Moment> moments;
   moments.reserve(trace.samples.size());

@@ -140,7 +140,7 @@ bool ThreeRockRunExperiment::TryThirdRock(const RunHistory& with_b, Course& cour
 }
 
 core::RandomStream StreamOf(DrawnPart part, std::int64_t number, core::TrialKey key) {
-  // 0; 1, 3, 5, ... of B; 2, 4, 6, ... of C.
+  // 0; 1, 3, 5, ... of B; 2, 4, 6, ... of C: more tries of one rock move no try of the other.
   const std::int64_t substream =
       part == DrawnPart::kStart ? 0 : 2 * number + (part == DrawnPart::kSecondRock ? 1 : 2);
   return {key, core::Purpose::kExperiment, static_cast<std::uint32_t>(substream)};

@@ -55,7 +55,8 @@ std::optional<PlacedRock> PlaceOnPath(const DrawnRock& rock, double path_m,
 
 // The values of one run, each beside its column.
 
-// What the paper tells of the run in numbers (section 5), signed as HeadingStages.
+// What the paper tells of the run in numbers (section 5), signed as HeadingStages. Meanings of the
+// columns "..._below" repeat them.
 inline constexpr HeadingStages kPublishedStages{-5.0, 10.0, 10.0, 15.0, 15.3};
 inline constexpr double kPublishedPositionError_m = 1.0;
 

@@ -1,5 +1,6 @@
 // Parameters of the experiment "three_rock_run": from which layouts it draws, and what a run has to
-// show to be like the one that Matthies 1995 tells of (section 5, figures 7 and 8).
+// show to be like the one that Matthies 1995 tells of (section 5, figures 7 and 8). A default
+// decides the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <array>

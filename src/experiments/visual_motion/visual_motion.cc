@@ -14,6 +14,7 @@ namespace {
 
 using math::Transform;
 
+// The meaning of the column "wrong" tells these numbers.
 constexpr double kWrongSigma = 6.0;
 constexpr double kWrong_m = 0.05;
 constexpr double kWrong_rad = 2.0 * std::numbers::pi / 180.0;
@@ -78,6 +79,7 @@ void AddStep(const StudiedStep& step, const vision::MotionResult& seen, VisualSu
   const double nees = error.dot(math::SolveSymmetric(seen.motion->covariance, error));
   sums.nees += nees;
   sums.position_m += way_m.norm();
+  // e' P^-1 e is 6 on average: all six coordinates off by kWrongSigma make 6 kWrongSigma^2.
   const bool far = way_m.norm() > kWrong_m || turn_rad.norm() > kWrong_rad;
   if (far && nees > 6.0 * kWrongSigma * kWrongSigma) sums.wrong += 1.0;
   sums.along_m.Add(way_m.x());

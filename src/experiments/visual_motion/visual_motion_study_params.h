@@ -1,4 +1,5 @@
-// Parameters of the experiment on how well visual odometry measures one motion.
+// Parameters of the experiment on how well visual odometry measures one motion. A default decides
+// the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,8 @@ struct PathSampling {
 PathSampling SamplePaths(const GestaltPlanParams& params, double cell_m);
 
 // Candidates in rows, as figure 3 of Goldberg 2002 shows them: arcs by curvature from right (most
-// negative) to left, turns in place by angle from right to left.
+// negative) to left, turns in place by angle from right to left. Votes keep this order: ties are
+// broken by it, and waypoint votes fall with the number of arcs between two.
 struct CandidateMotions {
   std::vector<CandidateMotion> forward;
   std::vector<CandidateMotion> backward;

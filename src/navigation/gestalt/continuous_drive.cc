@@ -79,6 +79,7 @@ NavigatorDecision GestaltCycle::ReplaceMotion(const NavigatorInput& input,
   }
   MotionVotes& votes = evaluation_.votes();
   messages::MotionVote* arc = ChooseArc(votes, params_);
+  // Backward arcs, rear cameras and searches are for a rover at rest.
   const bool safe =
       arc != nullptr && arc->motion.direction > 0 && arc->merged >= params_.votes.min_vote_goodness;
   if (!safe) return OnNoSafePlan();

@@ -54,6 +54,9 @@ double SpeedShare(const SpeedLawParams& params, double curvature_per_m);
 // linear in the tightest ones, a parabola in between. With curvature linear in the distance F(c) is
 // c itself, which is also what p = 1 gives.
 //
+// Votes judge the paths of splines by it, and the manoeuvre steers by it. The two must be one law
+// with one set of parameters, or the rover would drive over other ground than was judged.
+//
 // Knots stand at distances in both laws: `length_m` apart. Curvatures in 1/m, positive left.
 class CurvatureLaw {
  public:

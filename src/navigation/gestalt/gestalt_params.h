@@ -1,6 +1,7 @@
-// Parameters of the arcs and votes of GESTALT: Goldberg 2002, table 1, groups "Arcs" and
-// "Waypoints", plan-min-dist, plan-max-dist and the vote thresholds. Names and defaults are the
-// table's; what the paper leaves open is marked as assumed.
+// Parameters of GESTALT but for its map (map_params.h): arcs, votes and waypoints of Goldberg 2002,
+// table 1, the drive cycle, and driving on the move (Howard 2012). Names and defaults of table 1
+// are the table's, and a test holds them to it; what the papers leave open is marked as assumed. A
+// default decides the records of every scenario that leaves it out; a bound only refuses files.
 #pragma once
 
 #include <array>
@@ -107,7 +108,7 @@ struct GestaltSplineParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Every parameter of GESTALT: table 1 of Goldberg 2002, and what the drive cycle needs beside it.
+// What the drive cycle needs beside table 1, and all of GESTALT's parameters together.
 
 // How looking, planning and driving follow each other.
 enum class DriveCycle {

@@ -1,5 +1,6 @@
 // Parameters of the map of GESTALT: its grid, its tests and the vehicle (Goldberg 2002, table 1 and
-// section 4, steps 1 to 3).
+// section 4, steps 1 to 3). Defaults of table 1 are the table's, and a test holds them to it; each
+// enum names the readings of what the paper leaves open.
 #pragma once
 
 #include <array>
@@ -99,7 +100,8 @@ struct GestaltPairParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// What GESTALT believes of its vehicle.
+// What GESTALT believes of its vehicle. It is not the true one (rover.geometry): a drive is refused
+// where length or width is off by more than a factor of two, and no condition looks closer.
 struct GestaltRoverParams {
   bool modelled = true;
   double length_m = 1.04;

@@ -25,6 +25,7 @@ Progress::Cycle Progress::BeginCycle(double goal_distance_m) {
 }
 
 void Progress::Restart() {
+  // The next cycle is a first one then, from which fruitless ones count anew.
   best_m_ = std::numeric_limits<double>::infinity();
   felt_hazards_ = 0;
 }

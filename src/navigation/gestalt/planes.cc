@@ -21,6 +21,7 @@ Farthest FarthestFrom(const math::Vector3& normal, const math::Vector3& mean_m,
   for (std::size_t i = 0; i < cells.size(); ++i) {
     // |n . (mean of the cell - mean of the patch)|: the plane passes through the patch's mean.
     const double distance_m = std::abs(normal.dot(cells[i].spread->mean_m - mean_m));
+    // Of equals the first, so that trials repeat to the bit.
     if (distance_m > farthest.distance_m) farthest = {i, distance_m};
   }
   return farthest;

@@ -253,6 +253,8 @@ struct Peak {
 
   bool IsBetterThan(const Peak& other) const {
     if (other.middle == nullptr) return true;
+    // The paper's rule first, then what it leaves open (ChooseArc). Ties are common among whole
+    // numbers, so that this order decides records.
     return std::make_tuple(length, middle->waypoint, middle->motion.direction, -from_straight) >
            std::make_tuple(other.length, other.middle->waypoint, other.middle->motion.direction,
                            -other.from_straight);

@@ -92,6 +92,7 @@ PathfinderNavigator::PathfinderNavigator(const PathfinderParams& params, const m
       reaction_(params.vehicle_reaction) {}
 
 NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
+  // A rover at its goal stops whatever it does, sees or feels.
   if (AtGoal(input.estimate)) return Finish(NavigatorStatus::kArrived);
   if (params_.time_out_s > 0.0 && input.time_s >= params_.time_out_s) {
     return Finish(NavigatorStatus::kGaveUp);

@@ -1,4 +1,7 @@
 // Parameters of the Pathfinder behaviour controller: what Matthies 1995, section 7, leaves open.
+// Defaults are the plain reading of the paper (a test holds the rules to it). The scenarios of its
+// runs state few of them, so that a default decides their records and baselines; a bound only
+// refuses files.
 #pragma once
 
 #include <array>

@@ -2,7 +2,8 @@
 // light, its surroundings, and the cameras themselves.
 //
 // Colours, light, response and surroundings are assumed, each with its range of studies: they were
-// written down before any finder was run on an image.
+// written down before any finder was run on an image. Drives render none of these images: the
+// lander's fix has numbers that were fitted to them, which stay until they are fitted anew.
 #pragma once
 
 #include <array>

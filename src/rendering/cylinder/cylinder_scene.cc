@@ -120,6 +120,7 @@ void AddRocks(const CylinderPictureParams& params, const math::Transform& X_LT, 
     const bool red = core::SampleBernoulli(stream, clutter.red_share);
     const double brightness =
         1.0 + clutter.rock_brightness_spread * SampleUniform(stream, -1.0, 1.0);
+    // After all its draws: where the cylinder stands moves no other rock.
     if (!IsClear(place, half_m, params, X_LT)) continue;
     const Colour colour = brightness * ToColour(red ? clutter.red_rock : clutter.rock);
     constexpr double kSunk = 0.1;

@@ -21,7 +21,9 @@
 namespace rockyard::rendering {
 
 // `orientation_rad` is theta of Matthies 1995, app. A.1: the azimuth, in T, of the middle between
-// the cameras as seen from the cylinder. Blue is in the middle of the view at 45 deg.
+// the cameras as seen from the cylinder. Blue is in the middle of the view at 45 deg. Finders tell
+// theta in the same frame (vision/cylinder/colour_cylinder.h): their errors are differences of
+// both.
 struct CylinderView {
   double distance_m = 5.0;       // along the ground, from the origin of L
   double bearing_rad = 0.0;      // to the left

@@ -1,4 +1,5 @@
-// Parameters of images of the terrain: what it looks like, and what the camera makes of it.
+// Parameters of images of the terrain: what it looks like, and what the camera makes of it. Error
+// models that were fitted to such images stand for these values until they are fitted anew.
 #pragma once
 
 #include <array>

@@ -46,7 +46,8 @@ class PictureScene {
                    std::span<const int> among, std::vector<int>& out) const;
 
   // Returns what the unit ray meets first: of the terrain what Terrain::CastRay gives, with the
-  // same bits, and the rover's own parts; with its share of the sun.
+  // same bits, over rough ground within 1e-9 m (RayWay::kSpline); and the rover's own parts; with
+  // its share of the sun.
   Met Meet(const math::Vector3& origin_W, const math::Vector3& ray_W,
            std::span<const int> rocks) const;
 

@@ -41,7 +41,8 @@ class PixelRays {
   }
 
   // All rays through a square of pixels, with half a pixel around it. There are tiles of kTile x
-  // kTile pixels, and blocks of kTilesPerBlock x kTilesPerBlock tiles.
+  // kTile pixels, and blocks of kTilesPerBlock x kTilesPerBlock tiles. Cones only sift rocks, so
+  // that these sizes decide time alone.
   static constexpr int kTile = 8;
   static constexpr int kTilesPerBlock = 8;
   struct Tile {

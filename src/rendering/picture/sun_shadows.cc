@@ -14,7 +14,8 @@ using math::Vector3;
 
 // Rough ground further than this towards the sun casts no shadow: as far as in image_scene.cc.
 constexpr double kGroundShadowReach_m = 2.0;
-// Cells of the grid across the sun's rays; more of them than this become larger ones.
+// Cells of the grid across the sun's rays; more of them than this become larger ones. They decide
+// time and memory alone.
 constexpr double kSunCell_m = 0.06;
 constexpr double kMostSunCells = 1e6;
 // Rays over the disc that ask for a cap.

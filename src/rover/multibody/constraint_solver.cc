@@ -299,6 +299,7 @@ double ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
   }
   for (std::size_t i = 0; i < contact_count_; ++i) {
     ContactRows& rows = contacts_[i];
+    // Friction after the normal: its bound is that of the normal impulse of this sweep.
     Relax(rows.normal);
     RelaxFriction(rows);
     if (rows.law.drag_ratio > 0.0) {

@@ -72,6 +72,7 @@ void ContactFinder::Update(const Multibody& body) {
       MeetWheelGround(index, X_WB);
     }
     const Vector3 center_W = X_WB * part.center_B;
+    // RocksNear lists rocks by rising index, the order that Add asks for.
     for (const int rock : near_rocks_) MeetRock(index, X_WB, center_W, rock);
   }
 }
@@ -85,7 +86,7 @@ void ContactFinder::GatherRocks(const Vector3& p_WRo) {
 
 Contact& ContactFinder::Add(int part, int other, bool& found) {
   // Both lists are ordered by (part, other), so one pass through the last one finds every pair
-  // again.
+  // again: calls have to come in that order.
   const auto key = std::tuple(part, other);
   while (next_last_ < last_.size() &&
          std::tuple(last_[next_last_].part, last_[next_last_].other) < key) {

@@ -14,7 +14,8 @@
 namespace rockyard::rover {
 
 // What a part touches is a rock by its index >= 0, the ground, or wall i as kFirstWall - i. A wheel
-// between the flanks of a ditch touches the ground twice.
+// between the flanks of a ditch touches the ground twice. Contacts are in the order of these
+// numbers, in which pairs are found again from step to step and impulses are solved for.
 inline constexpr int kGround = -1;
 inline constexpr int kFirstWall = -2;
 inline constexpr int kGroundAhead = -1000;

@@ -80,7 +80,7 @@ class ContactLaws {
   ContactLaws(const RoverParams& params, const terrain::SoilParams& soil);
 
   // Returns the law of a contact whose impulses are those of a step of that length; a wheel has dug
-  // in for that slip (slip_sinkage.h).
+  // in for that slip (SlipSinkage).
   ContactLaw Of(const Part& part, const Contact& contact, double step_s,
                 double dug_slip = 0.0) const;
 

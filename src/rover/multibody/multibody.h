@@ -11,8 +11,9 @@
 
 namespace rockyard::rover {
 
-// The joints are all revolute about the lateral axis, in this order. A body has the number of the
-// joint that carries it; the chassis is kChassis.
+// The joints are all revolute about the lateral axis, in this order: parents before what they
+// carry, left before right. Both fidelities number bodies so. A body has the number of the joint
+// that carries it; the chassis is kChassis.
 inline constexpr int kChassis = -1;
 inline constexpr int kLeftRocker = 0;
 inline constexpr int kRightRocker = 1;

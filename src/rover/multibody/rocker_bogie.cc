@@ -14,7 +14,8 @@ namespace {
 using math::Vector3;
 using messages::kWheelCount;
 
-// Faster than any rover of ours falls or drives, m/s: the solution has blown up.
+// Faster than any rover of ours falls or drives, m/s: the solution has blown up, and the trial is a
+// simulator fault, which no rate counts.
 constexpr double kFastest_m_s = 5.0;
 
 // Settling: each step keeps this share of the velocities, so that the rover sinks gently; it ends

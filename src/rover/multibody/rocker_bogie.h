@@ -1,4 +1,5 @@
-// The rocker-bogie rover: Bullet's articulated body under rockyard's contacts and constraints.
+// The rocker-bogie rover: Bullet's articulated body under rockyard's contacts and constraints. The
+// default fidelity, against which the quasi-static one is held.
 #pragma once
 
 #include <optional>

@@ -69,7 +69,7 @@ class QuasiStaticBalance {
   messages::PerWheel<double> TurnShares() const;
 
   // Lets the wheels turn by these ways of their rims, at the slips of the last solution: those on
-  // soil dig in, or come out again (slip_sinkage.h), which the next solution sees.
+  // soil dig in, or come out again (SlipSinkage), which the next solution sees.
   void Dig(const messages::PerWheel<double>& rim_way_m);
   // True where the rover has dug in for the slips of the last solution, as always without slip
   // sinkage: the next solution of the same drive on the same ground is the same.

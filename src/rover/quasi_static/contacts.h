@@ -35,7 +35,9 @@ struct RestingContact {
   bool IsSoil() const { return IsWheel() && (other == kGround || other == kGroundAhead); }
 };
 
-// Finds the contacts of a rover in one posture. Draws no random numbers.
+// Finds the contacts of a rover in one posture. Draws no random numbers. Forces are summed in the
+// order of the list (wheel by wheel ground, walls and rocks, then body, then corners), and so the
+// last bit hangs on it.
 class QuasiStaticContacts {
  public:
   QuasiStaticContacts(const RoverGeometryParams& params, const terrain::Terrain& terrain);

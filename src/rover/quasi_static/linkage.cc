@@ -69,6 +69,7 @@ Linkage::Linkage(const RoverParams& params) {
                                                                : geometry.rocker_pivot_R[side]);
   }
   // Rockers weigh on their pivots, which the chassis carries; a bogie and its wheels are one lump.
+  // The masses are those of MakeRoverMasses, so that both fidelities have the same wheel loads.
   const double chassis_kg =
       mass.total_kg - 6.0 * mass.wheel_kg - 2.0 * (mass.rocker_kg + mass.bogie_kg);
   // Chassis and rockers as one lump, at their common centre of mass.

@@ -6,7 +6,7 @@
 namespace rockyard::rover {
 
 // Slip at which Coulomb friction has reached 0.7 of itself, in shares of the rim speed: what stands
-// for a contact that holds.
+// for a contact that holds, in balances and in starts and stops alike.
 inline constexpr double kRockCreep = 0.002;
 
 // The wheels of a rover as one: what they do to the power of its motion. Lengths of way are those

@@ -321,7 +321,8 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   }
   Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
   turn_share_ = balance_.TurnShares();
-  // From here on RollOn may repeat this balance, which is the same in the rover's frame.
+  // From here on RollOn may repeat this balance, which is the same in the rover's frame: only on a
+  // level plane, where a turn of the rover changes nothing.
   steady_ = stands_level && MeetsNothing(rates_, lead_s) && IsSteady() && balance_.HasDugIn();
   Limit(stretch_.duration_s, kMaxMove * params_.quasi_static.settle_distance_m, kMaxTurn_rad,
         rates_);

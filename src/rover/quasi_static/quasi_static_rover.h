@@ -1,5 +1,6 @@
 // The rover as a sequence of balances of forces, some centimetres apart. Inertia counts where it
-// starts and stops (progress.h).
+// starts and stops (progress.h). It is to come out as RockerBogie does at a fraction of the cost:
+// differential tests and results/studies/equivalence.md hold it to that.
 #pragma once
 
 #include "rover/motor_ramp.h"

@@ -12,7 +12,8 @@
 namespace rockyard::rover {
 
 // A wheel: a disc of core radius, as wide as twice the core's half width along the axle, and all
-// points within the margin of it.
+// points within the margin of it. The same wheel as that of MakeParts, which the multibody meets
+// rocks with.
 struct WheelShape {
   double core_radius_m;
   double core_half_width_m;

@@ -1,4 +1,5 @@
-// The simulated clock: physics and control rates, and what on-board computing takes.
+// The simulated clock: control rate, and what scans, stops and on-board computing take. A default
+// decides the times of every scenario that leaves it out; a bound only refuses files.
 #pragma once
 
 #include "core/fields.h"

@@ -8,9 +8,9 @@
 
 namespace rockyard::trial {
 
-// Computers of Goldberg 2002, section 5, whose times stand in compute_tables.h, and of others whose
-// stereo goes with the width of the images, in compute_tables.h. Section 5 has
-// four computers: the first of table 2 and the three of table 3.
+// Computers whose times stand in eyes/compute_tables.h: the four of Goldberg 2002, section 5 (one
+// of table 2, three of table 3), and others whose stereo goes with the width of the images. The
+// names in scenarios, below, have this order.
 enum class Computer {
   kNone,            // images, stereo and navigation take no time
   kR3000,           // 12 MHz, on board of the Athena SDM (table 2)

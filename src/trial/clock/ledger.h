@@ -1,4 +1,5 @@
-// The simulated clock and the batteries: what every activity takes.
+// The simulated clock and the batteries: what every activity takes. The one clock of a trial: what
+// times, rates and energies of its record are made of.
 #pragma once
 
 #include <array>

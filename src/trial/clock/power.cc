@@ -105,6 +105,7 @@ double SolarSupply::ShortSinceNoon_J(double load_W, double hour_angle_rad) const
   const double within = hour_angle_rad - 2.0 * std::numbers::pi * sols;
   const double carrying = CarryingAngle(load_W);
   const double sunset = CarryingAngle(0.0);
+  // In closed form, so that a drive or a night cut into pieces adds up to the whole.
   // From 0 to h >= 0: nothing as long as the sun carries the load, then the load less S.
   const auto from_noon = [&](double h) {
     if (h <= carrying) return 0.0;

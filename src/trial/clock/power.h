@@ -19,7 +19,7 @@ enum class Activity {
   kComputing,  // stereo, map and votes
   kOverhead,   // at rest about a move
 };
-inline constexpr std::size_t kActivityCount = 8;
+inline constexpr std::size_t kActivityCount = 8;  // arrays by activity have the order above
 
 // Light emitters that are on in the same image, where most are: the lasers of the largest group,
 // which are fewer than lasers_per_image where the groups share out evenly (four of five: three and

@@ -1,4 +1,5 @@
-// What the observer of a drive counts and adds up.
+// What the observer of a drive counts and adds up. Each of them defines columns of
+// truth/drive_record.h.
 #pragma once
 
 #include <algorithm>

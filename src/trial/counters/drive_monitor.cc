@@ -33,6 +33,7 @@ DriveMonitor::DriveMonitor(const Underside& underside, const terrain::Terrain& t
       min_clearance_m_(std::numeric_limits<double>::infinity()) {}
 
 void DriveMonitor::Restart(const truth::RoverState& state) {
+  // Up to where the rover was taken away, however little is left of the chord.
   distance_m_ += OpenChord();
   last_X_WR_ = state.X_WR;
   chord_x_m_ = state.X_WR.translation().x();

@@ -108,6 +108,7 @@ void HazardWatch::OnBelieved(const math::Transform& X_WR) {
   for (Hazard& hazard : hazards_) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(hazard.rock)];
     if (hazard.settled || !IsNear(rock, X_WR) || !Reaches(rock, view_, X_WR)) continue;
+    // Believed before the next look of this watch: it has been met all the same.
     if (!hazard.met) ++met_;
     hazard.met = true;
     hazard.settled = true;

@@ -92,7 +92,8 @@ void WaypointParams::Visit(core::FieldVisitor& v) {
 
 namespace {
 
-// A place that is nearer than this to the one before is no place to drive to.
+// A place that is nearer than this to the one before is no place to drive to. Visit holds the goal
+// to the same distance from the start.
 constexpr double kShortestLeg_m = 0.1;
 
 bool AreApart(const messages::Goal& a, const messages::Goal& b) {

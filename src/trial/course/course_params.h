@@ -1,4 +1,5 @@
-// Where a trial starts, where it leads and by which waypoints, and how near counts as there.
+// Where a trial starts, where it leads and by which waypoints, and how near counts as there. It is
+// what is true: what the rover is told of it comes from goal_designation.h.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ namespace rockyard::trial {
 // By whose knowledge of the rocks a route is planned, and who drives along it.
 enum class RouteMap {
   kOracle,  // the true rocks
-  kLander,  // those that the lander's stereo pair shows (lander_map.h)
+  kLander,  // those that the lander's stereo pair shows (goal_designation.h)
 };
 
 enum class RouteUse {

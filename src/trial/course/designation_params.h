@@ -35,7 +35,7 @@ struct DesignationParams {
   PanError pan_kind = PanError::kFixed;
   double pan_error_rad = math::DegToRad(1.0);
   // No parameter: of a course whose pan error was drawn elsewhere, what is known of it all the
-  // same.
+  // same. A drawn error must not tell the rover's filter how large it is.
   std::optional<double> stated_pan_sd_rad = std::nullopt;
 
   // What the calibration states of the pan error, a standard deviation: of a fixed one its size, of

@@ -29,6 +29,7 @@ struct Ring {
 };
 constexpr std::array kRings{Ring{0.2, 12}, Ring{0.4, 12},  Ring{0.6, 24},
                             Ring{0.8, 24}, Ring{0.92, 24}, Ring{0.999, 72}};
+// Ends of rays are shortened by this: a point is not hidden by the surface that it lies on.
 constexpr double kMargin_m = 0.002;
 
 // The points of a rock that a camera might show: its top and rings of its surface, none below the
@@ -126,6 +127,7 @@ struct RockErrors {
 RockErrors DrawErrors(core::TrialKey key, std::size_t index) {
   core::RandomStream stream(key, core::Purpose::kLanderMap, static_cast<std::uint32_t>(index));
   RockErrors draws;
+  // All five in this order, whichever are used: so no error shifts another one.
   for (double* draw : {&draws.downrange, &draws.left, &draws.right, &draws.top, &draws.base}) {
     *draw = core::SampleNormal(stream, 0.0, 1.0);
   }
@@ -244,6 +246,8 @@ struct LineOfSight {
   double along_y = 0.0;
 };
 
+// The place less CourseParams::LanderPlace, but in this order of operations: the last bits of all
+// told goals hang on it.
 LineOfSight SightOf(const messages::Goal& place, const CourseParams& course) {
   const double dx = course.goal_x_m - course.start_x_m;
   const double dy = course.goal_y_m - course.start_y_m;

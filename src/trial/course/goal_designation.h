@@ -56,7 +56,7 @@ std::vector<MappedRock> MapFromLander(const CourseParams& course, const terrain:
 messages::Goal DesignatedGoal(const CourseParams& course, core::TrialKey key);
 
 // By how much the pan axis of the lander's cameras is wrong in a trial, positive to the left: what
-// its goals, its waypoints and its map (lander_map.h) have in common. 0 where designation is off.
+// its goals, its waypoints and its map (MapFromLander) have in common. 0 where designation is off.
 double PanError_rad(const DesignationParams& designation, core::TrialKey key);
 
 // Every waypoint of the course in the order of driving, then DesignatedGoal. Each waypoint is

@@ -9,7 +9,8 @@
 
 namespace rockyard::trial {
 
-// The key of the rock field: trials that share a layout share it.
+// The key of the rock field: trials that share a layout share it. Their results hang together,
+// which intervals reckon with; noise and start stay those of the trial.
 inline core::TrialKey LayoutKey(const DriveParams& drive, core::TrialKey key) {
   const auto group = static_cast<std::uint32_t>(drive.course.trials_per_layout);
   return {key.seed, key.trial / group};

@@ -20,6 +20,7 @@ struct Offset {
 };
 
 constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+// Of ways that cost the same the order decides, too: another one is another route.
 constexpr Offset kNeighbours[] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
                                   {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
@@ -36,7 +37,9 @@ int CellAt(double x_m, double min_m, double max_m, double cell_m, int cells) {
   return static_cast<int>(std::clamp(cell, -1.0, last));
 }
 
-// Shortest way over an empty grid, in cells.
+// Shortest way over an empty grid, in cells. As what ShortestPath expects of the rest of a way it
+// must never exceed the true cost, nor fall by more than a step costs: a cell that is closed is not
+// opened again.
 double OctileDistance(int dx, int dy) {
   const int low = std::min(std::abs(dx), std::abs(dy));
   const int high = std::max(std::abs(dx), std::abs(dy));
@@ -144,7 +147,7 @@ namespace {
 
 using messages::Goal;
 
-constexpr double kMaxCells = 1e6;
+constexpr double kMaxCells = 1e6;  // beyond it cells grow: a bound of time and memory
 
 // What a way keeps clear of, and by how much.
 struct Demand {
@@ -197,6 +200,7 @@ messages::Route Plan(const DriveParams& drive, std::span<const terrain::Rock> ro
     if (rock.height_m >= demand.min_height_m) grid.Block(rock, demand.room_m);
   }
   const Goal start{drive.course.start_x_m, drive.course.start_y_m};
+  // No way under this demand; a weaker one may leave both ends free.
   if (!grid.IsFree(start) || !grid.IsFree(goal)) return {};
   const std::vector<std::size_t> way =
       ShortestPath(grid, grid.Index(grid.Column(start.x_m), grid.Row(start.y_m)),
@@ -215,6 +219,8 @@ messages::Route PlanRoute(const DriveParams& drive, std::span<const terrain::Roc
   const double turning_m = 0.5 * std::hypot(rover.length_m, rover.width_m);
   const double passing_m = 0.5 * rover.width_m;
   const double squeezing_m = passing_m - 0.5 * rover.wheel_width_m;
+  // From the most generous to the tightest; the first with a way is taken, so that another margin
+  // or one more demand between them changes routes.
   const std::array demands{Demand{low_m, turning_m + params.margin_m},
                            Demand{low_m, passing_m + params.margin_m},
                            Demand{belly_m, turning_m + params.margin_m},

@@ -70,7 +70,8 @@ std::vector<std::size_t> ShortestPath(const FreeGrid& grid, std::size_t from, st
 //   | 5 | belly_clearance_m and higher | half its width                                        |
 //   | 6 | belly_clearance_m and higher | that to the middle of its wheels, which climb flanks  |
 //
-// An empty route where there is none: what no path selection could cure, as far as this grid tells.
+// Corners as messages::Route has them: without the start, the goal itself as the last one. An empty
+// route where there is none: what no path selection could cure, as far as this grid tells.
 // Outlines are ellipses, their half axes lengthened by the room that is kept (the true parallel
 // curve lies up to 1 cm further out). The way stays inside of the arena: one across a mirror line
 // has another inside the lines that is as long. Limits: rocks only, no slopes; rocks that the rover

@@ -19,7 +19,8 @@ enum class RockSign {
   kContact = 2,  // the rover's body, which has its contact switches, touched it
 };
 
-// Sees the truth; the drive ends by what it says, and on-board code never knows.
+// Sees the truth; the drive ends by what it says, and on-board code never knows. Records hold the
+// numbers of RockSign.
 class GoalRock {
  public:
   // `rock` is the index of a rock of `terrain`, which outlives this; `view` is what the array

@@ -53,6 +53,7 @@ Referee::Referee(const RefereeParams& params, const CourseParams& course,
                 course.start_x_m, course.start_y_m} {}
 
 std::optional<Verdict> Referee::Observe(const Observation& observation, const Ledger& ledger) {
+  // Where several hold after one tick, the first one of these is the outcome.
   const truth::RoverState& state = observation.state;
   if (state.X_WR.linear()(2, 2) < tip_over_cosine_) {
     return Verdict{EndCause::kFellOver};
@@ -79,6 +80,8 @@ std::optional<Verdict> Referee::CheckStuck(const Observation& observation) {
   AddObeyed(observation, *window_);
   if (RestsOnBelly(observation.state)) window_->belly_s += observation.duration_s;
   if (window_->duration_s < params_.stall_window_s) return std::nullopt;
+  // Windows follow one another without overlap: a rover is found stuck at the end of the first one
+  // in which it did not move, up to two windows after it stopped.
   const Window window = *window_;
   OpenWindow(observation);
   if (MovedSince(window, observation)) return std::nullopt;

@@ -1,4 +1,4 @@
-// The referee sees the truth and says when a trial is over, and as what.
+// Sees the truth and says when a trial is over, and as what; on-board code never hears of it.
 #pragma once
 
 #include <optional>

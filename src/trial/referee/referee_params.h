@@ -1,4 +1,6 @@
-// When a trial is over, other than by arriving.
+// When a trial is over, other than by arriving. The defaults are those of the course of Matthies
+// 1995; those that a scenario may leave open follow its course (open_values_params.h). They decide
+// the records of every scenario that states no others; bounds only refuse files.
 #pragma once
 
 #include <array>

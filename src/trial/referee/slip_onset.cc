@@ -28,6 +28,7 @@ void SlipOnset::Observe(const messages::PoseEstimate& odometry, const math::Pose
 bool SlipOnset::TrulyExceeded(const SlipReading& reading) {
   const auto slip = perception::SlipOf(
       reading.rolled_m, TrueMotion(looks_.at(reading.from), looks_.at(reading.to)), params_);
+  // Nothing before this look is asked for again; the look itself may be, as a keyframe.
   looks_.erase(looks_.begin(), looks_.find(reading.from));
   return slip->exceeded;
 }

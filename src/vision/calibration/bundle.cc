@@ -54,6 +54,7 @@ std::size_t Bundle::IndexOf(const CornerResidual& corner) const {
 
 void Bundle::Exclude(const CornerResidual& corner) { used_[IndexOf(corner)] = false; }
 
+// The number of columns of TangentBasis.
 Eigen::Index Bundle::CameraSize(std::size_t camera) const {
   const bool makes_frame = HasPoses() && camera == 0;
   const Eigen::Index linear = makes_frame ? 5 : 11;

@@ -1,5 +1,6 @@
-// A CAHVOR camera as 18 numbers in the order of flight calibrations: C, A, H, V, O, R. A Cahv is
-// one with O = A and R = 0.
+// Least squares over cameras and poses of targets (Bundle), with what goes into a calibration and
+// what comes out; and, for their derivatives and covariances, a CAHVOR camera as 18 numbers in the
+// order of flight calibrations: C, A, H, V, O, R. A Cahv is one with O = A and R = 0.
 #pragma once
 
 #include <Eigen/Core>
@@ -106,7 +107,7 @@ struct Calibration {
 //
 // What is minimized, over cameras k, images i and corners j that are in use, is
 //   sum |z_kij - Project(camera_k, X_AT_i p_Tj)|^2 + (sigma / axis_sd)^2 sum_k |O_k - A_k|^2,
-// with derivatives in closed form (camera_parameters.h) by Levenberg's and Marquardt's method
+// with derivatives in closed form (ProjectByNumbers) by Levenberg's and Marquardt's method
 // (Marquardt 1963). Each corner touches one camera and one pose, so that the normal equations are
 // made of blocks of at most 21 x 21. A solver of our own, as the problem has one dense system of a
 // few hundred unknowns and steps on spheres and rotations, and the covariance is the inverse of a

@@ -60,7 +60,8 @@ std::optional<math::Vector3> LeavePlane(const Cahv& camera, const Pixel& pixel,
 //   column = p' . H / p' . A        row = p' . V / p' . A
 //
 // O is used as a unit vector: flight calibrations print it with six digits, and its length is
-// divided out here. A keeps its length, of which the ratios with H and V are made.
+// divided out here. Flight code keeps it, which moves pixels by up to 1.3e-3. A keeps its length,
+// of which the ratios with H and V are made.
 
 struct Cahvor {
   Cahv linear;
@@ -92,10 +93,11 @@ inline RadialPolynomial DistortionOf(const math::Vector3& R) {
 // 2006, "Generalized camera calibration including fish-eye lenses").
 //
 //   zeta = (p - C) . O    lambda = (p - C) - zeta O
-//   theta: zeta sin(theta) - |lambda| cos(theta) = (theta - sin(theta)) (E0 + E1 theta^2 + E2
-//   theta^4) chi = sin(L theta) / L for L < 0, theta for L = 0, tan(L theta) / L for L > 0 p' = O +
-//   chi (1 + R0 + R1 chi^2 + R2 chi^4) lambda / |lambda| column = p' . H / p' . A        row = p' .
-//   V / p' . A
+//   theta: zeta sin(theta) - |lambda| cos(theta)
+//            = (theta - sin(theta)) (E0 + E1 theta^2 + E2 theta^4)
+//   chi = sin(L theta) / L for L < 0, theta for L = 0, tan(L theta) / L for L > 0
+//   p' = O + chi (1 + R0 + R1 chi^2 + R2 chi^4) lambda / |lambda|
+//   column = p' . H / p' . A        row = p' . V / p' . A
 //
 // The line of sight leaves the axis under theta at C + s O,
 // s = (theta / sin(theta) - 1) (E0 + E1 theta^2 + E2 theta^4).

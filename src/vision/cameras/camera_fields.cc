@@ -16,6 +16,7 @@ using core::Setting;
 
 using math::Vector3;
 
+// As kModelNames; those with C, A, H and V come first, which Visit relies on.
 enum ModelIndex { kCahvModel, kCahvorModel, kCahvoreModel, kBrownModel };
 constexpr std::array<std::string_view, 4> kModelNames = {"cahv", "cahvor", "cahvore", "brown"};
 constexpr std::array<std::string_view, 3> kTypeNames = {"perspective", "fisheye", "general"};

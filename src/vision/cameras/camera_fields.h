@@ -9,7 +9,8 @@
 //
 // cahv has no O, R and E, cahvor no E; linearity belongs to type general alone. position_m and
 // rotation_wxyz are X_AC of a pinhole, its pose in the camera's outer frame. No field has a
-// default: a calibration with a number left out is none.
+// default: a calibration with a number left out is none. People keep such files: names, order of
+// vectors and units stay.
 #pragma once
 
 #include <array>

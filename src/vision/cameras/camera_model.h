@@ -1,5 +1,6 @@
 // One camera of whatever model, with the size of its image: what stereo, rendering and visual
-// odometry take.
+// odometry take. Simulated images are made and read through the same functions; what the two sides
+// differ in is the numbers of the camera, true or calibrated.
 #pragma once
 
 #include <optional>
@@ -10,6 +11,8 @@
 
 namespace rockyard::vision {
 
+// A further lens brings Project, BackProject, Moved and Mapped, its centre (CentreOf), and fields
+// (camera_fields.h).
 using AnyLens = std::variant<Cahv, Cahvor, Cahvore, BrownPinhole>;
 
 struct CameraModel {

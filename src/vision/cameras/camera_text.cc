@@ -157,7 +157,7 @@ namespace {
 using core::JsonValue;
 
 constexpr std::size_t kMostTextProblems = 20;
-constexpr std::size_t kMostBlocks = 3;
+constexpr std::size_t kMostBlocks = 3;  // one more than a pair has, to tell that there are too many
 constexpr std::size_t kMostShown = 40;
 constexpr std::string_view kBlanks = " \t\r\f\v";
 
@@ -300,6 +300,7 @@ class LineSorter {
   }
 
   void TakeType(std::string_view value) {
+    // By the flight software's number less 1, with the names of camera_fields.h.
     constexpr std::array<std::string_view, 3> kTypes = {"perspective", "fisheye", "general"};
     const std::optional<int> number = NumberIn<int>(value);
     if (!number || *number < 1 || *number > 3) {

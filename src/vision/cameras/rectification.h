@@ -8,7 +8,9 @@
 //   H' = f h' + c_h A'    V' = f v' + c_v A'
 //
 // so that a point at depth Z has the same row in both and the disparity
-// column_left - column_right = f |b| / Z >= 0. a is the direction of the middle of an image.
+// column_left - column_right = f |b| / Z >= 0. a is the direction of the middle of an image. A
+// rover aligns by what it believes of its cameras: where they are otherwise, rows do not meet and
+// ranges are wrong.
 #pragma once
 
 #include <limits>
@@ -59,7 +61,7 @@ core::Result<RectifiedPair> Rectify(const CameraModel& left, const CameraModel& 
 // Nothing where the real camera does not see it or where it is on none of its pixels. The points
 // are taken at `range_m` > 0 from the aligned camera's centre, infinity included. Only for a
 // CAHVORE with a moving entrance pupil does it matter: points at other ranges r then are off by
-// about f s sin(theta) |1 / r - 1 / range_m| pixels, s as in cahvore.h.
+// about f s sin(theta) |1 / r - 1 / range_m| pixels, s that of a CAHVORE (cahv.h).
 std::optional<Pixel> SourceOf(const CameraModel& real, const Cahv& aligned, const Pixel& pixel,
                               double range_m = std::numeric_limits<double>::infinity());
 

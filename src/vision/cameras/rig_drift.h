@@ -1,4 +1,6 @@
 // The right camera of a rig that has drifted against the left one since both were calibrated.
+// Images are those of the drifted camera; software on board keeps the calibrated pair and does not
+// know.
 //
 // In the right camera's own frame (x along its columns, y down, z along the ray of the middle of
 // its image; all by its rays, so for every lens) the camera is turned about its centre by

@@ -34,7 +34,7 @@ inline constexpr std::array<CylinderColour, 4> kQuadrantColours = {
 
 // Section 5: "a cylinder 19.2 cm in diameter by 10 cm high".
 struct ColourCylinder {
-  double diameter_m = 0.192;
+  double diameter_m = 0.192;  // also that of the lander's law of fixes in drives (sensing)
   double height_m = 0.10;
   // Where its axis points, in the cameras' outer frame L, of any length: upwards.
   std::array<double, 3> axis_L = {0.0, 0.0, 1.0};

@@ -81,7 +81,8 @@ struct ViewOfCylinder {
 double FinestTurn(double m_px);
 double CoarsestTurn(double m_px);
 
-// Equations 20 and 21, the same by distance, rad: with m of equation 16.
+// Equations 20 and 21, the same by distance, rad: with m of equation 16. The lander's law of fixes
+// in drives takes the cylinder's width from equation 20.
 double FinestTurnAt(const ViewOfCylinder& view, double d_m);
 double CoarsestTurnAt(const ViewOfCylinder& view, double d_m);
 

@@ -18,7 +18,7 @@ constexpr int kMostBands = 3;
 constexpr int kMixed_px = 2;
 constexpr int kLeastBackground_px = 4;
 // The middle of the box that shows its rims.
-constexpr double kRimShare = 0.2;
+constexpr double kRimShare = 0.2;  // kRimsAhead of fit_problem.cc follows from it
 constexpr int kBackgroundRows = 4;
 
 Eigen::Vector3d ColourAt(const ColourImage& image, int x, int y) {

@@ -59,6 +59,7 @@ struct CylinderSighting {
   std::array<std::vector<ColourRegion>, 2> regions;
 };
 
+// Records of the experiment that counts misses have a column for each, by name and in this order.
 enum class CylinderMiss {
   kNone,           // it was found
   kNothing,        // no region is large enough

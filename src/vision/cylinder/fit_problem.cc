@@ -13,7 +13,7 @@
 namespace rockyard::vision {
 namespace {
 
-// Terms of shading and levels among the residuals of an eye.
+// Terms of shading and levels among the residuals of an eye: kAllUnknowns of wall_colours.cc.
 constexpr int kPriors = 27;
 // How far the rims that a profile shows lie before the axis, over the radius: the mean of
 // sqrt(1 - u^2) for |u| up to 1 - 2 kRimShare = 0.6.

@@ -23,7 +23,8 @@ namespace rockyard::vision {
 // for theta, 23 along the line of sight and 1 / f across it.
 //
 // It does not see a second cylinder, nor a region that has the colours and is none: the text has no
-// check of it. Requires images of the size of their cameras. Throws nothing; a pure function.
+// check of it. Such faults stay: it is what rockyard's own finder is compared with. Requires images
+// of the size of their cameras. Throws nothing; a pure function.
 CylinderFinding FindCylinderAsPublished(const ColourPair& pair, const ColourCylinder& cylinder,
                                         const PublishedFinderParams& params);
 

@@ -29,7 +29,8 @@ struct ColourRatioParams {
 // The classes. A.3 has ratios over blue for blue and over red for red and magenta, in ranges
 // "experimentally determined" that it does not tell. The defaults are assumed about linear surface
 // colours of fluorescent cardboard in white light: blue (0.12, 0.30, 0.85), pink (0.95, 0.25,
-// 0.60), orange (1.00, 0.35, 0.10), away from ground of (0.45, 0.27, 0.16).
+// 0.60), orange (1.00, 0.35, 0.10), away from ground of (0.45, 0.27, 0.16). They were fixed before
+// any evaluation, which tuning by its images would spoil.
 struct ColourClassParams {
   ColourRatioParams blue{PrimaryColour::kBlue, 0.0, 0.45, 0.0, 0.70};
   ColourRatioParams magenta{PrimaryColour::kRed, 0.0, 0.47, 0.38, 1.10};

@@ -1,5 +1,7 @@
 // rockyard's own way to find the coloured cylinder in a pair of images: the two improvements that
-// Matthies 1995, section 5, proposes, a more robust segmentation and colours as a setting.
+// Matthies 1995, section 5, proposes, a more robust segmentation and colours as a setting. Drives
+// do not run it: the lander's law of fixes in them was fitted to what finders see in rendered
+// views.
 #pragma once
 
 #include "vision/cylinder/cylinder_sighting.h"
@@ -9,7 +11,7 @@ namespace rockyard::vision {
 
 //   1. Pixels are labelled by which surface is likelier in the light that the ground tells
 //      (colour_model.h), and regions of them paired between the eyes by size, rows and depth
-//      (cylinder_candidates.h).
+//      (FindCandidates).
 //   2. Of each pair of regions, position and theta are fitted to the pixels of both eyes at once
 //      (cylinder_fit.h), from all orientations; the colours of the quadrants come from the image
 //      and are then held against those of the surfaces.

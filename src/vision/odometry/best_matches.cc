@@ -63,7 +63,8 @@ void OfferRow(const std::uint16_t* differences, std::size_t count, std::uint16_t
 }
 
 // Sets the bit of every column whose bound is not above both limits, that of the column and that of
-// the row, and clears the others, of `count` columns, which are whole words of bits.
+// the row, and clears the others, of `count` columns, which are whole words of bits. A bound that
+// is equal counts: a window that is as alike wins by a smaller index.
 void MarkPossible(const std::uint16_t* bounds, const std::uint16_t* limits, std::uint16_t row_limit,
                   std::size_t count, std::uint8_t* bits) {
   const auto of_row = hn::Set(kDifferences, row_limit);
@@ -256,6 +257,7 @@ class LeastFinder {
   std::vector<std::uint16_t> differences_;
 };
 
+// In ascending order, as Merge wants it: the sizes of parts change no result.
 template <typename Compare>
 void ForAllParts(const WindowSet& first, const WindowSet& second, Compare compare) {
   for (std::size_t j = 0; j < second.size(); j += kPanel) {

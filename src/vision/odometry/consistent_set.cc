@@ -72,7 +72,7 @@ class Ransac {
       const std::optional<Transform> X_FS = MotionOf(points_, Draw());
       if (!X_FS) continue;
       Members members = PointsWith(points_, cameras_, *X_FS, params_.inlier_px);
-      if (members.size() <= best.members.size()) continue;
+      if (members.size() <= best.members.size()) continue;  // of equal sets the earlier draw stays
       best.members = std::move(members);
       best.X_FS = *X_FS;
       while (Grow(best)) {
@@ -149,6 +149,7 @@ std::optional<ConsistentSet> GrowRigid(const PointsSeenTwice& points,
   }
   Members order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
+  // Stable: of equal degrees the smaller index, whatever the library.
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return degrees[a] > degrees[b]; });
   ConsistentSet set;

@@ -135,6 +135,7 @@ Features FeatureDetector::DetectByThreshold(const GrayImage& image) const {
 void FeatureDetector::AddByWeight(const GrayImage& image, const ImageArea& region,
                                   Features& features) const {
   constexpr int kBisections = 8;
+  // The bound of params_.weight: from 1/4 on det - k trace^2 is never positive.
   constexpr double kLargestWeight = 0.24;
   const auto least = static_cast<std::size_t>(params_.min_of_region());
   const auto most = static_cast<std::size_t>(params_.max_of_region());
@@ -144,6 +145,7 @@ void FeatureDetector::AddByWeight(const GrayImage& image, const ImageArea& regio
   double weight = params_.weight;
   Features corners = CornersOf(sums, region, weight);
   for (int i = 0; i < kBisections && (corners.size() < least || corners.size() > most); ++i) {
+    // A larger weight lowers all responses.
     (corners.size() > most ? low : high) = weight;
     weight = 0.5 * (low + high);
     corners = CornersOf(sums, region, weight);

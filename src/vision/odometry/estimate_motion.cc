@@ -53,6 +53,8 @@ Eigen::Matrix3d Cross(const Vector3& v) {
 
 PairPixel Measured(const StereoMeasurement& m) { return {m.left.x(), m.left.y(), m.disparity_px}; }
 
+// Translation and rotation vector as MotionCovariance has them, as the covariance is the inverse of
+// equations for this disturbance.
 Transform Disturbed(const Transform& X_FS, const Vector6& change) {
   Transform moved = X_FS;
   moved.translation() += change.head<3>();

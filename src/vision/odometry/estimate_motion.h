@@ -26,7 +26,8 @@ struct Motion {
   MotionCovariance covariance = MotionCovariance::Zero();
 };
 
-// Why there is no motion.
+// Why there is no motion. Only appended to: journals of `rockyard vo` hold the number, results the
+// name.
 enum class NoMotion {
   kFewFeatures,      // an image has too few corners
   kFewMatches,       // too few of them look alike
@@ -80,7 +81,7 @@ struct EstimatedMotion {
 //
 //   minimize sum_i |m_Fi - h(p_i)|^2_(S_Fi) + |m_Si - h(X_SF p_i)|^2_(S_Si)
 //
-// h of pair_projection.h, |r|^2_S = r' S^-1 r. It is the maximum likelihood of normal noise in the
+// h of PairProjection, |r|^2_S = r' S^-1 r. It is the maximum likelihood of normal noise in the
 // images (Matthies 1989 weighs the same noise in space, to first order: far points, whose error in
 // depth is skewed, bias that). Gauss-Newton with Levenberg's and Marquardt's damping; the points
 // are eliminated (Schur complement), so that 6 x 6 equations are solved. A disturbance of the

@@ -7,7 +7,8 @@
 
 namespace rockyard::vision {
 
-// A corner, on a whole pixel.
+// A corner, on a whole pixel. Sides of images that are read or aligned end at 16384 pixels, which
+// 16 bits hold.
 struct Feature {
   std::int16_t column = 0;
   std::int16_t row = 0;

@@ -30,7 +30,7 @@ struct FeatureDetectorParams {
   double threshold = 1000.0;
   double min_threshold = 50.0;
   std::int64_t suppression_px = 3;
-  std::int64_t border_px = 8;
+  std::int64_t border_px = 8;  // at least half of the matcher's window_px, which has to lie inside
 
   std::int64_t regions() const { return regions_across * regions_down; }
   // Of one region.
@@ -53,7 +53,7 @@ enum class MatchWarp {
 };
 
 struct FeatureMatcherParams {
-  std::int64_t window_px = 15;
+  std::int64_t window_px = 15;  // of matching; finer places have PlacementParams::window_px
   bool mutual = true;
   double ratio = 1.0;
   double max_difference = 30.0;

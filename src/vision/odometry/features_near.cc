@@ -50,7 +50,8 @@ namespace {
 // Where no feature is.
 constexpr std::int32_t kNowhere = std::numeric_limits<std::int32_t>::min();
 
-// The first and the last whole pixel within `reach` of a place that is finite.
+// The first and the last whole pixel within `reach` of a place that is finite, as far as the 16
+// bits of a feature: none behind that.
 std::array<std::int32_t, 2> RangeAbout(double place, double reach) {
   constexpr double kMost = std::numeric_limits<std::int16_t>::max();
   return {static_cast<std::int32_t>(std::clamp(std::ceil(place - reach), -kMost, kMost + 1.0)),

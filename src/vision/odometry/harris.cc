@@ -37,7 +37,7 @@ void SmoothColumns(const std::uint8_t* above, const std::uint8_t* here, const st
 
 // (sobel + 1) >> 1, clamped.
 HWY_INLINE Values Gradient(Values sobel) {
-  constexpr std::int16_t kLimit = 63;
+  constexpr std::int16_t kLimit = 63;  // the largest of 6 bits: sums over 5 x 5 fit (harris.h)
   const auto half = hn::ShiftRight<1>(hn::Add(sobel, hn::Set(kValues, 1)));
   return hn::Min(hn::Max(half, hn::Set(kValues, -kLimit)), hn::Set(kValues, kLimit));
 }

@@ -8,7 +8,8 @@
 // Sobel_x is the difference over two columns of rows weighed 1, 2, 1: 8 times a slope in grey
 // levels a pixel, so that slopes up to 15 count in full. sum5 is the sum of five neighbours. >> is
 // the shift that rounds down. All fits into 16 bits but the response, which fits into 32; k'
-// trace^2 of the closed form det - k trace^2 is 4 k (trace / 2)^2, hence 1024.
+// trace^2 of the closed form det - k trace^2 is 4 k (trace / 2)^2, hence 1024. Whole numbers give
+// the same corners on every instruction set; a plain form with divisions in the tests holds each.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,6 @@
+// Pixels that stick out by their response (harris.h), for every instruction set. Of equal
+// neighbours the first in the order of rows does, so that a plateau gives one corner, and always
+// the same.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -68,6 +68,7 @@ FeatureMatches MatchFeatures(const GrayImage& first, const Features& first_featu
   const WindowSet first_windows = FirstWindows(first, first_features, params, predicted);
   const WindowSet second_windows = SecondWindows(second, second_features, side);
   const bool near = params.search == MatchSearch::kPredicted && !predicted.empty();
+  // Only the ratio asks for second differences, for which all windows have to be compared.
   const BestWindows best =
       near ? CompareNear(first_windows, second_windows, second_features, params, predicted)
       : params.ratio < 1.0 ? FindBestWindows(first_windows, second_windows)

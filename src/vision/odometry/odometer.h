@@ -46,7 +46,9 @@ using OdometryWatcher = std::function<void(OdometryStage)>;
 class VisualOdometer {
  public:
   // `left_free`: pixels of the left image that show the world (1) and not the carrier (0); empty
-  // where all do. RANSAC draws from (key, kRansac) by the pair's number.
+  // where all do. `cameras` are those that the carrier believes to have: their errors are in no
+  // covariance but by variance_factor. RANSAC draws from (key, kRansac) by the pair's number, so
+  // that a path that is resumed draws as one that was not cut off.
   VisualOdometer(const OdometerParams& params, const RectifiedPair& cameras,
                  const Image<std::uint8_t>& left_free, core::TrialKey key,
                  OdometryWatcher watcher = {});

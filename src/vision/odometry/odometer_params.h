@@ -1,4 +1,7 @@
-// Parameters of visual odometry, stage by stage (Howard 2012 section 2; Matthies 1989).
+// Parameters of visual odometry, stage by stage (Howard 2012 section 2; Matthies 1989). Drives and
+// `rockyard vo` share the defaults: another one changes records. EstimationParams::max_fit and, of
+// PlacementParams, max_residual_ratio and noise_px were chosen with KITTI's excerpt known: it is no
+// test of these.
 #pragma once
 
 #include <array>

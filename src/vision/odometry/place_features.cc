@@ -64,6 +64,7 @@ std::optional<double> FeaturePlacer::WholeColumn(const Pixel& left_pixel) const 
   RowDifferences(left_, right_, column, row, first, differences);
   const auto best = std::min_element(differences.begin(), differences.end());
   const auto at = static_cast<int>(best - differences.begin());
+  // At an end the best is not enclosed; behind this `best - 1` and `best + 2` exist.
   if (at == 0 || at == last - first) return std::nullopt;
   // As good as the best, within the ambiguity: of all but the best and its neighbours, none.
   const double limit = *best / params_.ambiguity;
@@ -139,7 +140,7 @@ std::optional<double> DisparityAt(const DisparityImage& map, const Pixel& place,
     for (const int across : {0, 1}) {
       const double weight = (across == 1 ? fraction.x() : 1.0 - fraction.x()) *
                             (down == 1 ? fraction.y() : 1.0 - fraction.y());
-      if (weight == 0.0) continue;
+      if (weight == 0.0) continue;  // whether this neighbour has a disparity or is there at all
       const int column = static_cast<int>(corner.x()) + across;
       const int row = static_cast<int>(corner.y()) + down;
       if (!IsInside(map, column, row) || !IsValid(map.At(column, row))) return std::nullopt;

@@ -1,5 +1,7 @@
 // Where features lie in space: from the right eye (Matthies and Shafer 1987), or from a dense
-// disparity map (Goldberg 2002 section 2).
+// disparity map (Goldberg 2002 section 2). Rather no place than a wrong one: motions, their fits
+// and their covariances rest on these, so that another threshold or rounding changes records of
+// drives with visual odometry.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +17,7 @@
 
 namespace rockyard::vision {
 
+// Odd, so that a window has a middle. From 17 on sums of differences would not fit 16 bits.
 inline constexpr int kRowSide = 15;
 inline constexpr int kRowReach = kRowSide / 2;
 
@@ -35,7 +38,8 @@ class FeaturePlacer {
 
   // The window of 15 x 15 pixels about the nearest pixel is compared with those of its row at all
   // whole disparities from min_disparity_px to max_disparity_px; the least sum of absolute
-  // differences begins the search between pixels, of disparity and slope (FindSlanted) or, if
+  // differences begins the search between pixels, of disparity and slope (FindSlanted: ground does
+  // not face the cameras, and taken as if it did it makes motions nod) or, if
   // PlacementParams::slanted is off, of the disparity alone. `covariance_px2` is that of the place
   // in the left image. Nothing where no window of the right image lies inside, where the best is at
   // an end of the range, where the finer search fails, and where another disparity, more than one
@@ -96,11 +100,12 @@ std::optional<StereoMeasurement> PlaceInMap(const RectifiedPair& cameras,
                                             const DisparityImage& map, const Pixel& left_pixel,
                                             const Eigen::Matrix2d& covariance_px2);
 
-// Points whose windows fit: each of their residuals (of either pair of eyes, and `in_time`, one for
-// each point or none at all) is at most PlacementParams::max_residual_ratio times the lower
-// quartile of its kind, or their largest share of that is among the `min_kept` smallest. Windows
-// across a rock's edge do not fit any plane, and what they show of the background biases them all
-// to one side. A quartile of less than half a grey level counts as that. In the points' order.
+// Points whose windows fit: each of their residuals (of either pair of eyes, and `in_time`, between
+// both left images, one for each point or none at all) is at most
+// PlacementParams::max_residual_ratio times the lower quartile of its kind, or their largest share
+// of that is among the `min_kept` smallest. Windows across a rock's edge do not fit any plane, and
+// what they show of the background biases them all to one side. A quartile of less than half a grey
+// level counts as that. In the points' order.
 PointsSeenTwice KeepClean(const PointsSeenTwice& points, std::span<const double> in_time,
                           const PlacementParams& params);
 

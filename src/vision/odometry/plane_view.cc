@@ -13,7 +13,7 @@ PlaneView::PlaneView(const RectifiedPair& pair, const math::Transform& X_SF) {
 
 std::optional<PredictedFeature> PlaneView::operator()(const StereoMeasurement& measured) const {
   constexpr double kLeastShare = 1e-6;  // of the first depth
-  constexpr double kMostSlope = 0.75;
+  constexpr double kMostSlope = 0.75;   // the bound of PlacementParams::max_slope
   constexpr double kMostChange = 8.0;
   const Pixel& p = measured.left;
   Eigen::Vector3d plane;

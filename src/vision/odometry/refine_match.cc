@@ -11,7 +11,8 @@
 namespace rockyard::vision {
 namespace {
 
-// The sum of the lanes, two by two; those from `side` on do not count.
+// The sum of the lanes, two by two, in one order for every instruction set; those from `side` on do
+// not count.
 float SumOf(WindowSamples::Lanes lanes, std::size_t side) {
   std::fill(lanes.begin() + static_cast<std::ptrdiff_t>(side), lanes.end(), 0.0F);
   for (std::size_t half = lanes.size() / 2; half > 0; half /= 2) {

@@ -11,7 +11,8 @@
 
 namespace rockyard::vision {
 
-// Where a window is looked for.
+// Where a window is looked for. Visual odometry takes max_shift_px and max_residual from here, and
+// the others from PlacementParams.
 struct RefineLimits {
   bool along_row = false;      // columns only: rows are epipolar lines
   double max_shift_px = 2.0;   // from where the search begins

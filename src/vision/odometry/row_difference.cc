@@ -1,4 +1,4 @@
-// Sums of absolute differences along a row, for every instruction set.
+// Sums of absolute differences along a row (place_features.h): the same on every instruction set.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

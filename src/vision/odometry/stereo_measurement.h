@@ -22,7 +22,8 @@ struct AlignedImages {
   DisparityImage disparities = {};
 };
 
-// A point in both eyes, and where it lies (Triangulate; Matthies and Shafer 1987).
+// A point in both eyes, and where it lies (Triangulate; Matthies and Shafer 1987). Its covariances
+// are taken at their word: weights, fit and covariance of a motion rest on them.
 struct StereoMeasurement {
   Pixel left = Pixel::Zero();  // column and row in the left image
   double disparity_px = 0.0;   // column_left - column_right, > 0

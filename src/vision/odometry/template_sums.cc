@@ -21,7 +21,8 @@ HWY_INLINE auto LaneGreys(const std::uint8_t* pixels) {
   return hn::ConvertTo(kLanes, hn::PromoteTo(kLaneInts, hn::LoadU(kLaneGreys, pixels)));
 }
 
-// Lanes from `first` on.
+// Lanes from `first` on. Products and sums apart, never MulAdd: some instruction sets would round
+// once where others round twice.
 HWY_INLINE void SumLanes(const TemplateRows& rows, const TemplatePlace& place, std::size_t first,
                          TemplateSums& sums) {
   const auto w00 = hn::Set(kLanes, (1.0F - place.u) * (1.0F - place.v));

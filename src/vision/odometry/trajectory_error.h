@@ -1,4 +1,6 @@
 // How far an estimated path lies from the true one, in the measures that the community compares.
+// For `rockyard vo`, which judges a path when it is done: no drive depends on it, and the published
+// definitions bind it.
 //
 // A path is the pose X_AB of one body B at successive moments, in a frame A of its own; the two
 // paths may have different frames, but their body is the same.

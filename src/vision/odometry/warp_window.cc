@@ -29,8 +29,8 @@ HWY_INLINE Places BetweenColumns(Places words, Places t) {
   return hn::Add(hn::ShiftLeft<8>(left), hn::Mul(hn::Sub(right, left), t));
 }
 
-// All places, and three pixels to their right, lie inside. `middle` is the feature's pixel, rows
-// are `stride` apart.
+// All places, and three pixels to their right, lie inside, as words of 4 bytes are read. `middle`
+// is the feature's pixel, rows are `stride` apart.
 void WarpInside(const std::uint8_t* middle, std::int32_t stride, const Warp& warp, int side,
                 std::uint8_t* window) {
   const auto* const words = reinterpret_cast<const std::int32_t*>(middle);
@@ -97,7 +97,7 @@ WarpedBox BoxOf(const Warp& warp, int reach) {
   return {whole(-x), whole(x), whole(-y), whole(y)};
 }
 
-// One place, whose pixels need not lie inside.
+// One place, whose pixels need not lie inside: to the same whole numbers as WarpInside.
 std::uint8_t GreyAt(const GrayImage& image, int x, int y) {
   const auto at = [&](int column, int row) {
     return static_cast<int>(

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSide = 15;
 
-// 15 bytes as two words that overlap; the 16th is 0.
+// 15 bytes as two words that overlap, since a 16th may lie behind the image; in `to` it is 0.
 void CopyFifteen(const std::uint8_t* from, std::uint8_t* to) {
   std::memcpy(to, from, 8);
   std::memcpy(to + 7, from + 7, 8);

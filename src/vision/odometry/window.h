@@ -12,7 +12,8 @@
 
 namespace rockyard::vision {
 
-// 16 rows of 16 bytes; what a window of fewer pixels leaves free is 0.
+// 16 rows of 16 bytes; what a window leaves free is 0 and adds nothing to a difference. Windows of
+// up to 15 x 15 pixels differ by 57375 at most, which 16 bits hold.
 inline constexpr std::size_t kWindowStride = 16;
 inline constexpr std::size_t kWindowBytes = kWindowStride * kWindowStride;
 

@@ -40,6 +40,7 @@ void Bounds(const std::uint64_t* window, const std::uint64_t* words, std::size_t
             std::size_t groups, std::uint16_t* bounds) {
   static_assert(std::endian::native == std::endian::little);
   constexpr std::size_t kQuarter = SignatureSet::kGroup / 4;
+  // 9 sum |m_a - m_b| - 200 (best_matches.h), not below 0; 9 * 25 * 255 fits 16 bits.
   const auto nine = hn::Set(kBounds, 9);
   const auto rounding = hn::Set(kBounds, 200);
   for (std::size_t group = 0; group < groups; ++group) {

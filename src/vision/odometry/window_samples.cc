@@ -24,6 +24,7 @@ constexpr hn::Rebind<std::uint8_t, decltype(kFloats)> kGreys;
 using Floats = hn::Vec<decltype(kFloats)>;
 using Ints = hn::Vec<decltype(kInts)>;
 
+// Not MulAdd, which rounds once on some instruction sets and twice on others.
 HWY_INLINE Floats Between(Floats from, Floats to, Floats share) {
   return hn::Add(from, hn::Mul(share, hn::Sub(to, from)));
 }

@@ -1,5 +1,6 @@
 // Memory that begins at a cache line, zero at first unless asked otherwise, with a cache line to
-// spare at both ends.
+// spare at both ends: loops may load vectors that begin one value before the first (gradients,
+// neighbouring segments of a row) or end behind the last.
 #pragma once
 
 #include <algorithm>

@@ -9,9 +9,8 @@
 //   right:  d_R(x) = the same of S(x + d, d): both come out of one pass over the scores
 //   line of sight: |d_L(x) - d_R(x - d_L(x))| <= 1 px (a parameter)
 //   peak filter:   S(x, d_L - 1) and S(x, d_L + 1) exist and are larger than S(x, d_L); the
-//   curvature
-//                  c = S(x, d_L - 1) - 2 S(x, d_L) + S(x, d_L + 1) is at least side^2 times a
-//                  parameter, and at least S(x, d_L) times another
+//                  curvature c = S(x, d_L - 1) - 2 S(x, d_L) + S(x, d_L + 1) is at least side^2
+//                  times a parameter, and at least S(x, d_L) times another
 //   sub-pixel:     the lowest point of a parabola through the three, or of two lines (SubPixel)
 //
 // Sums slide in both directions: a score gains the row that comes and loses the one that goes, and
@@ -44,7 +43,7 @@ const char* InstructionSet();
 
 // What the fast correlator keeps from row to row of an image (rows as vectors, sums, scores,
 // minima) and its inner loops, compiled for every instruction set and chosen at run time. Each of
-// them does one row. Definitions of what they compute stand in correlator.h.
+// them does one row. Definitions of what they compute stand above.
 //
 // 16-bit words are in the order of LaneLayout. Pixel values are stored four times as large, so that
 // sums leave their two low bits to a disparity's place in its group: such a sum is a key, and the
@@ -86,7 +85,8 @@ constexpr int SubPixel(Interpolation interpolation, std::int32_t below, std::int
          kDisparityOne / 2;
 }
 
-// Disparities that are compared at a time: the two low bits of a key are the place among them.
+// Disparities that are compared at a time: the two low bits of a key are the place among them, and
+// ScoreGroup is written out for four.
 constexpr int kGroup = 4;
 
 // How the fast correlator lays a row of pixels into vectors.
@@ -113,7 +113,7 @@ struct LaneLayout {
 
   int lanes;          // of 16 bits
   int width;          // of the image, px
-  int segment;        // pixels a lane
+  int segment;        // pixels a lane, a multiple of 4: rows are laid four pixels at a time
   int before, after;  // side = before + 1 + after
   int min_disparity;  // px
   int disparities;    // in the range
@@ -121,7 +121,7 @@ struct LaneLayout {
   int first, last;    // vectors of right pixels: -(largest disparity) ... segment - 1 - smallest
 };
 
-// A key that no candidate has: the masked ones.
+// A key that no candidate has (ScoresFit): the masked ones.
 constexpr std::uint16_t kNoKey = 0xFFFF;
 constexpr int kKeyShift = 2;
 
@@ -136,7 +136,9 @@ struct CorrelatorState {
   std::uint16_t* Left(int slot) { return left_rows.data() + layout.row_size() * Size(slot); }
   std::uint16_t* Right(int slot) { return right_rows.data() + layout.wide_size() * Size(slot); }
 
-  // Vector j = 0 of the sums of a disparity, of the changes of one of a group.
+  // Vector j = 0 of the sums of a disparity, of the changes of one of a group. Sums of one
+  // disparity more on either side are there: DecideRow reads them before it drops the ends of the
+  // range.
   std::uint16_t* Scores(int disparity_index) {
     return scores.data() + layout.row_size() * Size(disparity_index + 1);
   }

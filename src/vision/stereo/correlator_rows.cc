@@ -229,6 +229,7 @@ HWY_INLINE Ints Decide(Ints keys, Ints indices, Ints x, const PairTables& tables
   const auto range_end = hn::Or(first, last);
   const auto line_of_sight =
       hn::Gt(hn::Abs(hn::Sub(back, index)), hn::Set(kInts, limits.line_of_sight));
+  // The first filter that a pixel fails names the drop: it is put last.
   value = Replace(contrast, Drop::kContrast, value);
   value = Replace(hn::Not(peak), Drop::kPeak, value);
   value = Replace(range_end, Drop::kRangeEnd, value);

@@ -72,7 +72,8 @@ void FillHalo(const LaneLayout& layout, std::uint16_t* changes) {
   }
 }
 
-// Takes `key` of `group` into the best so far where its score is smaller.
+// Takes `key` of `group` into the best so far where its score is smaller: of equal scores the
+// smaller disparity stays, which came earlier.
 HWY_INLINE void Improve(Words key, Words group, std::uint16_t* best_key,
                         std::uint16_t* best_group) {
   const auto old = hn::Load(kWords, best_key);

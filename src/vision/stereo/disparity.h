@@ -27,6 +27,7 @@ enum class Drop : std::uint8_t {
   kBlob,         // alone, or in a small region of its disparity
 };
 
+// In the order of Drop; keys of the results of `rockyard stereo`.
 constexpr int kDropCount = 7;
 constexpr std::array<std::string_view, kDropCount> kDropNames{
     "none", "outside", "line_of_sight", "range_end", "peak", "contrast", "blob"};
@@ -61,13 +62,13 @@ DropCounts CountDrops(const DisparityImage& disparities);
 // is 0 in `left_inside` or `right_inside` (RectificationTable::Inside). The window has side
 // `window_side_px`, its pixel at side / 2. All images are of one size. Pixels that another filter
 // has dropped stay as they are. A rectified image has pixels that come from nowhere, and windows
-// that reach over them compare nothing.
+// that reach over them compare nothing. On board the masks leave out the rover's own parts as well.
 void DropOutside(const Image<std::uint8_t>& left_inside, const Image<std::uint8_t>& right_inside,
                  int window_side_px, DisparityImage& disparities);
 
 // Disparities held against known ones: the measures of Scharstein and Szeliski 2002 ("A taxonomy
 // and evaluation of dense two-frame stereo correspondence algorithms", section 5.1). A match is bad
-// where it is off by more than these.
+// where it is off by more than these, of which keys of `rockyard stereo`'s results are made.
 constexpr std::array<double, 4> kBadThresholds_px{0.5, 1.0, 2.0, 4.0};
 
 struct StereoScore {

@@ -26,10 +26,13 @@
 
 namespace rockyard::vision {
 
+// Within the bounds of DogParams sums of a square, up to 255 * 15^2, fit 16 bits, and products,
+// some 255 * 4 * 2^20 at most, fit 32.
 constexpr int kDogShift = 20;
 
 // Goldberg 2002's Laplacian, with the sides and the limit that were chosen for it on synthetic
-// pairs: a step a grey level, and rows as well as columns.
+// pairs: a step a grey level, and rows as well as columns. Row matches and the search for texture
+// of `rockyard stereo` take it, whatever filter a pair is matched with.
 inline constexpr DogParams kLaplacianDog{
     .kind = DogKind::kLaplacian, .narrow_side_px = 1, .wide_side_px = 11, .gain = 1.0, .limit = 36};
 

@@ -1,5 +1,5 @@
 // Points seen from above: the mean height over the cells of a grid (Goldberg 2002 section 2 stage
-// 7 and figure 1d).
+// 7 and figure 1d). For pictures and files that people look at: no navigator reads it.
 #pragma once
 
 #include <Eigen/Core>

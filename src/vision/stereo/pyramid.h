@@ -3,7 +3,9 @@
 // A pixel of level l is the mean of a square of 2^l x 2^l pixels (box filter), rounded to the
 // nearest, halves upwards:
 //   P(x, y) = floor((sum of I(2^l x + i, 2^l y + k) + 2^(2l - 1)) / 2^(2l)),  0 <= i, k < 2^l.
-// Each level halves the disparities too: an eighth of the work, twice the error of a range.
+// Each level halves the disparities too: an eighth of the work, twice the error of a range. Reduced
+// (camera_model.h) is the camera of such an image: both have to agree on where centres of pixels
+// move to, on which all ranges depend.
 #pragma once
 
 #include "vision/image.h"

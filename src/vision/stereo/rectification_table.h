@@ -7,7 +7,8 @@
 // fx, fy in 0 ... 256 (of 256)
 //   value = floor((top (256 - fy) + bottom fy + 2^15) / 2^16),
 //   top = p00 (256 - fx) + p10 fx,  bottom = p01 (256 - fx) + p11 fx,
-// the bilinear mean rounded to the nearest, halves upwards.
+// the bilinear mean rounded to the nearest, halves upwards. The four shares add up to 2^16: what is
+// 255 in all four pixels stays so, by which masks are resampled as well.
 #pragma once
 
 #include <cstdint>

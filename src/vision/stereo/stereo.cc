@@ -57,10 +57,12 @@ void MatchStereo(const GrayImage& left, const GrayImage& right, const StereoPipe
     DifferenceOfGaussiansRows(left, params.dog, first, end, products.left_filtered);
     DifferenceOfGaussiansRows(right, params.dog, first, end, products.right_filtered);
   });
+  // Windows reach into the rows of other bands, so that all of them are filtered by now.
   ForEachBand(left.height(), threads, [&](int first, int end) {
     CorrelateRows(products.left_filtered, products.right_filtered, params, first, end,
                   products.disparities);
   });
+  // Not by bands: a region may cross their borders.
   FilterBlobs(params.filters, products.disparities);
 }
 

@@ -16,6 +16,7 @@ constexpr std::string_view kSynthetic =
     "Goldberg 2002 sec. 2 names the filter and no number; chosen on synthetic pairs alone "
     "(src/vision/README.md, \"Why these defaults\")";
 
+// Bounds of CorrelatorParams: the largest disparity, 480 + 511 px, in 1/32 px fits 16 bits.
 constexpr double kMostDisparities = 512.0;
 constexpr double kLargest_px = 480.0;
 

@@ -1,4 +1,5 @@
-// A pair of cameras as a rover carries it.
+// A pair of cameras as it was calibrated: what software on board is given. The right camera that
+// takes the images may have drifted since (rig_drift.h).
 #pragma once
 
 #include <cstdint>
