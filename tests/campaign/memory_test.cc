@@ -59,7 +59,7 @@ constexpr double kMostBytesAPair = 700.0;
 // Just below powers of two, to which vectors grow: what they reserve beyond is not touched.
 constexpr std::int64_t kFew = 16000;
 constexpr std::int64_t kMany = 32000;
-// Of the 80 columns of a drive so many differ from trial to trial, as in the Pathfinder scenarios.
+// Of the columns of a drive so many differ from trial to trial, as in the Pathfinder scenarios.
 constexpr std::size_t kVaried = 45;
 
 truth::RecordSchema DriveSchema() {
