@@ -15,6 +15,11 @@ namespace {
 
 using core::JsonValue;
 
+// Mirror images follow the placed rocks; a rock at the goal is the last of all.
+bool IsMirrorImage(const FieldAudit& audit, std::ptrdiff_t index) {
+  return index >= audit.placed && index < audit.placed + audit.mirror_images;
+}
+
 JsonValue RockJson(const Rock& rock, bool mirror_image) {
   JsonValue json = JsonValue::Object();
   json.Append("mirror_image", JsonValue(mirror_image));
@@ -71,7 +76,7 @@ std::string ToCsv(const Field& field) {
   int index = 0;
   for (const Rock& rock : field.terrain.rocks()) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{}\n", index,
-                   index >= field.audit.placed ? 1 : 0, rock.center_W.x(), rock.center_W.y(),
+                   IsMirrorImage(field.audit, index) ? 1 : 0, rock.center_W.x(), rock.center_W.y(),
                    rock.center_W.z(), rock.semi_axes_m.x(), rock.semi_axes_m.y(),
                    rock.semi_axes_m.z(), math::RadToDeg(rock.yaw_rad), rock.diameter_m,
                    rock.height_m, rock.cap_growth);
@@ -99,9 +104,7 @@ std::string ToJson(const Field& field, const TerrainParams& params, const Course
   json.Append("audit", AuditJson(field.audit));
   JsonValue::List rocks;
   for (const Rock& rock : field.terrain.rocks()) {
-    // Mirror images follow the placed rocks.
-    const bool mirror_image = rocks.size() >= static_cast<std::size_t>(field.audit.placed);
-    rocks.push_back(RockJson(rock, mirror_image));
+    rocks.push_back(RockJson(rock, IsMirrorImage(field.audit, std::ssize(rocks))));
   }
   json.Append("rocks", JsonValue(std::move(rocks)));
   return core::DumpJson(json);

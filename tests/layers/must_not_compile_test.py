@@ -97,23 +97,43 @@ class CheatingSources(unittest.TestCase):
 
 
 class SidesOfADrive(unittest.TestCase):
-    """World, rover and referee of src/trial/drive."""
+    """World, rover and referee of src/trial: what stands in the world knows no belief, what runs on board no truth."""
+
+    ON_BOARD = [path for name in ("drive/onboard", "drive/vehicle_guard", "eyes/stripe_reader", "eyes/stereo_reader",
+                                  "eyes/visual_reader", "eyes/terrain_sensing", "aids/aid_suite", "aids/visual_aid")
+                for path in (name + ".h", name + ".cc")] + ["eyes/look.h", "aids/slip_alarms.h"]
+    WORLD = [path for name in ("drive/world", "drive/aid_sensors", "eyes/stripe_eyes", "eyes/stereo_eyes",
+                               "eyes/visual_eyes", "eyes/rover_cameras")
+             for path in (name + ".h", name + ".cc")] + ["eyes/terrain_sensor.h"]
 
     TRUTH = r"\bstate\(\)|\bX_WR\b|RoverState|Terrain\b"
     BELIEF = r"\bestimate\(\)|\bPoseEstimate\b|\bEstimator\b|\bRemember\("
 
     def names(self, side, *files):
         """Those of `files` whose code, comments apart, names a side."""
-        texts = ((name, (ROOT / "src/trial/drive" / name).read_text(encoding="utf-8")) for name in files)
+        texts = ((name, (ROOT / "src/trial" / name).read_text(encoding="utf-8")) for name in files)
         return [name for name, text in texts if re.search(side, re.sub("//.*", "", text))]
 
     def test_only_those_who_referee_name_truth_and_belief(self):
-        self.assertEqual(self.names(self.TRUTH, "onboard.h", "onboard.cc"), [])
-        self.assertEqual(self.names(self.BELIEF, "world.h", "world.cc", "aid_sensors.h", "aid_sensors.cc"), [])
-        self.assertEqual(self.names(self.BELIEF, "drive.h", "drive.cc", "drive_looks.cc"), [])
+        self.assertEqual(self.names(self.TRUTH, *self.ON_BOARD), [])
+        self.assertEqual(self.names(self.BELIEF, *self.WORLD), [])
+        self.assertEqual(self.names(self.BELIEF, "drive/drive.h", "drive/drive.cc", "drive/drive_looks.cc"), [])
+
+    def included(self, file):
+        """What a source of trial includes, with what these include in turn."""
+        result = compile_source("trial", ["-MM", str(ROOT / "src/trial" / file)])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return {word.split("/src/")[-1].split("/include/")[-1] for word in result.stdout.split()}
+
+    def test_what_runs_on_board_includes_no_truth(self):
+        truth = re.compile(r"(^|/)(terrain/terrain|truth/rover_state|rover/rover|trial/drive/world)\.h$")
+        for file in self.ON_BOARD:
+            with self.subTest(file=file):
+                self.assertEqual([name for name in self.included(file) if truth.search(name)], [])
+        self.assertTrue(any(truth.search(name) for name in self.included("drive/world.cc")))
 
     def test_control_they_do(self):
-        referees = ("drive_observer.cc", "drive_tracer.cc", "operators.h")
+        referees = ("drive/drive_observer.cc", "drive/drive_tracer.cc", "drive/operators.h")
         for side in (self.TRUTH, self.BELIEF):
             self.assertEqual(self.names(side, *referees), list(referees))
 

@@ -26,6 +26,19 @@ std::vector<std::string> Lines(const std::string& text) {
   return lines;
 }
 
+// The rock at the goal stands behind all others, and is the image of none.
+TEST(FieldExport, TheGoalRockIsNoMirrorImage) {
+  Course course;
+  course.goal_rock = {.diameter_m = 0.4, .height_m = 0.3};
+  const Field field = BuildField({}, {21, 0}, course);
+  ASSERT_GT(field.audit.mirror_images, 0);
+  const std::vector<std::string> lines = Lines(ToCsv(field));
+  EXPECT_THAT(lines.back(), testing::ContainsRegex("^[0-9]+,0,"));
+  EXPECT_THAT(lines[lines.size() - 2], testing::ContainsRegex("^[0-9]+,1,"));
+  const core::JsonValue json = core::ParseJson(ToJson(field, {}, course), "field");
+  EXPECT_FALSE(json.Find("rocks")->list().back().Find("mirror_image")->boolean());
+}
+
 TEST_F(FieldExportTest, CsvReadsBackToTheSameBits) {
   const std::vector<std::string> lines = Lines(ToCsv(field_));
   ASSERT_EQ(lines.size(), field_.terrain.rocks().size() + 1);

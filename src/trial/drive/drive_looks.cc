@@ -51,7 +51,7 @@ std::optional<Verdict> Drive::LookOnTheMove(messages::LookDirection direction) {
 std::unique_ptr<SeenLook> Drive::See(messages::LookDirection direction) {
   const LookOrder order = onboard_.OrderLook(direction);
   observer_.OnSeen(order.number);
-  return onboard_.TakeLook(order, world_.Look(order), time_s());
+  return onboard_.TakeLook(order, world_.Look(order.direction, order.number), time_s());
 }
 
 std::optional<Verdict> Drive::RestFor(const Timeline::Rest& rest) {

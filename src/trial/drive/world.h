@@ -86,8 +86,8 @@ class World {
     return parts_.get<MotionPart>().Feel(state(), command, duration_s);
   }
 
-  LookData Look(const LookOrder& order) const {
-    return terrain_sensor_->Look(field_.terrain, state().X_WR, order.direction, order.number);
+  LookData Look(messages::LookDirection direction, std::int64_t number) const {
+    return terrain_sensor_->Look(field_.terrain, state().X_WR, direction, number);
   }
   AidAnswer AskAids(const AidRequest& request, double time_s) const {
     return aids_.Answer(request, state().X_WR, time_s);

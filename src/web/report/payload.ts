@@ -26,7 +26,7 @@ export interface Run {
   /** Index in `sweeps`, or null. */
   sweep: number | null;
   kind: "drive" | "measurement";
-  /** summary.json, as it is. */
+  /** What summary.json has, by Wilson's intervals or those of a stopping rule. */
   summary: Record<string, any>;
   /** Exact in trials.csv; here 6 significant digits, and of more than 20 000 trials every k-th and those with a replay. */
   trials: TrialTable;
