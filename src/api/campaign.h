@@ -1,6 +1,6 @@
 /// @file
-/// What the command does with whole campaigns, for other programs: run, sweep, check, compare. One
-/// trial again is campaign/replay.h.
+/// What the command does with whole campaigns, for other programs: run, sweep, check, compare. Only
+/// programs that link rockyard use it. One trial again is campaign/replay.h.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,14 @@ struct RunRequest {
   campaign::ExistingRun existing = campaign::ExistingRun::kRefuse;
   int threads = 0;                   ///< 0: as many as the machine runs at once
   double max_fault_fraction = 0.01;  ///< simulator faults above it: kTooManyFaults
-  /// Each trial that is chosen leaves a trace: "all", "failures", "worst:N", "share:P".
+  /// Rules by which trials are chosen that leave a trace: "all", "failures", "worst:N", "share:P".
   std::vector<std::string> traces = {};
 
-  /// Is told about twice a second, by one thread at a time, how many trials of those planned have
+  /// Is told about twice a second, by one thread at a time, how many of the planned trials have
   /// finished.
   std::function<void(std::int64_t finished, std::int64_t planned)> progress = {};
-  /// Is asked before the first and after every trial, by several threads at once. True: trials in
-  /// flight end and are stored, and no more begin.
+  /// Is asked before the first and after every trial, by several threads at once. Where it returns
+  /// true, trials in flight end and are stored, and no more begin.
   std::function<bool()> stop = {};
   campaign::Observer observer = {};
 };
@@ -44,15 +44,15 @@ struct RunRequest {
 /// navigators and estimators are those of rockyard.
 campaign::WorkResult Run(const RunRequest& request);
 
-/// The same for a sweep file: scenarios that differ along axes, as one campaign.
+/// Runs a sweep file in the same way: scenarios that differ along axes, as one campaign.
 campaign::WorkResult Sweep(const RunRequest& request);
 
 /// Runs that are held against published values or a baseline.
 struct CheckRequest {
   std::vector<std::string> runs;    ///< folders of runs, or of such folders
   std::filesystem::path reference;  ///< file with published values, or with a baseline
-  /// Of each campaign: its name or number. Empty: for published values campaigns of one cell alone,
-  /// for a baseline all cells.
+  /// The cell of each campaign: its name or number. Empty: for published values campaigns of one
+  /// cell alone, for a baseline all cells.
   std::string cell = {};
 };
 
@@ -60,11 +60,11 @@ struct CheckRequest {
 struct CompareRequest {
   std::filesystem::path first;   ///< folder of a run
   std::filesystem::path second;  ///< folder of a run
-  std::string cell = {};         ///< of a campaign: its name or number; of both
-  std::string second_cell = {};  ///< of the second one, where it is another
+  std::string cell = {};  ///< of both, where they are campaigns of several: its name or number
+  std::string second_cell = {};  ///< of the second, where it is another cell
 };
 
-/// What was found: kDone, kDiffers, or kInconclusive where a check cannot decide.
+/// What was found. The outcome is kDone, kDiffers, or kInconclusive where a check cannot decide.
 struct Finding {
   campaign::Outcome outcome = campaign::Outcome::kDone;
   /// One JSON object, the same that `rockyard check --json` and `rockyard compare --json` print.
@@ -76,10 +76,10 @@ struct Finding {
 /// some seconds. The resampling has a seed of its own, so that equal runs give equal findings.
 Finding Check(const CheckRequest& request, const campaign::Observer& observer = {});
 
-/// Compares two runs: drives trial by trial where their seeds are the same, which describes and
-/// decides nothing (kDone); measurements cell by cell, kDiffers where a rate of a cell does. Throws
-/// core::UserError. Memory: of drives 200 bytes a trial of each run and some columns; of
-/// measurements the records of both.
+/// Compares two runs. Drives are compared trial by trial where their seeds are the same, which
+/// describes and decides nothing (kDone); measurements cell by cell, with kDiffers where a rate of
+/// a cell differs. Throws core::UserError. Memory: of drives 200 bytes a trial of each run and some
+/// columns; of measurements the records of both.
 Finding Compare(const CompareRequest& request);
 
 }  // namespace rockyard::api

@@ -1,5 +1,6 @@
 /// @file
 /// A scenario as other programs hold it: loaded, changed, written, and made into an experiment.
+/// Only programs that link rockyard use it.
 #pragma once
 
 #include <cstdint>
@@ -33,15 +34,15 @@ class Scenario {
   Scenario& operator=(Scenario&& other) noexcept;
   ~Scenario();
 
-  /// Returns the scenario in a scenario file, any object of which may extend another file, in a
-  /// scenario.resolved.json, or of the run in a folder, with "PATH=VALUE" overrides applied in
-  /// order. Absent keys have the values of `defaults`, and its navigators and estimators are those
-  /// that the file may name. Throws core::UserError with everything that is wrong: unknown keys,
+  /// Returns the scenario in a scenario file, in a scenario.resolved.json, or of the run in a
+  /// folder, with "PATH=VALUE" overrides applied in order. Any object of a scenario file may extend
+  /// another file. Absent keys have the values of `defaults`; the file may name the navigators and
+  /// estimators of `defaults`. Throws core::UserError with everything that is wrong: unknown keys,
   /// values out of bounds, conditions across modules.
   static Scenario Load(const std::filesystem::path& path,
                        std::span<const std::string> overrides = {}, const Scenario& defaults = {});
 
-  /// The same from the JSON text of a scenario file; "extends" is relative to `folder`.
+  /// Returns the same from the JSON text of a scenario file; "extends" is relative to `folder`.
   static Scenario Parse(std::string_view text, std::span<const std::string> overrides = {},
                         const std::filesystem::path& folder = ".", const Scenario& defaults = {});
 
@@ -49,11 +50,11 @@ class Scenario {
   /// then.
   void Set(std::string_view path_and_value);
 
-  /// The navigators that navigation.navigator may name. Add one of another program with
-  /// navigators().Add(description), before the file that names it is loaded.
+  /// Returns the navigators that navigation.navigator may name. Add a navigator of another program
+  /// with navigators().Add(description), before the file that names it is loaded.
   navigation::NavigatorSet& navigators();
 
-  /// The estimators that localization.estimator may name, in the same way.
+  /// Returns the estimators that localization.estimator may name; one is added in the same way.
   localization::EstimatorSet& estimators();
 
   const std::string& name() const;

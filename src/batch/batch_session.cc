@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The first error of the writer with what it means for the finished trials.
+// Throws the first error of the writer, and adds what it means for the finished trials.
 [[noreturn]] void ReportLoss(const StoreError& error, std::size_t unwritten) {
   std::vector<core::Problem> problems = error.problems();
   problems.front().reason += fmt::format(
@@ -83,7 +83,7 @@ BatchResult BatchSession::Close() {
   }
   result.too_many_faults =
       !result.faulty_cells.empty() || too_many(progress.faults, progress.finished);
-  // Whoever was asked to stop in the moment of the last trial has finished, too.
+  // A session that was asked to stop in the moment of its last trial has finished, too.
   const bool done = source_.exhausted() || (progress.finished == progress.planned &&
                                             plan_.Next().step == WorkPlan::Step::kDone);
   result.end = done ? BatchEnd::kFinished : BatchEnd::kStopped;
@@ -95,7 +95,8 @@ BatchResult BatchSession::Close() {
 }
 
 void BatchSession::StoreEnds() {
-  // From now on the store says how many trials the rule asked for; until now, how many at most.
+  // From now on the number of planned trials in the store is that which the rule asked for; until
+  // now it was the most that the rule allows.
   if (!options_.rule) return;
   for (int cell = 0; cell < plan_.cells(); ++cell) {
     if (plan_.planned(cell) != store_.planned(cell)) store_.SetPlanned(cell, plan_.planned(cell));

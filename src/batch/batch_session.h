@@ -1,4 +1,6 @@
-// What one process that owns a store keeps while its campaign runs.
+// What one process that owns a store keeps while its campaign runs, and what a trial costs, from a
+// few pilots. RunBatch and rank 0 or the worker of a campaign (campaign/campaign_process.h) run
+// trials through a session; dry runs ask for pilots.
 #pragma once
 
 #include <atomic>
@@ -13,18 +15,18 @@
 
 namespace rockyard::batch {
 
-// The plan of a store, the thread that writes it, and the source that hands out what is left. Make
-// it, run trials from source() in any way, then Close.
+// Holds the plan of a store, the thread that writes the store, and the source that hands out the
+// trials that are left. Make a session, run trials from source() in any way, then Close.
 class BatchSession {
  public:
-  // Reads which trials are stored. All must outlive this.
+  // Reads which trials are stored. `store` and `stop` must outlive the session.
   BatchSession(ResultStore& store, const BatchOptions& options, const std::atomic<bool>& stop,
                ProgressReport report);
 
   LocalWorkSource& source() { return source_; }
 
   // Writes what remains and reports once more. Throws StoreError, with the number of finished
-  // trials that the store lacks, where it cannot be written.
+  // trials that the store lacks, where the store cannot be written.
   BatchResult Close();
 
  private:
@@ -42,9 +44,7 @@ class BatchSession {
   RecordWriter writer_;  // after the source, which its thread reads
 };
 
-// What a trial costs, from a few of them.
-
-// Zero trials: there were none.
+// What a trial costs. `trials` is 0 where no pilot was run.
 struct PilotCost {
   std::int64_t trials = 0;
   double mean_s = 0.0;       // CPU time of a trial
@@ -54,7 +54,8 @@ struct PilotCost {
 };
 
 // Runs trials 0 .. trials-1 on this thread and keeps nothing of them but their cost and their hash.
-// The times are measured: they differ from run to run. An exception of a trial counts as its end.
+// The costs are measured times, which differ from run to run. A trial that throws ends there, as a
+// simulator fault (RunTrial).
 PilotCost RunPilots(const experiments::Experiment& experiment, std::uint64_t seed, int trials);
 
 }  // namespace rockyard::batch

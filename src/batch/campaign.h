@@ -1,4 +1,9 @@
-// What a campaign is: a list of cells, each one resolved scenario with its trials.
+// What a campaign is: a list of cells, each one resolved scenario with its trials. These types pass
+// between all of this folder and the campaigns above it.
+//
+// Two kinds of faults occur. A simulator fault is the record of a trial in which the simulator
+// failed (truth::TrialOutcome::kSimulatorFault). An infrastructure fault says that the machine or a
+// process failed; the trial has no record and stays pending.
 #pragma once
 
 #include <compare>
@@ -12,21 +17,22 @@
 namespace rockyard::batch {
 
 // One part of a campaign that is divided between machines: it runs the trials t of every cell with
-// t % count == index - 1. The default is the whole campaign. A store keeps index and count alone:
-// by another formula its trials would be foreign to it.
+// t % count == index - 1. The default is the whole campaign. Must stay: this formula. A store keeps
+// index and count alone, so that by another one its trials would be foreign to it.
 struct Shard {
   int index = 1;  // 1 .. count
   int count = 1;
 
   bool whole() const { return count == 1; }
   bool Has(std::int64_t trial) const { return trial % count == index - 1; }
-  // How many of the trials 0 .. trials-1 are its own.
+  // Returns how many of the trials 0 .. trials-1 the shard runs.
   std::int64_t Share(std::int64_t trials) const { return (trials + count - index) / count; }
   bool operator==(const Shard&) const = default;
 };
 
-// What decides the records of one cell. Plain texts, so that the store knows no scenario. The
-// checksum of every stored trial begins with fingerprint and seed: of a store neither can change.
+// What decides the records of one cell. All are plain texts, so that the store knows no scenario.
+// Must stay, once stored: fingerprint and seed, with which the checksum of every stored trial
+// begins.
 struct CellIdentity {
   std::string name;         // "" in a campaign of one cell
   std::string scenario;     // name
@@ -35,7 +41,7 @@ struct CellIdentity {
   std::uint64_t seed = 1;
 };
 
-// What decides the records of a campaign.
+// What decides the records of a campaign, and what the campaign is called.
 struct CampaignIdentity {
   std::string name;
   std::string design;  // JSON text of the sweep file; "" for a run of one scenario
@@ -44,7 +50,7 @@ struct CampaignIdentity {
   std::vector<CellIdentity> cells;
   Shard shard{};
   // What the scenario or sweep was changed by on the way from its file, for people: "PATH=VALUE",
-  // "--ablate NAME". Decides nothing by itself. Nothing: not known.
+  // "--ablate NAME". It decides no record. Absent where it is not known.
   std::optional<std::vector<std::string>> settings = std::nullopt;
 };
 
@@ -66,7 +72,8 @@ struct FinishedTrial {
   truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;
 };
 
-// What happened to a machine or a process while a trial ran: no result, retried, in no hash.
+// What happened to a machine or a process while a trial ran. The trial has no result from it, is in
+// no hash, and may run again.
 struct InfrastructureFault {
   TrialId id;
   std::string kind;    // e.g. "cpu_time_limit"

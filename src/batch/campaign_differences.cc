@@ -16,11 +16,12 @@ namespace {
 
 using core::Problem;
 
-// Each cell may differ in many places; the first few cells tell what has happened.
+// How many differing cells, and how many paths of each, are told: the first few tell what happened.
 constexpr std::size_t kCellsShown = 3;
 constexpr std::size_t kPathsShown = 12;
 
-// Names alone: meanings are sentences for people, and stores keep no roles.
+// The names of the columns alone decide: meanings are sentences for people, and stores keep no
+// roles.
 std::string ColumnList(const truth::RecordSchema& schema) {
   std::string text;
   for (const truth::ValueInfo& value : schema) text += (text.empty() ? "" : ", ") + value.name;

@@ -1,4 +1,7 @@
-// How the processes of one campaign talk to each other.
+// How the processes of one campaign talk to each other: messages between the ranks that mpirun
+// started, and the bytes of these messages. distributed.h and the start and end of a campaign on
+// ranks (campaign/campaign_process.h) talk by it; the journal of a campaign is made of the same
+// bytes; commands ask FindLaunch whether mpirun started them.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +22,7 @@ struct Message {
 };
 
 // Point-to-point messages between ranks 0 .. size()-1. Messages from one rank to another arrive in
-// order. Only the thread that made it may call it.
+// order. Only the thread that made a communicator may call it.
 class Communicator {
  public:
   virtual ~Communicator() = default;
@@ -27,18 +30,18 @@ class Communicator {
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
-  // Never waits for the receiver: two ranks may send to each other at the same time, whatever the
-  // size. Bytes that are under way move on in Poll and at the end.
+  // Returns without waiting for the receiver: two ranks may send to each other at the same time,
+  // whatever the size. Bytes that are under way move on in Poll and at the end.
   virtual void Send(int rank, int tag, const std::string& bytes) = 0;
 
-  // The next message, if one is there.
+  // Returns the next message, if one is there.
   virtual std::optional<Message> Poll() = 0;
 
-  // Ends this process and all other ranks at once, with that exit code: for a job with a rank that
-  // no longer answers, which an ordinary end would wait for.
+  // Ends this process and all other ranks at once, with that exit code. It is for a job with a rank
+  // that no longer answers: an ordinary end would wait for that rank.
   [[noreturn]] virtual void Abort(int exit_code) = 0;
 
-  // A rank that nobody waits for any more: the job ends with Abort.
+  // Notes a rank that nobody waits for any more; the caller must end the job with Abort.
   void GiveUp(int rank) { given_up_.insert(rank); }
   const std::set<int>& given_up() const { return given_up_; }
 
@@ -46,8 +49,8 @@ class Communicator {
   std::set<int> given_up_;
 };
 
-// Where this process stands among those that mpirun (or srun) started, as its environment says:
-// known before MPI starts, so that plain runs pay nothing for it and messages need no MPI.
+// Where this process stands among those that mpirun (or srun) started, as its environment says. It
+// is known before MPI starts, so that plain runs pay nothing for it.
 struct Launch {
   int rank = 0;
   int ranks = 1;
@@ -55,14 +58,14 @@ struct Launch {
 };
 std::optional<Launch> FindLaunch();
 
-// Starts MPI (MPI_THREAD_FUNNELED: the calling thread alone speaks it) and ends it with the last
-// reference. A rank that ends without that takes the others with it. Once per process. Throws
-// core::UserError in a build without MPI.
+// Starts MPI (MPI_THREAD_FUNNELED: the calling thread alone speaks it); the end of the communicator
+// ends MPI. A rank whose process ends without that takes the others with it. Call it once per
+// process. Throws core::UserError in a build without MPI.
 std::unique_ptr<Communicator> StartMpi();
 
-// Bytes of messages between ranks, and of processes that share a campaign's journal: the bits of
-// every number, for machines of one kind. No file is of this form, so that it may change.
-
+// Writes the bytes of messages between ranks, and of the journal that the processes of a campaign
+// share: the bits of every number, for machines of one kind. No file has this form, so that it may
+// change.
 class PacketWriter {
  public:
   PacketWriter& Integer(std::int64_t value);
@@ -80,8 +83,8 @@ class PacketWriter {
   std::string bytes_;
 };
 
-// Reads what a PacketWriter wrote, in the same order. Throws
-// std::runtime_error where the packet is too short: the ranks are no builds of one program.
+// Reads what a PacketWriter wrote, in the same order. Throws std::runtime_error where the packet is
+// too short: then the ranks are no builds of one program.
 class PacketReader {
  public:
   explicit PacketReader(const std::string& bytes) : bytes_(bytes) {}

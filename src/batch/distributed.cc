@@ -17,19 +17,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Tags; campaign/campaign_process.cc has others, from 10 on. To rank 0.
+// Tags of messages to rank 0, and what each message holds. campaign/campaign_process.cc has the
+// other tags, from 10 on; all must differ.
 constexpr int kReport = 1;  // records, trials wanted, 1 where the rank wants to end
 constexpr int kBye = 2;     // records, trials that were not begun, trials that are overdue
-// From rank 0.
+// The tag of messages from rank 0.
 constexpr int kBlock = 3;  // trials, 1 where it is the last
 
-// Records are sent when trials are asked for, or after this.
+// Records are sent when trials are asked for, or after this time.
 constexpr std::chrono::milliseconds kSendEvery{50};
-// A rank with nothing to say says so.
+// A rank with nothing else to say sends an empty report after this time. RankWatch::silence must be
+// longer.
 constexpr std::chrono::milliseconds kSignEvery{500};
 
-// Sleeps longer the longer there is nothing to do: at most 2 ms, which 1000 trials per second and
-// thread do not notice.
+// Sleeps the longer, the longer there is nothing to do: at most 2 ms, which threads with 1000
+// trials per second do not notice.
 class Idleness {
  public:
   void Rest(bool busy) {
@@ -43,7 +45,8 @@ class Idleness {
   std::chrono::microseconds pause_ = kShort;
 };
 
-// Computes until the source has no more trials, or this ends: then what was begun is finished.
+// Computes on threads of its own until the source has no more trials. Its destructor closes the
+// source and waits for the trials that were begun.
 class Engine {
  public:
   Engine(std::span<const CellWork> work, WorkSource& source, int threads)
@@ -62,7 +65,7 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  // Throws what RunTrials has thrown.
+  // Returns whether RunTrials has ended. Throws what it has thrown.
   bool done() const {
     if (done_ && failure_) std::rethrow_exception(failure_);
     return done_;
@@ -90,7 +93,8 @@ class Desk {
     return std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& rank) { return rank.gone; });
   }
 
-  // Reads what has come and answers what can be answered; false where there was nothing to do.
+  // Reads what has come and answers what can be answered. Returns false where there was nothing to
+  // do.
   bool Serve() {
     bool busy = false;
     while (const std::optional<Message> message = communicator_.Poll()) {
@@ -154,7 +158,8 @@ class Desk {
     }
   }
 
-  // A round with a trial that stays pending never ends: nobody is to wait for it.
+  // Closes the source where only trials that stay pending are missing: a round with such a trial
+  // never ends, and nobody is to wait for it.
   void EndWhereNothingElseIsLeft() {
     const bool idle = std::all_of(ranks_.begin(), ranks_.end(),
                                   [](const Rank& rank) { return rank.gone || rank.has.empty(); });
@@ -164,7 +169,8 @@ class Desk {
     source_.Close();
   }
 
-  // False while a round of the plan goes on that has no trial left to hand out.
+  // Sends the rank its block. Returns false while a round of the plan goes on that has no trial
+  // left to hand out.
   bool Answer(int rank) {
     std::vector<TrialId> block;
     WorkPlan::NextStep next{WorkPlan::Step::kTrial};
@@ -201,7 +207,7 @@ class Client {
 
   bool last() const { return last_; }
 
-  // False where there was nothing to do.
+  // Reads what rank 0 has sent and reports to it. Returns false where there was nothing to do.
   bool Talk() {
     bool busy = false;
     while (const std::optional<Message> message = communicator_.Poll()) {
@@ -294,7 +300,7 @@ void ServeBatch(Communicator& communicator, std::span<const CellWork> work, int 
     const std::optional<std::vector<TrialId>> hang = overdue.told();
     if (!hang) continue;
     client.SayBye(*hang);
-    // Nothing that comes now is meant for a rank that is given up.
+    // Messages that still come are read and dropped: this rank is given up.
     while (!engine.done()) idleness.Rest(communicator.Poll().has_value());
     return;
   }

@@ -1,4 +1,21 @@
-// One campaign on several ranks.
+// One campaign on several ranks. campaign/campaign_process.h runs trials by it where mpirun started
+// the program.
+//
+// Rank 0 has the store and the plan, hands out trials on demand, and computes, too. The other ranks
+// ask for small blocks, compute with their threads, and send their records back, which rank 0
+// stores as its own. On every rank the calling thread alone speaks to the others, as StartMpi asks,
+// and computes nothing; it sleeps while there is nothing to do.
+//
+// A message is answered within a few milliseconds; a record reaches rank 0 within 0.1 s. Records do
+// not depend on the number of ranks. A rank whose `stop` becomes true gives back the trials that it
+// has not begun, and other ranks run them; the stop flag of rank 0 ends all. A rank that dies
+// without a word takes the others with it (MPI): what rank 0 had received is in the store within a
+// second.
+//
+// A rank says twice a second that it is there. A rank that is frozen, or cut off, says nothing:
+// after the silence that the caller names, its trials are given to others, and whatever it may say
+// later counts no more. A rank with a trial that hangs hands over everything else, and is given up,
+// too: that trial stays pending.
 #pragma once
 
 #include <atomic>
@@ -17,25 +34,11 @@
 
 namespace rockyard::batch {
 
-// Rank 0 has the store and the plan, hands out trials on demand, and computes, too; the others ask
-// for small blocks, compute with their threads, and send their records back, which
-// rank 0 stores as its own. On every rank the calling thread alone speaks to the others, as
-// StartMpi asks, and computes nothing; it sleeps while there is nothing to do.
-//
-// A message is answered within a few milliseconds; a record reaches rank 0 within 0.1 s. Records do
-// not depend on the number of ranks. A rank whose `stop` becomes true gives back what it has not
-// begun, and the others do it; the stop flag of rank 0 ends all. A rank that dies without a word
-// takes the others with it (MPI): what rank 0 had received is in the store within a second.
-//
-// A rank says twice a second that it is there. One that is frozen, or cut off, says nothing: after
-// the silence that the caller names, its trials are given to others, and whatever it may say later
-// counts no more. A rank with a trial that hangs hands over everything else, and is given up, too:
-// the trial stays pending.
-
-// Trials that have used up their CPU time on this rank: from its watchdog to the thread that talks.
+// Trials that have used up their CPU time on this rank: the watchdog of the rank tells them, and
+// the thread that talks to the others asks for them.
 class OverdueTrials {
  public:
-  // Once, when all other trials of this rank have ended.
+  // Tells them. Call it once, when all other trials of this rank have ended.
   void Tell(std::vector<TrialId> trials);
   std::optional<std::vector<TrialId>> told() const;
 
@@ -44,36 +47,37 @@ class OverdueTrials {
   std::optional<std::vector<TrialId>> trials_;
 };
 
-// How rank 0 sees the others.
+// How long rank 0 waits for the others, and whom it tells.
 struct RankWatch {
   std::chrono::milliseconds silence{60000};                           // 0: waits for ever
   std::function<void(int rank, std::size_t trials)> silent{};         // its trials go to others
   std::function<void(const std::vector<TrialId>& trials)> overdue{};  // elsewhere: stay pending
 };
 
-// On rank 0, while every other rank is in ServeBatch or on its way there: in place of RunTrials.
-// Returns when `source` has no more trials and all ranks have sent what they had or are given up
-// (Communicator::given_up). Where a trial of this rank is overdue, `give_up` is called as soon as
-// the other ranks have sent what they had, and should end the process: the thread of that trial
-// cannot be stopped, and is waited for otherwise.
+// Runs the trials of `source` on this rank and on the others. Rank 0 calls it in place of
+// RunTrials, while every other rank is in ServeBatch or on its way there. Returns when `source` has
+// no more trials and all ranks have sent what they had or are given up (Communicator::given_up).
+// Where a trial of this rank is overdue, `give_up` is called as soon as the other ranks have sent
+// what they had, and should end the process: the thread of that trial cannot be stopped, and is
+// waited for otherwise.
 void RunTrialsOnRanks(Communicator& communicator, std::span<const CellWork> work,
                       LocalWorkSource& source, int threads, const RankWatch& watch,
                       const OverdueTrials& overdue,
                       const std::function<void(const std::vector<TrialId>&)>& give_up);
 
-// On every other rank: returns when rank 0 has no more trials or `stop` is true, and everything
-// that was begun has been sent. A trial that is overdue is waited for: rank 0 ends the job before.
-// Both throw what RunTrials throws.
+// Runs the trials that rank 0 sends. Every other rank calls it. Returns when rank 0 has no more
+// trials or `stop` is true, and everything that was begun has been sent. A trial that is overdue is
+// waited for: rank 0 ends the job before. RunTrialsOnRanks and ServeBatch throw what RunTrials
+// throws.
 void ServeBatch(Communicator& communicator, std::span<const CellWork> work, int threads,
                 const std::atomic<bool>& stop, const OverdueTrials& overdue);
 
-// The trials that one rank holds of a campaign whose store another rank has.
-
-// Between the threads that compute, which take and finish, and the one thread that talks to rank
-// 0, which adds what it is sent and collects what is finished. How much is asked for depends on the
-// measured time of a trial: enough for kBlock_s of work, so that nobody waits for messages and a
-// slow rank holds little back; nothing in advance where one trial takes longer. No record depends
-// on it.
+// The trials that one rank holds of a campaign whose store another rank has. It stands between the
+// threads that compute, which take and finish, and the one thread that talks to rank 0, which adds
+// what it is sent and collects what is finished. How much is asked for depends on the measured time
+// of a trial: as many trials as all threads together finish in kBlock_s, so that nobody waits for
+// messages and a slow rank holds little back. Where that is less than one trial, nothing is asked
+// for in advance. No record depends on it.
 class RemoteWorkSource final : public WorkSource {
  public:
   static constexpr double kBlock_s = 0.25;
@@ -87,11 +91,11 @@ class RemoteWorkSource final : public WorkSource {
   void Close() override;
 
   void Add(const std::vector<TrialId>& trials);
-  // How many more trials to ask for; 0 while there are enough.
+  // Returns how many more trials to ask for; 0 while there are enough.
   std::int64_t Wanted() const;
-  // Records that were finished since the last call.
+  // Returns the records that were finished since the last call.
   std::vector<CellRecord> Collect();
-  // Trials that nobody took.
+  // Returns the trials that nobody took, and forgets them.
   std::vector<TrialId> Untaken();
 
  private:

@@ -29,7 +29,7 @@ truth::Record RunOne(const experiments::Experiment& experiment, std::uint64_t se
                               fmt::format("the record has {} values for {} columns",
                                           record.values.size(), experiment.schema().size()));
     }
-    // Stores take infinite values for damage.
+    // Records depend on this: stores take infinite values for damage.
     const auto infinite = std::find_if(record.values.begin(), record.values.end(),
                                        [](double value) { return std::isinf(value); });
     if (infinite != record.values.end()) {
@@ -134,7 +134,7 @@ void RecordWriter::Loop() {
                    [this] { return stopping_ || (queue_.size() >= kMaxWaiting && !failed_); });
     if (stopping_) return;
     lock.unlock();
-    // After a failure the rest is tried once more, when the trials in flight have ended.
+    // After a failure the rest is tried once more by Close, when the trials in flight have ended.
     if (!failed_) WriteQueue();
     if (after_tick_) after_tick_();
     lock.lock();

@@ -1,4 +1,6 @@
-// Runs the trials of a campaign on several threads, and stores every one.
+// Runs the trials of a campaign on several threads, and stores every one. Processes and ranks of a
+// campaign (campaign/campaign_process.h) use its parts; RunBatch puts them together for one
+// process, as tests do.
 #pragma once
 
 #include <atomic>
@@ -20,38 +22,37 @@
 
 namespace rockyard::batch {
 
-// Brings finished records to the store while the trials go on.
-
-// One thread of its own that commits everything pushed so far, once per interval. A record is
-// durable at most one interval and the time of one commit after Push, however long the next trial
-// takes.
+// Brings finished records to the store while the trials go on: one thread of its own commits
+// everything pushed so far, once per interval. A record is durable at most one interval and the
+// time of one commit after Push, however long the next trial takes.
 class RecordWriter {
  public:
   // `after_tick` is called by the writing thread after each interval, never by two threads at once.
   RecordWriter(ResultStore& store, std::chrono::milliseconds interval,
                std::function<void()> after_tick);
-  // From now on there is the thread. Once; without it, Close writes everything.
+  // Starts the thread. Call it once; without it, Close writes everything.
   void Start();
   // Writes what remains if it can, and swallows errors: call Close to know.
   ~RecordWriter();
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
-  // Any thread. Blocks while kMaxWaiting records wait for a store that is slower than the trials,
-  // so that memory stays bounded; not after a failure, nor without the thread.
+  // Hands over a record; any thread may call it. Blocks while kMaxWaiting records wait for a store
+  // that is slower than the trials, so that memory stays bounded. It does not block after a
+  // failure, nor without the thread.
   void Push(CellRecord record);
   static constexpr std::size_t kMaxWaiting = 20000;
 
-  // Records that have been brought to the store.
+  // How many records have been brought to the store.
   std::int64_t stored() const { return stored_; }
 
-  // True once a write has failed: start no more trials.
+  // Returns whether a write has failed: then start no more trials.
   bool failed() const { return failed_; }
 
   // Ends the thread, tries to write what remains, and rethrows the first StoreError of all writes.
   void Close();
 
-  // Records that could not be written. After Close.
+  // Returns how many records could not be written. Valid after Close.
   std::size_t unwritten() const { return queue_.size(); }
 
  private:
@@ -73,41 +74,42 @@ class RecordWriter {
   std::thread thread_;
 };
 
-// Where the threads of a campaign get their trials and leave their records.
-
 // How soon a thread that waits for a trial or for the end of a round sees that the campaign is to
 // stop.
 inline constexpr std::chrono::milliseconds kStopCheck{50};
 
-// For several threads at once.
+// Where the threads of a campaign get their trials and leave their records. Several threads may
+// call it at once.
 class WorkSource {
  public:
   virtual ~WorkSource() = default;
 
-  // The next trial. Blocks while a round ends. Nothing where all are done, or no more may start.
+  // Returns the next trial; blocks while a round ends. Returns nothing where all trials are done,
+  // or no more may start.
   virtual std::optional<TrialId> Take() = 0;
 
-  // The record of a trial that was taken. May block until earlier ones have been stored.
+  // Leaves the record of a trial that was taken. May block until earlier records have been stored.
   virtual void Finish(CellRecord record) = 0;
 
-  // Nothing more is handed out; who waits for a trial gets none.
+  // Ends the handing out: a thread that waits for a trial gets none.
   virtual void Close() = 0;
 };
 
 // The trials of a plan, in this process; records go to a writer.
 class LocalWorkSource final : public WorkSource {
  public:
-  // `stop`: true ends the handing out. All must outlive this.
+  // `stop`: true ends the handing out. All arguments must outlive the source.
   LocalWorkSource(WorkPlan& plan, RecordWriter& writer, const std::atomic<bool>& stop);
 
   std::optional<TrialId> Take() override;
   void Finish(CellRecord record) override;
   void Close() override;
 
-  // Take without blocking, for who serves others: kDone also when the campaign is to stop.
+  // Takes without blocking, for a caller that serves others. Returns kDone also when the campaign
+  // is to stop.
   WorkPlan::NextStep TryTake();
 
-  // A trial that was taken by somebody who is gone.
+  // Puts back a trial that was taken by somebody who is gone.
   void PutBack(TrialId id);
 
   // Calls `read` with the plan while no thread changes it.
@@ -117,7 +119,7 @@ class LocalWorkSource final : public WorkSource {
     return read(static_cast<const WorkPlan&>(plan_));
   }
 
-  // Everything was handed out, and nothing ended it early.
+  // Returns whether everything was handed out, and nothing ended it early.
   bool exhausted() const;
 
  private:
@@ -132,7 +134,7 @@ class LocalWorkSource final : public WorkSource {
   bool closed_ = false;
 };
 
-// What a cell runs.
+// What a cell runs, and with which seed.
 struct CellWork {
   const experiments::Experiment* experiment = nullptr;
   std::uint64_t seed = 1;
@@ -142,7 +144,8 @@ struct BatchOptions {
   int threads = 0;  // 0: as many as the machine runs at once
   Order order = Order::kNatural;
   double max_fault_fraction = 0.01;  // of the finished trials, of all and of each cell
-  // Between two commits and two reports. With the time of a commit below one second.
+  // The time between two commits and between two reports; with the time of a commit below one
+  // second. WatchdogOptions::grace must be longer.
   std::chrono::milliseconds interval{500};
   std::optional<StoppingRule> rule{};  // none: every planned trial
 };
@@ -177,28 +180,30 @@ struct BatchResult {
 
 int ThreadCount(const BatchOptions& options);
 
-// Runs one trial. An exception out of it, or a record that does not fit the schema, comes back as a
-// simulator fault; a failure of the machine (core::IsMachineFailure) is thrown on, as no machine is
-// to decide a record.
+// Runs one trial. An exception out of it, a record that does not fit the schema, or an infinite
+// value comes back as a simulator fault. A failure of the machine (core::IsMachineFailure) is
+// thrown on, as no machine is to decide a record.
 CellRecord RunTrial(std::span<const CellWork> work, TrialId id);
 
-// Takes trials from the source on that many threads until it has none left. Where one throws, none
-// is begun any more, those in flight are finished, and it is thrown on.
+// Takes trials from the source on that many threads until it has none left. Where a trial throws,
+// no other is begun, those in flight are finished, and the exception is thrown on.
 void RunTrials(std::span<const CellWork> work, WorkSource& source, int threads);
 
 // Runs the trials that the store lacks of those planned, and stores them. `work`: one for each cell
 // of the store. `report` is called about twice per second and once at the end, by one thread at a
-// time. When `stop` becomes true no further trial starts, those in flight finish and are stored.
-// Where the rule ends a cell early its planned trials become those that it asked for. Throws
-// what RunTrials throws, with the finished trials stored and that one pending;
-// StoreError when the store cannot be written: the message says how many finished trials it lacks
-// (they are run again, to the same bits, by a later session). The records do not depend on threads,
-// order or interruptions. Memory: one byte per trial besides the records that wait to be written.
+// time. When `stop` becomes true no further trial starts; those in flight finish and are stored.
+// Where the rule ends a cell early, the planned trials of that cell become those that the rule
+// asked for. The records do not depend on threads, order or interruptions.
+//
+// Throws what RunTrials throws; finished trials are stored then, and the trial that threw is
+// pending. Throws StoreError when the store cannot be written: the message says how many finished
+// trials it lacks (a later session runs them again, to the same bits). Memory: one byte per trial
+// besides the records that wait to be written.
 BatchResult RunBatch(std::span<const CellWork> work, ResultStore& store,
                      const BatchOptions& options, const std::atomic<bool>& stop,
                      const ProgressReport& report = {});
 
-// The same for a store of one cell, with the seed that it names.
+// RunBatch for a store of one cell, with the seed that the store names.
 BatchResult RunBatch(const experiments::Experiment& experiment, ResultStore& store,
                      const BatchOptions& options, const std::atomic<bool>& stop,
                      const ProgressReport& report = {});

@@ -61,7 +61,7 @@ int FlightLog::Begin(TrialId id) {
 
 void FlightLog::End(int slot) {
   std::atomic<std::uint64_t>& word = shared_->slots[slot].word;
-  // It may become overdue in this moment; nobody but this thread frees it.
+  // The flight may become overdue in this moment; nobody but this thread frees the slot.
   word = word - StateOf(word) + kStates;
 }
 
@@ -71,7 +71,8 @@ std::vector<Flight> FlightLog::Flights() const {
     const std::uint64_t word = slot.word;
     const Flight flight{{slot.cell, slot.trial}, StateOf(word) == kOverdue};
     const bool flies = StateOf(word) == kFlying || StateOf(word) == kOverdue;
-    // Another word: that flight has ended, or become overdue, which the next look will tell.
+    // Where the number has changed, that flight has ended meanwhile, and what was read belongs to
+    // none.
     if (flies && slot.word / kStates == word / kStates) flights.push_back(flight);
   }
   return flights;

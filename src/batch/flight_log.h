@@ -1,4 +1,6 @@
-// Which trials are in the air, in memory that outlives the process that runs them.
+// Which trials are in the air, in memory that outlives the process that runs them, and a watchdog
+// that ends a process in which a trial hangs. The supervisor reads it after a crash; campaigns and
+// the writing of traces note their trials in it.
 #pragma once
 
 #include <sys/types.h>
@@ -23,10 +25,11 @@ struct Flight {
   bool overdue = false;  // has used up its CPU time
 };
 
-// Shared between a supervisor and the worker that it forks (anonymous shared memory, lock-free
-// atomics): when the worker dies, the supervisor still reads what was in flight. Also of use
-// without a supervisor, for the watchdog. Any thread of the worker; one writer per slot.
-// Cost of a trial: two atomic writes and two readings of a clock.
+// A log of the flights, shared between a supervisor and the worker that it forks (anonymous shared
+// memory, lock-free atomics): when the worker dies, the supervisor still reads what was in flight.
+// Must be made before the fork. It is of use without a supervisor too, for the watchdog. Any thread
+// of the worker may call it; each slot has one writer. Cost of a trial: some atomic writes and one
+// reading of a clock.
 class FlightLog {
  public:
   static constexpr int kSlots = 4096;  // trials at the same time
@@ -37,42 +40,44 @@ class FlightLog {
   FlightLog(const FlightLog&) = delete;
   FlightLog& operator=(const FlightLog&) = delete;
 
-  // A trial begins on the calling thread. Returns its slot.
+  // Notes that a trial begins on the calling thread. Returns its slot.
   int Begin(TrialId id);
-  // The trial of the slot has ended, with a record.
+  // Notes that the trial of the slot has ended.
   void End(int slot);
 
   std::vector<Flight> Flights() const;
 
-  // How many trials the worker has brought to its store, since Clear.
+  // How many trials the worker has stored since Clear; where it writes traces, how many traces.
   void SetStored(std::int64_t trials) { shared_->stored = trials; }
   std::int64_t stored() const { return shared_->stored; }
 
-  // Marks every flight that has used more CPU time than the limit; returns whether any is. Only in
-  // the process that runs them: it reads the clocks of its threads, by `now_ns` in tests.
+  // Marks every flight that has used more CPU time than the limit; returns whether any flight is
+  // overdue. Call it only in the process that runs the flights: it reads the clocks of the threads,
+  // in tests by `now_ns`.
   using CpuClock = std::function<std::int64_t(clockid_t clock)>;
   bool MarkOverdue(double limit_s, const CpuClock& now_ns = ReadCpuClock);
 
-  // The worker is to begin no further trial.
+  // The flag that tells the worker to begin no further trial.
   std::atomic<bool>& stop() { return shared_->stop; }
 
-  // The worker is about to make its store, or goes on with it: what comes after it goes on with
-  // that store, and makes it where it is not there yet.
+  // Notes that the worker is about to make its store, or goes on with it. A later worker then goes
+  // on with that store, and makes it where it is not there yet.
   void SetOpened() { shared_->opened = true; }
   bool opened() const { return shared_->opened; }
 
-  // The user has been told the result: who goes on does not tell it again.
+  // Notes that the user has been told the result: a later worker does not tell it again.
   void SetReported() { shared_->reported = true; }
   bool reported() const { return shared_->reported; }
 
-  // Before another worker starts: forgets flights, count and the stop flag.
+  // Forgets flights, count and the stop flag; opened() and reported() stay. The supervisor calls it
+  // before another worker starts.
   void Clear();
 
  private:
   static std::int64_t ReadCpuClock(clockid_t clock);
 
-  // In the lowest bits of a slot's word; above them is the number of the flight, so that the word
-  // of one that has ended never comes back.
+  // The state in the lowest bits of a slot's word. Above them stands the number of the flight, so
+  // that the word of a flight that has ended never comes back.
   enum State : std::uint64_t { kFree, kClaimed, kFlying, kOverdue };
   static constexpr std::uint64_t kStates = 4;
   static std::uint64_t StateOf(std::uint64_t word) { return word % kStates; }
@@ -97,10 +102,8 @@ class FlightLog {
   Shared* shared_ = nullptr;
 };
 
-// An experiment that notes in a flight log which trial runs.
-
-// The records are those of `experiment`, the trials those of one cell. Both arguments must outlive
-// this.
+// An experiment that notes in a flight log which trial runs. Its records are those of `experiment`,
+// its trials those of one cell. `experiment` and `log` must outlive it.
 class LoggedExperiment final : public experiments::Experiment {
  public:
   LoggedExperiment(const experiments::Experiment& experiment, int cell, FlightLog& log)
@@ -132,12 +135,12 @@ class LoggedExperiment final : public experiments::Experiment {
   FlightLog& log_;
 };
 
-// Ends a process in which a trial hangs.
-
-// A worker ends with this code when a trial has used up its CPU time.
+// A worker ends with this code when a trial has used up its CPU time. Must differ from kShortExit
+// (supervisor.h) and from the exit codes of the program (campaign/work.h).
 inline constexpr int kOverdueExit = 75;
 
-// What the store says of such a trial: kind and reason of an infrastructure fault.
+// What the store says of a trial that used up its CPU time: kind and reason of an infrastructure
+// fault.
 inline constexpr const char* kOverdueKind = "cpu_time_limit";
 inline constexpr const char* kOverdueReason = "the trial used more CPU time than --trial-cpu-limit";
 
@@ -146,16 +149,18 @@ std::vector<TrialId> TrialsOf(const std::vector<Flight>& flights);
 struct WatchdogOptions {
   double cpu_limit_s = 600.0;  // of one trial; 0: none, and no thread is started
   std::chrono::milliseconds look_every{500};
-  // From the end of the last trial that is not overdue to the end of the process: the time that the
-  // writer of the store needs to store it: more than BatchOptions::interval and a commit.
+  // From the end of the last trial that is not overdue to the end of the process: the writer of the
+  // store needs that time to store the trial. Must be longer than BatchOptions::interval and a
+  // commit.
   std::chrono::milliseconds grace{1500};
 };
 
 // A thread that reads the CPU clock of every thread with a trial. As soon as one trial has used
-// more than the limit, no further trial begins; those that are not overdue end and are stored; then
-// `give_up` is called with the overdue ones, which is expected to end the process (a thread cannot
-// be stopped from outside). CPU time, not wall time: a busy or suspended machine kills nobody.
-// No result depends on it: an overdue trial leaves no record.
+// more than the limit, no further trial begins; the trials that are not overdue end and are stored;
+// then `give_up` is called with the overdue ones. It is expected to end the process, as a thread
+// cannot be stopped from outside. CPU time counts, not wall time, so that no trial is overdue
+// because the machine is busy or suspended. No result depends on it: an overdue trial leaves no
+// record.
 class Watchdog {
  public:
   using GiveUp = std::function<void(const std::vector<Flight>& overdue)>;
@@ -165,7 +170,7 @@ class Watchdog {
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  // Whether any trial was overdue, although it may have ended since.
+  // Returns whether any trial was overdue, although it may have ended since.
   bool bit() const { return bit_; }
 
  private:

@@ -30,7 +30,7 @@ std::string ShardName(const Shard& shard) {
   return fmt::format("shard {}/{}", shard.index, shard.count);
 }
 
-// Whatever is wrong with the parts, all at once.
+// Finds whatever is wrong with the parts, all at once.
 class Inspector {
  public:
   Inspector(const std::vector<Part>& parts, const MergeOptions& options)
@@ -104,7 +104,7 @@ class Inspector {
   }
 
   void InspectTrials(const Part& part) {
-    // Also of parts of which some may be missing: what is there has to be whole.
+    // Finished() checks the table: it is asked for shards that may lack trials (--partial), too.
     const std::vector<FinishedTrial> finished_trials = part.store.Finished();
     if (options_.partial) return;
     std::int64_t planned = 0;
@@ -140,7 +140,7 @@ std::vector<std::int64_t> MostPlanned(const std::vector<Part>& parts) {
   return planned;
 }
 
-// At once in memory and in one transaction.
+// Trials that are in memory at once and written in one transaction.
 constexpr std::int64_t kTrialsOfAPiece = 10000;
 
 void CopyPiece(const ResultStore& from, ResultStore& to, int cell, std::int64_t begin) {
@@ -174,7 +174,8 @@ void WriteMerged(const std::vector<Part>& parts, const fs::path& folder) {
   for (const Part& part : parts) CopyTrials(part.store, merged);
 }
 
-// Whether the store holds in this piece what the part does, less trials of other shards.
+// Returns whether the merged store holds in this piece what the part does; trials of other shards
+// do not count.
 bool HoldsPiece(const ResultStore& merged, const Part& part, int cell, std::int64_t begin) {
   std::vector<truth::Record> there = merged.Load(cell, begin, begin + kTrialsOfAPiece);
   std::erase_if(there, [&](const truth::Record& record) {
@@ -192,8 +193,8 @@ bool HoldsPart(const ResultStore& merged, const Part& part) {
   return true;
 }
 
-// Whether an earlier merge of these parts has made the store: the same campaign with their trials
-// and no others.
+// Returns whether an earlier merge of these parts has made the store: it is of the same campaign
+// and holds their trials and no others.
 bool HoldsMerge(const ResultStore& merged, const std::vector<Part>& parts, BuildPolicy policy) {
   CampaignIdentity whole = parts.front().store.identity();
   whole.shard = {};
@@ -212,7 +213,7 @@ bool HoldsMerge(const ResultStore& merged, const std::vector<Part>& parts, Build
                      [&](const Part& part) { return HoldsPart(merged, part); });
 }
 
-// "all" of "all/".
+// Returns "all" for "all/".
 fs::path WithoutSlash(const fs::path& path) {
   return path.has_filename() ? path : path.parent_path();
 }

@@ -1,4 +1,4 @@
-// Puts the parts of a campaign together.
+// Puts the shards of a campaign together, for `rockyard merge`.
 #pragma once
 
 #include <filesystem>
@@ -21,14 +21,16 @@ enum class Merged {
 
 // Makes a store in `out` with every trial of the shards: what one machine would have written, to
 // the same hash, but for the order of the rows. The folder appears when it is whole: it is made
-// beside `out` under another name, in which `finish` may add files to it; a merge that is killed
-// leaves no `out`, and the next one removes what it left. Throws StoreError, with everything that
-// is wrong and nothing written: a folder that holds no shard; shards of different campaigns, or of
-// different numbers of shards or trials; builds that differ; a shard that is there twice, that is
-// missing, that lacks trials, or that holds trials of another one; an `out` that exists, or that
-// another merge has made meanwhile (kExists), unless it holds what would be merged, as where a
-// merge is repeated that was killed at its very end: that is left as it is. What `finish` throws
-// comes out alike. Memory: some thousand records, and for a moment 24 bytes per trial of a shard.
+// beside `out` under another name, in which `finish` may add files to it. A merge that is killed
+// leaves no `out`, and the next one removes what it left.
+//
+// Throws StoreError, with everything that is wrong and nothing written: a folder that holds no
+// shard; shards of different campaigns, or of different numbers of shards or trials; builds that
+// differ; a shard that is there twice, that is missing, that lacks trials, or that holds trials of
+// another shard. Throws kExists where `out` exists already, or another merge has made it meanwhile;
+// but where it holds exactly what would be merged, as after a merge that was killed at its very
+// end, it is left as it is (kBefore). What `finish` throws is thrown on. Memory: some thousand
+// records, and for a moment 24 bytes per trial of a shard.
 Merged MergeShards(std::span<const std::filesystem::path> shards, const std::filesystem::path& out,
                    const MergeOptions& options = {},
                    const std::function<void(const std::filesystem::path& folder)>& finish = {});

@@ -26,8 +26,8 @@ std::optional<int> NumberOf(const char* name) {
   return good ? std::optional(value) : std::nullopt;
 }
 
-// What launchers call rank, ranks and ranks on this machine: Open MPI's mpirun, MPICH's, and
-// srun --mpi.
+// The environment variables in which launchers tell rank, ranks and ranks on this machine: Open
+// MPI's mpirun, MPICH's, and srun --mpi.
 struct Names {
   const char* rank;
   const char* ranks;
@@ -54,7 +54,7 @@ std::optional<Launch> FindLaunch() {
 
 namespace {
 
-// Errors of MPI end every rank, as is MPI's default.
+// The communicator over MPI. Errors of MPI end every rank, as is MPI's default.
 class MpiCommunicator final : public Communicator {
  public:
   MpiCommunicator() {

@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The store is made under another name, so that there is none or one with a head.
+// Writes a new store under another name, and renames it: either there is no store, or one with a
+// head.
 void WriteNew(const fs::path& path, const StoreHead& head) {
   try {
     core::TemporaryFile file(path);
@@ -39,8 +40,8 @@ void WriteNew(const fs::path& path, const StoreHead& head) {
   }
 }
 
-// Waits for whoever reads or writes the file with another tool, as a commit does: SQLite itself
-// does not wait here.
+// Switches to the write-ahead log. Waits for whoever reads or writes the file with another tool, as
+// long as a commit does (kBusyTimeoutMs in sqlite_open.cc): SQLite itself does not wait here.
 void BeginLog(SqliteDatabase& database) {
   constexpr int kAttempts = 40;
   constexpr std::chrono::milliseconds kPause{50};
@@ -54,14 +55,16 @@ void BeginLog(SqliteDatabase& database) {
   }
 }
 
-// The last statement makes the log, from which readers know that they are not alone.
+// Prepares a connection that writes. The last statement makes the log, from which readers know that
+// somebody writes.
 void PrepareToWrite(SqliteDatabase& database) {
   BeginLog(database);
   database.Execute("PRAGMA synchronous=FULL");
   database.Execute("SELECT count(*) FROM sqlite_master");
 }
 
-// What computes values where they are read, or changes them where they are written, is not ours.
+// Refuses views, triggers and virtual tables: they compute values where they are read, or change
+// them where they are written, and no rockyard makes them.
 void RequireTablesAlone(const SqliteDatabase& database, const fs::path& path) {
   SqliteStatement others = database.Prepare(
       "SELECT type, name FROM sqlite_master WHERE type IN ('view', 'trigger') OR "
@@ -117,7 +120,8 @@ ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& 
     store.most_planned_ = planned;
     return store;
   } catch (const StoreError&) {
-    // What could not even be begun leaves nothing behind that a later run would trip over.
+    // A store that could not even be begun leaves nothing behind that a later run would trip over.
+    // The suffixes are those of run_folder.cc (kLogs, kLogIndex).
     std::error_code ignored;
     for (const char* suffix : {"", "-wal", "-journal", "-shm"}) {
       fs::remove(path.string() + suffix, ignored);

@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // What SQLite keeps beside a store until its last commits are in it. The first two belong to the
-// store by name; the third is an index of the first, made anew when needed.
+// store by name; the third is an index of the first, made anew when needed. result_store.cc and
+// sqlite_open.cc write the same suffixes.
 constexpr std::array kLogs = {"-wal", "-journal"};
 constexpr const char* kLogIndex = "-shm";
 
@@ -29,7 +30,7 @@ bool IsThere(const fs::path& path) {
   return fs::exists(fs::symlink_status(path, error));
 }
 
-// A folder can exist and still refuse files: permissions, read-only media, full disks.
+// Throws where the folder exists and still refuses files: permissions, read-only media, full disks.
 void CheckWritable(const fs::path& folder) {
   core::RemoveLeftovers(StorePath(folder));
   try {
@@ -128,8 +129,9 @@ fs::path SetStoreAside(const fs::path& folder) {
   for (int number = 1; aside.empty() || taken(); ++number) {
     aside = folder / fmt::format("results.old-{}.sqlite", number);
   }
-  // The store first: where this is cut off, a log without a store is left, which gets a number of
-  // its own; a store without its log would look whole.
+  // The store is renamed first. Where this is cut off then, a log without a store is left, which
+  // gets a number of its own. The other way round a store without its log would be left, and look
+  // whole.
   for (const char* suffix : {"", kLogs[0], kLogs[1]}) {
     const fs::path from = WithSuffix(store, suffix);
     std::error_code error;

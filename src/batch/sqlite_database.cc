@@ -16,8 +16,9 @@
 namespace rockyard::batch {
 namespace {
 
-// A read that fails is a damaged file. Whatever else fails of input and output is taken for a disk
-// without room: the machine's (IsOfTheMachine), so that the same command may succeed later.
+// What a code of SQLite means. A read that fails is a damaged file. Every other failure of input
+// and output is taken for a disk without room: then the machine failed (IsOfTheMachine), and the
+// same command may succeed later.
 StoreProblem Kind(int code, int reason) {
   if (code == SQLITE_IOERR_NOMEM) return StoreProblem::kMemory;
   switch (code & 0xff) {
@@ -81,8 +82,9 @@ const char* Suggestion(StoreProblem problem) {
   }
 }
 
-// Where SQLite cannot make a file it tries to read one of that name, and then knows only that there
-// is none, or that it may not write: the folder tells why.
+// Returns the errno for which a file was not opened. Where SQLite cannot make a file, it tries to
+// read one of that name, and then knows only that there is none, or that it may not write: the
+// folder tells why.
 int WhyNotOpened(const std::filesystem::path& path, int code, int reason) {
   const bool is_known = (code & 0xff) == SQLITE_CANTOPEN && reason != ENOENT;
   if (is_known || ((code & 0xff) != SQLITE_CANTOPEN && (code & 0xff) != SQLITE_READONLY)) {
@@ -119,8 +121,9 @@ OpenedSqlite OpenFor(Access access, const std::filesystem::path& path) {
   return OpenToRead(path);
 }
 
-// A store that ends cleanly is one file, which anybody may read anywhere. While somebody reads it,
-// or where the disk has no room, its log stays: that costs no trial, and readers know logs.
+// Brings the log into the file: a store that ends cleanly is one file, which anybody may read
+// anywhere. While somebody reads it, or where the disk has no room, its log stays: that costs no
+// trial, and readers know logs.
 void FoldLog(sqlite3* database) {
   constexpr int kAttempts = 20;
   constexpr std::chrono::milliseconds kPause{50};

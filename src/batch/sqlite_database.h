@@ -1,4 +1,6 @@
-// A thin, throwing layer over SQLite: connections, statements, transactions.
+// A thin, throwing layer over SQLite: connections, statements, transactions; how a store is opened,
+// and what can go wrong with it and its folder. The files of the store use the layer; campaigns and
+// commands see only its errors.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +20,6 @@ struct sqlite3;
 namespace rockyard::batch {
 
 // What can go wrong with a run folder and its store.
-
 enum class StoreProblem {
   kMissing,     // no store where one is needed
   kExists,      // a store where none may be
@@ -31,7 +32,8 @@ enum class StoreProblem {
   kMismatch,    // made by another scenario, seed or build
 };
 
-// Every message names the file or folder, what is wrong, and what to do.
+// A failure of a run folder or its store. Every message names the file or folder, what is wrong,
+// and what to do.
 class StoreError : public core::UserError {
  public:
   StoreError(StoreProblem problem, std::vector<core::Problem> problems);
@@ -43,10 +45,10 @@ class StoreError : public core::UserError {
   StoreProblem problem_;
 };
 
-// Whether the machine failed, not the request: the same command may succeed later.
+// Returns whether the machine failed, not the request: then the same command may succeed later.
 bool IsOfTheMachine(StoreProblem problem);
 
-// What an errno means for a file or folder that is to be made, opened or written.
+// Returns what an errno means for a file or folder that is to be made, opened or written.
 StoreProblem ProblemOf(int reason);
 
 // Throws what an errno means, with what to do. `what`: "cannot be made".
@@ -55,15 +57,13 @@ StoreProblem ProblemOf(int reason);
 // Throws kDamaged, with what to do.
 [[noreturn]] void FailDamaged(const std::filesystem::path& path, const std::string& reason);
 
-// How the file of a store is opened, above all by those who only read it.
-
 struct CloseSqlite {
   void operator()(sqlite3* database) const;
 };
 using SqliteHandle = std::unique_ptr<sqlite3, CloseSqlite>;
 
-// A connection, and SQLite's code of its first statement: where that failed, the connection knows
-// why.
+// A connection, and SQLite's code of its first statement. Where that statement failed, the
+// connection knows why.
 struct OpenedSqlite {
   SqliteHandle database;
   int code = 0;
@@ -75,13 +75,13 @@ OpenedSqlite OpenSqlite(const std::filesystem::path& path, int flags);
 // Opens a store to read it, in such a way that no file is left beside it and no right to write
 // there is needed.
 //
-// A store that ended cleanly is one file, and read as it lies. One that is being written has its
-// log and the shared memory of that log, through which SQLite reads the last commit. Everything
-// else is read from a private copy: a store whose run was killed, where the reader may not write
-// the shared memory or the disk has no room for it; and one without shared memory, which SQLite
-// would make and leave there. The copy is taken with its logs, so that it is the last commit, in
-// the folder for temporary files; it is gone from there when this returns and takes room until the
-// connection is closed.
+// A store that ended cleanly is one file, and is read as it lies. A store that is being written has
+// its log and the shared memory of that log, through which SQLite reads the last commit. Every
+// other store is read from a private copy: one whose run was killed; one whose shared memory the
+// reader may not write, or for which the disk has no room; and one without shared memory, which
+// SQLite would make and leave there. The copy is taken with the logs, so that it is the last
+// commit. It lies in the folder for temporary files, is gone from there when this returns, and
+// takes room until the connection is closed.
 //
 // Throws StoreError: kFull, kOpenFiles or kUnwritable where the copy cannot be made, kInUse where
 // the store changes all the time meanwhile.
@@ -93,7 +93,7 @@ enum class Access {
   kRead,    // an existing file, also without a right to write
 };
 
-// How a value lies in a row; bytes that are no text (BLOB) count as one.
+// How a value lies in a row. Bytes that are no text (BLOB) count as kText.
 enum class ValueType { kNull, kInteger, kReal, kText };
 
 // One prepared statement. Columns and parameters count from 0.
@@ -106,7 +106,7 @@ class SqliteStatement {
   SqliteStatement& Bind(int parameter, std::string_view value);
   SqliteStatement& BindNull(int parameter);
 
-  // True while there is a row to read.
+  // Returns whether there is a row to read.
   bool Step();
   void Reset();
 
@@ -126,7 +126,8 @@ class SqliteStatement {
 };
 
 // One connection. Every failure is a StoreError that names the file. Not for two threads at once.
-// The end of one that may write brings the write-ahead log into the file, unless somebody reads it.
+// The end of a connection that may write brings the write-ahead log into the file, unless somebody
+// reads it.
 class SqliteDatabase {
  public:
   SqliteDatabase(const std::filesystem::path& path, Access access);
@@ -139,11 +140,12 @@ class SqliteDatabase {
   void Execute(const std::string& sql);
   SqliteStatement Prepare(std::string_view sql) const;
 
-  // Rows that the last statement which has ended added, changed or deleted.
+  // Returns how many rows the last statement that has ended added, changed or deleted.
   std::int64_t Changes() const;
 
-  // The first complaint of SQLite's own check of the file, or nothing. With the indexes, by which
-  // rows are found: one that is not found is missing without a sign.
+  // Returns the first complaint of SQLite's own check of the file, or nothing. The check includes
+  // the indexes, by which rows are found: a row that an index lacks would be missing without a
+  // sign.
   std::optional<std::string> Damage() const;
 
   const std::filesystem::path& path() const { return path_; }
@@ -154,7 +156,7 @@ class SqliteDatabase {
   SqliteHandle database_;
 };
 
-// Rolls back unless committed.
+// A transaction, which is rolled back unless it is committed.
 class SqliteTransaction {
  public:
   explicit SqliteTransaction(SqliteDatabase& database);
@@ -169,8 +171,8 @@ class SqliteTransaction {
   bool open_ = true;
 };
 
-// As long as it lives, everything read is of one moment, whatever a run adds meanwhile. Not within
-// a transaction.
+// As long as it lives, everything read is of one moment, whatever a run adds meanwhile. Not to be
+// made within a transaction.
 class SqliteSnapshot {
  public:
   explicit SqliteSnapshot(const SqliteDatabase& database);

@@ -24,11 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// How long a commit waits for somebody who reads or writes the file with another tool.
+// How long a commit waits for somebody who reads or writes the file with another tool. BeginLog
+// (result_store.cc) waits as long.
 constexpr int kBusyTimeoutMs = 2000;
 
-// A URI of the file; what has a meaning in a URI is percent-encoded. An absolute path follows an
-// authority that is empty, for which its own "//" would be taken else.
+// Returns a URI of the file, with percent-encoded what has a meaning in a URI. An absolute path
+// follows an empty authority; else its own "//" would be taken for an authority.
 std::string FileUri(const fs::path& path) {
   std::string uri = path.is_absolute() ? "file://" : "file:";
   for (const char c : path.string()) {
@@ -43,13 +44,14 @@ std::string FileUri(const fs::path& path) {
 
 OpenedSqlite Open(const std::string& uri, int flags) {
   sqlite3* database = nullptr;
-  // A connection is never used by two threads at once: without the mutex a value costs half.
+  // A connection is never used by two threads at once: without the mutex a value takes half the
+  // time.
   const int code = sqlite3_open_v2(uri.c_str(), &database,
                                    flags | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
   SqliteHandle handle(database);
   if (code != SQLITE_OK) return {std::move(handle), code};
-  // A store may come from anybody: its schema runs no functions with effects, and no statement of
-  // it changes the schema behind our back.
+  // A store may come from anybody: its schema runs no functions with effects, and no statement
+  // changes the schema behind our back.
   sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_extended_result_codes(database, 1);
@@ -64,7 +66,7 @@ OpenedSqlite Try(OpenedSqlite opened) {
   return opened;
 }
 
-// The bytes of the file, whatever its logs hold.
+// Opens the bytes of the file as they lie, whatever its logs hold.
 OpenedSqlite OpenAsItLies(const fs::path& path) {
   return Open(FileUri(path) + "?immutable=1", SQLITE_OPEN_READONLY);
 }
@@ -76,8 +78,8 @@ bool HasFile(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-// The bytes of a database through its connection. Not by open and close: the close would end the
-// locks that other connections of this process have on the file.
+// The bytes of a database, read through its connection. They are not read by open and close: the
+// close would end the locks that other connections of this process have on the file.
 class RawFile {
  public:
   explicit RawFile(sqlite3* database) {
@@ -91,7 +93,7 @@ class RawFile {
     return known ? size : 0;
   }
 
-  // False where the disk or the file does not give them.
+  // Returns false where the disk or the file does not give the bytes.
   bool Read(std::int64_t from, std::string& bytes) const {
     return file_->pMethods->xRead(file_, bytes.data(), static_cast<int>(bytes.size()), from) ==
            SQLITE_OK;
@@ -101,7 +103,8 @@ class RawFile {
   sqlite3_file* file_ = nullptr;
 };
 
-// Whether its commits go through a write-ahead log (https://www.sqlite.org/fileformat.html, 1.3.3).
+// Returns whether the commits of the store go through a write-ahead log
+// (https://www.sqlite.org/fileformat.html, 1.3.3).
 bool UsesLog(const fs::path& path) {
   constexpr std::size_t kHeaderBytes = 100;
   constexpr std::size_t kReadVersion = 19;
@@ -130,7 +133,7 @@ class Descriptor {
   int value_;
 };
 
-// At most so many of its first bytes; none where there is no such file.
+// Returns at most so many of the first bytes of a file; none where there is no such file.
 std::string FirstBytes(const fs::path& path, std::size_t most) {
   const Descriptor file(path, O_RDONLY);
   std::string bytes(most, '\0');
@@ -139,9 +142,10 @@ std::string FirstBytes(const fs::path& path, std::size_t most) {
   return bytes;
 }
 
-// What changes where the copies of a store and its logs may not belong together. The salt in the
-// header of the write-ahead log changes when it begins anew; before that, the store with all of
-// the log is the last commit, whatever is being brought from the one to the other.
+// Returns a text that changes whenever the copies of a store and its logs may not belong together.
+// The salt in the header of the write-ahead log changes when the log begins anew. Before that, the
+// store with all of the log is the last commit, whatever is being brought from the log to the
+// store.
 std::string LogMark(const fs::path& path) {
   constexpr std::size_t kHeaderBytes = 32;
   std::error_code error;
@@ -159,8 +163,8 @@ std::string LogMark(const fs::path& path) {
                                           : "make room or set TMPDIR to a folder that has some");
 }
 
-// A folder that only this user can enter. What a reader has left that was killed while it took its
-// copy is removed.
+// Makes a folder that only this user can enter. Removes what a reader left that was killed while it
+// took its copy.
 core::TemporaryFolder PrivateFolder() {
   constexpr mode_t kOwner = 0700;
   std::error_code error;
@@ -186,7 +190,7 @@ void WriteAll(const Descriptor& to, const fs::path& path, std::string_view bytes
   }
 }
 
-// False where it cannot be read.
+// Copies the store itself. Returns false where it cannot be read.
 bool CopyStore(const RawFile& from, const fs::path& path) {
   const Descriptor to(path, O_WRONLY | O_CREAT | O_TRUNC);
   if (to.value() < 0) FailCopy(path, errno);
@@ -200,7 +204,7 @@ bool CopyStore(const RawFile& from, const fs::path& path) {
   return true;
 }
 
-// Nothing where there is no log.
+// Copies a log; does nothing where there is none.
 void CopyLog(const fs::path& log, const fs::path& path) {
   const Descriptor from(log, O_RDONLY);
   if (from.value() < 0 && errno != ENOENT) FailSystem(log, "cannot be read", errno);
@@ -218,7 +222,7 @@ void CopyLog(const fs::path& log, const fs::path& path) {
   }
 }
 
-// A copy of the last commit. False where the store itself cannot be read.
+// Copies the last commit. Returns false where the store itself cannot be read.
 bool CopyLastCommit(const fs::path& path, const RawFile& file, const fs::path& copy) {
   constexpr int kAttempts = 50;
   constexpr std::chrono::milliseconds kPause{20};
@@ -255,7 +259,8 @@ OpenedSqlite OpenCopy(const fs::path& path) {
   return Try(OpenAsItLies(copy));
 }
 
-// Of a reader who may not write, or of a disk without room for shared memory.
+// Returns whether the code is that of a reader who may not write, or of a disk without room for
+// shared memory.
 bool NeedsCopy(int code) {
   switch (code & 0xff) {
     case SQLITE_CANTOPEN:

@@ -18,8 +18,8 @@ constexpr std::string_view kMetaTable = "meta";
 
 namespace fs = std::filesystem;
 
-// Of the layout of all tables. Stores outlive programs: tables or columns that other versions would
-// misread take another number, which these then refuse.
+// The version of the layout of all tables. Stores outlive programs: a change of tables or columns
+// that other versions would misread must take another number, which these versions then refuse.
 constexpr std::int64_t kSchemaVersion = 3;
 constexpr std::int64_t kVersionWithoutChecksums = 2;
 
@@ -38,7 +38,7 @@ void PutMeta(SqliteDatabase& database, Checksums checksums, std::string_view key
   if (row.Bind(0, key).Step()) SealRow(database, checksums, kMeta, row.Integer(0));
 }
 
-// A decimal number from 0 on.
+// Reads a decimal number from 0 on.
 template <typename Number>
 Number ParseNumber(const fs::path& path, std::string_view key, const std::string& text) {
   Number value = 0;
@@ -48,7 +48,7 @@ Number ParseNumber(const fs::path& path, std::string_view key, const std::string
   FailDamaged(path, fmt::format("has {} = \"{}\", which is no such number", key, text));
 }
 
-// These throw kDamaged, which names the file.
+// Returns an entry. GetMeta, GetNumber and the readers below throw kDamaged, which names the file.
 const std::string& GetMeta(const fs::path& path, const Meta& meta, std::string_view key) {
   const auto found = meta.find(key);
   if (found == meta.end()) {
@@ -62,7 +62,7 @@ Number GetNumber(const fs::path& path, const Meta& meta, std::string_view key) {
   return ParseNumber<Number>(path, key, GetMeta(path, meta, key));
 }
 
-// 0 .. kMostTrials.
+// Reads a number of trials, 0 .. kMostTrials.
 std::int64_t ParseTrials(const fs::path& path, std::string_view key, const std::string& text) {
   const auto trials = ParseNumber<std::int64_t>(path, key, text);
   if (trials <= kMostTrials) return trials;
@@ -70,7 +70,7 @@ std::int64_t ParseTrials(const fs::path& path, std::string_view key, const std::
                                 kMostTrials));
 }
 
-// Name, design, shard and settings of a new store.
+// Writes version, name, design, shard and settings of a new store.
 void WriteMeta(SqliteDatabase& database, const CampaignIdentity& identity) {
   const auto put = [&](std::string_view key, std::string_view value) {
     PutMeta(database, Checksums::kEachRow, key, value);
@@ -118,7 +118,7 @@ std::optional<StoppingRule> ReadRule(const fs::path& path, const Meta& meta) {
   return rule;
 }
 
-// JSON text of an object, or nothing.
+// Reads the design: the JSON text of an object, or "".
 std::string ReadDesign(const fs::path& path, const Meta& meta) {
   const std::string& design = GetMeta(path, meta, "design");
   try {
@@ -126,19 +126,19 @@ std::string ReadDesign(const fs::path& path, const Meta& meta) {
       return design;
     }
   } catch (const core::UserError&) {
-    // Told below.
+    // FailDamaged below tells it.
   }
   FailDamaged(path, "has a design that is no object");
 }
 
-// Nothing in the stores of older programs.
+// Reads the settings; absent in the stores of older programs.
 std::optional<std::vector<std::string>> ReadSettings(const fs::path& path, const Meta& meta) {
   const auto found = meta.find("settings");
   if (found == meta.end()) return std::nullopt;
   try {
     if (auto texts = core::TextsIn(core::ParseJson(found->second, "settings"))) return texts;
   } catch (const core::UserError&) {
-    // Told below.
+    // FailDamaged below tells it.
   }
   FailDamaged(path, "has settings that are no list of texts");
 }
@@ -147,7 +147,8 @@ constexpr TableShape kColumns{"columns", "position, name, unit, meaning", 4};
 constexpr TableShape kBuilds{"builds", "build", 1};
 constexpr TableShape kFaults{"infrastructure_faults", "cell, trial, kind, detail", 4};
 
-// Columns of the table of trials besides those of the values.
+// How many columns the table of trials has besides those of the values. Must agree with
+// kFixedColumns in store_trials.cc.
 constexpr std::int64_t kTrialKeys = 4;
 constexpr std::int64_t kTrialChecksums = 2;
 
@@ -159,8 +160,9 @@ TableShape CellsOf(Checksums checksums) {
 }
 
 std::string CreateTrialsSql(const truth::RecordSchema& schema) {
-  // Records may have a column "cell" of their own. Order: as TrialInsert (store_trials.cc) binds
-  // values, whose statement names no columns.
+  // The first column is campaign_cell, since records may have a column "cell" of their own. Must
+  // stay: the order, in which TrialInsert (store_trials.cc) binds values; its statement names no
+  // columns.
   std::string sql =
       "CREATE TABLE trials(campaign_cell INTEGER NOT NULL, trial INTEGER NOT NULL, "
       "outcome TEXT NOT NULL, detail TEXT NOT NULL";
@@ -238,14 +240,14 @@ core::JsonValue ParseResolved(const std::string& resolved) {
   }
 }
 
-// A text or an integer; else nothing.
+// Returns a text or an integer as text; "" for anything else.
 std::string Plain(const core::JsonValue& value) {
   if (value.Is(core::JsonValue::Type::kInteger)) return std::to_string(value.integer());
   return value.Is(core::JsonValue::Type::kText) ? value.text() : std::string();
 }
 
-// A cell says in its resolved scenario what other columns say of it. The column that does not fit,
-// or nothing.
+// Returns the column of a cell that does not fit its resolved scenario, which says the same of the
+// cell; "" where all fit.
 std::string_view Contradiction(const CellIdentity& cell) {
   const core::JsonValue resolved = ParseResolved(cell.resolved);
   if (ResolvedFingerprint(resolved) != cell.fingerprint) return "fingerprint";
@@ -275,7 +277,8 @@ void RequireNewName(const SqliteDatabase& database, const std::vector<CellIdenti
   }
 }
 
-// Of a store without checksums, where the rules of earlier sessions are not known.
+// Returns the most trials that were ever planned in a store without checksums, where the rules of
+// earlier sessions are not known.
 std::int64_t MostPlanned(const StoreHead& head, std::int64_t planned) {
   return head.rule ? kMostTrials : planned;
 }

@@ -1,4 +1,6 @@
-// The tables of a result store: how they are made, written and read.
+// The tables of a result store: how they are made, written and read. result_store.cc alone uses it.
+// Functions that read throw StoreError kDamaged where they meet what no version of this program
+// writes.
 #pragma once
 
 #include <charconv>
@@ -20,7 +22,8 @@
 
 namespace rockyard::batch {
 
-// What a store says of itself, besides its trials.
+// What a store says of itself, besides its trials. It is kept in the tables `meta` (the campaign as
+// a whole, by key), `cells`, `columns` and `builds`.
 struct StoreHead {
   CampaignIdentity identity;          // with the first of the builds
   std::vector<std::int64_t> planned;  // trials, by cell
@@ -29,27 +32,29 @@ struct StoreHead {
   std::vector<std::int64_t> most_planned = {};  // ever, by cell: no trial beyond them is stored
 };
 
-// Makes every table, in one transaction, with checksums and the most trials that are planned now.
+// Makes every table, in one transaction, with checksums. The most planned trials are those planned
+// now.
 void WriteStoreHead(SqliteDatabase& database, const StoreHead& head);
 
-// kMismatch: another version; kDamaged: what no version of this program writes.
+// Reads the head. Throws kMismatch for a store of another version.
 StoreHead ReadStoreHead(const SqliteDatabase& database);
 
-// A name as SQL writes it, in double quotes.
+// Returns a name as SQL writes it, in double quotes.
 std::string QuotedName(std::string_view name);
 
 void WritePlanned(SqliteDatabase& database, Checksums checksums, int cell, std::int64_t planned);
 
 std::vector<std::string> ReadBuilds(const SqliteDatabase& database, Checksums checksums);
-// One that is there already stays.
+// Adds a build, unless it is there already.
 void AddBuild(SqliteDatabase& database, Checksums checksums, std::string_view build);
 
 void InsertFault(SqliteDatabase& database, Checksums checksums, const InfrastructureFault& fault);
-// Of that many cells. kDamaged.
+// Reads the infrastructure faults of a store of that many cells.
 std::vector<InfrastructureFault> ReadFaults(const SqliteDatabase& database, Checksums checksums,
                                             int cells);
 
-// What the table of trials is written by, and what its rows must fit. All of it outlives this.
+// What the table of trials is written by, and what its rows must fit. `identity` and `most_planned`
+// must outlive it.
 struct TrialTable {
   const CampaignIdentity& identity;
   const std::vector<std::int64_t>& most_planned;
@@ -57,28 +62,30 @@ struct TrialTable {
 };
 
 // Adds the records in one transaction. A trial that is already there keeps its first record. No
-// value is infinite.
+// value may be infinite.
 void InsertRecords(SqliteDatabase& database, const TrialTable& table,
                    std::span<const CellRecord> records);
 
-// Takes the simulator faults out of the table, each into that of infrastructure faults with what it
-// said, in one transaction: they are pending again. How many there were.
+// Moves the simulator faults, with what each said, from the table of trials to that of
+// infrastructure faults, in one transaction: these trials are pending again. Returns how many there
+// were.
 std::int64_t SetSimulatorFaultsAside(SqliteDatabase& database, const TrialTable& table);
 
-// Trials from .. to-1 of a cell.
+// The trials from .. to-1 of a cell.
 struct TrialRange {
   int cell = 0;
   std::int64_t from = 0;
   std::int64_t to = 0;
 };
 
-// The records there are of those, by trial index. Throws kDamaged where a row does not fit its
-// checksum, or holds what no trial gives.
+// Returns the records that there are of a range, by trial index. Throws kDamaged where a row does
+// not fit its checksum, or holds what no trial gives.
 std::vector<truth::Record> SelectRecords(const SqliteDatabase& database, const TrialTable& table,
                                          const TrialRange& range);
 
-// The same with the values of these columns alone and without the sentences that say why trials
-// ended. Checks the outcomes, and not the values: CheckRecords does.
+// Returns the records that there are of a range, with the values of these columns alone and without
+// the sentences that say why trials ended. Checks the outcomes, and not the values: CheckRecords
+// does.
 std::vector<truth::Record> SelectColumns(const SqliteDatabase& database, const TrialTable& table,
                                          const truth::RecordSchema& columns,
                                          const TrialRange& range);
@@ -86,19 +93,18 @@ std::vector<truth::Record> SelectColumns(const SqliteDatabase& database, const T
 // Throws as SelectRecords does, and keeps nothing.
 void CheckRecords(const SqliteDatabase& database, const TrialTable& table, const TrialRange& range);
 
-// Every stored trial by cell and trial index, in one SqliteSnapshot of its own. Throws kDamaged
-// also where rows are missing, foreign, of another shard, or of trials that were never planned.
+// Returns every stored trial by cell and trial index, read in one SqliteSnapshot of its own. Throws
+// kDamaged also where rows are missing, foreign, of another shard, or of trials that were never
+// planned.
 std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, const TrialTable& table);
 
-// The table `meta`: what a store says of the campaign as a whole, by key.
-
-// Most trials of a cell, as scenarios and stopping rules have it.
+// The most trials that a cell may have, as scenarios and stopping rules limit them.
 inline constexpr std::int64_t kMostTrials = 1'000'000'000;
 
 using Meta = std::map<std::string, std::string, std::less<>>;
 
-// By the version of the store alone. kMismatch: another version; kDamaged: the version is not that
-// of the tables.
+// Reads whether the store has checksums, by its version alone. Throws kMismatch for another
+// version, kDamaged where the version is not that of the tables.
 Checksums ReadChecksums(const SqliteDatabase& database);
 
 void WriteRule(SqliteDatabase& database, Checksums checksums,

@@ -1,4 +1,4 @@
-// The table of trials, row by row.
+// The table of trials, row by row, for ResultStore (declared in store_tables.h).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,11 +14,12 @@
 namespace rockyard::batch {
 namespace {
 
+// Must agree with kTrialKeys and CreateTrialsSql in store_tables.cc.
 constexpr int kFixedColumns = 4;  // campaign_cell, trial, outcome, detail
 constexpr int kOutcomeColumn = 2;
 
-// What the rows of each cell begin their checksums with: its scenario and its seed, so that rows of
-// another campaign do not fit.
+// Returns what the rows of each cell begin their checksums with: its scenario and its seed, so that
+// rows of another campaign do not fit. Must stay: stored checksums depend on it.
 std::vector<std::int64_t> RowBeginnings(const CampaignIdentity& identity) {
   std::vector<std::int64_t> beginnings;
   beginnings.reserve(identity.cells.size());
@@ -31,14 +32,14 @@ std::vector<std::int64_t> RowBeginnings(const CampaignIdentity& identity) {
   return beginnings;
 }
 
-// OR IGNORE: a trial that was run twice has the same record, and the first one stays.
+// OR IGNORE: a trial that was run twice has the same record, and the first row stays.
 std::string InsertSql(std::size_t values, Checksums checksums) {
   std::string sql = "INSERT OR IGNORE INTO trials VALUES (?, ?, ?, ?";
   for (std::size_t i = 0; i < values; ++i) sql += ", ?";
   return sql + (checksums == Checksums::kEachRow ? ", ?, ?)" : ")");
 }
 
-// Along the index, whose order and entries SelectFinished checks.
+// Reads along the index; SelectFinished checks its order and entries.
 std::string FromSql(Checksums checksums) {
   const std::string columns =
       checksums == Checksums::kEachRow ? ", outcome_checksum, row_checksum" : "";
@@ -66,7 +67,8 @@ class TrialReader {
   TrialId id() const { return id_; }
   truth::TrialOutcome outcome() const { return outcome_; }
 
-  // Steps to the next row. Its checksums are in the columns `sums` and `sums` + 1.
+  // Steps to the next row, and returns whether there is one. Its checksums are in the columns
+  // `sums` and `sums` + 1.
   bool Step(int sums) {
     if (!row_.Step()) return false;
     CheckId();
@@ -80,7 +82,7 @@ class TrialReader {
     return true;
   }
 
-  // The values from kFixedColumns on, with the detail and the checksum of all of them.
+  // Reads the values from kFixedColumns on, and checks the row with its detail and all values.
   void ReadRow(const truth::RecordSchema& schema, std::string_view detail,
                std::span<double> values) {
     checksum_.Text(detail);
@@ -112,7 +114,7 @@ class TrialReader {
   }
 
  private:
-  // Of those who could, no more can have. Bases that are lengths (unit m) bound no count.
+  // Refuses a count above its base. Bases that are lengths (unit m) bound no count.
   void RequireAtMostBase(const truth::RecordSchema& schema, std::span<const double> values,
                          std::size_t count) const {
     if (!truth::IsCount(schema[count].role)) return;
@@ -214,7 +216,7 @@ class TrialInsert {
     checksum_.Text(value);
   }
 
-  // A fault has none.
+  // Binds a value; a fault has none.
   void Value(int parameter, const truth::Record& record, std::size_t i) {
     if (truth::IsFault(record)) {
       insert_.BindNull(parameter);

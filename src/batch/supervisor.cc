@@ -25,12 +25,12 @@ namespace {
 using Task = Mission::Task;
 using Why = LeftOut::Why;
 
-// Code by which a worker says why it ended, to its supervisor alone.
+// Returns whether the exit code is one by which a worker says to its supervisor alone why it ended.
 bool IsForSupervisor(const ProcessEnd& end) {
   return end.signal == 0 && (end.code == kOverdueExit || end.code == kShortExit);
 }
 
-// No trial is to blame: killed, or short of memory, files or disk.
+// Returns whether no trial is to blame: the worker was killed, or short of memory, files or disk.
 bool FailedFromOutside(const ProcessEnd& end) {
   return end.signal == SIGKILL || (end.signal == 0 && end.code == kShortExit);
 }
@@ -79,7 +79,7 @@ class Supervisor {
     mission.left_out = left_out_;
     const ProcessEnd end = held_.Run([&] { return worker_(mission); });
     if (end.interrupted || AskedToEnd(end.signal)) {
-      // That a trial hung meanwhile is nothing that the user asked for.
+      // A user who asked for an end is not told that a trial hung meanwhile.
       const bool own = end.signal == 0 && !IsForSupervisor(end);
       exit_code_ = own ? end.code : options_.interrupted_exit;
     } else if (end.signal == 0 && !IsForSupervisor(end)) {
@@ -117,7 +117,7 @@ class Supervisor {
           if (!flight.overdue) NotePassed(flight.id, end);
           return;
         case Alone::kCrashed:
-          // No option, unlike the retries below: it decides a record.
+          // Records depend on this number, so that it is no option, unlike the retries below.
           if (++crashed > 1) return GiveUp(flight.id, last);
           NoteCrashed(flight.id, last);
           break;
@@ -147,8 +147,8 @@ class Supervisor {
     StoreFault(id, end);
   }
 
-  // Without the entry the trial would be run, and crash, for ever. What ends the process once may
-  // have come from outside.
+  // Stores an entry in the store; without it the trial would be run, and crash, for ever. It is
+  // tried twice, since what ends the process once may have come from outside.
   void Store(const Mission& mission) {
     ProcessEnd end;
     for (int attempt = 0; attempt < 2; ++attempt) {
@@ -224,9 +224,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// The same signals as in AskedToEnd above, and in app/run_display.cc.
 constexpr std::array kPolite = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
-// One wish to end can arrive as several signals: timeout(1) sends to a process and to its group.
+// One wish to end can arrive as several signals within this time: timeout(1) sends to a process and
+// to its group.
 constexpr std::chrono::milliseconds kSameWish{500};
 
 bool Ignored(int signal) {
@@ -268,7 +270,7 @@ SignalsHeld::SignalsHeld() {
     // The kernel keeps a blocked signal even where it would be ignored.
     if (!Ignored(signal)) sigaddset(&held_, signal);
   }
-  // Where the caller of the program ignores it, ends of children would be forgotten.
+  // Where the caller of the program ignores SIGCHLD, ends of children would be forgotten.
   struct sigaction action {};
   action.sa_handler = SIG_DFL;
   sigaction(SIGCHLD, &action, &former_child_action_);
@@ -353,7 +355,7 @@ WorkPlan StoredPlan(const ResultStore& store, const std::optional<StoppingRule>&
   std::vector<std::int64_t> planned;
   planned.reserve(static_cast<std::size_t>(store.cells()));
   for (int cell = 0; cell < store.cells(); ++cell) {
-    // What is planned is less than the most trials of the rule once it has ended the cell.
+    // Once the rule has ended a cell, the store plans fewer trials than the most of the rule.
     planned.push_back(rule ? rule->max_trials : store.planned(cell));
   }
   WorkPlan plan(std::move(planned),

@@ -1,4 +1,5 @@
-// Keeps a campaign going when the process that runs it dies.
+// Keeps a campaign going when the process that runs it dies. Campaigns and the writing of traces
+// are supervised by it (campaign/campaign_process.h); StoredPlan serves every reader of a store.
 #pragma once
 
 #include <sys/types.h>
@@ -20,7 +21,6 @@
 namespace rockyard::batch {
 
 // A forked process and how it ended.
-
 struct ProcessEnd {
   int code = 0;              // exit code, where it ended by itself
   int signal = 0;            // that ended it; 0: none
@@ -30,9 +30,9 @@ struct ProcessEnd {
 // e.g. "SIGSEGV (Segmentation fault)"
 std::string SignalText(int signal);
 
-// While this lives, polite signals (SIGINT, SIGTERM, SIGHUP, SIGUSR1; those that the caller of the
-// program told to ignore stay ignored) wait until a child is waited for. One at a time, in a
-// process with one thread.
+// While an object lives, polite signals (SIGINT, SIGTERM, SIGHUP, SIGUSR1; those that the caller of
+// the program told to ignore stay ignored) wait until a child is waited for. There may be one
+// object at a time, in a process with one thread.
 class SignalsHeld {
  public:
   SignalsHeld();
@@ -41,9 +41,9 @@ class SignalsHeld {
   SignalsHeld& operator=(const SignalsHeld&) = delete;
 
   // Forks; the child runs `work` with the former signal mask, ends with what it returns, and dies
-  // with this process. Waits for its end; the first polite signal is passed on as SIGTERM, one that
-  // comes later than a moment after it becomes SIGKILL. Throws core::UserError where no process
-  // can be made.
+  // with this process. Waits for the end of the child. The first polite signal is passed on to it
+  // as SIGTERM; a signal that comes later than half a second after the first becomes SIGKILL.
+  // Throws core::UserError where no process can be made.
   ProcessEnd Run(const std::function<int()>& work) const;
 
  private:
@@ -54,10 +54,9 @@ class SignalsHeld {
   struct sigaction former_child_action_ {};
 };
 
-// A campaign without some of its trials.
-
-// Hands out what `source` has, but for trials that hang or are killed: they stay pending. A round
-// of a stopping rule that has one of them never ends, so that everything ends with it.
+// A campaign without some of its trials: hands out what `source` has, but for the trials that are
+// left out, which stay pending. A round of a stopping rule that has such a trial never ends; the
+// source ends there.
 class LeavingOutSource final : public WorkSource {
  public:
   LeavingOutSource(LocalWorkSource& source, std::vector<TrialId> left_out);
@@ -73,29 +72,30 @@ class LeavingOutSource final : public WorkSource {
   int running_ = 0;
 };
 
-// Where the cells of a store ended, decided again from what is stored. A store keeps its rule and
-// not the decisions: every session that goes on and every reader of runs begins with this plan, so
-// that all of them end each cell where the run did.
-
-// The plan of a store under a rule, with its finished trials; before the first Next.
+// Returns the plan of a store under a rule, with its finished trials; Next has not been called. A
+// store keeps its rule and not the decisions: every session that goes on and every reader of runs
+// begins with this plan, so that all of them end each cell where the run did.
 WorkPlan StoredPlan(const ResultStore& store, const std::optional<StoppingRule>& rule,
                     Order order = Order::kNatural);
 
-// One state per cell, as the rule of the store decides; a store without a rule has only open or
-// planned cells. Cost: reads cell, trial and outcome of every row.
+// Returns where the cells of a store ended, one state per cell, as the rule of the store decides. A
+// store without a rule has only open or planned cells. Cost: reads cell, trial and outcome of every
+// row.
 std::vector<CellState> StoredEnds(const ResultStore& store);
 
-// A worker ends with this code when a trial found the machine short of memory, files or disk. As
-// kOverdueExit it is none of the exit codes of the program (campaign/work.h), which pass through.
+// A worker ends with this code when a trial found the machine short of memory, files or disk. Must
+// differ from kOverdueExit (flight_log.h) and from the exit codes of the program (campaign/work.h),
+// which pass through.
 inline constexpr int kShortExit = 76;
 
-// A trial that stays pending, as what it needs is not there: no result, in no hash, exit code 5.
+// A trial that is left out: it stays pending, has no result, and is in no hash. A campaign with
+// such a trial ends with exit code 5.
 struct LeftOut {
   TrialId id;
   enum class Why { kHangs, kIsKilled, kCrashes } why = Why::kHangs;
 };
 
-// What a worker process is to do.
+// What a worker process is to do. CampaignProcess and WriteTraces carry it out.
 struct Mission {
   enum class Task {
     kBegin,             // the whole campaign, as the user asked for it
@@ -112,40 +112,46 @@ struct Mission {
   std::vector<LeftOut> left_out{};  // kGoOn: not to be run
 };
 
-// Does the mission in a process of its own and returns its exit code. Must not throw.
+// Does the mission in a process of its own and returns the exit code of that process. Must not
+// throw.
 using Worker = std::function<int(const Mission&)>;
 
-// How often things are tried again.
+// How often things are tried again. The exit codes are those of campaign::Outcome.
 struct SupervisorOptions {
   int hung_retries = 2;        // of a trial that used up its CPU time
   int killed_retries = 2;      // of a trial whose process was ended by SIGKILL, or kShortExit
   int fruitless_restarts = 3;  // of workers that die and store no trial
   int failed_exit = 5;         // exit code when that is too often
   int interrupted_exit = 130;  // exit code when a polite signal ended the worker
-  // False where work stores no trials, as the writing of traces: one that crashes is left out too.
+  // False for work that stores no trials, such as the writing of traces: a trial that crashes again
+  // is left out there.
   bool faults_are_stored = true;
   std::string fruit = "storing a trial";  // of which fruitless workers did nothing
 };
 
-// Forks the worker, waits for it, and returns its exit code. When it dies by a signal (a crash, the
-// out-of-memory killer) the trials that were in flight, by the log that outlives it, are run one by
-// one, each in a process of its own: one that crashes again (in two crashes, one of them alone) is
-// stored as a simulator fault, one that passes leaves an infrastructure fault behind (the machine
-// failed, not the trial); then another worker goes on. SIGKILL comes from outside, where memory is
-// short: such a trial is tried again alone, and left out, pending, when it is killed again; no
-// machine decides what is a fault. Work that has no place for faults (faults_are_stored) is given
-// neither of the missions that store one.
-// A worker that ends with kShortExit found the machine short of memory, files or disk in a trial,
-// which is as if it had been killed from outside.
-// A worker that ends with kOverdueExit (flight_log.h) left hanging trials: each is tried again
-// alone, and left out, too, when it hangs again.
+// Forks the worker, waits for it, and returns its exit code.
 //
-// SIGINT, SIGTERM, SIGHUP and SIGUSR1 are passed on to the worker; the second one kills it (what is
-// stored stays). The worker dies with the supervisor.
+// When the worker dies by a signal, the trials that were in flight, by the log that outlives it,
+// are run one by one, each in a process of its own; then another worker goes on. Records depend on
+// how a trial ends when it runs alone:
+//
+// - A trial with two crashes, at least one of them alone, is stored as a simulator fault.
+// - A trial that passes leaves an infrastructure fault behind: the machine failed, not the trial.
+// - SIGKILL is no crash: it comes from outside, where memory is short. A trial that is killed alone
+//   is tried again, and left out, pending, when that happens too often; no machine decides what is
+//   a fault.
+//
+// Work that has no place for faults (faults_are_stored) is given neither of the missions that store
+// one. A worker that ends with kShortExit found the machine short of memory, files or disk in a
+// trial; it counts as killed. A worker that ends with kOverdueExit (flight_log.h) left hanging
+// trials: each is tried again alone, and left out when it hangs again too often.
+//
+// SIGINT, SIGTERM, SIGHUP and SIGUSR1 are passed on to the worker; the second of them kills it
+// (what is stored stays). The worker dies with the supervisor.
 //
 // Call it while the process has one thread and no open store: a fork copies the calling thread
-// only, so that locks, OpenMP teams and SQLite handles of others would be dead in the child.
-// `note` is given sentences for the user. Throws core::UserError where no process can be made.
+// only, so that locks, OpenMP teams and SQLite handles of others would be dead in the child. `note`
+// is given sentences for the user. Throws core::UserError where no process can be made.
 int Supervise(FlightLog& log, const Worker& worker, const SupervisorOptions& options,
               const std::function<void(const std::string&)>& note);
 

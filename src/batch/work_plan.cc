@@ -10,7 +10,8 @@
 namespace rockyard::batch {
 namespace {
 
-// A permutation of no importance (Fisher and Yates), the same for the same length.
+// Permutes the trials (Fisher and Yates), the same way for the same length. No result depends on
+// it.
 void Shuffle(std::vector<TrialId>& trials) {
   core::RandomStream stream({1, 0}, core::Purpose::kTest);
   for (std::size_t left = trials.size(); left > 1; --left) {
@@ -23,7 +24,7 @@ void Shuffle(std::vector<TrialId>& trials) {
 WorkPlan::WorkPlan(std::vector<std::int64_t> planned, const PlanOptions& options)
     : options_(options), cells_(planned.size()) {
   EXPECT(options.shard.index >= 1 && options.shard.index <= options.shard.count);
-  // A half-width of 0.5 is met by no trials at all.
+  // A half-width of 0.5 would be met by no trials at all.
   EXPECT(!options.rule ||
          (options.shard.whole() && options.rule->block >= 1 && options.rule->half_width < 0.5));
   for (std::size_t i = 0; i < planned.size(); ++i) {
@@ -35,7 +36,8 @@ WorkPlan::WorkPlan(std::vector<std::int64_t> planned, const PlanOptions& options
 void WorkPlan::AddStored(std::span<const FinishedTrial> stored) {
   EXPECT(round_.empty());
   for (const FinishedTrial& trial : stored) {
-    // Of what lies beyond the plan there may be single trials far out.
+    // Trials beyond the plan are left out: single ones may lie far out, and a counter needs a byte
+    // for each before them.
     if (trial.id.trial < At(trial.id.cell).planned) Finish(trial.id, trial.outcome);
   }
 }
@@ -69,7 +71,7 @@ FinishedCounts WorkPlan::finished(int cell) const {
   return at.counter.Finished(End(at));
 }
 
-// One more than the last trial that is planned.
+// Returns one more than the last trial that is planned.
 std::int64_t WorkPlan::End(const Cell& cell) const {
   return cell.state.end == CellEnd::kOpen ? cell.planned : cell.state.asked;
 }
@@ -90,7 +92,7 @@ void WorkPlan::BeginRound() {
   if (options_.order == Order::kShuffled) ListRound();
 }
 
-// At the end of the blocks asked for, all of which are finished.
+// Decides about a cell at the end of the blocks asked for, all of which are finished.
 void WorkPlan::Decide(Cell& cell) const {
   CellState& state = cell.state;
   state.counts += cell.counter.Count(state.counts.trials, state.asked);

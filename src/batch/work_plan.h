@@ -1,4 +1,6 @@
-// Which trials of a campaign run next, and where each cell ends.
+// Which trials of a campaign run next, and where each cell ends; which of an unfinished run may be
+// shown. Sessions of a campaign take trials from a plan; readers of runs ask a plan where cells
+// ended (StoredPlan in supervisor.h).
 #pragma once
 
 #include <cstdint>
@@ -12,8 +14,6 @@
 
 namespace rockyard::batch {
 
-// What may be shown of an unfinished run.
-
 // Counts over trials 0 .. trials-1, all of which are finished.
 struct PrefixCounts {
   std::int64_t trials = 0;
@@ -21,32 +21,34 @@ struct PrefixCounts {
   std::int64_t measured = 0;  // no drives: neither success nor failure
   std::int64_t declared_successes = 0;
 
-  // Those that a success rate is about.
+  // The trials that a success rate is about.
   std::int64_t drives() const { return trials - faults - measured; }
   PrefixCounts& operator+=(const PrefixCounts& other);
 };
 
-// Of any trials.
+// Counts of any finished trials.
 struct FinishedCounts {
   std::int64_t trials = 0;
   std::int64_t faults = 0;  // of these
 };
 
-// Finished trials arrive in any order; rates use only the contiguous prefix of their indices.
-// Trials that fail run longer, so that over completion order successes would be counted too often;
-// the prefix waits for every trial before it. Memory: one byte per trial.
+// Counts what may be shown of an unfinished run. Finished trials arrive in any order; rates use
+// only the contiguous prefix of their indices. Trials that fail run longer, so that over completion
+// order successes would be counted too often; the prefix waits for every trial before it. Memory:
+// one byte per trial.
 class PrefixCounter {
  public:
-  // 0 <= trial. False, and nothing changes, where the trial has been added before.
+  // Adds a trial, from 0 on. Returns false, and changes nothing, where the trial has been added
+  // before.
   bool Add(std::int64_t trial, truth::TrialOutcome outcome);
 
   bool Has(std::int64_t trial) const;
   // One more than the largest trial that was added.
   std::int64_t end() const { return static_cast<std::int64_t>(outcomes_.size()); }
-  // Counts over from <= trial < to, all of which are finished.
+  // Returns the counts over from <= trial < to, all of which must be finished.
   PrefixCounts Count(std::int64_t from, std::int64_t to) const;
 
-  // Those below `to`. Cost: linear in `to` where there are others.
+  // Counts the trials below `to`. Cost: linear in `to` where trials beyond it were added.
   FinishedCounts Finished(std::int64_t to) const;
   std::int64_t finished() const { return finished_.trials; }
   const PrefixCounts& prefix() const { return prefix_; }
@@ -59,17 +61,16 @@ class PrefixCounter {
   PrefixCounts prefix_;
 };
 
-// When a campaign has run enough trials of a cell.
-
 // Who gets the blocks of a round.
 enum class Allocation {
   kUniform,   // every cell that has not ended gets one
   kAdaptive,  // the half of them (rounded up) with the widest intervals; at a tie the first
 };
 
-// A cell ends at the first block end where the interval of its declared success has at most this
-// half-width. Simulator faults enter no rate. That the number of trials depends on what they say is
-// allowed for in the interval (statistics::IntervalMethod::kStopped).
+// When a campaign has run enough trials of a cell: at the first block end where the interval of its
+// declared success has at most this half-width. Simulator faults enter no rate. The number of
+// trials depends on their outcomes, which the interval allows for
+// (statistics::IntervalMethod::kStopped). A store keeps the rule.
 struct StoppingRule {
   double half_width = 0.02;
   std::int64_t max_trials = 10000;  // of a cell
@@ -81,8 +82,8 @@ struct StoppingRule {
   bool operator==(const StoppingRule&) const = default;
 };
 
-// In which order pending trials are started. No result depends on it; kShuffled exists to test
-// that.
+// In which order pending trials are started. No result depends on it, which kShuffled exists to
+// test.
 enum class Order { kNatural, kShuffled };
 
 struct PlanOptions {
@@ -108,18 +109,22 @@ struct CellState {
 };
 
 // The work of a campaign in rounds. A round is decided from the outcomes of the rounds before it
-// alone, all of which are finished by then, and never from the order in which trials finish: the
+// alone, all of which are finished by then, and never from the order in which trials finish. So the
 // same trials run whatever threads, ranks, order and interruptions, and stored trials beyond a
-// decision do not enter it. Decisions are not stored: sessions that go on and readers of a store
-// (StoredPlan) decide again, so that another way to decide ends stored cells elsewhere. Within a
-// round the cells take turns, trial by trial. Not for two threads at once. Draws nothing (kShuffled
-// permutes by a fixed stream). Memory: one byte per trial.
+// decision do not enter it.
+//
+// Must stay: the way of deciding. Decisions are not stored: sessions that go on and readers of a
+// store (StoredPlan) decide again, so that another way would end stored cells elsewhere.
+//
+// Within a round the cells take turns, trial by trial. A plan draws nothing (kShuffled permutes by
+// a fixed stream). Not for two threads at once. Memory: one byte per trial.
 class WorkPlan {
  public:
-  // `planned`: trials of each cell, with a rule at most. With a rule the shard must be the whole.
+  // `planned`: trials of each cell; with a rule, the most of them. With a rule the shard must be
+  // the whole campaign.
   WorkPlan(std::vector<std::int64_t> planned, const PlanOptions& options);
 
-  // Trials of earlier sessions. Before the first Next.
+  // Adds trials of earlier sessions. Call it before the first Next.
   void AddStored(std::span<const FinishedTrial> stored);
 
   enum class Step { kTrial, kWait, kDone };
@@ -127,23 +132,24 @@ class WorkPlan {
     Step step = Step::kDone;
     TrialId id{};  // with kTrial
   };
-  // kTrial: start this one. kWait: the round goes on; ask again when a trial has finished. kDone:
-  // nothing is left. A trial is handed out once, unless it is put back.
+  // Returns what to do next. kTrial: start this trial. kWait: the round goes on; ask again when a
+  // trial has finished. kDone: nothing is left. A trial is handed out once, unless it is put back.
   NextStep Next();
 
-  // False where the trial was finished before.
+  // Notes the end of a trial. Returns false where the trial was finished before.
   bool Finish(TrialId id, truth::TrialOutcome outcome);
 
-  // A trial that was handed out and will not finish where it was.
+  // Puts back a trial that was handed out and will not finish where it was.
   void PutBack(TrialId id);
 
   int cells() const { return static_cast<int>(cells_.size()); }
   const CellState& state(int cell) const { return At(cell).state; }
   const PrefixCounter& counter(int cell) const { return At(cell).counter; }
-  // Trials of the cell that this campaign (or its shard) is to finish; an open cell may need less.
+  // The trials of the cell that this campaign (or its shard) is to finish; an open cell may need
+  // less.
   std::int64_t planned(int cell) const;
-  // Of those planned. What earlier sessions stored beyond them, with gaps perhaps, is no part of
-  // the campaign.
+  // Counts of the planned trials that are finished. What earlier sessions stored beyond them, with
+  // gaps perhaps, is no part of the campaign.
   FinishedCounts finished(int cell) const;
 
  private:

@@ -29,7 +29,8 @@
 namespace rockyard::campaign {
 namespace {
 
-// Beside those of batch/distributed.cc.
+// Tags of messages and what each message holds. Must differ from those of batch/distributed.cc,
+// which are below 10.
 constexpr int kCampaign = 10;  // build, then of each cell: fingerprint, resolved scenario, seed
 constexpr int kEnd = 11;       // outcome
 constexpr int kEnds = 12;      // to rank 0, in answer
@@ -42,7 +43,7 @@ void SendToAll(batch::Communicator& communicator, int tag, const std::string& by
   }
 }
 
-// The ranks that have not said that they end after so much time.
+// Returns the ranks that have not said within `silence` that they end.
 std::set<int> RanksThatStay(batch::Communicator& communicator, std::chrono::milliseconds silence) {
   std::set<int> ranks;
   for (int rank = 1; rank < communicator.size(); ++rank) {
@@ -107,7 +108,7 @@ class ReceivedWork {
   std::vector<batch::CellWork> work_;
 };
 
-// MPI ends the other ranks as soon as one ends without saying so.
+// Ends the job: MPI ends the other ranks as soon as one ends without saying so.
 [[noreturn]] void EndJob(Journal& journal, const std::vector<core::Problem>& problems) {
   journal.Fail(problems);
   _exit(static_cast<int>(Outcome::kFailed));
@@ -125,8 +126,8 @@ void Serve(batch::Communicator& communicator, const std::string& campaign,
   batch::ServeBatch(communicator, received.work(), options.threads, log.stop(), overdue);
 }
 
-// On rank 0, before batch::RunTrialsOnRanks: every other rank gets the resolved scenario of each
-// cell, so that no other file has to be there, and serves.
+// Sends every other rank the resolved scenario of each cell, so that no other file has to be there;
+// the ranks serve then. Rank 0 calls it before batch::RunTrialsOnRanks.
 void StartRanks(batch::Communicator& communicator, const batch::CampaignIdentity& campaign) {
   batch::PacketWriter packet;
   packet.Text(campaign.build).Integer(static_cast<std::int64_t>(campaign.cells.size()));
@@ -137,9 +138,10 @@ void StartRanks(batch::Communicator& communicator, const batch::CampaignIdentity
   SendToAll(communicator, kCampaign, packet.bytes());
 }
 
-// On rank 0, at the end, whatever happened: the others end with the same outcome. Does not return,
-// and ends the whole job with that outcome as its code, where a rank was given up, or does not say
-// within `silence` (0: waits for ever) that it ends: it would be waited for in vain.
+// Ends the other ranks with the same outcome. Rank 0 calls it at the end, whatever happened. Where
+// a rank was given up, or does not say within `silence` (0: waits for ever) that it ends, this does
+// not return and ends the whole job with that outcome as its code: an ordinary end would wait for
+// the rank in vain.
 void EndRanks(batch::Communicator& communicator, Outcome outcome, std::chrono::milliseconds silence,
               Journal& journal) {
   SendToAll(communicator, kEnd,
@@ -151,8 +153,9 @@ void EndRanks(batch::Communicator& communicator, Outcome outcome, std::chrono::m
   if (!communicator.given_up().empty()) communicator.Abort(static_cast<int>(outcome));
 }
 
-// On every other rank: serves until rank 0 ends, and returns its outcome. A rank that is another
-// build of the program, or reads another scenario from the same text, ends the job with a message.
+// Serves until rank 0 ends, and returns the outcome of rank 0. Every other rank calls it. A rank
+// that is another build of the program, or reads another scenario from the same text, ends the job
+// with a message.
 Outcome ServeRankZero(batch::Communicator& communicator, const ContainmentOptions& options,
                       const Contact& contact) {
   try {
@@ -185,7 +188,7 @@ std::uint64_t SeedOf(const batch::ResultStore& store, int cell) {
   return store.identity().cells[static_cast<std::size_t>(cell)].seed;
 }
 
-// Without a supervisor that would try again.
+// Tells of overdue trials where no supervisor tries them again.
 void TellOverdue(const batch::ResultStore& store, const std::vector<batch::TrialId>& overdue,
                  Journal& journal) {
   std::vector<core::Problem> problems;
@@ -198,7 +201,8 @@ void TellOverdue(const batch::ResultStore& store, const std::vector<batch::Trial
   journal.Fail(problems);
 }
 
-// Without a supervisor that would try again, or on a rank, whose end ends all.
+// Ends the process where the machine failed in a trial. It is for processes without a supervisor
+// that would try again, and for ranks, whose end ends all.
 [[noreturn]] void EndShort(const batch::ResultStore& store, const batch::TrialId& id,
                            const std::exception& error, Journal& journal) {
   journal.Fail({{fmt::format("trial {}{}", id.trial, CellPart(store, id.cell)),
@@ -211,7 +215,7 @@ std::chrono::milliseconds Milliseconds(double time_s) {
   return std::chrono::milliseconds(std::llround(1e3 * time_s));
 }
 
-// In this process, which may be rank 0.
+// Runs the body in this process, which may be rank 0.
 Outcome RunHere(const ContainmentOptions& options, batch::Communicator* communicator,
                 const Contact& contact, const CampaignPart& body) {
   batch::FlightLog log;
@@ -233,7 +237,7 @@ Outcome RunSupervised(const ContainmentOptions& options, const Contact& contact,
       log, work, supervisor, [&](const std::string& text) { contact.journal.Warn(text); }));
 }
 
-// `run` is called with each part that is to be run, and with what its supervisor is told.
+// Calls `run` with each part that is to be run, and with what its supervisor is told.
 Outcome RunParts(
     const CampaignPart& body, const CampaignPart& afterwards,
     const std::function<Outcome(const CampaignPart&, const batch::SupervisorOptions&)>& run) {
@@ -320,7 +324,7 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
     batch::RunTrials(logged.work(), source, threads);
   }
   batch::BatchResult result = session.Close();
-  // Not before: until the end of the session its writer has the store.
+  // Must come after the end of the session: until then its writer has the store.
   NoteOverdue(store, overdue_elsewhere_);
   // The overdue trial has ended after all, and the stop was not the user's wish.
   if (watchdog.bit() && supervised) _exit(batch::kOverdueExit);
@@ -382,7 +386,7 @@ Outcome CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultSto
   } else {
     const HeededWork logged(work, log_, contact_.stop,
                             [](const auto&, const auto&) { _exit(batch::kShortExit); });
-    // No other trial is to be stored meanwhile.
+    // No grace: no other trial is to be stored meanwhile.
     const batch::WatchdogOptions limits{.cpu_limit_s = options_.trial_cpu_limit_s,
                                         .grace = std::chrono::milliseconds(0)};
     const batch::Watchdog watchdog(log_, limits, [](const auto&) { _exit(batch::kOverdueExit); });

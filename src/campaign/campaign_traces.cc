@@ -39,7 +39,7 @@ fs::path CellFolder(const fs::path& folder, const StoredRun& run) {
   return traces / scenario::CellFileName(static_cast<std::size_t>(run.cell), run.identity.name);
 }
 
-// A trial is noted in the log while this lives.
+// Notes a trial in the log as long as it lives.
 class InFlight {
  public:
   InFlight(batch::FlightLog& log, batch::TrialId id) : log_(log), slot_(log.Begin(id)) {}
@@ -62,8 +62,8 @@ class TraceWriter {
         log_(log),
         journal_(journal) {}
 
-  // Notes which traces of a cell are to be written. Every cell comes before the first WriteCell:
-  // what is told of is a share of all.
+  // Notes which traces of a cell are to be written. Must be called for every cell before the first
+  // WriteCell: progress is told as a share of all.
   void PlanCell(const StoredRun& run) {
     std::vector<std::uint64_t>& wanted = wanted_.emplace_back();
     for (const std::uint64_t trial :
@@ -141,7 +141,8 @@ class TraceWriter {
     if (request_.progress) request_.progress({there_ + written_, total_}, moment);
   }
 
-  // After a crash nobody knows which of those that are there are of this command.
+  // Says what was written. After a crash nobody knows which of the traces that are there were
+  // written by this command.
   std::string Summary() const {
     const std::string traces = (folder_ / "traces").string();
     if (mission_.task == Mission::Task::kGoOn) {
@@ -159,7 +160,8 @@ class TraceWriter {
     return Outcome::kFailed;
   }
 
-  // Says what is wrong with a trial, and lets the others go on.
+  // Writes the trace of a trial. Where that fails it keeps the problems, and the other trials go
+  // on.
   void WriteTrial(const scenario::Scenario& scenario, const StoredRun& run,
                   const truth::Record& stored) {
     const fs::path path = PathOf(run, stored.trial);
@@ -237,7 +239,7 @@ Outcome WriteTraces(const fs::path& folder, const TraceRequest& request, const M
 
 namespace {
 
-// False where the rule is none.
+// Returns false where the text is no rule.
 bool AddRule(std::string_view rule, TraceRetention& retention) {
   constexpr std::string_view kWorst = "worst:";
   constexpr std::string_view kShare = "share:";
@@ -251,7 +253,7 @@ bool AddRule(std::string_view rule, TraceRetention& retention) {
     retention.worst = std::max(retention.worst, *count);
   } else if (rule.starts_with(kShare)) {
     const auto share = NumberIn<double>(rule.substr(kShare.size()));
-    // Written so that what is not a number is refused.
+    // Must be written so that a share that is not a number is refused.
     if (!share || !(*share > 0.0 && *share <= 1.0)) return false;
     retention.share = std::max(retention.share, *share);
   } else {

@@ -1,5 +1,7 @@
-// Traces of chosen trials of a campaign, written once its trials are stored: which of them failed,
-// and which are the worst, is known then alone. Trials repeat bit for bit, and so are driven again.
+// Traces of chosen trials of a campaign, for `run` and `sweep` with --traces; `rockyard trace`
+// writes the same files of one trial. They are written once the trials of the campaign are stored:
+// only then is known which trials failed, and which are the worst. Trials repeat bit for bit, and
+// so are driven again.
 #pragma once
 
 #include <charconv>
@@ -24,7 +26,7 @@
 
 namespace rockyard::campaign {
 
-// The number that the text of an option is, all of it.
+// Returns the number that the text of an option is, all of it; nothing where the text is none.
 template <typename Number>
 std::optional<Number> NumberIn(std::string_view text) {
   Number number{};
@@ -34,9 +36,7 @@ std::optional<Number> NumberIn(std::string_view text) {
   return number;
 }
 
-// Which trials of a campaign leave a trace, and how.
-
-// What rules ask for together: their union.
+// Which trials of a campaign leave a trace: the union of what the rules ask for.
 struct TraceRetention {
   bool all = false;
   bool failures = false;  // see report::FailedTrials
@@ -52,27 +52,28 @@ struct TraceOptions {
   std::vector<std::string> rules;  // "all", "failures", "worst:N", "share:P"
   std::string format = "npz";
 
-  // Throws core::UserError with everything that is wrong. Of two counts or shares the larger holds.
+  // Returns what the rules ask for together. Of two counts or shares the larger holds. Throws
+  // core::UserError with everything that is wrong.
   TraceRetention retention() const;
   TraceFormat form() const { return format == "csv" ? TraceFormat::kCsv : TraceFormat::kNpz; }
 };
 
-// Whether share:P keeps the trial: a pure function of (seed, trial), so that a campaign that is
-// extended or gone on with keeps what it kept; a larger share keeps all that a smaller one does.
-// SplitMix64 (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators") mixes
-// seed and trial to 53 bits.
+// Returns whether share:P keeps the trial: a pure function of (seed, trial), so that a campaign
+// that is extended or gone on with keeps what it kept. A larger share keeps all that a smaller one
+// does. SplitMix64 (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators")
+// mixes seed and trial to 53 bits. Must stay: which trials a share keeps.
 bool IsInShare(std::uint64_t seed, std::uint64_t trial, double share);
 
-// The trials of one cell that the rules keep, ascending. Simulator faults are never kept: they have
-// no record that the trace could be held against.
+// Returns the trials of one cell that the rules keep, ascending. Simulator faults are never kept:
+// they have no record that the trace could be held against.
 std::vector<std::uint64_t> KeptTrials(const TraceRetention& retention,
                                       const truth::RecordSchema& schema,
                                       std::span<const truth::Record> records, std::uint64_t seed);
 
-// "every failure, the 5 worst failures, 1 % of all trials" for people.
+// Returns the rules for people: "every failure, the 5 worst failures, 1 % of all trials".
 std::string RetentionText(const TraceRetention& retention);
 
-// As RecordDrive.
+// Drives a trial, as RecordDrive does; tests put another driver in its place.
 using TraceDriver = std::function<DriveRecording(const scenario::Scenario& scenario,
                                                  std::uint64_t seed, std::uint64_t trial)>;
 
@@ -85,28 +86,32 @@ struct TraceRequest {
   TraceRetention retention;
   TraceFormat format = TraceFormat::kNpz;
   int threads = 1;
-  // By one thread at a time; at the end where any were to be written.
+  // Called by one thread at a time while traces are written, and at the end where any were to be
+  // written.
   std::function<void(const TraceProgress& progress, Moment moment)> progress = {};
   TraceDriver drive = RecordDrive;
 };
 
-// The bytes of a trace file, of a campaign and of `rockyard trace` alike.
+// Returns the bytes of a trace file, for campaigns and `rockyard trace` alike.
 std::string TraceBytes(const scenario::Scenario& scenario, const std::string& cell,
                        const DriveRecording& recording, TraceFormat format);
 
-// "trial-000123.npz"
+// Returns "trial-000123.npz" or "trial-000123.csv".
 std::string TraceFileName(std::uint64_t trial, TraceFormat format);
 
 // Drives the chosen trials of every cell of the run in `folder` again, on several threads, and
 // writes each trace that is not there yet, whole or not at all: traces/trial-000123.npz, of a sweep
 // traces/<cell>/trial-000123.npz (scenario::CellFileName). Traces that are there stay, also those
-// that the rules would not choose any more. A drive that does not repeat its record is no trace of
-// it: it is told, not written, and makes the result kFailed, as do a drive or a file that fails and
-// a trial that the mission leaves out; the others are written all the same. kInterrupted where
-// log.stop() became true. The mission kRunAlone writes the trace of its trial, tells nothing, and
-// is done. The log is told of every trial in flight and of how many traces are written. Records are
-// only read. Throws core::UserError where the run cannot be read. Cost: that of the trials; memory:
-// one recording per thread, and the records of one cell.
+// that the rules would not choose any more. Records are only read.
+//
+// A drive that does not repeat its record is told and leaves no trace. It makes the result kFailed,
+// as do a drive or a file that fails and a trial that the mission leaves out; the other traces are
+// written all the same. The result is kInterrupted where log.stop() became true. The mission
+// kRunAlone writes the trace of its trial, tells no result, and is done. The log is told of every
+// trial in flight and of how many traces are written.
+//
+// Throws core::UserError where the run cannot be read. Cost: that of the trials; memory: one
+// recording per thread, and the records of one cell.
 Outcome WriteTraces(const std::filesystem::path& folder, const TraceRequest& request,
                     const batch::Mission& mission, batch::FlightLog& log, Journal& journal);
 

@@ -79,7 +79,7 @@ PublishedCheck CheckAgainstPublished(const core::JsonValue& document, const Chec
 
 bool IsSame(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-// Of each campaign the cell of that name or number; all of them where `cell` is empty. `paths`:
+// Reads the cell of that name or number of each campaign; all cells where `cell` is empty. `paths`:
 // folders of runs, or of such folders. Throws core::UserError: no run, no such cell, a shard.
 std::vector<StoredRun> ReadCells(const std::vector<std::string>& paths, const std::string& cell) {
   std::vector<StoredRun> cells;
@@ -100,7 +100,7 @@ std::vector<StoredRun> ReadCells(const std::vector<std::string>& paths, const st
   return cells;
 }
 
-// Leaves those cells in the baseline that one of the runs is; all of them where none is.
+// Keeps only the cells of the baseline whose names the runs have; all cells where no name fits.
 void KeepCellsOf(const std::vector<StoredRun>& runs, report::Baseline& baseline) {
   std::vector<report::BaselineCell> kept;
   for (const report::BaselineCell& cell : baseline.cells) {
@@ -111,9 +111,10 @@ void KeepCellsOf(const std::vector<StoredRun>& runs, report::Baseline& baseline)
   if (!kept.empty()) baseline.cells = std::move(kept);
 }
 
-// Compares trial by trial outcomes and values of metrics, rounded as the baseline keeps them;
-// `values` are the run's, by metric of the baseline, and empty where it has none. A metric without
-// a value in both is the same. Leaves `only_hash` as it is.
+// Compares trial by trial the outcomes and the values of metrics, rounded as the baseline keeps
+// them. `values` are those of the run, by metric of the baseline, and empty where the run lacks the
+// metric, which counts as changed. Values that are NaN on both sides are the same. Leaves
+// `only_hash` as it is.
 report::RecordChanges CompareRecords(const BaselineCell& cell,
                                      std::span<const truth::Record> records,
                                      const std::vector<std::vector<double>>& values) {
@@ -228,7 +229,7 @@ class BaselineComparison {
     return compared;
   }
 
-  // As many as the baseline has.
+  // Returns the records of the run that are compared: at most as many as the baseline has.
   std::span<const truth::Record> UsedRecords(const BaselineCell& cell, const StoredRun& run) {
     const std::span<const truth::Record> records = run.prefix();
     if (records.empty()) {
@@ -254,8 +255,8 @@ class BaselineComparison {
     return records.first(used);
   }
 
-  // The exact tier: the same build, seeds and settings give the same records. A build from changed
-  // files goes by the name of the last commit, so that its name proves nothing.
+  // Judges the exact tier: the same build, seeds and settings give the same records. A build from
+  // changed files goes by the name of the last commit, so that its name proves nothing.
   void Compare(const BaselineCell& cell, const StoredRun& run,
                std::span<const truth::Record> records, CheckedCell& checked) const {
     if (!checked.paired || checked.baseline_trials != checked.run_trials) return;
@@ -275,7 +276,8 @@ class BaselineComparison {
     return values;
   }
 
-  // Whether the settings that decide rocks, start and goal are the same.
+  // Tells how the scenarios differ. Returns whether the settings that decide rocks, start and goal
+  // are the same.
   bool CompareScenarios(const BaselineCell& cell, const StoredRun& run) {
     if (cell.fingerprint == run.identity.fingerprint) return true;
     const BaselineScenario compared = CompareWithBaseline(cell.resolved, run.identity.resolved);

@@ -18,7 +18,8 @@ std::string TextAt(const core::JsonValue* value) {
   return text ? value->text() : std::string("unknown");
 }
 
-// What a run is of, as its scenario says: an experiment, or that study of it where it has several.
+// Returns what a run is of, as its scenario says: an experiment, or one study of an experiment that
+// has several.
 std::string ExperimentOf(const StoredRun& run) {
   const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
   const std::string experiment = TextAt(document.Find("experiment"));
@@ -55,7 +56,7 @@ statistics::CellComparison CompareMeasurements(const StoredRun& first, const Sto
   return cells;
 }
 
-// Of runs that are read whole.
+// Compares measurements, whose runs are read whole.
 statistics::CellComparison CompareMeasurements(const CompareRequest& request) {
   return CompareMeasurements(ReadRun(request.first, request.cell),
                              ReadRun(request.second, SecondCell(request)));

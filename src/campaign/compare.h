@@ -1,4 +1,4 @@
-// Two runs, compared.
+// Two runs, compared, for the command `compare` and for programs.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,8 @@ struct CompareRequest {
   std::string second_cell = {};  // where it is another one
 };
 
-// Drives are compared trial by trial where their seeds are the same, measurements cell by cell.
+// What came of a comparison. Drives are compared trial by trial where their seeds are the same,
+// measurements cell by cell.
 struct Comparison {
   StoredRun first;  // both without the values of their records
   StoredRun second;
@@ -31,11 +32,11 @@ struct Comparison {
   Outcome outcome = Outcome::kDone;  // kDiffers where a rate of a cell does; drives describe
 };
 
-// Memory: of drives, 200 bytes a trial of each and some columns (run_source.h); of
-// measurements the records of both runs.
+// Compares two runs. Memory: for drives 200 bytes a trial of each and some columns (CompareDrives
+// in run_source.h); for measurements the records of both runs.
 core::Result<Comparison> Compare(const CompareRequest& request);
 
-// One object, as report/README.md describes it.
+// Returns one JSON object, as report/README.md describes it.
 std::string ComparisonJson(const Comparison& comparison);
 
 }  // namespace rockyard::campaign

@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kPilots = 3;
 
-// Stored trials of the run in the folder that would go on; none where it would not.
+// Returns how many trials of the run in the folder are stored that would go on; 0 where none would.
 std::int64_t StoredTrials(const OpenRequest& request) {
   const bool goes_on = request.existing == ExistingRun::kResume ||
                        request.existing == ExistingRun::kResumeOrSetAside;
@@ -75,13 +75,14 @@ fs::path FolderOf(const Sweep& sweep, const SweepPlanOptions& options) {
   return folder;
 }
 
-// The mark of a plan is not asked for: a dry run may be interrupted before it is written.
+// Returns whether the path may be part of a plan. plan.json, the mark of a whole plan, is not asked
+// for: a dry run may be interrupted before it is written.
 bool IsPartOfPlan(const fs::path& path) {
   const std::string name = path.filename().string();
   return name == kCellFolder || name.starts_with(kPlanFile) || name.starts_with(kTableFile);
 }
 
-// A plan replaces a plan, and nothing else.
+// Throws unless the folder is free: a plan replaces a plan, and nothing else.
 void CheckPlanFolder(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return;
@@ -167,7 +168,7 @@ std::string PlanCsv(const Sweep& sweep, const PlannedTrials& trials,
   return csv;
 }
 
-// Cells whose pilots are equal differ by a setting that changed no trial.
+// Returns notes about cells whose pilots are equal: they differ by a setting that changed no trial.
 std::vector<std::string> EqualPilots(const Sweep& sweep,
                                      const std::vector<batch::PilotCost>& pilots) {
   std::vector<std::string> notes;
@@ -186,7 +187,8 @@ std::vector<std::string> EqualPilots(const Sweep& sweep,
 
 constexpr std::size_t kMaxPilotCells = 100;
 
-// Of the trials that are planned, by cell as the pilots are.
+// Returns what the planned trials cost, by the pilots; `planned.cells` and `pilots` are both by
+// cell.
 CampaignCost ExpectedCost(const PlannedTrials& planned,
                           const std::vector<batch::PilotCost>& pilots) {
   CampaignCost cost;
@@ -201,7 +203,8 @@ CampaignCost ExpectedCost(const PlannedTrials& planned,
     cost.pilots += pilot.trials;
     cost.total_s += trials * pilot.mean_s;
     cost.slowest_s = std::max(cost.slowest_s, pilot.slowest_s);
-    // Of N trials by the mean of n pilots: scatter N s^2, and N^2 s^2 / n of the mean.
+    // N trials predicted by the mean of n pilots: their scatter is N s^2, the variance by that mean
+    // N^2 s^2 / n.
     variance += pilot.variance_s2 * trials * (1.0 + trials / static_cast<double>(pilot.trials));
     scatter = scatter || pilot.trials > 1;
   }

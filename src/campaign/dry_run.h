@@ -1,4 +1,5 @@
-// What a run would do.
+// What a run or a sweep would do and cost, for --dry-run of the commands `run` and `sweep`. Costs
+// are known from a few trials, the pilots.
 #pragma once
 
 #include <cstdint>
@@ -27,22 +28,21 @@ struct DryRun {
   TraceRetention traces;  // which trials are driven twice
 };
 
-// Writes nothing. Throws core::UserError as RunCampaign would tell it, where the request or the
-// folder forbids the run. Cost: three trials.
+// Returns what a run would do; writes nothing. Throws core::UserError where the request or the
+// folder forbids the run, as RunCampaign would tell it. Cost: three trials.
 DryRun Rehearse(const CampaignRequest& request, const CampaignPlan& plan);
 
-// What a sweep would run, and what it would cost: known from a few trials of each cell.
-
-// Runs the first `trials` trials of every cell, of about a hundred evenly spread cells where there
-// are more, with the seed of the campaign. On this thread.
+// Runs the first `trials` trials of every cell, or, where there are more than a hundred cells, of
+// 50 to 100 of them, evenly spread; with the seed of the campaign, on this thread.
 std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep, int trials);
 
 struct CampaignCost {
   std::int64_t pilots = 0;
   double total_s = 0.0;  // CPU time of every trial of every cell
-  // Of that: what the pilots leave open of each cell's mean, and the scatter of the trials. Of the
-  // cells with pilots; the others are taken to cost as much as the mean of these.
-  // Absent where each of them had one pilot, which tells of no scatter.
+  // The standard error of total_s: what the pilots leave open of the mean of each cell, and the
+  // scatter of the trials. It is computed from the cells with pilots; the other cells are taken to
+  // cost as much as the mean of these. Absent where each cell had one pilot, which tells of no
+  // scatter.
   std::optional<double> standard_error_s = {};
   double slowest_s = 0.0;  // pilot
 };
@@ -53,7 +53,7 @@ struct SweepPlanOptions {
   int pilots = 3;                // trials of each cell that are run for their cost; 0: none
 };
 
-// What was written.
+// What WriteSweepPlan wrote.
 struct SweepPlan {
   std::filesystem::path folder;
   std::string json;  // plan.json
@@ -62,12 +62,11 @@ struct SweepPlan {
 };
 
 // Writes plan.json, plan.csv and cells/<number>-<name>.json (each resolved scenario) into the
-// folder, which must not exist, be empty, or hold nothing but a plan or what an interrupted dry run
-// left of one; the pilots run before anything is written. Nothing that is measured of the pilots
-// but their CPU time is kept: they are no results. With a hundred cells or more only a hundred of
-// them, evenly spread, have pilots, which all use the seed of the campaign: cells whose pilots come
-// out equal to the last bit are named, since a setting that changes no trial has no effect. Throws
-// core::UserError where the folder cannot be used. Cost: the pilots, on one thread.
+// folder. The folder must not exist, be empty, or hold nothing but a plan or what an interrupted
+// dry run left of one. The pilots (RunPilots) run before anything is written; only their CPU time
+// is kept, as they are no results. Cells whose pilots come out equal to the last bit are named,
+// since a setting that changes no trial has no effect. Throws core::UserError where the folder
+// cannot be used. Cost: the pilots, on one thread.
 SweepPlan WriteSweepPlan(const scenario::Sweep& sweep, const SweepPlanOptions& options);
 
 }  // namespace rockyard::campaign

@@ -48,7 +48,7 @@ class StoredCells {
   std::vector<batch::CellHash> hashes_;
 };
 
-// A shard holds no contiguous prefix of any cell: counts, and no rates.
+// Writes counts and no rates: a shard holds no contiguous prefix of any cell.
 SweepShardReport ReportSweepShard(const batch::ResultStore& store) {
   const batch::Shard shard = store.identity().shard;
   const std::filesystem::path folder = store.path().parent_path();
@@ -75,7 +75,7 @@ RunReport ReportRun(const std::filesystem::path& folder, const ReportSettings& s
                  .description = Describe(run, batch::ThreadCount({.threads = settings.threads})),
                  .summary = {},
                  .method = run.rule ? statistics::IntervalMethod::kStopped : settings.method};
-  // With the trials that are planned now; the run may have been extended.
+  // The resolved scenario names the trials that are planned now; the run may have been extended.
   told.description.resolved = scenario::ResolvedJson(
       LoadScenarioFrom(folder, std::vector{fmt::format("trials={}", run.planned)}));
   if (!run.shard.whole()) {

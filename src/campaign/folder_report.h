@@ -1,4 +1,5 @@
 // What the folder of a campaign says once its trials have been run, and the files that say it.
+// Runs, sweeps and merges write it; their commands show it.
 #pragma once
 
 #include <filesystem>
@@ -17,11 +18,11 @@
 
 namespace rockyard::campaign {
 
-// Of one scenario.
+// The report of one scenario.
 struct RunReport {
   std::filesystem::path folder;
   report::RunDescription description;
-  // Nothing of a shard, of which no rate can be told.
+  // Absent for a shard, of which no rate can be told.
   std::variant<std::monostate, statistics::DriveSummary, statistics::MeasurementSummary> summary;
   statistics::IntervalMethod method = statistics::IntervalMethod::kWilson;
 };
@@ -33,7 +34,7 @@ struct SweepReport {
   report::SweepDescription description;
 };
 
-// Of a part of a sweep, of which no rate can be told.
+// The report of a shard of a sweep, of which no rate can be told.
 struct SweepShardReport {
   std::filesystem::path folder;
   std::string name;
@@ -49,13 +50,14 @@ struct ReportSettings {
   int threads = 0;  // as the summary names them; 0: as many as the machine runs at once
 };
 
-// Writes them into the folder. A shard gets trials.csv and a summary.json without rates. Throws
-// core::UserError where a file cannot be written.
+// Writes the files that a run derives from its store into its folder. A shard gets trials.csv,
+// scenario.resolved.json and a summary.json without rates. Throws core::UserError where a file
+// cannot be written. The names of all files must stand in kDerivedFiles (open_run.cc).
 RunReport ReportRun(const std::filesystem::path& folder, const ReportSettings& settings);
 
-// `store`: of a campaign with the cells of the sweep. Writes the files into its folder. Of a shard
-// no rate can be told, and so it gets a summary.json without any. Memory: the records of one cell.
-// Throws core::UserError where a file cannot be written.
+// Writes the files that a sweep derives from `store` into its folder. The store must be of a
+// campaign with the cells of the sweep. A shard gets a summary.json without rates. Memory: the
+// records of one cell. Throws core::UserError where a file cannot be written.
 FolderReport ReportSweep(const batch::ResultStore& store, const scenario::Sweep& sweep,
                          const ReportSettings& settings);
 

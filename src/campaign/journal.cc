@@ -51,7 +51,7 @@ void ReadEntry(batch::PacketReader& packet, Account& account) {
   }
 }
 
-// Whether a name cannot be used as it is, whatever the machine has room for.
+// Returns whether a name cannot be used as it is, whatever the machine has room for.
 bool IsOfTheName(const std::error_code& code) {
   return code == std::errc::filename_too_long || code == std::errc::not_a_directory ||
          code == std::errc::no_such_file_or_directory || code == std::errc::permission_denied ||
@@ -97,7 +97,7 @@ Account Journal::Read() const {
   try {
     while (!packet.AtEnd()) ReadEntry(packet, account);
   } catch (const std::runtime_error&) {
-    // A process was killed over its entry.
+    // A process was killed while it wrote its entry.
   }
   return account;
 }

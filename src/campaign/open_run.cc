@@ -41,7 +41,8 @@ bool MaySetAside(const OpenRequest& request) {
          request.existing == ExistingRun::kResumeOrSetAside;
 }
 
-// Before anything is made or claimed: a folder that no run made is not written into by accident.
+// Throws where the folder may not be used, before anything is made or claimed: a folder that no run
+// made is not written into by accident.
 void RefuseForeignFolder(const OpenRequest& request) {
   const fs::path& folder = request.folder;
   std::error_code error;
@@ -60,9 +61,10 @@ void RefuseForeignFolder(const OpenRequest& request) {
   }
 }
 
-// As report/run_files.h and report/sweep_files.h write them, and the folder of campaign_traces.h. A
-// file that is not listed stays beside the results of another run after --force, and other commands
-// may be told to write over it (IsRunFile).
+// The files of a campaign beside its store, as report/run_files.h and report/sweep_files.h write
+// them, and the folder of campaign_traces.h. Must name all of them: a file that is missing here
+// stays beside the results of another run after --force, and other commands may be told to write
+// over it (IsRunFile).
 constexpr std::array kDerivedFiles = {
     "attribution.csv", "cells.csv",        "cells.svg",
     "curves.csv",      "distance_cdf.csv", "differences.csv",
@@ -70,7 +72,8 @@ constexpr std::array kDerivedFiles = {
     "success.svg",     "summary.json",     "sweep.json",
     "traces",          "trials.csv"};
 
-// As `rockyard report` names them where it is told no other name: of the run, but written later.
+// The files that `rockyard report` writes where it is told no other name: of the run, but written
+// later.
 constexpr std::array kReportFiles = {"report.html", "report_replays"};
 
 fs::path FreeName(const fs::path& folder, const fs::path& name) {
@@ -91,10 +94,10 @@ void SetAside(const fs::path& folder, const fs::path& name, std::vector<std::str
   names.push_back(aside.string());
 }
 
-// Renames every file in the folder that has the name of one that a campaign writes beside its
-// store, or of the page and the replays that `rockyard report` writes there, whoever wrote it:
-// summary.json to summary.old-1.json, or -2, ... Nothing is deleted or overwritten. Returns the new
-// names. Requires a claim of the folder. Throws core::UserError where one cannot be renamed.
+// Renames every file in the folder that has the name of one in kDerivedFiles or kReportFiles,
+// whoever wrote it: summary.json to summary.old-1.json, or -2, ... Nothing is deleted or
+// overwritten. Returns the new names. Requires a claim of the folder. Throws core::UserError where
+// a file cannot be renamed.
 std::vector<std::string> SetDerivedFilesAside(const fs::path& folder) {
   std::vector<std::string> names;
   for (const fs::path name : kDerivedFiles) SetAside(folder, name, names);
@@ -158,7 +161,8 @@ class Opener {
     if (request_.own) request_.own();
   }
 
-  // Only where all that is in the folder may be set aside is there anything.
+  // Sets aside what lies beside the store. Must be called only where the request allows to set all
+  // of the folder aside.
   void SetFilesAside() {
     std::string names;
     for (const std::string& name : SetDerivedFilesAside(folder_)) {
@@ -178,8 +182,9 @@ class Opener {
     return trials;
   }
 
-  // A resumed run keeps its plan and its rule unless the user says otherwise; what is stored stays
-  // planned, under a rule until the run ends (BatchSession::StoreEnds).
+  // Sets rule and planned trials of the store. A resumed run keeps its plan and its rule unless the
+  // user says otherwise. What is stored stays planned, under a rule until the run ends
+  // (BatchSession::StoreEnds).
   void PlanTrials(batch::ResultStore& store) {
     const std::vector<batch::FinishedTrial> finished = store.Finished();
     std::vector<std::int64_t> ends(plan_.cells.size(), 0);

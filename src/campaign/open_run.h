@@ -1,5 +1,5 @@
 // From a plan to a store that is ready for trials; the files that a campaign derives from its
-// store, beside it.
+// store, beside it. Running a campaign opens its folder here, dry runs ask what that would do.
 #pragma once
 
 #include <cstdint>
@@ -26,11 +26,11 @@ struct CampaignCell {
   std::string name;  // "" in a run of one scenario
   scenario::Scenario scenario;
 
-  // For people.
+  // Returns the cell in words, for people.
   std::string Label() const { return name.empty() ? "scenario" : "cell " + name; }
 };
 
-// What is to be run.
+// A plan: what is to be run.
 struct CampaignPlan {
   std::string name;
   std::string design;            // JSON text of the sweep file; "" for a run
@@ -39,6 +39,7 @@ struct CampaignPlan {
   std::optional<std::vector<std::string>> settings = std::nullopt;  // CampaignIdentity::settings
 };
 
+// How a plan is to be run, and in which folder.
 struct OpenRequest {
   std::filesystem::path folder;
   ExistingRun existing = ExistingRun::kRefuse;
@@ -47,8 +48,8 @@ struct OpenRequest {
   bool trials_given = false;  // false: those planned before count, where there is a run
   std::optional<batch::StoppingRule> rule;  // none: that of a run that goes on
   batch::Shard shard;
-  // Called once the folder is ready, before its store is made or when it goes on: whoever opens it
-  // from then on for the same command does so with kOwn.
+  // Called once the folder is ready, before its store is made or when it goes on. A later process
+  // of the same command must open the folder with kOwn from then on.
   std::function<void()> own = {};
 };
 
@@ -59,10 +60,10 @@ struct OpenedRun {
   std::vector<std::string> notes;  // for the user: what was set aside, where it goes on
 };
 
-// results/runs/<name>-seed<seed>, with '_' for what has no place in the name of a file.
+// Returns results/runs/<name>-seed<seed>, with '_' for what has no place in the name of a file.
 std::filesystem::path DefaultFolder(const std::string& name, std::int64_t seed);
 
-// What the store of a plan says of itself. `schema`: of every cell's experiment.
+// Returns what the store of a plan says of itself. `schema`: of the experiment of every cell.
 batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::RecordSchema& schema,
                                    batch::Shard shard);
 
@@ -70,11 +71,13 @@ batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::Record
 // else, or a run that may not be gone on with. Writes nothing.
 void CheckFolder(const OpenRequest& request, const batch::CampaignIdentity& identity);
 
-// Throws core::UserError (batch::StoreError where it is about the folder); a folder made for the
-// run is then removed again.
+// Opens the folder for the plan: a new store, or one that goes on, and the trials that each cell is
+// to have. Throws core::UserError (batch::StoreError where it is about the folder); a folder that
+// was made for the run is then removed again.
 OpenedRun OpenRun(const OpenRequest& request, const CampaignPlan& plan,
                   const truth::RecordSchema& schema);
 
+// How many trials a plan has.
 struct PlannedTrials {
   std::vector<std::int64_t> cells;  // the shard's share of each
   std::int64_t total = 0;           // of all, as far as the budget of a rule goes
@@ -83,10 +86,12 @@ struct PlannedTrials {
   std::string text() const;  // "12 trials", "at most 100 trials"
 };
 
-// Of a plan that is to be run as requested; trials that are stored already are among them.
+// Returns how many trials a plan has that is to be run as requested; trials that are stored already
+// are among them.
 PlannedTrials TrialsOf(const OpenRequest& request, const CampaignPlan& plan);
 
-// Whether a campaign writes a file of that name into its folder, or has its store there.
+// Returns whether a campaign writes a file of that name into its folder, or has its store there:
+// other commands must not write over it (CheckOutputFile).
 bool IsRunFile(const std::filesystem::path& name);
 
 }  // namespace rockyard::campaign

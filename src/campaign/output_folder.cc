@@ -39,7 +39,7 @@ std::string TextOf(const core::JsonValue& object, std::string_view key) {
   return value != nullptr && value->Is(core::JsonValue::Type::kText) ? value->text() : "";
 }
 
-// Thousands of images share a few folders.
+// Makes paths canonical, and each folder once: thousands of images share a few.
 class CanonicalPaths {
  public:
   fs::path Of(const fs::path& path) {
@@ -53,7 +53,7 @@ class CanonicalPaths {
   std::map<fs::path, fs::path> folders_;
 };
 
-// The keys by which two requests differ.
+// Returns the keys by which two requests differ.
 std::string DifferenceOf(const core::JsonValue& a, const core::JsonValue& b) {
   std::string keys;
   for (const core::JsonMember& member : b.members()) {
@@ -247,14 +247,15 @@ void OutputFolder::WriteNow(std::string_view name, std::string_view bytes) {
 void OutputFolder::Finish(bool finished) {
   Begin();
   Change([&] {
-    // The last to be committed: only then does the folder say that it is whole.
+    // Must be the last to be committed: only then does the folder say that it is whole.
     Stage(kMadeByFile, Maker(finished));
     CommitAll();
   });
   staged_.clear();
 }
 
-// All of them or none: names of before were set aside, or are of the work that is gone on with.
+// Commits all staged files or none. What had their names was set aside, or belongs to the work that
+// is gone on with.
 void OutputFolder::CommitAll() {
   std::size_t committed = 0;
   try {

@@ -26,12 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Every build that wrote trials of the runs: one, if an exact comparison is to be possible.
+// Joins the builds that wrote trials of the runs: there must be one if an exact comparison is to be
+// possible.
 std::string Joined(const std::set<std::string>& builds) {
   return fmt::format("{}", fmt::join(builds, "; "));
 }
 
-// What would make a bad baseline.
+// Returns what would make the run a bad baseline.
 std::vector<core::Problem> BaselineProblems(const StoredRun& run) {
   if (truth::IsMeasurement(run.schema)) {
     return {{run.Label(), "drives nothing, so that no metric is defined", "name runs of drives"}};
@@ -96,15 +97,15 @@ namespace {
 
 using batch::ScenarioDifference;
 
-// A setting, or a group of them that is new as a whole.
+// Returns whether a setting, or a group of settings that is new as a whole, is at its default.
 bool AtDefault(const std::string& path, const std::vector<ScenarioDifference>& from_defaults) {
   return std::none_of(from_defaults.begin(), from_defaults.end(), [&](const auto& each) {
     return each.path == path || each.path.starts_with(path + ".");
   });
 }
 
-// Whether it moves rocks, start or goal, so that trials of equal seed and index are no pairs. The
-// same groups as FieldsOf (run_source.cc).
+// Returns whether a setting moves rocks, start or goal, so that trials of equal seed and index are
+// no pairs. Must name the same groups as FieldsOf (run_source.cc).
 bool DecidesFields(const std::string& path) {
   return path.starts_with("terrain.") || path.starts_with("course.");
 }
@@ -147,7 +148,8 @@ using Settings = std::vector<std::string>;
 
 constexpr std::size_t kMaxShown = 12;
 
-// Nothing where the file cannot be read.
+// Returns the settings in which the run differs from the scenario file; nothing where the file
+// cannot be read.
 std::optional<Settings> DifferencesFrom(const fs::path& file, const StoredRun& run,
                                         Journal& journal) {
   try {

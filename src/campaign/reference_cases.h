@@ -1,5 +1,6 @@
 // The cases that baselines and publications are about: what runs gave, kept for later builds to be
-// held against it, and whether a run is of the same case.
+// held against it, and whether a run is of the same case. The command `baseline` makes baselines;
+// checks and reports hold runs against cases.
 #pragma once
 
 #include <filesystem>
@@ -24,55 +25,55 @@ struct BaselineRequest {
   std::string reason;  // why its numbers may be what they are
 };
 
-// Of finished runs with independent trials and names of their own. Memory: the records of one
-// campaign.
+// Makes a baseline of finished runs with independent trials and names of their own. Memory: the
+// records of one campaign.
 core::Result<report::Baseline> MakeBaseline(const BaselineRequest& request);
 
 // The scenario of a baseline's cell beside that of a run.
-
 struct BaselineScenario {
-  // Settings that the baseline knows, and younger ones that are not at their default: what makes it
-  // another scenario. The seed is none: another seed is another sample of the same.
+  // What makes the scenario of the run another one: settings that the baseline knows, and younger
+  // ones that are not at their default. The seed does not count: another seed is another sample of
+  // the same.
   std::vector<batch::ScenarioDifference> differences;
-  // Settings that only the run has, at their default: whether it changes anything is what a check
+  // Settings that only the run has, at their default: whether they change anything is what a check
   // is for.
   std::vector<std::string> younger;
   bool same_fields = true;  // those that decide rocks, start and goal are the same
 };
 
-// Both are JSON texts of resolved scenarios. Throws core::UserError on what is none.
+// Compares two resolved scenarios, both JSON texts. Throws core::UserError where one is none.
 BaselineScenario CompareWithBaseline(const std::string& baseline, const std::string& run);
 
-// Trials that share rocks are not independent, so that neither intervals nor p-values hold: a
-// problem of `label` where course.trials_per_layout is above 1.
+// Returns a problem of `label` where course.trials_per_layout is above 1: trials that share rocks
+// are not independent, so that neither intervals nor p-values hold.
 std::vector<core::Problem> SharedLayoutProblems(const std::string& label,
                                                 const std::string& resolved);
 
-// Whether a run is of the case that published values are about, and which runs of a report can be
-// held against published values.
-
-// The runs for statistics::Compare, with the settings in which each differs from the scenario file
-// that the reference in `folder` names for it: "PATH is VALUE, VALUE in FILE", the seed left out.
-// Where it names none, or the file cannot be read (which is noted), what the run was told by --set
-// and --ablate. `runs` must outlive the views.
+// Returns the runs for statistics::Compare, with the settings in which each differs from the
+// scenario file that the reference in `folder` names for it: "PATH is VALUE, VALUE in FILE", the
+// seed left out. Where the reference names no file, or the file cannot be read (which is noted),
+// the settings are those that the run was told by --set and --ablate. `runs` must outlive the
+// views.
 std::vector<statistics::ScenarioRun> PublishedViews(const statistics::PublishedReference& reference,
                                                     const std::filesystem::path& folder,
                                                     std::span<const StoredRun* const> runs,
                                                     Journal& journal);
 
+// The tables of published values beside the runs of a report.
 class PublishedTables {
  public:
-  // The reference in `file`, or, where that is empty, every reference in results/reference below
-  // the working folder (none where there is no such folder; one that cannot be read is noted and
-  // left out; `journal` must outlive this). Throws core::UserError where `file` is no reference.
+  // Takes the reference in `file`, or, where `file` is empty, every reference in results/reference
+  // below the working folder: none where there is no such folder; one that cannot be read is noted
+  // and left out. `journal` must outlive the tables. Throws core::UserError where `file` is no
+  // reference.
   PublishedTables(const std::string& file, Journal& journal);
 
-  // `PublishedTable` of src/web/report/payload.ts, or "null": of the first reference that names the
-  // scenario of the run. The values of one run are a family for Holm's procedure: what it is held
-  // to does not depend on the other runs that are named. Cost: some seconds.
+  // Returns a `PublishedTable` of src/web/report/payload.ts from the first reference that names the
+  // scenario of the run, or "null". The values of one run are a family for Holm's procedure: what a
+  // run is held to does not depend on the other runs of the report. Cost: some seconds.
   std::string Table(const StoredRun& run) const;
 
-  // Where was looked, for a report whose tables are all "null".
+  // Returns where was looked, for a report whose tables are all "null".
   std::string WhyNone() const;
 
   bool empty() const { return references_.empty(); }

@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What was driven: the trial, and the one beside it where that is asked for.
+// What was driven: the trial, and the one beside it where the request names one.
 struct Replayed {
   ReplayedTrial trial;
   std::optional<ReplayedTrial> beside = {};
@@ -47,7 +47,7 @@ struct Replayed {
   std::string payload() const { return ReplayPayload(trial, second()); }
 };
 
-// One file that is asked for.
+// One file that the request asks for.
 struct AskedFile {
   std::string option;  // that names it
   std::string what;
@@ -83,7 +83,7 @@ std::vector<AskedFile> OutputsOf(const ReplayRequest& request, const TrialSource
   return outputs;
 }
 
-// Found before the drive rather than after it.
+// Throws where a file cannot be meant: before the drive rather than after it.
 void CheckOutputs(const ReplayRequest& request, const std::vector<AskedFile>& outputs) {
   CheckOutputFile("--out", request.page);
   CheckExtension("--out", request.page, ".html");
@@ -95,7 +95,7 @@ void CheckOutputs(const ReplayRequest& request, const std::vector<AskedFile>& ou
   CheckDistinct(files);
 }
 
-// False where one cannot be written.
+// Writes the files. Returns false where one cannot be written.
 bool WriteOutputs(const std::vector<AskedFile>& outputs, const Replayed& replayed, Journal& journal,
                   std::vector<ReplayFile>& files) {
   try {
@@ -114,7 +114,7 @@ bool WriteOutputs(const std::vector<AskedFile>& outputs, const Replayed& replaye
   return false;
 }
 
-// Drives it again; the differences from its stored record, where it has one, are told.
+// Drives a trial again. The differences from its stored record, where it has one, are told.
 ReplayedTrial DriveAgain(const TrialRequest& request, const TrialSource& source, Journal& journal,
                          std::optional<bool>& repeats_stored) {
   ReplayedTrial replayed = ReplayTrial(source, request.trial);
@@ -174,8 +174,8 @@ bool HasStereoCameras(const scenario::Scenario& scenario) {
   return drive.sensors.terrain_sensors.chosen().cameras(drive) != nullptr;
 }
 
-// Makes the folder and writes into it, as WriteStepFiles: PNG images of every exposure (lit, dark,
-// difference), array.svg, points.csv, the scenario. Both throw core::UserError or
+// Makes the folder and writes PNG images of every exposure (lit, dark, difference), array.svg,
+// points.csv and the scenario. WriteScanFiles and WriteStepFiles throw core::UserError or
 // std::filesystem::filesystem_error.
 void WriteScanFiles(const fs::path& folder, const scenario::Scenario& scenario,
                     const CapturedScan& captured) {
@@ -195,8 +195,8 @@ void WriteScanFiles(const fs::path& folder, const scenario::Scenario& scenario,
   report::WriteFileAtomically(folder / "points.csv", report::ScanCsv(captured.view));
 }
 
-// step.svg, map.csv, votes.csv, points.csv, the scenario. Of stereo cameras also what they saw: the
-// files that it gives back (WriteLookFiles).
+// Makes the folder and writes step.svg, map.csv, votes.csv, points.csv and the scenario. For stereo
+// cameras it writes what they saw, too, and returns these files (WriteLookFiles).
 std::vector<LookFile> WriteStepFiles(const fs::path& folder, const scenario::Scenario& scenario,
                                      const CapturedStep& captured) {
   BeginFolder(folder, scenario);
@@ -219,7 +219,7 @@ std::int64_t NumberOf(const MomentsRequest& request) {
   return request.scan ? *request.scan : request.step.value_or(0);
 }
 
-// The trial, and of the moment that was asked for everything that can be shown.
+// The trial, and everything that can be shown of the moment that was asked for.
 struct MomentTrial {
   truth::RecordSchema schema;
   truth::Record record;
@@ -235,7 +235,8 @@ fs::path MomentFolder(const MomentsRequest& request, const TrialSource& source) 
                      request.trial.trial, KindOf(request), NumberOf(request));
 }
 
-// Pictures of two moments in one folder would be told apart by nothing.
+// Throws where the folder holds something: pictures of two moments in one folder could not be told
+// apart.
 void RequireNewFolder(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return;
@@ -269,7 +270,7 @@ class MomentReplayer {
   }
 
  private:
-  // A drawn step shows the path so far.
+  // Runs the trial with its trace: a drawn step shows the path so far.
   void RunTraced(const experiments::DriveExperiment& drive) {
     replayed_.schema = drive.schema();
     replayed_.record = drive.RunTraced(source_.seed, request_.trial.trial, trace_);
@@ -319,12 +320,12 @@ class MomentReplayer {
   const MomentsObserver& observer_;
   MomentsResult& result_;
   MomentTrial replayed_;
-  // Of a drive of which a step is drawn, up to now.
+  // The trace of a drive of which a step is drawn, up to now.
   truth::Trace trace_;
   LookMemory looks_;
 };
 
-// False where a file cannot be written.
+// Writes the files of a moment. Returns false where one cannot be written.
 bool WriteMoment(const fs::path& folder, const TrialSource& source, const MomentTrial& replayed,
                  Journal& journal, MomentsResult& result) {
   try {
@@ -342,7 +343,7 @@ bool WriteMoment(const fs::path& folder, const TrialSource& source, const Moment
   return false;
 }
 
-// Of stereo cameras; "" where there are none of these either.
+// Returns why there are no images of stereo cameras; "" where there are no cameras either.
 std::string WhyNoImages(const scenario::Scenario& scenario) {
   const trial::DriveParams& drive = scenario.drive;
   const sensing::StereoParams* cameras = drive.sensors.terrain_sensors.chosen().cameras(drive);
@@ -352,7 +353,7 @@ std::string WhyNoImages(const scenario::Scenario& scenario) {
                      core::EnumNames<sensing::StereoFidelity>::kNames.at(fidelity));
 }
 
-// Of what was asked for and did not happen.
+// Returns the error about a moment that was asked for and did not happen.
 core::UserError Missing(const MomentsRequest& request, const MomentsResult& result,
                         const truth::Record& record) {
   const std::int64_t there = request.scan ? result.scans : result.steps;

@@ -1,5 +1,6 @@
 /// @file
-/// Drives one trial again and writes its 3-D replay, a page for a browser, and a plan view.
+/// Drives one trial again and writes its 3-D replay, a page for a browser, and a plan view. The
+/// command `replay` and programs call it.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@ namespace rockyard::campaign {
 struct ReplayRequest {
   TrialRequest trial;                       ///< the one that is driven again
   std::optional<TrialRequest> beside = {};  ///< a second trial on the same page
-  /// Files; empty: results/runs/<name>-seed<seed>-trial<I>.html, the plan beside the page, no data.
+  /// The files to write. Empty: for the page results/runs/<name>-seed<seed>-trial<I>.html, for the
+  /// plan a file beside the page, for the data none.
   std::string page = {};
   std::string plan = {};
   std::string data = {};  ///< what the page is given
@@ -29,18 +31,18 @@ struct ReplayFile {
   std::filesystem::path path;
 };
 
-/// What came of it.
+/// What came of a replay.
 struct ReplayResult : WorkResult {
   std::string title;     ///< empty: nothing was driven
   truth::Record record;  ///< of the trial
-  /// Of both trials; absent where there is no record to repeat.
+  /// Whether the trials repeat their stored records; absent where none has one.
   std::optional<bool> repeats_stored;
   std::vector<ReplayFile> files;  ///< that are written
 };
 
-/// Never throws. kDiffers where the trial does not repeat its stored record, which is shown all the
-/// same. In a build without pages there are the plan and the data. Cost: that of driving the trial,
-/// and some megabytes of files.
+/// Drives the trials and writes the files. Never throws. The outcome is kDiffers where a trial does
+/// not repeat its stored record; the trial is shown all the same. In a build without pages there
+/// are the plan and the data. Cost: that of driving the trials, and some megabytes of files.
 ReplayResult Replay(const ReplayRequest& request, const Observer& observer = {});
 
 }  // namespace rockyard::campaign

@@ -1,4 +1,5 @@
-// Scans and steps of a trial that is run again, listed or drawn.
+// Scans and steps of a trial that is run again, listed or drawn: what `rockyard replay` does with
+// --list, --scan or --step.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@
 
 namespace rockyard::campaign {
 
-// One of them is drawn into a folder, or, where none is named, all are listed.
+// Either one scan or one step is drawn into a folder, or, where neither is named, all are listed.
 struct MomentsRequest {
   TrialRequest trial;
   std::optional<std::int64_t> scan = {};
@@ -39,7 +40,8 @@ struct StepMoment {
   messages::NavigationView view;
 };
 
-// Told while the trial runs, so that a trial that ends its process has told what came before.
+// Scans and steps are told while the trial runs: a trial that ends its process has told what came
+// before.
 struct MomentsObserver : Observer {
   std::function<void(const ScanMoment& scan)> scan = {};
   std::function<void(const StepMoment& step)> step = {};
@@ -49,15 +51,16 @@ struct MomentsResult : WorkResult {
   std::int64_t scans = 0;
   std::int64_t steps = 0;
   std::optional<bool> repeats_stored;  // absent where there is no record to repeat
-  // What was drawn, into `folder`.
+  // What was drawn, into `folder`: one of both.
   std::optional<report::ScanView> scan;
   std::optional<messages::NavigationView> step;
-  std::vector<LookFile> look_files;  // of that step: what stereo cameras saw
-  std::string no_images;             // why there are none of what its stereo cameras saw
+  std::vector<LookFile> look_files;  // what stereo cameras saw of the step
+  std::string no_images;             // why look_files has no images of stereo cameras
 };
 
-// Never throws. kBadInput where the scan or step does not occur; kDiffers where the trial does not
-// repeat its stored record. Cost: that of the trial, and some seconds where a scan is drawn.
+// Runs the trial, and lists or draws. Never throws. The outcome is kBadInput where the scan or step
+// does not occur, kDiffers where the trial does not repeat its stored record. Cost: that of the
+// trial, and some seconds where a scan is drawn.
 MomentsResult ReplayMoments(const MomentsRequest& request, const MomentsObserver& observer = {});
 
 }  // namespace rockyard::campaign

@@ -32,7 +32,7 @@ namespace {
 
 using math::Vector3;
 
-// Directions that are kept along each side of a camera's image.
+// Directions that are kept along each side of the image of a camera.
 constexpr int kRimRaysOfASide = 6;
 
 constexpr std::string_view kLightStripe = "light_stripe";
@@ -87,8 +87,8 @@ void AddLightStripe(const sensing::LightStripeParams& params, replay::ReplaySens
                     StripeCamera(calibration.cameras[1], "camera 2")};
 }
 
-// The light planes and cameras of the sensor that the scenario chooses, as they truly are; neither
-// where it has none that can be drawn.
+// Returns the light planes and cameras of the sensor that the scenario chooses, as they truly are;
+// a sensor that cannot be drawn has neither.
 replay::ReplaySensor SensorOf(const scenario::Scenario& scenario) {
   const trial::DriveParams& drive = scenario.drive;
   const trial::TerrainSensorKind& chosen = drive.sensors.terrain_sensors.chosen();
@@ -104,15 +104,16 @@ replay::ReplaySensor SensorOf(const scenario::Scenario& scenario) {
   return sensor;
 }
 
-// The moment at which the rover was found stuck: the last one, or the one before a stall that runs
-// on (referee.stuck_rover).
+// Returns the moment at which the rover was found stuck: the last one, or the one before a stall
+// that runs on (referee.stuck_rover).
 const truth::TraceSample& StuckMoment(const std::vector<replay::ReplayPose>& poses) {
   const bool runs_on = poses.size() > 1 && poses.back().sample.activity == "stall";
   return poses[poses.size() - (runs_on ? 2 : 1)].sample;
 }
 
-// What motion and record tell beyond the events of the trace: where turns in place begin, where the
-// rover was found stuck, and a simulator fault, which the drive does not live to tell.
+// Returns the events of the trace, and what motion and record tell beyond them: where turns in
+// place begin, where the rover was found stuck, and a simulator fault, which the drive does not
+// live to tell.
 std::vector<truth::TraceEvent> EventsOf(const truth::TracedTrial& traced,
                                         const std::vector<replay::ReplayPose>& poses) {
   std::vector<truth::TraceEvent> events;
@@ -194,7 +195,7 @@ constexpr double kFinestStep_m = 0.1;
 constexpr double kPlaneStep_m = 0.5;
 constexpr double kStepGrowth = 1.25;
 
-// Where there is terrain, and wherever the rover went.
+// Returns a rectangle that holds the terrain and all places of the rover.
 terrain::Rectangle SceneBounds(const scenario::Scenario& scenario, const truth::Trace& trace) {
   constexpr double kBorder_m = 1.0;
   terrain::Rectangle bounds = terrain::DrivableBounds(scenario.drive.terrain.arena);
@@ -207,7 +208,7 @@ terrain::Rectangle SceneBounds(const scenario::Scenario& scenario, const truth::
   return bounds;
 }
 
-// The designated goal, which a fault's record does not hold.
+// Returns the designated goal; the true one where the record does not hold it, as that of a fault.
 messages::Goal DesignatedGoal(const truth::TracedTrial& traced) {
   const auto x = statistics::ColumnIndex(traced.schema, "told_goal_x_m");
   const auto y = statistics::ColumnIndex(traced.schema, "told_goal_y_m");
@@ -292,7 +293,7 @@ std::string_view NameOf(truth::BodyPart part) {
   return "";
 }
 
-// Nothing for corners, which belong to boxes.
+// Adds the shape of a part; corners add none, as they belong to boxes.
 void AddShape(const rover::Part& part, replay::ReplayLink& link) {
   ReplayShape shape{.part = std::string(NameOf(part.kind)), .a_m = part.a_B};
   const math::Vector3 margin = math::Vector3::Constant(part.margin_m);
@@ -317,7 +318,7 @@ void AddShape(const rover::Part& part, replay::ReplayLink& link) {
   link.shapes.push_back(std::move(shape));
 }
 
-// The field that the trial met: no record holds it, scenario and key give it again.
+// Builds the field that the trial met: no record holds it, scenario and key give it again.
 terrain::Field BuildField(const scenario::Scenario& scenario, const truth::TracedTrial& traced) {
   const core::TrialKey key{traced.seed, static_cast<std::uint32_t>(traced.record.trial)};
   try {

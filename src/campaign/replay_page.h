@@ -1,4 +1,5 @@
-// The 3-D replay of one trial as a page for a browser, and its plan view.
+// The 3-D replay of one trial as a page for a browser, and its plan view. `rockyard replay` writes
+// one; reports write one of each trial that they choose.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace rockyard::campaign {
 
-// A trial that was driven again: all that can be shown of it.
+// All that can be shown of a trial that was driven again.
 struct ReplayedTrial {
   replay::ReplayData data;
   std::string plan_svg;  // plan view in the manner of Matthies 1995, figure 16
@@ -22,8 +23,8 @@ struct ReplayedTrial {
 // and less than as much again.
 ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial);
 
-// What the page is given (src/web/replay/payload.ts), as JSON; a second trial is shown beside the
-// first.
+// Returns what the page is given, as JSON. Must have the form of src/web/replay/payload.ts. A
+// second trial is shown beside the first.
 std::string ReplayPayload(const ReplayedTrial& replayed, const ReplayedTrial* beside = nullptr);
 
 // Drives the trial again and writes its page to `path`, atomically, where the drive repeats the
@@ -32,17 +33,16 @@ std::string ReplayPayload(const ReplayedTrial& replayed, const ReplayedTrial* be
 bool WriteReplayPage(const TrialSource& source, std::uint64_t trial,
                      const std::filesystem::path& path);
 
-// What does not move in a replay: course, ground, rocks; and the shapes of the rover.
-
-// Most heights of the drawn ground: rough ground of a wide arena is drawn more coarsely than 10 cm.
+// The most heights of the drawn ground: rough ground of a wide arena is drawn more coarsely than 10
+// cm.
 inline constexpr std::size_t kMaxHeights = 40000;
 
-// Fills course, world, ground and rocks as they lay at the start. Throws core::UserError where the
-// terrain cannot be built, which is a simulator fault of the trial.
+// Fills what does not move: course, world, ground, and rocks as they lay at the start. Throws
+// core::UserError where the terrain cannot be built, which is a simulator fault of the trial.
 void AddScene(const scenario::Scenario& scenario, const truth::TracedTrial& traced,
               replay::ReplayData& data);
 
-// The links of the scenario's rover with the shapes that the simulation collides.
+// Returns the links of the scenario's rover with the shapes that the simulation collides.
 std::vector<replay::ReplayLink> LinksOf(const scenario::Scenario& scenario);
 
 }  // namespace rockyard::campaign

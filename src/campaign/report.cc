@@ -29,13 +29,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "report.html" in the folder that was named first.
+// Returns the page that is asked for, or report.html in the folder that was named first.
 std::string PageFile(const ReportRequest& request) {
   return request.page.empty() ? (fs::path(request.runs.front()) / "report.html").string()
                               : request.page;
 }
 
-// Before the work: what cannot be meant.
+// Throws, before the work, where a file cannot be meant.
 void CheckFile(const char* option, const std::string& file, const char* extension) {
   CheckOutputFile(option, file);
   CheckExtension(option, file, extension);
@@ -77,7 +77,7 @@ Outcome Write(const ReportRequest& request, const ReportObserver& observer, cons
   try {
     WritePage(request, page, report, result);
   } catch (const core::UserError& failure) {
-    // A disk that fails after the work, not input that is wrong before it.
+    // The disk failed after the work; input was not wrong before it.
     contact.journal.Fail(failure.problems());
     if (report.replays.written > 0) {
       contact.journal.Warn(fmt::format("{} replays are written, in {}", report.replays.written,
@@ -105,7 +105,7 @@ constexpr std::size_t kMaxCompared = 6;
 constexpr double kTrackTime_s = 20.0;  // for the tracks of all runs together
 constexpr auto kMethod = statistics::IntervalMethod::kWilson;
 
-// Ascending.
+// Returns the numbers of the trials, ascending.
 std::vector<std::uint64_t> TrialsOf(const std::vector<ChosenTrial>& worst) {
   std::vector<std::uint64_t> trials;
   trials.reserve(worst.size());
@@ -138,7 +138,7 @@ class Builder {
   }
 
  private:
-  // A run, whose values are let go afterwards.
+  // Adds a run; its values are let go afterwards.
   void AddPlain(const ReportInput& input) {
     StoredRun run = ReadRun(input.folder, input.cell);
     if (run.records.empty()) FailEmpty(input.folder);
@@ -154,7 +154,8 @@ class Builder {
     drives_.emplace_back(std::move(run), input.label);
   }
 
-  // The first trials, which say nothing of how they end, and those that are named.
+  // Adds the tracks of the first trials, which are chosen without regard to how they end, and those
+  // of the examples and the named trials.
   void AddTracks(const StoredRun& run, const std::string& label,
                  const std::vector<std::uint64_t>& examples,
                  const std::vector<std::uint64_t>& named) {
@@ -197,7 +198,7 @@ class Builder {
         report::PageRunMembers(page, run.rule ? statistics::IntervalMethod::kStopped : kMethod));
   }
 
-  // The first cell of a sweep has all of them, the others refer to it.
+  // Lets the first cell of a sweep have all parameters, and the others refer to it.
   void ShareParameters(report::PageRun& page) {
     if (first_cell_parameters_.empty()) {
       first_cell_ = runs_.size();
@@ -252,7 +253,7 @@ class Builder {
                           "name the reference that their scenarios are in, or leave it out");
   }
 
-  // Each drive that was named against the first one.
+  // Compares each run of drives with the first one.
   void Compare() {
     if (drives_.size() > kMaxCompared) {
       contact_.journal.Warn(
@@ -276,14 +277,15 @@ class Builder {
     }
   }
 
-  // Said in the terminal where there is nothing to look in, which is often the wrong folder.
+  // Returns why no published values stand beside the runs. It is also said in the terminal where
+  // there is nothing to look in, which is often the wrong folder.
   std::string WhyNonePublished() const {
     if (any_published_) return {};
     if (published_.empty()) contact_.journal.Warn(published_.WhyNone());
     return published_.WhyNone();
   }
 
-  // The scenarios and sweeps of the inputs, with the label where several have one name.
+  // Returns the scenarios and sweeps of the inputs, with the label where several have one name.
   std::string Title() const {
     constexpr std::size_t kNamed = 3;
     if (!request_.title.empty()) return request_.title;
@@ -326,7 +328,8 @@ class Builder {
   const PageRequest& request_;
   const Contact& contact_;
   PublishedTables published_;
-  // To compare: no cells of a sweep, without the values of their records; and their labels.
+  // The runs to compare, with their labels: no cells of a sweep, and without the values of their
+  // records.
   std::vector<std::pair<StoredRun, std::string>> drives_;
   std::vector<std::string> names_;  // of the scenario or sweep of each input
   std::vector<core::JsonObject> runs_;

@@ -1,4 +1,5 @@
-// Writes a page for a browser: what runs and sweeps say, and replays of failures.
+// Writes a page for a browser: what runs and sweeps say, and replays of failures. The command
+// `report` calls it.
 #pragma once
 
 #include <cstddef>
@@ -41,12 +42,12 @@ struct ReportResult : WorkResult {
   ReportReplays replays;
 };
 
-// Never throws. Cost: see BuildReport.
+// Writes the page that the request asks for, and its replays. Never throws. Cost: that of
+// BuildReport.
 ReportResult WriteReport(const ReportRequest& request, const ReportObserver& observer = {},
                          const Stop& stop = {});
 
-// Puts a report together: from stores to the data of a page.
-
+// What a page is built from.
 struct PageRequest {
   std::vector<ReportInput> inputs;
   std::string title;  // empty: what the inputs are of
@@ -67,6 +68,7 @@ struct Report {
   ReportReplays replays;
 };
 
+// Puts a report together: from stores to the data of a page, with its replays written beside it.
 // Throws core::UserError: a run without finished trials, a sweep that this program cannot read, a
 // reference that fits none of the runs. Memory: the records of one run or cell at a time, 100 bytes
 // for each trial of runs that are compared, and three times the text. Cost: linear in the trials;

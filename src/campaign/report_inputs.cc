@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whole and without a trailing separator, so that the last part is the folder's name.
+// Returns the path whole and without a trailing separator, so that its last part is the name of the
+// folder.
 fs::path Absolute(const fs::path& folder) {
   std::error_code error;
   fs::path path = fs::weakly_canonical(folder, error);
@@ -29,7 +30,8 @@ fs::path Absolute(const fs::path& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-// "nominal", "runs/nominal", "results/runs/nominal", ...
+// Returns the names of a folder, from short to long: "nominal", "runs/nominal",
+// "results/runs/nominal", ...
 std::vector<std::string> FolderNames(const fs::path& folder) {
   std::vector<std::string> names;
   fs::path name;
@@ -53,7 +55,7 @@ ReportInput Open(const fs::path& folder, const std::string& cell) {
   input.folder = folder;
   input.cell = cell;
   if (!store.identity().shard.whole() || !cell.empty()) {
-    // Says what is wrong, the same way as every other command.
+    // ReadRun says what is wrong, the same way as for every other command.
     const StoredRun run = ReadRun(folder, cell.empty() ? "0" : cell);
     RequireWhole(run);
     input.cells = {run.identity.name};
@@ -85,7 +87,8 @@ void AddLabels(std::vector<ReportInput>& inputs) {
   }
 }
 
-// Rocky 3.2 is the default of every parameter of a rover's shape.
+// Returns the name of the rover, where it has one: Rocky 3.2 is the default of every parameter of a
+// rover's shape.
 std::string RoverName(const scenario::Scenario& scenario) {
   const auto own = scenario::ListParameters(scenario);
   const auto known = scenario::ListParameters();
@@ -194,7 +197,7 @@ scenario::Sweep SweepOf(const batch::ResultStore& store, const std::filesystem::
     scenario::Sweep sweep = scenario::ParseSweep(store.identity().design);
     if (sweep.cells.size() == static_cast<std::size_t>(store.cells())) return sweep;
   } catch (const core::UserError&) {
-    // Said below: its problems are about a file that the user has not got.
+    // Said below: problems of the design are about a file that the user has not got.
   }
   throw core::UserError(folder.string(),
                         "holds a sweep that this version of the program reads differently",

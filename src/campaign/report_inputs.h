@@ -1,5 +1,5 @@
-// What a report is about: the folders that were named, what each run goes by, and what is
-// told of it beside its trials.
+// What a report is about: the folders that were named, what each run goes by, and what is told of
+// it beside its trials. BuildReport asks it, the replays of a report too.
 #pragma once
 
 #include <cstdint>
@@ -27,33 +27,35 @@ struct ReportInput {
   std::vector<std::string> cell_labels;  // of a sweep, unique too
 };
 
-// Of run folders, sweep folders, and folders of such folders. `cell`: its name or number, of every
-// one of them; "" for all cells. Throws core::UserError with everything that is wrong: no run, a
-// damaged one, a shard, no such cell, one folder named twice.
+// Returns the inputs in run folders, sweep folders, and folders of such folders. `cell`: name or
+// number of the cell that is taken of every one of them; "" for all cells. Throws core::UserError
+// with everything that is wrong: no run, a damaged one, a shard, no such cell, one folder named
+// twice.
 std::vector<ReportInput> FindReportInputs(const std::vector<std::string>& paths,
                                           const std::string& cell);
 
-// A label for each list of candidates, which go from short to long: the shortest that no other one
-// shares; the last with a number where none is.
+// Returns a label for each list of candidates, which go from short to long: the shortest that no
+// other list shares; where every one is shared, the last with a number.
 std::vector<std::string> UniqueLabels(const std::vector<std::vector<std::string>>& candidates);
 
-// Nothing where the scenario is of another version of the program.
+// Returns the scenario of a run; nothing where it is of another version of the program.
 std::optional<scenario::Scenario> ScenarioOf(const StoredRun& run);
 
-// Every parameter; none where the scenario is of another version of the program.
+// Returns every parameter of a run; none where its scenario is of another version of the program.
 std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run);
 
-// Where the course of its drives lies and what drives it; nothing of a measurement, or where the
-// scenario is of another version of the program.
+// Returns where the course of a run lies and what drives it; nothing for a measurement, or where
+// the scenario is of another version of the program.
 std::optional<report::PageCourse> CourseOf(const StoredRun& run);
 
-// Of each outcome the trial of median distance (report/trial_outcomes.h); none of a measurement.
+// Returns the trial of median distance of each outcome (report/trial_outcomes.h); none for a
+// measurement.
 std::vector<std::uint64_t> ExamplesOf(const StoredRun& run);
 
-// The command that writes a replay of any trial, with {trial} for the number.
+// Returns the command that writes a replay of any trial, with {trial} for the number.
 std::string ReplayCommand(const StoredRun& run);
 
-// The sweep that a store was made of. Throws core::UserError where this program reads it
+// Returns the sweep that a store was made of. Throws core::UserError where this program reads it
 // differently.
 scenario::Sweep SweepOf(const batch::ResultStore& store, const std::filesystem::path& folder);
 

@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a file name can hold anywhere.
+// Returns the file name of a replay, of characters that file names can hold anywhere.
 std::string FileName(const ChosenTrial& worst) {
   std::string name = worst.label.substr(0, 60);
   for (char& c : name) {
@@ -42,7 +42,7 @@ std::string FileName(const ChosenTrial& worst) {
   return fmt::format("{}-{}-trial{}.html", worst.run + 1, name, worst.record.trial);
 }
 
-// As a link in a page has to be written (RFC 3986).
+// Returns the text as a link in a page has to be written (RFC 3986).
 std::string PercentEncoded(const std::string& text) {
   std::string link;
   for (const char c : text) {
@@ -54,7 +54,7 @@ std::string PercentEncoded(const std::string& text) {
   return link;
 }
 
-// One page after the other, on several threads.
+// Writes one page after the other, on several threads.
 class ReplayWriter {
  public:
   ReplayWriter(const fs::path& page, std::span<const ChosenTrial> trials, std::size_t runs,
@@ -147,7 +147,7 @@ class ReplayWriter {
     if (replays_.outcome != Outcome::kDiffers) replays_.outcome = outcome;
   }
 
-  // They may be of other runs, and show what no longer holds.
+  // Tells of older pages in the folder: they may be of other runs, and show what no longer holds.
   void TellLeftovers() const {
     std::size_t others = 0;
     std::error_code error;
@@ -307,7 +307,7 @@ class Driver {
            request_.examples.end();
   }
 
-  // Nothing where the trial is not the stored one.
+  // Drives a trial; returns nothing where it is not the stored one.
   std::optional<report::PageTrack> Track(const truth::Record& stored) const {
     const std::uint64_t seed = run_.identity.seed;
     try {

@@ -1,4 +1,5 @@
-// The replay pages that are written with a report.
+// What a report drives again: the replay pages that are written with it, and true paths for its
+// map.
 #pragma once
 
 #include <cstddef>
@@ -30,15 +31,15 @@ struct ChosenTrial {
   double goal_distance_m = 0.0;  // infinity where unknown
 };
 
-// The worst failed trials of a run (report/trial_outcomes.h); none of one that measures.
+// Returns the worst failed trials of a run (report/trial_outcomes.h); none of a run that measures.
 std::vector<ChosenTrial> FindWorst(const StoredRun& run, std::size_t most);
 
-// The trials with these numbers, which must be stored, behind those that are chosen already; none
-// twice.
+// Adds the trials with these numbers, which must be stored, behind those that are chosen already;
+// none twice.
 void AddChosen(const StoredRun& run, std::span<const std::uint64_t> trials,
                std::vector<ChosenTrial>& chosen);
 
-// The worst of several cells together: furthest from the goal first, at most `most`.
+// Returns the worst of several cells together: furthest from the goal first, at most `most`.
 std::vector<ChosenTrial> Worst(std::vector<ChosenTrial> trials, std::size_t most);
 
 struct ReportReplays {
@@ -54,27 +55,25 @@ struct ReplayProgress {
   std::uint64_t trial = 0;  // that ended last
   std::string label;        // of its run
 };
-// By one thread at a time.
+// Called by one thread at a time, as replays end.
 using ReplayReport = std::function<void(const ReplayProgress& progress, Moment moment)>;
 
-// Drives them again and writes a page each into <stem of `page`>_replays beside it, which is made
-// where it is needed. A trial that does not repeat its stored record is reported, gets no page, and
-// makes kDiffers; one that cannot be driven or written makes kFailed. A wish to
-// stop ends it after the trials in flight, with kInterrupted: what is written is linked. Pages of
-// earlier reports in the folder stay, and are told. Cost: that of the trials,
-// on `threads` threads; memory: the recording of one trial for each.
+// Drives the trials again and writes a page for each into the folder <stem of `page`>_replays
+// beside `page`, which is made where it is needed. A trial that does not repeat its stored record
+// is told, gets no page, and makes kDiffers; one that cannot be driven or written makes kFailed. A
+// wish to stop ends the work after the trials in flight, with kInterrupted: what is written is
+// linked. Pages of earlier reports in the folder stay, and are told. Cost: that of the trials, on
+// `threads` threads; memory: the recording of one trial for each.
 ReportReplays WriteReplays(const std::filesystem::path& page, std::span<const ChosenTrial> trials,
                            std::size_t runs, int threads, const Contact& contact,
                            const ReplayReport& progress = {});
-
-// The true paths of a run's trials, for the map of a report: trials are driven again.
 
 struct TrackProgress {
   std::size_t ended = 0;
   std::size_t total = 0;
   std::string label;  // of the run
 };
-// By one thread at a time.
+// Called by one thread at a time, as tracks end.
 using TrackReport = std::function<void(const TrackProgress& progress, Moment moment)>;
 
 struct TrackRequest {
@@ -91,9 +90,10 @@ struct Tracks {
   std::size_t first = 0;  // of them, those of the first trials: chosen without regard to their end
 };
 
-// Drives the examples and the named trials first, then the first ones, a fourth as many of a
-// multibody rover. Trials without a track, since they are not those stored when they are driven
-// again, are told as one warning. Paths are simplified by 1 cm. Cost: that of the trials.
+// Drives trials again for their true paths. The examples and the named trials come first, then the
+// first ones; of a multibody rover these are a fourth as many. Trials that are not the stored ones
+// when they are driven again have no track, and are told as one warning. Paths are simplified by 1
+// cm. Cost: that of the trials.
 Tracks DriveTracks(const StoredRun& run, const TrackRequest& request, const Contact& contact,
                    const TrackReport& progress = {});
 

@@ -29,7 +29,7 @@ void AddSettings(const RunRequest& request, std::vector<std::string>& settings) 
   for (const std::string& name : request.ablations) settings.push_back("--ablate " + name);
 }
 
-// Every option that changes the scenario.
+// Returns the overrides of the request, with those that its other options stand for.
 std::vector<std::string> OverridesOf(const RunRequest& request) {
   std::vector<std::string> overrides = request.campaign.overrides;
   if (request.campaign.trials) {
@@ -55,7 +55,8 @@ CampaignPlan PlanOf(const RunRequest& request) {
           .settings = std::move(settings)};
 }
 
-// An ablation that changes nothing may be a mistake: nothing of that kind is in the scenario.
+// Remarks on ablations that change nothing: they may be a mistake, as nothing of that kind is in
+// the scenario.
 void RemarkIdleAblations(const RunRequest& request, Journal& journal) {
   if (request.ablations.empty() || !IsFirstRank()) return;
   const scenario::Scenario base = LoadScenarioFrom(request.source, request.campaign.overrides);
@@ -64,7 +65,7 @@ void RemarkIdleAblations(const RunRequest& request, Journal& journal) {
   }
 }
 
-// Its name may be that of a scenario, which was meant.
+// Remarks that the source is a folder: its name may be that of a scenario, which was meant.
 void RemarkFolder(const RunRequest& request, Journal& journal) {
   std::error_code error;
   if (!IsFirstRank() || !std::filesystem::is_directory(request.source, error)) return;
@@ -72,7 +73,7 @@ void RemarkFolder(const RunRequest& request, Journal& journal) {
                              ShellPath(request.source.string())));
 }
 
-// What the scenario has without saying so may not be meant.
+// Warns of doubts: what the scenario has without saying so may not be meant.
 void WarnOfDoubts(const RunRequest& request, Journal& journal) {
   if (!IsFirstRank()) return;
   for (const core::Problem& doubt : DoubtsOf(request.source, OverridesOf(request))) {
@@ -108,7 +109,7 @@ core::Result<DryRun> Rehearse(const RunRequest& request, const Observer& observe
 
 namespace {
 
-// Problems name the file, of which a cluster job may have many.
+// Reads the sweep. Problems name its file, as a cluster job may have many.
 scenario::Sweep RequestedSweep(const SweepRequest& request) {
   const std::string file = request.file.string();
   try {
@@ -147,7 +148,7 @@ void WarnOfDoubts(const scenario::Sweep& sweep, Journal& journal) {
 WorkResult RunSweep(const SweepRequest& request, const RunObserver& observer, const Stop& stop) {
   const CampaignRequest& campaign = request.campaign;
   const ReportSettings settings{.method = campaign.method, .threads = campaign.containment.threads};
-  // Read where trials are planned: on rank 0 alone, so that a mistake is told once.
+  // The sweep is read where trials are planned: on rank 0 alone, so that a mistake is told once.
   scenario::Sweep sweep;
   return Recorded(observer, [&](Journal& journal) {
     return RunCampaign(
@@ -186,7 +187,8 @@ FolderReport ReportMerged(const std::filesystem::path& folder) {
   return ReportSweep(store, scenario::ParseSweep(design), {});
 }
 
-// A trace belongs to a trial, but which trials have one was decided in each shard alone.
+// Remarks that traces are not merged: a trace belongs to a trial, but which trials have one was
+// decided in each shard alone.
 void RemarkTraces(const MergeRequest& request, Journal& journal) {
   std::error_code ignored;
   for (const std::filesystem::path& shard : request.shards) {
@@ -199,7 +201,7 @@ void RemarkTraces(const MergeRequest& request, Journal& journal) {
   }
 }
 
-// The folder has its own name only when its files are there.
+// Returns the report with the name that the folder has once all its files are there.
 FolderReport InFolder(FolderReport report, const std::filesystem::path& folder) {
   std::visit([&](auto& told) { told.folder = folder; }, report);
   return report;

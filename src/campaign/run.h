@@ -1,4 +1,5 @@
-// Runs the trials of a scenario.
+// Runs the trials of a scenario or of a sweep, and puts shards together; says what a run would do.
+// The commands `run`, `sweep` and `merge` call it, and programs by way of api/campaign.h.
 #pragma once
 
 #include <filesystem>
@@ -29,17 +30,16 @@ struct RunRequest {
 // ranks, or where earlier calls stopped.
 WorkResult Run(const RunRequest& request, const RunObserver& observer = {}, const Stop& stop = {});
 
-// What Run would do; writes nothing. The observer is told what Run would say before it begins.
+// Returns what Run would do; writes nothing. The observer is told what Run would say before it
+// begins.
 core::Result<DryRun> Rehearse(const RunRequest& request, const Observer& observer = {});
-
-// Runs scenarios that differ along axes as one campaign.
 
 struct SweepRequest {
   std::filesystem::path file;  // as scenario/sweep.h reads it
   CampaignRequest campaign = {};
 };
 
-// As Run does of one scenario. Never throws.
+// Runs scenarios that differ along axes as one campaign, as Run does one scenario. Never throws.
 WorkResult RunSweep(const SweepRequest& request, const RunObserver& observer = {},
                     const Stop& stop = {});
 
@@ -49,12 +49,10 @@ struct SweepRehearsal {
   SweepPlan plan;
 };
 
-// What RunSweep would do, and cost by that many trials of each cell: written into the folder of the
-// request (dry_run.h), which is no folder of a campaign.
+// Returns what RunSweep would do and cost, by that many pilots of each cell, and writes it into the
+// folder of the request (WriteSweepPlan), which is no folder of a campaign.
 core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, int pilots,
                                            const Observer& observer = {});
-
-// Puts the shards of a campaign together.
 
 struct MergeRequest {
   std::vector<std::filesystem::path> shards;
@@ -64,12 +62,13 @@ struct MergeRequest {
 };
 
 struct MergeObserver : Observer {
-  // The files of the new folder are written.
+  // Called when the files of the new folder are written.
   std::function<void(const FolderReport& report)> reported = {};
 };
 
-// The folder appears when it is whole. Never throws. What is merged stays, whatever becomes of the
-// files that follow from it: kFailed where one cannot be written.
+// Puts the shards of a campaign together. The folder appears when it is whole. Never throws. What
+// is merged stays, whatever becomes of the files that follow from it: the outcome is kFailed where
+// one cannot be written.
 WorkResult Merge(const MergeRequest& request, const MergeObserver& observer = {});
 
 }  // namespace rockyard::campaign

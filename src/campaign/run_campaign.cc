@@ -52,7 +52,8 @@ void CheckColumns(const CampaignPlan& plan, const PlannedWork& work) {
   }
 }
 
-// One broken cell among many is named, however few its trials are of all.
+// Returns the problem of too many faults. A broken cell among many is named, however few its trials
+// are of all.
 std::vector<core::Problem> FaultProblems(const OpenedRun& run, const batch::BatchResult& result,
                                          double most) {
   std::string cells;
@@ -97,7 +98,7 @@ class Campaign {
     return RunAndReport(work.work(), run, process);
   }
 
-  // Traces of the trials that the rules keep, once all are stored.
+  // Writes the traces of the trials that the rules keep, once all are stored.
   Outcome Trace(CampaignProcess& process) const {
     const std::filesystem::path folder = OpeningOf(request_, planner_()).folder;
     TraceRequest traces{.retention = request_.traces.retention(),
@@ -123,7 +124,8 @@ class Campaign {
   }
 
  private:
-  // What fails from here on is no bad input: trials have been run, and are stored.
+  // Runs, reports and judges. What fails in here is no bad input: trials have been run, and are
+  // stored.
   Outcome RunAndReport(std::span<const batch::CellWork> work, OpenedRun& run,
                        CampaignProcess& process) const {
     try {
@@ -136,7 +138,7 @@ class Campaign {
       process.SetReported();
       if (process.TellLeftOut(run.store)) return Outcome::kFailed;
       const Outcome outcome = Judge(run, result, process.late_trial());
-      // In the moment of the last trial: nothing is pending but traces.
+      // Where the wish came in the moment of the last trial, nothing is pending but traces.
       if (outcome == Outcome::kInterrupted || !process.interrupted() ||
           request_.traces.rules.empty()) {
         return outcome;
@@ -223,7 +225,7 @@ namespace {
 
 constexpr int kMaxShards = 1'000'000;
 
-// What a stopping rule asks of the cells.
+// Adds the problems of a stopping rule with the cells.
 void CheckRule(const CampaignRequest& request, const CampaignPlan& plan,
                std::vector<core::Problem>& problems) {
   if (!request.rule) return;
@@ -247,7 +249,7 @@ void CheckRule(const CampaignRequest& request, const CampaignPlan& plan,
   }
 }
 
-// What traces ask of the cells.
+// Adds the problems of traces with the cells.
 void CheckTraces(const CampaignRequest& request, const CampaignPlan& plan,
                  std::vector<core::Problem>& problems) {
   try {

@@ -1,4 +1,5 @@
 // What running one scenario and running a sweep have in common: open, run, report, judge, trace.
+// run.h and the dry runs are made of it; the command line fills the request.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +24,7 @@
 
 namespace rockyard::campaign {
 
-// What running one scenario and running a sweep can be asked for alike, and whether a plan can be
-// run like that.
-
+// What can be asked for alike of running one scenario and of running a sweep.
 struct CampaignRequest {
   std::optional<std::int64_t> trials = {};  // absent: the scenario's, or those planned before
   std::optional<std::int64_t> seed = {};    // absent: the scenario's
@@ -38,29 +37,30 @@ struct CampaignRequest {
   std::optional<batch::StoppingRule> rule = {};  // none: every planned trial
   double max_fault_fraction = 0.01;              // of all trials and of those of each cell
   statistics::IntervalMethod method = statistics::IntervalMethod::kWilson;  // of rates
-  // As a plain caller has it: in this process, however long a trial takes.
+  // The default is for a plain caller: trials run in this process, however long one takes.
   ContainmentOptions containment = {.supervisor = false, .trial_cpu_limit_s = 0.0, .threads = 0};
   TraceOptions traces = {};  // written once all trials are stored
 
-  // Throws core::UserError where the text is none of 1/N ... N/N.
+  // Returns the shard. Throws core::UserError where the text is none of 1/N ... N/N.
   batch::Shard ParseShard() const;
 };
 
-// Throws core::UserError with everything that is asked of this plan and that cannot be: a stopping
-// rule of a shard, where nothing drives, or where trials share layouts and are not independent;
-// traces that are asked for with a rule that is none, the worst of a shard, or where nothing
+// Throws core::UserError with everything that the request asks of this plan and that cannot be: a
+// stopping rule for a shard, where nothing drives, or where trials share layouts and are not
+// independent; traces by a text that is no rule, the worst of a shard, or traces where nothing
 // drives.
 void CheckPlan(const CampaignRequest& request, const CampaignPlan& plan);
 
 // What a caller is told of a campaign while it goes on.
 struct RunObserver : Observer {
-  // About twice a second while trials run, by one thread at a time, and once when they have ended.
+  // Called about twice a second while trials run, by one thread at a time, and once when they have
+  // ended.
   std::function<void(const batch::Progress& progress, Moment moment)> trials = {};
-  // The files of the folder are written; also after an early end.
+  // Called when the files of the folder are written; also after an early end.
   std::function<void(const FolderReport& report, batch::BatchEnd end)> reported = {};
-  // As traces are written, by one thread at a time.
+  // Called as traces are written, by one thread at a time.
   std::function<void(const TraceProgress& progress, Moment moment)> traces = {};
-  // No more traces will be written.
+  // Called when no more traces will be written.
   std::function<void(const std::filesystem::path& folder, Outcome outcome)> traced = {};
 };
 
@@ -68,11 +68,11 @@ struct RunObserver : Observer {
 // core::UserError.
 using CampaignPlanner = std::function<CampaignPlan()>;
 
-// Derives files from the store. Called in the process that ran the trials, when no more will run;
-// also after an early end. What it throws ends in Outcome::kFailed.
+// Derives files from the store. It is called in the process that ran the trials, when no more will
+// run; also after an early end. What it throws ends in Outcome::kFailed.
 using CampaignReporter = std::function<FolderReport(const OpenedRun& run)>;
 
-// What opening its folder is asked for.
+// Returns what opening the folder of the plan is asked for.
 OpenRequest OpeningOf(const CampaignRequest& request, const CampaignPlan& plan);
 
 // Runs a campaign in processes as the request asks (campaign_process.h).

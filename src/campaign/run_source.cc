@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "dead_reckoning" to "dead reckoning".
+// Returns "dead reckoning" for "dead_reckoning".
 std::string Words(std::string_view name) {
   std::string words(name);
   std::replace(words.begin(), words.end(), '_', ' ');
@@ -45,8 +45,8 @@ std::string Words(Enum value) {
   return Words(core::EnumNames<Enum>::kNames[static_cast<std::size_t>(value)]);
 }
 
-// Two lines: rover, gravity, soil and fidelity; by what it looks, drives and localizes. None of an
-// experiment that does not drive.
+// Returns two lines: rover, gravity, soil and fidelity; by what the rover looks, drives and
+// localizes. An experiment that does not drive has none.
 std::vector<std::string> SetupInWords(const scenario::Scenario& scenario) {
   if (scenario.experiment.kind != experiments::ExperimentKind::kDrive) return {};
   const trial::DriveParams& drive = scenario.drive;
@@ -61,7 +61,7 @@ std::vector<std::string> SetupInWords(const scenario::Scenario& scenario) {
                       Words(drive.localization.estimators.chosen().name()))};
 }
 
-// "0 (k=0.004), 1 (k=0.013), ...": what --cell takes.
+// Returns what --cell takes: "0 (k=0.004), 1 (k=0.013), ...".
 std::string CellList(const std::vector<batch::CellIdentity>& cells) {
   constexpr std::size_t kShown = 8;
   std::string text;
@@ -90,7 +90,7 @@ int FindCell(const fs::path& folder, const std::vector<batch::CellIdentity>& cel
                         "use one of " + CellList(cells));
 }
 
-// As in scenario.resolved.json.
+// Returns whether the document has the form of scenario.resolved.json.
 bool IsResolved(const core::JsonValue& document) {
   return document.Find("scenario") != nullptr && document.Find("provenance") != nullptr;
 }
@@ -112,7 +112,7 @@ core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
   return IsResolved(document) ? core::JsonValue(*document.Find("scenario")) : document;
 }
 
-// Absent where the scenario is of another version of the program.
+// Returns the name of the estimator; "" where the scenario is of another version of the program.
 std::string Localization(const std::string& resolved) {
   core::JsonValue document = core::ParseJson(resolved, "resolved scenario");
   scenario::RenameFormerKeys(document);
@@ -122,7 +122,7 @@ std::string Localization(const std::string& resolved) {
   return text ? found->text() : std::string();
 }
 
-// Nothing where the scenario is of another version of the program.
+// Reads the scenario; returns nothing where it is of another version of the program.
 std::optional<scenario::Scenario> TryRead(const std::string& resolved) {
   try {
     return scenario::ParseScenario(resolved);
@@ -199,7 +199,7 @@ report::Accounting AccountingOf(const StoredRun& run) {
 
 std::optional<report::StoppingReport> StoppingOf(const StoredRun& run) {
   if (!run.rule) return std::nullopt;
-  // By batch::CellEnd, in its order; in summary.json.
+  // Must be in the order of batch::CellEnd, and stay: summary.json has these names.
   constexpr std::array kEndNames = {"open", "max_trials", "precise", "budget"};
   const bool adaptive = run.rule->allocation == batch::Allocation::kAdaptive;
   return report::StoppingReport{.half_width = run.rule->half_width,
@@ -292,8 +292,9 @@ std::vector<std::string> StoreNotes(std::span<const std::string> paths) {
 
 namespace {
 
-// The settings that decide which rocks a trial meets, and where it starts and ends: trials of runs
-// that share them, and the seed, are pairs. The same groups as DecidesFields (reference_cases.cc).
+// Returns the settings that decide which rocks a trial meets, and where it starts and ends: trials
+// of runs that share them, and the seed, are pairs. Must name the same groups as DecidesFields
+// (reference_cases.cc).
 std::string FieldsOf(const StoredRun& run) {
   const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
   std::string text;
@@ -304,7 +305,8 @@ std::string FieldsOf(const StoredRun& run) {
   return text;
 }
 
-// Of the scenario as it was run; NaN where that program had no such parameter.
+// Returns the goal tolerance of the scenario as it was run; NaN where that program had no such
+// parameter.
 double GoalTolerance_m(const std::string& resolved) {
   const core::JsonValue document = core::ParseJson(resolved, "resolved scenario");
   const core::JsonValue* at = &document;
@@ -328,7 +330,7 @@ class Side {
 
   std::size_t trials() const { return run_.records.size(); }
 
-  // With those of the columns that the run has. Valid until the next call.
+  // Returns the run with those of the columns that it has. Valid until the next call.
   const report::ComparedRun& Read(const truth::RecordSchema& columns) {
     view_.schema.clear();
     for (const truth::ValueInfo& column : columns) {

@@ -1,5 +1,6 @@
 // Where scenarios and finished runs come from, and what there is to know of stores before their
-// results are believed.
+// results are believed; stored runs in the shapes that comparing takes. All work on stored runs
+// reads them here, and most commands their scenario.
 #pragma once
 
 #include <cstddef>
@@ -20,25 +21,26 @@
 
 namespace rockyard::campaign {
 
-// The scenario in a scenario file, in a scenario.resolved.json, or of the run (and its cell, as
-// ReadRun takes it) in a folder, with "PATH=VALUE" overrides. Absent keys keep the values of
-// `defaults`. Throws core::UserError.
+// Returns the scenario in a scenario file, in a scenario.resolved.json, or of the run in a folder
+// (and of its cell, as ReadRun takes it), with "PATH=VALUE" overrides. Absent keys keep the values
+// of `defaults`. Throws core::UserError.
 scenario::Scenario LoadScenarioFrom(const std::filesystem::path& path,
                                     std::span<const std::string> overrides = {},
                                     const std::string& cell = "",
                                     const scenario::Scenario& defaults = {});
 
-// What the scenario of that source was changed by before: of a run its settings
-// (CampaignIdentity::settings), of a scenario file nothing. Throws core::UserError.
+// Returns what the scenario of that source was changed by before: for a run its settings
+// (CampaignIdentity::settings), for a scenario file an empty list. Absent where it is not known.
+// Throws core::UserError.
 std::optional<std::vector<std::string>> SettingsOf(const std::filesystem::path& path);
 
-// What of the records of a run is read.
+// Which values of the records of a run are read.
 enum class StoredValues {
   kAll,
   kNone,  // outcomes alone: 96 bytes a trial instead of 500; the values are checked all the same
 };
 
-// One cell of a campaign, read back from its folder; of a run, the only one.
+// One cell of a campaign, read back from its folder. A run has one cell.
 struct StoredRun {
   std::filesystem::path folder;
   int cell = 0;
@@ -54,11 +56,11 @@ struct StoredRun {
   batch::CellState state;  // where the rule ended it
 
   std::span<const truth::Record> prefix() const { return batch::ContiguousPrefix(records); }
-  // For people: the folder, and the cell where it has a name.
+  // Returns the folder, and the cell where it has a name, for people.
   std::string Label() const;
 };
 
-// Reads cells of one store, one after the other. The store must outlive it.
+// Reads cells of one store, one after the other. The store must outlive the reader.
 class CellReader {
  public:
   CellReader(std::filesystem::path folder, const batch::ResultStore& store);
@@ -71,57 +73,58 @@ class CellReader {
   std::vector<std::int64_t> faults_;
 };
 
-// planned = completed + faulted + pending, which is checked.
+// Returns the counts of a run. They must add up: planned = completed + faulted + pending.
 report::Accounting AccountingOf(const StoredRun& run);
 
-// Where the rule ended the cell; nothing without a rule.
+// Returns where the rule ended the cell; nothing without a rule.
 std::optional<report::StoppingReport> StoppingOf(const StoredRun& run);
 
-// `cell`: the name of a cell, or its number from 0; may be left out where the store has only one.
-// Throws core::UserError, which lists the cells where it must not be left out or is none of them.
+// Reads one cell of the run in a folder. `cell`: its name, or its number from 0; may be left out
+// where the store has only one. Throws core::UserError, which lists the cells where `cell` must not
+// be left out or is none of them.
 StoredRun ReadRun(const std::filesystem::path& folder, const std::string& cell = "",
                   StoredValues values = StoredValues::kAll);
 
-// Every cell. Memory: all records of the campaign.
+// Reads every cell. Memory: all records of the campaign.
 std::vector<StoredRun> ReadCampaign(const std::filesystem::path& folder);
 
-// What the cell goes by in a campaign: its name, or that of its scenario where it has none.
+// Returns what the cell goes by in a campaign: its name, or that of its scenario where it has none.
 std::string CellName(const StoredRun& run);
 
 // Throws core::UserError where the run is one shard of a campaign, whose trials are no contiguous
 // prefix: no rate can be told from it alone.
 void RequireWhole(const StoredRun& run);
 
-// The program, its compiler and the CPU level that records may depend on. Stores and baselines keep
-// it, and rank 0 tells it the others, to be compared as text.
+// Returns the program, its compiler and the CPU level that records may depend on. Stores and
+// baselines keep it, and rank 0 sends it to the others, to be compared as text. Must stay: its
+// form, as another text is another build.
 std::string BuildName();
 
-// What a report says of a run, with the provenance of this program.
+// Returns what a report says of a run, with the provenance of this program.
 report::RunDescription Describe(const StoredRun& run, int threads);
 
-// The sentence for people about a store without checksums (batch::HasChecksums).
+// Returns the sentence for people about a store without checksums (batch::HasChecksums).
 std::string NoChecksumsNote(const std::filesystem::path& folder);
 
-// One sentence for each such store in these folders of runs, or folders of such folders. Other
-// paths, and stores that cannot be read, are for whoever reads them to judge.
+// Returns that sentence (NoChecksumsNote) for each store without checksums in these folders of
+// runs, or folders of such folders. Other paths, and stores that cannot be read, are for whoever
+// reads them to judge.
 std::vector<std::string> StoreNotes(std::span<const std::string> paths);
 
-// A stored run in the shapes that comparing takes; two runs of drives against each other.
-
-// For report::CompareRuns. `run` must outlive it. Throws core::UserError where no trial is
-// finished.
+// Returns the run for report::CompareRuns. `run` must outlive the view. Throws core::UserError
+// where no trial is finished.
 report::ComparedRun ComparedView(const StoredRun& run);
 
-// For statistics::Compare. `run` must outlive it.
+// Returns the run for statistics::Compare. `run` must outlive the view.
 statistics::ScenarioRun ScenarioView(const StoredRun& run);
 
-// For report::SummarizeSweep.
+// Returns the run for report::SummarizeSweep.
 report::SweepCellTrials SweepCellView(StoredRun run);
 
-// report::CompareRuns of the two, whose records need no values here (StoredValues::kNone): they are
-// read again from the stores, some columns of both at a time. Memory: so many values, 130 MB, or
-// one column of each where that is more; and 200 bytes a trial of each. Throws core::UserError
-// where no trial of a run is finished.
+// Compares two runs of drives by report::CompareRuns. Their records need no values here
+// (StoredValues::kNone): values are read again from the stores, some columns of both runs at a
+// time. Memory: `values_at_once` values, by default 130 MB, or one column of each run where that is
+// more; and 200 bytes a trial of each. Throws core::UserError where no trial of a run is finished.
 report::RunComparison CompareDrives(const StoredRun& first, const StoredRun& second,
                                     std::size_t values_at_once = std::size_t{1} << 24);
 

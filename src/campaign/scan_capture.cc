@@ -23,7 +23,8 @@ namespace {
 constexpr double kShownAround_m = 1.5;
 constexpr int kOutlineCorners = 24;
 
-// Seen from above, in R: the horizontal axes of the ellipsoid, as the plans of the terrain do.
+// Returns the outline of a rock seen from above, in R: the horizontal axes of the ellipsoid, as the
+// plans of the terrain show it.
 report::GroundOutline RockOutline(const terrain::Rock& rock, const math::Transform& X_RW) {
   report::GroundOutline outline;
   for (int corner = 0; corner < kOutlineCorners; ++corner) {
@@ -52,7 +53,7 @@ std::vector<report::GroundOutline> RocksAround(const trial::WatchedScan& watched
   return outlines;
 }
 
-// Cameras and groups of lasers that find a stripe.
+// Returns the pairs of a camera and a group of lasers that find a stripe.
 std::set<std::pair<int, int>> ExposuresOf(const messages::StripeCalibration& calibration) {
   std::set<std::pair<int, int>> exposures;
   for (const messages::StripeLaser& laser : calibration.lasers) {
@@ -109,7 +110,7 @@ report::ScanView View(const trial::WatchedScan& watched) {
   return view;
 }
 
-// The averaged difference of whole images, line by line, as the stripe finder sees it.
+// Returns the averaged difference of whole images, line by line, as the stripe finder sees it.
 std::vector<double> Difference(const messages::StripeExposure& frames, int window_px) {
   const messages::ImageBand& lit = frames.lit.front();
   std::vector<double> difference;
@@ -122,10 +123,11 @@ std::vector<double> Difference(const messages::StripeExposure& frames, int windo
   return difference;
 }
 
-// The left camera of the pair ahead, to which its points belong.
+// Returns the left camera of the pair ahead, to which the points of that pair belong.
 report::PinholeCamera LeftFrontCamera(const sensing::StereoParams& params) {
   const sensing::StereoView view = sensing::MakeStereoView(params, messages::LookDirection::kAhead);
-  // Pixels are counted at their middles there, from the image's corner here.
+  // StereoView counts pixels from the middle of the first one, PinholeCamera from the corner of the
+  // image.
   return {.eye = view.eye,
           .axis = view.Ray(0.5 * (view.columns - 1), 0.5 * (view.rows - 1)),
           .right = view.along_row.normalized(),
@@ -136,7 +138,7 @@ report::PinholeCamera LeftFrontCamera(const sensing::StereoParams& params) {
           .rows_px = static_cast<double>(view.rows)};
 }
 
-// Dark is what the rover cannot pass beneath its belly.
+// Returns a rock for the drawing, in which dark is what the rover cannot pass beneath its belly.
 report::SceneRock SceneRockOf(const terrain::Rock& rock, const terrain::Ground& ground,
                               double clearance_m) {
   const double ground_m = ground.Height(rock.center_W.x(), rock.center_W.y());

@@ -1,5 +1,6 @@
 // Everything that can be shown of one scan, taken at the moment when it happens, and where a
-// decision of a map-based navigator was taken, for its drawing.
+// decision of a map-based navigator was taken, for its drawing. `replay --scan` and `--step` draw
+// them; recordings of drives take the hazards of each scan.
 #pragma once
 
 #include <vector>
@@ -19,20 +20,21 @@ struct CapturedExposure {
   std::vector<double> difference;   // averaged, row-major, counts
 };
 
+// A scan as it is shown.
 struct CapturedScan {
   report::ScanView view;
   std::vector<CapturedExposure> exposures;
 };
 
-// What the rover makes of a scan by itself, without a second one.
+// Returns what the rover makes of a scan by itself, without a second one.
 messages::HazardReport HazardsOf(const trial::WatchedScan& watched);
 
-// Whole images of every camera and group of lasers are rendered also where the scan came from the
-// geometric model. Cost: some seconds.
+// Captures a scan. Whole images of every camera and group of lasers are rendered, also where the
+// scan came from the geometric model. Cost: some seconds.
 CapturedScan Capture(const trial::WatchedScan& watched);
 
-// `trace` is that of the trial up to this decision. Rocks lie where they lie now. A rover without
-// stereo cameras has no camera.
+// Returns where a decision was taken. `trace` is that of the trial up to this decision. Rocks lie
+// where they lie now. A rover without stereo cameras has no camera.
 report::StepScene SceneOf(const trial::WatchedStep& watched, const truth::Trace& trace);
 
 }  // namespace rockyard::campaign

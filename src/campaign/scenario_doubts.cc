@@ -27,11 +27,12 @@ namespace {
 using core::JsonValue;
 using core::Problem;
 
-// A limit below so much is doubted.
+// A limit that is doubted below `least`. A `value` of 0 means that there is no limit, and is not
+// doubted.
 struct LimitRule {
   std::string_view path;
   double value;
-  double least;  // 0 of `value` is no limit
+  double least;
   std::string_view unit;
   std::string suggestion;
 };
@@ -41,8 +42,9 @@ void DoubtLimits(const trial::DriveParams& drive, std::vector<Problem>& doubts) 
   const trial::RefereeParams& referee = drive.referee;
   constexpr std::string_view kTimeLimit = "referee.time_limit_s";
   const std::string follow = "state it, or null to have it follow the course";
-  // Less than half of what is given where the value is left open; of batteries a drive of Rocky 3.2
-  // takes 2 Wh and more a metre among rocks.
+  // Limits of the referee: less than half of what PatienceFor (trial/open_values_params.h) gives
+  // where the value is left open; task_doubts.cc has the bound of the time limit, too. Batteries: a
+  // drive of Rocky 3.2 takes 2 Wh and more a metre among rocks.
   const LimitRule rules[] = {
       {"referee.no_path_distance_m", referee.no_path_distance_m, 0.25 * course_m, "m", follow},
       {"referee.no_path_time_s", referee.no_path_time_s, 200.0 * course_m, "s", follow},
@@ -50,7 +52,7 @@ void DoubtLimits(const trial::DriveParams& drive, std::vector<Problem>& doubts) 
       {"energy.battery_wh", drive.energy.battery_wh, 2.0 * course_m, "Wh",
        "state what the rover carries, or 0 for no limit"},
   };
-  // Too short to arrive at full speed: meant as a duration.
+  // A time limit too short to arrive at full speed is meant as a duration, and is not doubted.
   const double fastest_s = course_m / drive.rover.drive.speed_m_s;
   for (const LimitRule& rule : rules) {
     const bool is_duration = rule.path == kTimeLimit && rule.value < fastest_s;
@@ -62,7 +64,8 @@ void DoubtLimits(const trial::DriveParams& drive, std::vector<Problem>& doubts) 
   }
 }
 
-// Over the box that it fills Rocky 3.2 has 210 kg/m3, the MFEX rover 110, the Athena SDM 60.
+// Doubts the mass over the box that the rover fills: Rocky 3.2 has 210 kg/m3, the MFEX rover 110,
+// the Athena SDM 60.
 void DoubtMass(const trial::DriveParams& drive, std::vector<Problem>& doubts) {
   constexpr double kLeast_kg_m3 = 30.0;
   constexpr double kMost_kg_m3 = 500.0;
@@ -87,7 +90,8 @@ void DoubtSizes(const trial::DriveParams& drive, std::vector<Problem>& doubts) {
   }
 }
 
-// True way over that of the rims on level sand, by the quasi-static rover.
+// Returns the true way over the way of the rims on level sand, measured with the quasi-static
+// rover.
 double MeasuredLevelScale(const trial::DriveParams& drive) {
   constexpr double kRolled_m = 1.0;
   rover::RoverParams params = drive.rover;
@@ -110,7 +114,7 @@ double MeasuredLevelScale(const trial::DriveParams& drive) {
   return (rover->state().X_WR.translation().x() - start_m) / rolled_m;
 }
 
-// The cells of a sweep share a few rovers and soils.
+// Measured scales by rover and soil: the cells of a sweep share a few of them.
 class LevelScales {
  public:
   double Of(const trial::DriveParams& drive) {
@@ -125,9 +129,9 @@ class LevelScales {
   std::map<std::string, double> scales_;
 };
 
-// What terrain makes of the scale of level sand, since rims go a longer way over rocks: 13.6 % less
-// in Viking Lander 2 terrain (results/gestalt.md), nothing without rocks, in proportion between; as
-// much of slopes, roughness and rocks of a list, where nobody knows.
+// Returns what terrain makes of the scale of level sand, since rims go a longer way over rocks:
+// 13.6 % less in Viking Lander 2 terrain (results/gestalt.md), nothing without rocks, in proportion
+// between. On slopes, rough ground and listed rocks nobody knows it; the 13.6 % are taken there.
 double ShareOfTerrain(const terrain::TerrainParams& terrain) {
   constexpr double kLess = 0.136;
   constexpr double kVikingLander2_per_m2 = 0.013;
@@ -137,7 +141,8 @@ double ShareOfTerrain(const terrain::TerrainParams& terrain) {
   return 1.0 - kLess * std::min(1.0, terrain.rocks.k_per_m2 / kVikingLander2_per_m2);
 }
 
-// 1 is the wheels' own distance. Navigators that keep away from rocks need the scale of level sand.
+// Doubts the scale of the odometer; 1 is the wheels' own distance. Navigators that keep away from
+// rocks need the scale of level sand.
 void DoubtOdometer(const trial::DriveParams& drive, LevelScales& scales,
                    std::vector<Problem>& doubts) {
   constexpr double kMore = 0.015;  // a tenth of a metre over the Pathfinder course
@@ -163,7 +168,7 @@ void DoubtOdometer(const trial::DriveParams& drive, LevelScales& scales,
                     "divide it by 1 + e / 100, where e is the median distance error of a run"});
 }
 
-// A word of the name, so that "marsupial" is none.
+// Returns whether "Mars" is a word of the name; "marsupial" is none.
 bool SaysMars(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -175,6 +180,7 @@ bool SaysMars(std::string name) {
 }
 
 void DoubtGravity(const scenario::Scenario& scenario, std::vector<Problem>& doubts) {
+  // The bound must agree with kBetween_m_s2 in doubts/sensing_doubts.cc.
   constexpr double kBetweenMarsAndEarth_m_s2 = 6.0;  // 3.72 and 9.81
   constexpr std::string_view kPath = "rover.physics.gravity_m_s2";
   const double gravity_m_s2 = scenario.drive.rover.physics.gravity_m_s2;
@@ -190,6 +196,7 @@ void DoubtSoil(const scenario::Scenario& scenario, std::vector<Problem>& doubts)
                     "write {\"preset\": \"mars_drift\"}, or state this one"});
 }
 
+// Returns what `accepted` of a scenario quotes, and TextOf begins with. Must stay: its form.
 std::string WhatOf(const Problem& doubt) { return fmt::format("{}: {}", doubt.path, doubt.reason); }
 
 std::vector<Problem> DoubtsWith(const scenario::Scenario& scenario, LevelScales& scales) {
@@ -223,7 +230,7 @@ std::vector<Problem> DoubtsOf(const std::filesystem::path& source,
 
 std::vector<Problem> DoubtsOf(const scenario::Sweep& sweep) {
   LevelScales scales;
-  std::map<std::string, std::pair<Problem, int>> found;  // by path: the first cell's, and how many
+  std::map<std::string, std::pair<Problem, int>> found;  // by path: the first, and how many
   for (const scenario::SweepCell& cell : sweep.cells) {
     for (Problem& doubt : DoubtsWith(cell.scenario, scales)) {
       const std::string path = doubt.path;

@@ -1,4 +1,5 @@
-// Values of a scenario that hardly suit each other.
+// Values of a scenario that hardly suit each other. Runs, sweeps and their dry runs warn of them
+// before they begin, and `validate` tells them.
 #pragma once
 
 #include <filesystem>
@@ -12,23 +13,30 @@
 
 namespace rockyard::campaign {
 
-// Each with the path of the value, what of it is doubtful, and what would be right. Only what the
-// scenario comes to counts, not who stated what: equal fingerprints, equal doubts. Of limits
-// against the course, mass and goal against size, the odometer's scale against the slip of these
-// wheels in this soil, gravity and sand of Earth against a name that says Mars; and of what
-// settings say of each other (doubts/setting_doubts.h). None that the scenario calls accepted, word
-// by word: of other numbers it is another doubt, and so is one whose path or reason is worded anew.
-// Doubts warn: they refuse nothing and change no record.
+// Returns what is doubtful in a scenario, each with the path of the value, what of it is doubtful,
+// and what would be right. Doubts warn: they refuse nothing and change no record. Only what the
+// scenario comes to counts, not who stated what: equal resolved scenarios have equal doubts.
+//
+// These rules of drives are held here: limits against the course, mass and goal radius against the
+// size of the rover, the odometer's scale against the slip of the wheels on their soil, and gravity
+// and sand of Earth against a name that says Mars. Rules that ask settings of each other are in
+// doubts/setting_doubts.h.
+//
+// A doubt is left out where the scenario's `accepted` holds its "path: reason" (WhatOf) to the
+// letter. Must stay: path and reason of every doubt, the form of its numbers included. Scenario
+// files quote them, and a doubt that is worded anew, or has other numbers, comes back.
 std::vector<core::Problem> Doubts(const scenario::Scenario& scenario);
 
-// Of a scenario file, or the folder of a run, with overrides. Throws core::UserError.
+// Returns the doubts of a scenario file, or of the run in a folder, with "PATH=VALUE" overrides.
+// Throws core::UserError.
 std::vector<core::Problem> DoubtsOf(const std::filesystem::path& source,
                                     std::span<const std::string> overrides);
 
-// Of the cells of a sweep, each laid over its base: one that several have is told of the first.
+// Returns the doubts of the cells of a sweep, each cell as it is run. Doubts of one path are told
+// as one: that of the first cell, and how many more there are.
 std::vector<core::Problem> DoubtsOf(const scenario::Sweep& sweep);
 
-// "path: what; what would be right".
+// Returns "path: reason; what would be right", for people.
 std::string TextOf(const core::Problem& doubt);
 
 }  // namespace rockyard::campaign

@@ -1,4 +1,5 @@
-// How a caller asks for an early end of work that takes long.
+// How a caller asks for an early end of work that takes long. The command line turns signals into
+// it; campaigns, reports and sequences of images heed it.
 #pragma once
 
 #include <atomic>
@@ -13,13 +14,14 @@ enum class SecondWish {
   kIsTheSame  // nothing more: somebody else (a supervisor, mpirun) decides when patience ends
 };
 
-// What is in flight ends and is stored; nothing more begins.
+// A wish for an early end: what is in flight ends and is stored; nothing more begins.
 struct Stop {
-  // Asked before the first and after every trial, by several threads at once; true: stop. Of a
-  // supervised campaign in its worker process, which has a copy of the caller's memory.
+  // Asked before the first and after every trial (or pair), by several threads at once; true: stop.
+  // For a supervised campaign it is called in the worker process, which has a copy of the caller's
+  // memory.
   std::function<bool()> wanted = {};
   // For a program that turns signals into wishes: called where work begins, in the process that
-  // does it. Whoever is asked there sets `flag`; what is returned is released when the work ends.
+  // does it. From then on a wish must set `flag`. What is returned is released when the work ends.
   std::function<std::shared_ptr<void>(std::atomic<bool>& flag, SecondWish second)> watch = {};
 
   bool IsWanted() const { return wanted && wanted(); }
@@ -28,7 +30,7 @@ struct Stop {
   }
 };
 
-// Listens while it lives. A second wish ends the process.
+// A wish that is listened for as long as the object lives. A second wish ends the process.
 class StopWish {
  public:
   explicit StopWish(const Stop& stop) : stop_(stop), watch_(stop.Watch(flag_, SecondWish::kEnds)) {}

@@ -27,7 +27,7 @@
 namespace rockyard::campaign {
 namespace {
 
-// Without the trial, which comes last.
+// Returns the words of the request without the trial, which comes last.
 std::string RequestWords(const TrialRequest& request) {
   std::string words = ShellPath(request.source);
   if (!request.cell.empty()) words += fmt::format(" --cell {}", ShellWord(request.cell));
@@ -120,8 +120,8 @@ std::vector<core::Problem> CompareWithStore(const TrialRequest& request, const T
 
 namespace {
 
-// Points are where the calibration that the rover believes puts them, as seen from its true pose: a
-// replay shows the error of a calibration beside the true rocks.
+// Records a drive. Points lie where the calibration that the rover believes puts them, as seen from
+// its true pose: so a replay shows the error of a calibration beside the true rocks.
 class Recorder {
  public:
   explicit Recorder(const scenario::Scenario& scenario)
@@ -144,7 +144,7 @@ class Recorder {
   }
 
  private:
-  // The trace grows while the trial runs: its end is the present.
+  // The present time: the end of the trace, which grows while the trial runs.
   double now_s() const { return recording_.traced.trace.now_s(); }
 
   void OnScan(const trial::WatchedScan& watched) {

@@ -1,4 +1,6 @@
-// One trial to run again: of a scenario, or of a finished run whose record it must repeat.
+// One trial to run again: of a scenario, or of a finished run whose record it must repeat; and
+// drives that are recorded. Replays, traces and the replays of reports find and drive their trials
+// here.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +18,6 @@
 
 namespace rockyard::campaign {
 
-// A drive that is driven again with somebody watching, and its plan view.
-
 // The course of one drive, and what the rover saw and chose on the way.
 struct DriveRecording {
   truth::TracedTrial traced;
@@ -26,7 +26,7 @@ struct DriveRecording {
   std::vector<replay::ReplayLook> looks;  // those that have images
 };
 
-// Most points of one step that are kept, evenly spread over those that the look gave.
+// The most points of one step that are kept, evenly spread over those that the look gave.
 inline constexpr std::size_t kMaxStepPoints = 120;
 
 // Drives the trial: a pure function of its arguments, with the record of the campaign, bit for bit.
@@ -36,17 +36,17 @@ inline constexpr std::size_t kMaxStepPoints = 120;
 DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t seed,
                            std::uint64_t trial);
 
-// Every moment of the recording in the order of time, with the angles of the rover's links.
+// Returns every moment of a recording in the order of time, with the angles of the rover's links.
 std::vector<replay::ReplayPose> PosesOf(const scenario::Scenario& scenario,
                                         const truth::Trace& trace);
 
-// An SVG file in the manner of Matthies 1995, figure 16: octagons at the positions and of the sizes
-// of rocks, true path solid, dead-reckoned path dotted, filled circles on both where obstacles were
-// detected, an x at start and goal. Rocks lie where they lay at the start. Cost: that of building
-// the terrain.
+// Returns an SVG file in the manner of Matthies 1995, figure 16: octagons at the positions and of
+// the sizes of rocks, true path solid, dead-reckoned path dotted, filled circles on both where
+// obstacles were detected, an x at start and goal. Rocks lie where they lay at the start. Cost:
+// that of building the terrain.
 std::string PlanView(const scenario::Scenario& scenario, const truth::TracedTrial& traced);
 
-// The trial, and what a finished run says of it.
+// A trial to run again, and what a finished run says of it.
 struct TrialSource {
   scenario::Scenario scenario;
   std::uint64_t seed = 1;
@@ -56,20 +56,21 @@ struct TrialSource {
   std::vector<std::string> builds;  // that wrote the run
 };
 
-// Throws core::UserError: no such scenario, run or trial, or --seed or --set with a run.
+// Finds the trial of a request. Throws core::UserError: no such scenario, run or trial, or --seed
+// or --set with a run.
 TrialSource FindTrial(const TrialRequest& request);
 
-// The same of a run that has been read already: the trial `stored` of `cell`, or nothing where it
-// is pending. `request` tells where they are from. Throws core::UserError where the scenario is of
-// another version of the program.
+// Returns the trial of a run that has been read already: the trial `stored` of `cell`; absent where
+// the trial is pending. `request` tells where run and cell are from. Throws core::UserError where
+// the scenario is of another version of the program.
 TrialSource StoredTrial(const TrialRequest& request, const batch::CellIdentity& cell,
                         std::vector<std::string> builds, std::optional<truth::Record> stored);
 
-// "rockyard replay ..." of that trial, as a shell reads it.
+// Returns "rockyard replay ..." for the trial, as a shell reads it.
 std::string ReplayCommandLine(const TrialSource& source, std::uint64_t trial);
 
-// Where `record` does not repeat the stored one, which must be there, and what to do then; nothing
-// where it does.
+// Returns where `record` does not repeat the stored one, which must be there, and what to do then;
+// nothing where it repeats it.
 std::vector<core::Problem> CompareWithStore(const TrialRequest& request, const TrialSource& source,
                                             const truth::RecordSchema& schema,
                                             const truth::Record& record);

@@ -1,5 +1,7 @@
 /// @file
-/// What pieces of work are asked alike, and what came of one.
+/// What pieces of work are asked alike, what a caller is told while they go on, and what came of
+/// them. Runs, sweeps, merges, checks, replays and reports share these types; the command line and
+/// programs read them. The library prints none of it.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +15,8 @@
 
 namespace rockyard::campaign {
 
-/// @file
-/// How work ended.
-
-/// The numbers are exit codes, of worker processes and of the command.
+/// How work ended. Must stay: the numbers, which are exit codes of worker processes and of the
+/// command; batch::kOverdueExit and batch::kShortExit are none of them.
 enum class Outcome {
   kDone = 0,           ///< all of it, and nothing differs
   kDiffers = 1,        ///< a comparison differs
@@ -26,9 +26,6 @@ enum class Outcome {
   kFailed = 5,         ///< a disk or the machine failed while running; what was finished is stored
   kInterrupted = 130,  ///< somebody asked for an early end; what was finished is stored
 };
-
-/// @file
-/// What a caller is told while work goes on. Nothing here is printed by this library.
 
 /// How much a note matters.
 enum class NoteKind {
@@ -42,15 +39,16 @@ struct Note {
   std::string text;  ///< whole sentences, one line
 };
 
-/// Everything is told when it comes up and may be left out: what work returns holds it, too. Of a
-/// supervised campaign it is told in the process where it comes up, which may be a worker: what is
-/// written there counts, what is kept in memory there does not come back.
+/// Whom work tells. Everything is told when it comes up, and each function may be left out, as what
+/// work returns holds it, too. A supervised campaign tells in the process where things come up,
+/// which may be a worker: what the observer writes there counts, what it keeps in memory there does
+/// not come back.
 struct Observer {
   std::function<void(const Note& note)> note = {};
   std::function<void(const std::vector<core::Problem>& problems)> problems = {};
 };
 
-/// Of progress.
+/// Which moment progress is told of.
 enum class Moment { kUnderWay, kEnd };
 
 /// What to do with a run that lies in the folder already. No choice deletes a store.
@@ -86,8 +84,8 @@ struct Account {
   TrialCounts trials;            ///< of a campaign
 };
 
-/// What came of a piece of work, whichever process did it. `problems` of kBadInput: what was wrong
-/// with the request; of other outcomes: what went wrong meanwhile.
+/// What came of a piece of work, whichever process did it. With kBadInput `problems` say what was
+/// wrong with the request, with other outcomes what went wrong meanwhile.
 struct WorkResult : Account {
   Outcome outcome = Outcome::kDone;
 };

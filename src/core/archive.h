@@ -1,5 +1,6 @@
-// The JSON side of parameter structs in one include: read, write, list and describe anything that
-// has `void Visit(core::FieldVisitor&)`.
+// The JSON side of parameter structs in one include: reads, writes, lists and describes anything
+// that has `void Visit(core::FieldVisitor&)`. Scenarios and sweeps, the files of tools and
+// conditions that try a parameter out use it.
 #pragma once
 
 #include <initializer_list>
@@ -12,8 +13,9 @@
 
 namespace rockyard::core {
 
-// Reads what `json` gives over the present values of `params`. Throws UserError with every problem;
-// `params` is then partly read. `others` are keys beside these that somebody else reads.
+// Reads the fields that `json` states into `params`; the others keep their values. Throws UserError
+// with every problem; `params` is then partly read. `others` are keys of `json` that another reader
+// takes.
 template <typename Params>
 void ReadParams(const JsonValue& json, Params& params,
                 std::initializer_list<std::string_view> others = {}) {
@@ -22,7 +24,7 @@ void ReadParams(const JsonValue& json, Params& params,
   reader.Finish();
 }
 
-// Every field of `params`.
+// Returns every field of `params`, as a JSON object.
 template <typename Params>
 JsonValue WriteParams(Params params) {
   FieldWriter writer;
@@ -30,7 +32,7 @@ JsonValue WriteParams(Params params) {
   return writer.Take();
 }
 
-// The fields of `params` with all that is known of them.
+// Returns the fields of `params` with all that is known of them.
 template <typename Params>
 FieldTable ListParams(Params params = {}) {
   FieldTable table;
@@ -38,7 +40,7 @@ FieldTable ListParams(Params params = {}) {
   return table;
 }
 
-// JSON Schema of a parameter struct.
+// Returns the JSON Schema of a parameter struct; its defaults are those of `Params{}`.
 template <typename Params>
 JsonValue SchemaOf(std::string_view title) {
   return MakeSchema(ListParams<Params>(), title);

@@ -1,5 +1,6 @@
 /// @file
-/// Contracts for programmer errors: EXPECT for preconditions, ENSURE for postconditions.
+/// Contracts for programmer errors: EXPECT for preconditions, ENSURE for postconditions. Every
+/// module states them.
 ///
 /// Active where ROCKYARD_CONTRACTS is defined (debug, sanitizer and test builds). A violation
 /// throws ContractViolation, so that a batch records it as a simulator fault with seed and index
@@ -17,7 +18,7 @@ class ContractViolation : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// Throws ContractViolation. For the macros below alone.
+/// Throws ContractViolation. Only the macros below call it.
 [[noreturn]] inline void FailContract(const char* kind, const char* condition, const char* file,
                                       int line) {
   throw ContractViolation(std::string(file) + ":" + std::to_string(line) + ": " + kind +
@@ -36,8 +37,8 @@ class ContractViolation : public std::logic_error {
   ((condition) ? void(0)  \
                : ::rockyard::core::FailContract("postcondition", #condition, __FILE__, __LINE__))
 #else
-/// The condition is compiled and never evaluated: what it names counts as used, and a build without
-/// contracts finds the same errors in it as one with them.
+/// Without contracts the condition is compiled and never evaluated: what it names counts as used,
+/// and the compiler finds the same errors in it as with contracts.
 #define EXPECT(condition) (false ? void(condition) : void(0))
 #define ENSURE(condition) (false ? void(condition) : void(0))
 #endif

@@ -34,7 +34,8 @@ UserError::UserError(std::string path, std::string reason, std::string suggestio
 
 namespace {
 
-// A trial that fails by one of these is left undone, to be run again; by any other code it is
+// Codes of a machine that is short or broken; IsMachineFailure adds EDQUOT. Campaigns depend on
+// them: a trial that fails by one of them is left undone, to be run again; by any other code it is
 // recorded as a simulator fault and stays one.
 constexpr std::array kShort = {std::errc::not_enough_memory,
                                std::errc::too_many_files_open,

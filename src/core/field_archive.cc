@@ -22,7 +22,7 @@ using Type = JsonValue::Type;
 
 constexpr std::size_t kMaxProblems = 100;
 constexpr std::size_t kLongestText = 10000;
-// Reals up to here are exact integers.
+// Whole reals up to here are exact integers.
 constexpr double kLargestExactInteger = 9007199254740992.0;
 
 std::string_view LastKey(std::string_view path) {

@@ -1,4 +1,5 @@
-// Parameter structs read from JSON, with all that is wrong with it, and written to it.
+// Reader and writer of parameter structs: from JSON, with all that is wrong with it, and to JSON.
+// Others include core/archive.h.
 #pragma once
 
 #include <initializer_list>
@@ -13,15 +14,15 @@
 
 namespace rockyard::core {
 
-// Missing keys leave their field as it is. Problems: wrong types, values out of bounds, unknown
-// names and keys (with the nearest right one), lists of a wrong length, and conditions that do not
-// hold. A condition is judged only where all fields of its group could be read, since it would
-// otherwise complain about a default. A field with a problem keeps its value. The names that a
-// Visit passes must outlive the reader (they are literals).
+// Reads a JSON object into a parameter struct. Missing keys leave their field as it is. Problems
+// are wrong types, values out of bounds, unknown names and keys (with the nearest right one), lists
+// of a wrong length, and conditions that do not hold. A condition is judged only where all fields
+// of its group could be read, since it would otherwise complain about a default. A field with a
+// problem keeps its value. The names that a Visit passes must outlive the reader (they are
+// literals).
 class FieldReader final : public FieldVisitor {
  public:
-  // `root` must outlive the reader.
-  // `others` are keys of the root that somebody else reads.
+  // `root` must outlive the reader. `others` are keys of the root that another reader takes.
   explicit FieldReader(const JsonValue& root, std::initializer_list<std::string_view> others = {});
 
   // Call after visiting: looks for unknown keys at the root. Throws UserError with all problems, if
@@ -54,19 +55,19 @@ class FieldReader final : public FieldVisitor {
     std::size_t problems_before = 0;
   };
 
-  // The input of a field, or nullptr where it is missing.
+  // Returns the input of a field, or nullptr where it is missing; notes the key as visited.
   const JsonValue* Take(std::string_view name);
   std::string Path(std::string_view name) const;
   void Add(std::string path, std::string reason, std::string suggestion);
   void AddWrongType(const std::string& path, std::string_view wanted, const JsonValue& value);
   void CheckUnknownKeys();
-  // True where `value` is a number within bounds, which then is in `out`.
+  // Returns true where `value` is a number within bounds, which then is in `out`.
   bool ReadReal(const std::string& path, const JsonValue& value, const FieldInfo& info,
                 double& out);
   bool ReadInteger(const std::string& path, const JsonValue& value, const FieldInfo& info,
                    std::int64_t& out);
   bool CheckBounds(const std::string& path, const JsonValue& value, const FieldInfo& info);
-  // The elements of a list of numbers; nothing where it is missing or wrong.
+  // Returns the elements of a list of numbers; nothing where it is missing or wrong.
   template <typename Element>
   std::optional<std::vector<Element>> ReadElements(std::string_view name, const FieldInfo& info);
 
@@ -75,15 +76,14 @@ class FieldReader final : public FieldVisitor {
   std::size_t problem_count_ = 0;  // including those beyond the list
 };
 
-// Writes parameter structs to a JSON object.
-
-// Every field in visiting order, angles in degrees chosen so that they read back to the same bits
-// (see ExactDegrees). Values must be finite.
+// Writes a parameter struct to a JSON object: every field in visiting order, angles in degrees
+// chosen so that they read back to the same bits (ExactDegrees). Fingerprints of scenarios depend
+// on order and digits (scenario/load.h). Values must be finite.
 class FieldWriter final : public FieldVisitor {
  public:
   FieldWriter();
 
-  // The object written; call once, after visiting.
+  // Returns the object written; call once, after visiting.
   JsonValue Take();
 
   void Real(std::string_view name, double& value, const FieldInfo& info) override;
@@ -95,7 +95,7 @@ class FieldWriter final : public FieldVisitor {
   void FixedReals(std::string_view name, std::span<double> values, const FieldInfo& info) override;
   void Integers(std::string_view name, std::vector<std::int64_t>& values,
                 const FieldInfo& info) override;
-  // Conditions are the reader's business.
+  // Does nothing: conditions are the reader's business.
   void Require(std::string_view name, bool holds, std::string_view reason,
                std::string_view suggestion) override;
 

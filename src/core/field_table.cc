@@ -77,7 +77,8 @@ JsonValue EmptyObjectSchema(std::string_view description) {
   return schema;
 }
 
-// The "properties" of the group at `path` below `root`, and the last key of the path.
+// Returns the "properties" of the group that holds `path` below `root`; `last_key` becomes the last
+// key of the path.
 JsonValue& PropertiesFor(JsonValue& root, std::string_view path, std::string_view& last_key) {
   JsonValue* schema = &root;
   while (true) {

@@ -1,5 +1,5 @@
-// Lists the parameters of a struct with all that is known of them: for JSON schemas, assumption
-// tables and experimental designs.
+// Lists the parameters of a struct with all that is known of them. JSON schemas, tables of
+// parameters, completion on command lines, sweeps and warnings on odd settings are made of it.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ enum class FieldKind { kReal, kAngle, kInteger, kBoolean, kText, kReals, kIntege
 struct ParameterInfo {
   std::string path;  // "terrain.ground.slope_deg"
   FieldKind kind = FieldKind::kReal;
-  JsonValue value;   // of the struct visited: its default where that is fresh
+  JsonValue value;   // of the struct visited: the default of a fresh struct
   std::string unit;  // from the name; "1" where it has none
   double min = 0.0;  // -infinity and infinity where unbounded
   double max = 0.0;
@@ -41,6 +41,7 @@ struct GroupInfo {
 
 std::string_view Name(Origin origin);  // "published", "calibrated", "assumed", "setting"
 
+// Collects the fields that a Visit lists.
 class FieldTable final : public FieldVisitor {
  public:
   const std::vector<ParameterInfo>& parameters() const { return parameters_; }
@@ -72,10 +73,10 @@ class FieldTable final : public FieldVisitor {
   std::vector<GroupInfo> groups_;
 };
 
-// One property per field with description, bounds, default, and the annotations "x-unit",
-// "x-origin", "x-source" and "x-study-range" where they are known. Unknown keys are not allowed
-// ("additionalProperties": false). Conditions across fields have no place in a schema: the reader
-// checks them. `table` must have visited default values.
+// Returns a schema with one property per field with description, bounds, default, and the
+// annotations "x-unit", "x-origin", "x-source" and "x-study-range" where they are known. Unknown
+// keys are not allowed ("additionalProperties": false). Conditions across fields have no place in a
+// schema: the reader checks them. `table` must have visited default values.
 JsonValue MakeSchema(const FieldTable& table, std::string_view title);
 
 }  // namespace rockyard::core

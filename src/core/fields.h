@@ -15,11 +15,12 @@
 ///     }
 ///   };
 ///
-/// Modules know neither JSON nor their siblings; core/archive.h holds the JSON side.
+/// Modules know neither JSON nor their siblings; core/archive.h holds the JSON side, on which
+/// loading, schemas and tables stand.
 ///
 /// A default decides the records of every scenario that leaves the field out, and the baselines
-/// made of them; a bound or a Require only refuses files. Key, place in Visit and value of each
-/// field enter the fingerprint by which stored runs are resumed (scenario/load.h).
+/// made of them; a bound or a Require only refuses files. Fingerprints, by which stored runs are
+/// resumed (scenario/load.h), depend on key, place in Visit and value of each field.
 #pragma once
 
 #include <cstddef>
@@ -63,22 +64,23 @@ struct Bounds {
   double high = kUnbounded;
 };
 
-/// A field by the origin of its default. `studied` is the range of study_low and study_high.
+/// Returns what is known of a field whose default is assumed. `studied` is the range of study_low
+/// and study_high.
 constexpr FieldInfo Assumed(std::string_view doc, std::string_view source, Bounds bounds = {},
                             Bounds studied = {0.0, 0.0}) {
   return {doc, bounds.low, bounds.high, Origin::kAssumed, source, studied.low, studied.high};
 }
-/// The same, of a default that `source` states.
+/// Returns the same of a field whose default `source` states.
 constexpr FieldInfo Published(std::string_view doc, std::string_view source, Bounds bounds = {},
                               Bounds studied = {0.0, 0.0}) {
   return {doc, bounds.low, bounds.high, Origin::kPublished, source, studied.low, studied.high};
 }
-/// The same, of a default that was fitted to the experiment of `source`.
+/// Returns the same of a field whose default was fitted to the experiment of `source`.
 constexpr FieldInfo Calibrated(std::string_view doc, std::string_view source, Bounds bounds = {},
                                Bounds studied = {0.0, 0.0}) {
   return {doc, bounds.low, bounds.high, Origin::kCalibrated, source, studied.low, studied.high};
 }
-/// The same, of a choice of the user: it claims nothing about the world.
+/// Returns the same of a choice of the user, which claims nothing about the world.
 constexpr FieldInfo Setting(std::string_view doc, Bounds bounds = {},
                             std::string_view source = {}) {
   return {doc, bounds.low, bounds.high, Origin::kSetting, source};
@@ -90,21 +92,21 @@ constexpr FieldInfo Setting(std::string_view doc, Bounds bounds = {},
 template <typename Enum>
 struct EnumNames;
 
-/// What a parameter struct lists its members to. Readers write into the references, all others
-/// leave them. `name` is the JSON key, a literal. Nothing is thrown: what is wrong is collected,
-/// and told at once by whoever sent the visitor.
+/// The visitor to which a parameter struct lists its members. Readers write into the references,
+/// all other visitors leave them. `name` is the JSON key, a literal. Nothing is thrown: what is
+/// wrong is collected, and told at once by whoever sent the visitor.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
 
-  /// A number, an integer, a yes or no, a text. Bounds of `info` are those of the value in JSON.
+  /// A number. Bounds of `info`, here and below, are those of the value in JSON.
   virtual void Real(std::string_view name, double& value, const FieldInfo& info) = 0;
   /// An angle: radians in the struct, degrees in JSON and in the bounds of `info`.
   virtual void Angle(std::string_view name, double& value_rad, const FieldInfo& info) = 0;
   virtual void Integer(std::string_view name, std::int64_t& value, const FieldInfo& info) = 0;
   virtual void Boolean(std::string_view name, bool& value, const FieldInfo& info) = 0;
   virtual void Text(std::string_view name, std::string& value, const FieldInfo& info) = 0;
-  /// A list whose length may vary, and one of fixed length.
+  /// A list of numbers whose length may vary, and one of fixed length.
   virtual void Reals(std::string_view name, std::vector<double>& values, const FieldInfo& info) = 0;
   virtual void FixedReals(std::string_view name, std::span<double> values,
                           const FieldInfo& info) = 0;
@@ -139,7 +141,7 @@ class FieldVisitor {
   }
 
  protected:
-  /// What Choice and Group are made of. `index` counts from 0 into `names`.
+  /// Choice, ChoiceOf and Group are made of these three. `index` counts from 0 into `names`.
   virtual void ChoiceIndex(std::string_view name, int& index,
                            std::span<const std::string_view> names, const FieldInfo& info) = 0;
   virtual void BeginGroup(std::string_view name, std::string_view doc) = 0;

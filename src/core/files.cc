@@ -65,7 +65,7 @@ std::string ReadWholeFile(const fs::path& path, std::size_t max_bytes, std::stri
                     fmt::format("has {} bytes, more than the {} allowed", size, max_bytes),
                     "check that this is the right file");
   }
-  // With a reason where it fails, which a stream does not have.
+  // std::fopen tells a reason where it fails, a stream does not.
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
   if (!file) FailToOpen(path, errno);
   std::string text(error ? 0 : size, '\0');
@@ -100,8 +100,8 @@ constexpr std::size_t kDigits = 16;
 // What SQLite puts beside a file that it writes.
 constexpr std::array<std::string_view, 3> kBeside = {"-journal", "-wal", "-shm"};
 
-// Names are random: to meet one that is taken is no chance. But each process that looks for
-// leftovers may take away what is not locked yet, and a job array has hundreds of them.
+// Names are random, so that a taken one is hardly ever met. But each process that looks for
+// leftovers may remove what is not locked yet, and a job array has hundreds of processes.
 constexpr int kAttempts = 100;
 
 [[noreturn]] void Throw(int reason, const fs::path& path) {
@@ -116,10 +116,11 @@ fs::path RandomName(const fs::path& target) {
   return fmt::format("{}{}{:016x}", target.string(), kMark, number);
 }
 
-// Whether this process has the lock and the name still leads to what it locked: a process that
-// looks for leftovers may have been faster.
+// Returns whether this process has the lock and the name still leads to what it locked: a process
+// that looks for leftovers may have been faster.
 bool LockNew(int descriptor, const fs::path& path) {
-  // File systems without locks give none; nobody takes anything for a leftover there.
+  // File systems without locks give none; nothing is taken for a leftover there
+  // (RemoveUnlessLocked).
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
   struct stat own {};
   struct stat named {};

@@ -1,4 +1,6 @@
-// Files of others, read whole; files of our own, that take their names when they are whole.
+// Files of others, which are read whole; and files and folders of our own, which take their names
+// when they are whole. Readers of JSON, images, cameras and paths use the first, stores of results
+// and writers of output the others.
 #pragma once
 
 #include <sys/types.h>
@@ -10,19 +12,17 @@
 
 namespace rockyard::core {
 
-// All bytes of a regular file, none of an empty one. `kind` says what to name instead of something
-// else: "a JSON file". Throws UserError: no such file, a folder, a device or a pipe, no permission,
-// more than `max_bytes` (before any is read), or an end before its size is read; MachineError where
-// no more files may be open.
+// Returns all bytes of a regular file. `kind` is what the user should have named: "a JSON file".
+// Throws UserError: no such file, a folder, a device or a pipe, no permission, more than
+// `max_bytes` (before any is read), or an end before its size is read; MachineError where no more
+// files may be open.
 std::string ReadWholeFile(const std::filesystem::path& path, std::size_t max_bytes,
                           std::string_view kind);
 
-// The same of a file of text: UTF-8, without the byte order mark that editors put before it. Throws
-// UserError, too, with the line, for bytes that are none, of which zero is one.
+// Returns the same of a file of text: UTF-8, without the byte order mark that editors put before
+// it. Throws UserError, too, with the line, for a byte that is no UTF-8 or zero.
 std::string ReadTextFile(const std::filesystem::path& path, std::size_t max_bytes,
                          std::string_view kind);
-
-// Files and folders that take their names when they are whole.
 
 // A new, empty file beside `target`, called <target>.tmp- and sixteen random hexadecimal digits. It
 // is made exclusively and follows no link, so that nobody can plant something in its place. While
@@ -41,15 +41,16 @@ class TemporaryFile {
   // -1 after Close.
   int descriptor() const { return descriptor_; }
 
-  // For a library that opens the file by its name. Releases the lock. Before that the caller must
-  // have claimed the folder, or another process may delete the file as the leftover of a dead one.
+  // Closes the file, for a library that opens it by its name, and releases the lock. Before that
+  // the caller must have claimed the folder, or another process may delete the file as the leftover
+  // of a dead one.
   void Close();
 
-  // Brings the file to the disk: what fails does so before Commit.
+  // Brings the file to the disk, so that what fails does so before Commit.
   void Sync();
 
-  // Brings the file to the disk, unless Sync has done so or it is closed (whoever wrote it has done
-  // so then), and gives it the name of the target. Once.
+  // Brings the file to the disk, unless Sync has done so or the file is closed (its writer has done
+  // so then), and gives it the name of the target. Call it once.
   void Commit();
 
  private:
@@ -60,10 +61,10 @@ class TemporaryFile {
   bool committed_ = false;
 };
 
-// The same for a folder, named in the same way.
+// The same for a folder, named as the files are.
 class TemporaryFolder {
  public:
-  // `permissions`: of which the umask takes away.
+  // The folder gets `permissions` less those that the umask takes away.
   explicit TemporaryFolder(std::filesystem::path target, mode_t permissions = 0777);
   // Removes the folder and all that is in it, unless it was committed.
   ~TemporaryFolder();
@@ -72,7 +73,8 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  // Gives it the name of the target. Once. EEXIST where something has that name by now.
+  // Gives the folder the name of the target. Call it once. Throws EEXIST where something has that
+  // name by now.
   void Commit();
 
  private:
@@ -82,17 +84,18 @@ class TemporaryFolder {
   bool committed_ = false;
 };
 
-// Whether the file system of its folder has names that are long enough for a temporary file of
-// `target`.
+// Returns whether the file system of its folder allows names that are long enough for a temporary
+// file of `target`.
 bool HasRoomForTemporary(const std::filesystem::path& target);
 
-// Whether a file or folder of that name is a temporary one for `target`, or lies beside one.
+// Returns whether a file or folder of that name is a temporary one for `target`, or one that SQLite
+// puts beside it.
 bool IsTemporaryOf(const std::filesystem::path& target, const std::filesystem::path& name);
 
 // Removes what processes that were killed have left beside `target`: temporary files and folders
-// for it that no living process has locked. Nothing else, and no link. What cannot be removed
-// stays; so does everything on file systems that know no locks. Cost: reads the names in the
-// folder.
+// for it that no living process has locked. It removes nothing else, and no link. What cannot be
+// removed stays; so does everything on file systems that know no locks. Cost: reads the names in
+// the folder.
 void RemoveLeftovers(const std::filesystem::path& target);
 
 }  // namespace rockyard::core

@@ -1,9 +1,9 @@
 // FNV-1a, 64 bit (Fowler, Noll and Vo): fingerprints of records and scenarios.
 //
 // Detects accidental differences (two different inputs agree with probability 2^-64); no protection
-// against anyone who looks for collisions. Stored runs, baselines and the kept hashes of first
-// trials hold its values, and seeds of sweep cells are made of them: neither the algorithm nor the
-// way in which texts and numbers enter may change.
+// against anyone who looks for collisions. Must stay: the algorithm, and the way in which texts and
+// numbers enter. Stored runs, baselines and the kept hashes of first trials hold the values, and
+// seeds of sweep cells are made of them.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,12 @@ namespace rockyard::core {
 class Hasher {
  public:
   Hasher& Bytes(std::span<const std::byte> bytes);
-  // The bytes alone, as the published test values want it.
+  // Takes the bytes alone, as the published test values want it.
   Hasher& RawText(std::string_view text);
-  // Length, then bytes: so that ("ab", "c") differs from ("a", "bc").
+  // Takes the length, then the bytes, so that ("ab", "c") differs from ("a", "bc").
   Hasher& Text(std::string_view text);
   Hasher& Integer(std::uint64_t value);
-  // By bits, so that 0.0 and -0.0 differ; all NaNs are one.
+  // Takes the bits, so that 0.0 and -0.0 differ; all NaNs are one.
   Hasher& Real(double value);
 
   std::uint64_t value() const { return state_; }
@@ -34,7 +34,7 @@ class Hasher {
   std::uint64_t state_ = 0xcbf29ce484222325ULL;  // FNV offset basis
 };
 
-// 16 lower-case digits.
+// Returns 16 lower-case hexadecimal digits.
 std::string Hex(std::uint64_t value);
 
 }  // namespace rockyard::core

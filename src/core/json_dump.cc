@@ -1,3 +1,4 @@
+// Writes JSON values as text (core/json_text.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 
 using Type = JsonValue::Type;
 
-// Most texts are: they need no library.
+// Most texts need no escapes, and so no library.
 bool StandsAsItIs(std::string_view text) {
   return std::all_of(text.begin(), text.end(),
                      [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; });
@@ -80,9 +81,9 @@ class Level {
   bool empty_ = true;
 };
 
-// What a text is for, which decides on plain lists and on the digits of reals. Fingerprints of
-// stored runs hash texts of the first kind, and files of the second are compared as text: neither
-// layout may change.
+// What a text is for, which decides on plain lists and on the digits of reals. Must stay: both
+// layouts. Fingerprints of stored runs hash texts of kReading, and files of kResults are compared
+// as text.
 enum class TextUse { kReading, kResults };
 
 class TextWriter {

@@ -19,11 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestChain = 16;
-// Files that each name several others multiply: bounds the memory of a mistaken or hostile input.
+// Most files of a document. Files that each name several others multiply: this bounds the memory of
+// a mistaken or hostile input.
 constexpr std::size_t kMaxFiles = 64;
+// The key that no kind of a scenario may have for its name (core/kind_set.cc).
 constexpr std::string_view kExtends = "extends";
 
-// "a" and "b" to "a.b".
+// Returns "a.b" of "a" and "b".
 std::string Join(std::string_view at, std::string_view key) {
   return at.empty() ? std::string(ShownKey(key)) : fmt::format("{}.{}", at, ShownKey(key));
 }
@@ -44,7 +46,7 @@ class ExtendsLoader {
     return value;
   }
 
-  // What stands inside of the value first, then what the value itself extends.
+  // Resolves what stands inside of the value first, then what the value itself extends.
   JsonValue Resolve(JsonValue value, const fs::path& folder, const std::string& at) {
     if (value.Is(JsonValue::Type::kList)) {
       JsonValue::List& items = value.list();
@@ -67,7 +69,7 @@ class ExtendsLoader {
   const std::vector<fs::path>& files() const { return files_; }
 
  private:
-  // One file, or a list of them of which each lies over the one before.
+  // Returns the object of one file, or of a list of files of which each lies over the one before.
   JsonValue LoadBases(const JsonValue& names, const fs::path& folder, const std::string& at) {
     if (!names.Is(JsonValue::Type::kList)) return LoadBase(names, folder, at);
     JsonValue merged = JsonValue::Object();
@@ -122,7 +124,7 @@ class ExtendsLoader {
   std::vector<fs::path> files_;  // all that were read
 };
 
-// The text as JSON, or nothing where it is none.
+// Returns the text as JSON, or nothing where it is none.
 std::optional<JsonValue> TryParse(std::string_view text) {
   try {
     return ParseJson(text, "value");

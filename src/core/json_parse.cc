@@ -1,3 +1,4 @@
+// Parses JSON text to values (core/json_text.h).
 #include <fmt/format.h>
 
 #include <cstddef>

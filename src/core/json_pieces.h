@@ -1,5 +1,6 @@
-// JSON text written piece by piece, on one line: a page of ten thousand trials holds a million
-// numbers, for which a tree of JsonValue would be many times the text.
+// JSON text written piece by piece, on one line, for pages of reports and replays: a page of ten
+// thousand trials holds a million numbers, for which a tree of JsonValue would be many times the
+// text.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +10,17 @@
 
 namespace rockyard::core {
 
-// The shortest decimal that reads back to the same bits, whole numbers without a point; null where
-// it is not finite.
+// Returns the shortest decimal that reads back to the same bits, whole numbers without a point;
+// null where `value` is not finite.
 std::string JsonNumber(double value);
 
-// The same with at most six significant digits.
+// Returns the number with at most six significant digits; null where it is not finite.
 std::string JsonSixDigits(double value);
 
-// [first,second,...] of values that are JSON already.
+// Returns [first,second,...] of values that are JSON already.
 std::string JsonList(std::span<const std::string> values);
 
-// The same of text(item) of each item.
+// Returns the list of text(item) of each item, which must be JSON.
 template <typename Items, typename Text>
 std::string JsonList(const Items& items, const Text& text) {
   std::string list(1, '[');
@@ -30,6 +31,7 @@ std::string JsonList(const Items& items, const Text& text) {
   return list + ']';
 }
 
+// Returns the list of these texts, each quoted.
 std::string JsonTexts(std::span<const std::string> texts);
 
 // An object, member by member.

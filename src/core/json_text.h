@@ -1,5 +1,5 @@
-// JSON text to values and back. Documents that are too large for a tree of values are written with
-// json_pieces.h.
+// JSON text to values and back, for every file and answer of the command in JSON. Documents that
+// are too large for a tree of values are written with json_pieces.h.
 #pragma once
 
 #include <cstddef>
@@ -23,25 +23,25 @@ struct JsonLimits {
 JsonValue ParseJson(std::string_view text, std::string_view source_name,
                     const JsonLimits& limits = {});
 
-// Pretty text, members in their order, lists of plain values on one line, doubles as the shortest
-// decimal that reads back to the same bits. Numbers must be finite. Ends with a newline.
-// Fingerprints of stored runs hash this text (scenario/load.h): its layout stays.
+// Returns pretty text: members in their order, lists of plain values on one line, doubles as the
+// shortest decimal that reads back to the same bits. Numbers must be finite. Ends with a newline.
+// Must stay: the layout. Fingerprints of stored runs hash this text (scenario/load.h).
 std::string DumpJson(const JsonValue& value);
 
-// A text as JSON, with its quotes. What is no UTF-8 becomes U+FFFD, one for each bad byte or
-// sequence.
+// Returns a text as JSON, with its quotes. What is no UTF-8 becomes U+FFFD, one for each bad byte
+// or sequence.
 std::string QuoteJson(std::string_view text);
 
 inline constexpr int kAllLevels = std::numeric_limits<int>::max();
 
-// Text for result files: the outer `levels` of lists and objects have a line for each value, what
-// lies deeper stands without blanks. Reals read back to the same bits; they keep the digits that
-// result files have always had (Grisu2), of which 1 number in 2500 has one more than the shortest
-// decimal. What is not finite becomes null. No newline at the end.
+// Returns text for result files: the outer `levels` of lists and objects have a line for each
+// value, deeper ones stand without blanks. Reals read back to the same bits. Must stay: their
+// digits, those that result files have always had (Grisu2), of which 1 number in 2500 has one more
+// than the shortest decimal. What is not finite becomes null. No newline stands at the end.
 std::string SpreadJson(const JsonValue& value, int levels = kAllLevels);
 inline std::string CompactJson(const JsonValue& value) { return SpreadJson(value, 0); }
 
-// One line for messages, cut to about 60 characters.
+// Returns one line for messages; texts are cut to 60 characters, lists and objects are only named.
 std::string Abbreviate(const JsonValue& value);
 
 }  // namespace rockyard::core

@@ -8,8 +8,8 @@
 
 namespace rockyard::core {
 
-// Not by the variant's own copy: in libstdc++ 12 that destroys what was never made where a text or
-// a list finds no memory.
+// The variant's own copy must not be used: in libstdc++ 12 it destroys what was never made where a
+// text or a list finds no memory.
 JsonValue::JsonValue(const JsonValue& other) {
   const auto copy = [this](const auto& value) {
     data_.emplace<std::remove_cvref_t<decltype(value)>>(value);

@@ -1,4 +1,4 @@
-// A JSON value in memory: what the archive reads from and writes to.
+// A JSON value in memory, of which files are read and results and answers are written.
 #pragma once
 
 #include <concepts>
@@ -15,17 +15,18 @@ namespace rockyard::core {
 
 struct JsonMember;
 
-// Objects keep the order of their members, and their keys are unique.
+// A null, boolean, number, text, list or object. Objects keep the order of their members, and their
+// keys are unique.
 class JsonValue {
  public:
   using List = std::vector<JsonValue>;
   using Members = std::vector<JsonMember>;
-  // In the order of Type.
+  // Must have the order of Type: type() is the index.
   using Data = std::variant<std::monostate, bool, std::int64_t, double, std::string, List, Members>;
   enum class Type { kNull, kBoolean, kInteger, kReal, kText, kList, kObject };
 
   JsonValue() = default;
-  // std::bad_alloc leaves the value as it was.
+  // Where memory ends, std::bad_alloc leaves the value as it was.
   JsonValue(const JsonValue& other);
   JsonValue(JsonValue&& other) noexcept = default;
   JsonValue& operator=(const JsonValue& other);
@@ -38,13 +39,13 @@ class JsonValue {
   explicit JsonValue(std::string_view value);
   explicit JsonValue(const char* value);
   explicit JsonValue(List values);
-  // Up to the largest std::int64_t.
+  // `value` must not exceed the largest std::int64_t.
   template <std::integral Integer>
   requires(!std::same_as<Integer, bool>) explicit JsonValue(Integer value);
 
   static JsonValue Object();
-  // Of members in their order; no two may have the same key. They are copied: large values are
-  // better moved in with Set.
+  // Returns an object of these members in their order; no two may have the same key. They are
+  // copied: large values are better moved in with Set.
   static JsonValue Object(std::initializer_list<JsonMember> members);
 
   Type type() const { return static_cast<Type>(data_.index()); }
@@ -59,17 +60,17 @@ class JsonValue {
   List& list() { return std::get<List>(data_); }
   const Members& members() const { return std::get<Members>(data_); }
   Members& members() { return std::get<Members>(data_); }  // keys must stay unique
-  // An integer or a real.
+  // Returns an integer or a real, as a real.
   double number() const;
 
-  // Member of an object; nullptr where there is none or where this is no object.
+  // Returns a member of an object; nullptr where there is none or where this value is no object.
   const JsonValue* Find(std::string_view key) const;
   JsonValue* Find(std::string_view key);
 
   // Replaces or appends a member; a value that is no object becomes one. Returns the member.
   JsonValue& Set(std::string_view key, JsonValue value);
 
-  // Appends a member whose key is known to be new.
+  // Appends a member to an object, whose key is known to be new.
   void Append(std::string key, JsonValue value);
 
   // Sets every member of another object.
@@ -98,7 +99,7 @@ template <std::integral Integer>
 requires(!std::same_as<Integer, bool>) JsonValue::JsonValue(Integer value)
     : JsonValue(static_cast<std::int64_t>(value)) {}
 
-// A list of plain values.
+// Returns a list of plain values.
 template <typename Values>
 JsonValue ListOf(const Values& values) {
   JsonValue::List list;
@@ -107,7 +108,7 @@ JsonValue ListOf(const Values& values) {
   return JsonValue(std::move(list));
 }
 
-// A list of to_json(value) of each value.
+// Returns a list of to_json(value) of each value.
 template <typename Values, typename ToJson>
 JsonValue ListOf(const Values& values, const ToJson& to_json) {
   JsonValue::List list;
@@ -116,13 +117,13 @@ JsonValue ListOf(const Values& values, const ToJson& to_json) {
   return JsonValue(std::move(list));
 }
 
-// null where it is not finite, which JSON has no number for.
+// Returns null where `value` is not finite, which JSON has no number for.
 JsonValue NumberOrNull(double value);
 
-// Nothing where it is no list of texts.
+// Returns the texts of a list; nothing where `list` is no list of texts.
 std::optional<std::vector<std::string>> TextsIn(const JsonValue& list);
 
-// "a list", "a number", ... for messages.
+// Returns "a list", "a number", ... for messages.
 std::string_view Describe(JsonValue::Type type);
 
 }  // namespace rockyard::core

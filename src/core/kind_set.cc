@@ -16,7 +16,7 @@ bool IsKey(std::string_view name) {
   });
 }
 
-// Every object of a scenario may have it.
+// Every object of a scenario may have this key (kExtends of core/json_file.cc).
 constexpr std::string_view kInEveryGroup = "extends";
 
 }  // namespace

@@ -1,6 +1,6 @@
 /// @file
-/// A set of kinds of one thing, such as navigators: each with a name that a scenario can choose and
-/// with parameters of its own.
+/// A set of kinds of one thing, each with a name that a scenario can choose and with parameters of
+/// its own: the navigators, the estimators and the terrain sensors.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,8 @@ struct NoParams {
   void Visit(FieldVisitor& /*v*/) {}
 };
 
-/// One of a set, whatever its parameters. A base of it has Clone() too, which returns a pointer to
-/// that base.
+/// A kind of a set, whatever its parameters. The Base of a KindSet derives from it and adds
+/// Clone(), which returns a pointer to that Base.
 class Kind {
  public:
   /// Literals: the name, and what the group of its parameters is for.
@@ -58,8 +58,8 @@ class Kind {
   std::string_view doc_;
 };
 
-/// Apart from how the thing is made, which needs the whole of it: who reads parameters sees no more
-/// of it than its name.
+/// A kind with its parameters, and without how its thing is made: code that reads parameters need
+/// not include the thing.
 template <typename Base, typename Params>
 struct KindWithParams : Base {
   /// Name and doc are literals, as of Kind.
@@ -77,12 +77,13 @@ struct KindWithParams : Base {
 void RequireNewKind(const KindSetWords& words, std::span<const std::string_view> names,
                     std::string_view name);
 
-/// The place of a name. Throws UserError where it is not there.
+/// Returns the place of a name. Throws UserError where it is not there.
 int FindKind(const KindSetWords& words, std::span<const std::string_view> names,
              std::string_view name);
 
-/// A value: a copy has parameters of its own. The first kind that is added is chosen until another
-/// one is. Resolved scenarios list the kinds in the order in which they were added.
+/// A set of kinds. A value: a copy has parameters of its own. The first kind that is added is
+/// chosen until another one is. Fingerprints of scenarios depend on the order in which kinds are
+/// added, as resolved scenarios list them so.
 template <typename Base>
 class KindSet {
  public:
@@ -116,7 +117,7 @@ class KindSet {
   /// Returns the kind that is chosen. Requires at least one kind.
   const Base& chosen() const { return *kinds_.at(static_cast<std::size_t>(chosen_)); }
 
-  /// The parameters of the kind that has such; there must be one.
+  /// Returns the parameters of the kind that has such; there must be one.
   template <typename Params>
   Params& params() {
     return Find<KindWithParams<Base, Params>>(*this).params;

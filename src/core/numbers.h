@@ -1,4 +1,4 @@
-// Values of double that many computations name.
+// NaN and infinity of double, under the names that statistics, reports and tools use.
 #pragma once
 
 #include <limits>

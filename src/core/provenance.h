@@ -1,4 +1,5 @@
-// What made a result: source, compiler and machine.
+// What made a result: source, compiler and machine. Stored runs, traces, reports and output folders
+// keep it, and `rockyard --version` tells it.
 #pragma once
 
 #include <string>
@@ -19,10 +20,10 @@ struct Provenance {
   int cpu_threads = 1;    // that this machine runs at once
 };
 
-// Of this program on this machine. Nothing in a trial record depends on it.
+// Returns the provenance of this program on this machine. Nothing in a trial record depends on it.
 Provenance CurrentProvenance();
 
-// "rockyard 0.1.0 (commit 0123456789ab, GNU 12.2.0, Release)"
+// Returns "rockyard 0.1.0 (commit 0123456789ab, GNU 12.2.0, Release)".
 std::string VersionLine();
 
 }  // namespace rockyard::core

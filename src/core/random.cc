@@ -20,7 +20,7 @@ std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> counter,
   return {out[0], out[1], out[2], out[3]};
 }
 
-// Every record depends on this layout of key and counter; a test pins it.
+// Must stay: this layout of key and counter, on which every record depends; a test pins it.
 RandomStream::RandomStream(TrialKey key, Purpose purpose, std::uint32_t substream)
     : key_{static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32)},
       counter_{0, substream, static_cast<std::uint32_t>(purpose), key.trial} {}

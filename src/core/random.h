@@ -1,9 +1,14 @@
-// Counter-based random numbers, Philox 4x32-10 (Salmon et al. 2011; Random123), and samplers.
+// Counter-based random numbers, Philox 4x32-10 (Salmon et al. 2011; Random123), and samplers. All
+// that is random is drawn here: terrain, sensors, experiments, resampling and designs.
 //
 // A stream is named by what it is for, never by when it is used, so that adding a sensor or a scan
 // shifts nobody's noise. The key is the campaign seed; the counter holds the trial, the purpose,
 // the substream (scan number, step number, rock number, ...) and the block within the substream.
-// The navigator is no part of it: different navigators meet the same rocks and the same noise.
+// The navigator is part of neither: different navigators meet the same rocks and the same noise.
+//
+// Samplers take a RandomStream and invert the CDF: one uniform each (Poisson may take more),
+// portable across standard libraries, unlike std::*_distribution. Every record depends on how many
+// uniforms a sampler takes and on its last bits: both must stay.
 #pragma once
 
 #include <array>
@@ -11,7 +16,7 @@
 
 namespace rockyard::core {
 
-// Never renumber: the values are part of every stored result. Append only.
+// What a stream is for. Never renumber: the values are part of every stored result. Append only.
 enum class Purpose : std::uint32_t {
   kRockCount = 1,
   kRockSize = 2,
@@ -60,17 +65,19 @@ enum class Purpose : std::uint32_t {
   kRadioBeacon = 49,
   kLanderMap = 50,     // of the lander's stereo pair, for planning a route
   kVisualMotion = 51,  // the error of a visual odometry step, where no images are matched
-  // Of the coloured cylinder before the lander's cameras: what stands around it, the ground's
-  // texture (substream octave, by node), noise of pixels (substream image and channel).
+  // These three draw the scene of the coloured cylinder before the lander's cameras: what stands
+  // around it, the ground's texture (substream octave, by node), noise of pixels (substream image
+  // and channel).
   kCylinderScene = 55,
   kCylinderGround = 56,
   kCylinderNoise = 57,
 };
 
-// Raw Philox 4x32-10 bijection of one counter under one key.
+// Returns the raw Philox 4x32-10 bijection of one counter under one key.
 std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> counter,
                                         std::array<std::uint32_t, 2> key);
 
+// Names the streams of one trial: the seed of its campaign and its number.
 struct TrialKey {
   std::uint64_t seed = 1;
   std::uint32_t trial = 0;
@@ -84,7 +91,8 @@ class RandomStream {
 
   std::uint32_t NextU32();
   std::uint64_t NextU64();
-  // Uniform on (0, 1): 52 random bits, centred in their cell, so 0 and 1 cannot occur.
+  // Returns a uniform number on (0, 1): 52 random bits, centred in their cell, so 0 and 1 cannot
+  // occur.
   double Uniform();
 
  private:
@@ -94,18 +102,14 @@ class RandomStream {
   int next_ = 4;
 };
 
-// Samplers built on RandomStream by inverse CDF: one uniform each (Poisson may take more), portable
-// across standard libraries, unlike std::*_distribution. How many they take, and their last bits,
-// are part of every record.
-
-// Value below which a chi-squared number of `degrees` >= 1 degrees of freedom lies with probability
-// p, 0 <= p < 1 (Boost.Math).
+// Returns the value below which a chi-squared number of `degrees` >= 1 degrees of freedom lies with
+// probability p, 0 <= p < 1 (Boost.Math).
 double ChiSquaredQuantile(double p, int degrees);
 
 // Uniform on (low, high).
 double SampleUniform(RandomStream& stream, double low, double high);
 
-// Value below which a standard normal number lies with probability p, 0 < p < 1.
+// Returns the value below which a standard normal number lies with probability p, 0 < p < 1.
 double NormalQuantile(double p);
 
 // Normal by inverse CDF (Boost.Math erf_inv in double precision), one uniform.

@@ -1,4 +1,4 @@
-// Errors as values.
+// Errors as values: what campaign and vision return where an input can be wrong.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace rockyard::core {
 
-// A value, or everything that was wrong with what it was to be made of.
+// A value, or everything that is wrong with its input.
 template <typename Value>
 class Result {
  public:
@@ -31,7 +31,7 @@ class Result {
   const Value& operator*() const { return value_.value(); }
   const Value* operator->() const { return &value_.value(); }
 
-  // The value; throws UserError where there is none.
+  // Returns the value; throws UserError where there is none.
   Value OrThrow() && {
     if (!ok()) throw UserError(std::move(problems_));
     return *std::move(value_);
@@ -42,7 +42,7 @@ class Result {
   std::vector<Problem> problems_;
 };
 
-// What `action` returns, or the problems of the UserError that it throws.
+// Returns what `action` returns, or the problems of the UserError that it throws.
 template <typename Action>
 auto Attempt(Action&& action) -> Result<std::invoke_result_t<Action>> {
   try {

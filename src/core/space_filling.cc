@@ -14,7 +14,7 @@ RandomStream DesignStream(std::uint64_t seed, std::size_t substream) {
   return {{.seed = seed}, Purpose::kDesign, static_cast<std::uint32_t>(substream)};
 }
 
-// Fisher and Yates.
+// Returns a random permutation (Fisher and Yates).
 std::vector<std::size_t> Permutation(std::size_t size, RandomStream& stream) {
   std::vector<std::size_t> order(size);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -25,7 +25,7 @@ std::vector<std::size_t> Permutation(std::size_t size, RandomStream& stream) {
   return order;
 }
 
-// The upper 53 bits as a fraction: exact, and below 1.
+// Returns the upper 53 bits as a fraction: exact, and below 1.
 double Fraction(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Unit {
   std::string_view text;   // for people
 };
 
-// A token that is added gives a unit to every name that ends in it.
+// Units by the tokens of names. A token that is added gives a unit to every name that ends in it.
 constexpr std::array<Unit, 37> kUnits = {{{"m", "m"},
                                           {"m2", "m2"},
                                           {"m3", "m3"},
@@ -58,7 +58,7 @@ constexpr std::array<Unit, 37> kUnits = {{{"m", "m"},
                                           {"mn1", "m^(n+1)"},
                                           {"mn2", "m^(n+2)"}}};
 
-// Empty where the token names no unit.
+// Returns an empty text where the token names no unit.
 std::string_view UnitText(std::string_view token) {
   const auto* found = std::find_if(kUnits.begin(), kUnits.end(),
                                    [token](const Unit& unit) { return unit.token == token; });

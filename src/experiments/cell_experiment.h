@@ -1,11 +1,19 @@
-// What experiments have in common that measure rather than drive: cells, and the records of their
-// runs.
+// What the experiments have in common that measure rather than drive to a goal: cells, and the
+// records of their runs. Each of them derives from CellExperiment, missions and three-rock runs,
+// which have one cell, included.
 //
-// A run is a block of scenes of one cell, a combination of the values of its factors. Run i belongs
-// to cell i modulo their number, so that every prefix of the runs covers the cells evenly.
+// Words: a factor is a list of a scenario, a cell is one combination of the values of all factors,
+// a scene is one independent measurement (a view, a walk, a look, ...) with a random key of its
+// own, and a run is a block of scenes of one cell. Run i belongs to cell i modulo their number, so
+// that every prefix of the runs covers the cells evenly. Its record holds the cell's factors, then
+// counts and sums, so that the records of a cell add up. Its outcome is `measured`.
 //
-// Names and order of the columns are part of a stored run: where one is renamed, moved or added,
-// the run cannot be resumed, and it has another hash.
+// The sums of an experiment list their columns themselves: ForEachColumn(sums, visit) calls
+// visit(column, value) for every column in the order of the records, `column` being a
+// truth::ValueInfo. It is one list for the schema (ColumnsOf) and for the values (ValuesOf).
+//
+// Must stay: names and order of the columns, which are part of a stored run. Where one is renamed,
+// moved or added, the run cannot be resumed, and it has another hash.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +34,9 @@
 
 namespace rockyard::experiments {
 
-// The record that `measure` gives of the trial's key. What it throws comes back as a simulator
-// fault, but for failures of the machine, which tell nothing of the trial: they are thrown on.
+// Returns the record that `measure` gives of the trial's key. What `measure` throws comes back as a
+// simulator fault, but for failures of the machine, which tell nothing of the trial: they are
+// thrown on. The experiment `drive` uses it, too.
 template <typename Measure>
 truth::Record RecordOf(std::uint64_t seed, std::uint64_t index, const Measure& measure) {
   try {
@@ -41,8 +50,8 @@ truth::Record RecordOf(std::uint64_t seed, std::uint64_t index, const Measure& m
   }
 }
 
-// A key of its own for every scene of every run, so that nothing that lasts from scan to scan
-// (outliers that persist) links two scenes. Throws std::out_of_range where 32 bits end.
+// Returns a key of its own for every scene of every run, so that nothing that lasts from scan to
+// scan (outliers that persist) links two scenes. Throws std::out_of_range where 32 bits end.
 inline core::TrialKey SceneKey(core::TrialKey run, std::int64_t scenes_per_run,
                                std::int64_t scene) {
   const std::uint64_t number =
@@ -70,7 +79,7 @@ class CellTable {
     return columns;
   }
 
-  // Values of the factors in one cell; the last factor changes fastest.
+  // Returns the values of the factors in one cell; the last factor changes fastest.
   std::vector<double> Values(std::size_t cell) const {
     std::vector<double> values(factors_.size());
     for (std::size_t i = factors_.size(); i-- > 0;) {
@@ -86,18 +95,14 @@ class CellTable {
   std::size_t size_ = 1;
 };
 
-// What a cell is measured by lists its columns itself: ForEachColumn(sums, visit) calls
-// visit(column, value) for every column in the order of the records, `column` being a
-// truth::ValueInfo. One list for the schema and for the values.
-
-// The factors that may name a cell, then the columns of Sums.
+// Returns `factors`, then the columns of Sums.
 template <typename Sums>
 truth::RecordSchema ColumnsOf(truth::RecordSchema factors = {}, const Sums& sums = {}) {
   ForEachColumn(sums, [&](const truth::ValueInfo& column, double) { factors.push_back(column); });
   return factors;
 }
 
-// Their values, after those of `before`.
+// Returns `before`, then the values of the columns of `sums`.
 template <typename Sums>
 std::vector<double> ValuesOf(const Sums& sums, std::vector<double> before = {}) {
   ForEachColumn(sums, [&](const truth::ValueInfo&, double value) { before.push_back(value); });
@@ -115,7 +120,8 @@ struct ErrorSums {
   }
 };
 
-// Visits the two columns of an error of `of`: <name>_bias<ending> and <name>_error<ending>.
+// Visits the two columns of an error: <name>_bias<ending> and <name>_error<ending>, with the unit,
+// meaning and base of `like`.
 template <typename Visitor>
 void VisitError(const std::string& name, const std::string& ending, const truth::ValueInfo& like,
                 const ErrorSums& sums, const Visitor& visit) {
@@ -130,13 +136,14 @@ class CellExperiment : public Experiment {
  public:
   const truth::RecordSchema& schema() const final { return schema_; }
 
-  // Its record holds the number of the cell, its factors and what Measure gives; its outcome is
+  // Returns a record of the number of the cell, its factors and what Measure gives; the outcome is
   // `measured`.
   truth::Record Run(std::uint64_t seed, std::uint64_t index) const final;
 
  protected:
-  // `known`: every column that such a record may have but the number of the cell. `measured`: names
-  // of those that follow the factors; by default all that are no factors.
+  // `known` are all columns that a record of the experiment may have but the number of the cell.
+  // `measured` are the names of the columns that follow the factors, in the order in which Measure
+  // gives them; by default all that are no factors.
   CellExperiment(std::vector<CellFactor> factors, const truth::RecordSchema& known);
   CellExperiment(std::vector<CellFactor> factors, const truth::RecordSchema& known,
                  const std::vector<std::string_view>& measured);
@@ -144,8 +151,8 @@ class CellExperiment : public Experiment {
   const CellTable& table() const { return table_; }
 
  private:
-  // What a block of scenes of one cell gives. A pure function of its arguments; it draws under keys
-  // made of `key` alone (SceneKey).
+  // Returns the values of the measured columns for a block of scenes of one cell. Must be a pure
+  // function of its arguments, and draw under keys made of `key` alone (SceneKey).
   virtual std::vector<double> Measure(std::size_t cell, core::TrialKey key) const = 0;
 
   CellTable table_;

@@ -1,5 +1,6 @@
 /// @file
-/// What one run of an experiment is: a pure function from (seed, index) to a record.
+/// What one run of an experiment is: a pure function from (seed, index) to a record. Campaigns run
+/// experiments through this interface, and `api` gives it to other programs.
 #pragma once
 
 #include <cstdint>

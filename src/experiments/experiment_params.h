@@ -1,7 +1,8 @@
-// Which experiment a scenario asks for, and the parameters of each: the one list of experiments.
+// Which experiment a scenario asks for, and the parameters of each: the one list of experiments, a
+// part of every scenario.
 //
-// A new experiment has a folder beside this file with its parameters, columns and conditions; of
-// the files that there are, it is named in this one and in make_experiment.cc.
+// A new experiment has a folder beside this file with its parameters, columns and conditions. This
+// file and make_experiment.cc have to name it, no other.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@
 
 namespace rockyard::experiments {
 
-// What one run of the experiment is. Scenario files and stored runs hold the names, so that these
-// stay.
+// What one run of the experiment is. Must stay: the names, as scenario files and stored runs hold
+// them.
 enum class ExperimentKind {
   kDrive,             // the closed-loop drive to a goal
   kHazardDetection,   // what the light stripe sensor sees and misses
@@ -57,8 +58,8 @@ struct ExperimentParams {
   CylinderSightingParams cylinder_sighting;
   MissionParams mission;
 
-  // Lists the field "experiment", and the group of each experiment that has parameters of its own,
-  // in the group that is being visited.
+  // VisitKind lists the field "experiment", VisitGroups the group of each experiment that has
+  // parameters of its own; both in the group that is being visited.
   void VisitKind(core::FieldVisitor& v) {
     v.Choice("experiment", kind, core::Setting("what one run is"));
   }
@@ -73,7 +74,7 @@ struct ExperimentParams {
     v.Group("mission", mission, "the experiment of that name");
   }
 
-  // What the experiment in use asks of the drive.
+  // Requires of the drive what the experiment in use asks.
   void RequireConsistency(const trial::DriveParams& drive, core::FieldVisitor& v) const {
     const bool stripes =
         kind == ExperimentKind::kHazardDetection || kind == ExperimentKind::kThreeRockRun;

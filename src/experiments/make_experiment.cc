@@ -46,8 +46,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
   throw std::logic_error("unknown experiment");
 }
 
-// The name is all by which a store's column is known: one that is renamed has no role in stored
-// runs any more. Where experiments know equally many, the first of the list counts.
+// A store's column is known by its name alone: a column that is renamed has no role in stored runs
+// any more. Where experiments know equally many names, the first of the list counts.
 truth::RecordSchema WithRoles(truth::RecordSchema stored) {
   const truth::RecordSchema* best = nullptr;
   std::ptrdiff_t most = 0;

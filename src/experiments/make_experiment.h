@@ -1,4 +1,5 @@
-// How an experiment is made of its parameters, and what its columns are.
+// How an experiment is made of its parameters, for campaigns, dry runs, replays and `api`; and the
+// roles of its columns, for stores.
 #pragma once
 
 #include <memory>
@@ -16,9 +17,9 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
                                            const trial::DriveParams& drive,
                                            const trial::Watchers& watchers = {});
 
-// The schema of a store, which keeps names and no roles, with the roles of its columns: those of
-// the experiment that knows the most of the names. A column that it does not know (any more) stays
-// a value, which cells do not add up.
+// Returns the schema of a store, which keeps names and no roles, with the roles of its columns:
+// those of the experiment that knows the most of the names. A column that this experiment does not
+// know (any more) stays a value, which cells do not add up.
 truth::RecordSchema WithRoles(truth::RecordSchema stored);
 
 }  // namespace rockyard::experiments

@@ -23,7 +23,7 @@ GateAnswer Gate::Ask(double mahalanobis_squared, int values) {
     turned_away_ = 0;
     return GateAnswer::kIn;
   }
-  // In a row: one good measurement in between shows that the filter is not lost.
+  // Only measurements in a row count: a good one between them shows that the filter is not lost.
   ++turned_away_;
   if (patience_ == 0 || turned_away_ < patience_) return GateAnswer::kOut;
   turned_away_ = 0;
@@ -32,7 +32,7 @@ GateAnswer Gate::Ask(double mahalanobis_squared, int values) {
 
 namespace {
 
-// The mean of d d', where d leads from the station to the rover, as it was believed before the
+// Returns the mean of d d', where d leads from the station to the rover as believed before the
 // reading.
 Eigen::Matrix2d BelievedPlace_m2(const messages::BeaconReading& reading,
                                  const messages::LocalizationEstimate& believed) {
@@ -91,8 +91,8 @@ messages::PoseFix HeadingFromSun(const messages::SunSighting& sighting,
   fix.measured.set(kHeading);
   fix.pose[kHeading] =
       math::WrapAngle(std::atan2(sun_W.y(), sun_W.x()) - std::atan2(sun_L.y(), sun_L.x()));
-  // cos(elevation) = level, tan(elevation) = tangent. By the almanac's elevation, as the
-  // weight of a fix must not depend on its own error.
+  // cos(elevation) = level, tan(elevation) = tangent, of the almanac: the weight of a fix must not
+  // depend on its own error.
   const double across_rad = sighting.direction_sd_rad / level;
   const double tilt_rad = tilt_sd_rad * tangent;
   fix.covariance(kHeading, kHeading) = across_rad * across_rad + tilt_rad * tilt_rad;

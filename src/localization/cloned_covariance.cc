@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Rounding makes the two halves drift apart.
+// Makes a matrix symmetric again: rounding lets its two halves drift apart.
 MatrixXd Symmetric(const MatrixXd& matrix) { return 0.5 * (matrix + matrix.transpose()); }
 
 }  // namespace

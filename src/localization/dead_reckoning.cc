@@ -18,7 +18,7 @@ double ForwardStep(const messages::PoseEstimate& before, const messages::PoseEst
 }
 
 void AttitudeEstimator::Filter(const math::Vector3& force_R, double duration_s) {
-  // The first measurement, or no filter: taken as it is.
+  // The first measurement is taken as it is, and every one where there is no filter.
   if (!force_R_ || params_.filter_s <= 0.0) {
     force_R_ = force_R;
     return;
@@ -49,7 +49,7 @@ void AttitudeEstimator::Integrate(const messages::VehicleState& state, double fo
 
 namespace {
 
-// The mean of the wheels' turns as if all had the same radius, rad.
+// Returns the mean of the wheels' turns as if all had wheel_radius_m, rad.
 double MeanRoll(const messages::MotionMeasurement& motion,
                 const messages::DriveCalibration& calibration, OdometryWheels wheels) {
   const bool all_steered = std::all_of(calibration.steered.begin(), calibration.steered.end(),
@@ -83,7 +83,7 @@ double ForwardIncrement(const messages::MotionMeasurement& motion,
 
 void Advance(double forward_m, double turn_rad, StepHeading step_heading,
              messages::PoseEstimate& pose) {
-  // Midpoint: exact to second order on an arc. The paper's equations use the heading at the start.
+  // The midpoint is exact to second order on an arc; Matthies 1995 takes the heading at the start.
   const double along_rad =
       pose.heading_rad + (step_heading == StepHeading::kMidpoint ? 0.5 * turn_rad : 0.0);
   pose.x_m += forward_m * std::cos(along_rad);

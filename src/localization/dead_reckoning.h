@@ -1,15 +1,24 @@
-// Dead reckoning: roll, pitch and height from accelerometers; the pose from wheels and gyro.
+// Dead reckoning: the pose from wheels and gyro; roll, pitch and height from accelerometers and the
+// distance driven. It is an estimator of its own; the other estimators on board build on its parts,
+// and so does the experiment that measures how the error of dead reckoning grows.
 //
-// At rest the specific force f points up. With R turned by heading, pitch and roll as in
+// Pose (Matthies 1995, section 5): x += dr cos(h), y += dr sin(h), heading += dtheta, with dr the
+// mean wheel increment times the believed wheel radius and the distance scale, dtheta the
+// integrated gyro rate, and h the heading at the middle or at the start of the step. When the rover
+// turns in place the increments of left and right wheels cancel in the mean. Must stay: the
+// error-state filter goes on by ForwardIncrement and Advance as well, so that without aids its pose
+// is that of DeadReckoning to the last bit.
+//
+// Attitude: at rest the specific force f points up. With R turned by heading, pitch and roll as in
 // math::MakePose, its direction is (-sin p, sin r cos p, cos r cos p), so that
 //   pitch = atan2(-f_x, |(f_y, f_z)|),  roll = atan2(f_y, f_z),
 // of f after a first-order low pass, f += (1 - exp(-dt / filter_s)) (f_now - f). Height grows by
 // the distance driven times the sine of the climb: z -= dr sin(pitch).
 //
-// Errors that follow: the rover's own acceleration a looks like a tilt of atan(a / g), for about
-// filter_s; a constant bias b of an accelerometer is a tilt of b / g and, at z, a slope of the same
-// size for ever; the estimate lags behind by filter_s, 2.5 cm at 5 cm/s; z keeps what slip,
-// believed wheel radius and wheels that climb in turn make of it, and has nothing that pulls it
+// Errors of the attitude: the rover's own acceleration a looks like a tilt of atan(a / g), for
+// about filter_s; a constant bias b of an accelerometer is a tilt of b / g and a lasting slope of
+// the same size in z; roll and pitch lag behind by filter_s, 2.5 cm at 5 cm/s; z keeps what slip, a
+// wrong wheel radius and wheels that climb one after the other make of it, and nothing pulls it
 // back.
 #pragma once
 
@@ -36,11 +45,10 @@ class AttitudeEstimator {
   explicit AttitudeEstimator(const AttitudeParams& params) : params_(params) {}
 
   // Takes one on-board tick of duration_s > 0, in which odometry drove forward_m (negative
-  // backwards). Without accelerometers in `state`, or without any force, the attitude stays what it
-  // was.
+  // backwards). Roll and pitch stay what they were where `state` has no accelerometers or no force.
   void Integrate(const messages::VehicleState& state, double forward_m, double duration_s);
 
-  // Forgets what the filter holds, after operators moved the rover; the height stays.
+  // Forgets the filtered force, after operators moved the rover; the height stays.
   void Restart() { force_R_.reset(); }
 
   const messages::AttitudeEstimate& estimate() const { return estimate_; }
@@ -53,23 +61,16 @@ class AttitudeEstimator {
   messages::AttitudeEstimate estimate_;
 };
 
-// Dead reckoning from wheel encoders and gyro (Matthies 1995, section 5). The error-state filter
-// goes on by the same free functions, so that without aids it is this to the last bit:
-//   x += dr cos(h), y += dr sin(h), heading += dtheta
-// with dr the mean wheel increment times the believed wheel radius and the distance scale, dtheta
-// the integrated gyro rate, and h the heading at the middle or at the start of the step. When the
-// rover turns in place the increments of left and right wheels cancel in the mean.
-
 // Returns the distance dr of one tick, m: the mean of the wheels' turns times believed radius and
 // distance scale. A wheel at (x, y) that rolls along an arc about (0, R) goes forward by the turn
-// times R - y, whatever its x: with steering taken into account the mean over both sides is the arc
-// of the rover's origin.
+// times R - y, whatever its x: with steering taken into account (OdometryWheels::kForward) the mean
+// over both sides is the arc of the rover's origin.
 double ForwardIncrement(const messages::MotionMeasurement& motion,
                         const messages::DriveCalibration& calibration,
                         const DeadReckoningParams& params);
 
-// Lays a step of forward_m and turn_rad off. Headings stay within [-pi, pi]; the odometer counts
-// driving backwards as well.
+// Moves `pose` on by a step of forward_m and turn_rad. Headings stay within [-pi, pi]; the odometer
+// counts driving backwards as well.
 void Advance(double forward_m, double turn_rad, StepHeading step_heading,
              messages::PoseEstimate& pose);
 
@@ -82,8 +83,7 @@ class DeadReckoning {
   // Adds one on-board tick. Headings stay within [-pi, pi].
   void Integrate(const messages::MotionMeasurement& motion);
 
-  // Takes an absolute correction from outside (lander update, arena reflection). The odometer
-  // keeps.
+  // Takes the pose that operators tell (lander update, arena reflection). The odometer stays.
   void Apply(const messages::PoseUpdate& update);
 
   const messages::PoseEstimate& estimate() const { return estimate_; }
@@ -94,9 +94,8 @@ class DeadReckoning {
   messages::PoseEstimate estimate_;
 };
 
-// Dead reckoning and attitude as flown: wheels and gyro for the pose in the plane, accelerometers
-// for roll and pitch, nothing else. It keeps no account of its error and takes no aids; operators
-// tell it where it is.
+// The estimator as flown: pose by dead reckoning, attitude by accelerometers, nothing else. It
+// keeps no account of its error and takes no aids; operators tell it where it is.
 class DeadReckoningEstimator final : public Estimator {
  public:
   explicit DeadReckoningEstimator(const EstimatorSetup& setup);
@@ -108,7 +107,7 @@ class DeadReckoningEstimator final : public Estimator {
   const messages::LocalizationEstimate& estimate() const override { return estimate_; }
 
  private:
-  // Nothing corrects the pose, so that both frames are one.
+  // Takes over the pose into both frames of the estimate, which are one as nothing corrects it.
   void TakePose();
 
   DeadReckoning dead_reckoning_;
@@ -117,7 +116,8 @@ class DeadReckoningEstimator final : public Estimator {
   messages::LocalizationEstimate estimate_;
 };
 
-// Named dead_reckoning; its parameters are those of the setup.
+// Describes the estimator that scenarios name dead_reckoning; its parameters are those of the
+// setup.
 EstimatorDescription<core::NoParams> DescribeDeadReckoning();
 
 }  // namespace rockyard::localization

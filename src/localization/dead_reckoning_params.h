@@ -1,8 +1,8 @@
 /// @file
 /// Parameters of dead reckoning, and of the attitude that the rover believes.
 ///
-/// They belong to `perception` and are handed to every estimator, not to one. A default decides the
-/// records of every scenario that leaves it out; a bound only refuses files.
+/// They stand in the group `perception` of a scenario and are handed to every estimator. Records
+/// depend on a default in every scenario that leaves its parameter out; a bound only refuses files.
 #pragma once
 
 #include <array>
@@ -48,14 +48,14 @@ struct AttitudeParams {
 
 /// Whose encoders give the distance.
 enum class OdometryWheels {
-  kAll,  ///< mean of all six; too long on arcs, where corner wheels run wider circles: 1 to 4 %
-         ///< on those of Rocky 3.2, 27 % on the tightest of GESTALT with the Athena SDM
+  kAll,  ///< mean of all six; too long on arcs, where corner wheels run wider circles: by 1 to 4 %
+         ///< on arcs of Rocky 3.2, by 27 % on the tightest arc of GESTALT with the Athena SDM
   kUnsteered,  ///< mean of the wheels that are not steered: exact on arcs
   kForward,    ///< mean over all six of what they roll times the cosine of their steering angle:
                ///< exact on arcs where all wheels are steered
 };
 
-/// The heading along which a step's distance is laid off.
+/// The heading along which the distance of a step is driven.
 enum class StepHeading {
   kMidpoint,  ///< half of the step's turn is added first
   kStart,     ///< the heading at the start of the step, as in the equations of section 5

@@ -20,6 +20,7 @@ using messages::PoseVector;
 
 double Squared(double value) { return value * value; }
 
+// The deviations are listed in the order of error::Row.
 ErrorMatrix PriorCovariance(const ErrorStateFilterParams& params,
                             const std::optional<LanderFrame>& lander) {
   const PriorParams& prior = params.prior;
@@ -31,7 +32,7 @@ ErrorMatrix PriorCovariance(const ErrorStateFilterParams& params,
   return deviations.cwiseAbs2().asDiagonal();
 }
 
-// Angles that differ by whole turns are one.
+// Brings the angles of a difference within [-pi, pi].
 PoseVector Wrapped(PoseVector difference) {
   for (const int angle : {error::kRoll, error::kPitch, error::kHeading}) {
     difference[angle] = math::WrapAngle(difference[angle]);
@@ -41,8 +42,8 @@ PoseVector Wrapped(PoseVector difference) {
 
 void Add(const PoseVector& change, PoseVector& pose) { pose = Wrapped(pose + change); }
 
-// `remembered` of the errors that a night leaves as they were, `prior` of those that begin anew,
-// which have nothing in common with any other.
+// Returns the covariance after a night: `remembered` for the errors that a night leaves as they
+// were, `prior` for the errors that begin anew, which are independent of all others.
 ErrorMatrix AfterNight(const ErrorMatrix& remembered, const ErrorMatrix& prior) {
   constexpr std::array kKept{error::kX,         error::kY,          error::kHeading,
                              error::kGyroScale, error::kWheelScale, error::kPan};
@@ -100,8 +101,8 @@ TickNoise ErrorStateFilter::NoiseOf(const messages::MotionMeasurement& motion,
 
 void ErrorStateFilter::Propagate(const messages::MotionMeasurement& motion) {
   const double forward_m = ForwardIncrement(motion, calibration_, dead_reckoning_) * wheel_scale_;
-  // What the gyro's model makes of its reading: turn = scale * true turn + bias * time. Scales of 1
-  // and a bias of 0, as before the first aid, leave every bit of dead reckoning.
+  // The gyro's model is reading = scale * true turn + bias * time. Scales of 1 and a bias of 0, as
+  // before the first aid, leave every bit of dead reckoning.
   const double turn_rad = (motion.turn_rad - gyro_bias_rad_s_ * motion.duration_s) / gyro_scale_;
   const double share = dead_reckoning_.step_heading == StepHeading::kMidpoint ? 0.5 : 0.0;
   const TickNoise noise = NoiseOf(motion, forward_m);
@@ -136,8 +137,8 @@ void ErrorStateFilter::Place(const messages::PoseUpdate& update) {
   EndStretch();
   ErrorMatrix before = errors_.now();
   if (update.mirrored) {
-    // Across the line, about it and in the gyro's sense of it everything changes its sign; what the
-    // sensors themselves get wrong does not.
+    // Errors of y, roll and heading change their sign against all others; what the sensors get
+    // wrong stays as it is.
     ErrorVector sign = ErrorVector::Ones();
     for (const int mirrored : {error::kY, error::kRoll, error::kHeading}) sign[mirrored] = -1.0;
     before = sign.asDiagonal() * before * sign.asDiagonal();
@@ -165,7 +166,7 @@ void ErrorStateFilter::Place(const messages::PoseUpdate& update) {
 EstimatorMemory ErrorStateFilter::Remember() const {
   ErrorMatrix covariance = errors_.now();
   if (!stretch_.empty()) {
-    // What the stretch so far adds, of which nothing else is told until its end.
+    // What the stretch so far adds, which errors_ gets only at its end.
     const ErrorMatrix& transition = stretch_.transition();
     covariance = transition * covariance * transition.transpose() + stretch_.noise();
   }
@@ -177,7 +178,7 @@ EstimatorMemory ErrorStateFilter::Remember() const {
 }
 
 void ErrorStateFilter::Capture(messages::CaptureNumber capture) {
-  // A clone is of now, not of the last stretch's end.
+  // A clone has to be of this moment, not of the last stretch's end.
   EndStretch();
   errors_.Clone(capture);
   moments_[capture] = PoseNow();
@@ -260,8 +261,9 @@ AidUse ErrorStateFilter::TakeMotion(const messages::RelativeMotion& motion,
   return believed ? AidUse::kUsed : AidUse::kUsedInDoubt;
 }
 
-// A motion says nothing of where the rover was at first. A heading that went wrong by e_h leads the
-// way since the second moment, d, astray: e_x = -d_y e_h, e_y = d_x e_h.
+// A motion says nothing of where the rover was at its first moment, which is not doubted. A heading
+// that went wrong by e_h leads the way since the second moment, d, astray: e_x = -d_y e_h,
+// e_y = d_x e_h.
 void ErrorStateFilter::DoubtWheels(const messages::RelativeMotion& motion,
                                    const PoseVector& difference) {
   const PoseVector& second = moments_.at(motion.to);
@@ -274,7 +276,7 @@ void ErrorStateFilter::DoubtWheels(const messages::RelativeMotion& motion,
   };
   std::vector<ClonedCovariance::Part> parts{{std::nullopt, by_error(PoseNow())}};
   for (const auto& [capture, pose] : moments_) {
-    // Numbers rise with time: what lay before the motion is not in doubt by it.
+    // Numbers rise with time: a motion puts no moment before it in doubt.
     if (capture > motion.from) parts.push_back({capture, by_error(pose)});
   }
   errors_.Inflate(parts, difference.cwiseAbs2().asDiagonal().toDenseMatrix());
@@ -292,7 +294,7 @@ AidUse ErrorStateFilter::Take(const Residual& residual, const PoseVector& doubt)
     case GateAnswer::kDoubtYourself: {
       use = AidUse::kUsedInDoubt;
       PoseVector variances = doubt.cwiseAbs2();
-      // A place is mostly wrong because the heading was on the way to it.
+      // A place is mostly wrong because the heading was wrong on the way to it.
       const double way_m = way_m_ - residual.kind->believed_at_m;
       if (residual.of_place && way_m > 0.0) {
         const double off_rad = std::hypot(doubt[error::kX], doubt[error::kY]) / way_m;

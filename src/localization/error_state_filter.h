@@ -1,21 +1,21 @@
 // Error-state extended Kalman filter: dead reckoning as flown carries the pose on, the filter keeps
-// account of its error, and aids correct pose and sensors by what they tell of it.
+// account of the pose's error, and aids correct pose and sensors by what they tell of that error.
+// Of rockyard's own estimators it alone takes fixes.
 //
 // Believed are position, attitude, gyro bias and scale, and wheel scale; their errors
 // (error_state.h) grow as error_stretch.h says. The covariance is carried on every `stretch_m` of
-// way and before a measurement, not each tick, so that estimate().covariance is as old as the last
-// of these. A measurement of moments that were captured (one, or two with a motion between them)
-// corrects the state of now and of every kept moment (cloned_covariance.h). aid_fixes.h says
-// which are believed.
+// way and before a measurement, not each tick, so that estimate().covariance is that of the last
+// such moment. A measurement of moments that were captured (one, or two with a motion between them)
+// corrects the present state and every kept moment (cloned_covariance.h). aid_fixes.h says which
+// measurements are believed.
 //
-// Goals, and the fixes of the mast that designates them, are wrong by one pan angle. It is one of
-// the errors: a fix in the lander's frame tells of pose and pan together, one in the world frame
-// (sun, beacon) of the pose alone, so that both at once tell the pan. estimate().pose is the
-// rover's pose in the lander's frame, in which its goal was told, estimate().world that in the
-// world's.
+// Goals, and the fixes of the mast that designates them, are wrong by one pan angle, which is one
+// of the errors. A fix in the lander's frame tells of pose and pan together, a fix in W (sun,
+// beacon) of the pose alone, so that both at once tell the pan. estimate().pose is the rover's pose
+// in the lander's frame, in which its goal was told; estimate().world is its pose in W.
 //
-// Roll and pitch come from accelerometers; a correction of them is forgotten along the way as their
-// errors are. Corrections of bias and scales bend the way that is laid off afterwards, in the
+// Roll and pitch come from accelerometers; a correction of roll and pitch fades along the way as
+// their errors do. Corrections of bias and scales bend the way that is driven afterwards, in the
 // odometry frame as well, which never jumps.
 //
 // Limits: errors are small (heading errors below some 0.5 rad: the equations are linear in them,
@@ -38,13 +38,14 @@
 
 namespace rockyard::localization {
 
+// The filter as an estimator.
 class ErrorStateFilter final : public Estimator {
  public:
   ErrorStateFilter(const ErrorStateFilterParams& params, const EstimatorSetup& setup);
 
   void Propagate(const messages::MotionMeasurement& motion) override;
   void Feel(const messages::VehicleState& felt, double duration_s) override;
-  // A told place is as good as the prior says; of a mirrored one the error is mirrored. What is
+  // A told place is as good as the prior says; a mirrored place has the mirrored error. What is
   // known of the sensors stays.
   void Place(const messages::PoseUpdate& update) override;
 
@@ -56,19 +57,19 @@ class ErrorStateFilter final : public Estimator {
   const messages::LocalizationEstimate& estimate() const override { return estimate_; }
   EstimatorMemory Remember() const override;
 
-  // What is believed of the sensors.
+  // Return what is believed of the sensors.
   double gyro_bias_rad_s() const { return gyro_bias_rad_s_; }
   double gyro_scale() const { return gyro_scale_; }    // measured over true turn
   double wheel_scale() const { return wheel_scale_; }  // true over rolled way
   double pan_rad() const { return pan_rad_; }          // of the lander's frame, in W
-  // The covariance of all that is kept account of, of the last stretch's end.
+  // Returns the covariance of all rows of the error, at the end of the last stretch.
   ErrorMatrix covariance() const { return errors_.now(); }
 
  private:
-  // What there is of each kind of fix.
+  // What is kept of one kind of fix.
   struct Kind {
     Gate gate;
-    double believed_at_m = 0.0;  // of the way, the last one
+    double believed_at_m = 0.0;  // way_m_ at the last fix that was believed
   };
   // One measurement: r = sum of the parts' jacobians times errors, and noise.
   struct Residual {
@@ -79,8 +80,8 @@ class ErrorStateFilter final : public Estimator {
     Kind* kind = nullptr;
   };
 
-  // Begins with what is known of place, heading and scales. A gyro that is switched on has a new
-  // bias; roll, pitch and height are of the new day.
+  // Begins with what was known of pan, scales and the errors of place and heading. A gyro that is
+  // switched on has a new bias; roll, pitch and height begin anew.
   void Recall(const EstimatorMemory& memory);
   messages::PoseVector PoseNow() const;
   // A pose of W in the frame of a fix, and how an error of pose and pan shows there.
@@ -94,13 +95,13 @@ class ErrorStateFilter final : public Estimator {
   // Carries the covariance on over the stretch so far.
   void EndStretch();
   AidUse Take(const Residual& residual, const messages::PoseVector& doubt);
-  // Of a motion whose residual in W is `difference`.
+  // Takes a motion whose residual in W is `difference`.
   AidUse TakeMotion(const messages::RelativeMotion& motion, const Residual& residual,
                     const messages::PoseVector& difference);
-  // Between the two moments the pose may have gone wrong by `difference`.
+  // Makes the errors larger: between the two moments the pose may have gone wrong by `difference`.
   void DoubtWheels(const messages::RelativeMotion& motion, const messages::PoseVector& difference);
   void Correct(const Eigen::MatrixXd& changes);
-  // What estimate() says of the pose, and of its covariance as of the last stretch.
+  // Bring estimate() up to date: its poses, and its covariance at the end of the last stretch.
   void TellPose();
   void TellCovariance();
 
@@ -109,8 +110,8 @@ class ErrorStateFilter final : public Estimator {
   DeadReckoningParams dead_reckoning_;
   std::optional<LanderFrame> lander_;
   AttitudeEstimator attitude_;
-  // Of fixes by what they measure in which frame: what the sun says of the heading is no word for
-  // the place, nor a coarse beacon one for the mast.
+  // Kinds of fixes, by what they measure in which frame: a sun that is right about the heading must
+  // not excuse a wrong place, nor a coarse beacon the mast.
   std::map<unsigned long, Kind> kinds_;
   Kind motions_;
 
@@ -133,7 +134,7 @@ class ErrorStateFilter final : public Estimator {
   messages::LocalizationEstimate estimate_;
 };
 
-// Named error_state.
+// Describes the estimator that scenarios name error_state.
 EstimatorDescription<ErrorStateFilterParams> DescribeErrorStateFilter();
 
 }  // namespace rockyard::localization

@@ -1,6 +1,7 @@
-// Parameters of the error-state filter: what it takes itself to know of its sensors. The simulated
-// sensors have parameters of their own (sensors.gyro and others); where a scenario changes one of
-// these, nothing makes the filter's belief follow.
+// Parameters of the error-state filter: how well it believes to know its sensors. The simulated
+// sensors have parameters of their own (sensors.gyro and others); where a scenario changes a
+// simulated sensor, nothing makes the filter's belief follow. Meanings and sources stand in the
+// .cc.
 #pragma once
 
 #include <array>
@@ -36,7 +37,7 @@ struct DriftParams {
   double tilt_sd_rad = math::DegToRad(1.0);
   double tilt_length_m = 0.1;
 
-  // Of a gyro that moves, in time, rad2/s.
+  // Returns the growth of the heading's variance in time, while the rover moves, rad2/s.
   double heading_variance_rad2_per_s() const {
     const double rad_per_deg = math::DegToRad(1.0);
     return heading_variance_deg2_per_m * rad_per_deg * rad_per_deg * reference_speed_m_s;
@@ -45,6 +46,7 @@ struct DriftParams {
   void Visit(core::FieldVisitor& v);
 };
 
+// Which measurements are believed (aid_fixes.h).
 struct GateParams {
   double chance = 1e-3;
   std::int64_t patience = 3;
@@ -54,10 +56,11 @@ struct GateParams {
 
 // What the filter makes of a motion between two moments that is too far from what it believes.
 enum class MotionDisagreement {
-  kDoubtWheels,  // wheels and gyro went wrong in between by as much: they slip, it is shaken
-  kTurnAway,     // what was seen is wrong; the way back is the gate's
+  kDoubtWheels,  // takes the motion: wheels slipped, or the gyro was shaken, by the difference
+  kTurnAway,     // takes the motion for wrong, however many are turned away in a row
 };
 
+// All parameters of the filter.
 struct ErrorStateFilterParams {
   PriorParams prior{};
   DriftParams drift{};

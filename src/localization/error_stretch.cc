@@ -5,7 +5,7 @@
 namespace rockyard::localization {
 namespace {
 
-// What one tick makes of the errors: the rows of A that are not those of the unit matrix.
+// What one tick makes of the errors: the rows in which its transition A is not the unit matrix.
 struct TickRows {
   TickRows(const MotionTick& tick, double kept)
       : across_x(-tick.forward_m * std::sin(tick.along_rad)),
@@ -19,8 +19,8 @@ struct TickRows {
         turn_share(tick.turn_share),
         tilt_kept(kept) {}
 
-  // M <- A M, row by row; a row is changed after those that need it as it was: place before heading
-  // and pitch.
+  // M <- A M, row by row. The order must stay: rows of the place need those of heading and pitch as
+  // they were, and are changed first.
   template <typename Matrix>
   void Apply(Matrix&& M) const {
     const auto turn = (turn_bias * M.row(error::kGyroBias) +  //
@@ -43,7 +43,7 @@ struct TickRows {
   double tilt_kept;
 };
 
-// What a tick's own noise adds to the covariance.
+// Adds what the noise of one tick contributes to the covariance N.
 void AddTickNoise(const MotionTick& tick, const TickNoise& noise, ErrorMatrix& N) {
   const double c = std::cos(tick.along_rad);
   const double s = std::sin(tick.along_rad);

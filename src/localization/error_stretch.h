@@ -1,8 +1,9 @@
-// How the error of dead reckoning grows over a stretch of some ticks, gathered tick by tick and
-// handed to the covariance at once.
+// How the error of dead reckoning grows over a stretch of some ticks: the error-state filter
+// gathers it tick by tick and hands it to its covariance at the end of the stretch.
 //
-// With the believed increments dr = dr_wheels (1 + w) and dh = (turn - b dt) / k laid off along
-// a = h + share dh (share 1/2 at the middle of the step, 0 at its start), the errors go on as
+// The believed increments are dr = dr_wheels (1 + w) and dh = (turn - b dt) / k, with gyro bias b,
+// gyro scale k and wheel scale 1 + w; the step is driven along a = h + share dh (share 1/2: middle
+// of the step, 0: its start). The errors go on as
 //   dh:  e_h += -dt/k e_b - dh/k e_k + n_h
 //   x:   e_x += -dr sin(a) e_a + cos(a) (dr / (1 + w) e_w + n_r),   e_a = e_h + share (step of e_h)
 //   y:   e_y +=  dr cos(a) e_a + sin(a) (dr / (1 + w) e_w + n_r)
@@ -10,9 +11,9 @@
 //   tilt: e_roll, e_p <- c e + n_t
 // (Matthies 1995, section 5, linearized about what is believed). The tilt's error is a first-order
 // Gauss-Markov process along the way: accelerometers tell the tilt anew everywhere, but
-// neighbouring places have much in common. The stretch's error is F e + n with covariance N of n;
-// both are built up exactly to first order, whatever the number of ticks, but for the tilt's noise
-// at both ends of a tick.
+// neighbouring places have much in common. The error after the stretch is F e + n with covariance N
+// of n. F and N are exact to first order for any number of ticks, but for the tilt's noise at both
+// ends of a tick.
 #pragma once
 
 #include "localization/error_state.h"
@@ -31,7 +32,7 @@ struct MotionTick {
   double wheel_scale = 1.0;  // 1 + w
 };
 
-// Variances that this tick adds.
+// Variances that one tick adds.
 struct TickNoise {
   double heading_rad2 = 0.0;  // of n_h
   double distance_m2 = 0.0;   // of n_r
@@ -41,6 +42,7 @@ struct TickNoise {
   double tilt_rad2 = 0.0;     // variance of the tilt's error where it is stationary
 };
 
+// F and N of the ticks since Restart.
 class ErrorStretch {
  public:
   ErrorStretch() { Restart(); }
@@ -48,7 +50,6 @@ class ErrorStretch {
   void Add(const MotionTick& tick, const TickNoise& noise);
   void Restart();
 
-  // Of the ticks since Restart.
   const ErrorMatrix& transition() const { return transition_; }  // F
   const ErrorMatrix& noise() const { return noise_; }            // N
   double way_m() const { return way_m_; }                        // sum of |dr|

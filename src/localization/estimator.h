@@ -1,5 +1,7 @@
 /// @file
-/// Where the rover believes to be, whatever it is worked out from.
+/// The interface of every estimator: where the rover believes to be, whatever it is worked out
+/// from. The on-board side of a drive carries one estimator on, aids correct it, and missions keep
+/// its memory from sol to sol. Programs that bring an estimator of their own derive from it.
 #pragma once
 
 #include <optional>
@@ -13,59 +15,61 @@
 
 namespace rockyard::localization {
 
-/// What an estimator of the same kind begins with when the computer is switched on again, at the
-/// place where the rover stood. Odometer, roll, pitch and height begin anew, and data that aids
-/// took before are of no use any more.
+/// What an estimator keeps while the computer is off; an estimator of the same kind begins with it
+/// (EstimatorSetup::memory) at the place where the rover stood. Odometer, roll, pitch and height
+/// begin anew, and data that aids took before are of no use any more.
 struct EstimatorMemory {
   math::Pose2 pose;  ///< as believed, in the frame in which goals are told
-  /// Of estimators that keep account of their error; empty for others.
-  std::optional<ErrorMatrix> covariance;  ///< rows as in error_state.h
-  double gyro_scale = 1.0;                ///< measured over true turn, as believed
-  double wheel_scale = 1.0;               ///< true over rolled way, as believed
-  double pan_rad = 0.0;                   ///< by which the lander's frame is turned, as believed
+  /// Covariance of the error, with the rows of error_state.h; empty where the estimator keeps no
+  /// account of it.
+  std::optional<ErrorMatrix> covariance;
+  double gyro_scale = 1.0;   ///< measured over true turn, as believed
+  double wheel_scale = 1.0;  ///< true over rolled way, as believed
+  double pan_rad = 0.0;      ///< angle by which the lander's frame is turned, as believed
 };
 
-/// What became of an aid's data.
+/// What became of the data of an aid.
 enum class AidUse {
-  kUsed,         ///< it corrected the estimate
-  kGatedOut,     ///< too far from what was believed to be true
-  kUsedInDoubt,  ///< as far off, but not the first in a row: the estimator doubted itself instead
-  kUnknown,      ///< of a moment that is not kept, or is kept no more
-  kNoInterest    ///< the estimator takes no aids
+  kUsed,         ///< they corrected the estimate
+  kGatedOut,     ///< they were too far from what is believed, and were turned away
+  kUsedInDoubt,  ///< they were too far off, but the estimator doubted itself and used them
+  kUnknown,      ///< they are of a moment that is not kept, or not kept any more
+  kNoInterest    ///< the estimator does not take such data
 };
 
-/// An estimator of one drive. Wheels and gyro carry it on; aids correct it, perhaps late: it keeps
-/// the pose of each moment at which an aid took its data until these have arrived (stochastic
-/// cloning; Roumeliotis and Burdick 2002). It is a pure function of these calls, as trials repeat
-/// bit for bit.
+/// An estimator of one drive. Wheels and gyro carry it on. Aids correct it, perhaps late: it keeps
+/// the pose of each moment at which an aid took its data until the data have arrived (stochastic
+/// cloning; Roumeliotis and Burdick 2002). Must stay: the estimate is a pure function of the calls
+/// below, as trials repeat bit for bit.
 class Estimator {
  public:
   virtual ~Estimator() = default;
 
-  /// One on-board tick of wheels and gyro; a rover that stands has one too.
+  /// Takes one on-board tick of wheels and gyro; a rover that stands has ticks, too.
   virtual void Propagate(const messages::MotionMeasurement& motion) = 0;
 
-  /// What the rover felt over the last `duration_s` > 0, after Propagate.
+  /// Takes what the rover felt over the last `duration_s` > 0; called after Propagate.
   virtual void Feel(const messages::VehicleState& felt, double duration_s) = 0;
 
-  /// Operators moved the rover by hand, and say where it is: both frames begin anew there. What an
-  /// aid took before is of no use any more.
+  /// Takes where operators say that they moved the rover by hand: pose and odometry begin anew
+  /// there. Data that an aid took before are of no use any more.
   virtual void Place(const messages::PoseUpdate& update) = 0;
 
-  /// An aid takes its data now. `capture` is larger than every one before.
+  /// Keeps the present moment, at which an aid takes its data. `capture` is larger than every
+  /// number before.
   virtual void Capture(messages::CaptureNumber /*capture*/) {}
-  /// Its data will not come.
+  /// Forgets a moment: no more of its data will come.
   virtual void Forget(messages::CaptureNumber /*capture*/) {}
 
-  /// Corrects the estimate of now by what was measured then. A moment that was used is kept until
-  /// Forget: a motion may begin where another one ended.
+  /// Correct the present estimate by what was measured at kept moments. A moment is kept until
+  /// Forget, also when it was used: a motion may begin where another one ended.
   virtual AidUse Update(const messages::PoseFix& /*fix*/) { return AidUse::kNoInterest; }
   virtual AidUse Update(const messages::RelativeMotion& /*motion*/) { return AidUse::kNoInterest; }
 
-  /// Returns what it believes now. Valid until the next call that changes it.
+  /// Returns what is believed now. The reference is valid until the next call that is not const.
   virtual const messages::LocalizationEstimate& estimate() const = 0;
 
-  /// What is kept while the computer is off (EstimatorSetup::memory).
+  /// Returns what is kept while the computer is off.
   virtual EstimatorMemory Remember() const {
     const messages::PoseEstimate& pose = estimate().pose;
     return {.pose = {pose.x_m, pose.y_m, pose.heading_rad}, .covariance = std::nullopt};

@@ -1,5 +1,6 @@
 /// @file
-/// The estimators that a scenario can name: each with its parameters and how it is made.
+/// The estimators that a scenario can name: each with its parameters and how it is made. A drive
+/// makes the one that is chosen; programs add estimators of their own to the set.
 #pragma once
 
 #include <memory>
@@ -18,25 +19,24 @@ namespace rockyard::localization {
 class Estimator;
 struct EstimatorMemory;
 
-/// The lander, in whose frame goals are told: where it stands, in W, and how well its mast's pan
-/// angle is known, a standard deviation.
+/// The lander in whose frame goals are told.
 struct LanderFrame {
-  double x_m = 0.0;
+  double x_m = 0.0;  ///< where the lander stands, in W
   double y_m = 0.0;
-  double pan_sd_rad = 0.0;
+  double pan_sd_rad = 0.0;  ///< standard deviation of the pan angle of its mast
 };
 
-/// What an estimator gets at the start of a drive, beside its parameters: how wheels, gyro and
-/// accelerometers are read is the same for all of them.
+/// What an estimator gets at the start of a drive, beside its parameters. How wheels, gyro and
+/// accelerometers are read is the same for all estimators.
 struct EstimatorSetup {
-  /// What the rover believes of its wheels, and how dead reckoning and attitude are worked out.
-  messages::DriveCalibration calibration{};
+  messages::DriveCalibration calibration{};  ///< what the rover believes of its wheels
   DeadReckoningParams dead_reckoning{};
   AttitudeParams attitude{};
-  math::Pose2 start{};  ///< where operators put the rover down, in the world frame; as
-                        ///< remembered, in the frame in which goals are told
+  /// Where operators put the rover down, in W; with `memory` the remembered pose, in the frame in
+  /// which goals are told.
+  math::Pose2 start{};
   std::optional<LanderFrame> lander{};  ///< empty: goals are told in the world frame
-  /// Of the day before, where the rover was not put down but goes on (localization/estimator.h).
+  /// What the estimator of the drive before kept; null where operators put the rover down.
   const EstimatorMemory* memory = nullptr;
 };
 
@@ -44,36 +44,36 @@ struct EstimatorSetup {
 /// without parameters takes core::NoParams.
 template <typename Params>
 struct EstimatorDescription {
-  /// In localization.estimator, and of the group of its parameters; a literal. Scenarios name it.
+  /// The value of localization.estimator and the name of the group of its parameters; a literal.
   std::string_view name;
-  std::string_view doc;  ///< of that group; a literal
+  std::string_view doc;  ///< what the group says of itself; a literal
   std::unique_ptr<Estimator> (*make)(const Params&, const EstimatorSetup&) = nullptr;
-  bool takes_fixes = false;    ///< or has no use for what aids measure of its pose
-  bool takes_motions = false;  ///< or for motions between two moments
+  bool takes_fixes = false;    ///< whether it uses poses that aids measure (PoseFix)
+  bool takes_motions = false;  ///< whether it uses motions between two moments (RelativeMotion)
 };
 
-/// One of a set, whatever its parameters.
+/// One estimator of a set, whatever its parameters.
 class EstimatorKind : public core::Kind {
  public:
   using core::Kind::Kind;
 
-  /// Makes one for a drive, with the parameters of this kind. Draws no random numbers.
+  /// Makes the estimator of a drive, with the parameters of this kind. Draws no random numbers.
   virtual std::unique_ptr<Estimator> Make(const EstimatorSetup& setup) const = 0;
-  /// Returns whether it uses what aids measure of its pose, and of motions between two moments.
+  /// Return whether it uses poses that aids measure, and motions between two moments.
   virtual bool takes_fixes() const = 0;
   virtual bool takes_motions() const = 0;
   /// Returns a copy with parameters of its own.
   virtual std::unique_ptr<EstimatorKind> Clone() const = 0;
 };
 
-/// The estimators that a scenario can name. A value.
+/// The estimators that a scenario can name. A set can be copied.
 class EstimatorSet : public core::KindSet<EstimatorKind> {
  public:
-  /// An empty set.
+  /// Makes an empty set.
   EstimatorSet();
 
-  /// Throws core::UserError where the name is taken or is no key at all. Needs
-  /// localization/estimator.h.
+  /// Adds an estimator. Throws core::UserError where the name is taken or cannot be a key. Callers
+  /// include localization/estimator.h.
   template <typename Params>
   void Add(const EstimatorDescription<Params>& description, Params params = {}) {
     AddKind(std::make_unique<KindOf<Params>>(description, std::move(params)));

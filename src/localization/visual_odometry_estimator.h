@@ -1,12 +1,11 @@
-// Wheels and gyro from image to image, and what visual odometry measured instead of them wherever
-// it found a motion: the way of MER (Maimone, Cheng and Matthies 2007), whose wheels told the place
-// only where no motion was found.
+// The estimator of MER (Maimone, Cheng and Matthies 2007): wheels and gyro carry the pose from
+// image to image, and where visual odometry found a motion, the motion takes their place.
 //
-//   pose(to) <- pose(from) (+) motion    every later pose moves along with it, as one rigid body
+//   pose(to) <- pose(from) (+) motion    every later pose moves along with pose(to) as a rigid body
 //
-// where pose (+) motion lays x and y off along the heading and adds the turn. Roll, pitch and
-// height are those of accelerometers and wheels. It keeps no account of its error, weighs nothing
-// against anything, and takes no fixes.
+// where pose (+) motion goes by x and y along the heading and adds the turn. Roll, pitch and height
+// are those of accelerometers and wheels. It keeps no account of its error, weighs no measurement
+// against another, and takes no fixes.
 #pragma once
 
 #include <map>
@@ -17,6 +16,7 @@
 
 namespace rockyard::localization {
 
+// Keeps the pose of each captured moment, at which motions begin and end.
 class VisualOdometryEstimator final : public Estimator {
  public:
   explicit VisualOdometryEstimator(const EstimatorSetup& setup);
@@ -36,12 +36,13 @@ class VisualOdometryEstimator final : public Estimator {
   math::Pose2 PoseNow() const;
   void TakePose(const math::Pose2& pose);
 
-  DeadReckoningEstimator wheels_;  // whose pose is the odometry frame's
+  DeadReckoningEstimator wheels_;  // its pose is that of the odometry frame
   std::map<messages::CaptureNumber, math::Pose2> moments_;
   messages::LocalizationEstimate estimate_;
 };
 
-// Named visual_odometry; its parameters are those of the setup.
+// Describes the estimator that scenarios name visual_odometry; its parameters are those of the
+// setup.
 EstimatorDescription<core::NoParams> DescribeVisualOdometry();
 
 }  // namespace rockyard::localization

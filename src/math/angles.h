@@ -1,5 +1,5 @@
 /// @file
-/// Angles in radians; degrees appear only in JSON and in reports.
+/// Angles in radians, for all modules; degrees appear only in JSON and in reports.
 /// core includes this header, so that nothing here may include core.
 #pragma once
 
@@ -12,8 +12,8 @@ namespace rockyard::math {
 constexpr double DegToRad(double degrees) { return degrees * std::numbers::pi / 180.0; }
 constexpr double RadToDeg(double radians) { return radians * 180.0 / std::numbers::pi; }
 
-/// Returns the equivalent angle in [-pi, pi]. Angles within are their own remainder, and the usual
-/// ones: they skip the division.
+/// Returns the equivalent angle in [-pi, pi]. Angles in that range are the usual case and their own
+/// remainder: they skip the division.
 inline double WrapAngle(double radians) {
   if (std::abs(radians) <= std::numbers::pi) return radians;
   return std::remainder(radians, 2.0 * std::numbers::pi);

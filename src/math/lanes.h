@@ -2,10 +2,11 @@
 // types of GCC and Clang. Each operation rounds as its scalar form does, so that doing it side by
 // side changes no result.
 //
-// The planes of a map of GESTALT go through here, and with them every drive that has one. A process
-// takes the widest registers that its processor has, so results must not hang on the width: no
-// fused or approximated operation, and no sum across lanes. No Eigen and no containers either: the
-// linker could take their code from a file that is compiled for wider registers.
+// The planes of GESTALT's maps go through here, and the records of all drives with such a map
+// depend on them. A process takes the widest registers that its processor has, so results must not
+// depend on the width: no fused or approximated operation, and no sum across lanes. Must not be
+// included: Eigen and containers, as the linker could take their code from a file that is compiled
+// for wider registers.
 #pragma once
 
 #include <cmath>
@@ -14,8 +15,8 @@
 
 namespace rockyard::math {
 
-// A pair fits one register of every 64-bit x86 and ARM processor; the others are for files that are
-// compiled for processors whose registers hold as many.
+// A pair fits one register of every 64-bit x86 and ARM processor. Quads and octets are for files
+// that are compiled for processors whose registers hold as many numbers.
 using Pair = double __attribute__((vector_size(16)));
 using Quad = double __attribute__((vector_size(32)));
 using Octet = double __attribute__((vector_size(64)));
@@ -28,7 +29,7 @@ struct Twin {
 
   Twin() = default;
   Twin(Register a_lanes, Register b_lanes) : a(a_lanes), b(b_lanes) {}
-  // `value` in all lanes, so that numbers may stand among lanes, as they may for registers.
+  // Puts `value` in all lanes, so that numbers may stand among twins as they may among registers.
   Twin(double value) : a(value - Register{}), b(value - Register{}) {}  // NOLINT
 
   friend Twin operator+(const Twin& x, const Twin& y) { return {x.a + y.a, x.b + y.b}; }
@@ -49,7 +50,7 @@ struct Twin {
   }
 };
 
-// Returns `value` in all lanes: less 0 it keeps its bits, the sign of a zero too.
+// Returns `value` in all lanes. Subtracting 0 keeps its bits, the sign of a zero, too.
 template <typename Number>
 Number All(double value) {
   return value - Number{};
@@ -76,8 +77,8 @@ Twin<Register> Sqrt(const Twin<Register>& x) {
   return {Sqrt(x.a), Sqrt(x.b)};
 }
 
-// Unlike std::max and std::min, Max and Min return b where both are equal, as zeros of either sign
-// are, or where one is not a number. This has to stay: it decides bits of what is computed.
+// Must stay: unlike std::max and std::min, Max and Min return b where both are equal, as zeros of
+// either sign are, or where one is not a number. Bits of results depend on it.
 template <typename Number>
 Number Max(const Number& a, const Number& b) {
   return Select(a > b, a, b);
@@ -93,8 +94,8 @@ Number Abs(const Number& x) {
   return Max<Number>(x, -x);
 }
 
-// Returns the lanes that lie at `first`, one register after another: copied whole, a twin would
-// pass through memory in pieces.
+// Returns the lanes that lie at `first`. A twin is loaded register by register: copied whole, it
+// would pass through memory in pieces.
 template <typename Number, typename Element>
 Number Load(const Element* first) {
   if constexpr (requires(Number number) { number.b; }) {

@@ -16,8 +16,8 @@ static_assert(kCountRow == std::size_t{PointMoments::kCount} &&
               kMomentRows == std::size_t{PointMoments::kSize});
 
 #if defined(__x86_64__)
-// From the narrowest to the widest: RunnableKernels counts from the front, BestPlaneKernel takes
-// the back.
+// The kernels from the narrowest to the widest. Must stay in this order: RunnableKernels counts
+// from the front, BestPlaneKernel takes the back.
 constexpr std::array<PlaneKernel, 3> kKernels = {{{"pairs", FitPlanesByPairs},
                                                   {"quads (AVX2)", FitPlanesByQuads},
                                                   {"octets (AVX-512)", FitPlanesByOctets}}};
@@ -42,7 +42,8 @@ std::span<const PlaneKernel> PlaneKernels() {
 const PlaneKernel& BestPlaneKernel() { return PlaneKernels().back(); }
 
 PlaneBatch::PlaneBatch() {
-  // Lanes behind the last set take part: with one point at the origin, until there was a set.
+  // Lanes behind the last set take part. Until they have held a set, they hold one point at the
+  // origin: every set must have a point.
   std::fill_n(moments_.begin() + kCountRow * kSize, kSize, 1);
 }
 

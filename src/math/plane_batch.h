@@ -1,4 +1,5 @@
-// Planes of many sets of points at a time, in the widest registers that the processor has.
+// Planes of many sets of points at a time, in the widest registers that the processor has: the
+// planes of GESTALT's maps.
 #pragma once
 
 #include <array>
@@ -11,8 +12,8 @@
 
 namespace rockyard::math {
 
-// Up to kSize sets of points and their planes. Whatever registers they go through, each plane is
-// FitPlane of the Spread of its set to the last bit.
+// Up to kSize sets of points and their planes. Whatever registers they go through, each plane must
+// be FitPlane of the Spread of its set to the last bit.
 class PlaneBatch {
  public:
   static constexpr std::size_t kSize = kPlaneBatch;
@@ -31,14 +32,13 @@ class PlaneBatch {
     ++size_;
   }
 
-  // Fits the planes of all sets. Without their normals, which then are those of the batch before,
-  // it takes less time where the largest eigenvalue is the one apart.
+  // Fits the planes of all sets. kWithoutNormals takes less time where the largest eigenvalue
+  // stands apart from the other two, and leaves the normals as they were.
   void Fit(PlaneParts parts) { Fit(parts, BestPlaneKernel()); }
-  // Does so by one kernel; this is how tests compare them.
+  // Does so by a given kernel, for tests that compare kernels.
   void Fit(PlaneParts parts, const PlaneKernel& kernel);
 
-  // What is known of plane i, in the order in which sets were added; PlaneFit says what it
-  // is.
+  // Return what PlaneFit tells of plane i, in the order in which sets were added.
   double Residual_m(std::size_t i) const { return planes_[kResidualRow * kSize + i]; }
   double EigenRatio(std::size_t i) const { return planes_[kEigenRatioRow * kSize + i]; }
   Vector3 Normal(std::size_t i) const {

@@ -1,4 +1,5 @@
-// The loop that fits a batch of planes, compiled once for each width of registers.
+// The loop that fits a batch of planes, compiled once for each width of registers: what PlaneBatch
+// calls.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +9,13 @@
 
 namespace rockyard::math {
 
-// Kernels fit whole registers, up to twice 8 numbers, and go on past the last set to fill one: a
-// multiple of 16.
+// Number of sets in a batch. Kernels go on past the last set to fill twin registers of up to 2 x 8
+// numbers, so that it must be a multiple of 16.
 inline constexpr std::size_t kPlaneBatch = 32;
 
-// What a kernel reads and writes: rows of kPlaneBatch numbers.
-enum MomentRow : std::size_t {  // as PointMoments::Index
+// A kernel reads and writes rows of kPlaneBatch numbers. MomentRow must be PointMoments::Index, as
+// plane_batch.cc checks.
+enum MomentRow : std::size_t {
   kCountRow,
   kXRow,
   kYRow,
@@ -38,8 +40,8 @@ enum PlaneRow : std::size_t {
 // Whether the normals of planes are asked for.
 enum class PlaneParts { kWithoutNormals, kWithNormals };
 
-// Fits planes to the first `size` sets of moments, and to as many more as fill its registers, each
-// of which has a point.
+// Fits planes to the first `size` sets of moments, and to as many more as fill its registers. Each
+// of these sets must have a point.
 using FitPlaneRows = void (*)(const std::uint64_t* moments, std::size_t size, PlaneParts parts,
                               double* planes);
 
@@ -51,7 +53,7 @@ struct PlaneKernel {
 // Returns the kernels that this processor can run, from the narrowest to the widest.
 std::span<const PlaneKernel> PlaneKernels();
 
-// Returns the one to use: the widest.
+// Returns the kernel to use: the widest of PlaneKernels().
 const PlaneKernel& BestPlaneKernel();
 
 }  // namespace rockyard::math

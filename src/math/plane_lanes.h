@@ -1,5 +1,5 @@
 // Planes from moments, as many at a time as a Number has lanes: what the kernels of plane_batch
-// share. Like symmetric_eigen_lanes.h it must not include Eigen.
+// share. Like lanes.h it must not include Eigen or containers.
 #pragma once
 
 #include <cstddef>
@@ -20,11 +20,12 @@ struct PlaneLanes {
   LaneVector<Number> normal;  // unit, z >= 0
 };
 
-// Returns the planes of covariances; PlaneFit says what its members are.
+// Returns the planes of covariances, with the members of PlaneFit (plane_fit.h).
 template <EigenParts kParts, typename Number>
 PlaneLanes<Number> PlanesOf(const SymmetricMatrix<Number>& covariance_m2) {
   const SymmetricEigenLanes<Number> eigen = EigenOf<kParts>(covariance_m2);
-  // What rounding leaves of an eigenvalue of zero, of either sign: as in PlaneFrom of plane_fit.h.
+  // Rounding leaves up to this much, of either sign, of an eigenvalue of zero. Must be the floor of
+  // PlaneFrom in plane_fit.h.
   constexpr double kFloor = 4.0 * std::numeric_limits<double>::epsilon();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Number floor = kFloor * eigen.largest;
@@ -63,7 +64,7 @@ void FitRows(const std::uint64_t* moments, std::size_t size, double* planes) {
   }
 }
 
-// A FitPlaneRows of kernels with this Number.
+// The FitPlaneRows of the kernel with this Number.
 template <typename Number>
 void FitPlanesBy(const std::uint64_t* moments, std::size_t size, PlaneParts parts, double* planes) {
   if (parts == PlaneParts::kWithNormals) {

@@ -1,5 +1,5 @@
-// The kernel of registers of 8 numbers, compiled with AVX-512: it runs only where plane_batch.cc
-// has asked the processor, and leaves no code that other files could use.
+// The kernel of registers of 8 numbers, compiled with AVX-512. It runs only where plane_batch.cc
+// has asked the processor, and must leave no code that the linker could give to other files.
 #include "math/plane_lanes.h"
 #include "math/plane_widths.h"
 

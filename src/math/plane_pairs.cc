@@ -1,5 +1,5 @@
-// The kernel of registers of 2 numbers, which every 64-bit processor has: what all others must
-// equal bit for bit.
+// The kernel of registers of 2 numbers, which every 64-bit processor has. All other kernels must
+// equal it bit for bit.
 #include "math/plane_lanes.h"
 #include "math/plane_widths.h"
 

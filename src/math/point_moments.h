@@ -1,5 +1,5 @@
 // Sums over points from which planes are fitted: the ten moments of Goldberg 2002, section 4,
-// step 2.
+// step 2. The cells of GESTALT's maps hold them.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@
 namespace rockyard::math {
 
 // Coordinates enter the moments in whole micrometres: far finer than any range sensor, and whole
-// numbers add up exactly in every order.
+// numbers add up exactly in every order. Maps and records depend on the unit; Spread and
+// CovarianceOf in spread_lanes.h have its square, 1e-12, as a number.
 inline constexpr double kMomentUnitsPerMetre = 1e6;
 
 // Returns a coordinate to the nearest unit, halves away from zero: mirrored points have mirrored
@@ -31,9 +32,9 @@ struct PointSpread {
   SymmetricMatrix3 covariance_m2;
 };
 
-// Number of points, sums of their coordinates and of the products of these, about the origin of
-// the frame, modulo 2^64. Sums may pass 2^64 (squares do from 4 km on): what is derived is exact
-// nevertheless while it is small itself, that is while
+// The number of points, the sums of their coordinates and the sums of the products of coordinates,
+// about the origin of the frame, modulo 2^64. Sums may pass 2^64 (squares do from 4 km on): what is
+// derived from them is exact nevertheless while
 //   the absolute sum of a coordinate stays below 2^63 um (9e12 m), and
 //   count times the mean square distance from the mean stays below 2^63 um^2 (9e6 m^2).
 struct PointMoments {
@@ -64,7 +65,7 @@ struct PointMoments {
     for (std::size_t i = 0; i < kSize; ++i) sums[i] += other.sums[i];
     return *this;
   }
-  // Takes back what `other` had added.
+  // Takes back what += of `other` has added.
   PointMoments& operator-=(const PointMoments& other) {
     for (std::size_t i = 0; i < kSize; ++i) sums[i] -= other.sums[i];
     return *this;
@@ -78,14 +79,15 @@ struct PointMoments {
   }
 };
 
-// So many points have exact moments wherever they are if they span less than 23 m along each axis:
-// 65536 times (23/2 m)^2, the most that their mean square distance can be, is 8.7e6 m^2.
+// So many points have exact moments wherever they are, if they span less than 23 m along each axis:
+// their mean square distance from the mean is at most (23/2 m)^2, and 65536 times that is 8.7e6
+// m^2.
 inline constexpr std::int64_t kExactPoints = 65536;
 
 // Returns mean and covariance; there must be a point. The second moments are shifted in whole
 // numbers to the unit next to the mean before anything is rounded, so that nothing cancels however
-// far the origin is. CovarianceOf in spread_lanes.h has the same operations in the same order, and
-// with them the same bits: one cannot change without the other.
+// far the origin is. CovarianceOf in spread_lanes.h must have the same operations in the same
+// order, as both must give the same bits.
 inline PointSpread Spread(const PointMoments& moments) {
   using M = PointMoments;
   const auto& s = moments.sums;
@@ -102,7 +104,7 @@ inline PointSpread Spread(const PointMoments& moments) {
   }
   const auto covariance = [&](std::size_t product, std::size_t i, std::size_t j) {
     // sum (x_i - near_i)(x_j - near_j) = sum x_i x_j - near_i sum x_j - near_j sum (x_i - near_i),
-    // all modulo 2^64; then less the product of what the mean is off.
+    // all modulo 2^64. The product of both offsets of the mean is then taken away.
     const std::uint64_t about_near = s[product] - near[i] * s[M::kX + j] - near[j] * rest[i];
     const double square = static_cast<double>(static_cast<std::int64_t>(about_near));
     return (square * inverse_count - offset[i] * offset[j]) * 1e-12;
@@ -119,10 +121,10 @@ inline PointSpread Spread(const PointMoments& moments) {
   return spread;
 }
 
-// Returns the spread of all points of several sets, of which there must be one, in floating point:
-// for sets whose sum is past the bound of PointMoments while each one is not. With n_i, m_i and C_i
-// of each set and d_i = m_i - mean: mean = sum n_i m_i / n, covariance = sum n_i (C_i + d_i d_i^T)
-// / n.
+// Returns the spread of all points of several sets, in floating point: for sets whose sum is past
+// the bound of PointMoments while each set is not. There must be a point. With n_i, m_i and C_i of
+// each set and d_i = m_i - mean: mean = sum n_i m_i / n, covariance = sum n_i (C_i + d_i d_i^T) /
+// n.
 inline PointSpread Merged(std::span<const PointSpread> sets) {
   PointSpread all;
   for (const PointSpread& set : sets) {

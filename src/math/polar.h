@@ -1,12 +1,13 @@
-// Covariances of places that are known in polar coordinates.
+// Covariances of places that are seen from a point: the lander's fixes of the rover.
 #pragma once
 
 #include <Eigen/Geometry>
 
 namespace rockyard::math {
 
-// Covariance in x and y of a place that is known to along_sd along the direction bearing_rad (from
-// +x towards +y) and to across_sd across it.
+// Returns the covariance in x and y of a place whose errors along and across the direction
+// bearing_rad (from +x towards +y) are independent. Their standard deviations along_sd and
+// across_sd are lengths of one unit: across_sd is the range times the deviation of the bearing.
 inline Eigen::Matrix2d PolarCovariance(double bearing_rad, double along_sd, double across_sd) {
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(bearing_rad).toRotationMatrix();
   const Eigen::Vector2d variances(along_sd * along_sd, across_sd * across_sd);

@@ -1,7 +1,7 @@
 /// @file
-/// Rigid transforms in monogram notation: X_AB is the pose of frame B in frame A, so that
-/// p_A = X_AB * p_B. World W: x along the course, y left, z up. Rover R: x forward, y left, z up,
-/// origin on the ground under the chassis centre.
+/// Rigid transforms in monogram notation, for all modules: X_AB is the pose of frame B in frame A,
+/// so that p_A = X_AB * p_B. World W: x along the course, y left, z up. Rover R: x forward, y left,
+/// z up, origin on the ground under the chassis centre.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ using Transform = Eigen::Isometry3d;
 /// A pose in the ground plane of W.
 struct Pose2 {
   double x_m = 0.0;          ///< along the course
-  double y_m = 0.0;          ///< to its left
+  double y_m = 0.0;          ///< to the left of the course
   double heading_rad = 0.0;  ///< from +x towards +y
 };
 
@@ -55,8 +55,8 @@ inline Pose2 SeenFrom(const Pose2& X_AB, const Pose2& X_AC) {
           WrapAngle(X_AC.heading_rad - X_AB.heading_rad)};
 }
 
-/// Returns X_AL = X_AR (X_BR)^-1 X_BL: where L lies in A, if R and L are known in B and R in A. As
-/// L keeps its place beside R, this also carries L along where R jumps from X_BR to X_AR.
+/// Returns X_AL = X_AR (X_BR)^-1 X_BL: where L lies in A, if R and L are known in B and R in A. L
+/// keeps its place beside R, so that it is carried along where R jumps from X_BR to X_AR.
 inline Pose2 Carried(const Pose2& X_AR, const Pose2& X_BR, const Pose2& X_BL) {
   const double turn_rad = X_AR.heading_rad - X_BR.heading_rad;
   const double c = std::cos(turn_rad);
@@ -67,8 +67,8 @@ inline Pose2 Carried(const Pose2& X_AR, const Pose2& X_BR, const Pose2& X_BL) {
           WrapAngle(X_BL.heading_rad + turn_rad)};
 }
 
-/// Returns the pose turned about a place by `angle_rad`, positive from +x towards +y; bit for bit
-/// as it was where that is 0, so that a believed pan angle of 0 changes no drive.
+/// Returns the pose turned about a place by `angle_rad`, positive from +x towards +y. An angle of 0
+/// must leave the pose bit for bit as it is: a believed pan angle of 0 changes no drive.
 inline Pose2 TurnedAbout(const Pose2& pose, double x_m, double y_m, double angle_rad) {
   if (angle_rad == 0.0) return pose;
   return Carried({x_m, y_m, angle_rad}, {x_m, y_m, 0.0}, pose);

@@ -1,12 +1,12 @@
-// Integrals of smooth functions.
+// Integrals of smooth functions: audits of rock fields and blind swaths expect numbers by them. No
+// rock is drawn by them.
 #pragma once
 
 namespace rockyard::math {
 
 // Returns the integral of f from low to high by Simpson's composite rule with 64 intervals:
 // h/3 (f_0 + 4 f_1 + 2 f_2 + ... + 4 f_63 + f_64). Its error is (high - low) h^4 / 180 times a
-// fourth derivative. Audits of rock fields and blind swaths are taken by it; no rock is drawn by
-// it.
+// fourth derivative of f between low and high.
 template <class Function>
 double Simpson(double low, double high, const Function& f) {
   constexpr int kIntervals = 64;

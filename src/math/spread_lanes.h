@@ -1,5 +1,6 @@
-// Covariances from the moments of points, as many at a time as a Number has lanes: the operations
-// of Spread (point_moments.h), one for one. Like symmetric_eigen_lanes.h it must not include Eigen.
+// Covariances from the moments of points, as many at a time as a Number has lanes, for the kernels
+// of plane_batch. Must have the operations of Spread (point_moments.h), one for one, and like
+// lanes.h must not include Eigen or containers.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +17,9 @@ template <typename Real, typename UnsignedWhole, typename SignedWhole>
 struct WholeRegister {
   using Unsigned = UnsignedWhole;
 
-  // Returns signed numbers x = 2^32 high + low to the nearest real. Registers that cannot convert
-  // get low and high into the last digits of 2^52 and of 2^84 + 2^63; without these the high half
-  // is still exact, so that the sum alone rounds.
+  // Returns signed numbers x = 2^32 high + low to the nearest real. For registers that cannot
+  // convert, low and high are put into the last digits of 2^52 and of 2^84 + 2^63. Taking these
+  // away leaves the high half exact, so that the sum alone rounds.
   static Real ToReal(const Unsigned& whole) {
 #if defined(__AVX512DQ__)
     return __builtin_convertvector(reinterpret_cast<SignedWhole>(whole), Real);
@@ -29,7 +30,7 @@ struct WholeRegister {
            reinterpret_cast<Real>(low);
 #endif
   }
-  // Returns reals of less than 2^63 without their fractions.
+  // Returns reals of magnitude less than 2^63 without their fractions.
   static Unsigned FromReal(const Real& real) {
     return reinterpret_cast<Unsigned>(__builtin_convertvector(real, SignedWhole));
   }
@@ -42,7 +43,7 @@ using SignedPair = std::int64_t __attribute__((vector_size(16)));
 using SignedQuad = std::int64_t __attribute__((vector_size(32)));
 using SignedOctet = std::int64_t __attribute__((vector_size(64)));
 
-// The same for every Number.
+// The whole numbers that belong to each Number, a twin included.
 template <typename Number>
 struct Whole;
 template <>
@@ -63,7 +64,8 @@ struct Whole<Twin<Register>> {
   }
 };
 
-// Along one axis: the unit next to the mean, the sum about it, and the offset of the mean from it.
+// The spread along one axis: the unit next to the mean, the sum of coordinates about that unit, and
+// the offset of the mean from it.
 template <typename Number>
 struct AxisSpread {
   using Unsigned = typename Whole<Number>::Unsigned;

@@ -1,4 +1,6 @@
-// Where the sun stands in the sky of Mars: site, season and true solar time.
+// Where the sun stands in the sky of Mars, by site, season and true solar time. The simulated sky,
+// the rover's almanac and solar power must follow this one law: the rover errs about its sun sensor
+// and its tilt, never about where the sun stands.
 //
 // With latitude phi, declination delta and hour angle H (0 at local noon, positive in the
 // afternoon; spherical triangle of pole, zenith and sun):
@@ -8,9 +10,6 @@
 // sin(delta) = sin(obliquity) sin(Ls), with an obliquity of 25.19 deg (Allison and McEwen 2000).
 // Limits: true solar time runs evenly, at 24 hours a sol; within a sol the season stands still, and
 // refraction (0.01 deg at most on Mars) is left out.
-//
-// The simulated sky and the almanac of the rover are both this: the rover errs about its sun sensor
-// and its tilt, never about where the sun stands. Solar power follows the same law.
 #pragma once
 
 #include <cmath>
@@ -34,7 +33,7 @@ inline double SunDeclination(double areocentric_longitude_rad) {
   return std::asin(std::sin(kObliquityOfMars_rad) * std::sin(areocentric_longitude_rad));
 }
 
-// `solar_time_h`: true solar hours, 12 at noon, of any sol.
+// Returns the direction to the sun. `solar_time_h`: true solar hours, 12 at noon, of any sol.
 inline SkyDirection SunPosition(double latitude_rad, double declination_rad, double solar_time_h) {
   const double hour_angle_rad = (solar_time_h - 12.0) * std::numbers::pi / 12.0;
   const double sine = std::sin(latitude_rad) * std::sin(declination_rad) +
@@ -46,8 +45,8 @@ inline SkyDirection SunPosition(double latitude_rad, double declination_rad, dou
   return {std::atan2(east, north), std::asin(std::fmin(1.0, std::fmax(-1.0, sine)))};
 }
 
-// Unit vector in W of a direction whose azimuth counts from north, which lies at
-// `north_heading_rad` (from +x towards +y). East is clockwise seen from above.
+// Returns the unit vector in W of a direction whose azimuth counts from north. North lies at
+// `north_heading_rad` (from +x towards +y); east is clockwise from north, seen from above.
 inline Vector3 ToUnitVector(const SkyDirection& direction, double north_heading_rad) {
   const double heading_rad = north_heading_rad - direction.azimuth_rad;
   const double level = std::cos(direction.elevation_rad);

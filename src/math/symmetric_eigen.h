@@ -1,4 +1,5 @@
-// Closed-form eigenvalues of one symmetric 3 x 3 matrix.
+// Closed-form eigenvalues of one symmetric 3 x 3 matrix, for plane_fit.h. decompositions.h has
+// Eigen's solver, whose bits depend on Eigen.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ struct SymmetricEigen3 {
   Vector3 smallest_axis = Vector3::UnitZ();  // unit eigenvector of values[0], of either sign
 };
 
-// Does what EigenOf of symmetric_eigen_lanes.h does, for one matrix.
+// Returns what EigenOf of symmetric_eigen_lanes.h does, for one matrix.
 inline SymmetricEigen3 EigenOf(const SymmetricMatrix3& m) {
   const SymmetricEigenLanes<Pair> eigen =
       EigenOf(SymmetricMatrix<Pair>{All<Pair>(m.xx), All<Pair>(m.yy), All<Pair>(m.zz),

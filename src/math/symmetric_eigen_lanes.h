@@ -1,6 +1,9 @@
 // Closed-form eigenvalues of symmetric 3 x 3 matrices, as many at a time as a Number has lanes
-// (math/lanes.h). Nothing here may include Eigen: files that are compiled for wider registers
-// include this header, and would leave other files their code.
+// (math/lanes.h), for fits of planes. Must not include Eigen or containers: files that are compiled
+// for wider registers include this header, and the linker could give their code to other files.
+//
+// Must stay without libm and in the order of its operations: the normals of planes, and with them
+// the records of drives, have the same bits on every processor.
 #pragma once
 
 #include "math/lanes.h"
@@ -28,9 +31,9 @@ struct SymmetricEigenLanes {
 
 namespace internal {
 
-// cos(acos(t)/3) for t in [0, 1]: the root in [cos 30 deg, 1] of 4 c^3 - 3 c = t. The slope
+// Returns cos(acos(t)/3) for t in [0, 1]: the root in [cos 30 deg, 1] of 4 c^3 - 3 c = t. The slope
 // 12 c^2 - 3 lies in [6, 9] there, so that two Newton steps from a cubic that is off by 4.1e-5 at
-// most (interpolation at Chebyshev points) leave rounding alone. Without libm, whose cosine differs
+// most (interpolation at Chebyshev points) leave rounding alone. The cosine of libm would differ
 // between processors in its last bit.
 template <typename Number>
 Number CosOfThird(Number t) {
@@ -46,7 +49,7 @@ LaneVector<Number> Normalized(const LaneVector<Number>& v) {
 }
 
 // Returns the unit vector v of a matrix k v v^T, k > 0: its column with the largest diagonal
-// element. Of equal ones z goes first, then x: normals of planes, and so drives, hang on it.
+// element. Must stay: of equal elements z goes first, then x. Normals of planes depend on it.
 template <typename Number>
 LaneVector<Number> AxisOf(const SymmetricMatrix<Number>& m) {
   const auto use_x = (m.xx > m.zz) & (m.xx >= m.yy);
@@ -87,9 +90,10 @@ Number SquareNorm(const SymmetricMatrix<Number>& m) {
          2.0 * ((m.xz * m.xz + m.yz * m.yz) + m.xy * m.xy);
 }
 
-// Returns, for `m` with the eigenvalues mu > 0 (axis v) and -mu/2 +- half, the axis of the
-// smallest. half (I - v v^T) - across projects on it. Rounding tilts it towards v where the two
-// others are close, so that part is taken out; where they are equal but for rounding any axis
+// Returns the axis of the smallest eigenvalue of a matrix with the eigenvalues mu > 0 (axis v) and
+// -mu/2 +- half; `across` is what the matrix does across v, less its mean there. half (I - v v^T) -
+// across projects on the axis. Where the other two eigenvalues are close, rounding tilts the axis
+// towards v, so that its part along v is taken out. Where they are equal but for rounding, any axis
 // across v serves.
 template <typename Number>
 LaneVector<Number> SmallestAcross(const SymmetricMatrix<Number>& across, Number half,
@@ -103,9 +107,10 @@ LaneVector<Number> SmallestAcross(const SymmetricMatrix<Number>& across, Number 
 }
 
 // Solves matrices with trace 0 and square norm 6: their eigenvalues are 2 cos(phi + 2 k pi/3) with
-// cos(3 phi) = det/2. One of them, mu, lies at least 1.7 from both others, is well conditioned, and
-// has the adjugate of m - mu I as projector on its axis v. What m does across v, less its mean
-// there, has the eigenvalues +-half: found as a norm, so that close eigenvalues stay accurate.
+// cos(3 phi) = det/2. One of them, mu, lies at least 1.7 from both others and is well conditioned;
+// the adjugate of m - mu I is, up to a factor, the projector on its axis v. What m does across v,
+// less its mean there, has the eigenvalues +-half. `half` is found as a norm, so that close
+// eigenvalues stay accurate.
 template <EigenParts kParts, typename Number>
 SymmetricEigenLanes<Number> NormalizedEigen(const SymmetricMatrix<Number>& m) {
   const Number det = (m.zz * (m.xx * m.yy - m.xy * m.xy) + 2.0 * (m.xy * (m.xz * m.yz))) -
@@ -133,9 +138,9 @@ SymmetricEigenLanes<Number> NormalizedEigen(const SymmetricMatrix<Number>& m) {
 // Returns the eigenvalues, each to about 4e-15 of the largest magnitude among the elements, and the
 // axis of the smallest. Elements must be finite and below 1e300; matrices below 1e-300 count as
 // zero. Where the smallest eigenvalue is not simple the axis is one of many: z for a multiple of
-// the identity; kValues leaves it open. Swapping x and y swaps the result bit for bit but where two
-// directions are equally good. Cost: about 150 flops and three roots a matrix, about 200 and five
-// where the largest eigenvalue is the one apart.
+// the identity. With kValues the axis is undefined. Swapping x and y swaps the result bit for bit,
+// except where two directions are equally good. Cost: about 150 flops and three roots a matrix,
+// about 200 flops and five roots where the largest eigenvalue is the one apart.
 template <EigenParts kParts = EigenParts::kValuesAndAxis, typename Number>
 SymmetricEigenLanes<Number> EigenOf(const SymmetricMatrix<Number>& m) {
   const Number scale =

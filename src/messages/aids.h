@@ -1,5 +1,7 @@
 /// @file
-/// What aids of localization measure: poses, and motions between two of them.
+/// What aids of localization measure: a pose, a motion between two moments, the sun's direction,
+/// range and bearing from a beacon. Simulated aids and on-board software write these messages, and
+/// estimators take fixes and motions.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,20 +17,21 @@ namespace rockyard::messages {
 /// of numbers for the order in time.
 using CaptureNumber = std::int64_t;
 
-/// A measured pose: a lander's fix, the sun's azimuth, an operator. Coordinates that were not
-/// measured are ignored, with their rows and columns.
+/// A measured pose: a lander's fix, a heading from the sun, a place from a beacon. Coordinates that
+/// were not measured are ignored, with their rows and columns of the covariance.
 struct PoseFix {
   CaptureNumber capture = 0;
   std::bitset<kPoseCoordinates> measured;  ///< by Index of a coordinate
-  PoseVector pose = PoseVector::Zero();    ///< in the world frame, or in the lander's
+  PoseVector pose = PoseVector::Zero();    ///< in W, or in the lander's frame (in_lander_frame)
   PoseCovariance covariance =
       PoseCovariance::Identity();  ///< m, rad; in the order of PoseCoordinate
-  /// As seen from the mast by whose angle goals are told, so that it shares their error.
+  /// Whether the pose was seen from the mast that designates goals: its error of the pan angle is
+  /// then in both.
   bool in_lander_frame = false;
 };
 
-/// A measured motion: what the pose coordinates at the second moment are less those at the first
-/// one, in the levelled frame of the first (x along its heading). By visual odometry.
+/// A motion measured by visual odometry: the pose coordinates at the second moment less those at
+/// the first one, in the levelled frame of the first (x along its heading).
 struct RelativeMotion {
   CaptureNumber from = 0;                    ///< the first moment
   CaptureNumber to = 0;                      ///< the second one, later
@@ -40,17 +43,17 @@ struct RelativeMotion {
 struct SunSighting {
   CaptureNumber capture = 0;
   Eigen::Vector3d sun_R = Eigen::Vector3d::UnitZ();  ///< unit vector to the sun, in R
-  double direction_sd_rad = 0.0;                     ///< of either angle across it
+  double direction_sd_rad = 0.0;                     ///< of either angle across that direction
 };
 
-/// What a radio beacon on the lander and its answerer on the rover measure of one another.
+/// What a radio beacon on the lander measures of the answerer on the rover.
 struct BeaconReading {
   CaptureNumber capture = 0;
   double station_x_m = 0.0;  ///< of the beacon, in W
   double station_y_m = 0.0;
   double range_m = 0.0;      ///< horizontal
   double bearing_rad = 0.0;  ///< of the rover as seen from the station, from +x towards +y
-  double range_sd_m = 0.0;   ///< standard deviations of both
+  double range_sd_m = 0.0;   ///< standard deviation of range_m
   double bearing_sd_rad = 0.0;
 };
 

@@ -1,8 +1,10 @@
 /// @file
-/// What the rover believes of its own geometry. On-board code uses these copies; the simulated
-/// hardware has its own, so that a scenario can make a calibration wrong on purpose. Each is made
-/// in one place, from the truth and the errors that the scenario states, so that all parts of one
-/// rover believe the same.
+/// What the rover believes of its own geometry. Odometry, the wheel driver, the finder of light
+/// stripes and triangulation go by it; the simulated hardware has a geometry of its own, so that a
+/// scenario can make a calibration wrong on purpose. Must stay: every on-board copy is made in one
+/// place (trial/eyes/onboard_calibration.h), from the truth and the errors that the scenario
+/// states, so that all parts of one rover believe the same. The words row, scanline, stripe and
+/// point are those of stripe_array.h.
 #pragma once
 
 #include <array>
@@ -19,10 +21,11 @@ namespace rockyard::messages {
 struct DriveCalibration {
   double wheel_radius_m = 0.065;
   PerWheel<double> radius_ratio{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  ///< of each wheel to wheel_radius_m
-  PerWheel<double> wheel_x_m{};                                 ///< contact point in R
+  PerWheel<double> wheel_x_m{};                                 ///< wheel centre in R
   PerWheel<double> wheel_y_m{};                                 ///< positive left
   PerWheel<bool> steered{};                                     ///< whether the wheel is steered
-  /// Added to the set point of every steered wheel, positive left: where its straight lies.
+  /// Added to the set point of every steered wheel, positive left: the true angle of a wheel that
+  /// the rover believes to stand straight.
   double steering_offset_rad = 0.0;
   double max_steer_rad = 1.0;         ///< largest steering angle, either way
   double max_wheel_speed_m_s = 0.15;  ///< rim speed of the fastest wheel
@@ -41,17 +44,17 @@ struct StripeLaser {
 
 /// What the rover believes of its light stripe sensor.
 struct StripeCalibration {
-  /// By StripeLaser::camera.
-  std::array<Camera, 2> cameras{};
+  std::array<Camera, 2> cameras{};  ///< by StripeLaser::camera
   std::vector<StripeLaser> lasers;  ///< left to right
-  /// Image row of each scanline, below the optical axis; nearest first.
+  /// Image row of each scanline, counted down from the optical axis; nearest point first.
   std::vector<int> scanline_px;
-  double datum_z_m = 0.0;  ///< height in R of the plane from which elevations count
-  /// Elevations above it between which stripes are looked for.
+  double datum_z_m = 0.0;  ///< height in R of the datum plane, from which elevations count
+  /// Elevations above the datum plane between which stripes are looked for.
   double search_low_m = -0.30;
   double search_high_m = 0.20;
 
-  /// Returns rows and stripes of its array.
+  /// Returns the rows and stripes of the array: one row for each scanline, one stripe for each
+  /// laser.
   StripeArraySize size() const { return {scanline_px.size(), lasers.size()}; }
 };
 

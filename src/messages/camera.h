@@ -1,24 +1,25 @@
 /// @file
-/// A camera of whatever sensor: where it sits, what its lens does, how large its image is. What
-/// renders images and what looks into them on board count pixels by it alike.
+/// A camera of the light stripe sensor: where it sits, what its lens does, how large its image is.
+/// Rendering and on-board finders of stripes both count the pixels of an image by it.
 #pragma once
 
 #include "math/pose.h"
 
 namespace rockyard::messages {
 
-/// First and last column, counted as in Camera.
+/// The first and the last column of a part of an image row, counted as in Camera.
 struct ColumnRange {
   int first = 0;
   int last = -1;
 
   /// Returns whether it has no column.
   bool empty() const { return last < first; }
-  /// Returns whether a place in an image row lies in it, ends included.
+  /// Returns whether a place in an image row lies in the range, ends included.
   bool Contains(double column_px) const { return column_px >= first && column_px <= last; }
 };
 
-/// All columns of an image; of an even number, one more to the left of the axis than to the right.
+/// Returns all columns of an image. An even number has one more to the left of the axis than to the
+/// right.
 inline ColumnRange ImageColumns(int columns) { return {-columns / 2, columns - columns / 2 - 1}; }
 
 /// How a lens maps directions to image positions; the equations stand in vision/lens.h.
@@ -41,7 +42,7 @@ struct Camera {
 
   /// Return the columns and rows of the image, counted from the pixel on the optical axis.
   ColumnRange image_columns() const { return ImageColumns(columns); }
-  int first_row() const { return -rows / 2; }  ///< of an even number, one more above the axis
+  int first_row() const { return -rows / 2; }  ///< an even number has one more above the axis
   int last_row() const { return rows - rows / 2 - 1; }
 };
 

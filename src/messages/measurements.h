@@ -1,5 +1,6 @@
 /// @file
-/// What the sensors report, and a tracker of features.
+/// What the sensors report, and a tracker of features: simulated sensors write these messages,
+/// estimators and perception read them.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +18,13 @@ struct MotionMeasurement {
   double turn_rad = 0.0;              ///< integrated gyro rate, positive left
 };
 
-/// One point as it was found in the image.
+/// One point of the stripe array as it was found in the image (words: stripe_array.h).
 struct StripePixel {
   bool detected = false;   ///< whether it was found
-  double column_px = 0.0;  ///< on the scanline of its row, of the camera assigned to its stripe
+  double column_px = 0.0;  ///< image column on the point's scanline, in its StripeLaser::camera
 };
 
-/// One scan of the light stripe sensor, as image positions.
+/// One scan of the light stripe sensor: the image column of each point.
 struct StripeScan {
   std::int64_t number = 0;  ///< counts every scan of the trial from 0
   StripeArray<StripePixel> pixels;

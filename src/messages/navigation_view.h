@@ -1,7 +1,7 @@
 /// @file
 /// What a map-based navigator shows of a decision: the diagnostic image of Goldberg 2002, figure 3,
-/// as data. A NavigationView is for people and nothing on board decides by it; of its parts,
-/// splines and votes are also what GESTALT itself chooses among.
+/// as data. Figures, replays and traces show it. Nothing on board decides by a NavigationView;
+/// GESTALT chooses among its own splines and votes in these structs.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@
 
 namespace rockyard::messages {
 
-/// A spline of two clothoids (Howard 2012, section 3): the curvature at the start, at the knot in
-/// the middle and at the one at the end, positive turns left. Between them it is linear.
+/// A spline of two clothoids (Howard 2012, section 3), by its curvature at the start and at two
+/// knots, positive turns left. Between them the curvature is linear in the length.
 struct Spline {
   double start_per_m = 0.0;        ///< curvature at the start
-  double first_knot_per_m = 0.0;   ///< after half of the length
-  double second_knot_per_m = 0.0;  ///< after all of it, and beyond
+  double first_knot_per_m = 0.0;   ///< at the first knot, after half of the length
+  double second_knot_per_m = 0.0;  ///< at the second knot, at the end, and beyond
   double length_m = 0.0;           ///< from the start to the second knot
 
   bool operator==(const Spline&) const = default;
@@ -26,9 +26,9 @@ struct Spline {
 
 /// One cell of a map.
 struct MapCellView {
-  bool has_data = false;       ///< holds range points
+  bool has_data = false;       ///< whether the cell holds range points
   double elevation_m = 0.0;    ///< mean of its points, in the map's frame
-  bool known = false;          ///< was evaluated
+  bool known = false;          ///< whether the cell was evaluated
   std::uint8_t goodness = 0;   ///< 0 (impassable) to 255
   std::uint8_t certainty = 0;  ///< of the goodness, 0 to 255
 };
@@ -58,7 +58,7 @@ struct MotionVote {
   double hazard_certainty = 0.0;
   double waypoint = 0.0;
   double merged = 0.0;
-  bool vetoed = false;  ///< a hazard was felt on it from here
+  bool vetoed = false;  ///< a hazard was felt on this motion, so that it is not driven again
   bool best = false;    ///< shares the highest merged vote
   bool chosen = false;  ///< the motion that is driven
 };
@@ -69,7 +69,8 @@ struct SplineVote {
   double hazard = 0.0;
   double hazard_certainty = 0.0;
   double waypoint = 0.0;
-  /// From its heading to the goal where the waypoint vote is asked.
+  /// Bearing of the goal from the heading, at the place on the spline where the waypoint vote is
+  /// taken.
   double waypoint_error_rad = 0.0;
   double merged = 0.0;
   bool feasible = false;  ///< the steering motors keep up with it
@@ -80,7 +81,7 @@ struct SplineVote {
 struct NavigationView {
   std::int64_t step = 0;  ///< counts decisions from 0
   PoseEstimate estimate;
-  /// How the rover believes to stand; the map's elevations count as its z.
+  /// How the rover believes to stand. Elevations of the map count from the same zero as its z_m.
   AttitudeEstimate attitude;
   Goal goal;
   bool looked_behind = false;
@@ -89,10 +90,10 @@ struct NavigationView {
   std::vector<MotionVote> forward;
   std::vector<MotionVote> backward;
   std::vector<MotionVote> point_turns;
-  /// By the first knot from right (most negative) to left, then by the second one; empty where the
-  /// rover chooses among the motions above.
+  /// Splines in the order of the first knot from right (most negative) to left, then of the second
+  /// knot; empty where the rover chooses among the motions above.
   std::vector<SplineVote> splines;
-  PoseEstimate spline_start;  ///< where they begin
+  PoseEstimate spline_start;  ///< where all splines begin
 };
 
 }  // namespace rockyard::messages

@@ -1,5 +1,6 @@
 /// @file
-/// What a range sensor hands to on-board software.
+/// What a range sensor hands to on-board software: map-based navigators fill their map with it, and
+/// elevations for the hazard detector are taken from it.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +19,17 @@ enum class LookDirection { kAhead, kBehind };
 struct PointCloud {
   std::int64_t number = 0;                          ///< counts every look of the trial from 0
   LookDirection direction = LookDirection::kAhead;  ///< where the rover looked
-  std::vector<math::Vector3> points_R;  ///< m, in R as the rover's calibration has it; no order
+  std::vector<math::Vector3> points_R;  ///< m, in R as the rover believes; readers need no order
 };
 
-/// The moment at which data were taken that may be delivered much later, as the rover believed it
-/// then. A pose in the odometry frame keeps its meaning whatever corrects the estimate since.
+/// The moment of a look, and what the rover believed then: the look's data may be delivered much
+/// later. A pose in the odometry frame keeps its meaning whatever corrects the estimate meanwhile.
 struct LookMoment {
   std::int64_t number = 0;    ///< of the look
   double time_s = 0.0;        ///< on-board clock
-  PoseEstimate estimate;      ///< in the world frame
+  PoseEstimate estimate;      ///< in the frame in which goals are told
   PoseEstimate odometry;      ///< in the odometry frame
-  AttitudeEstimate attitude;  ///< at that moment
+  AttitudeEstimate attitude;  ///< believed stance
 };
 
 }  // namespace rockyard::messages

@@ -1,10 +1,15 @@
 /// @file
-/// Values per light stripe and per point of the light stripe sensor's array.
+/// Values per light stripe and per point of the light stripe sensor's array. Scans, elevations and
+/// hazard reports are made of them; stereo's elevations have the same shape.
 ///
-/// Rows run from the nearest point (0) to the farthest along each laser, stripes from the rover's
-/// left (0) to its right. Matthies 1995, section 6 and figure 13: 4 rows by 5 stripes; denser
-/// arrays are among the improvements that the section lists. Sizes are known when a sensor is
-/// built, and small, so that values lie in place and no scan allocates memory.
+/// Words: a *stripe* is what one laser draws on the ground, from the rover's left (0) to its right.
+/// A *row* of the array runs across all stripes, from the nearest (0) to the farthest. A *point* is
+/// where a row and a stripe meet. A *scanline* is the image row (of pixels) in which the points of
+/// one row are measured; the *column* of a point is its place on that scanline, in pixels.
+///
+/// Matthies 1995, section 6 and figure 13, has 4 rows by 5 stripes; denser arrays are among the
+/// improvements that the section lists. Sizes are known when a sensor is built, and small, so that
+/// values lie in place and no scan allocates memory.
 #pragma once
 
 #include <array>
@@ -16,11 +21,11 @@
 
 namespace rockyard::messages {
 
-/// Rows of the published array.
+/// Rows and stripes of the published array.
 inline constexpr std::size_t kStripeRows = 4;
-/// Stripes of the published array, and the largest array: parameters of sensor and hazard array are
-/// bounded by it.
 inline constexpr std::size_t kStripes = 5;
+/// Rows and stripes of the largest array, to which the parameters of sensor and hazard array are
+/// bound.
 inline constexpr std::size_t kMaxStripeRows = 7;
 inline constexpr std::size_t kMaxStripes = 9;
 
@@ -37,12 +42,12 @@ template <typename T>
 class PerStripe {
  public:
   constexpr PerStripe() = default;
-  /// That many stripes, at most kMaxStripes, each with that value.
+  /// Makes `stripes` stripes, at most kMaxStripes, each with `value`.
   constexpr explicit PerStripe(std::size_t stripes, const T& value = T{}) : size_(stripes) {
     EXPECT(stripes <= kMaxStripes);
     for (T& each : *this) each = value;
   }
-  /// One stripe for each value, at most kMaxStripes.
+  /// Makes one stripe for each value, at most kMaxStripes.
   constexpr PerStripe(std::initializer_list<T> values) : size_(values.size()) {
     EXPECT(values.size() <= kMaxStripes);
     std::size_t stripe = 0;
@@ -59,7 +64,7 @@ class PerStripe {
   constexpr const T* end() const { return values_.data() + size_; }
   constexpr const T& front() const { return values_[0]; }
   constexpr const T& back() const { return values_[size_ - 1]; }
-  /// Gives each stripe that value.
+  /// Gives each stripe `value`.
   constexpr void fill(const T& value) {
     for (T& each : *this) each = value;
   }
@@ -81,12 +86,12 @@ template <typename T>
 class StripeArray {
  public:
   StripeArray() = default;
-  /// An array of that size, at most kMaxStripeRows by kMaxStripes, of default values.
+  /// Makes an array of default values, at most kMaxStripeRows by kMaxStripes.
   explicit StripeArray(StripeArraySize size) : size_(size) {
     EXPECT(size.rows <= kMaxStripeRows && size.stripes <= kMaxStripes);
   }
 
-  /// Return its size.
+  /// Return the size of the array.
   const StripeArraySize& size() const { return size_; }
   std::size_t rows() const { return size_.rows; }
   std::size_t stripes() const { return size_.stripes; }
@@ -98,7 +103,7 @@ class StripeArray {
   std::span<const T> operator[](std::size_t row) const {
     return {values_.data() + row * size_.stripes, size_.stripes};
   }
-  /// Every point, row by row.
+  /// Return every point, row by row.
   std::span<T> points() { return {values_.data(), size_.rows * size_.stripes}; }
   std::span<const T> points() const { return {values_.data(), size_.rows * size_.stripes}; }
 

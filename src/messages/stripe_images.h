@@ -1,4 +1,5 @@
-// What the cameras of the light stripe sensor hand to the stripe finder.
+// What the cameras of the light stripe sensor hand to the stripe finder: the simulated imager
+// writes it, and pictures of a scan show it.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +7,8 @@
 
 namespace rockyard::messages {
 
-// Consecutive image lines of one camera. Rows and columns count from the pixel on the optical axis,
-// rows downwards, columns to the camera's right, as in Camera.
+// Consecutive rows of pixels of one camera. Rows and columns count from the pixel on the optical
+// axis, rows downwards, columns to the camera's right, as in Camera.
 struct ImageBand {
   int first_row = 0;
   int first_column = 0;
@@ -21,14 +22,15 @@ struct ImageBand {
   }
 };
 
-// The same lines taken twice within a moment: with one group of lasers on, and with all off.
+// The same rows of pixels taken twice at one pose: with one group of lasers on, and with all off.
 struct StripeExposure {
   int camera = 0;  // index in StripeCalibration::cameras
   int group = 0;   // lasers with this StripeLaser::group were on in `lit`
   std::vector<ImageBand> lit;
-  std::vector<ImageBand> dark;  // as many bands with the same lines as `lit`
+  std::vector<ImageBand> dark;  // as many bands with the same rows as `lit`
 };
 
+// All images of one scan.
 struct StripeImages {
   std::int64_t number = 0;  // counts every scan of the trial from 0
   double exposure_s = 0.0;

@@ -1,6 +1,7 @@
 /// @file
-/// What the rover feels of itself: the sensors of Matthies 1995, section 6, beside the light
-/// stripe.
+/// What the rover feels of itself, by the sensors of Matthies 1995, section 6, beside the light
+/// stripe. Estimators take the attitude from it, the detectors of felt hazards and of a stuck rover
+/// judge it, and navigators are told of hazards.
 #pragma once
 
 #include <array>
@@ -22,7 +23,7 @@ struct Articulation {
 };
 
 /// Strips that close where something presses on the edge of the solar panel or on the leading edge
-/// of the undercarriage. False touches are drawn strip by strip in this order.
+/// of the undercarriage. Records depend on the order: false touches are drawn strip by strip in it.
 enum class ContactSwitch : std::size_t {
   kFrontLeft,
   kFrontCentre,
@@ -32,31 +33,31 @@ enum class ContactSwitch : std::size_t {
   kRearEdge,
   kUndercarriage,
 };
-/// How many there are.
+/// How many strips there are.
 inline constexpr std::size_t kContactSwitchCount = 7;
-/// One value per strip, by Index. True: pressed.
+/// One value per strip, by Index; true: pressed.
 using ContactSwitches = std::array<bool, kContactSwitchCount>;
 
-/// Returns the place of a strip.
+/// Returns the place of a strip in ContactSwitches.
 constexpr std::size_t Index(ContactSwitch contact) { return static_cast<std::size_t>(contact); }
 
-/// One on-board tick. What the rover has no sensor for is empty.
+/// What is felt over one on-board tick. What the rover has no sensor for is empty.
 struct VehicleState {
   std::optional<Articulation> articulation;
   /// Specific force along the rover's axes, m/s2: at rest the upward reaction to gravity, (0, 0, g)
   /// on level ground.
   std::optional<math::Vector3> specific_force_R;
   std::optional<PerWheel<double>> motor_current_A;  ///< magnitudes
-  std::optional<ContactSwitches> contact;           ///< true: pressed
+  std::optional<ContactSwitches> contact;
 };
 
-/// What the rover feels and has to get away from. The last is no sensor's: wheels that roll farther
-/// than the cameras see the rover move.
+/// What the rover feels and has to get away from. kSlip comes from no sensor of VehicleState but
+/// from visual odometry: the wheels roll farther than the cameras see the rover move.
 enum class VehicleHazardKind { kContact, kTilt, kArticulation, kMotorCurrent, kSlip };
-/// How many there are.
+/// How many kinds there are.
 inline constexpr std::size_t kVehicleHazardKindCount = 5;
 
-/// Where the cause lies, as far as the sensor tells.
+/// Where the cause of a hazard lies, as far as the sensor tells.
 enum class HazardSide { kLeft, kAhead, kRight, kBehind };
 
 /// A hazard that the rover feels, not sees.

@@ -1,5 +1,6 @@
 /// @file
-/// The six wheels of a rocker-bogie rover, in the order used by every array over wheels.
+/// The six wheels of a rocker-bogie rover, in the order of every array over wheels: of commands,
+/// measurements, calibrations and the true state.
 #pragma once
 
 #include <array>
@@ -10,8 +11,8 @@ namespace rockyard::messages {
 /// How many wheels there are.
 inline constexpr std::size_t kWheelCount = 6;
 
-/// A wheel, by side and axle. Code relies on this order: the side is the number / 3, left first,
-/// the axle the number % 3 from the front.
+/// A wheel, by side and axle. Must stay: the side is the number / 3, left first, and the axle the
+/// number % 3, from the front; code relies on it.
 enum class Wheel : std::size_t {
   kLeftFront,
   kLeftMiddle,

@@ -1,6 +1,6 @@
 /// @file
 /// The navigators that a scenario can name: each with its parameters, its traits and how it is
-/// made.
+/// made. Scenarios list them, drives make the chosen one, and a program adds its own.
 #pragma once
 
 #include <memory>
@@ -19,34 +19,35 @@ class Navigator;
 
 /// What a navigator gets at the start of a drive, beside its parameters.
 struct NavigatorSetup {
-  messages::Goal goal;           ///< in the frame in which goals are told
-  bool judges_hazards = true;    ///< false: perception reports no hazards, the rover drives blind
-  double full_speed_m_s = 0.07;  ///< of the fastest rim; Athena's (Howard 2012 sec. 3)
-  messages::Route route = {};  ///< to the goal, for one that follows it; empty where there is none
+  messages::Goal goal;         ///< in the frame in which goals are told
+  bool judges_hazards = true;  ///< false: perception reports no hazards, the rover drives blind
+  /// Of the fastest rim. The default is Athena's (Howard 2012 sec. 3), as in gestalt/gestalt.h.
+  double full_speed_m_s = 0.07;
+  messages::Route route = {};  ///< to the goal, for traits().follows_route; else empty
 };
 
 /// All that is needed to add a navigator. `Params` has `void Visit(core::FieldVisitor&)`.
 template <typename Params>
 struct NavigatorDescription {
-  /// In navigation.navigator, and of the group of its parameters; a literal.
+  /// The name in navigation.navigator, and of the group of its parameters; a literal.
   std::string_view name;
   std::string_view doc;  ///< of that group; a literal
-  /// What a trial has to know of it, and how one is made for a drive.
+  /// What a trial has to know of the navigator, and how one is made for a drive.
   NavigatorTraits (*traits)(const Params&) = nullptr;
   std::unique_ptr<Navigator> (*make)(const Params&, const NavigatorSetup&) = nullptr;
 };
 
-/// One of a set, whatever its parameters.
+/// A navigator of a set, whatever its parameters.
 class NavigatorKind : public core::Kind {
  public:
   using core::Kind::Kind;
 
-  /// Of one of its parameters, in a scenario.
+  /// Returns the path of one of its parameters in a scenario.
   std::string PathOf(std::string_view parameter) const {
     return "navigation." + std::string(name()) + "." + std::string(parameter);
   }
 
-  /// Returns what a trial has to know of it, with the parameters of this kind.
+  /// Returns what a trial has to know of the navigator, by the parameters of this kind.
   virtual NavigatorTraits traits() const = 0;
   /// Makes one for a drive.
   virtual std::unique_ptr<Navigator> Make(const NavigatorSetup& setup) const = 0;
@@ -60,8 +61,8 @@ class NavigatorSet : public core::KindSet<NavigatorKind> {
   /// An empty set.
   NavigatorSet();
 
-  /// Throws core::UserError where the name is taken, by a navigator or by another key of
-  /// "navigation", or is no key at all. Needs navigation/navigator.h.
+  /// Adds a navigator. Throws core::UserError where its name is taken, by a navigator or by another
+  /// key of "navigation", or is no key at all. The caller includes navigation/navigator.h.
   template <typename Params>
   void Add(const NavigatorDescription<Params>& description, Params params = {}) {
     AddKind(std::make_unique<KindOf<Params>>(description, std::move(params)));
@@ -86,8 +87,9 @@ class NavigatorSet : public core::KindSet<NavigatorKind> {
   };
 };
 
-/// The one list of them: pathfinder (chosen), gestalt, route. Scenarios that name none drive with
-/// the first. Scenario files and stored runs hold the names, so that these stay.
+/// Returns rockyard's own navigators: pathfinder (chosen), gestalt, route. Scenarios that name none
+/// drive with the first. Names and order must stay: scenario files and stored runs hold the names,
+/// and fingerprints depend on the order.
 NavigatorSet StandardNavigators();
 
 }  // namespace rockyard::navigation

@@ -1,4 +1,5 @@
-// What a rover does that notices that it is stuck, or whose check of slip raises an alarm. The
+// Parameters of what a rover does that notices that it is stuck, or whose check of slip raises an
+// alarm. StuckReaction and the on-board side of a drive (trial/aids/slip_alarms.h) read them. The
 // defaults add no manoeuvre to those of the papers.
 #pragma once
 
@@ -13,9 +14,9 @@ namespace rockyard::navigation {
 // What follows where the rover notices that it is stuck (perception.stuck_detector). Neither paper
 // has a rule for it, so all of this is assumed.
 enum class StuckResponse {
-  kOff,      // it does not look for it
-  kGiveUp,   // it stops and waits for its operators
-  kBackOff,  // it drives back once, and gives up where it notices it again
+  kOff,      // the rover does not look for signs of it
+  kGiveUp,   // the rover stops and waits for its operators
+  kBackOff,  // the rover drives back once, and gives up where it notices again that it is stuck
 };
 
 struct StuckReactionParams {
@@ -25,9 +26,9 @@ struct StuckReactionParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// What follows an alarm (perception/visual_motion.h).
+// What follows an alarm of the slip check (perception/visual_motion.h).
 enum class SlipResponse {
-  kStop,     // it stops where it is and waits for its operators
+  kStop,     // the rover stops where it is and waits for its operators
   kAsStuck,  // what on_board_stuck.reaction says
   kReplan,   // the navigator takes it as a hazard that the rover feels ahead
 };

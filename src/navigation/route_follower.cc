@@ -12,7 +12,8 @@ namespace rockyard::navigation {
 using messages::MotionCommand;
 using messages::MotionKind;
 
-// The end of a plan moves on with each one that confirms it, and a speed changes no path.
+// Neither the end nor the speed of a command counts: the end of a plan moves on with each plan that
+// confirms it, and a speed changes no path.
 bool MotionFollower::Begins(const MotionCommand& command) const {
   return command.kind != last_.kind || command.curvature_per_m != last_.curvature_per_m ||
          command.direction != last_.direction ||
@@ -60,7 +61,7 @@ NavigatorDecision RouteFollower::Decide(const NavigatorInput& input) {
   return Steer(bearing, estimate);
 }
 
-// What was under way is worked out anew from where the rover now stands.
+// The motion under way is worked out anew from where the rover now stands.
 void RouteFollower::OnPoseUpdate(const PoseEstimate&, const PoseEstimate&) { under_way_ = false; }
 
 void RouteFollower::SetGoal(const messages::Goal& goal, GoalChange) {

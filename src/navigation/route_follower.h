@@ -1,4 +1,5 @@
-// From a motion command to the motion of each tick, and along a route that was given.
+// MotionFollower, from a motion command to the motion of each tick, for every navigator; and
+// RouteFollower, the navigator `route`, which drives along a route that it was given.
 #pragma once
 
 #include <cstddef>
@@ -12,22 +13,23 @@
 
 namespace rockyard::navigation {
 
-// Stands between the navigator, whichever it is, and the wheel driver. Follows the command that it
-// is given at each tick, by the odometer:
+// Stands between the navigator, whichever it is, and the wheel driver, on board of every drive.
+// Follows the command of each tick by the odometer:
 //   curvature = c + c' s, with s what was driven since the command began,
-// at the middle of the tick, where a rover at full speed has driven v tick / 2 more: what is held
-// for a tick is off to either side alike. It stops in time: braking takes v T / 2 for a ramp of T
-// from v to rest, and what is told now is driven for a tick, so that it stops where
+// at the middle of the tick, where a rover of speed v has driven v tick / 2 more, so that a
+// curvature that is held for a tick is off to either side alike. It stops in time: braking takes v
+// T / 2 for a ramp of T from v to rest, and what is told now is driven for a tick. So it stops
+// where
 //   odometer + v tick + v T / 2 > end.
-// A command begins where it differs from the last one or, with a number of its own (move), where
-// its terms (curvature, rate) do. Draws no random numbers.
+// A command begins where its kind, direction, curvature, rate or number (move) differ from those of
+// the last one (Begins). Draws no random numbers.
 class MotionFollower {
  public:
-  // v at full speed, m/s; T, s.
+  // Takes the full speed, m/s, and T, s.
   MotionFollower(double full_speed_m_s, double ramp_s)
       : full_speed_m_s_(full_speed_m_s), ramp_s_(ramp_s) {}
 
-  // What to do for the next tick_s > 0; kStop where the end is too near.
+  // Returns what to do for the next tick_s > 0; kStop where the end is too near.
   messages::MotionCommand Follow(const messages::MotionCommand& command, double odometer_m,
                                  double tick_s);
 
@@ -37,12 +39,13 @@ class MotionFollower {
   double full_speed_m_s_;
   double ramp_s_;
   messages::MotionCommand last_;
-  double began_m_ = 0.0;  // odometer then
+  double began_m_ = 0.0;  // odometer when last_ began
 };
 
 // Follows a route by dead reckoning and looks at nothing: what is left of a navigator where path
-// selection is perfect. Whoever makes the route knows the terrain, this one does not.
-
+// selection is perfect. The drive plans the route on the map of course.route_map; the follower
+// knows no terrain. The ablation perfect_path_selection chooses it.
+//
 // Drives from corner to corner: it turns in place where the next corner lies off by more than
 // point_turn_bearing, or inside of the tightest circle; otherwise it drives the arc that leads
 // there, of curvature 2 sin(bearing) / distance, worked out anew every steer_interval_m. Hazards
@@ -79,7 +82,7 @@ class RouteFollower final : public Navigator {
   double steered_at_m_ = 0.0;  // odometer
 };
 
-// For a set of navigators.
+// Describes the navigator `route`, for a set of navigators.
 NavigatorDescription<RouteParams> DescribeRouteFollower();
 
 }  // namespace rockyard::navigation

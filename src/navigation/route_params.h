@@ -1,5 +1,5 @@
-// How a rover follows a route that it was given. A default decides the records of scenarios that
-// leave it out; a bound only refuses files.
+// Parameters of RouteFollower: how a rover follows a route that it was given. A default decides the
+// records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include "core/fields.h"
@@ -7,7 +7,6 @@
 
 namespace rockyard::navigation {
 
-// The values that RouteFollower asks for.
 struct RouteParams {
   double goal_tolerance_m = 0.10;
   double corner_tolerance_m = 0.05;

@@ -7,8 +7,8 @@ namespace rockyard::navigation {
 
 NavigatorSet StandardNavigators() {
   NavigatorSet set;
-  // The first is the default. Resolved scenarios list their groups in this order, and fingerprints
-  // hash that text.
+  // Must stay in this order: the first is the default, resolved scenarios list the groups so, and
+  // fingerprints hash their text.
   set.Add(DescribePathfinder());
   set.Add(DescribeGestalt());
   set.Add(DescribeRouteFollower());

@@ -25,7 +25,7 @@ NavigatorDecision StuckReaction::Decide(const NavigatorInput& input) {
     stage_ = Stage::kBackedOff;
   }
   NavigatorDecision decision = navigator_->Decide(input);
-  // A turn in place leads no way back: the arc before it does.
+  // A turn in place cannot be driven back: the arc before it can.
   if (decision.motion.kind == messages::MotionKind::kArc) last_arc_ = decision.motion;
   return decision;
 }

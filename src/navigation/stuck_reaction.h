@@ -1,10 +1,12 @@
-// Any navigator, and what the rover does where it notices that it is stuck: it gives up, or drives
-// back along its last arc once in a drive and gives up the next time. The navigator below is not
-// asked while the rover backs off; it goes on with what was under way from where the rover believes
-// to be afterwards. Draws no random numbers.
+// A navigator around any other one, for what the rover does where it notices that it is stuck: it
+// gives up, or drives back along its last arc once in a drive and gives up the next time. Drives
+// put it around their navigator unless on_board_stuck.reaction is off. The navigator below is not
+// asked while the rover backs off; afterwards it goes on with what was under way, from where the
+// rover then believes to be. Draws no random numbers.
 //
 // Limits: backing off is blind, and by wheel odometry: wheels that spin back end it as well. A
-// touch at the end that leads ends it, where the rover has contact switches.
+// touch at the end that leads ends it, where the rover has contact switches (as Touches of
+// gestalt/manoeuvre.h says).
 #pragma once
 
 #include <memory>
@@ -34,7 +36,7 @@ class StuckReaction final : public Navigator {
   enum class Stage { kNavigating, kBackingOff, kBackedOff };
 
   void BeginBackOff(const messages::PoseEstimate& estimate);
-  // Whether the back-off is over after this tick.
+  // Returns whether the back-off is over after this tick.
   bool HasBackedOff(const NavigatorInput& input) const;
 
   StuckReactionParams params_;

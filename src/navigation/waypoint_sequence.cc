@@ -27,7 +27,7 @@ NavigatorDecision WaypointSequence::Decide(const NavigatorInput& input) {
   if (pass_within_m_) PassWaypoints(input.estimate);
   NavigatorDecision decision = navigator_->Decide(input);
   NavigatorInput again = input;
-  // The first answer was one to this, too.
+  // The first answer has dealt with it.
   again.notices_stuck = false;
   while (decision.status == NavigatorStatus::kArrived && !IsOnLastLeg()) {
     leg_from_ = goal();

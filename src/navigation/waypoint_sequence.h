@@ -1,7 +1,7 @@
-// Any navigator, driven from waypoint to waypoint: where it says that it is at one, it is given the
-// next. The last of them is the goal of the drive. Everything else that the navigator says passes
-// through. It is the outermost navigator of every drive, also of one with a single goal. Draws no
-// random numbers.
+// A navigator around any other one, which is driven from waypoint to waypoint: where it says that
+// it is at one, it is given the next. The last waypoint is the goal of the drive. Everything else
+// that the navigator says passes through. It is the outermost navigator of every drive, also of a
+// drive with a single goal. Draws no random numbers.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,10 @@
 namespace rockyard::navigation {
 
 // Returns whether a rover at `estimate` is done with the corner of a way at the end of the leg that
-// began at `from`: it is near, or beyond the line through the corner across the leg,
+// began at `from`: the rover is within_m near, or beyond the line through the corner across the
+// leg,
 //   (p - corner) . (corner - from) > 0,
-// so that there is nothing to go back for.
+// so that there is nothing to go back for. RouteFollower passes corners by it, too.
 bool HasPassed(const messages::Goal& corner, const messages::Goal& from,
                const messages::PoseEstimate& estimate, double within_m);
 
@@ -25,31 +26,31 @@ class WaypointSequence final : public Navigator {
  public:
   // `goals`, in the world frame, are one at least, in the order of driving. `navigator` is not null
   // and has the first of them for its goal. With `pass_within_m` the waypoints are bends of a way
-  // rather than places to be at: each is done with where the rover believes to be no farther from
-  // it, or beyond the line through it across the leg that leads to it.
+  // rather than places to be at: the rover is done with one by HasPassed.
   WaypointSequence(std::vector<messages::Goal> goals, std::unique_ptr<Navigator> navigator,
                    std::optional<double> pass_within_m = std::nullopt);
 
-  // Says kArrived at the last goal only. At any other one the navigator is given the next and asked
-  // again, so that no tick is lost.
+  // Says kArrived at the last goal only. Where the navigator says it of another goal, it is given
+  // the next one and asked again, so that no tick is lost.
   NavigatorDecision Decide(const NavigatorInput& input) override;
   void OnPoseUpdate(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
   void OnCorrection(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
-  // Replaces the last goal, which the navigator learns at once if it drives to it, and else where
-  // its turn comes.
+  // Replaces the last goal. The navigator learns it at once if it drives to the last goal, else
+  // when its turn comes.
   void SetGoal(const messages::Goal& goal, GoalChange change) override;
-  // Leaves out what is left of the sequence: this is the goal that it drives to, and its last.
+  // Leaves out what is left of the sequence: `goal` is the goal that the rover drives to, and its
+  // last.
   void DriveTo(const messages::Goal& goal);
   const messages::NavigationView* view() const override { return navigator_->view(); }
   PlanCounts plan_counts() const override { return navigator_->plan_counts(); }
 
-  // Waypoints at which the navigator said that it had arrived, or that were passed; the last goal
-  // is none of them.
+  // Returns at how many waypoints the navigator said that it had arrived, or that were passed; the
+  // last goal is none of them.
   std::size_t reached() const { return reached_; }
   bool IsOnLastLeg() const { return reached_ + 1 == goals_.size(); }
-  // What it drives to now, and in the end.
+  // Returns the goal that the rover drives to now; and that in the end.
   const messages::Goal& goal() const { return goals_[reached_]; }
   const messages::Goal& last_goal() const { return goals_.back(); }
 

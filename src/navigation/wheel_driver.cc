@@ -16,14 +16,15 @@ using messages::MotionCommand;
 using messages::MotionKind;
 using messages::WheelCommand;
 
-// Velocity of a point of the rover, up to a common scale.
+// The velocity of a point of the rover, up to a common scale.
 struct PlanarVelocity {
   double x;
   double y;
 };
 
-// Velocity of the wheel's centre (x, y) in R, v = v_R + Omega x r, up to a common scale: with v_R =
-// (1, 0) and Omega = c for an arc that is (1 - c y, c x), with Omega = 1 alone (-y, x).
+// Returns the velocity of the wheel's centre r = (x, y) in R, v = v_R + Omega x r, up to a common
+// scale. An arc has v_R = (1, 0) and Omega = c, which gives (1 - c y, c x); a turn in place has
+// Omega = 1 alone, which gives (-y, x).
 PlanarVelocity WheelVelocity(const MotionCommand& motion, double wheel_x_m, double wheel_y_m) {
   if (motion.kind == MotionKind::kTurnInPlace) {
     return {-wheel_y_m * motion.direction, wheel_x_m * motion.direction};
@@ -34,7 +35,7 @@ PlanarVelocity WheelVelocity(const MotionCommand& motion, double wheel_x_m, doub
 
 double Clamp(double value, double limit) { return std::clamp(value, -limit, limit); }
 
-// The steering angle in [-pi/2, pi/2] along which the wheel can roll, forward or backward.
+// Returns the steering angle in [-pi/2, pi/2] along which the wheel can roll, forward or backward.
 double SteeringAngle(const PlanarVelocity& velocity) {
   const double angle = std::atan2(velocity.y, velocity.x);
   if (angle > std::numbers::pi / 2) return angle - std::numbers::pi;
@@ -42,7 +43,8 @@ double SteeringAngle(const PlanarVelocity& velocity) {
   return angle;
 }
 
-// Whether they lead to the same set points: compares all that SteadyWheelCommand reads of a motion.
+// Returns whether two motions have the same set points. Must compare all that SteadyWheelCommand
+// reads of a motion.
 bool Same(const MotionCommand& a, const MotionCommand& b) {
   return a.kind == b.kind && a.curvature_per_m == b.curvature_per_m && a.direction == b.direction &&
          a.speed_share == b.speed_share;
@@ -61,7 +63,7 @@ WheelCommand SteadyWheelCommand(const MotionCommand& motion, const DriveCalibrat
     double steer = 0.0;
     if (calibration.steered[i]) steer = Clamp(SteeringAngle(v), calibration.max_steer_rad);
     command.steer_rad[i] = steer;
-    // The part of that velocity along the wheel; what lies across it is scrubbed.
+    // The part of the velocity along the wheel; the part across is scrubbed.
     rim[i] = v.x * std::cos(steer) + v.y * std::sin(steer);
     fastest = std::max(fastest, std::abs(rim[i]));
   }
@@ -118,7 +120,7 @@ WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
   if (moves) aligned_kind_ = steering_ ? MotionKind::kStop : motion.kind;
   if (steering_) command.rate_rad_s.fill(0.0);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
-    // The wheel then stands the offset away from the angle that the rover believes in.
+    // The wheel stands the offset away from the angle that the rover believes in.
     if (calibration_.steered[i]) command.steer_rad[i] += calibration_.steering_offset_rad;
   }
   // Along a clothoid the next tick has other set points, which a rover model with long steps needs

@@ -1,5 +1,5 @@
 // From motion commands to wheels: Ackermann steering of a six-wheel rover with four steered
-// corners.
+// corners. The on-board side of every drive turns its motions into wheel commands by it.
 #pragma once
 
 #include "messages/calibration.h"
@@ -16,10 +16,11 @@ namespace rockyard::navigation {
 messages::WheelCommand SteadyWheelCommand(const messages::MotionCommand& motion,
                                           const messages::DriveCalibration& calibration);
 
-// Drives the wheels towards a motion: when the steering angles have far to go, the rover stands
-// until they are believed to be there (the power budget allows one major function at a time,
-// Matthies 1995 sec. 2.1.2). With `steers_while_rolling` it stands so only between arcs and turns
-// in place, whose wheels point elsewhere.
+// Drives the wheels towards a motion: when a steering angle has farther to go than
+// steer_while_driving, the rover stands until all are believed to be there (the power budget allows
+// one major function at a time, Matthies 1995 sec. 2.1.2). With `steers_while_rolling`
+// (clock.overlap.steering) it stands so only between arcs and turns in place, whose wheels point
+// elsewhere.
 class WheelDriver {
  public:
   WheelDriver(const messages::DriveCalibration& calibration, const WheelDriverParams& params,
@@ -37,8 +38,8 @@ class WheelDriver {
   double steered_s() const { return steered_s_; }
 
  private:
-  // Returns SteadyWheelCommand of the motion, worked out anew only when it differs from the last
-  // one.
+  // Returns SteadyWheelCommand of the motion, worked out anew only where the motion differs from
+  // the last one.
   const messages::WheelCommand& Steady(const messages::MotionCommand& motion);
 
   messages::DriveCalibration calibration_;
@@ -47,7 +48,7 @@ class WheelDriver {
 
   WheelDriverParams params_;
   bool steers_while_rolling_;
-  // For which the wheels stand, whatever the curvature; kStop: for none.
+  // The kind of motion for which the wheels stand, whatever the curvature; kStop: for none.
   messages::MotionKind aligned_kind_ = messages::MotionKind::kArc;
   messages::MotionCommand last_motion_;  // to which steady_ belongs
   messages::WheelCommand steady_;

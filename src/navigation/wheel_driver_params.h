@@ -1,4 +1,4 @@
-// Parameters of the wheel driver, with what the rover believes of its steering motors: the true
+// Parameters of WheelDriver. They hold what the rover believes of its steering motors; their true
 // rate is that of rover.drive. A default decides the records of scenarios that leave it out; a
 // bound only refuses files.
 #pragma once
@@ -8,7 +8,6 @@
 
 namespace rockyard::navigation {
 
-// The values that WheelDriver asks for.
 struct WheelDriverParams {
   double steer_rate_rad_s = math::DegToRad(60.0);
   double steer_while_driving_rad = math::DegToRad(10.0);

@@ -13,7 +13,7 @@ namespace {
 
 using vision::Image;
 
-// A pixel of the reduced mask is free where all pixels that it is the mean of are.
+// A pixel of the reduced mask is free where all pixels are free whose mean it is.
 Image<std::uint8_t> ReducedMask(const Image<std::uint8_t>& free, int level) {
   const int side = 1 << level;
   Image<std::uint8_t> reduced(free.width() / side, free.height() / side, 1);
@@ -25,7 +25,7 @@ Image<std::uint8_t> ReducedMask(const Image<std::uint8_t>& free, int level) {
   return reduced;
 }
 
-// A pixel of the aligned mask is free where all pixels that it is interpolated from are.
+// A pixel of the aligned mask is free where all pixels are free from which it is interpolated.
 Image<std::uint8_t> AlignedMask(const vision::RectificationTable& table,
                                 const Image<std::uint8_t>& free) {
   constexpr std::uint8_t kWhite = 255;

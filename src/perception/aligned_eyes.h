@@ -1,5 +1,5 @@
 // The images of a camera pair as its calibration has them: reduced, with rows that are epipolar
-// lines.
+// lines. Stereo and visual odometry see through it, in drives and in recorded pairs.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,22 @@
 
 namespace rockyard::perception {
 
-// Images are reduced by 2^level and resampled where the cameras are not aligned as they are.
-//
-// Stereo and visual odometry see through it, in drives and in recorded pairs. `rig` is what the
-// rover believes of its cameras; the images are those of the true ones, which may have drifted.
-// Pixels that are not free are not blanked: whoever matches leaves them out.
+// Images are reduced by 2^level, and resampled unless the cameras are aligned already. `rig` is
+// what the rover believes of its cameras; the images are those of the true cameras, which may have
+// drifted. Pixels that are not free are not blanked: whoever matches leaves them out.
 class AlignedEyes {
  public:
   // Throws core::UserError where the cameras cannot be aligned.
   AlignedEyes(const vision::StereoRig& rig, int pyramid_level);
 
-  // The images of the rig's size, aligned.
+  // Return images of the rig's size, reduced and aligned.
   vision::GrayImage Left(const vision::GrayImage& image) const { return Aligned(left_, image); }
   vision::GrayImage Right(const vision::GrayImage& image) const { return Aligned(right_, image); }
 
-  // The cameras of these.
+  // Returns the cameras of the aligned images.
   const vision::RectifiedPair& pair() const { return pair_; }
-  // Their pixels that show neither the carrier (0) nor what a camera did not see.
+  // Return the pixels of the aligned images that are free (1): they show neither the carrier of the
+  // cameras nor what a camera did not see (0).
   const vision::Image<std::uint8_t>& left_free() const { return left_.free; }
   const vision::Image<std::uint8_t>& right_free() const { return right_.free; }
 

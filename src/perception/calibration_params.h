@@ -1,7 +1,8 @@
-// How wrong the rover is about its own geometry. All zero by default: on-board code then works with
-// the truth. Every error is what the rover believes less what is true, except steering_offset_rad.
-// A trial joins truth and errors in one place (trial/eyes/onboard_calibration.h), from which all
-// that computes on board takes its geometry; sensors and physics keep the true one.
+// How wrong the rover is about its own geometry (scenario group perception.calibration). All zero
+// by default: on-board code then works with the truth. Every error is what the rover believes less
+// what is true, except steering_offset_rad. A trial joins truth and errors in one place
+// (trial/eyes/onboard_calibration.h), from which all on-board code must take its geometry; sensors
+// and physics keep the true geometry.
 #pragma once
 
 #include <array>
@@ -14,8 +15,8 @@ namespace rockyard::perception {
 // Errors of the drive geometry.
 struct DriveCalibrationErrors {
   double wheel_radius_percent = 0.0;  // of all wheels, > 0: believed too large
-  // The error of the left wheels against the right ones: half of it is added on the left, half
-  // taken on the right.
+  // The error of the left wheels against the right ones: half of it is added to the left wheels,
+  // half is taken from the right ones.
   double wheel_radius_left_right_percent = 0.0;
   double track_percent = 0.0;      // > 0: believed too wide
   double wheelbase_percent = 0.0;  // > 0: believed too long
@@ -25,10 +26,10 @@ struct DriveCalibrationErrors {
   void Visit(core::FieldVisitor& v);
 };
 
-// One camera of the light stripe sensor, or one rigid pair of stereo cameras, about its middle:
-// turned about its own axes (yaw, then pitch, then roll) and shifted along those of R. Angles > 0:
-// believed turned too far right side down, down, left, as seen from behind the camera; shifts > 0:
-// believed too far forward, left, up, as seen by the rover.
+// Errors of one camera of the light stripe sensor, or of one rigid pair of stereo cameras about its
+// middle. It is turned about its own axes (yaw, then pitch, then roll) and shifted along the axes
+// of R. Roll, pitch, yaw > 0: believed turned too far right side down, down, left, as seen from
+// behind the camera. Shifts > 0: believed too far forward, left, up, as seen by the rover.
 struct CameraCalibrationErrors {
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
@@ -40,7 +41,8 @@ struct CameraCalibrationErrors {
   void Visit(core::FieldVisitor& v);
 };
 
-// Light planes, turned about the vertical through their emitters; > 0: believed too far left.
+// Errors of light planes, turned about the vertical through their emitters; > 0: believed turned
+// too far left.
 struct LaserCalibrationErrors {
   std::array<double, messages::kStripes> angle_rad{};
 

@@ -9,8 +9,8 @@ namespace {
 
 using math::Vector3;
 
-// The smallest height that at least `quantile` of them do not exceed: rank ceil(q n). It reorders
-// the heights.
+// Returns the smallest height that at least the share `quantile` of the heights do not exceed: rank
+// ceil(q n). It reorders the heights.
 double QuantileOf(std::vector<double>& heights_m, double quantile) {
   const auto count = static_cast<double>(heights_m.size());
   const double rank = std::max(std::ceil(quantile * count) - 1.0, 0.0);
@@ -19,7 +19,7 @@ double QuantileOf(std::vector<double>& heights_m, double quantile) {
   return *at;
 }
 
-// From R to what the rover takes for level, about R's origin.
+// Returns the rotation from R to what the rover takes for level; with kRover the identity.
 Eigen::Matrix3d Levelling(const messages::AttitudeEstimate& attitude, ElevationFrame frame) {
   if (frame == ElevationFrame::kRover) return Eigen::Matrix3d::Identity();
   return math::MakePose(Vector3::Zero(), 0.0, attitude.pitch_rad, attitude.roll_rad).linear();
@@ -43,7 +43,7 @@ messages::ElevationScan CloudElevations(const messages::PointCloud& cloud,
     // behind, both axes of R turn round.
     const double row = (side * p.x() - params.near_m) * rows_per_m;
     const double stripe = (params.half_width_m - side * p.y()) * stripes_per_m;
-    // Written so that a point that is not a number has no bin.
+    // Must stay written so that a point that is not a number has no bin.
     if (!(row >= 0.0 && row < static_cast<double>(rows))) continue;
     if (!(stripe >= 0.0 && stripe < static_cast<double>(stripes))) continue;
     const std::size_t bin =

@@ -1,4 +1,5 @@
-// Between range points and light stripes: what lets either navigator work with either sensor.
+// Between range points and light stripes: what lets either navigator work with either sensor. The
+// readers of stereo and of light stripes use it.
 #pragma once
 
 #include "messages/estimates.h"
@@ -11,14 +12,14 @@ namespace rockyard::perception {
 
 // Returns an elevation array for HazardDetector from range points: the ground ahead (or behind) is
 // divided into rows x stripes equal bins, rows from near to far, stripes from the left to the right
-// of whoever looks that way. A bin's elevation is that quantile of its points' heights; it is
-// undetected with fewer than min_points. The number is the cloud's.
+// of whoever looks that way. The elevation of a bin is the quantile `quantile` of the heights of
+// its points; with fewer than min_points the bin is undetected. The number is that of the cloud.
 //
 // The criteria were published for points 7 cm (rows) and 18 cm (stripes) apart on 20 cm of ground.
-// The neighbours of a coarser array differ by s tan(slope) more on a slope, s their distance, so
-// that thresholds (perception.hazard) have to grow with it; and with the default blame the bin
-// farther from the datum is charged. The highest point of a bin is the height of the rock in it:
-// the threshold that belongs to it is what the vehicle can straddle.
+// On a slope, neighbours at the distance s differ by s tan(slope): thresholds (perception.hazard)
+// must grow where the array is coarser. With the default blame the bin farther from the datum is
+// charged. The highest point of a bin is the height of the rock in it: the threshold that belongs
+// to it is what the vehicle can straddle.
 //
 // Cost: about 3 ns a point.
 messages::ElevationScan CloudElevations(const messages::PointCloud& cloud,

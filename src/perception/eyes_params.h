@@ -1,5 +1,7 @@
-// Parameters of on-board stereo, of what is made of its points, and of motions that are seen.
-// Defaults decide records and baselines of drives by stereo; bounds only refuse files.
+// Parameters of on-board stereo (perception.stereo), of what a controller for light stripes makes
+// of range points (perception.cloud_elevations), and of what on-board software makes of motions
+// that it sees (perception.visual_odometry). Defaults decide records and baselines of drives by
+// stereo; bounds only refuse files.
 #pragma once
 
 #include <array>
@@ -13,8 +15,8 @@
 
 namespace rockyard::perception {
 
-// The pipeline of vision/stereo, without what the cameras and their range fix: reduction and
-// disparities.
+// The pipeline of vision/stereo, without reduction and range of disparities, which come from
+// sensors.stereo (StereoSearch in stereo_points.h).
 struct StereoMatchingParams {
   vision::DogParams dog;
   std::int64_t window_side_px = 7;
@@ -22,8 +24,6 @@ struct StereoMatchingParams {
 
   void Visit(core::FieldVisitor& v);
 };
-
-// Parameters of what a controller for light stripes makes of range points.
 
 // The frame in which heights count.
 enum class ElevationFrame {
@@ -43,8 +43,6 @@ struct CloudElevationParams {
 
   void Visit(core::FieldVisitor& v);
 };
-
-// Parameters of what on-board software makes of motions that it sees.
 
 struct SlipCheckParams {
   bool enabled = false;

@@ -17,7 +17,8 @@ struct Located {
 
 using StripeFlags = messages::PerStripe<bool>;
 
-// Charges the point farther from the datum plane, both on a tie: flat ground is taken to be at 0.
+// Charges the point farther from the datum plane, both on a tie: flat ground is taken to lie at
+// elevation 0.
 void ChargeFarther(const Located& a, const Located& b, StripeFlags& flags) {
   const double distance_a = std::abs(a.elevation_m);
   const double distance_b = std::abs(b.elevation_m);
@@ -25,7 +26,7 @@ void ChargeFarther(const Located& a, const Located& b, StripeFlags& flags) {
   if (distance_b >= distance_a) flags[b.stripe] = true;
 }
 
-// Whom a difference of neighbours is charged to: the paper says that there is a hazard, not where.
+// Charges a difference of neighbours: the paper says that there is a hazard, not where.
 void ChargeNeighbours(const Located& a, const Located& b, NeighbourBlame blame,
                       StripeFlags& flags) {
   switch (blame) {
@@ -42,7 +43,7 @@ void ChargeNeighbours(const Located& a, const Located& b, NeighbourBlame blame,
   }
 }
 
-// The same for the range of the whole array.
+// Charges the range of the whole array.
 void ChargeRange(const Located& low, const Located& high, RangeBlame blame, StripeFlags& flags) {
   switch (blame) {
     case RangeBlame::kFartherFromDatum:
@@ -65,14 +66,15 @@ void FindMissing(const ElevationScan& scan, StripeFlags& flags) {
   }
 }
 
-// Criterion 2: |difference| above the threshold; one that equals it is none.
+// Criterion 2: |difference| above the threshold. A difference that equals the threshold is no
+// hazard.
 void CompareNeighbours(const Located& a, const Located& b, const HazardParams& params,
                        StripeFlags& flags) {
   if (std::abs(a.elevation_m - b.elevation_m) <= params.neighbour_threshold_m) return;
   ChargeNeighbours(a, b, params.neighbour_blame, flags);
 }
 
-// The first point of a row that lies up to `reach` from `at`, and the one after the last.
+// The indices up to `reach` from an index: the first, and the one after the last.
 struct Reach {
   std::size_t first;
   std::size_t end;
@@ -115,7 +117,8 @@ void FindRange(const ElevationScan& scan, const HazardParams& params, StripeFlag
     for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
       const ElevationPoint& at = scan.points[row][stripe];
       if (!at.detected) continue;
-      // Of equal extremes the first met counts: nearest row, leftmost stripe.
+      // Of equal extremes the first met must count: nearest row, leftmost stripe. Records depend
+      // on it.
       const Located point{at.elevation_m, stripe};
       if (!any || point.elevation_m < low.elevation_m) low = point;
       if (!any || point.elevation_m > high.elevation_m) high = point;
@@ -146,8 +149,8 @@ messages::HazardReport ReportHazards(const ElevationScan& scan, const HazardPara
   return report;
 }
 
-// All elevations are compared, not only those that are charged: a point that is missing once only
-// disagrees.
+// All elevations are compared, not only those that are charged. A point that is missing in one of
+// the scans disagrees.
 bool ScansAgree(const ElevationScan& a, const ElevationScan& b, double agree_m) {
   const auto agree = [agree_m](const ElevationPoint& p, const ElevationPoint& q) {
     if (p.detected != q.detected) return false;
@@ -178,7 +181,7 @@ messages::HazardReport Union(const messages::HazardReport& before,
 
 messages::HazardReport HazardDetector::Resolve(Disagreement rule, const Seen& before,
                                                const Seen& now) {
-  // What is believed when two scans disagree and no further one is taken.
+  // The scans disagree, and no further scan is taken.
   switch (rule) {
     case Disagreement::kTrustLast:
       return now.report;

@@ -1,6 +1,6 @@
-// The three hazard criteria of Matthies 1995, section 6, on one scan, and the agreement of two
-// scans. Drives, studies of the sensor and replays all judge scans here, so that a study measures
-// what drives do, and a page shows what the rover found.
+// The three hazard criteria of Matthies 1995, section 6, on one scan, and the two-scan rule: from
+// elevation scans to believed hazards. Drives, studies of the sensor and replays must all judge
+// scans here, so that a study measures what drives do, and a page shows what the rover found.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct HazardFindings {
 
   messages::PerStripe<bool> missing;    // either of the nearest two points missing
   messages::PerStripe<bool> neighbour;  // difference of neighbours above the threshold
-  messages::PerStripe<bool> range;      // highest - lowest of the array above another
+  messages::PerStripe<bool> range;      // highest - lowest of the array above its threshold
 
   bool Charges(std::size_t stripe) const {
     return missing[stripe] || neighbour[stripe] || range[stripe];
@@ -27,29 +27,24 @@ struct HazardFindings {
 // Applies the three criteria. Missing points take no part in the second and third.
 HazardFindings AssessHazards(const messages::ElevationScan& scan, const HazardParams& params);
 
-// Returns the same as one flag per stripe.
+// Applies the three criteria and returns one flag per stripe: whether any of them charges it.
 messages::HazardReport ReportHazards(const messages::ElevationScan& scan,
                                      const HazardParams& params);
 
-// Returns whether each of the points is missing in both scans, or found in both at elevations that
-// differ by no more than agree_m.
+// Returns whether each point of the array is missing in both scans, or found in both at elevations
+// that differ by no more than agree_m.
 bool ScansAgree(const messages::ElevationScan& a, const messages::ElevationScan& b, double agree_m);
 
-// From elevation scans to believed hazards: the criteria and the two-scan rule of Matthies 1995,
-// section 6.
-//
-// The paper requires that detected hazards be seen consistently in two consecutive scans, which it
-// implements by comparing all elevations of the two. It does not say whether the rover waits for
-// the second scan or takes it after the next stretch of motion, nor what happens on disagreement;
-// both are parameters. A scan without a detection is clear at once, also as second scan: then the
-// hazard was not seen twice.
-
-// The state of the two-scan rule.
+// The two-scan rule. The paper requires that detected hazards be seen consistently in two
+// consecutive scans, and compares all elevations of the two. It does not say whether the rover
+// waits for the second scan or takes it after the next stretch of motion, nor what happens on
+// disagreement; both are parameters. A scan without a detection is clear at once, also as second
+// scan: then the hazard was not seen twice.
 class HazardDetector {
  public:
   struct Verdict {
     bool scan_again = false;        // undecided: take another scan before moving
-    messages::HazardReport report;  // what is believed, where decided; stripes clear otherwise
+    messages::HazardReport report;  // what is believed; while undecided, all stripes clear
   };
 
   explicit HazardDetector(const HazardParams& params) : params_(params) {}
@@ -58,8 +53,9 @@ class HazardDetector {
   // pose.
   Verdict Process(const messages::ElevationScan& scan);
 
-  // Is called when the rover is about to scan from a new pose: a scan from the old one takes no
-  // part in kRescanSamePose any more. kConsecutiveMoving keeps it, since there the pose may differ.
+  // Is called when the rover is about to scan from a new pose. With kRescanSamePose, scans from the
+  // old pose are forgotten; kConsecutiveMoving keeps the last scan, since there the pose may
+  // differ.
   void Reset();
 
  private:

@@ -1,6 +1,8 @@
 // Parameters of hazard detection with the light stripe sensor (Matthies 1995, section 6), or with
-// stereo points that are binned to an array like its own (cloud_elevations.h). The paper gives the
-// criteria and one threshold; what is assumed says so. Defaults decide records and baselines.
+// stereo points that are binned to an array like its own (cloud_elevations.h); and thresholds of
+// the hazards that the Pathfinder rover feels rather than sees. HazardDetector and
+// VehicleHazardDetector read them. The paper gives the three criteria and one threshold, and for
+// felt hazards the sensors alone; what is assumed says so. Defaults decide records and baselines.
 #pragma once
 
 #include <array>
@@ -33,8 +35,8 @@ enum class ScanAgreement {
   kConsecutiveMoving,  // a scan has to agree with the one before it, taken wherever it was
 };
 
-// What follows when two scans do not agree.
-// A later scan without a hazard is clear at once, whatever this says.
+// What follows when two scans that both show a hazard do not agree. A later scan without a hazard
+// is clear at once, whatever this says.
 enum class Disagreement {
   kScanAgain,      // look again and compare with the newest, up to max_scans; then as on_exhausted
   kTrustLast,      // believe the newest scan alone
@@ -58,10 +60,7 @@ struct HazardParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Thresholds of the hazards that the Pathfinder rover feels rather than sees (Matthies 1995,
-// section 6). The paper names the sensors and gives no threshold, so every value is assumed. A
-// criterion works where its sensor is on board (sensors.vehicle).
-
+// Thresholds of felt hazards. A criterion works where its sensor is on board (sensors.vehicle).
 struct VehicleHazardParams {
   double max_tilt_rad = math::DegToRad(25.0);
   double max_rocker_rad = math::DegToRad(15.0);

@@ -10,7 +10,9 @@
 namespace rockyard::perception {
 namespace {
 
-// Whole disparities from `search`, and one more on either side for the peak filter.
+// Returns the pipeline with whole disparities from `search`, and one more on either side for the
+// peak filter. sensing/stereo_params.cc bounds max_disparity_px so that they are no more than the
+// correlator takes.
 vision::StereoPipelineParams PipelineOf(const StereoMatchingParams& params,
                                         const StereoSearch& search) {
   vision::StereoPipelineParams pipeline;

@@ -1,4 +1,5 @@
-// On-board stereo: from the images of a pair to points in R (Goldberg 2002 section 2).
+// On-board stereo: from the images of a pair to points in R (Goldberg 2002 section 2). Drives at
+// the image fidelity of the stereo sensor see by it; what watches drives shows its disparities.
 #pragma once
 
 #include <vector>
@@ -13,7 +14,7 @@
 
 namespace rockyard::perception {
 
-// What a pair is searched for, in pixels of the reduced images.
+// What the matching searches, from sensors.stereo. Disparities are in pixels of the reduced images.
 struct StereoSearch {
   int pyramid_level = 0;          // images are reduced by 2^level
   double min_disparity_px = 0.0;  // > 0
@@ -28,18 +29,19 @@ struct StereoSight {
   std::vector<math::Vector3> points_R;
 };
 
-// One pair of cameras as its calibration has it. The stages are those of vision/stereo: both images
-// are reduced, resampled where the cameras are not aligned as they are, filtered and matched; then
-// dropped is what a window shares with the edge of an image or with the rover itself, what lies
-// outside of the range of disparities, and what is farther than max_range_m.
+// One pair of cameras as its calibration has it. The stages are those of vision/stereo. Both images
+// are reduced, resampled unless the cameras are aligned already, filtered and matched. Then pixels
+// are dropped whose windows reach over the edge of an image or show the rover itself, whose
+// disparities lie outside of the searched range, or whose points are farther than max_range_m.
 class StereoPoints {
  public:
   // Throws core::UserError where the cameras cannot be aligned.
   StereoPoints(const StereoMatchingParams& params, const StereoSearch& search,
                const vision::StereoRig& rig);
 
-  // Returns what images of the rig's size show, one point a pixel at most. Pure function. Cost: 0.3
-  // ms for 128 x 128 pixels and 16 disparities, and as much for reducing 512 x 512 to them.
+  // Returns what images of the rig's size show, one point a pixel at most. It is a pure function.
+  // Cost: 0.3 ms for 128 x 128 pixels and 16 disparities, and as much for reducing 512 x 512 pixels
+  // to 128 x 128.
   StereoSight See(const vision::GrayImage& left, const vision::GrayImage& right) const;
 
   const vision::RectifiedPair& pair() const { return eyes_.pair(); }

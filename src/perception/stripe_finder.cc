@@ -12,8 +12,8 @@ namespace rockyard::perception {
 
 namespace {
 
-// Elevation grows or falls with the column all along a scanline's meeting with a light plane, so
-// that the searched columns lie around the one nearest to the datum plane.
+// Elevation grows or falls with the column all along the curve in which a scanline meets a light
+// plane, so that the searched columns lie around the column nearest to the datum plane.
 StripeSearch SearchAlong(const messages::StripeCalibration& calibration,
                          const Triangulator& triangulator, int camera, std::size_t row,
                          std::size_t stripe) {
@@ -54,7 +54,7 @@ StripeSearches::StripeSearches(const messages::StripeCalibration& calibration)
     : size_(calibration.size()) {
   for (int camera = 0; camera < static_cast<int>(calibration.cameras.size()); ++camera) {
     messages::StripeCalibration seen_by = calibration;
-    // As if this camera measured all lasers.
+    // The calibration as if this camera measured all lasers.
     for (messages::StripeLaser& laser : seen_by.lasers) laser.camera = camera;
     const Triangulator triangulator(seen_by);
     for (std::size_t row = 0; row < size_.rows; ++row) {
@@ -69,7 +69,7 @@ namespace {
 
 using messages::ImageBand;
 
-// Lit less dark, summed over rows [first, last] of each column.
+// Returns the lit less the dark image, summed over rows [first, last] of each column.
 std::vector<std::int64_t> ColumnSums(const ImageBand& lit, const ImageBand& dark, int first_row,
                                      int last_row) {
   const auto columns = static_cast<std::size_t>(lit.columns);
@@ -99,7 +99,8 @@ StripePeak MakePeak(const ScanlineProfile& profile, std::size_t first, std::size
   return peak;
 }
 
-// How good an assignment is: first by `main`, then by nearness to the datum columns.
+// How good an assignment is: first by `main`, then by nearness to the datum columns. Must stay in
+// this order: records depend on it.
 struct Score {
   double main = 0.0;
   double distance_px = 0.0;
@@ -119,10 +120,10 @@ Score ScoreOf(const StripeSearch& search, const StripePeak& peak, PeakChoice cho
           std::abs(peak.column_px - search.datum_column)};
 }
 
-// Best assignment of the first lasers to the first peaks, for all numbers of both. Dynamic
-// programming over pairs in order, as in the alignment of two sequences: an entry (l, p) is the
-// best of leaving peak p unused, leaving laser l unseen, and matching both. On a tie the earlier of
-// these stays, so that of two peaks that are equally good for a laser the left one is taken.
+// The best assignments of the first l lasers to the first p peaks, for all l and p, by dynamic
+// programming as in the alignment of two sequences: an entry (l, p) is the best of leaving peak p
+// unused, leaving laser l unseen, and matching both. On a tie the earlier of these three must stay:
+// of two peaks that are equally good for a laser the left one is taken, and records depend on it.
 class BestAssignments {
  public:
   BestAssignments(std::span<const StripeSearch> searches, std::span<const StripePeak> peaks,
@@ -183,7 +184,6 @@ double ScanlineProfile::Noise() const {
   return std::sqrt(0.5 * std::numbers::pi) * sum / static_cast<double>(difference.size());
 }
 
-// Mean of lit less dark over a window around each pixel of a row, cut at the borders of the band.
 std::optional<ScanlineProfile> AverageDifference(const messages::StripeExposure& exposure, int row,
                                                  int window_px) {
   const auto holds_row = [row](const ImageBand& band) {
@@ -204,8 +204,8 @@ std::optional<ScanlineProfile> AverageDifference(const messages::StripeExposure&
   std::int64_t sum = 0;
   for (int i = 0; i < std::min(half, lit.columns); ++i) sum += sums[static_cast<std::size_t>(i)];
   for (int i = 0; i < lit.columns; ++i) {
-    // Running sum over columns i - half .. i + half, cut at the borders. Whole numbers: nothing
-    // gathers.
+    // Running sum over columns i - half .. i + half, cut at the borders. In whole numbers no
+    // rounding accumulates.
     const int enters = i + half;
     const int leaves = i - half - 1;
     if (enters < lit.columns) sum += sums[static_cast<std::size_t>(enters)];
@@ -249,13 +249,14 @@ messages::ColumnRange StripeFinder::searched(std::size_t row, std::size_t stripe
   return searches_.At(calibration_.lasers[stripe].camera, row, stripe).columns;
 }
 
-// One scanline in one exposure: average, threshold, peaks, and which peak is which laser.
+// Finds the points of one scanline in one exposure: average, threshold, peaks, and which peak is
+// which laser's.
 void StripeFinder::FindIn(const messages::StripeExposure& exposure, std::size_t row,
                           messages::StripeScan& scan) const {
   const auto profile = AverageDifference(exposure, calibration_.scanline_px[row],
                                          static_cast<int>(params_.averaging_px));
   if (!profile) return;
-  // Lasers that the other camera measures show in this one's images, too.
+  // Lasers that the other camera measures show in the images of this camera, too.
   std::vector<std::size_t> lit;
   std::vector<StripeSearch> searches;
   for (std::size_t stripe = 0; stripe < calibration_.lasers.size(); ++stripe) {
@@ -268,7 +269,7 @@ void StripeFinder::FindIn(const messages::StripeExposure& exposure, std::size_t 
   const std::vector<StripePeak> peaks = FindPeaks(*profile, params_);
   const auto peak_of = AssociatePeaks(searches, peaks, params_.peak);
   for (std::size_t i = 0; i < lit.size(); ++i) {
-    // Peaks of the other camera's lasers are explained, and not kept.
+    // Peaks of lasers that the other camera measures are used up, and not kept.
     if (!peak_of[i] || calibration_.lasers[lit[i]].camera != exposure.camera) continue;
     scan.pixels[row][lit[i]] = {.detected = true, .column_px = peaks[*peak_of[i]].column_px};
   }

@@ -1,4 +1,15 @@
-// From images to stripes: where one can be, the peaks of a scanline, and whose laser each is.
+// The program of Matthies 1995, section 6, that finds light stripes in images: images with lasers
+// on less images with lasers off, averaged over 5 x 5 pixels, compared with a threshold. Drives at
+// the image fidelity of the light stripe sensor see by it, and captures of a scan show its steps.
+//
+// The paper leaves three things open, which are assumed: the threshold; where a stripe is looked
+// for, namely in the columns of elevations between search_low and search_high only; which of
+// several peaks is taken (StripeFinderParams), and for which of several lasers in one image
+// (AssociatePeaks).
+//
+// Words are those of sensing/light_stripe.h and messages/camera.h: a point of the array is
+// [row][stripe]; the scanline of a row of points is an image row; columns are pixels along it. The
+// datum plane is the plane in R from which elevations count (StripeCalibration::datum_z_m).
 #pragma once
 
 #include <optional>
@@ -17,15 +28,16 @@ namespace rockyard::perception {
 struct StripeSearch {
   messages::ColumnRange
       columns;              // of the elevations from search_low to search_high, inside the imager
-  double datum_column = 0;  // where the datum plane shows the stripe, or the column nearest to it
+  double datum_column = 0;  // the column whose elevation is nearest to the datum plane
 };
 
-// The searched part of every scanline, for each laser and for both cameras: also for the camera
-// that does not measure this stripe, in whose images it appears all the same.
+// The searched part of every scanline, for each laser and for both cameras: a stripe appears also
+// in the images of the camera that does not measure it.
 class StripeSearches {
  public:
-  // Follows each scanline pixel by pixel, so that it holds for every lens. It costs 100 ns a
-  // column, row, stripe and camera, 3 ms for the published array: build it once.
+  // Tries each column of each scanline, so that it holds for every lens. Requires search_low <= 0
+  // <= search_high. It costs 100 ns a column, row, stripe and camera, 3 ms for the published array:
+  // build it once.
   explicit StripeSearches(const messages::StripeCalibration& calibration);
 
   const StripeSearch& At(int camera, std::size_t row, std::size_t stripe) const {
@@ -38,25 +50,22 @@ class StripeSearches {
   std::vector<StripeSearch> searches_;  // [camera][row][stripe]
 };
 
-// From the images of one exposure to the peaks of one scanline, and to the laser of each.
-//
-// Matthies 1995, section 6: the image with lasers on less the one with lasers off, averaged over
-// 5 x 5 pixels, compared with a threshold. A peak is a run of columns above it.
-
-// The averaged difference along one image row.
+// The averaged difference of the images with and without lasers along one image row.
 struct ScanlineProfile {
   int first_column = 0;
   std::vector<double> difference;  // digital numbers
 
-  // Returns the standard deviation of a normal variable of mean zero whose mean size is that of the
-  // differences: sqrt(pi / 2) mean |d|. Sunlight that the subtraction left counts as noise; so does
-  // the stripe itself, which takes up some ten columns of several hundred.
+  // Returns sqrt(pi / 2) mean |d| of the differences d: the standard deviation of a normal variable
+  // with mean zero and this mean absolute value. Sunlight that the subtraction left counts as
+  // noise, so that it hides stripes instead of making some up. The stripe itself counts, too, but
+  // takes up some ten columns of several hundred.
   double Noise() const;
 };
 
-// Averages lit less dark image around a row; none if no band of the exposure holds it. At the
-// borders of the band the average is that of the pixels that there are. Integer running sums along
-// rows and columns make the cost some operations a pixel, whatever the window.
+// Averages lit less dark image over window_px x window_px pixels around each column of a row;
+// returns none if no band of the exposure holds the row. At the borders of the band it averages the
+// pixels that there are. Sums are whole numbers, so that they are exact in any order. Cost: some
+// operations for each pixel of window_px rows.
 std::optional<ScanlineProfile> AverageDifference(const messages::StripeExposure& exposure, int row,
                                                  int window_px);
 
@@ -66,36 +75,33 @@ struct StripePeak {
   double height_counts = 0.0;  // highest averaged difference
 };
 
-// Returns the runs of columns above the threshold, left to right.
+// Returns the peaks, left to right: runs of columns above the threshold, at their centres of
+// brightness. The threshold is the larger of threshold_counts and noise_multiple times Noise.
 std::vector<StripePeak> FindPeaks(const ScanlineProfile& profile, const StripeFinderParams& params);
 
-// Returns, where several lasers are on in one image, for each laser (left to right, as in
-// `searches`) the index of its peak in `peaks` (left to right), or none. A peak is taken for a
-// laser only within its searched columns, and for one laser only; stripes keep their order. Among
-// the assignments that are left, the brightest is taken (sum of peak heights; the one nearer to the
-// datum columns if equal), or, with kNearestToDatum, among those with most peaks the one nearest to
-// the datum columns. With one laser this is its strongest or nearest peak.
+// Returns which peak belongs to which laser, where several lasers are on in one image: for each
+// laser (left to right, as in `searches`) the index of its peak in `peaks` (left to right), or
+// none. A peak is assigned to one laser at most, and only within the searched columns of this
+// laser; peaks of lasers keep the order of lasers. With kStrongest the assignment with the largest
+// sum of peak heights is taken, of equal ones the one nearest to the datum columns. With
+// kNearestToDatum it is the assignment with most peaks, of equal ones the one nearest to the datum
+// columns. Records depend on ties that are left: BestAssignments in stripe_finder.cc has their
+// order.
 //
-// The order of stripes is an assumption: a rock on the inner stripe can throw its image past that
-// of a pit on the outer one, where the searched columns overlap. Cost: lasers times peaks.
+// That stripes keep their order is an assumption: where searched columns overlap, a rock on the
+// inner stripe can throw its image past that of a pit on the outer one. Cost: lasers times peaks.
 std::vector<std::optional<std::size_t>> AssociatePeaks(std::span<const StripeSearch> searches,
                                                        std::span<const StripePeak> peaks,
                                                        PeakChoice choice);
 
-// Finds the light stripes in images: from what the cameras hand over to a column for each point.
-
-// The program of Matthies 1995, section 6: images with lasers on less images with lasers off,
-// averaged over 5 x 5 pixels, thresholded; each point on the image row of its scanline. What is no
-// part of the text is assumed, namely the threshold, that a stripe is looked for only in the
-// columns of elevations between search_low and search_high, and what happens to several peaks
-// (StripeFinderParams) and to several lasers in one image (AssociatePeaks).
+// The program: from the images of a scan to a column for each point.
 class StripeFinder {
  public:
   // Works with the geometry that the rover believes. Cost: that of StripeSearches.
   StripeFinder(const StripeFinderParams& params, const messages::StripeCalibration& calibration);
 
-  // Finds the points. Those whose exposure or image rows are not there are missing. It is a pure
-  // function without random numbers. Cost: some operations a pixel.
+  // Finds the points. Points whose exposure or image rows are missing are not detected. It is a
+  // pure function without random numbers. Cost: some operations for each pixel that is averaged.
   messages::StripeScan Find(const messages::StripeImages& images) const;
 
   // Returns the searched part of a point's scanline, in the camera that measures it.

@@ -1,6 +1,7 @@
-// Parameters of the program that finds light stripes in images (Matthies 1995, section 6). Only the
-// image fidelity of the sensor asks for them; errors of the geometric one may be fitted to what
-// this program finds (fit_stripe_errors.py).
+// Parameters of the program that finds light stripes in images (stripe_finder.h; Matthies 1995,
+// section 6). Only the image fidelity of the sensor reads them; the errors of the geometric
+// fidelity may be fitted to what this program finds (fit_stripe_errors.py). Defaults decide
+// records.
 #pragma once
 
 #include <array>

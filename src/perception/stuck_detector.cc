@@ -39,7 +39,7 @@ std::optional<StuckSign> StuckDetector::Observe(const messages::WheelCommand& co
   const double told_rad = ToldTurnRate(command, calibration_) * motion.duration_s;
   window_.duration_s += motion.duration_s;
   window_.told_rad += std::abs(told_rad);
-  // Told to go straight, the rover turns neither the told way nor the other.
+  // While the rover is told to go straight, no turn counts as obeyed.
   if (std::abs(told_rad) > kStraight_rad_s * motion.duration_s) {
     window_.obeyed_rad += std::copysign(1.0, told_rad) * motion.turn_rad;
   }

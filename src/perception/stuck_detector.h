@@ -1,6 +1,7 @@
-// Whether the rover gets on, from what its wheels are told and what it measures. Wheel odometry
-// cannot tell: wheels that spin measure a drive. Two signs are looked for, each over window_s of
-// commanded motion:
+// Whether the rover gets on, from what its wheels are told and what it measures. The on-board side
+// of a drive asks every tick and reacts as navigation.on_board_stuck says. Wheel odometry cannot
+// tell: wheels that spin measure a drive. Two signs are looked for, each over window_s of commanded
+// motion:
 //
 //   no turn: the wheels were told to turn the rover by min_told_turn or more, and the gyro has
 //            measured less than min_turn_share of that, the way it was told;
@@ -8,16 +9,16 @@
 //            strain_share of the window, where the rover measures its motor currents
 //            (sensors.vehicle).
 //
-// What the wheels are told: with u_i the forward part of wheel i's rim and y_i its place,
-// u_i = v - w y_i about any common centre of rotation, so that the turn rate w is the slope of u
-// over -y, by least squares over all wheels. Sums of |w| dt and of the gyro's turn with the sign of
-// w do not cancel where the rover is told to turn to and fro.
+// The turn rate w that the wheels are told comes from least squares over all wheels. With u_i the
+// forward speed of wheel i's rim and y_i its place, u_i = v - w y_i about any common centre of
+// rotation, so that w is the slope of u over -y. The told turn is the sum of |w| dt, the obeyed
+// turn the sum of the gyro's turns with the sign of w: neither cancels where the rover is told to
+// turn to and fro.
 //
-// Limits: a rover that is told to drive straight and has no motor currents notices nothing; nor
-// does one whose wheels spin on ground so loose that they do not strain, or that turns on the spot
-// while told an arc. Climbing a slope whose share of the weight strains most motors for a window
-// looks like being stuck. All of this is assumed; neither Matthies 1995 nor Goldberg 2002 has such
-// a rule.
+// Limits: a rover that is told to drive straight and has no motor currents notices nothing. Nor
+// does a rover whose wheels spin on ground so loose that they do not strain, or that turns on the
+// spot while told an arc. Climbing a slope that strains most motors for a window looks like being
+// stuck. All of this is assumed; neither Matthies 1995 nor Goldberg 2002 has such a rule.
 #pragma once
 
 #include <optional>
@@ -44,12 +45,12 @@ class StuckDetector {
       : params_(params), calibration_(calibration) {}
 
   // Takes one on-board tick: what the wheels were told, and what was measured meanwhile. Returns a
-  // sign where a window ends at this tick in which the rover did not get on.
+  // sign at the end of a window in which the rover did not get on; kNoTurn goes before kStrain.
   std::optional<StuckSign> Observe(const messages::WheelCommand& command,
                                    const messages::MotionMeasurement& motion,
                                    const messages::VehicleState& felt);
 
-  // Begins a window anew: operators moved the rover by hand.
+  // Is called where operators moved the rover by hand: begins a window anew.
   void Restart() { window_ = {}; }
 
  private:

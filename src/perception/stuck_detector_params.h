@@ -1,5 +1,6 @@
-// When the rover takes itself for stuck (stuck_detector.h). Neither paper has such a rule, so every
-// value is assumed.
+// When the rover takes itself for stuck (stuck_detector.h; scenario group
+// perception.stuck_detector). Neither paper has such a rule, so every value is assumed. Defaults
+// decide records where navigation.on_board_stuck asks for the rule.
 #pragma once
 
 #include <cstdint>

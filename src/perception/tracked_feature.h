@@ -1,4 +1,5 @@
-// Where a feature lies that the rover tracks, in the frame in which the rover believes its pose.
+// Where a feature lies that the rover tracks, in the frame in which the rover believes its pose:
+// the on-board side of a drive moves its goal there with every sighting.
 #pragma once
 
 #include <cmath>
@@ -8,8 +9,9 @@
 
 namespace rockyard::perception {
 
-// The believed pose composed with the sighting: however far the pose has drifted, the place is
-// right as seen from the rover. Sighting and estimate are of the same moment.
+// Returns the place of the feature, by the believed pose and the sighting. However far the pose has
+// drifted, the place is right as seen from the rover. Sighting and estimate must be of the same
+// moment.
 inline messages::Goal PlaceOf(const messages::FeatureSighting& sighting,
                               const messages::PoseEstimate& estimate) {
   const double direction_rad = estimate.heading_rad + sighting.bearing_rad;

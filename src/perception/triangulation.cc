@@ -10,8 +10,8 @@ using math::Vector3;
 
 namespace {
 
-// Whether a ray meets the light plane before the camera.
-// A ray in the light plane divides by zero: its distance is not finite.
+// Returns whether a ray meets the light plane before the camera. For a ray in the light plane the
+// distance divides by zero and is not finite.
 bool IsAhead(double distance_m) { return distance_m > 0.0 && std::isfinite(distance_m); }
 
 }  // namespace
@@ -86,7 +86,7 @@ std::optional<Vector3> Triangulator::Point(std::size_t row, std::size_t stripe,
       camera.X_RC.linear() *
       vision::PixelRay(camera, {column_px, static_cast<double>(calibration_.scanline_px[row])});
   const Vector3 p_RoC_R = camera.X_RC.translation();
-  // The same with the ray of any lens.
+  // As in Elevation, s = n . (e - o) / n . ray, with the ray of any lens.
   const double distance_m = laser.normal_R.dot(laser.p_RoE_R - p_RoC_R) / laser.normal_R.dot(ray_R);
   if (!IsAhead(distance_m)) return std::nullopt;
   return p_RoC_R + distance_m * ray_R;

@@ -1,4 +1,6 @@
-// Light stripe triangulation: image columns to elevations.
+// Light stripe triangulation: from image columns of points to elevations and places. Drives,
+// studies of the sensor and replays turn scans into elevations here; stripe_finder.h works out by
+// it where a stripe is looked for.
 #pragma once
 
 #include <optional>
@@ -9,9 +11,9 @@
 
 namespace rockyard::perception {
 
-// Meets each found pixel's viewing ray (vision/lens.h) with its laser's light plane, with the
-// geometry that the rover believes. A ray that meets the light plane behind the camera, or not at
-// all, is no detection.
+// Meets the viewing ray (vision/lens.h) of each detected point with the light plane of its laser,
+// by the geometry that the rover believes. Where the ray meets the plane behind the camera, or not
+// at all, there is no detection.
 class Triangulator {
  public:
   explicit Triangulator(const messages::StripeCalibration& calibration);
@@ -23,7 +25,8 @@ class Triangulator {
   // datum plane, by a closed form where the scanline is a plane, as searches ask for many columns.
   messages::ElevationPoint Elevation(std::size_t row, std::size_t stripe, double column_px) const;
 
-  // Returns where that column shows its stripe, p_RoP_R; none where Elevation is no detection.
+  // Returns where the ray of that column meets the light plane, p_RoP_R; none where Elevation is no
+  // detection.
   std::optional<math::Vector3> Point(std::size_t row, std::size_t stripe, double column_px) const;
 
  private:

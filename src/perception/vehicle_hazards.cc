@@ -9,13 +9,14 @@ namespace {
 using messages::ContactSwitch;
 using messages::HazardSide;
 
-// Both sides at once count as ahead.
+// Returns the side of a hazard: both sides at once count as ahead.
 HazardSide SideOf(bool left, bool right) {
   if (left == right) return HazardSide::kAhead;
   return left ? HazardSide::kLeft : HazardSide::kRight;
 }
 
-// Sides count before the front, and the rear only where nothing else is touched.
+// Returns where the rover is touched: sides count before the front, the rear counts only where
+// nothing else is touched.
 std::optional<HazardSide> Touched(const messages::ContactSwitches& closed) {
   const auto is_closed = [&](ContactSwitch contact) { return closed[messages::Index(contact)]; };
   const bool left = is_closed(ContactSwitch::kFrontLeft) || is_closed(ContactSwitch::kLeftEdge);
@@ -66,7 +67,7 @@ std::optional<HazardSide> VehicleHazardDetector::Stalled(
     const double told_rad = turns.told_rad[wheel];
     // A wheel at rest says nothing: stops between legs do not hide a wheel that is stuck in each.
     if (told_rad == 0.0) continue;
-    // The way that it was told: a wheel that is pushed back turns less than not at all.
+    // Turns count the way that the wheel was told: a wheel that is pushed back turns less than 0.
     const double obeyed_rad = std::copysign(1.0, told_rad) * turns.turned_rad[wheel];
     const bool stalls = current_A[wheel] > params_.max_current_A &&
                         obeyed_rad < params_.max_turn_share * std::abs(told_rad);
@@ -83,7 +84,7 @@ std::optional<HazardSide> VehicleHazardDetector::Stalled(
 std::optional<messages::VehicleHazard> VehicleHazardDetector::Debounced(
     Kind kind, std::optional<HazardSide> now, std::int64_t ticks) {
   std::int64_t& held = ticks_[static_cast<std::size_t>(kind)];
-  // Ticks in a row; one tick without it begins anew.
+  // Ticks in a row count; one tick without the hazard begins anew.
   held = now ? held + 1 : 0;
   if (!now || held < ticks) return std::nullopt;
   return messages::VehicleHazard{kind, *now};
@@ -96,7 +97,7 @@ FeltHazards VehicleHazardDetector::Observe(const messages::VehicleState& state,
   if (state.specific_force_R) tilted = Tilted(*state.specific_force_R);
   if (state.articulation) bent = Bent(*state.articulation);
   if (state.motor_current_A) stalled = Stalled(*state.motor_current_A, turns);
-  // A touch behind is counted beside all others.
+  // A touch behind is counted by itself, whatever else is touched.
   const bool behind = state.contact && (*state.contact)[messages::Index(ContactSwitch::kRearEdge)];
   ticks_behind_ = behind ? ticks_behind_ + 1 : 0;
   return {{Debounced(Kind::kContact, touched, params_.contact_ticks),

@@ -1,5 +1,6 @@
 // Hazards that the rover feels: touch, tilt, articulation, motor current (Matthies 1995, section 6,
-// which names the sensors; the criteria are assumptions).
+// which names the sensors; the criteria are assumptions). The on-board side of a drive feels by it
+// every tick.
 //
 //   touch:        a contact switch is closed; side by the place of the switch
 //   tilt:         atan2(|(f_x, f_y)|, f_z) > max_tilt of the specific force f, its angle to the
@@ -10,10 +11,10 @@
 //   stall:        a motor above max_current whose wheel turns by less than max_turn_share of what
 //                 it was told; side of the wheels that stall, ahead where both
 //
-// A criterion has to hold for its number of ticks in a row, that of the stall at one wheel. Kinds
-// are felt independently of each other. A current that is high is no hazard by itself: a wheel that
-// climbs takes nearly as much as one that is stuck, but it turns. Ticks at rest neither add to a
-// stall nor end it.
+// A criterion has to hold for its number of ticks in a row; the stall has to hold that long at one
+// wheel. Kinds are felt independently of each other. A high current is no hazard by itself: a wheel
+// that climbs takes nearly as much as one that is stuck, but it turns. Ticks in which a wheel is
+// told to rest neither add to its stall nor end it.
 #pragma once
 
 #include <array>
@@ -36,15 +37,15 @@ struct WheelTurns {
   messages::PerWheel<double> turned_rad{};
 };
 
-// What the rover feels after an on-board tick. `by_kind` follows VehicleHazardKind, whose order is
-// that in which the rover gets away from hazards (HazardToAvoid).
+// What the rover feels after an on-board tick. `by_kind` follows VehicleHazardKind. Its order
+// decides which of several hazards the rover gets away from first (HazardToAvoid).
 struct FeltHazards {
   std::array<std::optional<messages::VehicleHazard>, messages::kVehicleHazardKindCount> by_kind;
   bool touches_behind = false;  // whatever else is touched
 };
 
-// Returns the hazard to get away from: of several the first in the order above. A touch behind is
-// none: the rover drives away from it by going on.
+// Returns the hazard to get away from: of several the first by kind. A touch behind is not among
+// them, as the rover drives away from it by going on.
 std::optional<messages::VehicleHazard> HazardToAvoid(const FeltHazards& felt);
 
 // Counts the ticks for which each criterion holds.

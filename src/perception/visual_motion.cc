@@ -12,7 +12,7 @@ using messages::Index;
 using messages::PoseCoordinate;
 using messages::PoseVector;
 
-// Of R_FB = Rz(heading) Ry(pitch) Rx(roll).
+// The angles of R_FB = Rz(heading) Ry(pitch) Rx(roll).
 struct Angles {
   double heading_rad = 0.0;
   double pitch_rad = 0.0;
@@ -25,7 +25,8 @@ Angles AnglesOf(const Eigen::Matrix3d& R_FB) {
           std::atan2(R_FB(2, 1), R_FB(2, 2))};
 }
 
-// Rows roll, pitch, heading by small turns about the axes of F.
+// Returns how roll, pitch and heading (rows) change by small turns about the axes of F (columns):
+// the equations of visual_motion.h.
 Eigen::Matrix3d AnglesByTurns(const Angles& angles) {
   const double c = std::cos(angles.heading_rad);
   const double s = std::sin(angles.heading_rad);

@@ -1,4 +1,5 @@
-// On-board visual odometry: from the images of a pair to the motion of R.
+// On-board visual odometry: from the images of a pair to the motion of R. Drives whose visual
+// odometry has the image fidelity read their images by it.
 #pragma once
 
 #include <optional>
@@ -11,7 +12,7 @@
 
 namespace rockyard::perception {
 
-// vision::VisualOdometer with the cameras that the rover believes to have, in R.
+// A vision::VisualOdometer with the cameras that the rover believes to have, in R.
 class VisualOdometry {
  public:
   // `rig` is told in R, so that motions are those of R. Throws core::UserError where the cameras
@@ -20,14 +21,14 @@ class VisualOdometry {
                  int pyramid_level, core::TrialKey key)
       : eyes_(rig, pyramid_level), odometer_(params, eyes_.pair(), eyes_.left_free(), key) {}
 
-  // Takes the images of the next pair, of the rig's size. `predicted` as for
-  // vision::VisualOdometer.
+  // Takes the images of the next pair, of the rig's size. `predicted` is that of
+  // vision::VisualOdometer::Add.
   vision::OdometryStep Add(const vision::GrayImage& left, const vision::GrayImage& right,
                            const std::optional<math::Transform>& predicted) {
     return odometer_.Add({eyes_.Left(left), eyes_.Right(right)}, predicted);
   }
 
-  // Begins a new path with the next pair, as when the rover was moved by hand.
+  // Begins a new path with the next pair, as after operators moved the rover by hand.
   void Renew() { odometer_.Renew(); }
 
   const vision::RectifiedPair& pair() const { return eyes_.pair(); }

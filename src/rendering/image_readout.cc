@@ -14,7 +14,7 @@ constexpr std::size_t kCells = 1 << 16;
 
 std::vector<float> MakeTable() {
   std::vector<float> table(kCells);
-  // The lower half mirrors the upper one, so that the mean is 0 to the last bit.
+  // The lower half must mirror the upper one, so that the mean is 0 to the last bit.
   for (std::size_t i = kCells / 2; i < kCells; ++i) {
     // z at the middle of cell i: the inverse normal distribution at (i + 1/2) / 65536.
     const double middle = (static_cast<double>(i) + 0.5) / kCells;

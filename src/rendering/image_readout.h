@@ -1,4 +1,6 @@
-// From expected photoelectrons to numbers, with noise drawn by place in the image.
+// From expected photoelectrons to the numbers that an imager delivers, with noise drawn by place in
+// the image: for stripe images and pictures of the terrain. PixelNoise serves more: textures, the
+// cylinder's images and the stereo error model draw from it.
 #pragma once
 
 #include <array>
@@ -11,13 +13,14 @@
 
 namespace rockyard::rendering {
 
-// One image's worth of independent standard normal numbers. Eight pixels share a Philox block: each
-// takes 16 bits of it through a table of the inverse cumulative function at the middles of 65536
-// equally likely cells. The numbers are therefore discrete, symmetric, at most 4.3 in size, and
-// have the variance 0.99995; what averages tens of pixels cannot tell. Cost: about 3 ns each.
+// Independent standard normal numbers, one for each pixel of an image. Eight pixels share a Philox
+// block: each takes 16 bits of it through a table of the inverse cumulative function at the middles
+// of 65536 equally likely cells. The numbers are therefore discrete, symmetric, at most 4.3 in
+// size, and have the variance 0.99995; averages over tens of pixels do not show it. Cost: about 3
+// ns each.
 //
-// Images, textures and the stereo error model all draw from it, by place and never in turn: its
-// table and the layout of its counter are part of their records.
+// Must stay: the table and the layout of the counter. Records of all that draws from PixelNoise
+// depend on them. Users draw by place and never in turn.
 class PixelNoise {
  public:
   static constexpr int kBlock = 8;
@@ -61,18 +64,16 @@ void ForEachPixelNoise(const PixelNoise& noise, int row, int first, int count, U
   }
 }
 
-// From expected photoelectrons to the numbers that an imager delivers.
-
 // Names the image of a trial that is read out: its substream within the streams of image noise.
 using ImageNumber = std::uint32_t;
 
-// How the pixels of one line depart from the average pixel, always.
+// How the pixels of one line depart from the average pixel, in all images of a trial.
 struct PixelPattern {
   std::vector<double> response;  // relative
   std::vector<double> offset_e;
 };
 
-// A pixel collects
+// The read-out of an imager. A pixel collects
 //   N = min(W, (1 + r) R t + D t + sqrt(R t + D t + s^2) z + o)   electrons
 // and is read as round(N / g + black level), between 0 and the largest count: R rate of
 // photoelectrons, t exposure, D dark current, s read noise, W full well, g electrons per count; z
@@ -88,17 +89,17 @@ class ImageReadout {
   int largest_count() const { return largest_count_; }
   double electrons_per_count() const { return electrons_per_count_; }
 
-  // Returns the time of an image that is to be exposed for as long as another one, exposure_s:
-  // longer by the factor 1 + N(0, repeatability). Draws from (kImageExposure, image).
+  // Returns the exposure time of an image that is to repeat another one's, exposure_s: exposure_s
+  // times 1 + N(0, repeatability), at least 0. Draws from (kImageExposure, image).
   double RepeatedTime(double exposure_s, core::TrialKey key, ImageNumber image) const;
 
-  // Returns the pattern of `columns` pixels of a line. Draws from (kPixelPattern, camera): once for
-  // the trial, whatever is read out.
+  // Returns the pattern of `columns` pixels of a line. Draws from (kPixelPattern, camera) alone:
+  // the pattern of a pixel is the same in all images of the trial.
   PixelPattern Pattern(int camera, int row, int first_column, int columns,
                        core::TrialKey key) const;
 
-  // Reads one line; lamp_is_on says so of each lamp. Draws from (kImageNoise, image) and, where it
-  // meets a lamp's light, (kImageSpeckle, image). Appends to `counts`.
+  // Reads one line and appends its counts to `counts`. `lamp_is_on` holds a flag for each lamp.
+  // Draws from (kImageNoise, image) and, for the light of lamps, from (kImageSpeckle, image).
   void Read(const RenderedRow& row, const PixelPattern& pattern, int first_column,
             double exposure_s, core::TrialKey key, ImageNumber image,
             const std::vector<bool>& lamp_is_on, std::vector<std::uint16_t>& counts) const;

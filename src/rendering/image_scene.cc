@@ -15,13 +15,14 @@ using math::Vector3;
 
 // Rays end here: far ground shows no detail.
 constexpr double kFarthest_m = 100.0;
-// Rough ground further than this towards the sun casts no shadow: as far as in sun_shadows.cc.
+// Rough ground further than this towards the sun casts no shadow. Must equal kGroundShadowReach_m
+// of picture/sun_shadows.cc.
 constexpr double kGroundShadow_m = 2.0;
 
 double Reach(const terrain::Rock& rock) { return rock.semi_axes_m.maxCoeff() + kRounding_m; }
 
-// Whether a ball may come between another one and the sun: the distance between the centres, square
-// to the sun, and whether it lies on the sun's side.
+// Returns whether a ball may come between another ball and the sun. `from_ball` leads from the
+// centre of the other ball to its own, reach_m is the sum of both radii.
 bool ComesBetween(const Vector3& from_ball, const Vector3& toward_sun, double reach_m) {
   // Two balls' shadows overlap where their centres, seen along the sun's rays, are nearer than both
   // radii: |r|^2 - (r . s)^2 <= reach^2.
@@ -104,7 +105,7 @@ void ImageScene::RocksBeforeSun(const Ball& ball, std::span<const int> among,
   for (const int i : among) {
     const auto index = static_cast<std::size_t>(before_sun_[static_cast<std::size_t>(i)]);
     const terrain::Rock& rock = terrain_.rocks()[index];
-    // Both balls seen along the sun's rays, see ComesBetween.
+    // ComesBetween looks at both balls along the sun's rays.
     const double reach_m = ball.radius_m + Reach(rock);
     if (ComesBetween(rock.center_W - ball.center_W, light_.toward_sun_W, reach_m)) {
       out.push_back(i);
@@ -112,7 +113,7 @@ void ImageScene::RocksBeforeSun(const Ball& ball, std::span<const int> among,
   }
 }
 
-// body_m along the ray lies the rover's own part.
+// Returns the point at body_m along the ray, on the rover's own part.
 SurfacePoint ImageScene::MeetRover(const Vector3& eye_W, const Vector3& ray_W,
                                    double body_m) const {
   SurfacePoint point;
@@ -184,7 +185,7 @@ bool ImageScene::Reaches(const Vector3& lamp_W, const Vector3& p_W,
   const Vector3 away = p_W - lamp_W;
   const double distance_m = away.norm();
   const Vector3 ray_R = X_RW_.linear() * away / distance_m;
-  // Parts that hold the lamp do not count: it looks out of them.
+  // Parts that hold the lamp do not count: the lamp looks out of them.
   if (body_.Distance(X_RW_ * lamp_W, ray_R) < distance_m) return false;
   return !terrain_.Occluded(lamp_W, p_W, kOcclusionMargin_m, rocks);
 }

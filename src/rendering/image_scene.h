@@ -1,5 +1,6 @@
-// What a viewing ray meets, what shades it, and what a lamp reaches: for images line by line, as of
-// the light stripe sensor. Pictures of the terrain have picture/picture_scene.h.
+// What a viewing ray meets, what shades it, and what a lamp reaches: for images line by line, which
+// the light stripe sensor takes. Pictures of the terrain have picture/picture_scene.h, with the
+// same SurfacePoint.
 #pragma once
 
 #include <span>
@@ -32,11 +33,9 @@ struct SurfacePoint {
   bool TakesLampLight() const { return surface >= kWall; }
 };
 
-// Returns whether a surface goes on from one point to the other: the same one, and the chord
-// between them nearly in its tangent plane.
+// Returns whether one surface goes on from point to point: both lie on the same surface, and the
+// chord between them lies nearly in its tangent planes.
 bool IsOneSurface(const SurfacePoint& a, const SurfacePoint& b);
-
-// The terrain, the sunlight and the rover's own body as the cameras meet them at one pose.
 
 // A ball around some points, in W.
 struct Ball {
@@ -44,9 +43,10 @@ struct Ball {
   double radius_m = 0.0;
 };
 
-// What the cameras can meet at one pose. Rocks farther from the rover's origin than sight_m are not
-// seen, nor is what they shade. All members are pure queries; the scene must not outlive the
-// terrain.
+// The terrain, the sunlight and the rover's own body as the cameras meet them at one pose. Rocks
+// farther from the rover's origin than sight_m are not seen; their shadows are, within that
+// distance. All members are pure queries. Lists of rocks hold all that rays may meet and some more:
+// they decide time alone. Terrain, body and sun must outlive the scene.
 class ImageScene {
  public:
   ImageScene(const terrain::Terrain& terrain, const math::Transform& X_WR, const SunLight& light,
@@ -55,29 +55,29 @@ class ImageScene {
   double sight_m() const { return sight_m_; }
   const math::Transform& X_WR() const { return X_WR_; }
 
-  // Lists the rocks of which a part may lie where |normal_W . (p - eye)| <= sine |p - eye|: about a
-  // plane.
+  // Lists the rocks of which a part may lie near the plane through an eye: where |normal_W . (p -
+  // eye)| <= sine |p - eye|.
   void RocksNearPlane(const math::Vector3& eye_W, const math::Vector3& normal_W, double sine,
                       std::vector<int>& out) const;
-  // Lists, of the given rocks, those whose bounding ball meets the cone from an eye about axis_W
+  // Lists those of the given rocks whose bounding ball may meet the cone from an eye about axis_W
   // (unit).
   void RocksInCone(const math::Vector3& eye_W, const math::Vector3& axis_W, double half_sine,
                    double half_cosine, std::span<const int> among, std::vector<int>& out) const;
   // Lists the rocks that reach into the sheet of width_m on both sides of a plane.
   void RocksInSheet(const math::Vector3& p_W, const math::Vector3& normal_W, double width_m,
                     std::vector<int>& out) const;
-  // Lists the rocks that may come between the sun and a ball, of all or of an earlier result: Light
-  // asks for them.
+  // Lists the rocks that may come between the sun and a ball, among all rocks or among an earlier
+  // result, for Light. The numbers listed are the scene's own, no indices of the terrain.
   void RocksBeforeSun(const Ball& ball, std::vector<int>& out) const;
   void RocksBeforeSun(const Ball& ball, std::span<const int> among, std::vector<int>& out) const;
 
-  // Returns what the unit ray from an eye meets first among the ground, the walls and the given
-  // rocks, if that is nearer than body_m, where the rover's own part is. Its sunlight is not set.
+  // Returns what the unit ray from an eye meets first: ground, walls, the given rocks, or at body_m
+  // the rover's own part. The sunlight of the point is not set.
   SurfacePoint Meet(const math::Vector3& eye_W, const math::Vector3& ray_W, double body_m,
                     std::span<const int> rocks) const;
 
   // Sets the sunlight that a point sends back, in the shadow of the given rocks (RocksBeforeSun),
-  // of the ground and of the rover. Walls cast none: they stand for the bounds of the arena.
+  // of the ground and of the rover. Walls cast no shadow: they stand for the bounds of the arena.
   void Light(std::span<const int> shading, SurfacePoint& point) const;
 
   // Returns whether the light of a lamp reaches a point: neither the ground, the walls, the given

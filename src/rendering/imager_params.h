@@ -1,6 +1,8 @@
-// Parameters of what turns light into numbers: lens, filter, imager, exposure control. Defaults are
-// those of the light stripe sensor's camera; a camera of another kind starts from values of its own
-// (picture/picture_params.h). Only images depend on them: no error model does.
+// Parameters of what turns light into numbers: lens, filter, imager, exposure control. The light
+// stripe sensor and the stereo cameras hold them among their parameters; the power of the former
+// depends on the kind of imager, too. Defaults are those of the light stripe sensor's camera; a
+// camera of another kind starts from values of its own (picture/picture_params.h). Images depend on
+// them; error models do not.
 #pragma once
 
 #include <array>
@@ -57,7 +59,7 @@ struct ImagerParams {
 
   const DetectorParams& detector() const { return kind == ImagerKind::kCcd ? ccd : cmos; }
 
-  // A sensor visits one after the other, with fields of its own in between.
+  // A sensor calls VisitOptics and then VisitDetectors, with fields of its own in between.
   void VisitOptics(core::FieldVisitor& v);     // kind, lens, filter, blur, black level
   void VisitDetectors(core::FieldVisitor& v);  // ccd, cmos, exposure
 };

@@ -11,7 +11,8 @@ namespace {
 
 using math::Vector3;
 
-// Part of a ray that lies within a slab or a cylinder, and the normal where it enters.
+// The part of a ray that lies within all slabs and cylinders so far, and the normal where it
+// enters.
 struct Inside {
   double enter_m = -RoverBody::kFree;
   double leave_m = RoverBody::kFree;
@@ -62,7 +63,7 @@ RoverBody::RoverBody(std::vector<Box> boxes, std::vector<Wheel> wheels)
   radius_m_ = 0.5 * (bounds_.high_R - bounds_.low_R).norm();
 }
 
-// The box around all parts, which most rays miss.
+// Returns whether the ray misses the box around all parts, as most rays do.
 bool RoverBody::PassesBy(const Vector3& origin_R, const Vector3& direction_R) const {
   Inside inside;
   for (int axis = 0; axis < 3; ++axis) {

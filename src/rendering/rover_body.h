@@ -1,4 +1,5 @@
-// The rover's own parts as its cameras see them: what hides a view or casts a shadow.
+// The rover's own parts as its cameras see them: what hides a view or casts a shadow. Images,
+// masks of images and the sun's shade ask it; sensing/rover_parts.h makes the one of a rover.
 #pragma once
 
 #include <limits>
@@ -8,8 +9,8 @@
 
 namespace rockyard::rendering {
 
-// Boxes and wheels, all in R, whose axes the boxes follow and along whose y axis the wheels' axles
-// lie. Nothing moves in R: a wheel that climbs or steers stays where it is here.
+// Boxes along the axes of R, and wheels with axles along its y axis. Parts do not move in R, though
+// wheels climb and steer.
 class RoverBody {
  public:
   static constexpr double kFree = std::numeric_limits<double>::infinity();
@@ -28,12 +29,12 @@ class RoverBody {
   RoverBody(std::vector<Box> boxes, std::vector<Wheel> wheels);
 
   // Returns the distance along the unit ray to the first part that it enters from outside; kFree
-  // where there is none. A part that holds the origin does not count: what is mounted inside looks
-  // out of it.
+  // where there is none. A part that holds the origin does not count: what is mounted inside a part
+  // looks out of it.
   double Distance(const math::Vector3& origin_R, const math::Vector3& direction_R) const;
 
-  // Returns the outward normal of the part that the ray enters first; against the ray where it
-  // enters none.
+  // Returns the outward normal of the part that the ray enters first, or the direction against the
+  // ray where it enters none.
   math::Vector3 Normal(const math::Vector3& origin_R, const math::Vector3& direction_R) const;
 
   // This ball in R holds every part.

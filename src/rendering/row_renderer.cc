@@ -27,7 +27,7 @@ ViewRow::Segment MakeSegment(const ViewRow& view, int first_edge, int last_edge)
   return segment;
 }
 
-// The plane through the first and the last ray; any plane where they are one line.
+// Sets the plane through the first and the last ray.
 void SetPlane(ViewRow& view) {
   view.plane_R = view.edge_R.front().cross(view.edge_R.back()).normalized();
   view.plane_sine = 0.0;
@@ -115,8 +115,8 @@ RowRenderer::RowRenderer(const ImagerParams& imager, double pixel_m2, double wav
     : blur_(imager.blur_px),
       electrons_per_radiance_(ElectronsPerRadiance(imager, pixel_m2, wavelength_m)) {}
 
-// One ray for each edge between pixels: neighbours share it. Rocks are sifted for the line, then
-// for each of its segments.
+// Casts one ray for each edge between pixels, which two pixels share. Rocks are sifted for the
+// line, then for each of its segments.
 void RowRenderer::CastRays(const ViewRow& view, Job& job) {
   const ImageScene& scene = job.scene;
   const auto R_WR = scene.X_WR().linear();
@@ -138,7 +138,8 @@ void RowRenderer::CastRays(const ViewRow& view, Job& job) {
   }
 }
 
-// Sunlight at each edge; an edge that two segments share is lit twice, with the same result.
+// Sets the sunlight at each edge. An edge that two segments share is lit twice, with the same
+// result.
 void RowRenderer::LightPoints(const ViewRow& view, Job& job) {
   const ImageScene& scene = job.scene;
   // A ball around what a run of edges meets; what may come between it and the sun is searched once.
@@ -163,8 +164,8 @@ void RowRenderer::LightPoints(const ViewRow& view, Job& job) {
   }
 }
 
-// A pixel in which a surface ends: kParts smaller ones, each with rays, shadows and lamps of its
-// own.
+// Renders a pixel in which a surface ends as kParts smaller ones, each with rays, shadows and lamps
+// of its own.
 void RowRenderer::SplitPixel(const Job& job, const ViewRow& view, std::span<const int> seen,
                              int pixel, RenderedRow& row) const {
   const auto edge = static_cast<std::size_t>(pixel);

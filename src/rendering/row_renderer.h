@@ -1,4 +1,5 @@
-// One image line as a camera sees it: what does not depend on the scene, and the light on it.
+// One image line as a camera sees it: what does not depend on the scene, and the light on it. The
+// light stripe sensor renders its images by it, with its lasers as lamps.
 #pragma once
 
 #include <span>
@@ -29,7 +30,7 @@ struct RenderedRow {
 // The viewing rays, in R, through the edges between the pixels of an image line, halfway up the
 // line, so that neighbours share them.
 struct ViewRow {
-  // A run of neighbouring edges; their rays lie within a cone.
+  // A run of neighbouring edges, and a cone that holds their rays.
   struct Segment {
     int first_edge = 0;
     int last_edge = 0;  // also the first of the next one
@@ -51,12 +52,10 @@ struct ViewRow {
   int columns() const { return static_cast<int>(gain.size()); }
 };
 
-// Returns `columns` pixels of an image line from first_column on. Cost: about 0.14 ms for 768
-// pixels.
+// Returns the view of `columns` pixels of an image line from first_column on. Cost: about 0.14 ms
+// for 768 pixels.
 ViewRow MakeViewRow(const messages::Camera& camera, const RoverBody& body, int row,
                     int first_column, int columns);
-
-// Light on the pixels of one image line: rays cast at the edges between pixels.
 
 // Lamps whose light a renderer adds to that of the sun, each apart, so that a read-out can have
 // them on or off.
@@ -72,9 +71,9 @@ class Lamps {
 };
 
 // Spreads the light of every pixel over its neighbours on the line, with weights in proportion to
-// exp(-k^2 / 2 s^2) at k columns, s in pixels. It does so along the line only: each line is
-// rendered by itself. Light of lamps that leaves the line is lost; sunlight goes on beyond its ends
-// as at its ends.
+// exp(-k^2 / 2 s^2) at k columns, s in pixels. It does so along the line only, as each line is
+// rendered by itself. Light of lamps that leaves the line is lost; beyond its ends sunlight is
+// taken to be as at the ends.
 class ImageBlur {
  public:
   explicit ImageBlur(double sigma_px);  // 0: sharp, changes nothing
@@ -85,9 +84,9 @@ class ImageBlur {
   std::vector<double> weights_;  // of neighbours on one side, from the pixel itself on
 };
 
-// Renders one image line. The sunlight of a pixel is the mean of its two edges; what lamps add is
-// theirs to say (Lamps). Pixels in which the surface ends are split into kParts parts by further
-// rays. All surfaces are Lambert's.
+// Renders one image line by rays at the edges between pixels. The sunlight of a pixel is the mean
+// of its two edges; each lamp says what it adds (Lamps). Pixels in which a surface ends are split
+// into kParts parts by further rays. All surfaces are Lambert's.
 //
 // Deviations: a pixel is sampled along the line through its middle. Nothing reflects twice, and the
 // rover's own parts show no light of lamps.
@@ -95,7 +94,7 @@ class RowRenderer {
  public:
   static constexpr int kParts = 8;
 
-  // Pixels of the area pixel_m2, and light of the wavelength that the filter lets through.
+  // `pixel_m2` is the area of a pixel, `wavelength_m` the wavelength that the filter lets through.
   RowRenderer(const ImagerParams& imager, double pixel_m2, double wavelength_m);
 
   // Renders the line that `view` describes, seen from eye_R. Cost: 50 to 130 us for 768 pixels over

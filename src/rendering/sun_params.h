@@ -1,5 +1,6 @@
-// Sunlight (or a lamp) on the terrain, and how much of it the terrain sends back: for the images
-// and shadows of every sensor that sees terrain. The sun of the aid sensors.aids.sun is set apart.
+// Sunlight (or a lamp) on the terrain, and how much of it the terrain sends back (scenario group
+// sensors.sun): for the images and shadows of every sensor that sees terrain. The aid
+// sensors.aids.sun has a sun of its own.
 #pragma once
 
 #include "core/fields.h"

@@ -1,5 +1,5 @@
-// Where a wheel touches ground that may bend more sharply than its rim: the same for both
-// fidelities.
+// Where a wheel touches ground that may bend more sharply than its rim. The contact finders of both
+// fidelities take the touches of their wheels from it.
 #pragma once
 
 #include <algorithm>
@@ -12,21 +12,20 @@
 
 namespace rockyard::rover {
 
-// A point of a wheel that is nearest to the ground, its distance from the tangent plane there
-// (negative: penetration), and the ground's normal.
+// A place at which a wheel touches the ground, or is nearest to it.
 struct GroundTouch {
-  math::Vector3 n_W = math::Vector3::UnitZ();
-  math::Vector3 p_W = math::Vector3::Zero();
-  double gap_m = 0.0;
+  math::Vector3 n_W = math::Vector3::UnitZ();  // normal of the ground
+  math::Vector3 p_W = math::Vector3::Zero();   // point of the wheel
+  double gap_m = 0.0;  // distance of p_W from the tangent plane; negative: penetration
 };
 
-// One touch, or two where a wheel stands between the flanks of a ditch, the one farther back first:
-// by this order each keeps its load from step to step.
+// One touch, or two where a wheel stands between the flanks of a ditch. Must stay: the touch
+// farther back comes first, as by this order each touch keeps its load from step to step.
 struct GroundTouches {
   std::array<GroundTouch, 2> touches;
   std::size_t count = 1;
 
-  // Keeps the deepest of all that were taken, and the deepest of those apart from it.
+  // Takes one more touch: the deepest of all stays, and the deepest of those apart from it.
   void Take(const GroundTouch& touch, double apart_cosine) {
     GroundTouch other = touch;
     if (count == 0 || touch.gap_m < touches[0].gap_m) {
@@ -54,7 +53,7 @@ GroundTouch TouchAlong(const terrain::Ground& ground, const math::Vector3& n_W,
   return {n_W, p_W, (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z()};
 }
 
-// The touches of one wheel by the angle around the axle from a first normal.
+// Searches the rim of one wheel, by the angle around the axle from a first normal.
 template <typename Support>
 class RimSearch {
  public:
@@ -65,13 +64,13 @@ class RimSearch {
   GroundTouch At(double angle_rad) const {
     return TouchAlong(ground_, Eigen::AngleAxisd(angle_rad, axle_W_) * below_W_, support_);
   }
-  // Height of the rim's point over the ground. It is least where rim and ground have one tangent,
-  // on sharp edges too, where normals change too fast to be followed.
+  // Returns the height of the rim's point over the ground. It is least where rim and ground have
+  // one tangent, also on sharp edges, where normals change too fast to be followed.
   double Height_m(double angle_rad) const {
     const GroundTouch touch = At(angle_rad);
     return touch.n_W.z() > kSteepest ? touch.gap_m / touch.n_W.z() : kNever_m;
   }
-  // Returns the place of the least height between two angles that have one.
+  // Returns the angle of the least height between two angles that enclose one.
   double Least(double low_rad, double high_rad) const {
     constexpr double kGolden = 0.6180339887498949;
     while (high_rad - low_rad > kResolution_rad) {
@@ -99,16 +98,17 @@ class RimSearch {
 };
 
 // Returns the touches of the wheel around center_W. Away from ditches and pits it takes the normal
-// of the ground below the centre, which is exact on a plane and near enough on roughness. Near them
-// it looks for places around the rim that are nearer to the ground than those beside them, and
-// takes the deepest, and of the others the deepest that lies at least 20 degrees from it.
+// of the ground below the centre, which is exact on a plane and near enough on roughness. Near
+// ditches and pits it looks for places around the rim that are nearer to the ground than the places
+// beside them. It takes the deepest of these places, and of the others the deepest whose normal is
+// at least 20 degrees from the normal there.
 template <typename Support>
 GroundTouches FindGroundTouches(const terrain::Ground& ground, const math::Vector3& center_W,
                                 const math::Vector3& axle_W, double radius_m,
                                 const Support& support) {
   constexpr int kPlaces = 15;  // to either side
   constexpr double kStep_rad = 0.1;
-  constexpr double kApartCosine = 0.94;
+  constexpr double kApartCosine = 0.94;  // 20 degrees
   const math::Vector3 below_W = ground.Normal(center_W.x(), center_W.y());
   if (!ground.HasDepressionNear(center_W.x(), center_W.y(), radius_m)) {
     return {{TouchAlong(ground, below_W, support), {}}, 1};
@@ -120,7 +120,7 @@ GroundTouches FindGroundTouches(const terrain::Ground& ground, const math::Vecto
   }
   GroundTouches result{{TouchAlong(ground, below_W, support), {}}, 0};
   for (std::size_t i = 1; i < 2 * kPlaces; ++i) {
-    // Of equal neighbours the last one counts, so that a level stretch is one place.
+    // The last of equal neighbours counts, so that a level stretch is one place.
     if (heights_m[i] > heights_m[i - 1] || heights_m[i] >= heights_m[i + 1]) continue;
     const double angle_rad = kStep_rad * (static_cast<double>(i) - kPlaces);
     const GroundTouch touch = rim.At(rim.Least(angle_rad - kStep_rad, angle_rad + kStep_rad));

@@ -1,3 +1,4 @@
+// Makes the rover of the fidelity that the parameters name (rover.h).
 #include "core/check.h"
 #include "rover/multibody/rocker_bogie.h"
 #include "rover/quasi_static/quasi_static_rover.h"
@@ -15,7 +16,7 @@ std::unique_ptr<Rover> MakeRover(const RoverParams& params, const terrain::Terra
 std::unique_ptr<Rover> MakeRover(const RoverParams& params,
                                  const terrain::RockHoldingParams& holding,
                                  terrain::Terrain& terrain) {
-  // Scenarios with another fidelity have been refused before.
+  // RequireConsistency (trial/drive_checks_params.h) refuses movable rocks with another fidelity.
   EXPECT(params.fidelity == Fidelity::kMultibody);
   return std::make_unique<RockerBogie>(params, holding, terrain);
 }

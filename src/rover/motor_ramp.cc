@@ -16,8 +16,8 @@ MotorRates MotorRamp::Advance(const messages::PerWheel<double>& commanded_rad_s,
   }
   const double most_rad_s = acceleration_rad_s2_ * step_s;
   const bool arrives = farthest_rad_s <= most_rad_s;
-  // Of what is left to the command, the share that this step makes; and of the step, the share that
-  // the ramp takes.
+  // `made`: the share of the change to the command that this step makes. `taken`: the share of the
+  // step that the ramp takes.
   const double made = arrives ? 1.0 : most_rad_s / farthest_rad_s;
   const double taken = arrives ? farthest_rad_s / most_rad_s : 1.0;
   MotorRates rates;

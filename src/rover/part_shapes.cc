@@ -13,10 +13,10 @@ using truth::BodyPart;
 
 // Rounding of the wheels' edges as a share of the width, and of chassis and panel, m. Contacts are
 // found between cores, so a margin must exceed any penetration (some 1 mm).
-constexpr double kWheelRounding = 0.25;  // as WheelShape in quasi_static/wheel_rock_gap.cc
+constexpr double kWheelRounding = 0.25;  // must equal that of WheelShape (wheel_rock_gap.cc)
 constexpr double kBoxRounding_m = 0.01;
 
-// A capsule of that radius about the line from a to b, in the frame of the body.
+// Returns a capsule of that radius about the line from a to b, in the frame of the body.
 Part Segment(BodyPart kind, int body, const Vector3& a, const Vector3& b, double radius_m) {
   return {kind,
           body,
@@ -29,8 +29,8 @@ Part Segment(BodyPart kind, int body, const Vector3& a, const Vector3& b, double
           0.5 * (b - a).norm() + radius_m};
 }
 
-// A box fixed to the chassis, with edges rounded by kBoxRounding_m: core and margin together fill
-// it.
+// Returns a box fixed to the chassis, with edges rounded by kBoxRounding_m: core and margin
+// together fill the box.
 Part Box(BodyPart kind, const Vector3& low_R, const Vector3& high_R) {
   const Vector3 center = 0.5 * (low_R + high_R);
   const Vector3 half = 0.5 * (high_R - low_R) - Vector3::Constant(kBoxRounding_m);
@@ -39,7 +39,7 @@ Part Box(BodyPart kind, const Vector3& low_R, const Vector3& high_R) {
           kBoxRounding_m, center,   half.norm() + kBoxRounding_m};
 }
 
-// Four points at the corners of a level rectangle, in R. They stand for a box against planes.
+// Adds four points at the corners of a level rectangle, in R, which stand for a box against planes.
 void AddCorners(BodyPart kind, double length_m, double width_m, double z_m,
                 std::vector<Part>& parts) {
   for (const double x : {0.5 * length_m, -0.5 * length_m}) {
@@ -51,7 +51,7 @@ void AddCorners(BodyPart kind, double length_m, double width_m, double z_m,
 }
 
 void AddWheels(const RoverGeometryParams& params, std::vector<Part>& parts) {
-  // Core and margin together have the wheel's radius and width.
+  // Core and margin together have the wheel's radius and width, as WheelShape (wheel_rock_gap.cc).
   const double margin_m =
       std::min(kWheelRounding * params.wheel_width_m, 0.5 * params.wheel_radius_m);
   const double half_width_m = 0.5 * params.wheel_width_m - margin_m;
@@ -94,7 +94,7 @@ std::vector<Part> MakeParts(const RoverGeometryParams& params) {
   std::vector<Part> parts;
   AddWheels(params, parts);
   AddArms(params, parts);
-  // The panel is as thick as in BodyBoxes (rover_layout_params.h), which hide the view of sensors.
+  // Must equal the panel of BodyBoxes (rover_layout_params.h), which hide the view of sensors.
   const double panel_z_m = params.height_m - 2.5 * kBoxRounding_m;
   const Vector3 belly(0.5 * params.belly_length_m, 0.5 * params.belly_width_m, 0.0);
   const Vector3 panel(0.5 * params.length_m, 0.5 * params.width_m, 0.0);

@@ -1,4 +1,5 @@
-// The parts of the rover that can touch something: each a convex core grown by a margin.
+// The parts of the rover that can touch something: each a convex core grown by a margin. The
+// contact finders of both fidelities test these parts, URDF files and replays show them.
 #pragma once
 
 #include <vector>
@@ -10,15 +11,16 @@
 
 namespace rockyard::rover {
 
-// Sine of the wheel's tilt against ground or wall at which it stands on the edge of its rim. Below,
-// the contact moves in proportion across the rim, as soft soil bears the whole width; so does the
-// contact of its side with a wall across that side.
+// Sine of a wheel's tilt against ground or wall at which it stands on the edge of its rim. At a
+// smaller tilt the contact moves across the rim in proportion to the tilt, as soft soil bears the
+// whole width; the contact of the wheel's side with a wall moves across that side in the same way.
 inline constexpr double kEdgeTilt = 0.1;
-// Chassis and panel cannot touch a plane while the rover stands on its wheels; cosine of the tilt
-// from which on they are tested, given the most that rockers and bogies let the chassis lean.
+// Cosine of the tilt of the chassis beyond which corners of chassis and panel are tested against
+// plane ground: below that tilt they cannot touch it, as far as rockers and bogies let the chassis
+// lean.
 inline constexpr double kUprightCosine = 0.9;
 
-// The core of a part; a_B and b_B are its two vectors.
+// The core of a part, given by the vectors a_B and b_B of the part.
 enum class Core {
   kPoint,
   kSegment,   // between a and b
@@ -26,14 +28,14 @@ enum class Core {
   kBox,       // centre a, half extents b; axes of the body
 };
 
-// What a part is tested against: kEverything is rocks, ground and walls.
+// What a part is tested against. kEverything: rocks, ground and walls.
 enum class Meets { kRocks, kEverything, kGroundAndWalls };
 
 // A part of the rover: all points within margin_m of its core. Vectors are in the frame of its
 // body.
 struct Part {
   truth::BodyPart kind;
-  int body;  // see multibody.h
+  int body;  // as numbered in multibody.h
   Core core;
   Meets meets;
   math::Vector3 a_B;
@@ -43,11 +45,12 @@ struct Part {
   double bounding_radius_m;
 };
 
-// Makes the parts, wheels first, in the order of messages::Wheel: users take the index of a wheel's
-// part for the wheel. Wheels are cylinders with rounded edges. Arms are capsules along the lines
+// Makes the parts. Must stay: wheels come first, in the order of messages::Wheel, as users take the
+// index of a wheel's part for the wheel. Records depend on the order of all parts, which is the
+// order of contacts. Wheels are cylinders with rounded edges. Arms are capsules along the lines
 // pivot to pivot, pivot to knee and, as strut beside the wheel, knee to hub; hubs are balls at the
-// inner face of each wheel, the panel is a slab of the overall length and width on top. Corners of
-// chassis and panel stand for those two against ground and walls.
+// inner face of each wheel, the panel is a slab of the overall length and width on top. Against
+// ground and walls the corners of chassis and panel stand for these two boxes.
 std::vector<Part> MakeParts(const RoverGeometryParams& params);
 
 // Returns the point of the core nearest to p, both in the frame of the body.

@@ -99,7 +99,8 @@ Vector3 RockBody::CapPointFromOutside(const Vector3& p) const {
   const Eigen::Array2d level = p.head<2>().array();
   const double depth_p_m = axes_m_.z() - p.z();
   double low_m = std::max(0.0, depth_p_m);
-  // Where F = 0 for t = 0; an ellipsoid is no wider than at the depth where its slope ends.
+  // high_m: the depth where F = 0 for t = 0, or where the slope of an ellipsoid ends, at which it
+  // is widest.
   const double rho2 = (level.square() / axes2).sum();
   const double square = slope_per_m_ * slope_per_m_ + bend_per_m2_ * rho2;
   double high_m =
@@ -121,8 +122,8 @@ Vector3 RockBody::CapPointFromOutside(const Vector3& p) const {
     const double t_slope = (slope_per_m_ + bend_per_m2_ * depth_p_m) / (slope * slope);
     const double F_slope = -2.0 * (t_slope * (u2 / stretch).sum() + slope);
     double next_m = depth_m - F / F_slope;
-    // Newton's method, and halves of the interval that holds the root where it leaves that. Written
-    // so that a step that is not a number is left too.
+    // Newton's method, or the middle of the interval that holds the root where Newton's step leaves
+    // it. The test is written so that a step that is not a number counts as leaving it.
     if (!(next_m >= low_m && next_m <= high_m)) next_m = 0.5 * (low_m + high_m);
     const double step_m = std::abs(next_m - depth_m);
     depth_m = next_m;

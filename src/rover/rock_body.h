@@ -1,5 +1,5 @@
-// A rock prepared for contact: the nearest point of its surface in closed form up to one scalar
-// root.
+// A rock prepared for contact: the nearest point of its surface, in closed form up to one scalar
+// root. The contact finders of both fidelities ask it.
 #pragma once
 
 #include "math/pose.h"
@@ -23,20 +23,19 @@ class RockBody {
   const math::Vector3& center_W() const { return center_W_; }
   double bounding_radius_m() const { return bounding_radius_m_; }
 
-  // Returns a lower bound of the distance from p to the rock above the ground, m, for a p outside,
-  // at the cost of a scaling. Inside, it returns a negative number.
+  // Returns a lower bound of the distance from p to the rock above the ground, m, at the cost of a
+  // scaling: negative inside the ellipsoid of its semi-axes.
   double DistanceBound(const math::Vector3& p_W) const;
 
   // Returns the nearest point of the surface. Outside an ellipsoid, x_i = a_i^2 p_i / (a_i^2 + t)
   // with the root t >= 0 of sum (a_i p_i / (a_i^2 + t))^2 = 1 (Hart 1994, Graphics Gems IV), found
-  // by Newton's method on one over the norm, to 1e-12. The same for caps with the depth of x for
-  // the root. Inside, which contact margins make rare, it returns the point on the ray from the
-  // centre.
+  // by Newton's method on one over the norm, to 1e-12. For caps the root is the depth of x. Inside,
+  // which contact margins make rare, it returns the point on the ray from the centre.
   SurfacePoint Nearest(const math::Vector3& p_W) const;
 
  private:
   SurfacePoint NearestOnCap(const math::Vector3& p_W) const;
-  // The nearest point of the cap to p outside, both in the rock's frame.
+  // Returns the point of the cap nearest to a p outside, both in the rock's frame.
   math::Vector3 CapPointFromOutside(const math::Vector3& p) const;
   math::Vector3 ToLocal(const math::Vector3& v_W) const {
     return {cos_ * v_W.x() + sin_ * v_W.y(), -sin_ * v_W.x() + cos_ * v_W.y(), v_W.z()};
@@ -52,7 +51,7 @@ class RockBody {
   math::Vector3 inverse_axes_per_m_;
   double smallest_axis_m_;
   double bounding_radius_m_;
-  // A of a cap, 0 for an ellipsoid. With the depth d below the top in metres a cap is
+  // A of a cap, 0 for an ellipsoid. At the depth d below its top, m, a cap is
   // (x/a)^2 + (y/b)^2 = 2 slope d + bend d^2, slope = A / 2 h and bend = (1 - A) / h^2.
   double cap_growth_;
   double slope_per_m_;

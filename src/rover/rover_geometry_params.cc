@@ -95,7 +95,7 @@ void VisitStops(RoverGeometryParams& p, core::FieldVisitor& v) {
                   "a bogie wheel on 1.5 wheel diameters needs 49", {1.0, 80.0}, {40.0, 60.0}));
 }
 
-// Whether the parts find room beside one another, as the shapes and levers made of them presume.
+// Requires that the parts find room beside one another, as MakeParts and MakeRoverGeometry presume.
 void RequireRoom(const RoverGeometryParams& p, core::FieldVisitor& v) {
   const double bogie_pivot_x_m = 0.5 * (p.middle_wheel_x_m - 0.5 * p.wheelbase_m);
   constexpr double kRounding_m = 1e-9;

@@ -1,10 +1,13 @@
-// Dimensions of the six-wheel rocker-bogie rover. The defaults describe Rocky 3.2.
+// Dimensions of the six-wheel rocker-bogie rover. The defaults describe Rocky 3.2. Both fidelities
+// build the rover by them; sensors take from them what the rover hides and shades, referee and
+// counters its outline. Meanings and sources stand in the .cc.
 //
 // Frame R: x forward, y left, z up, origin on the ground under the chassis centre while the rover
 // stands on level ground. The pivots of Rocky 3.2 are not public: the defaults take the widths of
 // wheels and belly and the height of the rocker's pivot from Rocky 7, whose wheels have the same
-// size, and spread the wheels over the published length. Each is marked as assumed, with a range. A
-// default decides the records of every scenario that leaves it out; a bound only refuses files.
+// size, and spread the wheels over the published length. These values are marked as assumed, with a
+// range. Records depend on a default in every scenario that leaves its parameter out; a bound only
+// refuses files.
 #pragma once
 
 #include <array>
@@ -15,7 +18,7 @@
 
 namespace rockyard::rover {
 
-// Which end of the rover stands on the bogies, the other stands on the rockers.
+// Which end of the rover stands on the bogies; the other end stands on the rockers.
 enum class BogieEnd { kRear, kFront };
 
 // Which wheels steer.

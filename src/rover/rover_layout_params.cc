@@ -64,14 +64,15 @@ using math::Vector3;
 constexpr double kBarWidth_m = 0.02;
 constexpr double kBarHeight_m = 0.1;
 
-// Principal moments of a solid box about its centre: I_x = m (y^2 + z^2) / 12 and so on in a
-// circle.
+// Returns the principal moments of a solid box about its centre: I_x = m (y^2 + z^2) / 12, and I_y
+// and I_z accordingly.
 Vector3 BoxInertia(double mass_kg, double x_m, double y_m, double z_m) {
   const double k = mass_kg / 12.0;
   return {k * (y_m * y_m + z_m * z_m), k * (x_m * x_m + z_m * z_m), k * (x_m * x_m + y_m * y_m)};
 }
 
-// Principal moments of a solid cylinder along y: I_y = m r^2 / 2, I_x = I_z = m (3 r^2 + w^2) / 12.
+// Returns the principal moments of a solid cylinder along y: I_y = m r^2 / 2,
+// I_x = I_z = m (3 r^2 + w^2) / 12.
 Vector3 CylinderInertia(double mass_kg, double radius_m, double width_m) {
   const double across = mass_kg * (3.0 * radius_m * radius_m + width_m * width_m) / 12.0;
   return {across, 0.5 * mass_kg * radius_m * radius_m, across};

@@ -1,4 +1,6 @@
-// Where the parts of the rover are, in frame R on level ground, and how heavy each body is.
+// Where the parts of the rover are, in frame R on level ground, and how heavy each body is. Both
+// fidelities and URDF files build on it; calibrations start from its drive geometry, and sensors
+// and pictures take the outline of the rover from it.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,22 +16,23 @@
 
 namespace rockyard::rover {
 
+// The order of arrays with one entry for each side.
 enum class Side : std::size_t { kLeft, kRight };
 
-// Centres and pivots in R, m, by messages::Wheel and by Side.
+// Wheel centres, by messages::Wheel, and pivots, by Side, in R, m.
 struct RoverGeometry {
-  messages::PerWheel<math::Vector3> wheel_R;  // wheel centres, m
+  messages::PerWheel<math::Vector3> wheel_R;
   messages::PerWheel<bool> steered{};
-  messages::PerWheel<bool> on_bogie{};          // otherwise on the rocker
-  std::array<math::Vector3, 2> rocker_pivot_R;  // by Side
+  messages::PerWheel<bool> on_bogie{};  // otherwise on the rocker
+  std::array<math::Vector3, 2> rocker_pivot_R;
   std::array<math::Vector3, 2> bogie_pivot_R;
 };
 
 // Spreads the wheels over the wheelbase and puts the bogies at the end that the parameters name.
 RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params);
 
-// Returns the true drive geometry. On-board code gets a copy that may be wrong, from
-// trial/eyes/onboard_calibration.h alone.
+// Returns the true drive geometry. On-board code gets a copy of it that may be wrong, and only from
+// trial/eyes/onboard_calibration.h.
 messages::DriveCalibration MakeDriveCalibration(const RoverParams& params);
 
 // Returns the sinkage up to which the law of the rut holds, m: a sixth of the wheel's diameter
@@ -40,10 +43,11 @@ inline double LargestLawfulSinkage(const RoverGeometryParams& params) {
 
 // A closed outline seen from above: corners (x, y) in R, m, counter-clockwise.
 using Outline = std::vector<std::pair<double, double>>;
-Outline BodyOutline(const RoverGeometryParams& params);  // overall length by width
+// Returns the outline of the overall length and width.
+Outline BodyOutline(const RoverGeometryParams& params);
 
 // Returns the chassis from belly to panel and, on top of it, the solar panel, both as boxes in
-// frame R, m. The panel is 25 mm thick, as in the rover's collision shapes.
+// frame R, m. The thickness of the panel must equal that of MakeParts (part_shapes.cc).
 inline std::array<Eigen::AlignedBox3d, 2> BodyBoxes(const RoverGeometryParams& params) {
   constexpr double kPanelThickness_m = 0.025;
   const double panel_z_m = params.height_m - kPanelThickness_m;
@@ -55,8 +59,6 @@ inline std::array<Eigen::AlignedBox3d, 2> BodyBoxes(const RoverGeometryParams& p
           Eigen::AlignedBox3d(at_height(panel_z_m) - panel, at_height(params.height_m) + panel)};
 }
 
-// Masses and moments of inertia of the rover's bodies, as the simulation has them.
-
 // Mass, centre of mass and principal moments of inertia of one body.
 struct BodyMass {
   double mass_kg = 0.0;
@@ -66,10 +68,10 @@ struct BodyMass {
   math::Vector3 inertia_kg_m2 = math::Vector3::Zero();
 };
 
-// The chassis is given in R; rocker, bogie and wheel in frames at their joints, with axes parallel
-// to R. The chassis is a solid box from its underside to the panel, about the centre of mass that
-// the parameters give; rockers and bogies are flat bars as long as half and a quarter of the rover;
-// wheels are solid cylinders.
+// The masses of all bodies. The chassis is given in R; rocker, bogie and wheel are given in frames
+// at their joints, with axes parallel to R. The chassis is a solid box from its underside to the
+// top of the panel, about the centre of mass that the parameters give; rockers and bogies are flat
+// bars as long as half and a quarter of the rover; wheels are solid cylinders.
 struct RoverMasses {
   BodyMass chassis;
   BodyMass rocker;
@@ -77,9 +79,10 @@ struct RoverMasses {
   BodyMass wheel;
 };
 
-// The chassis has the mass that wheels, rockers and bogies leave of the total. Rockers, bogies and
-// wheels have their centres of mass at their joints, and wheels are alike about both axes across
-// the axle: the inverse of the mass matrix is made for that (joint_space_inertia.cc).
+// Makes the masses. The chassis has the mass that wheels, rockers and bogies leave of the total, as
+// in Linkage (quasi_static/linkage.cc), which must agree. Must stay: rockers, bogies and wheels
+// have their centres of mass at their joints, and wheels are alike about both axes across the axle;
+// the mass matrix and its inverse are made for that (joint_space_inertia.cc).
 RoverMasses MakeRoverMasses(const RoverParams& params);
 
 }  // namespace rockyard::rover

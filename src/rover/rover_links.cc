@@ -12,6 +12,7 @@ namespace {
 constexpr std::array<std::string_view, 2> kSideNames{"left", "right"};
 constexpr std::array<std::string_view, 3> kAxles{"front", "middle", "rear"};
 
+// Builds the list of links.
 class LinkTree {
  public:
   explicit LinkTree(const RoverGeometryParams& params) : geometry_(MakeRoverGeometry(params)) {
@@ -24,7 +25,7 @@ class LinkTree {
   }
 
  private:
-  // Returns the index of the link, for those that it carries.
+  // Returns the index of the link, which becomes the parent of what it carries.
   int Add(Link link) {
     links_.push_back(std::move(link));
     return static_cast<int>(links_.size()) - 1;

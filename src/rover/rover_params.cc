@@ -20,9 +20,9 @@ using core::Assumed;
 using core::Published;
 using core::Setting;
 
-// Rim speed up to which motion counts as quasi-static, m/s. Inertia tells against weight by the
-// Froude number v^2 / (g r), which is held at that of the comparison in README.md of this folder:
-// 0.2 m/s with a wheel of 65 mm in Earth's gravity.
+// Returns the rim speed up to which motion counts as quasi-static, m/s. Inertia tells against
+// weight by the Froude number v^2 / (g r); its bound is that of the comparison in README.md of this
+// folder, 0.2 m/s with a wheel of 65 mm in Earth's gravity.
 double FastestScaled(const RoverParams& params) {
   constexpr double kSpeed_m_s = 0.2;
   constexpr double kGravityTimesRadius_m2_s2 = 9.81 * 0.065;
@@ -199,7 +199,8 @@ messages::PerWheel<double> StaticWheelLoads(const RoverParams& params) {
   return load_N;
 }
 
-// Loads are linear in the position, so that each wheel's is zero at x = N(0) / (N(0) - N(1 m)).
+// Loads N are linear in the position x, so that the load of a wheel is zero at
+// x = N(0) / (N(0) - N(1 m)).
 ComRange StandingComRange(const RoverParams& params) {
   const auto loads_at = [&params](double com_x_m) {
     RoverParams moved = params;
@@ -223,8 +224,8 @@ double SteepestHeldSlope_rad(const RoverParams& params, const terrain::SoilParam
   const WheelRut wheel(soil, params.geometry.wheel_radius_m, params.geometry.wheel_width_m);
   const double level_N = params.mass.total_kg * params.physics.gravity_m_s2 /
                          static_cast<double>(messages::kWheelCount);
-  // The pull grows with the slope and what the soil bears shrinks with the load, so that the
-  // difference has one root: halved until no number lies between.
+  // The pull grows with the slope and what the soil bears shrinks with the load, so that their
+  // difference has one root. The interval is halved until no number lies between its ends.
   double held_rad = 0.0;
   double slides_rad = 0.5 * std::numbers::pi;
   for (int i = 0; i < 60; ++i) {

@@ -1,6 +1,8 @@
-// Parameters of the six-wheel rocker-bogie rover. The defaults describe Rocky 3.2. A default
-// decides the records of every scenario that leaves it out, and the baselines; a bound only refuses
-// files.
+// Parameters of the six-wheel rocker-bogie rover, and what follows from them by statics. Drives and
+// the command `rover` take them; checks of a drive ask whether such a rover stands and is held on
+// its slope. The defaults describe Rocky 3.2. Records and baselines depend on a default in every
+// scenario that leaves its parameter out; a bound only refuses files. Meanings and sources stand in
+// the .cc.
 #pragma once
 
 #include <array>
@@ -15,7 +17,8 @@
 
 namespace rockyard::rover {
 
-// The step at which the state is reported, and how far the wheels travel between two balances.
+// Fidelity quasi_static: the step at which the state is reported, and how far the wheels travel
+// between two balances.
 struct QuasiStaticParams {
   double step_s = 0.05;
   double settle_distance_m = 0.02;
@@ -79,14 +82,12 @@ struct RoverParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// How a rover stands: what each wheel carries on level ground at rest, where the centre of mass has
-// to be for that, and the steepest slope on which soil holds it.
-
-// Returns the wheel loads in N, by the law of the lever. Each side carries half of the chassis,
-// whose moment the differential passes on to both rockers alike; moments about the bogie pivot give
-// the load of the wheel on the rocker, and the bogie's wheels share the rest as their levers do.
-// This is exact where wheels have no friction along the ground; with friction the loads of a rover
-// at rest also depend on how it came there. A negative load means that the rover cannot stand.
+// Returns what each wheel carries on level ground at rest, N, by the law of the lever. Each side
+// carries half of the chassis, whose moment the differential passes on to both rockers alike;
+// moments about the bogie pivot give the load of the wheel on the rocker, and the bogie's wheels
+// share the rest as their levers do. The loads are exact where wheels have no friction along the
+// ground; with friction the loads of a rover at rest also depend on how it came there. A negative
+// load means that the rover cannot stand.
 messages::PerWheel<double> StaticWheelLoads(const RoverParams& params);
 
 // An open interval along x of R, m.
@@ -95,15 +96,15 @@ struct ComRange {
   double max_m;
 };
 
-// Returns the positions mass.chassis_com_x_m of the chassis' centre of mass with which every wheel
-// carries something; the present position does not matter.
+// Returns the values of mass.chassis_com_x_m with which every wheel carries something; the value in
+// `params` does not matter.
 ComRange StandingComRange(const RoverParams& params);
 
 // Returns the inclination in [0, pi/2] at which the pull down the slope reaches what the soil bears
 // across a braked wheel, whatever the rover's heading:
 //   tan(slope) = T_max(N) / N,   N = W cos(slope) / 6,
-// with each wheel under the mean load (wheel_rut_params.h). Wheels that point up or down the slope
-// bear their resistance R more.
+// with each wheel under the mean load (T_max: wheel_rut_params.h). Wheels that point up or down the
+// slope hold more, by their resistance R.
 double SteepestHeldSlope_rad(const RoverParams& params, const terrain::SoilParams& soil);
 
 }  // namespace rockyard::rover

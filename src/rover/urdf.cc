@@ -18,15 +18,16 @@ namespace {
 using math::Vector3;
 using tinyxml2::XMLElement;
 
-// Share of a steered wheel's mass and inertia that its knuckle takes. No simulation here uses it.
+// Share of a steered wheel's mass and inertia that its knuckle takes; rockyard itself does not
+// simulate knuckles.
 constexpr double kKnuckleShare = 0.05;
-// Rate at which passive joints are said to turn at most, rad/s: URDF wants one.
+// Largest rate of a passive joint, rad/s, as URDF wants one.
 constexpr double kPassiveRate_rad_s = 10.0;
 
-// The shortest text that reads back to the same double, without a minus before zero.
+// Returns the shortest text that reads back to the same double, without a minus before zero.
 std::string Number(double value) { return fmt::format("{}", value + 0.0); }
 
-// "x y z".
+// Returns "x y z".
 std::string Numbers(const Vector3& v) {
   return fmt::format("{} {} {}", Number(v.x()), Number(v.y()), Number(v.z()));
 }
@@ -38,7 +39,8 @@ void AddOrigin(XMLElement& element, const Vector3& xyz, const Vector3& rpy) {
   origin.SetAttribute("rpy", Numbers(rpy).c_str());
 }
 
-// The same shape to look at and to collide with.
+// Adds a <visual> or <collision>, as `use` says, with an element of that shape, and returns the
+// element.
 XMLElement* AddGeometry(XMLElement& link, const char* use, const Vector3& xyz, const Vector3& rpy,
                         const char* shape) {
   XMLElement& element = *link.InsertNewChildElement(use);
@@ -85,7 +87,7 @@ void AddCapsule(XMLElement& link, const Part& part) {
 // they belong to boxes.
 void AddShape(XMLElement& link, const Part& part) {
   switch (part.core) {
-    case Core::kPoint:  // a corner of a box
+    case Core::kPoint:
       return;
     case Core::kSegment:
       return AddCapsule(link, part);
@@ -111,6 +113,7 @@ void AddInertial(XMLElement& link, const BodyMass& body, double share) {
   for (const char* product : {"ixy", "ixz", "iyz"}) inertia.SetAttribute(product, "0");
 }
 
+// What a joint is limited to.
 struct Limits {
   double angle_rad = 0.0;  // on either side; 0: none
   double effort_Nm = 0.0;
@@ -181,7 +184,7 @@ class UrdfWriter {
     return link.name.substr(0, link.name.rfind('_')) + "_steering_joint";
   }
 
-  // Returns the mass of the simulated body that the link is, or is a part of.
+  // Returns the mass of the simulated body that the link is a part of.
   const BodyMass& MassOf(const Link& link) const {
     switch (link.joint) {
       case LinkJoint::kFixed:

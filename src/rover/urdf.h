@@ -1,4 +1,5 @@
-// The rover as a URDF file, for viewers and simulators of other people.
+// The rover as a URDF file, for viewers and simulators of other people; the command `rover` writes
+// it.
 #pragma once
 
 #include <string>

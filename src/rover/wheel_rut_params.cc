@@ -12,7 +12,7 @@ WheelRut::WheelRut(const terrain::SoilParams& soil, double wheel_radius_m, doubl
       per_slip_(soil.slip_sinkage.enabled ? soil.slip_sinkage.exponent_per_slip : 0.0),
       // b k = b (k_c / b + k_phi) = k_c + b k_phi, N/m^(n+1).
       modulus_(soil.cohesive_modulus_N_per_mn1 + wheel_width_m * soil.frictional_modulus_N_per_mn2),
-      // Bekker 1969: N = (3 - n)/3 b k sqrt(D) z^(n + 1/2); this is all of it but the power of z.
+      // Bekker 1969: N = (3 - n)/3 b k sqrt(D) z^(n + 1/2), without the power of z.
       load_factor_((3.0 - exponent_) / 3.0 * modulus_ * std::sqrt(diameter_m_)),
       cohesion_Pa_(soil.cohesion_Pa),
       tan_friction_(std::tan(soil.friction_angle_rad)) {}
@@ -39,7 +39,7 @@ Rut WheelRut::RutUnder(double load_N) const {
 
 Rut WheelRut::RutUnder(double load_N, double dug_slip) const {
   Rut rut = RutUnder(load_N);
-  // Without slip sinkage the law's own bits, which records of all such scenarios hang on.
+  // Records depend on it: without slip sinkage the bits are those of the law without slip.
   if (per_slip_ * dug_slip == 0.0) return rut;
   // Ding et al. 2010: n = n_0 + n_1 i, in Bekker's N = (3 - n)/3 b k sqrt(D) z^(n + 1/2) and
   // R = b k z^(n + 1)/(n + 1). Contact length and traction stay.

@@ -1,5 +1,6 @@
-// The rut of a rigid wheel in soil: sinkage, motion resistance and largest traction by its load.
-// Both fidelities, and the condition that the soil holds a braked rover on its slope, go by it.
+// The rut of a rigid wheel in soil: sinkage, motion resistance and largest traction by the wheel's
+// load. Both fidelities, and the condition that the soil holds a braked rover on its slope, go by
+// it.
 //
 // Sinkage (Bekker 1969; Wong 2008 sec. 2.5): plates sink under the pressure p = k z^n with
 // k = k_c / b + k_phi, and a wheel of diameter D and width b carries
@@ -9,10 +10,11 @@
 // l = (D / 2) acos(1 - 2 z / D) of a wheel in its rut.
 //
 // Slip sinkage (terrain.ground.soil.slip_sinkage; Ding, Gao, Deng and Tao 2010): under a wheel that
-// has dug in for the slip i the exponent is n = n_0 + n_1 i, k as it was, so that it sinks deeper
-// under the same load, and R grows with z. T_max stays that of the rut without slip: here the law
-// differs from Ding's, who also lets the longer contact pull more. Sand that has been dug away has
-// failed already, and a wheel that pulled better the deeper it dug would never be embedded.
+// has dug in for the slip i the exponent is n = n_0 + n_1 i, with k as before, so that the wheel
+// sinks deeper under the same load, and R grows with z. T_max stays that of the rut without slip:
+// here the law differs from Ding's, in which the longer contact also pulls more. Sand that has been
+// dug away has failed already, and a wheel that pulled better the deeper it dug would never be
+// embedded.
 //
 // Limits: steady state; level cut through the rut, no bulldozing wave ahead of it, no ruts left by
 // wheels ahead; z well below D (the formula's own limit is about D / 6).
@@ -26,8 +28,7 @@ namespace rockyard::rover {
 struct Rut {
   double load_N = 0.0;
   double sinkage_m = 0.0;
-  // The slope dN / dz of the load over the sinkage.
-  double stiffness_N_m = 0.0;
+  double stiffness_N_m = 0.0;  // slope dN / dz of the load over the sinkage
   double resistance_N = 0.0;
   double contact_length_m = 0.0;
   double largest_traction_N = 0.0;
@@ -36,15 +37,15 @@ struct Rut {
 // The law of the rut for one kind of wheel in one soil.
 class WheelRut {
  public:
-  // Radius and width are positive, m; the soil lies within the bounds of its Visit.
+  // Radius and width are positive, m; the soil lies within the bounds of SoilParams::Visit.
   WheelRut(const terrain::SoilParams& soil, double wheel_radius_m, double wheel_width_m);
 
-  // Returns all that the wheel meets under a load > 0. All fields but the stiffness grow with the
-  // load. A call costs about 60 ns.
+  // Returns what the wheel meets under a load > 0. All fields but the stiffness grow with the load.
+  // A call costs about 60 ns.
   Rut RutUnder(double load_N) const;
-  // Returns the same of a wheel that has dug in for a slip in [0, 1]: deeper, with more resistance;
-  // the sinkage is at most the wheel's radius, where its axle meets the ground. At 0, and with
-  // slip sinkage off, the same bits as without.
+  // Returns the rut of a wheel that has dug in for a slip in [0, 1]: deeper, with more resistance.
+  // Slip deepens it no further than to the wheel's radius, where the axle meets the ground. Must
+  // stay: at a slip of 0, and with slip sinkage off, it has the bits of RutUnder(load_N).
   Rut RutUnder(double load_N, double dug_slip) const;
 
   // These return single fields of the rut, for a load >= 0.

@@ -11,11 +11,11 @@ namespace {
 // u^3 / 24.
 constexpr double kSeries = 1e-4;
 
-// Nodes are even in the root of the load because the sinkage of a power law bends most at small
-// loads.
+// Intervals of the load; nodes are even in its root because the sinkage of a power law bends most
+// at small loads.
 constexpr int kIntervals = 128;
-// Soil without shear deformation gets a little: half of the traction at a slip of 0.6 %, beyond
-// which Newton's method would see a step.
+// Largest l / K: soil without shear deformation gets a little of it, half of the traction at a slip
+// of 0.6 %, as Newton's method would see a step at any less.
 constexpr double kMaxRatio = 300.0;
 
 // Intervals of the slip that a wheel has dug in for: from one to the next the sinkage changes by a

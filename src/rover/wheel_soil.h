@@ -1,10 +1,10 @@
-// A rigid wheel on soil: its rut and traction at a slip, as functions of its load.
+// A rigid wheel on soil: its rut and traction at a slip, as functions of its load, and how far it
+// digs in by slipping. The multibody takes WheelSoil, the quasi-static rover WheelSoilTable; both
+// take SlipSinkage and ShareTable.
 //
-// Sinkage, resistance and largest traction T_max are those of wheel_rut_params.h.
-// Slip (Janosi and Hanamoto 1961, uniform pressure along l): T = tau T_max with
+// Sinkage, resistance and largest traction T_max are those of wheel_rut_params.h, with its limits.
+// Slip (Janosi and Hanamoto 1961, uniform pressure along the contact length l): T = tau T_max with
 //   tau = 1 - (1 - e^-u) / u,   u = i l / K,   i = 1 - v / (omega r).
-//
-// Limits: those of the rut.
 #pragma once
 
 #include <algorithm>
@@ -19,26 +19,22 @@
 
 namespace rockyard::rover {
 
-// The curve of shear, tau(u) = 1 - (1 - e^-u) / u: the share of its traction that soil gives under
-// a wheel that slips (Janosi and Hanamoto 1961, uniform pressure), with u = i l / K as in
-// WheelSoil.
-
-// tau and its derivative by u.
+// tau, the share of its largest traction that soil gives to a wheel that slips.
 struct ShearShare {
   double value;
-  double slope;
+  double slope;  // by u
 };
 // Returns tau(u) = 1 - (1 - e^-u) / u and its derivative, for u >= 0. A call costs about 15 ns.
 ShearShare ShareOfRatio(double u);
 
-// ShareOfRatio by cubic interpolation of value and slope: within 1e-7 of it, in a tenth of its
+// ShareOfRatio by cubic interpolation of value and slope: within 1e-7 of tau, in a tenth of the
 // time.
 class ShareTable {
  public:
   ShareTable();
 
-  // Returns tau(u) and its derivative, for u >= 0. It stands here to be inlined: balances ask for
-  // it a million times in a trial.
+  // Returns tau(u) and its derivative, for u >= 0. The function stands in the header to be inlined:
+  // balances ask for tau a million times in a trial.
   ShearShare At(double u) const;
 
  private:
@@ -56,8 +52,8 @@ inline ShearShare ShareTable::At(double u) const {
   const double s = at - static_cast<double>(index);
   const ShearShare& a = nodes_[index];
   const ShearShare& b = nodes_[index + 1];
-  // Hermite's cubic through both values and slopes, and its derivative: with the chord's rise d and
-  // what the slopes differ from it, p and q,
+  // Hermite's cubic through both values and slopes, and its derivative: with the rise d of the
+  // chord and the differences p and q of the slopes from it,
   //   f = a + s (d + (1 - s) ((1 - s) p - s q)).
   const double d = b.value - a.value;
   const double p = kWidth * a.slope - d;
@@ -71,7 +67,7 @@ inline ShearShare ShareTable::At(double u) const {
 // One kind of wheel on one soil.
 class WheelSoil : public WheelRut {
  public:
-  // Radius and width are positive, m; the soil lies within the bounds of its Visit.
+  // Radius and width are positive, m; the soil lies within the bounds of SoilParams::Visit.
   WheelSoil(const terrain::SoilParams& soil, double wheel_radius_m, double wheel_width_m);
 
   // Returns l / K, the u at a slip of 1; infinite where K is 0.
@@ -87,46 +83,45 @@ class WheelSoil : public WheelRut {
   double shear_modulus_m_;  // K
 };
 
-// What the soil answers to a load, see WheelSoil.
+// What WheelSoilTable answers to a load.
 struct SoilAnswer {
   double sinkage_m;
   double stiffness_N_m;
-  double traction_N;  // the largest
+  double traction_N;  // T_max
   double resistance_N;
-  double shear_ratio;  // contact length over shear modulus; u of a slip of 1
+  double shear_ratio;  // l / K, the u of a slip of 1
 };
 
-// WheelSoil by interpolation, for the quasi-static rover, which asks for every wheel many times;
-// the multibody takes WheelSoil itself. The table is linear between nodes that lie evenly in the
-// root of the load, and linear in the slip that the wheel has dug in for (SlipSinkage). It is
-// within 1 % of WheelSoil from a hundredth of max_N on; loads beyond max_N are taken as max_N. A
-// call costs 10 ns, and twice that with a slip.
+// WheelSoil by interpolation, for the quasi-static rover, which asks for every wheel many times.
+// The table is linear between nodes that lie evenly in the root of the load, and linear in the slip
+// that the wheel has dug in for (SlipSinkage). It is within 1 % of WheelSoil from a hundredth of
+// max_N on; loads beyond max_N are taken as max_N. A call costs 10 ns, and twice that with a slip.
 class WheelSoilTable {
  public:
-  // With `digs` it also knows wheels that have dug in by slipping; making it takes 0.3 ms then.
+  // Makes the table; with `digs` also for wheels that have dug in by slipping, which takes 0.3 ms.
   WheelSoilTable(const WheelSoil& soil, double max_N, bool digs = false);
 
-  // Throws std::runtime_error where the load is not a number.
+  // Return the answer to a load, without a slip and for a wheel that has dug in for a slip in
+  // [0, 1]; without `digs` every slip counts as 0. They throw std::runtime_error where the load is
+  // not a number.
   SoilAnswer At(double load_N) const;
-  // The same for a wheel that has dug in for a slip in [0, 1]; without `digs` as for 0.
   SoilAnswer At(double load_N, double dug_slip) const;
 
  private:
   double max_N_;
-  // One table after the other, from the slip 0 to 1 where `digs`.
+  // One table for each slip, from 0 to 1; one table, for 0, without `digs`.
   std::vector<std::vector<SoilAnswer>> levels_;
 };
 
-// How far the wheels of a rover have dug in by slipping.
-
-// Every wheel has a slip that it has dug in for, d in [0, 1], from which wheel_rut_params.h tells
-// its rut. It follows the slip i of the moment over the way s of the rim,
+// How far the wheels of a rover have dug in by slipping. Every wheel has a slip d in [0, 1] that it
+// has dug in for, from which wheel_rut_params.h tells its rut. d follows the slip i of the moment
+// over the way s of the rim,
 //
 //   dd/ds = i (i - d) / L          where it digs in (i > d): i ds is the way that the rim slides,
 //   dd/ds = (1 - i) (i - d) / L    where it comes out of its hole: the way that it rolls on.
 //
-// So a wheel that spins on the spot sinks little by little, and one that stands stays as it is. The
-// law of Ding et al. 2010 is of steady slip; this lag is our assumption.
+// So a wheel that spins on the spot sinks little by little, and a wheel that stands stays as it is.
+// The law of Ding et al. 2010 is of steady slip; the lag is our assumption.
 class SlipSinkage {
  public:
   explicit SlipSinkage(const terrain::SlipSinkageParams& params) : params_(params) {}
@@ -134,9 +129,9 @@ class SlipSinkage {
   bool enabled() const { return params_.enabled; }
   double dug_slip(std::size_t wheel) const { return dug_slip_[wheel]; }
 
-  // A wheel turns by `rim_way_m` >= 0 at a slip >= 0, of which more than 1 counts as 1.
+  // Turns a wheel by `rim_way_m` >= 0 at a slip >= 0; a slip above 1 counts as 1.
   void Roll(std::size_t wheel, double slip, double rim_way_m);
-  // The rover stands elsewhere: no wheel has dug.
+  // Puts all wheels on fresh soil, for a rover that stands elsewhere.
   void Clear() { dug_slip_.fill(0.0); }
 
  private:

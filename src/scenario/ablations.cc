@@ -19,8 +19,8 @@ constexpr std::array<Settings, 1> kPerfectDesignation{"course.designation.enable
 
 constexpr std::array<Settings, 1> kPerfectLocalization{"localization.estimator=oracle"};
 
-// Whole groups are emptied, so that their defaults hold, which are no errors. An error that a
-// terrain sensor gets outside of these groups has to be listed here.
+// Whole groups are emptied, so that their defaults hold, which are no errors. Must list every error
+// of a terrain sensor that stands outside of these groups.
 constexpr std::array<Settings, 13> kPerfectSensing{
     "sensors.light_stripe.fidelity=geometric",    "sensors.light_stripe.columns=16384",
     "sensors.light_stripe.column_noise_px=0",     "sensors.light_stripe.missed_probability=0",
@@ -71,7 +71,8 @@ constexpr std::array kAblations{
              kNoSlip},
 };
 
-// What an experiment refuses (it may measure the errors that are taken away) is another scenario.
+// Returns whether the ablation would change nothing. A document that the experiment refuses (it may
+// measure the errors that are taken away) is another scenario.
 bool IsInForce(const Scenario& scenario, const Ablation& ablation) {
   core::JsonValue document = WriteScenario(scenario);
   ApplyAblation(document, ablation.name);

@@ -1,5 +1,6 @@
 // Named changes of a scenario that take one cause of failure away: what is left says how much that
-// cause accounts for. Sweep files and command lines hold the names, so that these stay.
+// cause accounts for. `run --ablate` and axes of sweeps apply them, `list --ablations` tells them.
+// Must stay: the names, as sweep files and command lines hold them.
 #pragma once
 
 #include <span>
@@ -18,28 +19,29 @@ struct Ablation {
   std::span<const std::string_view> settings;  // "PATH=VALUE", applied in order
 };
 
-// All of them, in the order of tables: the four functions of Matthies 1995 first.
+// Returns all ablations, in the order of tables: the four functions of Matthies 1995 first.
 std::span<const Ablation> Ablations();
 
-// Throws core::UserError with a suggestion where there is none of that name.
+// Returns the ablation of that name. Throws core::UserError with a suggestion where there is none.
 const Ablation& FindAblation(std::string_view name);
 
-// Changes a scenario's document, resolved or not (its "extends" must be), over whatever it says.
-// Throws core::UserError: an unknown name.
+// Applies an ablation to a scenario's document, over whatever the document says. The document may
+// be resolved or not; its "extends" must be. Throws core::UserError for an unknown name.
 void ApplyAblation(core::JsonValue& document, std::string_view name);
 
 struct AblatedScenario {
   Scenario scenario;
-  std::vector<std::string> idle;  // of the names, those that changed nothing in this scenario
+  std::vector<std::string> idle;  // names that would change nothing in the scenario as given
 };
 
-// The scenario with all of these, in their order. Throws core::UserError with everything that is
-// wrong: unknown names, names given twice, one whose settings another one undoes (no_avoidance and
-// perfect_path_selection each choose the navigator).
+// Returns the scenario with all of these ablations, in their order. Throws core::UserError with
+// everything that is wrong: unknown names, names given twice, one whose settings another one undoes
+// (no_avoidance and perfect_path_selection each choose the navigator).
 AblatedScenario WithAblations(const Scenario& scenario, std::span<const std::string> names);
 
-// Names of the ablations that would change nothing in this scenario: those in force, however they
-// came to be. perfect_designation is, wherever goals are not designated with errors.
+// Returns the names of the ablations that are in force, however they came to be: they would change
+// nothing in this scenario. perfect_designation is in force wherever goals are not designated with
+// errors.
 std::vector<std::string> AblationsInForce(const Scenario& scenario);
 
 }  // namespace rockyard::scenario

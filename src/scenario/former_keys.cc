@@ -32,7 +32,7 @@ void Rename(JsonValue& document, const FormerKey& former) {
   if (value == nullptr) return;
   const std::size_t dot = former.path.find('.');
   const JsonValue* home = document.Find(former.path.substr(0, dot));
-  // Whatever it is, reading complains about it.
+  // The reader of the document complains about such a group.
   if (home != nullptr && !home->Is(JsonValue::Type::kObject)) return;
   const JsonValue* today = home == nullptr ? nullptr : home->Find(former.path.substr(dot + 1));
   if (today != nullptr && core::DumpJson(*today) != core::DumpJson(*value)) {

@@ -1,6 +1,7 @@
-// Keys that had another name in earlier versions: files and settings with the former names go on
-// working, and stored scenarios are compared by the names of today. Who renames a key of a group of
-// the top level adds it.
+// Keys that had another name in earlier versions. Whoever reads or changes a scenario's document
+// renames them, so that files and settings with the former names go on working, and stored
+// scenarios are compared by the names of today. Who renames a key of a group of the top level adds
+// it here.
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace rockyard::scenario {
 
-// The name of today: "localization.estimator" for "sensors.localization"; any other path is
+// Returns the name of today: "localization.estimator" for "sensors.localization". Any other path is
 // returned as it is.
 std::string_view CurrentPath(std::string_view path);
 
@@ -18,8 +19,7 @@ std::string_view CurrentPath(std::string_view path);
 // there with different values.
 void RenameFormerKeys(core::JsonValue& document);
 
-// Applies "PATH=VALUE" to a document, either of which may have former keys; what is assigned
-// counts.
+// Applies "PATH=VALUE" to a document. Both may have former keys. The assigned value counts.
 void Override(core::JsonValue& document, std::string_view assignment);
 
 }  // namespace rockyard::scenario

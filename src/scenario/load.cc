@@ -51,7 +51,8 @@ Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults)
   Scenario scenario = defaults;
   core::JsonValue current = document;
   RenameFormerKeys(current);
-  // Out before reading, which refuses null, and in after it, as they follow what was read.
+  // Nulls of open values are taken out before reading, which refuses null. The values are set after
+  // it, as they follow what was read.
   const auto open = TakeOpenValues(current);
   core::ReadParams(current, scenario);
   SetOpenValues(open, scenario);
@@ -90,7 +91,7 @@ namespace {
 
 using core::JsonValue;
 
-// "b.c" of "a.b.c"; what stands before it is cut off and given back.
+// Returns "a" of "a.b.c" and leaves "b.c" in `path`.
 std::string_view CutFirst(std::string_view& path) {
   const std::size_t dot = path.find('.');
   const std::string_view first = path.substr(0, dot);
@@ -98,7 +99,7 @@ std::string_view CutFirst(std::string_view& path) {
   return first;
 }
 
-// Takes the value out where it is null. Whether the document leaves it open.
+// Takes the value at `path` out where it is null. Returns whether the document leaves it open.
 bool TakeNull(JsonValue* group, std::string_view path) {
   const std::string_view key = CutFirst(path);
   JsonValue* value = group->Find(key);

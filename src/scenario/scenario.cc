@@ -4,8 +4,8 @@ namespace rockyard::scenario {
 
 using core::Setting;
 
-// The order is that of resolved scenarios, whose text fingerprints hash. Conditions across modules
-// come last, when every group has been read.
+// Must stay in this order: resolved scenarios have it, and fingerprints depend on their text.
+// Conditions across modules come last, when every group has been read.
 void Scenario::Visit(core::FieldVisitor& v) {
   v.Integer("schema_version", schema_version, Setting("version of this format", {1, 1}));
   v.Text("name", name, Setting("short name, used in reports"));

@@ -1,4 +1,5 @@
-// A scenario file: which experiment, how often, from which seed, on what drive.
+// What a scenario file holds: which experiment, how often, from which seed, on what drive.
+// Campaigns, commands and sweeps hold scenarios as this struct; `api` hides it.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@ struct Scenario {
   std::int64_t schema_version = 1;
   std::string name = "unnamed";
   std::string description;
-  std::string accepted;  // doubts that are meant so
+  std::string accepted;  // doubts (campaign/scenario_doubts.h) that are meant so, by their words
   experiments::ExperimentParams experiment;
   std::int64_t trials = 300;
   std::int64_t seed = 1;

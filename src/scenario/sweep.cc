@@ -20,8 +20,9 @@ namespace {
 using core::JsonValue;
 using core::Problem;
 
-// "k_per_m2=0.01,navigator=gestalt"; a listed cell has its own name. Seeds are made of it, and
-// stored runs, baselines and traces know cells by it: numbers in it have to keep their digits.
+// Returns "k_per_m2=0.01,navigator=gestalt"; a listed cell has its own name. Must stay: seeds are
+// made of it, and stored runs, baselines and traces know cells by it. Numbers in it have to keep
+// their digits (LevelText, AxisSpec::At).
 std::string NameOf(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
   if (spec.params.design.kind == DesignKind::kList) return levels.front().text;
   std::string name;
@@ -31,7 +32,7 @@ std::string NameOf(const SweepSpec& spec, const std::vector<LevelSpec>& levels) 
   return name;
 }
 
-// Seeds below 2^53 keep their digits in every JSON reader.
+// The seed is below 2^53, so that it keeps its digits in every JSON reader.
 std::int64_t SeedOf(const SweepSpec& spec, const std::string& cell_name) {
   if (spec.params.common_random_numbers) return spec.params.seed;
   const std::uint64_t hash =
@@ -39,7 +40,7 @@ std::int64_t SeedOf(const SweepSpec& spec, const std::string& cell_name) {
   return static_cast<std::int64_t>(hash >> 11);
 }
 
-// One problem that many cells have is said once.
+// Tells a problem that many cells have once.
 class CellProblems {
  public:
   void Add(const std::string& cell, const Problem& problem) {
@@ -75,7 +76,8 @@ class CellProblems {
   std::vector<std::int64_t> cells_;
 };
 
-// Cells that are the same scenario but for name, trials and seed: a setting without effect.
+// Refuses cells that are the same scenario but for kNoInfluence of load.h and the seed: a setting
+// without effect.
 class Duplicates {
  public:
   void Check(const std::string& name, const JsonValue& resolved, CellProblems& problems) {
@@ -121,8 +123,8 @@ std::optional<std::size_t> FitAxis(const SweepSpec& spec) {
   return std::nullopt;
 }
 
-// Into the document, so that it says by itself what is run. An override goes last among the
-// settings.
+// Writes the changes into the document, so that it says by itself what is run. An override goes
+// last among the settings.
 void ApplyChanges(JsonValue& document, const SweepChanges& changes) {
   if (changes.trials) document.Set("trials", JsonValue(*changes.trials));
   if (changes.seed) document.Set("seed", JsonValue(*changes.seed));

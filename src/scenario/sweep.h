@@ -1,5 +1,6 @@
 // Sweep files: one base scenario, axes along which it is varied, and a design that says which
-// combinations are run. Every combination is a cell: a scenario of its own.
+// combinations are run. Every combination is a cell: a scenario of its own. The command `sweep`
+// runs the cells, `validate` and `list` read the files, and reports draw results along the axes.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +22,7 @@ enum class DesignKind {
   kGrid,            // every combination of every level
   kList,            // the cells that the file lists
   kLatinHypercube,  // points that cover every axis evenly
-  kSobol,           // the same, and more points go on with the same sequence
+  kSobol,           // likewise, and more points go on with the same sequence
 };
 
 enum class AxisScale { kLinear, kLog };
@@ -32,7 +33,7 @@ struct SweepAxis {
   std::string unit = "1";
   bool numeric = false;
   AxisScale scale = AxisScale::kLinear;
-  std::string ablation = {};  // that its second level applies; empty for any other axis
+  std::string ablation = {};  // applied by its second level; empty for any other axis
 };
 
 // Where a cell stands on an axis.
@@ -69,17 +70,19 @@ struct SweepChanges {
 
 inline constexpr std::size_t kMaxSweepCells = 10'000;
 
-// Whether a document is a sweep rather than a scenario.
+// Returns whether a document is a sweep rather than a scenario.
 bool IsSweep(const core::JsonValue& document);
 
 // Reads a sweep file (scenarios/sweeps/README.md describes it) and resolves every cell.
 //
 // The scenario of a cell is, in this order: the scenario of its level where an axis has scenarios,
 // else that of the file; "set" of the file and the overrides; the settings of each axis, in the
-// order of the axes. A setting that is an object changes the members that it names. Its seed is
-// that of the campaign with common random numbers, so that cells can be compared in pairs; else a
-// hash of that seed and the name of the cell (its axes and levels, or what the file calls it), so
-// that cells keep their trials when a design grows.
+// order of the axes; the ablations of axes. A setting that is an object changes the members that it
+// names.
+//
+// The seed of a cell is that of the campaign with common random numbers, so that cells can be
+// compared in pairs. Else it is a hash of the campaign's seed and the name of the cell (its axes
+// and levels, or what the file calls it), so that cells keep their trials when a design grows.
 //
 // Every value that was asked for is read back from the resolved scenario and must be there.
 // Throws core::UserError with everything that is wrong: unknown keys, cells that are no valid
@@ -88,13 +91,14 @@ bool IsSweep(const core::JsonValue& document);
 // campaign. Cost: about a millisecond per cell.
 Sweep LoadSweep(const std::filesystem::path& path, const SweepChanges& changes = {});
 
-// The same from text; files are relative to `folder`.
+// Returns the same from text; files are relative to `folder`.
 Sweep ParseSweep(std::string_view text, const SweepChanges& changes = {},
                  const std::filesystem::path& folder = ".");
 
-// Names of cells as names of files: "0007-k_per_m2_0.01.json" without its ending. Letters, digits
-// and "-._" stay, anything else becomes '_'; the number, counted from 1, keeps them apart. Folders
-// of stored traces have these names.
+// Returns the name of a cell as the name of a file: "0007-k_per_m2_0.01" without an ending.
+// Letters, digits and "-._" of the first 100 bytes stay, anything else becomes '_'; the number,
+// counted from 1, keeps cells apart. Must stay: files and folders of stored traces have these
+// names.
 std::string CellFileName(std::size_t index, std::string_view cell_name);
 
 }  // namespace rockyard::scenario

@@ -1,4 +1,4 @@
-// The axes of sweep files, and these files as a whole.
+// Reads the axes of sweep files, and these files as a whole, for LoadSweep.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,6 +27,7 @@ using Type = JsonValue::Type;
 
 std::string LastPart(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
+// The name of a level by its value. Names of cells, and so seeds, depend on the digits.
 std::string LevelText(const JsonValue& value) {
   if (value.Is(Type::kText)) return value.text();
   return value.IsNumber() ? fmt::format("{}", value.number()) : core::Abbreviate(value);
@@ -36,11 +37,11 @@ bool Has(const JsonValue& value, std::string_view key) { return value.Find(key) 
 
 class AxisReader {
  public:
-  // `parts` must outlive this.
+  // `parts` must outlive the reader.
   explicit AxisReader(PartReader& parts);
 
-  // An element of "axes", which stands at `path`. Names of scenario files in it are replaced by
-  // what the files hold.
+  // Reads an element of "axes", which stands at `path`. Names of scenario files in it are replaced
+  // by what the files hold.
   AxisSpec Read(core::JsonValue& value, const std::string& path);
 
  private:
@@ -51,7 +52,7 @@ class AxisReader {
   void ReadAblation(const AxisParams& params, AxisSpec& axis);
   void ReadRange(const core::JsonValue& value, const AxisParams& params, const std::string& path,
                  AxisSpec& axis);
-  // What is known of the parameter that an axis varies; nullptr where the path names none.
+  // Returns what is known of the parameter that an axis varies; nullptr where the path names none.
   const core::ParameterInfo* Describe(const std::string& path, AxisSpec& axis);
   bool IsGroup(const std::string& path) const;
   std::string Nearest(const std::string& path) const;
@@ -78,7 +79,7 @@ AxisSpec AxisReader::Read(JsonValue& value, const std::string& path) {
   return axis;
 }
 
-// Exactly one of the ways to say what the levels are.
+// Reads the levels, of which a file must say in exactly one way what they are.
 void AxisReader::ReadLevels(JsonValue& value, const AxisParams& params, const std::string& path,
                             AxisSpec& axis) {
   const std::array<std::string_view, 4> ways{"values", "levels", "scenarios", "ablation"};
@@ -150,7 +151,7 @@ void AxisReader::ReadAblation(const AxisParams& params, AxisSpec& axis) {
   axis.levels[1].ablation = params.ablation;
 }
 
-// From "from" to "to", or over the study range of the parameter.
+// Reads a range from "from" to "to", or takes the study range of the parameter.
 void AxisReader::ReadRange(const JsonValue& value, const AxisParams& params,
                            const std::string& path, AxisSpec& axis) {
   axis.axis.numeric = true;
@@ -214,7 +215,7 @@ std::string AxisReader::Nearest(const std::string& path) const {
                          : fmt::format("did you mean \"{}\"?", nearest);
 }
 
-// Names decide cells' names and seeds, so that two equal ones cannot be.
+// Must refuse equal names: names decide cells' names and seeds.
 void AxisReader::CheckLevels(const AxisSpec& axis, const std::string& path) {
   std::set<std::string_view> seen;
   for (const LevelSpec& level : axis.levels) {

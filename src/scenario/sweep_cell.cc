@@ -19,7 +19,8 @@ using core::JsonValue;
 using core::Problem;
 using Type = JsonValue::Type;
 
-// Angles are kept in radians and written with the fewest digits that read back to the same bits.
+// Returns whether a number was kept. Angles are kept in radians and written with the fewest digits
+// that read back to the same bits.
 bool SameNumber(double asked, double found, std::string_view path) {
   if (asked == found) return true;
   const bool angle = path.ends_with("deg");
@@ -51,7 +52,7 @@ void ReadBack(const JsonValue& asked, const JsonValue& document, const std::stri
                       "another setting, axis or --set lies over it: keep one of them"});
 }
 
-// What a cell gets from the sweep, and what no sweep can be of.
+// Refuses settings of what a cell gets from the sweep.
 void CheckScope(std::string_view path, std::vector<Problem>& problems) {
   for (const std::string_view key : {"name", "seed", "trials"}) {
     if (path != key) continue;
@@ -60,6 +61,7 @@ void CheckScope(std::string_view path, std::vector<Problem>& problems) {
   }
 }
 
+// Refuses experiments that no sweep can be of.
 void CheckExperiment(const Scenario& scenario, std::vector<Problem>& problems) {
   if (scenario.experiment.kind == experiments::ExperimentKind::kDrive) return;
   const std::string_view name =
@@ -120,7 +122,8 @@ ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& le
     CheckScope(path, cell.problems);
     ReadBack(value, cell.document, path, cell.problems);
   }
-  // Over all settings, which they may replace; WithAblations refuses one that another undoes.
+  // Ablations go over all settings, which they may replace; WithAblations refuses one that another
+  // undoes.
   const std::vector<std::string> ablations = AblationsOf(levels);
   if (ablations.empty()) return cell;
   cell.scenario = WithAblations(cell.scenario, ablations).scenario;

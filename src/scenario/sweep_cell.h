@@ -1,4 +1,4 @@
-// From the levels of a cell to its scenario. Internal to scenario's sweep files.
+// From the levels of a cell to its scenario. Only LoadSweep uses it.
 #pragma once
 
 #include <string_view>
@@ -17,11 +17,12 @@ struct ResolvedCell {
   std::vector<core::Problem> problems;  // settings that are not there in the end
 };
 
-// The value at a dotted path; nullptr where there is none.
+// Returns the value at a dotted path; nullptr where there is none.
 const core::JsonValue* FindPath(const core::JsonValue& document, std::string_view path);
 
-// Lays base, "set" of the file and levels over each other (sweep.h), reads the result,
-// and reads every setting back from it. Throws core::UserError where it is no valid scenario.
+// Lays base, "set" of the file and levels over each other (sweep.h), reads the result, and reads
+// every setting back from it; ablations go over all of that. Throws core::UserError where the
+// result is no valid scenario.
 ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& levels);
 
 }  // namespace rockyard::scenario

@@ -1,3 +1,4 @@
+// The designs of sweeps: which levels of the axes make cells (sweep_spec.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +15,8 @@ namespace {
 
 using Cells = std::vector<std::vector<LevelSpec>>;
 
-// Names of cells hold these digits, and seeds are made of names: another rounding is other trials.
+// Must stay: six digits. Names of cells hold them, and seeds are made of names, so that another
+// rounding is other trials.
 double Rounded(double value) {
   const std::string text = fmt::format("{:.6g}", value);
   double rounded = value;
@@ -59,7 +61,7 @@ Cells Listed(const SweepSpec& spec) {
   return cells;
 }
 
-// Before they are made: a grid grows by the product of its axes.
+// Refuses too many cells before they are made: a grid grows by the product of its axes.
 void RefuseTooMany(const SweepSpec& spec) {
   double cells = 1.0;
   for (const AxisSpec& axis : spec.axes) cells *= static_cast<double>(axis.levels.size());
@@ -70,7 +72,8 @@ void RefuseTooMany(const SweepSpec& spec) {
                         "use fewer levels, or design sobol with \"points\"");
 }
 
-// Names in which tables and settings of cells tell axes apart.
+// Checks that axes have different names, by which tables and names of cells tell them apart, and
+// that a grid has levels.
 void CheckAxes(const SweepSpec& spec, std::vector<core::Problem>& problems) {
   const bool grid = spec.params.design.kind == DesignKind::kGrid;
   for (std::size_t i = 0; i < spec.axes.size(); ++i) {
@@ -89,7 +92,8 @@ void CheckAxes(const SweepSpec& spec, std::vector<core::Problem>& problems) {
   }
 }
 
-// A scale that nobody asked for gives way to the numbers; one that was asked for does not.
+// Refuses a scale log that was asked for where a number has no logarithm; a scale that nobody asked
+// for gives way to the numbers.
 void CheckFitScale(const SweepSpec& spec, std::vector<core::Problem>& problems) {
   const core::JsonValue* fit = spec.document.Find("fit");
   const bool asked = fit != nullptr && fit->Find("scale") != nullptr;

@@ -7,7 +7,8 @@ namespace {
 
 using core::Setting;
 
-// The reader hands free keys over as empty texts, so that they are known and can be suggested.
+// Lists free keys, so that they are known and can be suggested. PartReader::Fixed hands them over
+// as empty texts.
 void VisitFree(core::FieldVisitor& v, std::span<const std::string_view> keys,
                std::span<const std::string_view> docs) {
   for (std::size_t i = 0; i < keys.size(); ++i) {

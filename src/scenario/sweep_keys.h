@@ -1,5 +1,5 @@
-// The fixed keys of sweep files. Keys that hold settings or levels, whose shape is free, are read
-// by sweep_axes.cc. A default decides the cells of sweep files that leave it out.
+// The fixed keys of sweep files. sweep_axes.cc reads them, and the free keys, which hold settings
+// or levels. A default decides the cells of sweep files that leave it out.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ struct SweepParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// "scenario", "set", "axes" and "cells" of a sweep file.
+// The free keys of a sweep file; further down those of an axis and of a level.
 inline constexpr std::array<std::string_view, 4> kFreeSweepKeys{"scenario", "set", "axes", "cells"};
 
 struct AxisParams {

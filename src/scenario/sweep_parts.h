@@ -1,5 +1,5 @@
-// Pieces of sweep files that are read alike wherever they stand. Internal to scenario's sweep
-// files.
+// Pieces of sweep files that are read alike wherever they stand. Only the reader of axes and of
+// whole sweep files uses them.
 #pragma once
 
 #include <filesystem>
@@ -19,13 +19,13 @@ namespace rockyard::scenario {
 // Collects problems instead of throwing them, so that all are reported at once.
 class PartReader {
  public:
-  // Files are relative to `folder`. Both must outlive this.
+  // Files are relative to `folder`. Both arguments must outlive the reader.
   PartReader(const std::filesystem::path& folder, std::vector<core::Problem>& problems)
       : folder_(folder), problems_(problems) {}
 
   void Add(std::string path, std::string reason, std::string suggestion);
 
-  // The fixed keys of an object; free keys are only checked for being known.
+  // Returns the fixed keys of an object; free keys are only checked for being known.
   template <typename Params>
   Params Fixed(const core::JsonValue& part, const std::string& path,
                std::span<const std::string_view> free_keys) {
@@ -42,24 +42,24 @@ class PartReader {
     return params;
   }
 
-  // The elements of a list member; none where it is absent or no list.
+  // Returns the elements of a list member; none where it is absent or no list.
   std::vector<core::JsonValue*> Elements(core::JsonValue& object, std::string_view key,
                                          const std::string& path);
 
-  // An object of dotted paths and values; empty where it is absent.
+  // Returns an object of dotted paths and values; empty where it is absent.
   core::JsonValue Settings(const core::JsonValue* set, const std::string& path);
 
-  // The member "scenario"; a file's name there is replaced by what the file holds. nullptr where
-  // there is none.
+  // Returns the member "scenario"; nullptr where there is none. A file's name there is replaced by
+  // what the file holds.
   std::shared_ptr<const core::JsonValue> Base(core::JsonValue& object, const std::string& path);
 
-  // What a scenario file holds.
+  // Returns what a scenario file holds; an empty object where it cannot be read.
   core::JsonValue ScenarioFile(const std::string& name, const std::string& path);
 
-  // {name, set, scenario}.
+  // Returns the level of {name, set, scenario}.
   LevelSpec Level(core::JsonValue& value, const std::string& path);
 
-  // Names stand in tables, file names and seeds.
+  // Checks a name, which stands in tables, file names and seeds.
   void CheckName(const std::string& name, const std::string& path);
 
  private:

@@ -1,4 +1,5 @@
-// What a sweep file says, before any cell is made. Internal to scenario's sweep files.
+// What a sweep file says, before any cell is made. LoadSweep reads it, checks it and makes the
+// cells of it.
 #pragma once
 
 #include <filesystem>
@@ -31,8 +32,8 @@ struct AxisSpec {
   std::vector<LevelSpec> levels;
 
   bool continuous() const { return levels.empty(); }
-  // The level at a share of the range from 0 to 1, rounded to six significant digits, so that
-  // names stay short. Of an axis with levels: the one whose slice holds the share.
+  // Returns the level at a share of the range from 0 to 1, rounded to six significant digits, so
+  // that names stay short. Of an axis with levels it is the level whose slice holds the share.
   LevelSpec At(double share) const;
 };
 
@@ -50,11 +51,11 @@ struct SweepSpec {
 SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& folder,
                         std::vector<core::Problem>& problems);
 
-// Whether design, axes, cells and fit fit together; adds to `problems`.
+// Checks that design, axes, cells and fit fit together; adds what is wrong to `problems`.
 void CheckDesign(const SweepSpec& spec, std::vector<core::Problem>& problems);
 
-// Which levels each cell has, one per axis, in the order of the design: a grid with its last axis
-// fastest. Throws core::UserError where there are more than kMaxSweepCells.
+// Returns which levels each cell has, one per axis, in the order of the design: a grid with its
+// last axis fastest. Throws core::UserError where there are more than kMaxSweepCells.
 std::vector<std::vector<LevelSpec>> DesignCells(const SweepSpec& spec);
 
 }  // namespace rockyard::scenario

@@ -1,6 +1,7 @@
-// Parameters of the aids of localization. All are off by default; where one is on, defaults decide
-// records. The numbers of CylinderLawParams are one fit (fit_lander_fix.py), to be changed
-// together.
+// Parameters of the aids of localization (scenario group sensors.aids): the trial keeps the
+// schedules, the sensors of aids.h take the rest. All aids are off by default; where one is on,
+// defaults decide records. The numbers of CylinderLawParams are one fit (fit_lander_fix.py) and
+// must be changed together.
 #pragma once
 
 #include <array>
@@ -11,8 +12,9 @@
 
 namespace rockyard::sensing {
 
-// Log odds of a chance: intercept + width ln(m / 20) + no_blue [no blue is seen] + pink_aside
-// sin(2 theta) + light sin(e), of a cylinder m pixels wide under a sun at elevation e.
+// The log odds of a chance are intercept + width ln(m / 20) + no_blue B + pink_aside sin(2 theta)
+// + light sin(e) for a cylinder m pixels wide under a sun at elevation e; B and theta are those of
+// CylinderLaw in aids.h. The 20 pixels are kWidthOfIntercept_px in aids.cc.
 struct CylinderChanceParams {
   double intercept = 0.0;
   double width = 0.0;
@@ -41,7 +43,7 @@ struct CylinderLawParams {
   double nearest_m = 0.838;
   double mounting_rad = 0.0;
   double sun_elevation_rad = math::DegToRad(60.0);
-  // Of the published finder.
+  // Both chances are those of the published finder.
   CylinderChanceParams found{
       .intercept = 2.53, .width = 0.355, .no_blue = 0.255, .pink_aside = 0.576, .light = -0.891};
   CylinderChanceParams wrong{
@@ -89,7 +91,7 @@ struct LanderFixParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Where the sun stands and how well it is seen.
+// The sun sensor on the rover: where the sun stands and how well it is seen.
 struct SunSensorParams {
   AidScheduleParams schedule{.every_m = 1.0};
   double half_field_of_view_rad = math::DegToRad(75.0);

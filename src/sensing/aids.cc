@@ -17,7 +17,7 @@ namespace {
 using messages::PoseCoordinate;
 
 constexpr double kQuadrant_rad = 0.5 * std::numbers::pi;
-// Part of the fit: intercepts are log odds at this width.
+// Part of the fit in aid_params.h: intercepts are log odds at this width.
 constexpr double kWidthOfIntercept_px = 20.0;
 
 bool ShowsNoBlue(double theta_rad) {
@@ -33,7 +33,7 @@ double RootSum(const CylinderDeviationParams& deviation, double step) {
   return std::hypot(deviation.least, deviation.pixels * step);
 }
 
-// Far above the numbers of fixes.
+// First substream of the chances, far above the numbers of fixes. Records depend on it.
 constexpr std::uint32_t kChances = 1U << 31U;
 
 constexpr double kSensorHeight_m = 0.3;  // on top of the rover (Matthies 1995 sec. 2.1.2)

@@ -1,6 +1,8 @@
 // Aids of localization: the rover's pose as the lander's cameras find it, the direction to the sun,
-// range and bearing by radio (Matthies 1995, sections 5 and 8 and appendix A). Here a measurement
-// is a pure function of pose and number; when one is due and when its data arrive is the trial's.
+// range and bearing by radio (Matthies 1995, sections 5 and 8 and appendix A). The world of a drive
+// measures with them; the designation of goals shares the lander's place and pan error. A
+// measurement is a pure function of pose and number. The trial decides when one is due and when its
+// data arrive. All ranges and distances here are horizontal.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +15,8 @@
 
 namespace rockyard::sensing {
 
-// How well the lander finds the coloured cylinder on the rover: a law fitted to rendered views
-// (Matthies 1995, section 5 and appendix A; fit_lander_fix.py).
-
-// How the cylinder stands before the lander's cameras. theta is the azimuth of the cameras in the
-// cylinder's frame (vision/cylinder/colour_cylinder.h).
+// How the coloured cylinder on the rover stands before the lander's cameras. theta is the azimuth
+// of the cameras in the cylinder's frame (vision/cylinder/colour_cylinder.h).
 struct CylinderStance {
   double distance_m = 0.0;
   double theta_rad = 0.0;
@@ -30,8 +29,10 @@ struct CylinderDeviations {
   double bearing_rad = 0.0;
 };
 
-// With m the width in pixels, 2 / m being equation 18 of Matthies 1995, and delta the angle from
-// the middle of what is seen to the nearest boundary of quadrants:
+// How well the lander finds the cylinder: a law fitted to rendered views (fit_lander_fix.py). m is
+// the width of the cylinder in pixels (2 / m is equation 18 of Matthies 1995), e the sun's
+// elevation, phi the camera's angle of view, M the width of the image in pixels, and delta the
+// angle from the middle of what is seen to the nearest boundary of quadrants:
 //
 //   chances      1 / (1 + exp(-odds)), odds = intercept + width ln(m / 20) + no_blue B
 //                + pink_aside sin(2 theta) + light sin(e)
@@ -45,9 +46,10 @@ class CylinderLaw {
  public:
   explicit CylinderLaw(const CylinderLawParams& params) : params_(params) {}
 
-  // 0 nearer than `nearest_m` and where the sun is not above the horizon.
+  // Returns the chance that the cylinder is found: 0 nearer than `nearest_m` and where the sun is
+  // not above the horizon.
   double FindChance(const CylinderStance& stance) const;
-  // Of what was found.
+  // Returns the chance that a cylinder that was found was found wrongly.
   double WrongChance(const CylinderStance& stance) const;
   CylinderDeviations Deviations(const CylinderStance& stance) const;
 
@@ -65,25 +67,28 @@ struct LanderPlace {
   double pan_error_rad = 0.0;
 };
 
-// Of law `constant`: a fix is a place in polar coordinates about the cameras and a heading: range
-// (1 + f n1), bearing + b n2, heading + h n3 with the deviations f, b, h of the parameters and
-// standard normal n; pan error added to both angles. The covariance that comes with it knows the
-// deviations and neither what they have in common from fix to fix nor the pan error. Limits: any
-// colour, light and stance of the rover is seen as well as any other; deviations do not go with the
-// angle of view.
+// The lander's fixes of the rover's pose. A fix is a place in polar coordinates about the lander's
+// cameras, and a heading.
 //
-// Of law `cylinder` (CylinderLaw) the deviations go with the stance of the rover, there
-// are biases, a fix may be missed, and one may be wrong: its heading off by anything up to
-// wrong_turn, its range times exp(wrong_range n). The covariance is that of a right fix: the lander
-// does not know.
+// By the law `constant` it is range (1 + f n1), bearing + b n2 and heading + h n3, with the
+// deviations f, b, h of the parameters and standard normal n; the pan error is added to both
+// angles. The covariance of the fix holds these deviations. It leaves out what errors have in
+// common from fix to fix, and the pan error. Limits: any colour, light and stance of the rover is
+// seen as well as any other; deviations do not depend on the angle of view.
+//
+// By the law `cylinder` (CylinderLaw) deviations depend on the stance of the rover, errors have
+// biases, a fix may be missed, and a fix may be wrong: its heading is off by anything up to
+// wrong_turn, its range is multiplied by exp(wrong_range n). A wrong fix has the covariance of a
+// right one, as the lander does not know.
 class LanderFix {
  public:
   LanderFix(const LanderFixParams& params, const LanderPlace& lander, core::TrialKey key);
 
-  // The fix of the rover at X_WR; nothing beyond the range, or where something hides the rover's
-  // top from the mast. `number` counts measurements from 0: stream kLanderFix, substream number +
-  // 1; 0 is what the fixes of a trial have in common; kChances + number is what becomes of one by
-  // the law of the cylinder. Where no sun is given, it stands at that law's `sun_elevation`.
+  // Returns the fix of the rover at X_WR; nothing beyond the range, or where something hides the
+  // rover's top from the mast. `number` counts measurements from 0. Records depend on the
+  // substreams of kLanderFix: 0 holds what the fixes of a trial have in common, number + 1 the
+  // errors of this fix, kChances + number what becomes of it by the law of the cylinder. Where no
+  // sun is given, it stands at that law's `sun_elevation`.
   std::optional<messages::PoseFix> Observe(
       const math::Transform& X_WR, const terrain::Terrain& terrain, std::int64_t number,
       std::optional<double> sun_elevation_rad = std::nullopt) const;
@@ -104,10 +109,11 @@ class LanderFix {
   };
 
   Draws Draw(std::uint32_t substream) const;
-  // What is drawn anew and what all fixes share, with variances that add up to 1.
+  // Returns the errors of a fix: what is drawn anew plus what all fixes share, with variances that
+  // add up to 1.
   Draws DrawFix(std::int64_t number) const;
   Outcome ByConstantLaw(const Draws& draws) const;
-  // Nothing where the cylinder is not found.
+  // Returns nothing where the cylinder is not found.
   std::optional<Outcome> ByCylinderLaw(const CylinderStance& stance, const Draws& draws,
                                        std::int64_t number) const;
 
@@ -116,23 +122,24 @@ class LanderFix {
   core::TrialKey key_;
 };
 
-// The measured direction is the true one, turned about each of two axes across it by N(0, sd(e))
-// with sd(e) = sd exp(depth (1 / sin(e) - 1) / 2) for a sun at elevation e: the noise of counted
-// photons, of which exp(-depth / sin e) come through the dust. Limits: the sensor stands as the
-// rover does; no bias, no distortion at the edge of its view; the sky's own light is left out.
+// A sun sensor on the rover. The measured direction is the true one, turned about each of two axes
+// across it by N(0, sd(e)) with sd(e) = sd exp(depth (1 / sin(e) - 1) / 2) for a sun at elevation
+// e: the noise of counted photons, of which exp(-depth / sin e) come through the dust. Limits: the
+// sensor tilts with the rover; no bias, no distortion at the edge of its view; the sky's own light
+// is left out.
 class SunSensor {
  public:
   SunSensor(const SunSensorParams& params, core::TrialKey key) : params_(params), key_(key) {}
 
-  // `sun_W`: unit vector to the true sun. Nothing where the sun is out of view, not 1 deg above the
-  // horizon, hidden by terrain, or dropped out. `number` counts measurements from 0 (stream
-  // kSunSensor, substream number).
+  // Returns the measured direction in R. `sun_W` is the unit vector to the true sun. Returns
+  // nothing where the sun is out of view, not 1 deg above the horizon, hidden by terrain, or
+  // dropped out. `number` counts measurements from 0 (stream kSunSensor, substream number).
   std::optional<messages::SunSighting> Observe(const math::Transform& X_WR,
                                                const math::Vector3& sun_W,
                                                const terrain::Terrain& terrain,
                                                std::int64_t number) const;
 
-  // sd(e), rad, of a sun whose sine of elevation is above 0.
+  // Returns sd(e), rad, for a sun whose sine of elevation is above 0.
   double DirectionSd_rad(double sine_of_elevation) const;
 
  private:
@@ -147,8 +154,8 @@ class RadioBeacon {
   RadioBeacon(const RadioBeaconParams& params, const LanderPlace& station, core::TrialKey key)
       : params_(params), station_(station), key_(key) {}
 
-  // Nothing beyond the range. `number` counts measurements from 0 (stream kRadioBeacon, substream
-  // number).
+  // Returns the reading; nothing beyond the range. `number` counts measurements from 0 (stream
+  // kRadioBeacon, substream number).
   std::optional<messages::BeaconReading> Observe(const math::Transform& X_WR,
                                                  std::int64_t number) const;
 

@@ -42,7 +42,7 @@ void StripeErrors::MoveColumns(core::TrialKey key, const Searched& searched,
   }
 }
 
-// Found points are dropped; the draw does not depend on what was found.
+// Drops found points. Every point draws, whether it was found or not.
 void StripeErrors::Miss(core::TrialKey key, messages::StripeScan& scan) const {
   core::RandomStream missed(key, core::Purpose::kStripeMissed, Substream(scan.number));
   const auto pixels = scan.pixels.points();
@@ -59,7 +59,7 @@ void StripeErrors::DrawMisplaced(core::TrialKey key, std::int64_t number, const 
   const int last_column = static_cast<int>(params_.columns / 2);
   core::RandomStream wrong(key, core::Purpose::kStripeWrongPlace, Substream(number));
   messages::StripeArray<bool> misplaced(searched.size());
-  // All lots first, then the columns of those that are misplaced.
+  // The order of draws decides records: all lots first, then the columns of misplaced points.
   for (bool& point : misplaced.points()) {
     point = core::SampleBernoulli(wrong, params_.wrong_place_probability);
   }
@@ -121,8 +121,8 @@ double DistanceDownTo(double z_m, const Vector3& start_R, const Vector3& directi
   return std::max(0.0, (start_R.z() - z_m) / -direction_R.z());
 }
 
-// Those of the given rocks whose bounding sphere meets the plane through p_W: no line in the plane
-// meets any other.
+// Fills `out` with those of the given rocks whose bounding sphere meets the plane through p_W: a
+// line in the plane meets no other rock.
 void RocksMeetingPlane(const terrain::Terrain& terrain, std::span<const int> rocks,
                        const Vector3& p_W, const Vector3& normal_W, std::vector<int>& out) {
   out.clear();
@@ -173,7 +173,7 @@ void LightStripe::AddLines(Eigen::AlignedBox3d& reach_R) {
   }
 }
 
-// Other lenses: along a curve that chords follow.
+// Lenses that bend rows: each point is searched along a curve that chords follow.
 void LightStripe::AddCurves(Eigen::AlignedBox3d& reach_R) {
   for (std::size_t row = 0; row < searched_.rows(); ++row) {
     for (std::size_t stripe = 0; stripe < searched_.stripes(); ++stripe) {
@@ -195,14 +195,14 @@ LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) con
   if (line.direction_R.z() > 0.0) line.direction_R = -line.direction_R;
   EXPECT(line.direction_R.z() < 0.0);
 
-  // From the emitter e within the light plane, square to the line, to the scanline plane n . (p -
-  // o) = 0: p = e + g aside with g = n . (o - e) / n . aside. It vanishes where the emitter sits on
-  // the camera's lateral axis.
+  // The line starts where a path from the emitter e within the light plane, square to the line,
+  // meets the scanline plane n . (p - o) = 0: p = e + g aside with g = n . (o - e) / n . aside. The
+  // gap g vanishes where the emitter sits on the camera's lateral axis.
   const Vector3 aside = laser.normal_R.cross(line.direction_R);
   const double gap = scanline.dot(camera.X_RC.translation() - laser.p_RoE_R) / scanline.dot(aside);
   line.start_R = laser.p_RoE_R + gap * aside;
-  // Rounding, where emitters are on the axis. Elsewhere the way from the emitter may be hidden too,
-  // which FindOnLine then asks.
+  // What is left of the gap by rounding where emitters are on the axis. Elsewhere the line is no
+  // ray of light, and FindOnLine asks whether the way from the emitter is hidden.
   constexpr double kOnAxis_m = 1e-9;
   line.is_light_ray = std::abs(gap) < kOnAxis_m;
 
@@ -316,7 +316,8 @@ messages::StripePixel LightStripe::FindOnCurve(const terrain::Terrain& terrain,
 messages::StripeScan LightStripe::Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                        core::TrialKey key, std::int64_t scan_number) const {
   EXPECT(scan_number >= 0);
-  // Every line, eye and emitter lies in this ball: no other rock can light, hide or be seen.
+  // Every line, eye and emitter lies in this ball: no rock outside of it can be lit, hide or be
+  // seen.
   const Vector3 reach_W = X_WR * reach_center_R_;
   std::vector<int> near;
   terrain.RocksNear(reach_W.x(), reach_W.y(), reach_radius_m_, near);

@@ -1,5 +1,12 @@
-// The measured error model of the light stripe sensor without images: points that are found off
-// their column, not found, or found in the wrong place.
+// The light stripe sensor without images (fidelity geometric): where light planes and scanlines
+// meet the terrain, and the measured errors of detection. Drives and studies of hazard detection
+// look by it.
+//
+// Words of all files of this sensor, here and on board. The array has a point for each scanline and
+// laser, indexed [row][stripe] (messages/stripe_array.h): a row is the points of one scanline, 0
+// nearest; a stripe is the points of one laser. A scanline is the image row on which a camera looks
+// for the points of one row. An image column is a place along it, in pixels from the optical axis.
+// Ranges are distances along the ray.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +24,18 @@
 
 namespace rockyard::sensing {
 
-// Disturbs a scan in this order, each point on its own:
+// The measured error model. It disturbs a scan in this order, each point on its own:
 //   column    moved by a normal amount with deviation column_noise_px, rounded to whole pixels, and
 //             kept inside the searched part
-//   missed    not found with missed_probability, or with the point's own (missed_at)
+//   missed    not found with missed_probability, or with the point's own chance (missed_at)
 //   misplaced at a random column with wrong_place_probability, also where nothing was visible
 //
-// Outliers that persist: from one scan to the next a point keeps, with outlier_persistence r, what
-// happened to it (whether it is misplaced, and to which column); otherwise its lot is drawn anew.
-// The share of misplaced points stays wrong_place_probability p; after a scan in which a point is
-// misplaced it is so in the next with r + (1 - r) p, and both agree with r and more. Matthies 1995,
-// section 6, counts on independence (r = 0, the default); figure 8's run shows a false alarm that
-// two scans must have agreed on.
+// Outliers persist: from one scan to the next a point keeps its lot (whether it is misplaced, and
+// to which column) with the chance r = outlier_persistence; otherwise the lot is drawn anew. The
+// share of misplaced points stays p = wrong_place_probability. A misplaced point is misplaced in
+// the next scan, too, with the chance r + (1 - r) p. Matthies 1995, section 6, counts on
+// independence (r = 0, the default); figure 8's run shows a false alarm that two scans must have
+// agreed on.
 class StripeErrors {
  public:
   // The searched part of the scanline of each point.
@@ -36,11 +43,12 @@ class StripeErrors {
 
   explicit StripeErrors(const LightStripeParams& params) : params_(params) {}
 
-  // Is a pure function of its arguments, whatever was scanned before: a lot that is older is looked
-  // up by the number of the scan in which it was drawn. It draws from (kStripeColumnNoise,
-  // kStripeMissed, kStripeWrongPlace; scan number) and, for persistence, (kStripePersistence; scan
-  // number) back to the scan in which the last point's lot was drawn: 1 + log(points) / log(1 / r)
-  // scans on average, of 0.5 us each. Errors of size zero draw nothing and cost nothing.
+  // Adds the errors to a scan. It is a pure function of its arguments, whatever was scanned before:
+  // an older lot is drawn again by the number of its scan. It draws from (kStripeColumnNoise,
+  // kStripeMissed, kStripeWrongPlace; scan number). With persistence it also draws from
+  // (kStripePersistence; scan number) and goes back to the scan in which the oldest lot was drawn:
+  // 1 + log(points) / log(1 / r) scans on average, of 0.5 us each. Errors of size zero draw nothing
+  // and cost nothing.
   void Disturb(core::TrialKey key, const Searched& searched, messages::StripeScan& scan) const;
 
  private:
@@ -55,7 +63,7 @@ class StripeErrors {
   LightStripeParams params_;
 };
 
-// Light stripe sensor: which of its 20 points are found, and in which image column.
+// The sensor: which points of its array are found, and in which image column.
 //
 // Model (Matthies 1995, section 6, table 3). With the lens kEquidistantRows, row r of a camera sees
 // the scanline plane that holds the camera's lateral axis and lies row_angle[r] below its optical
@@ -72,10 +80,8 @@ class StripeErrors {
 // (StripeErrors). Columns are all that it reports: elevations are made on board, by the geometry
 // that the rover believes.
 //
-// Deviations. Beam width, partly lit pixels, stray light, and the rover's own wheels are left out;
-// of several lit points on one scanline only the one nearest to the emitter counts.
-
-// The sensor at the geometric fidelity.
+// Deviations. Beam width, partly lit pixels, stray light, and the rover's own parts are left out;
+// of several points that one laser lights on a scanline only the one nearest to the emitter counts.
 class LightStripe {
  public:
   explicit LightStripe(const LightStripeParams& params);
@@ -108,8 +114,8 @@ class LightStripe {
     double forward_slope = 0.0;
     double right_m = 0.0;
     double right_slope = 0.0;
-    // Points are near enough to the camera and, on a light ray, lit at all between these distances;
-    // none where first > last or last < 0.
+    // Between these distances along the line, points are within max_range of the camera; none where
+    // last < 0, as on a light ray outside of the fan.
     double first_m = 0.0;
     double last_m = -1.0;
   };

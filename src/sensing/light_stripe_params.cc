@@ -156,7 +156,7 @@ void VisitDensity(LightStripeParams& p, core::FieldVisitor& v) {
                       kMatthiesSection6, {1, 2}));
 }
 
-// Where stripes are looked for, and how often that goes wrong at the geometric level.
+// Where stripes are looked for.
 void VisitSearch(LightStripeParams& p, core::FieldVisitor& v) {
   v.Real("search_low_m", p.search_low_m,
          Assumed("lowest elevation whose column is searched for a stripe",

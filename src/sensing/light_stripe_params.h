@@ -1,6 +1,13 @@
-// Parameters of the light stripe sensor: of its images (light emitters and imager), then of the
-// sensor itself. Defaults decide records and baselines; bounds only refuse files. Chances of errors
-// may be fitted to images (fit_stripe_errors.py) and then belong to one light and one layout.
+// Parameters of the light stripe hazard sensor of Matthies 1995, section 6, table 3 and figure 13
+// (scenario group sensors.light_stripe): light emitters and imager, then the sensor itself. Both
+// fidelities of the sensor read them, and the rover's calibration starts from them. Defaults decide
+// records and baselines; bounds only refuse files. Chances of errors may be fitted to images
+// (fit_stripe_errors.py) and then belong to one light and one layout.
+//
+// Figure 13 is lost; the text fixes the farthest central point, the outermost points, the optics,
+// the camera separation and the range of the baselines. The rest of the layout is assumed: cameras
+// and emitters share one lateral axis below the front edge of the solar panel, the fans are
+// vertical planes in R, and the four scanlines are placed by where they meet flat ground.
 #pragma once
 
 #include <array>
@@ -42,13 +49,6 @@ struct StripeImagerParams : rendering::ImagerParams {
 
   void Visit(core::FieldVisitor& v);
 };
-
-// Parameters of the light stripe hazard sensor of Matthies 1995, section 6, table 3 and figure 13.
-//
-// Figure 13 is lost; the text fixes the farthest central point, the outermost points, the optics,
-// the camera separation and the range of the baselines. The rest of the layout is assumed: cameras
-// and emitters share one lateral axis below the front edge of the solar panel, the fans are
-// vertical planes in R, and the four scanlines are placed by where they meet flat ground.
 
 // How much of the sensor is simulated.
 enum class Fidelity {
@@ -102,19 +102,18 @@ struct LightStripeParams {
   double wrong_place_probability = 0.01;
   WrongPlace wrong_place = WrongPlace::kSearchedPart;
   double missed_probability = 0.0;
-  std::vector<double> missed_at{};  // instead, of each point, row by row; none: the same for all
+  std::vector<double> missed_at{};  // one for each point, row by row; empty: missed_probability
   double outlier_persistence = 0.0;
   double column_noise_px = 0.0;
 
-  // The image fidelity goes from light to images by these; the geometric fidelity does not look at
-  // them.
+  // Light and imager of the image fidelity; the geometric fidelity does not read them.
   LaserParams laser{};
   StripeImagerParams imager{};
 
   double column_pitch_rad() const {
     return active_width_m / static_cast<double>(columns) / focal_length_m;
   }
-  // Area of a pixel.
+  // Returns the area of a pixel.
   double pixel_m2() const {
     return active_width_m / static_cast<double>(columns) * active_height_m /
            static_cast<double>(rows);

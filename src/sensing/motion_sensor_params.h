@@ -1,9 +1,10 @@
 // Parameters of the turn-rate gyro (Systron Donner QRS-11 on Rocky 3.2), of what scraping against
-// rocks does to it, and of the encoders.
+// rocks does to it, and of the encoders (scenario groups sensors.gyro and sensors.encoders). The
+// sensors of motion_sensors.h read them; defaults decide records.
 //
 // Published growths of errors are those of a rover on level sand, whose physics adds errors of its
-// own: level_sand_gain and physics_variance_m2_per_m make up for it, and have to be calibrated anew
-// where soil, wheels or odometer change (calibrate_odometer.py).
+// own. level_sand_gain and physics_variance_m2_per_m make up for those. They must be calibrated
+// anew where soil, wheels or odometer change (calibrate_odometer.py).
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@
 namespace rockyard::sensing {
 namespace {
 
-// Of the bias: no tick has this number.
+// Substream of the bias: no tick has this number. Records depend on it.
 constexpr std::uint32_t kBiasSubstream = 0xFFFFFFFFu;
 
 }  // namespace
@@ -89,7 +89,7 @@ bool ScrapeDetector::IsScrape(const truth::BodyContact& contact) const {
 bool ScrapeDetector::BeginsEpisode(int rock, double time_s, const math::Vector3& position_W) {
   for (Episode& episode : known_) {
     if (episode.rock != rock) continue;
-    // Both a pause and a way: rocking on one rock is one episode.
+    // An episode ends by a pause and a way together: rocking on one rock is one episode.
     const bool over = time_s - episode.last_time_s >= params_.episode_gap_s &&
                       (position_W - episode.last_position_W).norm() >= params_.episode_gap_m;
     episode.last_time_s = time_s;
@@ -122,7 +122,8 @@ double ScrapeDetector::Observe(const truth::RoverState& state, double time_s) {
   for (const truth::BodyContact& contact : state.contacts) {
     if (!IsScrape(contact)) continue;
     if (!BeginsEpisode(contact.rock, time_s, state.X_WR.translation())) continue;
-    // Episodes are counted also where nothing jumps.
+    // Episodes are counted also where nothing jumps. Jump() draws by the number of the episode,
+    // before it is counted.
     if (params_.enabled) jump_rad += Jump();
     ++episodes_;
   }

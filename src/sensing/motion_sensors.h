@@ -1,4 +1,5 @@
-// What dead reckoning lives on: gyro, encoders, and scrapes that shake the gyro.
+// What dead reckoning lives on: gyro, encoders, and scrapes that shake the gyro. The world of a
+// drive measures with them once an on-board tick; results count the scrapes.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +14,14 @@
 
 namespace rockyard::sensing {
 
-// The turn-rate gyro: integrated rate about the rover's own z axis over one on-board tick.
+// The turn-rate gyro of one trial: integrated rate about the rover's own z axis over one on-board
+// tick.
 //
 // measured = scale * true turn + bias duration + noise + scrape jumps, with noise ~ N(0, q
 // duration) and a bias drawn once a trial, while the rover moves (and at rest if so chosen): a
 // random walk of the heading in time. q follows from the growth per metre on level sand at a known
 // speed (Matthies 1995, section 5), so that a slower rover drifts more per metre. The paper's
 // straight runs measure q; the scale comes from its turns (section 8).
-
-// The gyro of one trial.
 class Gyro {
  public:
   Gyro(const GyroParams& params, core::TrialKey key);
@@ -40,7 +40,7 @@ class Gyro {
 // z component of the rotation vector. On level ground it is the change of heading.
 double TurnAboutOwnAxis(const math::Transform& X_WR_before, const math::Transform& X_WR_after);
 
-// Wheel encoders: increments of the six wheel angles over one on-board tick.
+// The wheel encoders of one trial: increments of the six wheel angles over one on-board tick.
 //
 // The published growth of the distance error on level sand (Matthies 1995, section 5: 0.0039 m2/m)
 // is modelled as that section does: the motion of each stretch of 6.7 cm is wrong by an independent
@@ -50,8 +50,6 @@ double TurnAboutOwnAxis(const math::Transform& X_WR_before, const math::Transfor
 // the motion of a tick). All wheels share it: independent noise of six wheels would need six times
 // the variance for the same effect, and the paper names the slip of the rover as the cause. A turn
 // in place has no mean motion and gets none.
-
-// The encoders of the six wheels over one trial.
 class Encoders {
  public:
   // wheel_radius_m is the true radius, which turns wheel angle into travel.
@@ -73,15 +71,14 @@ class Encoders {
   double scale_error_ = 0.0;  // of the present stretch
 };
 
-// Scraping against rocks and what it does to the measured heading: about 5 degrees at once
-// (Matthies 1995, sections 5 and 8; the paper suspects vibration of the gyro).
+// Scrapes of one trial against rocks and what they do to the measured heading: about 5 degrees at
+// once (Matthies 1995, sections 5 and 8; the paper suspects vibration of the gyro).
 //
 // Trigger: a part of the body (hub, belly, rocker, panel edge; not a wheel) presses on a rock with
 // at least min_force while sliding at min_sliding_speed or more. One jump per episode: an episode
 // with a rock ends when the rover has not scraped that rock for episode_gap_s and has moved
-// episode_gap_m since. Size and sign of the n-th jump come from stream kScrapeJump, substream n.
-
-// The scrapes of one trial.
+// episode_gap_m since. Size and sign of the jump of the n-th episode, from 0, come from stream
+// kScrapeJump, substream n.
 class ScrapeDetector {
  public:
   ScrapeDetector(const ScrapeParams& params, core::TrialKey key) : params_(params), key_(key) {}

@@ -1,4 +1,5 @@
-// What of a rover its own cameras see.
+// What of a rover its own cameras see: the one shape that images, masks and shadows of all sensors
+// take.
 #pragma once
 
 #include "rendering/rover_body.h"
@@ -6,8 +7,8 @@
 
 namespace rockyard::sensing {
 
-// Returns chassis and solar panel as boxes and the wheels, where they are on level ground; the thin
-// arms are left out. Images, masks and shadows of all sensors take this one shape.
+// Returns chassis and solar panel as boxes, and the wheels where they are on level ground; the thin
+// arms are left out.
 rendering::RoverBody MakeRoverBody(const rover::RoverGeometryParams& params);
 
 }  // namespace rockyard::sensing

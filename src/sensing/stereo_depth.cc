@@ -36,8 +36,8 @@ double RowCut::InverseDepth(double column) const {
 
 double RowCut::NearestInverseDepth() const {
   const double approach = std::max(Approach(span.first), Approach(span.last));
-  // Most of both terms over the row: the discriminant a c^2 + 2 l c + k with a < 0 has its peak k -
-  // l^2 / a, and the linear B is largest at an end of the span.
+  // Each term takes its largest value over the row: the discriminant a c^2 + 2 l c + k with a < 0
+  // has the peak k - l^2 / a, and the linear B is largest at an end of the span.
   const double peak = std::max(constant - linear * linear / quadratic, 0.0);
   return (approach + std::sqrt(peak)) * inverse_outside_1;
 }
@@ -63,8 +63,9 @@ RockOutline::RockOutline(const terrain::RockShape& shape, const Vector3& center_
   if (!ContainsEye()) FindRows(view_W.rows);
 }
 
-// Rows r in which the columns' quadratic a c^2 + 2 l c + k, a < 0, has roots: l^2 - a k >= 0, which
-// is g2 r^2 + 2 g1 r + g0 >= 0 with g2 < 0, between its roots (-g1 +- sqrt(g1^2 - g2 g0)) / g2.
+// A row r meets the rock where its quadratic in the column, a c^2 + 2 l c + k with a < 0, has
+// roots: l^2 - a k >= 0. That is g2 r^2 + 2 g1 r + g0 >= 0 with g2 < 0, which holds between the
+// roots (-g1 +- sqrt(g1^2 - g2 g0)) / g2.
 void RockOutline::FindRows(int rows) {
   first_row_ = 0;
   last_row_ = rows - 1;
@@ -124,7 +125,7 @@ StereoScene::StereoScene(const terrain::Terrain& terrain, const StereoView& view
   }
 }
 
-// An eye that is buried, in a rock or beyond a wall.
+// Returns whether an eye is buried, in a rock or beyond a wall.
 bool StereoScene::SeesNothing(const Vector3& eye_W) const {
   if (eye_W.z() <= terrain_.ground().Height(eye_W.x(), eye_W.y())) return true;
   const auto beyond = [&eye_W](const terrain::Wall& wall) {
@@ -211,7 +212,7 @@ void StereoScene::DropFarther(DepthImage& image) const {
   }
 }
 
-// A march for each ray, no farther than what it meets otherwise.
+// Each ray marches over the ground, no farther than to the wall or rock that it meets.
 void StereoScene::AddRoughGround(DepthImage& image) const {
   for (int row = 0; row < view_W_.rows; ++row) {
     for (int column = 0; column < view_W_.columns; ++column) {
@@ -264,8 +265,9 @@ void StereoScene::HideBehind(const RockOutline& outline_right, DepthImage& image
   }
 }
 
-// What is hidden by something that the left eye sees has that on its right in the left image, and
-// not so in the right one.
+// What hides a point from the right eye, if the left eye sees it, lies to the right of the point in
+// the left image, and not so in the right image: where columns of the right image are out of order,
+// rays are cast.
 void StereoScene::HideBehindGround(DepthImage& image) const {
   constexpr double kSlack_px = 0.5;
   const double scale_px_m = view_W_.focal_px * view_W_.baseline_m;

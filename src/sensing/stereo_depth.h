@@ -1,4 +1,6 @@
-// What the left camera of a stereo pair meets, and what of it the right one does not see.
+// What the left camera of a stereo pair meets, and what of that the right camera does not see. The
+// stereo sensor makes its range points of it; the ground truth of stereo studies uses the same
+// scene and the same jumps, so that rates counted there fit the error model.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,10 +19,11 @@ namespace rockyard::sensing {
 
 inline constexpr int kNoJump = std::numeric_limits<int>::max() / 2;
 
-// Fills `distance_px` with the number of columns from each pixel of a row to the nearest jump of
-// jump_px or more between two columns: 1 for the two pixels on its sides, kNoJump or more where the
-// row has none. A window of half width k around a pixel, 2 k + 1 columns wide, holds both sides of
-// the jump where the distance is k or less. Both spans have one length. Cost: two passes.
+// Fills `distance_px` with the number of columns from each pixel of an image row to the nearest
+// jump of disparity by jump_px or more between two columns: 1 for the two pixels on its sides,
+// kNoJump or more where the row has no jump. A window of half width k around a pixel, 2 k + 1
+// columns wide, holds both sides of the jump where the distance is k or less. Both spans have the
+// same length. Cost: two passes.
 inline void JumpDistances(std::span<const double> row_px, double jump_px,
                           std::span<int> distance_px) {
   const std::size_t size = row_px.size();
@@ -39,8 +42,9 @@ inline void JumpDistances(std::span<const double> row_px, double jump_px,
   }
 }
 
-// Returns the first column on the other side of the jump that lies `distance_px` columns from
-// `column`, as JumpDistances has it; the right one of two at the same distance.
+// Returns the first column on the other side of the jump that JumpDistances found `distance_px`
+// columns from `column`, with the same jump_px. Of two jumps at the same distance the right one
+// counts.
 inline std::size_t AcrossJump(std::span<const double> row_px, double jump_px, std::size_t column,
                               int distance_px) {
   const auto distance = static_cast<std::size_t>(distance_px);
@@ -56,7 +60,7 @@ struct ColumnSpan {
   double last = 0.0;
 };
 
-// One row's cut through the rock: quadratics in the column.
+// The cut of an image row through a rock: quadratics in the column.
 struct RowCut {
   double quadratic = 0.0;  // discriminant = (quadratic c + 2 linear) c + constant
   double linear = 0.0;
@@ -64,7 +68,7 @@ struct RowCut {
   double approach_0 = 0.0;  // approach = approach_0 + approach_1 c
   double approach_1 = 0.0;
   double inverse_outside_1 = 0.0;
-  // The columns within which the row can meet the rock. Where it is exact, every column in it does.
+  // The columns within which the row can meet the rock. Where `exact`, all of them meet it.
   ColumnSpan span;
   bool exact = true;
 
@@ -72,9 +76,9 @@ struct RowCut {
     return (quadratic * column + 2.0 * linear) * column + constant;
   }
   double Approach(double column) const { return approach_0 + approach_1 * column; }
-  // Returns one over the depth at a column, 1/m; 0 where the ray misses.
+  // Returns one over the depth of the rock at a column, 1/m; 0 where the ray misses it.
   double InverseDepth(double column) const;
-  // Returns at least the largest InverseDepth of the row, where the span is exact.
+  // Returns an upper bound of the InverseDepth of the row, 1/m. Requires `exact`.
   double NearestInverseDepth() const;
 };
 
@@ -86,7 +90,7 @@ struct RowCut {
 // ellipse its rows and the columns of each row have closed forms.
 class RockOutline {
  public:
-  // The view is given in W; `eye_W` is one of its two eyes.
+  // `eye_W` is one of the two eyes of the view.
   RockOutline(const terrain::RockShape& shape, const math::Vector3& center_W,
               const StereoView& view_W, const math::Vector3& eye_W);
 
@@ -101,38 +105,39 @@ class RockOutline {
  private:
   void FindRows(int rows);
 
-  double outside_1_;  // K
-  double b0_, b1_, b2_;
-  double a_;             // of c^2 in the discriminant
-  double d0_, d1_;       // of 2 c and of 2 c r
-  double f0_, f1_, f2_;  // of 1, 2 r and r^2
+  double outside_1_;     // K
+  double b0_, b1_, b2_;  // B = b0 + c b1 + r b2
+  double a_;             // factor of c^2 in the discriminant
+  double d0_, d1_;       // factors of 2 c and of 2 c r
+  double f0_, f1_, f2_;  // factors of 1, 2 r and r^2
   int first_row_ = 0;
   int last_row_ = -1;
 };
 
 using PixelFlags = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// The terrain as a stereo pair meets it from one place. Pinhole pixels make one over the depth of
-// every plane linear in column and row, and that of an ellipsoid a root of a quadratic
-// (RockOutline), so that each rock costs its own pixels only. An eye below the ground, in a rock or
-// beyond a wall sees nothing. Pointed rocks have no such outline: scenarios refuse them where range
-// points are not matched in images.
+// The terrain as a stereo pair meets it from one place. With pinhole pixels, one over the depth of
+// a plane is linear in column and row, and one over the depth of an ellipsoid is a root of a
+// quadratic (RockOutline). So each rock costs its own pixels only. An eye below the ground, in a
+// rock or beyond a wall sees nothing. Pointed rocks have no such outline: scenarios refuse them
+// where range points are not matched in images.
 //
 // src/sensing/README.md has the cost at 128 x 128 pixels with both eyes; on rough ground each pixel
 // costs a ray march.
 class StereoScene {
  public:
-  // Surfaces farther than max_range_m from the left eye are not seen. The view is one in W; both
-  // have to outlive the scene.
+  // Surfaces farther than max_range_m along the ray from the left eye are not seen. Terrain and
+  // view have to outlive the scene.
   StereoScene(const terrain::Terrain& terrain, const StereoView& view_W, double max_range_m);
 
   // Returns one over the depth Z of the first surface on each pixel's ray (StereoView::Ray) from
   // the left eye, the same as Terrain::CastRay to rounding.
   DepthImage InverseDepths() const;
 
-  // Sets to 0 what lies outside the right image or behind something else there, by 0.5 mm or more.
-  // On rough ground what the ground hides is looked for only where disparity changes by half a
-  // column or more from one to the next.
+  // Sets pixels to 0 that show what lies outside the right image, or there behind something else by
+  // kOcclusionMargin_m or more. On rough ground, rays against the ground are cast only for pixels
+  // whose place in the right image is not half a column or more to the left of the places of all
+  // pixels that follow in the left row.
   void HideFromRightEye(DepthImage& inverse_depths) const;
 
  private:

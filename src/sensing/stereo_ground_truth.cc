@@ -13,13 +13,13 @@ namespace {
 using math::Vector3;
 using messages::LookDirection;
 
-// Both eyes, whatever the fidelity in use.
+// The view with both eyes, whatever the fidelity in use: the ideal one has a single eye.
 StereoView PairView(StereoParams params, LookDirection direction) {
   params.fidelity = StereoFidelity::kErrorModel;
   return MakeStereoView(params, direction);
 }
 
-// Where every pixel within `reach` rows and columns is there and is true.
+// Returns where every pixel within `reach` rows and columns is in the image and true.
 PixelFlags Eroded(const PixelFlags& flags, int reach) {
   const auto rows = static_cast<int>(flags.rows());
   const auto columns = static_cast<int>(flags.cols());
@@ -76,9 +76,9 @@ StereoTruth StereoGroundTruth::See(const terrain::Terrain& terrain, const math::
   truth.left_px *= scale_px_m;
   truth.both_px *= scale_px_m;
 
-  // Jumps are those of surfaces: what is so far that it differs from the sky by less than a jump
-  // counts as sky. |e| of a pixel is below 4 for fields of view up to 150 by 90 deg; in the corners
-  // of larger ones surfaces may count as sky a little too early.
+  // Jumps lie between surfaces: a surface so far away that its disparity is less than a jump counts
+  // as sky. |e| of a pixel is below 4 for fields of view up to 150 by 90 deg; in the corners of
+  // larger images surfaces may count as sky a little too early.
   constexpr double kLongestRay = 4.0;
   const double far_m = std::max(max_range_m_, kLongestRay * scale_px_m / edge_disparity_px_);
   const DepthImage all_px = scale_px_m * StereoScene(terrain, view_W, far_m).InverseDepths();

@@ -1,5 +1,5 @@
-// What a stereo pair could show of the terrain at best, pixel by pixel: the yardstick of its
-// errors.
+// What a stereo pair could show of the terrain at best, pixel by pixel. Studies of stereo sort
+// errors and dropouts by it.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,24 +18,25 @@ namespace rockyard::sensing {
 
 using PixelNumbers = Eigen::Array<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Of the pixels of the left image, [row][column], as sensors.stereo counts them: columns x rows.
+// The truth of one look: a value for each pixel of the left image, [row][column], of the size
+// sensors.stereo.rows x columns.
 struct StereoTruth {
   DepthImage left_px;  // disparity of what the left eye sees within max_range_m; 0: nothing
-  DepthImage both_px;  // the same where the right eye sees it, too, else 0
+  DepthImage both_px;  // left_px where the right eye sees that surface, too, else 0
   PixelNumbers jumps;  // columns to the nearest jump in depth, see JumpDistances
-  PixelFlags behind;   // where there is one: on its farther side
+  PixelFlags behind;   // the pixel is on the farther side of that jump
   PixelNumbers rocks;  // index of the rock that the left eye sees there; -1: none
   PixelFlags shaded;   // the surface there turns away from the sun, or something is between
   PixelFlags margin;  // of both_px: what a matching window there holds, and one pixel more, reaches
                       // over the edge of either image, or over the rover's own parts
 };
 
-// Holds for every fidelity of the sensor: by rays, without images. Rocks have to be ellipsoids
-// (StereoScene). Studies of stereo sort errors and dropouts by it, and the error model's rates are
-// fitted to their counts: jumps, margins and shade have to mean the same here and there.
+// The truth by rays, without images, so that it holds for every fidelity of the sensor. Rocks have
+// to be ellipsoids (StereoScene). The rates of the error model (StereoMatcher) are fitted to what
+// studies count by this truth: jumps, margins and shade must mean the same in both.
 class StereoGroundTruth {
  public:
-  // `window_side_px` is that of the windows that are matched.
+  // `window_side_px` is the side of the windows that are matched.
   StereoGroundTruth(const StereoParams& params, const rendering::SunParams& sun,
                     const rover::RoverGeometryParams& rover, int window_side_px);
 
@@ -52,7 +53,8 @@ class StereoGroundTruth {
  private:
   struct Pair {
     StereoView view_R;
-    PixelFlags left_free;  // of pixels: no part of the rover within the window, nor an edge
+    // Pixels whose window holds no part of the rover and does not reach over an edge of the image.
+    PixelFlags left_free;
     PixelFlags right_free;
   };
 

@@ -1,4 +1,6 @@
-// The stereo cameras at the rover's front and rear down to digital images of a true scene.
+// The stereo cameras at the rover's front and rear down to digital images of a true scene. Drives
+// with stereo or visual odometry at the image fidelity take their images here, and the commands
+// that render pairs and sequences.
 //
 // Image formation, in the order in which a look runs through it (equations beside the code):
 //   scene      terrain, sun and shadows, the rover's own parts   rendering/picture/picture_scene.h
@@ -33,8 +35,8 @@ namespace rockyard::sensing {
 // The sensor at the image fidelity: two pairs of linear cameras with the view of MakeStereoView, of
 // 2^pyramid_level times its columns and rows.
 //
-// A pair may have drifted since its calibration (images.drift): the images are those of the drifted
-// right camera, while CalibratedRig, which on-board code goes by, does not know of it.
+// A pair may have drifted since its calibration (images.drift): its right images are those of the
+// drifted camera. CalibratedRig, by which on-board code reads them, does not know of the drift.
 //
 // Limits: no lens distorts; wheels and arms stay where they are on level ground; both eyes expose
 // at once, for no time at all as far as motion goes.
@@ -46,16 +48,16 @@ class StereoImager {
                const rendering::LookParams& look, const rover::RoverGeometryParams& rover,
                core::TrialKey key);
 
-  // Takes the images of one look with the rover at X_WR. Pure function of its arguments. Draws from
-  // (key, kImageNoise) by look number and eye, from kSoilTexture, kRockTexture and kRockLook.
-  // look_number < 2^30. Users in one trial need numbers of their own, or their noise is the same:
-  // terrain sensing counts from 0, visual odometry from 2^29.
+  // Takes the images of one look with the rover at X_WR. It is a pure function of its arguments. It
+  // draws from (key, kImageNoise) by look number and eye, from kSoilTexture, kRockTexture and
+  // kRockLook. look_number < 2^30. Users in one trial must take different numbers, or their noise
+  // is the same: terrain sensing counts from 0, visual odometry from 2^29. Records depend on these.
   StereoImages Expose(const terrain::Terrain& terrain, const math::Transform& X_WR,
                       std::int64_t look_number, messages::LookDirection direction) const;
 
-  // Returns the true disparity at the middle of every pixel of the left image of such a look: its
-  // column less that of the same point in the right image, px; NaN where the right eye does not see
-  // it. Cost: as of a look.
+  // Returns the true disparity at the middle of every pixel of the left image of such a look: the
+  // column less the column of the same point in the right image, px; NaN where the right eye does
+  // not see that point. Cost: that of the look's left image and a ray a pixel.
   vision::Image<float> TrueDisparities(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                        messages::LookDirection direction) const;
 

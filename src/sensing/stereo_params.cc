@@ -18,7 +18,8 @@ constexpr std::string_view kArray =
 constexpr double kMostDisparity_px = 400.0;
 constexpr double kGrazing_rad = math::DegToRad(1.0);
 
-// Angle below the horizon of the lowest ray in the middle of the image; at most straight down.
+// Returns the angle below the horizon of the lowest ray in the middle of the image, rad; at most
+// straight down.
 double LowestDepression(const StereoMountParams& mount, double vertical_fov_rad) {
   return std::min(mount.pitch_rad + 0.5 * vertical_fov_rad, 0.5 * std::numbers::pi);
 }
@@ -28,7 +29,7 @@ bool SeesGround(const StereoMountParams& mount, const StereoParams& p) {
   return depression > kGrazing_rad && mount.height_m <= p.max_range_m * std::sin(depression);
 }
 
-// Whether the middle of the window, on flat ground, is in the image and in range.
+// Returns whether the middle of the window, on flat ground, is in the image and in range.
 bool SeesWindow(const StereoMountParams& mount, const StereoParams& p) {
   const double ahead_m = 0.5 * (p.stripe_window.near_m + p.stripe_window.far_m) - mount.ahead_m;
   const double off_axis = std::atan2(mount.height_m, ahead_m) - mount.pitch_rad;
@@ -53,7 +54,7 @@ void VisitImage(StereoParams& p, core::FieldVisitor& v) {
          Assumed("distance between the two cameras of a pair", kFido, {1e-3, 2.0}, {0.08, 0.2}));
 }
 
-// Each eye keeps 50 bytes a pixel.
+// Bounds the size of rendered images: each eye keeps 50 bytes a pixel.
 void VisitImageSize(StereoParams& p, core::FieldVisitor& v) {
   constexpr std::int64_t kMostPixels = 2048;
   const bool images = p.fidelity == StereoFidelity::kImage;
@@ -61,7 +62,8 @@ void VisitImageSize(StereoParams& p, core::FieldVisitor& v) {
             !images || std::max(p.image_columns(), p.image_rows()) <= kMostPixels,
             "makes images of more than 2048 pixels a side",
             "use a lower level, or fewer columns and rows");
-  // The search has a disparity more on either side, and at most 512 of them.
+  // perception/stereo_points.cc searches one disparity more on either side; the correlator takes at
+  // most 512.
   v.Require("max_disparity_px", !images || p.max_disparity_px <= kMostDisparity_px,
             "is above 400, where fidelity is image",
             "search fewer disparities, at a higher images.pyramid_level");

@@ -1,7 +1,11 @@
-// Parameters of range sensing by stereo cameras at the rover's front and rear. Defaults decide
-// records and baselines; bounds only refuse files. Where images are matched on board, the search
-// there takes pyramid_level, min_ and max_disparity_px and max_range_m from here; noise, mismatches
-// and dropouts are the error model's alone, and may be fitted to images (fit_stereo_errors.py).
+// Parameters of range sensing by stereo cameras at the rover's front and rear (scenario group
+// sensors.stereo). All fidelities of the sensor read them. Defaults decide records and baselines;
+// bounds only refuse files. Where images are matched on board, the matching takes pyramid_level,
+// min_ and max_disparity_px and max_range_m from here. Noise, mismatches and dropouts belong to the
+// error model alone, and may be fitted to images (fit_stereo_errors.py).
+//
+// `rows` and `columns` count the pixels of the reduced images, one range point each at most. Ranges
+// are distances along the ray; a depth is taken along the optical axis.
 #pragma once
 
 #include <array>
@@ -17,13 +21,13 @@ namespace rockyard::sensing {
 
 enum class StereoFidelity {
   kIdeal,       // the first surface on every ray from the middle of the pair, without error
-  kErrorModel,  // what stereo matching makes of it
+  kErrorModel,  // what stereo matching makes of those surfaces, by a model of its errors
   kImage,       // images of the pair are rendered, and matched on board
 };
 
 enum class StereoFieldOfView {
   kFull,    // all that the cameras see
-  kStripe,  // of that, what lies over the ground that a light stripe sensor scans
+  kStripe,  // only points over the ground that a light stripe sensor scans (StripeWindowParams)
 };
 
 // Where a pair of cameras sits, seen along its own viewing direction.
@@ -80,11 +84,11 @@ struct StereoParams {
   StripeWindowParams stripe_window{};
   StereoImageParams images{};
 
-  // Focal length along an image row and along a column, px.
+  // Return the focal length along an image row and along a column, in pixels of the reduced images.
   double focal_columns_px() const;
   double focal_rows_px() const;
 
-  // Of the images as the cameras take them, before they are reduced.
+  // Return the size of the images as the cameras take them, before they are reduced, px.
   std::int64_t image_columns() const { return columns << images.pyramid_level; }
   std::int64_t image_rows() const { return rows << images.pyramid_level; }
 

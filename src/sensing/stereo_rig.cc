@@ -15,16 +15,16 @@ using math::Vector3;
 using messages::LookDirection;
 using vision::Image;
 
-// As the view has it before images are reduced: with the same field of view, so that the mean of
-// 2^level x 2^level pixels lies around the ray of its range point.
+// Returns the view of the images before they are reduced. Its field of view must be the same, so
+// that the mean of 2^level x 2^level pixels lies around the ray of its range point.
 StereoView FullView(StereoParams params, LookDirection direction) {
   params.columns = params.image_columns();
   params.rows = params.image_rows();
   return MakeStereoView(params, direction);
 }
 
-// The linear camera at `eye` whose pixel (0, 0) looks along view.first: the inverse of the rays
-// e(column, row) of StereoView.
+// Returns the linear camera at `eye` whose pixel (0, 0) looks along view.first: the inverse of the
+// rays e(column, row) of StereoView.
 vision::CameraModel CameraAt(const StereoView& view, const Vector3& eye) {
   const double middle_column = 0.5 * (view.columns - 1);
   const double middle_row = 0.5 * (view.rows - 1);
@@ -36,7 +36,7 @@ vision::CameraModel CameraAt(const StereoView& view, const Vector3& eye) {
   return {vision::Cahv{eye, A, H, V}, {view.columns, view.rows}};
 }
 
-// 1 where the ray of a pixel meets no part of the rover.
+// Returns a mask: 1 where the ray of a pixel meets no part of the rover, else 0.
 Image<std::uint8_t> FreePixels(const vision::CameraModel& camera,
                                const rendering::RoverBody& body) {
   const rendering::PixelRays rays(camera);

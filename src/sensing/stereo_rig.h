@@ -1,4 +1,5 @@
-// What the stereo cameras of a rover deliver, and what is known of them on board.
+// What the stereo cameras of a rover deliver, and what is known of them on board. The imager makes
+// these images; on-board stereo and visual odometry read them by the calibrated rig.
 #pragma once
 
 #include <utility>
@@ -12,20 +13,20 @@
 
 namespace rockyard::sensing {
 
-// What one look delivers: 8 bits a pixel, the highest ones of imagers that have more.
+// The images of one look: 8 bits a pixel, of imagers with more bits the highest eight.
 struct StereoImages {
   vision::GrayImage left;
   vision::GrayImage right;
-  double exposure_s = 0.0;  // of both: exposure control looks at the left image
+  double exposure_s = 0.0;  // of both images: exposure control looks at the left one
 };
 
-// Returns the pair that looks there as it was calibrated, left and right, in R: linear cameras with
-// the view of MakeStereoView, of 2^pyramid_level times its columns and rows. StereoImager takes its
-// images with these, but for what drifted since.
+// Returns the left and the right camera of the pair that looks in `direction` as they were
+// calibrated, in R: linear cameras with the view of MakeStereoView, of 2^pyramid_level times its
+// columns and rows. StereoImager takes its images with the same cameras, but for their drift.
 std::pair<vision::CameraModel, vision::CameraModel> CalibratedCameras(
     const StereoParams& params, messages::LookDirection direction);
 
-// The same with a mask of the rover's own parts, which each pixel's ray is held against.
+// Returns the same pair with masks of the pixels that show the rover's own parts.
 vision::StereoRig CalibratedRig(const StereoParams& params, const rover::RoverGeometryParams& rover,
                                 messages::LookDirection direction);
 

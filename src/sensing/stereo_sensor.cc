@@ -20,22 +20,23 @@ namespace {
 using math::Vector3;
 using messages::LookDirection;
 
-// Below which a standard normal number lies with the given probability. PixelNoise has 2^16
-// numbers: chances are met to 1/65536, and those of less than half of that never happen.
+// Returns the number below which a standard normal number lies with the given probability.
+// PixelNoise has 2^16 numbers: chances are met to 1/65536, and chances of less than half of that
+// never happen.
 float Quantile(double probability) {
   if (probability <= 0.0) return -std::numeric_limits<float>::infinity();
   return static_cast<float>(core::NormalQuantile(probability));
 }
 
-// Of a chance in the sun, and of what two independent chances make of it in shadow: 1 - (1 - p)(1 -
-// q), written so that q = 0 leaves the bits of p.
+// Returns the quantiles of a chance p in the sun, and in shadow, where an independent chance q is
+// added: 1 - (1 - p)(1 - q). It must stay written so that q = 0 leaves the bits of p.
 std::array<float, 2> ByLight(double lit, double in_shadow) {
   return {Quantile(lit), Quantile(lit + in_shadow * (1.0 - lit))};
 }
 
-// Sums over `window` neighbours along rows, and then along columns: w x w independent numbers of
-// variance 1, divided by w, have variance 1 again. Pixels (i, j) apart share (w - i)(w - j) of the
-// numbers, so they correlate by (1 - i/w)(1 - j/w).
+// Returns sums over windows of w x w independent numbers of variance 1, divided by w: they have
+// variance 1 again. Pixels (i, j) apart share (w - i)(w - j) of the numbers, so they correlate by
+// (1 - i/w)(1 - j/w).
 DepthImage MeanOfWindows(const DepthImage& numbers, Eigen::Index window) {
   const Eigen::Index rows = numbers.rows() - window + 1;
   const Eigen::Index columns = numbers.cols() - window + 1;
@@ -58,9 +59,9 @@ StereoMatcher::StereoMatcher(const StereoParams& params)
           {ByLight(params.dropout_probability, params.shadow_dropout_probability),
            ByLight(params.edge_dropout_probability, params.shadow_dropout_probability)}} {}
 
-// In the order of stereo_sensor.h: noise, rounding, wrong matches, the searched range,
-// dropouts. 0 stays 0. Each step draws from a stream of its own, by pixel, so that one that is off
-// shifts no other's numbers.
+// The order of steps decides records: noise, rounding, wrong matches, the searched range, margins,
+// dropouts. A pixel of 0 stays 0. Each step draws from a stream of its own, by pixel, so that a
+// step that is off shifts the numbers of no other.
 void StereoMatcher::Match(core::TrialKey key, std::uint32_t look, const DepthImage& all,
                           DepthImage& seen, const PixelFlags& shaded) const {
   AddNoise(key, look, seen);
@@ -108,9 +109,9 @@ void StereoMatcher::AddNoise(core::TrialKey key, std::uint32_t look, DepthImage&
   seen = (seen > 0.0).select(seen + params_.disparity_noise_px * numbers, 0.0);
 }
 
-// A normal number z is a mismatch where Phi(z) < p; Phi(z) / p is then uniform in [0, 1), and says
-// where in the searched range the match lies. Beside a jump it is one of the other surface where
-// Phi(z) lies from p to p + q (1 - p). One draw serves all.
+// One normal number z a pixel decides. Where Phi(z) < p the pixel is a mismatch: Phi(z) / p is then
+// uniform in [0, 1), and says where in the searched range the match lies. Beside a jump the pixel
+// matches the other surface where Phi(z) lies from p to p + q (1 - p).
 void StereoMatcher::Mismatch(core::TrialKey key, std::uint32_t look, const DepthImage& all,
                              DepthImage& seen) const {
   const rendering::PixelNoise noise(key, core::Purpose::kStereoMismatch, look);
@@ -137,8 +138,8 @@ void StereoMatcher::Mismatch(core::TrialKey key, std::uint32_t look, const Depth
   }
 }
 
-// The window around the pixel holds both surfaces, and fits where the contrast of either one has
-// it. The pixel keeps its noise; where nothing is seen across the jump it keeps its disparity.
+// The window around the pixel holds both surfaces, and may match by the contrast of either. The
+// pixel keeps its noise; where nothing is seen across the jump it keeps its disparity.
 void StereoMatcher::MismatchEdge(std::span<const double> row_px, std::size_t column, int jump,
                                  double& pixel) const {
   if (jump > params_.edge_reach_px) return;

@@ -1,4 +1,5 @@
-// Range points from the stereo cameras at the rover's front and rear.
+// Range points from the stereo cameras at the rover's front and rear, without images: the sensor at
+// the fidelities ideal and error_model. Drives see terrain by it, and studies of stereo measure it.
 #pragma once
 
 #include <array>
@@ -19,15 +20,16 @@
 namespace rockyard::sensing {
 
 // Turns the disparities of an image, px, into what matching makes of them: noise, rounding, wrong
-// matches, the range of disparities searched, dropouts. A pixel is 0 where there is no match.
+// matches, the range of disparities searched, margins, dropouts. A pixel is 0 where there is no
+// match. StereoGroundTruth counts by the same jumps, margins and shade.
 class StereoMatcher {
  public:
   explicit StereoMatcher(const StereoParams& params);
 
-  // `seen` are the disparities of what both cameras see; jumps in depth are those of `all` that the
-  // left one sees; `shaded` is the pixels outside of the sun, empty where none counts as such.
-  // Draws by pixel from (key, kStereoDisparity, kStereoMismatch and kStereoDropout,
-  // look).
+  // `seen` holds the disparities of what both cameras see, `all` those of what the left camera
+  // sees: jumps in depth are taken from `all`. `shaded` marks the pixels outside of the sun; it is
+  // empty where shade does not matter. Draws by pixel from (key, kStereoDisparity, kStereoMismatch
+  // and kStereoDropout, look).
   void Match(core::TrialKey key, std::uint32_t look, const DepthImage& all, DepthImage& seen,
              const PixelFlags& shaded = {}) const;
 
@@ -42,24 +44,28 @@ class StereoMatcher {
                const PixelFlags& shaded, DepthImage& seen) const;
 
   StereoParams params_;
-  float mismatch_quantile_;       // standard normal numbers below it are wrong matches
-  float edge_mismatch_quantile_;  // those from there up to it, beside a jump, of the other surface
-  // The same for dropouts: [beside a jump][in shadow].
+  float mismatch_quantile_;  // standard normal numbers below it are wrong matches
+  // Numbers from mismatch_quantile_ up to this one, beside a jump, match the other surface.
+  float edge_mismatch_quantile_;
+  // Numbers below it drop out: [beside a jump][in shadow].
   std::array<std::array<float, 2>, 2> dropout_quantiles_;
 };
 
-// Gives one point for each pixel of the left image for which all of the following hold:
+// The sensor. It gives one point for each pixel of the left image for which all of the following
+// hold:
 //  - its ray meets a surface within max_range_m;
 //  - the right camera sees that point too: it lies inside its image, with nothing in between;
-//  - disparity d = f b / Z (Goldberg 2002, section 2), with Z the depth along the optical axis,
-//    changed by N(0, disparity_noise_px), rounded to disparity_step_px, or wrong altogether with
-//    mismatch_probability, or that of the other surface beside a jump in depth with
-//    edge_mismatch_probability, lies between min_ and max_disparity_px. The point is put on the
-//    same ray at depth f b / d, so that to first order sigma_Z = Z^2 sigma_d / (f b);
+//  - its measured disparity lies between min_ and max_disparity_px. The true disparity is d = f b /
+//    Z (Goldberg 2002, section 2), with Z the depth along the optical axis. It is changed by N(0,
+//    disparity_noise_px) and rounded to disparity_step_px. With mismatch_probability it is wrong
+//    altogether; beside a jump in depth it is, with edge_mismatch_probability, that of the other
+//    surface. The point is put on the same ray at the depth f b / d of the measured disparity d, so
+//    that to first order sigma_Z = Z^2 sigma_d / (f b);
+//  - it does not lie within margin_px of an image's edge;
 //  - it did not drop out, with dropout_probability or edge_dropout_probability, in shadow with
-//    shadow_dropout_probability on top, nor does it lie within margin_px of an image's edge.
-// The ideal sensor stops after the first. With field_of_view stripe, points outside the window are
-// dropped last.
+//    shadow_dropout_probability on top.
+// The ideal sensor stops after the first condition. With field_of_view stripe, points outside the
+// window are dropped last.
 //
 // Limits: the rover's own body is not seen. By default errors are independent from pixel to pixel,
 // while matching windows make those of neighbours alike (noise_window_px) and round off edges.
@@ -70,18 +76,19 @@ class StereoMatcher {
 class StereoSensor {
  public:
   explicit StereoSensor(const StereoParams& params);
-  // The same in sunlight, which only shadow_dropout_probability asks for.
+  // Makes a sensor that knows of shade, which only shadow_dropout_probability asks for.
   StereoSensor(const StereoParams& params, const SunShade& shade);
 
-  // Takes one look with the rover at X_WR. It is a pure function of its arguments and draws from
-  // (key, kStereoDisparity, kStereoMismatch and kStereoDropout, look number), by
-  // pixel: at most 2^32 looks.
+  // Takes one look with the rover at X_WR. It is a pure function of its arguments. It draws by
+  // pixel from (key, kStereoDisparity, kStereoMismatch and kStereoDropout, look number): at most
+  // 2^32 looks.
   messages::PointCloud Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
                             core::TrialKey key, std::int64_t look_number,
                             messages::LookDirection direction) const;
 
-  // The measurement alone: one over the depths of a look's pixels, 1/m, 0 where there is no point.
-  // Points are worked out of it (sensing::PointsOf).
+  // Returns the measurement alone: one over the depths of a look's pixels, 1/m, 0 where there is no
+  // point. Look makes its points of it by PointsOf; on-board code does so with the depths of a
+  // drive.
   DepthImage InverseDepths(const terrain::Terrain& terrain, const math::Transform& X_WR,
                            core::TrialKey key, std::int64_t look_number,
                            messages::LookDirection direction) const;

@@ -23,8 +23,8 @@ StereoView MakeStereoView(const StereoParams& params, messages::LookDirection di
   const double sign = ahead ? 1.0 : -1.0;
   const double sine = std::sin(mount.pitch_rad);
   const double cosine = std::cos(mount.pitch_rad);
-  // In R, pitched down by `pitch`: optical axis, image right (R's -y when looking ahead) and image
-  // down. Looking behind is the same pair turned by 180 degrees about z.
+  // The directions of optical axis, image right (R's -y when looking ahead) and image down, in R.
+  // The pair that looks behind is turned by 180 degrees about z.
   const Vector3 axis(sign * cosine, 0.0, -sine);
   const Vector3 right(0.0, -sign, 0.0);
   const Vector3 down(-sign * sine, 0.0, -cosine);

@@ -1,6 +1,6 @@
 // One rectified pinhole pair, as a rover carries it, and which of its points are handed on. Range
-// points, rendered images and the ground truth all look along these rays, so that one pixel means
-// one direction at every fidelity.
+// points, rendered images, the ground truth and the pictures of replays all look along these rays:
+// one pixel must mean one direction at every fidelity.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,18 +12,18 @@
 
 namespace rockyard::sensing {
 
-// How the pair looks, in R, or in W after the pose of the rover. Pixel (column, row), counted from
-// the upper left one, looks along
+// How the pair looks, in R, or by From in W. Pixel (column, row), counted from the upper left one,
+// looks along
 //   e(column, row) = first + column along_row + row along_column,
 // the pinhole of vision/lens.h with the principal point in the middle of the image, scaled so that
-// its part along the optical axis is 1: eye + Z e is the point at depth Z. The right eye has
-// parallel axes and the baseline b along its rows: the same point appears f b / Z columns further
-// left there.
+// the part of e along the optical axis is 1: eye + Z e is the point at depth Z. The right eye has
+// parallel axes and stands the baseline b along the rows: the same point appears f b / Z columns
+// further left in its image.
 struct StereoView {
   int columns = 0;
   int rows = 0;
-  double focal_px = 0.0;                               // along rows
-  double baseline_m = 0.0;                             // 0: one eye
+  double focal_px = 0.0;                               // f, along rows
+  double baseline_m = 0.0;                             // b; 0: one eye
   math::Vector3 eye = math::Vector3::Zero();           // the left one, to which points belong
   math::Vector3 right_eye = math::Vector3::Zero();     // equal to it where there is one eye
   math::Vector3 first = math::Vector3::UnitX();        // ray of pixel (0, 0)
@@ -44,13 +44,13 @@ using DepthImage = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 // Returns the view in R. The ideal sensor has one eye in the middle of the pair.
 StereoView MakeStereoView(const StereoParams& params, messages::LookDirection direction);
 
-// Whether a point of a look, in R, is handed on: always with the full field of view, else where it
-// lies in stripe_window, which is ahead of the rover or behind it as the look is.
+// Returns whether a point of a look, in R, is handed on: always with the full field of view, else
+// where it lies in stripe_window, which lies ahead of the rover or behind it as the pair looks.
 bool IsWanted(const StereoParams& params, const math::Vector3& p_RoP_R,
               messages::LookDirection direction);
 
-// Returns the points of a look in R, as far as they are wanted: one for each pixel that has one
-// over a depth, 1/m, on the pixel's ray of `view_R`, in the order of rows.
+// Returns the points of a look in R that IsWanted, in the order of rows. Each pixel whose inverse
+// depth is above 0 has its point at that depth on its ray of `view_R`.
 messages::PointCloud PointsOf(const StereoParams& params, const StereoView& view_R,
                               const DepthImage& inverse_depths, std::int64_t look_number,
                               messages::LookDirection direction);

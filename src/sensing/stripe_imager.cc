@@ -10,7 +10,7 @@
 namespace rockyard::sensing {
 namespace {
 
-// One in so many pixels of the middle line of each band is metered.
+// Of the middle line of each band, one pixel in so many is metered.
 constexpr std::size_t kMeteredPixels = 8;
 
 // Exposure control looks at sunlight alone: the image without lasers.
@@ -43,7 +43,7 @@ StripeImager::StripeImager(const LightStripeParams& params, const rendering::Sun
   }
 }
 
-// The lines that the image has of those that are asked for.
+// Returns those of the lines from first_row to last_row that the image has.
 StripeImager::View StripeImager::MakeView(int camera, int first_row, int last_row) const {
   const messages::Camera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
   View view;
@@ -59,7 +59,7 @@ math::Vector3 StripeImager::EyeOf(int camera) const {
   return calibration_.cameras[static_cast<std::size_t>(camera)].X_RC.translation();
 }
 
-// Light on each line, and the pattern of its pixels, which stays for the trial.
+// Returns the light on each line, and the pattern of its pixels, which stays for the trial.
 StripeImager::Light StripeImager::Render(const rendering::ImageScene& scene,
                                          const LitStripes& stripes, int camera, const View& view,
                                          core::TrialKey key) const {
@@ -90,8 +90,8 @@ messages::ImageBand StripeImager::Read(const Light& light, double exposure_s, co
   return band;
 }
 
-// The same light twice: with the lasers of one group, and without any for a time that repeats the
-// first one nearly.
+// Reads the same light twice: with the lasers of one group, and without lasers for an exposure time
+// that nearly repeats the first one.
 messages::StripeExposure StripeImager::ReadPair(std::span<const Light> bands, double exposure_s,
                                                 core::TrialKey key, StripeImageName name) const {
   messages::StripeExposure exposure{name.camera, name.group, {}, {}};
@@ -103,7 +103,7 @@ messages::StripeExposure StripeImager::ReadPair(std::span<const Light> bands, do
   return exposure;
 }
 
-// Those of its group, in a lit image.
+// Returns which lasers are on: in a lit image those of its group.
 std::vector<bool> StripeImager::LasersOn(const StripeImageName& name) const {
   std::vector<bool> on;
   for (const messages::StripeLaser& laser : calibration_.lasers) {

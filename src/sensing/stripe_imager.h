@@ -1,4 +1,5 @@
 // The cameras of the light stripe sensor: images with and without laser light of a true scene.
+// Drives at the image fidelity look by it; captures of a scan show its whole images.
 //
 // Image formation, in the order in which a scan runs through it (equations beside the code):
 //   radiometry     sun and sky in the passband, camera equation           radiometry.h
@@ -8,7 +9,8 @@
 //                  laser stripes on each pixel                            sensing/stripe_light.h
 //   exposure       time from the bright pixels of the image without laser radiometry.h
 //   readout        shot, read, dark and pattern noise, saturation, counts image_readout.h
-// All but the lasers is what every camera has (src/rendering).
+// All but the lasers is common to all cameras (src/rendering).
+//
 // Matthies 1995, section 6: for each group of lasers an image with them on and one with all off,
 // differenced on board. Table 3 gives imager, lens and lasers; what it leaves out is assumed, so
 // that results from these images are sensitivities to those assumptions, not predictions.
@@ -35,8 +37,9 @@
 
 namespace rockyard::sensing {
 
-// Names an image of a trial: 64 numbers for each scan, all different, as equal ones would share
-// their noise. 2^26 scans use up the 32 bits.
+// Names an image of a trial. Names must give different numbers, as images with the same number
+// share their noise; records depend on the numbers. Each scan has 64 of them, so that 2^26 scans
+// use up the 32 bits.
 struct StripeImageName {
   static constexpr std::int64_t kScans = std::int64_t{1} << 26;  // that have names of their own
 
@@ -59,18 +62,18 @@ class StripeImager {
   StripeImager(const LightStripeParams& params, const rendering::SunParams& sun,
                const rover::RoverGeometryParams& rover);
 
-  // Makes one scan with the rover at X_WR: for each group of lasers and each camera that finds a
+  // Makes one scan with the rover at X_WR: for each group of lasers and each camera that measures a
   // stripe of that group, it returns the image lines around each scanline (imager.averaging_rows
   // and margin_rows), all columns. Lines beyond the image are left out; where fidelity is image,
-  // parameters allow none. It is a pure function of its arguments, the same on any thread. It draws
-  // from (kImageNoise, kImageExposure, kImageSpeckle; scan number) and (kPixelPattern):
+  // BandsFitTheImage is required, and all are there. It is a pure function of its arguments. It
+  // draws from (kImageNoise, kImageExposure, kImageSpeckle; scan number) and (kPixelPattern):
   // neighbouring scans share nothing but the pattern of the imagers. scan_number < 2^26. Cost: 3 to
   // 6 ms on a plane, mostly rays and noise; 95 ms on rough ground, where every ray marches.
   messages::StripeImages Expose(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                 core::TrialKey key, std::int64_t scan_number) const;
 
-  // Returns the whole image of one camera with one group of lasers on, for pictures; the lines that
-  // Expose also takes are the same, bit for bit. Cost: 0.12 s.
+  // Returns the whole image of one camera with one group of lasers on, for pictures. The lines that
+  // Expose also takes must be the same, bit for bit. Cost: 0.12 s.
   messages::StripeExposure FullFrame(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                      core::TrialKey key, std::int64_t scan_number, int camera,
                                      int group) const;
@@ -79,7 +82,7 @@ class StripeImager {
   const messages::StripeCalibration& calibration() const { return calibration_; }
 
  private:
-  // A View is consecutive image lines of one camera as it sees them, a Light what falls on them.
+  // A View holds the rays of consecutive image lines of one camera, a Light what falls on them.
   using View = std::vector<rendering::ViewRow>;
   struct Light {
     std::vector<rendering::RenderedRow> rows;

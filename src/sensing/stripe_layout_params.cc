@@ -17,14 +17,15 @@ using messages::kStripes;
 // Shortest of the published camera-to-emitter baselines, less what rounding may take.
 constexpr double kShortestBaseline_m = 0.05 - 1e-9;
 
-// Emitter to the point where its stripe meets the farthest row on the datum plane.
+// The emitter of a stripe, and the point where the stripe meets the farthest row on the datum
+// plane.
 struct StripeAim {
   Vector3 emitter_R;
   Vector3 far_point_R;
 };
 
-// Value at `index` of a list that is `subdivision` times as dense as the published one: those of
-// the list where it has one, and evenly between them elsewhere.
+// Returns the value at `index` of a list `subdivision` times as dense as the published one: the
+// published values, and others evenly between them.
 template <std::size_t kSize>
 double Subdivided(const std::array<double, kSize>& published, std::int64_t subdivision,
                   std::size_t index) {
@@ -49,7 +50,7 @@ double RowAhead(const LightStripeParams& p, std::size_t row) {
   return Subdivided(p.row_ahead_m, p.row_subdivision, row);
 }
 
-// Point of a stripe on the datum plane at a distance ahead of the rover's front.
+// Returns the point of a stripe on the datum plane at a distance ahead of the rover's front.
 Vector3 DatumPoint(const LightStripeParams& p, std::size_t stripe, double ahead_m) {
   const StripeAim aim = AimOf(p, stripe);
   const double x = p.front_x_m + ahead_m;
@@ -65,28 +66,29 @@ Vector3 CameraPosition(const LightStripeParams& p, int camera) {
   return {p.camera_x_m, side * p.camera_separation_m, p.camera_height_m};
 }
 
-// The camera on the stripe's own side, which sees it from the smaller baseline; the left one for
-// the centre. Where the emitter sits too near to that camera, as in denser arrays, the other one.
+// Returns the camera that measures a stripe: the one on the stripe's own side, which has the
+// smaller baseline, and the left one for the centre. Where the emitter sits too near to that
+// camera, as in denser arrays, it is the other one.
 int CameraOf(const LightStripeParams& p, std::size_t stripe) {
   const int own = stripe <= ArraySize(p).stripes / 2 ? 0 : 1;
   const double baseline_m = (AimOf(p, stripe).emitter_R - CameraPosition(p, own)).norm();
   return baseline_m < kShortestBaseline_m ? 1 - own : own;
 }
 
-// Direction below the optical axis in which the row meets the datum plane.
+// Returns the angle below the optical axis at which the row meets the datum plane, rad.
 double RowAngle(const LightStripeParams& p, std::size_t row) {
   const double ahead = p.front_x_m + RowAhead(p, row) - p.camera_x_m;
   return std::atan2(p.camera_height_m - p.datum_z_m, ahead) - p.camera_pitch_rad;
 }
 
-// The same as an image row on the axis' column. Rows lie ahead of and below the camera, less than
-// 90 deg off its axis: a pinhole sees them, too.
+// Returns that angle as an image row on the column of the optical axis. Rows lie ahead of and below
+// the camera, less than 90 deg off its axis: a pinhole sees them, too.
 std::int64_t RowPixel(const LightStripeParams& p, std::size_t row) {
   const double angle_rad = RowAngle(p, row);
   return std::lround(vision::ImageOfAngle(p.lens, angle_rad) / p.row_pitch_rad());
 }
 
-// Whether the image holds every scanline with so many lines above and below it.
+// Returns whether the image holds every scanline with so many lines above and below it.
 bool LinesFitTheImage(const LightStripeParams& p, std::int64_t around) {
   const std::int64_t first = -p.rows / 2;
   const std::int64_t last = p.rows + first - 1;
@@ -97,8 +99,9 @@ bool LinesFitTheImage(const LightStripeParams& p, std::int64_t around) {
   return true;
 }
 
-// Stripes of one image stand as far apart as possible, which is what keeps them apart in it: with
-// two at a time of five, {0, 3}, {1, 4} and {2}.
+// Returns the group of lasers that are on together. Stripes of one group stand as far apart as
+// possible, so that they do not run together in the image: with two of five at a time, the groups
+// are {0, 3}, {1, 4} and {2}.
 int GroupOf(const LightStripeParams& p, std::size_t stripe) {
   return static_cast<int>(stripe % static_cast<std::size_t>(LaserGroups(p)));
 }
@@ -109,7 +112,8 @@ messages::StripeLaser LaserOf(const LightStripeParams& p, std::size_t stripe) {
   const Vector3 near = DatumPoint(p, stripe, RowAhead(p, 0)) - aim.emitter_R;
   messages::StripeLaser laser;
   laser.p_RoE_R = aim.emitter_R;
-  // Horizontal, to the left of the stripe: the light plane is vertical in R.
+  // The normal is horizontal and points to the left of the stripe: the light plane is vertical in
+  // R.
   laser.normal_R = Vector3(-along.y(), along.x(), 0.0).normalized();
   // The fan's middle halves the angle between its nearest and farthest points on the datum plane.
   laser.axis_R = (near.normalized() + along.normalized()).normalized();
@@ -216,7 +220,7 @@ const messages::Camera& CameraOf(const messages::StripeCalibration& calibration,
   return calibration.cameras[static_cast<std::size_t>(laser.camera)];
 }
 
-// Whether the box is in the way from an eye outside it to a point: by its slabs.
+// Returns whether the box is in the way from an eye outside it to a point, by the slabs of the box.
 bool ComesBetween(const Eigen::AlignedBox3d& box_R, const Vector3& eye_R, const Vector3& point_R) {
   if (box_R.contains(eye_R)) return false;
   const Vector3 along = point_R - eye_R;
@@ -235,7 +239,7 @@ bool ComesBetween(const Eigen::AlignedBox3d& box_R, const Vector3& eye_R, const 
   return enter < leave;
 }
 
-// Whether every point on the datum plane lies on a column of the image.
+// Returns whether every point on the datum plane lies on a column of the image.
 bool ColumnsFitTheImage(const LightStripeParams& p) {
   const messages::StripeCalibration calibration = TrueCalibration(p);
   for (const messages::StripeLaser& laser : calibration.lasers) {
@@ -250,13 +254,13 @@ bool ColumnsFitTheImage(const LightStripeParams& p) {
   return true;
 }
 
-// Whether the lens has a direction of its own for every pixel.
+// Returns whether the lens has a direction of its own for every pixel.
 bool LensReachesTheCorners(const LightStripeParams& p) {
   return vision::HasDirections(p.lens, 0.5 * p.active_width_m / p.focal_length_m,
                                0.5 * p.active_height_m / p.focal_length_m);
 }
 
-// What a whole image takes to simulate: about 40 bytes a pixel.
+// Bounds what a whole image takes to simulate: about 40 bytes a pixel.
 bool ImageIsNotTooLarge(const LightStripeParams& p) {
   constexpr std::int64_t kMaxPixels = 16'777'216;
   return p.columns <= kMaxPixels / std::max<std::int64_t>(p.rows, 1);
@@ -281,8 +285,8 @@ void RequireImage(LightStripeParams& p, core::FieldVisitor& v) {
 std::optional<Vector3> StripePoint(const messages::StripeCalibration& calibration,
                                    const messages::StripeLaser& laser, int row_px) {
   const messages::Camera& camera = CameraOf(calibration, laser);
-  // The stripe on the datum plane runs along n x z from the foot of the emitter; bisection for the
-  // distance at which it is imaged in that row.
+  // The stripe on the datum plane runs along n x z from the foot of the emitter. The distance at
+  // which it is imaged in that row is found by bisection.
   const Vector3 along = laser.normal_R.cross(Vector3::UnitZ()).normalized();
   const Vector3 forward = along.dot(laser.axis_R) < 0.0 ? Vector3(-along) : along;
   const Vector3 foot(laser.p_RoE_R.x(), laser.p_RoE_R.y(), calibration.datum_z_m);
@@ -292,7 +296,7 @@ std::optional<Vector3> StripePoint(const messages::StripeCalibration& calibratio
   double far_m = kFarthest_m;
   std::optional<vision::PixelPosition> imaged;
   // Farther points of the stripe are imaged higher up.
-  constexpr int kHalvings = 55;  // of 100 m: to less than its rounding
+  constexpr int kHalvings = 55;  // of 100 m: to less than a double's rounding
   for (int i = 0; i < kHalvings; ++i) {
     const double middle_m = 0.5 * (near_m + far_m);
     imaged = vision::Project(camera, X_CR * (foot + middle_m * forward));

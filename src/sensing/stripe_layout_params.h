@@ -1,4 +1,6 @@
-// The layout of the light stripe sensor: what parameters describe, and whether it can work.
+// The layout of the light stripe sensor: what parameters describe, and whether its cameras see what
+// the layout asks of them. Parameters are checked by it; both fidelities of the sensor, what the
+// rover believes of it, and pages about it take their geometry from TrueCalibration.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,31 +22,29 @@ int LaserGroups(const LightStripeParams& params);
 
 // Returns what a perfectly calibrated rover knows of this sensor. The depression of each scanline
 // is rounded to a whole image row, so that the points of a row land within a few millimetres of
-// row_ahead_m. Both fidelities of the sensor see by this geometry, and what the rover believes
-// starts from it: rounding alone makes no elevation wrong.
+// row_ahead_m. The sensor and what the rover believes must start from the same calibration: then
+// rounding makes no elevation wrong.
 messages::StripeCalibration TrueCalibration(const LightStripeParams& params);
 
 // Returns whether "ahead" and "below" make sense for the layout; the other checks rely on it.
 bool IsLaidOut(const LightStripeParams& params);
 
-// These return whether every scanline is a row of the image, and every point on the datum plane in
-// the light and near enough.
+// These return whether every scanline is a row of the image, and whether every point on the datum
+// plane is in the light and near enough.
 bool RowsFitTheImage(const LightStripeParams& params);
 bool PointsFitTheFans(const LightStripeParams& params);
 bool PointsAreInRange(const LightStripeParams& params);
 
-// Returns whether the image lines that are read around each scanline lie in the image too. The
-// imager reads what of them there is; the software that averages them needs all.
+// Returns whether the image lines that are read around each scanline lie in the image, too. The
+// imager leaves missing lines out; the software that averages them needs all.
 bool BandsFitTheImage(const LightStripeParams& params);
 
 // Returns whether no camera lies in (1 cm from) the light plane of a stripe that it measures: there
 // the stripe would not move with elevation.
 bool BaselinesAreLong(const LightStripeParams& params);
 
-// Whether the cameras of the light stripe sensor see what its layout asks of them.
-
 // Returns where an image row of the laser's camera meets the laser's stripe on the datum plane, in
-// R, in front of the emitter; edges of image and fan are not looked at. There is none where that is
+// R, in front of the emitter, whatever the edges of image and fan. Returns none where that place is
 // farther than 100 m or nowhere, as for rows that a radially symmetric lens bends above the
 // horizon.
 std::optional<math::Vector3> StripePoint(const messages::StripeCalibration& calibration,
@@ -55,11 +55,12 @@ std::optional<math::Vector3> StripePoint(const messages::StripeCalibration& cali
 double SightOf(const LightStripeParams& params);
 
 // Returns whether one of the boxes, in R, hides a point on the datum plane from its camera or its
-// emitter. A box that holds the eye hides nothing: what is mounted inside looks out of it, as in
-// rendering::RoverBody.
+// emitter. A box that holds the camera or emitter hides nothing from it, as in
+// rendering::RoverBody: what is mounted inside a box looks out of it.
 bool IsHiddenBy(const LightStripeParams& params, std::span<const Eigen::AlignedBox3d> boxes_R);
 
-// Requires lens, image, fans and baselines for which every point on the datum plane is measured.
+// Refuses parameters with which a point on the datum plane could not be measured, by lens, image,
+// fans or baselines.
 void RequireVisibility(LightStripeParams& params, core::FieldVisitor& v);
 
 }  // namespace rockyard::sensing

@@ -15,7 +15,7 @@ namespace {
 using math::Vector3;
 using messages::ColumnRange;
 
-// The curve of the header, by column.
+// The curve of ScanCurve, by column.
 class Curve {
  public:
   Curve(const messages::StripeCalibration& calibration, std::size_t row, std::size_t stripe)
@@ -25,13 +25,13 @@ class Curve {
 
   ColumnRange columns() const { return camera_.image_columns(); }
 
-  // None where the viewing ray does not meet the light plane in front of the camera.
-  // The point of the curve at a column, in R.
+  // Returns the point of the curve at a column, in R; none where the viewing ray does not meet the
+  // light plane in front of the camera.
   std::optional<Vector3> At(double column) const {
     const Vector3 ray_R = camera_.X_RC.linear() * vision::PixelRay(camera_, {column, row_px_});
     const Vector3 eye_R = camera_.X_RC.translation();
-    // Ray o + s r meets the plane n . (p - e) = 0 at s = n . (e - o) / n . r. None where that is
-    // not in front of the camera; a ray in the plane divides by zero and is not finite.
+    // The ray o + s r meets the plane n . (p - e) = 0 at s = n . (e - o) / n . r. For a ray in the
+    // plane s divides by zero and is not finite.
     const double distance_m =
         laser_.normal_R.dot(laser_.p_RoE_R - eye_R) / laser_.normal_R.dot(ray_R);
     if (!(distance_m > 0.0) || !std::isfinite(distance_m)) return std::nullopt;
@@ -64,7 +64,8 @@ void Divide(const Curve& curve, const CurvePoint& from, const CurvePoint& to,
   }
   const Vector3 along = (to.p_R - from.p_R).normalized();
   const Vector3 aside = *middle_R - from.p_R;
-  // The middle column is not where the chord is farthest from the curve: half the bound is left.
+  // The chord may be farther from the curve elsewhere than at the middle column: half the bound is
+  // kept in reserve.
   const double gap_m = (aside - along.dot(aside) * along).norm();
   if (gap_m <= 0.5 * ScanCurve::kChordError_m) {
     vertices.push_back(to.p_R);
@@ -108,7 +109,8 @@ Stretch LongestStretch(const Curve& curve, double low_z_m, double high_z_m) {
                            });
 }
 
-// The outer edge of a pixel, or its middle where the curve does not reach the edge.
+// Returns the curve at the outer edge of a pixel, or at its middle where the curve does not reach
+// the edge.
 CurvePoint EdgeOf(const Curve& curve, int column, double outwards_px) {
   const auto edge_R = curve.At(column + outwards_px);
   if (edge_R) return {column + outwards_px, *edge_R};
@@ -127,7 +129,8 @@ ScanCurve::ScanCurve(const messages::StripeCalibration& calibration, std::size_t
   if (seen.last <= seen.first) return;
   CurvePoint begin = EdgeOf(curve, seen.first, -0.5);
   CurvePoint end = EdgeOf(curve, seen.last, 0.5);
-  // From the emitter's side, above, downwards: the first surface on the way is the one that is lit.
+  // The chords must lead from the emitter's side, above, downwards: the first surface on the way is
+  // the lit one.
   if (begin.p_R.z() < end.p_R.z()) std::swap(begin, end);
   vertices_R_.push_back(begin.p_R);
   Divide(curve, begin, end, vertices_R_);

@@ -1,4 +1,6 @@
-// The light of a stripe: where a scanline meets its plane, and how bright it is there.
+// The light of a stripe: where a scanline meets its plane, for the geometric sensor, and how bright
+// it is there, for the sensor's images. The lasers are lamps of a rendered image: the cross section
+// of a beam, the fan of one emitter, the stripes of all emitters.
 #pragma once
 
 #include <cmath>
@@ -18,7 +20,8 @@
 
 namespace rockyard::sensing {
 
-// An image row sees a curved surface; with the light plane n . (p - e) = 0 it has the curve
+// The curve in which a scanline meets a light plane. An image row sees a curved surface; with the
+// light plane n . (p - e) = 0 it has the curve
 //   p(c) = o + ray(c) n . (e - o) / n . ray(c)
 // in common, o the camera, ray(c) the viewing ray of column c (vision/lens.h). The curve is
 // followed by chords between points on it, from the image border near the emitter down to the
@@ -50,9 +53,6 @@ class ScanCurve {
   std::vector<math::Vector3> vertices_R_;
   messages::ColumnRange searched_;
 };
-
-// The lasers of the light stripe sensor as lamps of a rendered image: cross section of a beam, the
-// fan of one emitter, the stripes of all.
 
 // How the light of a beam is spread across the light plane. Both profiles carry the power 1.
 // Gaussian: f(a) = exp(-a^2 / 2 s^2) / (s sqrt(2 pi)) with s = w / 4, so that the width w lies
@@ -98,17 +98,18 @@ class BeamCrossSection {
   double sigma_rad_;
 };
 
-// Returns the optical power of one emitter over the angle of its light plane that it lights, W/rad.
+// Returns P / F of LaserFan, W/rad: the optical power of one emitter over the angle of its light
+// plane that it lights.
 double FanPower(const LightStripeParams& params);
 
 // An emitter sends its power P evenly over the angle F of its fan and, across the light plane, in
 // the beam's cross section f: the irradiance of a surface at range r, incidence i and the angle a
-// out of the plane is E = P / (F r^2) f(a) cos(i). A full fan has F = fan_rad; a beam of three
-// scanlines lights three scanlines around each measured point, F = 3 row pitches, where an
-// emitter of its own and of the same power serves each point (Matthies 1995, section 6). Where
-// scanlines are planes (every lens but kEquidistant) and emitters sit on the cameras' lateral axis,
-// as in the default layout, the point of a raised surface lies on the same scanline; elsewhere a
-// thin beam leaves its scanline, and parameters refuse the pair with kEquidistant.
+// out of the plane is E = P / (F r^2) f(a) cos(i). A full fan has F = fan_rad. With three_scanlines
+// each measured point has an emitter of its own, of the same power, that lights three scanlines
+// around the point: F = 3 row pitches (Matthies 1995, section 6). Where scanlines are planes (every
+// lens but kEquidistant) and emitters sit on the cameras' lateral axis, as in the default layout,
+// the point of a raised surface lies on the same scanline. Elsewhere a thin beam leaves its
+// scanline; parameters refuse three_scanlines with kEquidistant.
 class LaserFan {
  public:
   LaserFan(const LightStripeParams& params, const messages::StripeCalibration& calibration,
@@ -124,15 +125,15 @@ class LaserFan {
  private:
   math::Vector3 p_RoE_R_;
   math::Vector3 normal_R_;
-  std::vector<math::Vector3> axes_R_;  // middles of what it lights
+  std::vector<math::Vector3> axes_R_;  // directions to the middles of what it lights
   double half_fan_cosine_ = 1.0;
   double power_w_rad_ = 0.0;
 };
 
-// A fan as one scan of the terrain meets it.
+// The fan of one emitter in the scene of one scan.
 class LitFan {
  public:
-  // The fan must not outlive any of its arguments. `reach_rad` is that of the beam's cross section.
+  // This must not outlive any of its arguments. `reach_rad` is that of the beam's cross section.
   LitFan(const LaserFan& fan, const rendering::ImageScene& scene, double reach_rad);
 
   // Returns the angle, rad, of a point out of the light plane, seen from the emitter; positive on
@@ -161,9 +162,9 @@ class LitFan {
   std::vector<int> rocks_;  // those that reach into the sheet
 };
 
-// The stripes in one scene, integrated over each pixel in closed form. The light of a laser on a
-// pixel on one surface, with the angles a, b of its edges out of the light plane, seen from the
-// emitter, is
+// The stripes in one scene, integrated over each pixel in closed form. For a pixel that shows one
+// surface, let a and b be the angles of its edges out of the light plane, seen from the emitter.
+// The light of a laser on it is
 //   E = P / (F r^2) cos(i) (C(b) - C(a)) / (b - a),
 // C the cumulative cross section of the beam; P / (F r^2) cos(i) (LitFan) is the mean of the
 // two edges. The pixels of a line share the edges, so that the sum over them loses no light.
@@ -173,7 +174,7 @@ class LitFan {
 // line to line).
 class LitStripes final : public rendering::Lamps {
  public:
-  // The fans must not outlive their scene, nor this the beam.
+  // The scene of the fans and the beam must outlive this.
   LitStripes(const BeamCrossSection& beam, std::vector<LitFan> fans)
       : beam_(beam), fans_(std::move(fans)) {}
 
@@ -185,12 +186,12 @@ class LitStripes final : public rendering::Lamps {
   std::vector<LitFan> fans_;
 };
 
-// All lasers of the sensor.
+// All lasers of the sensor, made once.
 class StripeLight {
  public:
   StripeLight(const LightStripeParams& params, const messages::StripeCalibration& calibration);
 
-  // Finds what each laser may light in the scene. The stripes must outlive neither that nor this.
+  // Finds what each laser may light in the scene. Scene and this must outlive the stripes.
   LitStripes Meet(const rendering::ImageScene& scene) const;
 
  private:

@@ -10,7 +10,7 @@ namespace rockyard::sensing {
 namespace {
 
 constexpr double kFarthestShade_m = 50.0;
-// Of a filter: the direction of the sun does not depend on it.
+// Width of a filter: the direction of the sun does not depend on it.
 constexpr double kAnyWidth_m = 1e-9;
 
 }  // namespace

@@ -1,4 +1,6 @@
-// Which points of the terrain the sun does not reach.
+// Which points of the terrain the sun does not reach. The stereo error model drops points in shade,
+// at rates that studies of stereo count by the same shade in images (stereo_ground_truth.h): both
+// must use this class.
 #pragma once
 
 #include "math/pose.h"
@@ -9,15 +11,14 @@
 
 namespace rockyard::sensing {
 
-// Shadows of rocks, of rough ground and of the rover; walls cast none (src/rendering/README.md). By
-// the middle of the sun's disc, and however much of the light comes from the sky. The stereo error
-// model drops points by it, at rates that are counted by it in images (stereo_ground_truth.h).
+// Shadows of rocks, of rough ground and of the rover; walls cast none (src/rendering/README.md).
+// Only the middle of the sun's disc counts, however much of the light comes from the sky.
 class SunShade {
  public:
   SunShade(const rendering::SunParams& sun, const rover::RoverGeometryParams& rover);
 
-  // Returns whether the surface turns away from the sun there, or something within 50 m lies
-  // between, with the rover at X_WR. Cost: a ray.
+  // Returns whether the surface at `hit` turns away from the sun, or terrain within 50 m or the
+  // rover at X_WR lies between. Cost: a ray.
   bool IsShaded(const terrain::Terrain& terrain, const math::Transform& X_WR,
                 const terrain::RayHit& hit) const;
 

@@ -1,5 +1,7 @@
 // Trackers: the overhead cameras that measured the "true" pose in the test arena (Matthies 1995,
-// section 3), and the one on the rover that follows what it is to drive to.
+// section 3), and the tracker on the rover that follows what it is to drive to. Results of drives
+// report errors by the first; the world of a drive measures with the second. The estimator
+// `perfect` takes the true pose from here. Ranges are horizontal.
 #pragma once
 
 #include <cmath>
@@ -15,17 +17,18 @@
 
 namespace rockyard::sensing {
 
-// The paper bounds the systematic error and gives the root mean square of the random one. Model:
-// the systematic error of a trial is constant, uniform in a disc of radius systematic_position and
-// uniform within +-systematic_heading; each sample adds normal noise, its position noise shared
-// equally by x and y. In the arena the systematic error varies with place; over one run it is taken
-// as constant. Where it is on, errors are reported against it; nothing on board sees it.
+// The overhead tracker. The paper bounds its systematic error and gives the root mean square of its
+// random error. Model: the systematic error of a trial is constant, uniform in a disc of radius
+// systematic_position and uniform within +-systematic_heading; each sample adds normal noise, with
+// its position noise shared equally by x and y. In the arena the systematic error varies with
+// place; over one drive it is taken as constant. Where the tracker is enabled, errors are reported
+// against what it measures; nothing on board sees it.
 class Tracker {
  public:
   Tracker(const TrackerParams& params, core::TrialKey key);
 
-  // Returns what the tracker reports for the true pose; noise goes by sample number (stream
-  // kTracker, substream sample + 1; substream 0 holds the systematic error).
+  // Returns what the tracker reports for the true pose. Noise is indexed by the sample number
+  // (stream kTracker, substream sample + 1; substream 0 holds the systematic error).
   math::Pose2 Observe(const math::Pose2& truth, std::int64_t sample) const;
 
  private:
@@ -34,18 +37,18 @@ class Tracker {
   math::Pose2 bias_;
 };
 
-// Tracks a feature that the rover is to drive to: where it lies as seen from the rover, whatever
-// the rover believes of its own pose. A measurement is the true bearing plus N(0, bearing_sd) and
-// the true range times 1 + N(0, range_sd_fraction), never below 0. Whether the feature is seen goes
-// by its true place. Limits: no rock stands in the way, the track is never lost nor taken up at
-// another feature, and tracking takes neither time nor energy.
+// Tracks a feature that the rover is to drive to: where the feature lies as seen from the rover,
+// whatever the rover believes of its own pose. A measurement is the true bearing plus N(0,
+// bearing_sd) and the true range times 1 + N(0, range_sd_fraction), never below 0. The true place
+// decides whether the feature is seen. Limits: no rock stands in the way, the track is never lost
+// nor taken up at another feature, and tracking takes neither time nor energy.
 class FeatureTracker {
  public:
   FeatureTracker(const FeatureTrackerParams& params, core::TrialKey key)
       : params_(params), key_(key) {}
 
-  // Returns the sighting from the true pose of the rover in W of the feature at (x_m, y_m) in W;
-  // nothing beyond the range or the field of view. Noise goes by sample number, from 0 (stream
+  // Returns how the rover at its true pose in W sees the feature at (x_m, y_m) in W; nothing beyond
+  // the range or the field of view. Noise is indexed by the sample number, from 0 (stream
   // kFeatureTracker, substream sample; bearing first, then range).
   std::optional<messages::FeatureSighting> Observe(const math::Pose2& rover, double x_m, double y_m,
                                                    std::int64_t sample) const;
@@ -54,8 +57,6 @@ class FeatureTracker {
   FeatureTrackerParams params_;
   core::TrialKey key_;
 };
-
-// Perfect localization: a sensor without noise, marked in the results of every run that uses it.
 
 // Returns the true pose as an operator's message.
 inline messages::PoseUpdate TruePose(const truth::RoverState& state) {

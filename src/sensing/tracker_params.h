@@ -1,5 +1,6 @@
-// Parameters of the overhead tracking cameras of the test arena, and of the sensor that follows a
-// feature which the rover is to drive to.
+// Parameters of the overhead tracking cameras of the test arena (sensors.tracker), and of the
+// sensor that follows a feature which the rover is to drive to (course.tracking). The sensors of
+// tracker.h read them; the trial keeps the period. Where enabled, defaults decide records.
 #pragma once
 
 #include "core/fields.h"

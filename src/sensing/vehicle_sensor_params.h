@@ -1,6 +1,11 @@
 // Parameters of the sensors by which the Pathfinder rover feels what it stands on and what it
-// touches (Matthies 1995, section 6). All are off by default: Rocky 3.2 lacked them. The paper
-// gives no numbers beyond the accelerometers' power, so every value is assumed.
+// touches (Matthies 1995, section 6; scenario group sensors.vehicle). The sensors of
+// vehicle_sensors.h read them. All are off by default, as Rocky 3.2 lacked them; where one is on,
+// defaults decide records. The paper gives no numbers beyond the accelerometers' power, so every
+// value is assumed.
+//
+// Every sensor but the contact switches has measured = quantized(true + N(0, noise)); every sensor
+// reports latency_ticks late.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +15,6 @@
 
 namespace rockyard::sensing {
 
-// What every one of these sensors has: measured = quantized(true + N(0, noise)), some ticks late.
 struct ArticulationSensorParams {
   bool enabled = false;
   double noise_rad = math::DegToRad(0.2);

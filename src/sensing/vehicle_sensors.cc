@@ -18,8 +18,8 @@ double Quantized(double value, double resolution) {
   return resolution > 0.0 ? resolution * std::round(value / resolution) : value;
 }
 
-// Which strip of the panel's edge holds a point, in R; none where it lies farther in than the strip
-// is wide.
+// Returns which strip of the panel's edge holds a point, in R; none where the point lies farther in
+// than the strip is wide.
 std::optional<ContactSwitch> PanelSwitch(const Vector3& p_R, double half_length_m,
                                          double half_width_m, double edge_width_m) {
   const bool near_end = std::abs(p_R.x()) >= half_length_m - edge_width_m;
@@ -109,7 +109,7 @@ messages::VehicleState VehicleSensors::Measure(const truth::RoverState& state,
 
 void VehicleSensors::Restart(const truth::RoverState& state) {
   BeginTick(state);
-  // Nothing that was measured elsewhere arrives any more.
+  // What was measured before the move must not arrive any more.
   articulation_.Clear();
   force_.Clear();
   currents_.Clear();

@@ -1,17 +1,20 @@
 // The sensors of the Pathfinder rover beside the light stripe (Matthies 1995, section 6): joint
-// angle encoders, accelerometers, motor currents, contact switches.
+// angle encoders, accelerometers, motor currents, contact switches. The world of a drive measures
+// with them once an on-board tick; on board the detectors of felt hazards and of a stuck rover, and
+// the attitude estimate, live on what they tell.
 //
 //   angle     = Q(true + N(0, noise))
 //   force     = Q(X_RW (dv/dt + g z) + N(0, noise))     per axis; dv/dt over one tick
-//   current   = Q(max(0, |torque| / k + I0 + N(0, noise)))   of a motor that is told to turn; of
-//               one at rest, whose gears hold the wheel, the noise alone
+//   current   = Q(max(0, |torque| / k + I0 + N(0, noise)))   of a motor that is told to turn; a
+//               motor at rest, whose gears hold the wheel, gives Q(max(0, N(0, noise)))
 //   switch    = a part of its strip was pressed with min_force at any step of the tick, or falsely
 //
-// Q rounds to the sensor's resolution. Torque is the mean over the tick: motors and wires filter
-// what a physics step shows. Each value is reported latency_ticks late; before that many ticks have
-// passed since the start, or since operators moved the rover, it is the first one. Noise of tick n
-// comes from substream n of the sensor's own stream (kArticulation, kAccelerometer, kMotorCurrent,
-// kContactSwitch), so that a sensor shifts nobody's noise, whether it is on or off.
+// Q rounds to the sensor's resolution, k is torque_per_ampere and I0 no_load. Torque is the mean
+// over the tick: motors and wires filter what a physics step shows. Each value is reported
+// latency_ticks late; before that many ticks have passed since the start, or since operators moved
+// the rover, the first value is reported. Noise of tick n comes from substream n of the sensor's
+// own stream (kArticulation, kAccelerometer, kMotorCurrent, kContactSwitch), so that a sensor
+// shifts no other's noise, whether it is on or off.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +37,7 @@ std::optional<messages::ContactSwitch> SwitchAt(const truth::BodyContact& contac
                                                 const rover::RoverGeometryParams& geometry,
                                                 double edge_width_m);
 
-// Hands each value back `delay` pushes later; until then the first one.
+// Hands each value back `delay` pushes later; until then it hands back the first value.
 template <typename T>
 class DelayLine {
  public:
@@ -55,7 +58,7 @@ class DelayLine {
   std::deque<T> values_;
 };
 
-// All these sensors of one trial.
+// All sensors of this file, of one trial.
 class VehicleSensors {
  public:
   VehicleSensors(const VehicleSensorParams& params, const rover::RoverParams& rover,
@@ -71,12 +74,12 @@ class VehicleSensors {
   messages::VehicleState Measure(const truth::RoverState& state,
                                  const messages::WheelCommand& command, double duration_s);
 
-  // Forgets what was measured before, also what is still on its way: operators moved the rover by
-  // hand.
+  // Is called where operators moved the rover by hand. Forgets what was measured before, also what
+  // is still on its way.
   void Restart(const truth::RoverState& state);
 
  private:
-  // Sums and switches of the next tick begin at this state.
+  // Begins the sums and switches of the next tick at `state`.
   void BeginTick(const truth::RoverState& state);
   messages::Articulation MeasureArticulation(const truth::RoverState& state) const;
   math::Vector3 MeasureForce(const truth::RoverState& state, double duration_s);

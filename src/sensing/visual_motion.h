@@ -1,4 +1,5 @@
-// Visual odometry without images: the true motion with the errors that images have.
+// Visual odometry without images: the true motion with the errors that images have. Drives with
+// sensors.visual_odometry.fidelity error_model measure their motion by it.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +11,18 @@
 
 namespace rockyard::sensing {
 
-// What vision::VisualOdometer makes of two pairs of images, as numbers fitted to rendered ones
-// (VisualErrorModelParams): no motion by chance, or the true motion with normal errors about and
-// along the first moment's axes, and the covariance that they were drawn from. Limits: errors of
-// one step are independent of those of the next, though steps from one keyframe share its errors;
-// what cameras see at the place does not matter.
+// A model of what vision::VisualOdometer makes of two pairs of images, fitted to rendered images
+// (VisualErrorModelParams). It gives no motion by chance, or else the true motion with normal
+// errors along and about the first moment's axes, and the covariance from which they were drawn.
+// Limits: errors of one step are independent of those of the next, though the real steps from one
+// keyframe share its errors; what cameras see at the place does not matter.
 class VisualMotion {
  public:
   VisualMotion(const VisualErrorModelParams& params, core::TrialKey key)
       : params_(params), key_(key) {}
 
-  // `X_FS`: the pose of R at the second moment in R at the first. `number` counts measurements from
-  // 0 and is the substream of kVisualMotion.
+  // Returns the measured motion. `X_FS` is the pose of R at the second moment in R at the first.
+  // `number` counts measurements from 0 and is the substream of kVisualMotion.
   vision::MotionResult Measure(const math::Transform& X_FS, std::int64_t number) const;
 
  private:

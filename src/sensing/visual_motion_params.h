@@ -1,6 +1,7 @@
-// Parameters of visual odometry as a sensor of a trial: when it takes images, and what comes out of
-// them where none are matched. The numbers of the error model are one fit to rendered images
-// (fit_visual_motion.py), to be changed together.
+// Parameters of visual odometry as a sensor of a trial (scenario group sensors.visual_odometry):
+// when it takes images, and what comes out where none are matched. The trial keeps the schedule and
+// the keyframes; VisualMotion (visual_motion.h) takes the errors. The numbers of the error model
+// are one fit to rendered images (fit_visual_motion.py) and must be changed together.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ enum class VisualFidelity {
   kImage,       // images are rendered, and their features matched on board
 };
 
-// When images are taken: whatever comes first since the last ones.
+// When images are taken: at whichever of these comes first since the last images.
 struct VisualScheduleParams {
   double every_m = 0.75;
   double every_rad = math::DegToRad(18.0);
@@ -30,8 +31,8 @@ struct VisualScheduleParams {
 //   sd^2 = still^2 + (per_m d)^2 + (per_rad a)^2
 struct MotionErrorParams {
   double still = 0.0;    // m, or rad
-  double per_m = 0.0;    // of it a metre
-  double per_rad = 0.0;  // of it a radian
+  double per_m = 0.0;    // the same, a metre
+  double per_rad = 0.0;  // the same, a radian
 
   double Variance(double way_m, double angle_rad) const;
 };
@@ -54,7 +55,7 @@ struct VisualFailureParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// In the axes of the first moment's rover frame.
+// The errors of a measured motion, in the axes of the first moment's rover frame.
 struct VisualErrorModelParams {
   double keyframe_m = 0.5;
   double keyframe_rad = math::DegToRad(10.0);
@@ -62,7 +63,7 @@ struct VisualErrorModelParams {
   PlaceErrorParams along{{.still = 1.21e-5, .per_m = 0.00172, .per_rad = 8.83e-5}};
   PlaceErrorParams across{{.still = 2.25e-5, .per_m = 0.00125, .per_rad = 0.000183}};
   PlaceErrorParams up{{.still = 5.22e-5, .per_m = 0.00138, .per_rad = 0.000305}};
-  // About x and y, each; about z.
+  // Errors of the turns about x and y, each, and about z.
   TurnErrorParams tilt{
       {.still = math::DegToRad(0.00291), .per_m = math::DegToRad(0.0282), .per_rad = 0.000384}};
   TurnErrorParams heading{

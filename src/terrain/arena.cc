@@ -51,7 +51,7 @@ Rectangle CountArea(const RockFieldParams& rocks) {
 
 Rectangle LayoutBounds(const TerrainParams& params) {
   if (!params.arena.IsVirtual()) return DrivableBounds(params.arena);
-  // Virtual arenas: only the strip between the mirror lines is laid out, or the count area in it.
+  // In virtual arenas only the strip between the mirror lines is laid out, or the count area in it.
   if (params.rocks.kind == RockFieldKind::kUniformCount) return CountArea(params.rocks);
   return Lane(params.arena, params.arena.MirrorLine());
 }

@@ -1,4 +1,6 @@
-// The areas that an arena consists of, its walls and its mirror images.
+// The areas that an arena consists of, its walls and its mirror images. Fields are laid out by
+// them. Drives end where a rover leaves them; the route planner, drawings and replays are bounded
+// by them.
 #pragma once
 
 #include <vector>
@@ -24,20 +26,22 @@ struct Rectangle {
 
 // Returns the arena itself.
 Rectangle ArenaBounds(const ArenaParams& arena);
-// Returns where rocks exist, mirror images included: a rover that leaves it has left the arena.
+// Returns where rocks exist, mirror images included: a rover that leaves this area has left the
+// arena.
 Rectangle DrivableBounds(const ArenaParams& arena);
-// Returns the count area of uniform_count.
+// Returns the area in which a field of kind uniform_count has exactly `count` rocks.
 Rectangle CountArea(const RockFieldParams& rocks);
-// Returns where the layout is random; mirror images come on top. Its area is params.LayoutArea().
+// Returns where rocks are laid out at random, before mirroring. Its area must be
+// params.LayoutArea().
 Rectangle LayoutBounds(const TerrainParams& params);
 
 // Returns four vertical walls where the arena is walled, otherwise none.
 std::vector<Wall> ArenaWalls(const ArenaParams& arena);
 
-// Returns the images of a rock of the central strip in the virtual arenas, the rock itself not
-// included; none for other arenas. Strip n is centred on y = 2 n h for mirror lines at y = +-h and
-// holds the strip itself, reflected where n is odd: y_n = (-1)^n y + 2 n h. virtual_reflected keeps
-// the images whose centres lie in the arena.
+// Returns the images of a rock of the central strip in the virtual arenas, without the rock itself;
+// none for other arenas. Strip n is centred on y = 2 n h for mirror lines at y = +-h and holds an
+// image of the central strip, reflected where n is odd: y_n = (-1)^n y + 2 n h. virtual_reflected
+// keeps the images whose centres lie in the arena.
 std::vector<Rock> MirrorImages(const ArenaParams& arena, const Rock& rock);
 
 }  // namespace rockyard::terrain

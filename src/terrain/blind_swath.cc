@@ -13,16 +13,17 @@
 namespace rockyard::terrain {
 namespace {
 
-// Mean over all directions of the extent of an ellipse with axes 1 and q, in units of its longer
-// axis: its width at an angle t is sqrt(cos^2 t + q^2 sin^2 t), and by Cauchy the mean width is
-// perimeter / pi.
+// Returns the mean over all directions of the extent of an ellipse with axes 1 and q, in units of
+// its longer axis: its width at an angle t is sqrt(cos^2 t + q^2 sin^2 t), and by Cauchy the mean
+// width is perimeter / pi.
 double MeanExtent(double q) {
   return 2.0 / std::numbers::pi * math::Simpson(0.0, 0.5 * std::numbers::pi, [q](double angle) {
            return std::hypot(std::cos(angle), q * std::sin(angle));
          });
 }
 
-// Its mean over ratios that are uniform between the field's bounds.
+// Returns the mean of MeanExtent over ratios that are uniform between the field's bounds, as
+// DrawRock of rock_layout.cc draws them.
 double MeanExtent(const RockFieldParams& rocks) {
   const double low = rocks.min_width_ratio;
   const double high = rocks.max_width_ratio;
@@ -30,8 +31,9 @@ double MeanExtent(const RockFieldParams& rocks) {
   return math::Simpson(low, high, [](double q) { return MeanExtent(q); }) / (high - low);
 }
 
-// Integral of D^power over the share of the law at or above low_m: (1 - Cdf(low)) times the mean of
-// the law cut there.
+// Returns the integral of D^power over the share of the law at or above low_m: (1 - Cdf(low)) times
+// the mean of the law cut there. Kinds other than moore and uniform_count never come here: they
+// have no RocksPerM2.
 double UpperMoment(const RockFieldParams& rocks, double power, double low_m) {
   RockFieldParams upper = rocks;
   double kept = 1.0;
@@ -53,8 +55,8 @@ double UpperMoment(const RockFieldParams& rocks, double power, double low_m) {
 }  // namespace
 
 // The ellipse is (x, y) = centre + (A cos t + B sin t, C cos t + D sin t) with the semi-axes turned
-// by yaw. Its line y = const is met at two t; its least x, -sqrt(A^2 + B^2), lies at y = -(A C + B
-// D) / sqrt(A^2 + B^2).
+// by yaw. It meets a line y = const at two t. Its least x, -sqrt(A^2 + B^2), lies at the y
+//   -(A C + B D) / sqrt(A^2 + B^2).
 std::optional<double> FirstContact(const Rock& rock, double y_m, double half_width_m) {
   const double cosine = std::cos(rock.yaw_rad);
   const double sine = std::sin(rock.yaw_rad);
@@ -72,7 +74,8 @@ std::optional<double> FirstContact(const Rock& rock, double y_m, double half_wid
   const double low_m = std::max(-half_width_m - centre_y_m, -reach_y_m);
   const double high_m = std::min(half_width_m - centre_y_m, reach_y_m);
   const double at_y_m = std::clamp(-slant, low_m, high_m);
-  // On the line y: x = (y slant reach_x - area sqrt(reach_y^2 - y^2)) / reach_y^2.
+  // The ellipse meets the line y first at
+  //   x = (y slant reach_x - area sqrt(reach_y^2 - y^2)) / reach_y^2.
   const double area = std::abs(a * d - b * c);
   const double rest = std::max(0.0, reach_y_m * reach_y_m - at_y_m * at_y_m);
   const double x_m =

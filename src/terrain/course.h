@@ -1,17 +1,18 @@
-// Start, waypoints and goal of a trial, as far as a terrain needs to know them.
+// Start, waypoints and goal of a trial, as far as a terrain needs to know them: clear zones lie
+// around them, and a goal rock at the goal. The trial makes it of its course.
 #pragma once
 
 #include <vector>
 
 namespace rockyard::terrain {
 
-// A round rock with the profile of the field's rocks; none where the diameter is 0.
+// A round rock with the profile of the field's rocks; a diameter of 0 means no rock.
 struct CourseRock {
   double diameter_m = 0.0;
   double height_m = 0.0;  // above the ground
 };
 
-// In W.
+// A place of the course, in W.
 struct CoursePoint {
   double x_m = 0.0;
   double y_m = 0.0;

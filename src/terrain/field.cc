@@ -31,10 +31,10 @@ void RequireCourseInArena(const ArenaParams& arena, const Course& course) {
                         "it is virtual)");
 }
 
-// Mean of D^power over a law's rocks when those that n clear zones of radius r around start,
-// waypoints and goal remove from an area A count zero: a rock of diameter D is removed from within
-// r + D/2, that is, where zones do not overlap, with the chance n pi (r + D/2)^2 / A, so the mean
-// is
+// Returns the mean of D^power over a law's rocks, where rocks count zero that n clear zones of
+// radius r around start, waypoints and goal remove from an area A. A rock of diameter D is removed
+// from within r + D/2: where zones do not overlap, with the chance n pi (r + D/2)^2 / A. So the
+// mean is
 //   E[D^power] - n pi (r^2 E[D^power] + r E[D^(power+1)] + E[D^(power+2)] / 4) / A.
 double MeanPowerOutsideClearZones(const RockSizeLaw& law, double power, double radius_m,
                                   double zones, double area_m2) {
@@ -95,7 +95,7 @@ Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& 
 
   std::vector<Rock> rocks = layout.rocks;
   for (const Rock& rock : layout.rocks) {
-    // Images follow all rocks of the strip, so that the strip's own come first in every list.
+    // Images must follow all rocks of the strip: lists and fields of growing k rely on it.
     for (const Rock& image : MirrorImages(params.arena, rock)) rocks.push_back(image);
   }
   audit.mirror_images = static_cast<int>(rocks.size() - layout.rocks.size());
@@ -106,7 +106,7 @@ Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& 
 
   Ground ground(params.ground, key);
   for (Rock& rock : rocks) {
-    // Layouts know heights above the ground; mirror images get that of their own place.
+    // Layouts know heights above the ground; a mirror image gets the ground of its own place.
     rock.center_W.z() += ground.Height(rock.center_W.x(), rock.center_W.y());
   }
   return {Terrain(std::move(ground), std::move(rocks), ArenaWalls(params.arena)), audit};
@@ -114,8 +114,8 @@ Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& 
 
 namespace {
 
-// Area of the quarter of a disc of radius r about the origin that lies in [0, a] x [0, b]; odd in a
-// and in b, so that sums over corners give any rectangle.
+// Returns the area of the quarter of a disc of radius r about the origin that lies in [0, a] x [0,
+// b]. It is odd in a and in b, so that sums over corners give any rectangle.
 double QuarterArea(double a, double b, double r) {
   const double sign = (a < 0.0) == (b < 0.0) ? 1.0 : -1.0;
   const double right = std::min(std::abs(a), r);
@@ -135,7 +135,7 @@ Rectangle CorridorOf(const Course& course) {
           course.start_y_m + kCorridorHalfWidth_m};
 }
 
-// What of the area the centre of a rock of that diameter may lie in.
+// Returns the area in which the centre of a rock of that diameter may lie.
 double AllowedArea(const Rectangle& area, const Course& course, double clear_radius_m,
                    double diameter_m) {
   const double reach_m = clear_radius_m + 0.5 * diameter_m;
@@ -148,7 +148,7 @@ bool Within(const Rectangle& inner, const Rectangle& outer) {
          outer.Contains(inner.x_max_m, inner.y_max_m);
 }
 
-// Bounds of Moore's classes: the law's own, and .2, .3 and .5 m between them.
+// Returns the bounds of Moore's classes: those of the law, and .2, .3 and .5 m between them.
 std::vector<double> ClassBounds(const RockFieldParams& rocks) {
   std::vector<double> bounds{rocks.min_diameter_m};
   for (const double bound_m : {0.2, 0.3, 0.5}) {

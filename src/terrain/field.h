@@ -1,4 +1,6 @@
-// One random terrain of a family: rocks, ground and arena, with an audit against the law.
+// One random terrain of a family: rocks, ground and arena, with an audit against the law. Each
+// trial builds its field here. Replays, plots and the command `terrain`, which also counts rocks
+// along the course, build the same field anew.
 #pragma once
 
 #include <span>
@@ -13,12 +15,11 @@
 
 namespace rockyard::terrain {
 
-// Both heights are for audit and drawings: what is a hazard is for the rover to decide.
-
 // Height above the ground from which the light stripe sees a rock on average: 1.5 times its
-// threshold of 5 cm (Matthies 1995 sec. 6).
+// threshold of 5 cm (Matthies 1995 sec. 6). For the audit alone: the rover judges hazards itself.
 inline constexpr double kDetectableHeight_m = 0.075;
-// Height from which a rock touches Rocky 3.2's undercarriage (Matthies 1995 sec. 6).
+// Height from which a rock touches Rocky 3.2's undercarriage (Matthies 1995 sec. 6). For audit and
+// drawings alone.
 inline constexpr double kBellyHeight_m = 0.13;
 
 // What a field holds against what its law promises. Areas and densities are those of the layout
@@ -32,9 +33,9 @@ struct FieldAudit {
   int dropped_in_clear_zones = 0;  // moore only: uniform_count places them elsewhere
   int dropped_for_overlap = 0;
   int relocated = 0;  // placed, but not where first drawn
-  // drawn less both kinds of dropped ones, and its mean if no overlap rule drops any. The mean is
-  // exact where the clear zones, grown by the largest rock's radius, lie within the layout and
-  // apart.
+  // `placed` is `drawn` less both kinds of dropped rocks, expected_placed its mean if no overlap
+  // rule drops any. The mean is exact where the clear zones, grown by the largest rock's radius,
+  // lie within the layout and apart.
   double expected_placed = 0.0;
   int placed = 0;
   int mirror_images = 0;
@@ -55,23 +56,23 @@ struct Field {
   FieldAudit audit;
 };
 
-// Builds the field of one trial. Rock i draws its mark, diameter, position and shape from streams
-// of its own (kRockMark, kRockSize, kRockPlacement, kRockShape; substream i), and the reference
-// count comes from kRockCount; so no choice about one rock shifts another, and fields that differ
-// only in k_per_m2 nest: the smaller field's rocks come first in the larger one's list, with the
-// same position, size and shape (virtual arenas list the rocks of the strip first, then the
-// images). A goal rock is the last of all, by which the referee finds it; the audit leaves it out.
-// See README.md of this folder for the equations and for the bias of each overlap rule. Throws
-// core::UserError where start, waypoints or goal lie outside the arena, std::runtime_error where an
-// exact count finds no place. Cost: about 0.1 ms for the nominal virtual arena.
+// Builds the field of one trial. Records depend on the streams and on the order of rocks. Rock i
+// draws its mark, diameter, position and shape from streams of its own (kRockMark, kRockSize,
+// kRockPlacement, kRockShape; substream i), and the reference count comes from kRockCount; so no
+// choice about one rock shifts another. Fields that differ only in k_per_m2 nest: the rocks of the
+// smaller field come first in the list of the larger one, with the same position, size and shape.
+// Virtual arenas list the rocks of the strip first, then their images. A goal rock must be the last
+// of all, as the referee finds it by that; the audit leaves it out. README.md of this folder has
+// the equations and the bias of each overlap rule. Throws core::UserError where start, waypoints or
+// goal lie outside the arena, std::runtime_error where an exact count finds no place. Cost: about
+// 0.1 ms for the nominal virtual arena.
 Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& course);
 
-// How many rocks lie where the course leads, by size, against what the law says.
-
-// Half the width of the corridor, m: a rover 0.48 m wide and what its scanlines cover beside it.
+// Half the width of the corridor about the straight course, m: a rover 0.48 m wide and what its
+// scanlines cover beside it.
 inline constexpr double kCorridorHalfWidth_m = 0.5;
 
-// Rocks of the corridor with diameters from from_m on and below to_m.
+// Rocks of the corridor with diameters of at least from_m and below to_m.
 struct CorridorClass {
   double from_m = 0.0;
   double to_m = 0.0;
@@ -79,21 +80,21 @@ struct CorridorClass {
   int observed = 0;       // in the fields counted so far
 };
 
-// Returns the area of the rectangle that lies within a distance of radius_m from (x, y), m2. Closed
-// form.
+// Returns the area of the part of the rectangle within a distance of radius_m from (x, y), m2, in
+// closed form.
 double AreaNear(const Rectangle& area, double x_m, double y_m, double radius_m);
 
 // Returns the corridor's classes, with what the text of Matthies 1995 sec. 7 lets expect in each:
-// positions uniform over the layout area, no rock in a clear zone, whatever the overlap and the
-// line rule of the parameters are; a rule that pushes rocks about shows as a difference. With C the
+// positions uniform over the layout area, no rock in a clear zone. Overlap and line rule of the
+// parameters do not count, so that a rule that pushes rocks about shows as a difference. With C the
 // corridor, A the layout area, Z(D) the two clear zones grown by the radius D/2 of a rock:
 //   moore:          integral of n(D) (|C| - |C and Z(D)|) dD, as rocks drawn in the zones are
 //                   dropped, for .1 to .2, .2 to .3, .3 to .5, .5 to 1 m and what exceeds these;
 //   uniform_count:  count times the mean of (|C| - |C and Z(D)|) / (|A| - |A and Z(D)|), as they
 //                   are drawn again, in one class.
-// Good to 1e-5 of itself. Empty where there is no law, where the course does not lead straight
-// along x, where its clear zones meet, or where the corridor leaves the layout area (uniform_count:
-// the count area).
+// The numbers are good to 1e-5 of themselves. Returns nothing where there is no law, where the
+// course does not lead straight along x, where its clear zones meet, or where the corridor leaves
+// the layout area (uniform_count: the count area).
 std::vector<CorridorClass> ExpectedInCorridor(const TerrainParams& params, const Course& course);
 
 // Adds the rocks whose centres lie in the corridor of the course to their classes.

@@ -66,19 +66,20 @@ void WriteGround(const Ground& ground, const Rectangle& area, ObjWriter& obj) {
   }
 }
 
-// A circle around the vertical axis, where the semi-axes are 1.
+// A circle of a rock around its vertical axis, as shares of its semi-axes.
 struct Parallel {
   double radius;
   double height;
 };
 
-// From the south pole, 0, to the north pole, kParallels.
+// Returns a parallel of a sphere: 0 is the south pole, kParallels the north pole.
 Parallel SphereParallel(int number) {
   const double latitude = std::numbers::pi * (static_cast<double>(number) / kParallels - 0.5);
   return {std::cos(latitude), std::sin(latitude)};
 }
 
-// From the base, 1, to the top, kParallels: denser towards the top, where a cap bends.
+// Returns a parallel of a cap: 1 is the base, kParallels the top. They are denser towards the top,
+// where a cap bends.
 Parallel CapParallel(const Rock& rock, int number) {
   const double share = static_cast<double>(kParallels - number) / (kParallels - 1);
   const double height = 1.0 - share * share;
@@ -132,7 +133,7 @@ void DrawCross(double x_m, double y_m, std::string_view name, std::string& svg) 
   svg += "</g>\n";
 }
 
-// Light for low rocks, dark from the height that reaches the undercarriage.
+// Returns the grey of a rock: light for low rocks, dark from kBellyHeight_m on.
 int Grey(const Rock& rock) {
   constexpr double kLight = 205.0;
   constexpr double kDark = 70.0;

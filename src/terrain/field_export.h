@@ -1,4 +1,5 @@
-// A field as text for other tools and for people. Lengths in m, angles in degrees, world frame.
+// A field as text for other tools and for people: the command `terrain` writes it, and plots of
+// trials draw on its plan view. Lengths in m, angles in degrees, world frame.
 #pragma once
 
 #include <string>
@@ -11,11 +12,12 @@
 namespace rockyard::terrain {
 
 // Returns one line per rock: index, mirror image or not, centre, semi-axes, yaw, diameter, height,
-// growth of a cap. Numbers read back to the same bits.
+// growth of a cap. Numbers read back to the same bits. Whatever follows the placed rocks counts as
+// a mirror image, a goal rock too; so it does in ToJson.
 std::string ToCsv(const Field& field);
 
-// Returns rocks, arena, course and audit as one JSON object. The ground is not part of it. Studies
-// of rocks (scripts/studies) read it by its keys.
+// Returns rocks, arena, course and audit as one JSON object, without the ground. Must stay: its
+// keys, by which studies of rocks (scripts/studies) read it.
 std::string ToJson(const Field& field, const TerrainParams& params, const Course& course);
 
 // Returns a Wavefront OBJ file with one group for the ground (a 0.1 m grid where rough, else one
@@ -23,8 +25,8 @@ std::string ToJson(const Field& field, const TerrainParams& params, const Course
 // included.
 std::string ToObj(const Field& field, const TerrainParams& params);
 
-// SVG elements to draw on top of a plan view, in its coordinates (x, minus y), and the area in
-// world coordinates that the view then has to show.
+// SVG elements to draw on top of a plan view, in the coordinates of the view (x, minus y), and the
+// area in W that the view has to show for them.
 struct SvgOverlay {
   std::string elements;
   Rectangle area;
@@ -32,7 +34,7 @@ struct SvgOverlay {
 
 // Returns a plan view, x to the right and y up, 1 unit = 1 m: rocks as octagons of their outlines
 // (like Matthies 1995 fig. 16), darker the higher; start and goal as crosses; arena and mirror
-// lines. The view shows the drivable bounds and what the overlay asks for.
+// lines. The view shows the drivable bounds and the area of the overlay.
 std::string ToSvg(const Field& field, const TerrainParams& params, const Course& course,
                   const SvgOverlay& overlay = {});
 

@@ -14,10 +14,11 @@ namespace {
 // of what is recorded on such ground.
 constexpr double kSmallestStep_m = 1e-3;
 
-// The ray stays above the ground for the t with gap - rate t - bend t^2 / 2 > 0, where the rate
-// changes by no more than `bend` per metre. The positive root is
-//   t = (sqrt(rate^2 + 2 bend gap) - rate) / bend:
-// Newton's step, nearly, where the gap is small.
+// Returns a step within which the ray stays above the ground. Where its rate changes by no more
+// than `bend` per metre, it does so for all t with gap - rate t - bend t^2 / 2 > 0. The positive
+// root is
+//   t = (sqrt(rate^2 + 2 bend gap) - rate) / bend,
+// nearly Newton's step where the gap is small.
 double SafeStep(const Approach& now, double bend_per_m) {
   const double root = std::sqrt(now.rate * now.rate + 2.0 * bend_per_m * now.gap_m);
   // Two forms of the root, each without a difference of nearly equal numbers.

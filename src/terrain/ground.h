@@ -1,5 +1,6 @@
 // The ground between the rocks: a plane with a slope, optional fractal roughness, ditches and pits,
-// and its soil.
+// and its soil. Terrain asks it for all users of its rays; wheels ask it directly where they touch
+// the ground.
 #pragma once
 
 #include <memory>
@@ -16,19 +17,18 @@ class RoughnessField;   // smooth height field, see relief.h
 class RoughnessSpline;  // the same for many rays, see roughness_spline.h
 class DepressionField;  // ditches and pits, see relief.h
 
-// How a ray finds rough ground. Both ways lead to the same point within 1e-9 m; only the first one
-// has the bits that drives are recorded with, the other one takes a thirtieth of its time. Ground
+// How a ray finds rough ground. Both ways lead to the same point within 1e-9 m. kMarch has the bits
+// that drives are recorded with; kSpline, which pictures use, takes a thirtieth of its time. Ground
 // with ditches or pits is always marched over.
 enum class RayWay { kMarch, kSpline };
 
-// The ground is immutable; queries are const and thread-safe; copies share roughness and
-// depressions.
+// An immutable ground. Queries are const and thread-safe; copies share roughness and depressions.
 class Ground {
  public:
   Ground();  // flat, z = 0
   // Makes the plane through the origin that rises by tan(slope) along the slope direction, plus
-  // roughness where its RMS is positive, less the ditches and pits. Draws from
-  // Purpose::kGroundRoughness only then.
+  // roughness where its RMS is positive, less the ditches and pits. Only roughness draws, from
+  // Purpose::kGroundRoughness.
   Ground(const GroundParams& params, core::TrialKey key);
 
   // Returns the height above the world's z = 0 plane, m.
@@ -47,10 +47,10 @@ class Ground {
   const SoilParams& soil() const { return soil_; }
 
   // Returns the distance along the unit ray to the ground, at most max_distance_m; 0 where the
-  // origin lies on or below it. It is a closed form on a plane. On other ground the ray advances by
-  // steps that bounds on the height, the slope and the curvature show to be safe, but never by less
-  // than 1 mm, so that a crest cut over less than 1 mm of ray can be missed; the crossing itself is
-  // bracketed to 1e-12 m.
+  // origin lies on or below the ground. It is a closed form on a plane. On other ground kMarch
+  // advances by steps that bounds on the height, the slope and the curvature show to be safe, but
+  // never by less than 1 mm: a crest cut over less than 1 mm of ray can be missed. The crossing
+  // itself is bracketed to 1e-12 m.
   std::optional<double> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                 double max_distance_m, RayWay way = RayWay::kMarch) const {
     if (way == RayWay::kSpline && spline_) {
@@ -72,7 +72,7 @@ class Ground {
   std::optional<double> SplineRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                   double max_distance_m) const;
   bool DepressionsReach(double x_m, double y_m, double radius_m) const;
-  // What no point of the relief exceeds.
+  // Upper bounds over all points of the relief.
   struct Bounds {
     double height_m = 0.0;
     double slope = 0.0;
@@ -88,7 +88,7 @@ class Ground {
   double slope_x_ = 0.0;  // dz/dx
   double slope_y_ = 0.0;  // dz/dy
   std::shared_ptr<const RoughnessField> roughness_;
-  std::shared_ptr<const RoughnessSpline> spline_;  // where there is roughness only
+  std::shared_ptr<const RoughnessSpline> spline_;  // only with roughness and without depressions
   std::shared_ptr<const DepressionField> depressions_;
 };
 

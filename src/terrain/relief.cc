@@ -41,7 +41,7 @@ ReliefSample DepressionField::SampleOf(const Shape& shape, double x_m, double y_
   if (s <= 0.0) return {-shape.depth_m, 0.0, 0.0};
   const double rest = 1.0 - s;
   const double height_m = -shape.depth_m * (1.0 - s * s * s * (10.0 + s * (6.0 * s - 15.0)));
-  // Rises along the gradient of r: (beyond, across) / r in the frame of the segment.
+  // The height rises along the gradient of r: (beyond, across) / r in the frame of the segment.
   const double rise = shape.depth_m * 30.0 * s * s * rest * rest / shape.flank_m / r_m;
   const double rise_along = rise * beyond_m;
   const double rise_across = rise * across_m;
@@ -68,16 +68,17 @@ ReliefSample DepressionField::Sample(double x_m, double y_m) const {
 
 namespace {
 
-// Finest wavelength, m: roughness shorter than the contact patch of a 13 cm wheel is averaged by
-// it. Another one is other ground in every rough trial.
+// Finest wavelength, m: the contact patch of a 13 cm wheel averages shorter roughness. The ground
+// of every rough trial depends on it.
 constexpr double kFinestWavelength_m = 0.1;
-// Not reached: 100 m, the longest wavelength that parameters allow, has ten.
+// A bound that is not reached: 100 m, the longest wavelength that parameters allow, has ten
+// octaves.
 constexpr int kMaxOctaves = 12;
 // Integral of the squared cubic B-spline over its support.
 constexpr double kSplineMeanSquare = 151.0 / 315.0;
 
 // Weights of the four uniform cubic B-splines over a cell, and their derivatives by t, t in [0, 1)
-// of the cell. With s = 1 - t they are
+// of the cell; CellSplines of roughness_spline.cc must be the same. With s = 1 - t they are
 //   s^3/6,  (4 - 6 t^2 + 3 t^3)/6,  (4 - 6 s^2 + 3 s^3)/6,  t^3/6,   and sum to 1.
 struct SplineWeights {
   std::array<double, 4> value;

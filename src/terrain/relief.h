@@ -1,4 +1,5 @@
-// What a part of the ground that is no plane adds to it, and where a ray crosses it.
+// What the ground has beside its plane, fractal roughness, ditches and pits, and where a ray
+// crosses it. Ground puts them together; roughness_spline.h tells the same roughness for images.
 #pragma once
 
 #include <array>
@@ -26,11 +27,11 @@ struct Approach {
 
 // Returns a zero of `gap` between `above`, where it is positive, and `below`, where it is not, to
 // 1e-12 m: false position with the Illinois rule (Dowell and Jarratt 1971), which halves the value
-// at an end that stays. The march and the spline of images both end here, and so meet one point.
+// at an end that stays. Both ways of RayWay (ground.h) must end here, so that they meet one point.
 template <typename Gap>
 double FindCrossing(const Gap& gap, double above, double gap_above, double below,
                     double gap_below) {
-  // As exact as contacts and pixels will ever need.
+  // Records on rough ground depend on this width in their last bits.
   constexpr double kCrossingWidth_m = 1e-12;
   constexpr int kMaxCrossingSteps = 100;
   int kept_end = 0;  // -1 below, +1 above: the end that the last step left where it was
@@ -54,9 +55,8 @@ double FindCrossing(const Gap& gap, double above, double gap_above, double below
   return above;
 }
 
-// Ditches and pits as a height field.
-
-// At the distance r from its segment a depression of depth D, half width R and flank e is
+// Ditches and pits as a height field. At the distance r from its segment a depression of depth D,
+// half width R and flank e is
 //   D          where r <= R - e: the floor,
 //   D (1 - S)  with s = (r - R + e) / e and S = s^3 (10 - 15 s + 6 s^2) on the flank,
 //   0          where r >= R
@@ -74,8 +74,9 @@ class DepressionField {
   bool Reaches(double x_m, double y_m, double radius_m) const;
 
   // These are the largest magnitudes of the slope and of the second derivative in any direction,
-  // 1/m, of any of the depressions: 15/8 D/e and 10/sqrt(3) D/e^2. Across a ridge between two the
-  // slope falls at once, which a ray from above meets no sooner.
+  // 1/m, of any of the depressions: 15/8 D/e and 10/sqrt(3) D/e^2. The slope also jumps across a
+  // ridge between two depressions, but falls there, so that no ray from above meets the ground
+  // sooner.
   double MaxSlope() const { return max_slope_; }
   double MaxCurvature() const { return max_curvature_per_m_; }
 
@@ -99,17 +100,16 @@ class DepressionField {
   double max_curvature_per_m_ = 0.0;
 };
 
-// Fractal roughness of the ground as a smooth height field.
-
-// The roughness is a sum of octaves. Octave j has wavelength L 2^-j and RMS proportional to 2^(-j
-// H), the scaling of a self-affine surface with Hurst exponent H (height differences over a
-// distance r grow as r^H). Each octave is a bicubic B-spline whose coefficients are independent
-// normals on a square lattice of half its wavelength: twice continuously differentiable, so wheels
-// do not snag. The lattice repeats after 64 nodes, i.e. 32 wavelengths of the octave.
+// Fractal roughness of the ground as a smooth height field: a sum of octaves. Octave j has
+// wavelength L 2^-j and RMS proportional to 2^(-j H), the scaling of a self-affine surface with
+// Hurst exponent H (height differences over a distance r grow as r^H). Each octave is a bicubic
+// B-spline whose coefficients are independent normals on a square lattice of half its wavelength:
+// twice continuously differentiable, so wheels do not snag. The lattice repeats after 64 nodes,
+// i.e. 32 wavelengths of the octave.
 //
-// The RMS is that of the ensemble: the mean square over a single period of a uniform cubic B-spline
-// with unit independent coefficients is 151/315 per axis. One realization over an area of few
-// wavelengths scatters around it.
+// The RMS is that of the ensemble: the mean square of a uniform cubic B-spline with unit
+// independent coefficients is 151/315 per axis. One realization over an area of few wavelengths
+// scatters around it.
 class RoughnessField {
  public:
   // The arguments have rms_m > 0, 0 < hurst <= 1, longest_wavelength_m > 0. Octaves go down to 0.1
@@ -126,8 +126,8 @@ class RoughnessField {
   double MaxSlope() const { return max_slope_; }
   double MaxCurvature() const { return max_curvature_per_m_; }
 
-  // The octaves, the longest one first, for those who put them together in another way: spacing of
-  // the lattice, half of the one before, and the coefficient, m, of the B-spline that is centred on
+  // These give the octaves to RoughnessSpline, the longest one first: the spacing of the lattice,
+  // half of that of the octave before, and the coefficient, m, of the B-spline that is centred on
   // the node at (column, row) * spacing.
   static constexpr int kNodes = 64;
   int octaves() const { return static_cast<int>(octaves_.size()); }

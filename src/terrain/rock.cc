@@ -10,9 +10,10 @@ namespace rockyard::terrain {
 
 namespace {
 
-// For drawings alone.
+// These numbers are for drawings alone.
 constexpr int kPlanCorners = 8;
-// These leave 1 - cos(pi / 16) = 2 % of a rock's width outside of their hull (PointsAbove).
+// Rings of so many points leave 1 - cos(pi / 16) = 2 % of a rock's width outside of their hull
+// (PointsAbove).
 constexpr int kRingPoints = 16;
 constexpr int kRings = 6;
 
@@ -26,7 +27,7 @@ Rock ShapeRock(const RockOutline& outline, double pointedness) {
   rock.height_m = h_m;
   const double a_m = 0.5 * outline.diameter_m;
   rock.semi_axes_m = {a_m, a_m * outline.width_ratio, outline.half_height_m};
-  // What has no height has no profile.
+  // A rock without height has no profile.
   if (pointedness > 0.0 && h_m > 0.0) {
     const double growth = (1.0 - pointedness) * 2.0 * h_m / outline.half_height_m;
     if (growth < 2.0) {
@@ -37,7 +38,7 @@ Rock ShapeRock(const RockOutline& outline, double pointedness) {
       rock.semi_axes_m.z() = 2.0 * h_m / growth;
     }
   }
-  // The top stands at h, an ellipsoid's centre c below it; that of a cap is its height below.
+  // The top stands at h. The centre lies c below it; for a cap that is its height.
   rock.center_W.z() = h_m - rock.semi_axes_m.z();
   return rock;
 }
@@ -117,13 +118,13 @@ double RockShape::DistanceToCap(const Vector3& origin_W, const Vector3& directio
   const bool passes = at_base > 0.0 && std::min(w, slope_at_base) <= 0.0;
   if (rises || passes || discriminant < 0.0) return kNoHit;
   const double root = std::sqrt(discriminant);
-  // The same root in the form in which nothing cancels.
+  // The smaller root is written in the form in which nothing cancels.
   const double t = k <= 0.0 ? outside / (root - k) : -(k + root) / w;
   // Written so that a t that is not a number misses.
   return t > 0.0 && on_cap(s - t * e.z()) ? t : kNoHit;
 }
 
-// The gradient of F / 2.
+// The normal is along the gradient of F / 2.
 Vector3 RockShape::CapNormal(const Vector3& p_W) const {
   const Vector3 q = Map(p_W - center_W_);
   const double slope = 0.5 * growth_ + bend_ * (1.0 - q.z());
@@ -140,9 +141,9 @@ double RockShape::CapTop(double rho2) const {
 
 namespace {
 
-// Extent of the outline across a horizontal direction, m. An ellipse's support along a unit vector
-// at the angle t to its x axis is sqrt((a cos t)^2 + (b sin t)^2); across the push t turns by 90
-// deg.
+// Returns the extent of the outline across a horizontal direction, m. An ellipse's support along a
+// unit vector at the angle t to its x axis is sqrt((a cos t)^2 + (b sin t)^2); across the push t
+// turns by 90 deg.
 double WidthAcross(const Rock& rock, const math::Vector3& push_W) {
   const double along =
       push_W.norm() > 0.0 ? std::atan2(push_W.y(), push_W.x()) - rock.yaw_rad : 0.0;

@@ -1,6 +1,7 @@
 // The one rock geometry that physics, sensors and plots share: an ellipsoid with two horizontal
-// axes turned by yaw and one vertical axis, partly below the ground, or a cap that stands on it
-// (ShapeRock).
+// axes turned by yaw and one vertical axis, partly below the ground, or a cap that stands on the
+// ground (ShapeRock). Beside it: points of rocks for drawings, and what holds a loose rock in the
+// soil, which the multibody rover pushes against.
 #pragma once
 
 #include <cmath>
@@ -16,25 +17,13 @@ struct Rock {
   math::Vector3 center_W = math::Vector3::Zero();     // of the ellipsoid or of a cap's base, m
   math::Vector3 semi_axes_m = math::Vector3::Ones();  // along its own x, y, z; x >= y
   double yaw_rad = 0.0;                               // of the rock's x axis from world x
-  // 0 for the whole ellipsoid. For a cap its growth A below 2: at the share s of its height
-  // semi_axes_m.z() below its top it is as wide as sqrt(A s + (1 - A) s^2) times its base. It lies
-  // within the ellipsoid of that centre and those semi-axes.
+  // 0 for a whole ellipsoid; for a cap the growth A, 0 < A < 2. At the share s of its height
+  // semi_axes_m.z() below its top a cap is as wide as sqrt(A s + (1 - A) s^2) times its base. It
+  // lies within the ellipsoid of that centre and those semi-axes.
   double cap_growth = 0.0;
   double diameter_m = 0.0;  // as drawn from the size law: the largest horizontal axis, 2 a
   double height_m = 0.0;    // of the top above the ground at the centre
 };
-
-// The profile of a rock between its top and the ground, from a dome to nearly a cone.
-//
-// In the rock's own frame let rho^2 = (x/a)^2 + (y/b)^2 and s = (top - z) / h, so that s is 0 at
-// the top and 1 on the ground. All rocks are quadrics
-//   rho^2 = A s + B s^2,   widest part rho = 1.
-// The ellipsoid of vertical semi-axis c has A = 2 h / c and B = -A^2 / 4; with the share beta of
-// its full height 2 c below the ground A = 4 (1 - beta). Below A = 2 its widest part would lie
-// under the ground; there the outline is kept on the ground instead, B = 1 - A: a cap of an
-// ellipsoid down to A = 1, a paraboloid, and of a hyperboloid down to A = 0, a cone. All of them
-// are convex. Both fidelities of the rover and the replay page work this surface out for themselves
-// from the numbers of Rock: another profile has to reach them too.
 
 // What a rock's profile does not change. Lengths in m.
 struct RockOutline {
@@ -44,33 +33,41 @@ struct RockOutline {
   double height_m = 0.0;       // h, of the top above the ground
 };
 
-// Returns the rock at the origin, without yaw, with A = (1 - pointedness) 2 h / c. Pointedness 0 is
-// the ellipsoid, 1 would be the cone. Above 0 no more than half of the outline's full height may be
-// buried.
+// Returns the rock at the origin, without yaw. Its profile between top and ground goes from a dome,
+// the ellipsoid at pointedness 0, to nearly a cone, which would be pointedness 1. Above 0 no more
+// than half of the outline's full height may be buried.
+//
+// In the rock's own frame let rho^2 = (x/a)^2 + (y/b)^2 and s = (top - z) / h, so that s is 0 at
+// the top and 1 on the ground. All rocks are quadrics
+//   rho^2 = A s + B s^2,   widest part rho = 1,   A = (1 - pointedness) 2 h / c.
+// The ellipsoid of vertical semi-axis c has A = 2 h / c and B = -A^2 / 4; with the share beta of
+// its full height 2 c below the ground A = 4 (1 - beta). Below A = 2 the widest part of such an
+// ellipsoid would lie under the ground; there the outline is kept on the ground instead, B = 1 - A:
+// a cap of an ellipsoid down to A = 1, a paraboloid, and of a hyperboloid down to A = 0, a cone.
+// All of them are convex. Both fidelities of the rover and the replay page work this surface out
+// for themselves from the numbers of Rock: another profile must reach them, too.
 Rock ShapeRock(const RockOutline& outline, double pointedness);
 
-// Points of rocks for drawings. World frame, m.
-
-// Returns a point of W from the coordinates of the rock in which its semi-axes are 1.
+// Returns a point, in W, from the coordinates of the rock in which its semi-axes are 1.
 math::Vector3 OnRock(const Rock& rock, const math::Vector3& unit);
 
-// Returns how wide the rock is at a height above its centre, both as shares of its semi-axes: 1 at
-// its widest, 0 at the top, 1.
+// Returns how wide the rock is at a height above its centre, both as shares of its semi-axes: 1
+// where it is widest, 0 at its top, the height 1.
 double ParallelRadius(const Rock& rock, double unit_height);
 
-// Returns an octagon of the size of the rock seen from above, at the height of its widest part.
+// Returns an octagon on the outline of the rock seen from above, in W, at the height of its centre.
 std::vector<math::Vector3> PlanOutline(const Rock& rock);
 
-// Returns points spread over the surface above a ground of that height, with the top and a ring
-// where the rock leaves the ground. All of what is seen of a rock lies within their convex hull,
-// but for 2 % of its width. Empty where the ground covers the rock.
+// Returns points, in W, spread over the surface above a ground of that height, with the top and a
+// ring where the rock leaves the ground. What is seen of a rock lies within their convex hull, but
+// for 2 % of its width. Returns none where the ground covers the rock.
 std::vector<math::Vector3> PointsAbove(const Rock& rock, double ground_m);
 
 // A rock prepared for queries: the linear map that turns its ellipsoid into the unit sphere, or its
-// cap into one of radius and height 1.
-
-// The map is q = diag(1/a, 1/b, 1/c) Rz(-yaw) (p - centre), so that |q| = 1 on the surface of an
-// ellipsoid. That of a cap is q.x^2 + q.y^2 = A s + (1 - A) s^2 with s = 1 - q.z, from 0 to 1.
+// cap into a cap of radius and height 1. The map is q = diag(1/a, 1/b, 1/c) Rz(-yaw) (p - centre).
+// The surface of an ellipsoid is |q| = 1, that of a cap q.x^2 + q.y^2 = A s + (1 - A) s^2 with s =
+// 1
+// - q.z, from 0 to 1.
 class RockShape {
  public:
   static constexpr double kNoHit = std::numeric_limits<double>::infinity();
@@ -90,10 +87,9 @@ class RockShape {
     return {xx_ * v.x() + xy_ * v.y(), yx_ * v.x() + yy_ * v.y(), zz_ * v.z()};
   }
 
-  // Returns the distance along the ray to the surface, which it meets from outside: the smaller
-  // root of |q + t e| = 1 for the origin q and the direction e in unit-sphere coordinates. It is 0
-  // where the origin lies inside, kNoHit where the ray misses. Nothing of a cap lies below its
-  // base.
+  // Returns the distance at which the ray meets the surface from outside: the smaller root of |q +
+  // t e| = 1 for the origin q and the direction e in unit-sphere coordinates. It is 0 where the
+  // origin lies inside, kNoHit where the ray misses. A cap ends at its base, which no ray meets.
   double Distance(const math::Vector3& origin_W, const math::Vector3& direction_W) const {
     if (growth_ > 0.0) return DistanceToCap(origin_W, direction_W);
     const math::Vector3 q = Map(origin_W - center_W_);
@@ -110,8 +106,8 @@ class RockShape {
     return (approach - std::sqrt(discriminant)) / speed;
   }
 
-  // Returns the outward unit normal at a point of the surface: the transposed map of q, the
-  // gradient of |q|^2 / 2.
+  // Returns the outward unit normal at a point of the surface: along the gradient of |q|^2 / 2,
+  // which is the transposed map of q.
   math::Vector3 Normal(const math::Vector3& p_W) const {
     if (growth_ > 0.0) return CapNormal(p_W);
     const math::Vector3 q = Map(p_W - center_W_);
@@ -133,7 +129,8 @@ class RockShape {
  private:
   double DistanceToCap(const math::Vector3& origin_W, const math::Vector3& direction_W) const;
   math::Vector3 CapNormal(const math::Vector3& p_W) const;
-  // Over a point whose distance from the axis is sqrt(rho2) times the outline's.
+  // Returns the top of a cap over a point whose distance from the axis is sqrt(rho2) times the
+  // outline's.
   double CapTop(double rho2) const;
 
   math::Vector3 center_W_;
@@ -141,8 +138,6 @@ class RockShape {
   // A and B of a cap; A is 0 for an ellipsoid.
   double growth_, bend_;
 };
-
-// What holds a rock in the soil against a horizontal push.
 
 // Returns the mass of the whole ellipsoid, kg.
 double RockMass(const Rock& rock, double density_kg_m3);

@@ -23,7 +23,7 @@ using core::RandomStream;
 // Attempts to place one rock before it is given up: moore drops it, an exact count is an error.
 constexpr int kMaxAttempts = 1000;
 // Substream of the first rock outside the count area, so that the rocks inside keep their streams
-// when the count changes. Above every count that parameters allow.
+// when the count changes. Must stay above every count that parameters allow.
 constexpr std::uint32_t kFirstOutsideCount = 1u << 20;
 
 // A rock of the marked reference field; it belongs to every field with k > mark * k_reference.
@@ -44,15 +44,15 @@ std::vector<MarkedRock> DrawMarkedField(const TerrainParams& params, core::Trial
     const double mark = RandomStream(key, Purpose::kRockMark, i).Uniform();
     if (mark < kept_share) kept.push_back({mark, i});
   }
-  // In the order of the marks: the field of a smaller k is then a prefix of that of a larger one,
-  // whatever the overlap rule drops or moves.
+  // The order must be that of the marks: the field of a smaller k is then a prefix of that of a
+  // larger k, whatever the overlap rule drops or moves.
   std::sort(kept.begin(), kept.end(),
             [](const MarkedRock& a, const MarkedRock& b) { return a.mark < b.mark; });
   return kept;
 }
 
-// A rock at the origin with random size, shape and yaw. The order of its draws is part of the field
-// of a seed.
+// Returns a rock at the origin with random size, shape and yaw. Records depend on the order of its
+// draws. Width ratio and yaw must stay uniform: blind_swath.h has its closed form by them.
 Rock DrawRock(const RockFieldParams& params, const RockSizeLaw& law, core::TrialKey key,
               std::uint32_t substream) {
   RandomStream size(key, Purpose::kRockSize, substream);
@@ -74,7 +74,7 @@ Rock DrawRock(const RockFieldParams& params, const RockSizeLaw& law, core::Trial
   return rock;
 }
 
-// The mirror line that rocks keep off, if any.
+// Returns the mirror line that rocks keep off, if any.
 std::optional<double> LineToKeepOff(const TerrainParams& params) {
   if (!params.arena.IsVirtual() || params.rocks.mirror_line == LineRule::kMerge) return {};
   return params.arena.MirrorLine();
@@ -91,8 +91,8 @@ class LayoutBuilder {
 
   // Places rock `substream` at random in `area`, outside `hole` if there is one. Where
   // `drop_in_clear_zones`, a rock that is first drawn into a clear zone is dropped, which leaves
-  // the density elsewhere at the law's; otherwise it is placed elsewhere. False where it was
-  // dropped.
+  // the density elsewhere at the law's; otherwise it is placed elsewhere. Returns false where the
+  // rock was dropped.
   bool Place(std::uint32_t substream, const Rectangle& area, const Rectangle* hole,
              bool drop_in_clear_zones) {
     ++layout_.drawn;
@@ -101,8 +101,8 @@ class LayoutBuilder {
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       const Disc disc = DrawPosition(stream, area, hole, 0.5 * rock.diameter_m);
       if (!placement_.ClearOfCourse(disc)) {
-        // Only where the first draw falls into a clear zone is the rock dropped: a rock that is
-        // moved for overlap was drawn outside, and has to stay in the field.
+        // The rock is dropped only where its first draw falls into a clear zone. A rock that is
+        // moved for overlap was first drawn outside, and must stay in the field.
         if (!drop_in_clear_zones || attempt > 0) continue;
         ++layout_.dropped_in_clear_zones;
         return false;
@@ -125,7 +125,7 @@ class LayoutBuilder {
   RockLayout Take() { return std::move(layout_); }
 
  private:
-  // Uniform in the area less the hole, by rejection.
+  // Returns a place uniform in the area less the hole, by rejection.
   static Disc DrawPosition(RandomStream& stream, const Rectangle& area, const Rectangle* hole,
                            double radius_m) {
     Disc disc{0.0, 0.0, radius_m};
@@ -153,8 +153,8 @@ RockLayout LayOutMoore(const TerrainParams& params, core::TrialKey key, const Co
   return builder.Take();
 }
 
-// Exactly `count` rocks in the count area; the rest of the layout area, if any, is filled at the
-// same density, to the nearest whole rock.
+// Lays out exactly `count` rocks in the count area; the rest of the layout area, if any, is filled
+// at the same density, to the nearest whole rock.
 RockLayout LayOutExactCount(const TerrainParams& params, core::TrialKey key, const Course& course) {
   LayoutBuilder builder(params, key, course);
   const Rectangle inside = CountArea(params.rocks);
@@ -190,7 +190,7 @@ RockLayout LayOutList(const RockFieldParams& params) {
 
 }  // namespace
 
-// Of the full height 2 c the buried share is below the ground: h = 2 c (1 - burial).
+// The buried share of the full height 2 c is below the ground: h = 2 c (1 - burial).
 Rock GivenRock(const RockFieldParams& params, const CoursePoint& place, double diameter_m,
                double height_m) {
   const RockOutline outline{.diameter_m = diameter_m,
@@ -279,7 +279,7 @@ bool Placement::Free(const Disc& disc) const {
   return true;
 }
 
-// In every cell that its bounding box touches.
+// Adds the disc to every cell that its bounding box touches.
 void Placement::Add(const Disc& disc) {
   const Cells cells = CellsOf(disc);
   for (int iy = cells.first_y; iy <= cells.last_y; ++iy) {

@@ -1,4 +1,5 @@
-// The random layout of rocks on the layout area, before mirroring.
+// The random layout of rocks on the layout area, before mirroring: what BuildField makes its field
+// of.
 #pragma once
 
 #include <optional>
@@ -28,11 +29,9 @@ Rock GivenRock(const RockFieldParams& params, const CoursePoint& place, double d
                double height_m);
 
 // Returns the rocks in the order in which they were placed: by mark for moore, by number for
-// uniform_count. A rock's fate depends on earlier ones only, so that a field of smaller k is a
-// prefix of one of larger k under every overlap rule.
+// uniform_count, by place in the list for listed. A rock's fate must depend on earlier rocks only:
+// then a field of smaller k is a prefix of a field of larger k under every overlap rule.
 RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Course& course);
-
-// Where rocks may still go: clear zones, and what is already placed.
 
 // A rock's outline for the purpose of placement: the circle around its longest horizontal axis, so
 // that rocks which do not overlap here do not overlap at any yaw.
@@ -42,13 +41,14 @@ struct Disc {
   double radius_m = 0.0;
 };
 
-// The discs that are placed so far, and where the next one may go.
+// The discs that are placed so far, and where the next disc may go beside them and the clear zones.
 class Placement {
  public:
-  // Where discs keep off a mirror line h, their |y| + radius stays below it, and none overlaps its
-  // own image about y = +-h. Images of other discs need no look under either rule: with distances
-  // d1 and d2 of two centres from a line, both on the same side, the one is dx^2 + (d1 + d2)^2 away
-  // (squared) from the other's image and dx^2 + (d1 - d2)^2 from the other itself, which is less.
+  // Where discs keep off the mirror lines y = +-h, |y| + radius of each stays below h, and none
+  // overlaps its own image. Images of other discs need not be looked at under either rule: with
+  // distances d1 and d2 of two centres from a line, both on the same side, the squared distance of
+  // a disc is dx^2 + (d1 + d2)^2 from the other's image and dx^2 + (d1 - d2)^2 from the other
+  // itself, which is less.
   Placement(const Rectangle& layout, const Course& course, double clear_radius_m,
             std::optional<double> line_to_keep_off_m);
 
@@ -58,8 +58,8 @@ class Placement {
   bool Free(const Disc& disc) const;
   void Add(const Disc& disc);
 
-  // Returns the placed discs by cells: memory goes with their number, the work of Free with the
-  // discs of one.
+  // Returns the placed discs by cells. Memory grows with the number of cells, the work of Free with
+  // the discs of a cell.
   const std::vector<std::vector<Disc>>& cells() const { return cells_; }
 
  private:

@@ -14,7 +14,7 @@ using core::Calibrated;
 using core::Published;
 using core::Setting;
 
-// Most rocks of a list; about 10 MB of JSON.
+// Largest number of rocks in a list: about 10 MB of JSON.
 constexpr std::size_t kMostRocks = 100000;
 
 core::FieldInfo ListOfRocks(std::string_view doc, core::Bounds bounds) {

@@ -1,6 +1,7 @@
-// Parameters of a rock field: how many rocks, how large, where, of which shape. Defaults decide
-// records and baselines, k_reference_per_m2 among them: another one changes no density, but is
-// another field for the same seed. Bounds only refuse files.
+// Parameters of a rock field (scenario group terrain.rocks): how many rocks, how large, where, of
+// which shape. The layout of fields reads them, audits and closed forms of fields, and the rovers
+// that push rocks. Defaults decide records and baselines, k_reference_per_m2 among them: another
+// value changes no density, but makes another field of the same seed. Bounds only refuse files.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 
 namespace rockyard::terrain {
 
-// The values that terrain/rock.h asks for.
+// What holds a movable rock in the soil (HoldingForce in rock.h).
 struct RockHoldingParams {
   double rock_density_kg_m3 = 2700.0;
   double soil_density_kg_m3 = 1600.0;
@@ -22,8 +23,9 @@ struct RockHoldingParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Each list has one entry for every rock. The rocks are round, the same in every trial, and share
-// burial_mean of the field; overlap, clear zones and shape ratios do not touch them.
+// Rocks of a field of kind listed. Each list has one entry for every rock. The rocks are round, the
+// same in every trial, and share burial_mean and pointedness of the field; overlap, clear zones and
+// shape ratios do not apply to them.
 struct ListedRocksParams {
   std::vector<double> x_m;  // centres, in the world frame
   std::vector<double> y_m;
@@ -43,7 +45,7 @@ struct ListedRocksParams {
 inline constexpr double kMooreExponent = 2.66;
 
 // Returns the number per m2 of rocks with diameters of at least diameter_m: Matthies 1995 eq. (4).
-// k is the number per m2 at 1 m (its unit is m^0.66). It is zero for an infinite diameter.
+// k is the number per m2 at 1 m (its unit is m^0.66). The number is zero for an infinite diameter.
 double MooreNumberPerM2(double k_per_m2, double diameter_m);
 
 // Where rocks come from.
@@ -58,13 +60,14 @@ enum class RockFieldKind {
 enum class OverlapRule {
   kAllow,     // rocks may interpenetrate: the counts follow the law, the union covers less
   kReject,    // a rock that overlaps an earlier one is left out: counts fall below the law
-  kRelocate,  // it is placed again: the counts follow the law, the positions repel each other
+  kRelocate,  // such a rock is placed again: counts follow the law, positions repel each other
 };
 
 // What happens to a rock that crosses a mirror line of a virtual arena.
 enum class LineRule {
-  kMerge,    // it is one with its image: centres are as dense at the lines as anywhere
-  kKeepOff,  // as by OverlapRule if it overlapped a rock: the corridor between the lines gets more
+  kMerge,    // the rock is one with its image: centres are as dense at the lines as anywhere
+  kKeepOff,  // it counts as an overlap (OverlapRule): the corridor between the lines gets more
+             // rocks
 };
 
 // Whether the rover can push rocks.
@@ -101,9 +104,10 @@ struct RockFieldParams {
   RockHoldingParams holding{};
 
   // Returns the expected number of rocks per m2 of the layout area, before clear zones and overlap;
-  // 0 for listed ones, which follow no law.
+  // 0 for listed rocks, which follow no law.
   double RocksPerM2() const;
-  // Returns the same for the reference field that is thinned down to k; equal for exact counts.
+  // Returns that number for the reference field, which is thinned down to k; for exact counts it is
+  // RocksPerM2.
   double ReferenceRocksPerM2() const;
 
   void Visit(core::FieldVisitor& v);

@@ -8,8 +8,8 @@
 namespace rockyard::terrain {
 namespace {
 
-// Integral of x^(power - 1) from low to high: (high^power - low^power) / power. At power 0 it is a
-// logarithm; high may be infinite where power < 0.
+// Returns the integral of x^(power - 1) from low to high: (high^power - low^power) / power. At
+// power 0 it is a logarithm; high may be infinite where power < 0.
 double PowerIntegral(double power, double low, double high) {
   if (power == 0.0) return std::log(high / low);
   return (std::pow(high, power) - std::pow(low, power)) / power;

@@ -1,4 +1,5 @@
-// Distributions of rock diameters, with the closed forms that audits compare with.
+// Distributions of rock diameters. Layouts draw by them; audits of fields and the blind swath
+// expect what their closed forms say.
 #pragma once
 
 #include <memory>
@@ -7,8 +8,8 @@
 
 namespace rockyard::terrain {
 
-// The distribution of one rock's diameter. Rocks are drawn by Diameter; audits and closed forms
-// expect what Cdf and MeanPower say: all three describe one law.
+// The distribution of one rock's diameter. Rocks are drawn by Diameter, and expected by Cdf and
+// MeanPower: all three must describe one law.
 class RockSizeLaw {
  public:
   virtual ~RockSizeLaw() = default;

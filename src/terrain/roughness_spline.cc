@@ -9,11 +9,11 @@
 namespace rockyard::terrain {
 namespace {
 
-// Parts of a line shorter than this are not looked into.
+// Parts of a line shorter than this are not divided.
 constexpr double kShortest_m = 1e-3;
 
-// The four uniform cubic B-splines over a cell, and their derivatives, at t in [0, 1): those of
-// relief.cc, as both tell one surface.
+// The four uniform cubic B-splines over a cell, and their derivatives, at t in [0, 1). Must be
+// those of relief.cc (SplineWeights), as both tell one surface.
 struct CellSplines {
   explicit CellSplines(double t) {
     const double s = 1.0 - t;
@@ -25,21 +25,21 @@ struct CellSplines {
   std::array<double, 4> slope{};
 };
 
-// U along one axis at fine node i, from coarse nodes `stride` apart, coarse[0] that of i / 2
-// rounded down.
+// Returns U along one axis at fine node i, from coarse nodes `stride` apart; coarse[0] is the node
+// i / 2, rounded down.
 double Refine(const double* coarse, std::ptrdiff_t stride, int i) {
   return (i & 1) == 0 ? 0.125 * (coarse[-stride] + 6.0 * coarse[0] + coarse[stride])
                       : 0.5 * (coarse[0] + coarse[stride]);
 }
 
-// The control points of a cubic over a cell from the nodes of its B-spline, Bezier's form.
+// Returns the control points (Bezier) of a cubic over a cell from the nodes of its B-spline.
 std::array<double, 4> ControlPoints(double a, double b, double c, double d) {
   return {(a + 4.0 * b + c) / 6.0, (4.0 * b + 2.0 * c) / 6.0, (2.0 * b + 4.0 * c) / 6.0,
           (b + 4.0 * c + d) / 6.0};
 }
 
-// The borders between cells that a line crosses along one axis. Each is worked out anew, so that it
-// has the same bits however the line comes to it.
+// The borders between cells that a line crosses along one axis. Each border must be worked out
+// anew, so that it has the same bits however the line comes to it.
 struct Borders {
   double position;    // in cells, where t = 0
   double t_per_cell;  // infinite for a line along the borders
@@ -57,7 +57,8 @@ struct Borders {
     cell += t_per_cell > 0.0 ? 1 : -1;
     next = BlockEnd(1);
   }
-  // Where the line leaves the block of `size` cells, a power of two, that holds the cell.
+  // Returns the t at which the line leaves the block of `size` cells, a power of two, that holds
+  // the cell.
   double BlockEnd(std::int64_t size) const {
     if (std::isinf(t_per_cell)) return std::numeric_limits<double>::infinity();
     const std::int64_t first = cell & ~(size - 1);
@@ -71,8 +72,8 @@ struct Part {
   Approach at_from, at_to;
 };
 
-// The first t within a part, above the ground at its beginning, at which the gap is gone. Its rate
-// changes by no more than bend_per_m.
+// Returns the first t at which the gap is gone within a part that begins above the ground. The rate
+// of the gap changes by no more than bend_per_m.
 template <typename At>
 std::optional<double> FirstCrossing(const At& at, const Part& part, double bend_per_m) {
   const double length = part.to - part.from;
@@ -84,8 +85,8 @@ std::optional<double> FirstCrossing(const At& at, const Part& part, double bend_
                           part.to, part.at_to.gap_m);
     }
   } else {
-    // A curve of that bend sags below its chord by no more than bend length^2 / 8; one that opens
-    // or closes all the way is lowest at an end.
+    // A curve of that bend sags below its chord by no more than bend length^2 / 8. A gap that opens
+    // all the way or closes all the way is smallest at an end.
     const double sag = 0.125 * change * length;
     if (is_short || std::min(part.at_from.gap_m, part.at_to.gap_m) > sag ||
         part.at_from.rate <= -change || part.at_to.rate >= change) {
@@ -144,8 +145,8 @@ RoughnessSpline::Nodes RoughnessSpline::NodesOf(int octave, std::int64_t page_co
   return nodes;
 }
 
-// A polynomial lies within the hull of its control points, and so do its derivatives, whose control
-// points are differences of those: 6 times the second ones along an axis, 9 times the mixed ones.
+// A polynomial lies within the hull of its control points, and so do its derivatives. Their control
+// points are 6 times the second differences along an axis, 9 times the mixed differences.
 RoughnessSpline::Bounds RoughnessSpline::BoundsOf(const Nodes& nodes_m, int column, int row) const {
   std::array<std::array<double, 4>, 4> along{};  // by row of nodes
   for (int i = 0; i < 4; ++i) {
@@ -279,7 +280,8 @@ std::optional<double> RoughnessSpline::FirstBelow(const SightLine& line,
       if (at_from.gap_m <= 0.0) return from;
       // The second derivative along the ray counts the horizontal part twice.
       const double bend_per_m = bounds.curvature_per_m * along2;
-      // A ray that leaves the ground, as towards the sun, is not looked at twice.
+      // The gap of a ray that leaves the ground, as towards the sun, opens all the way: no
+      // crossing.
       if (at_from.rate > -bend_per_m * (to - from)) {
         if (const auto t = FirstCrossing(at, Part{from, to, at_from, at(to)}, bend_per_m)) return t;
       }

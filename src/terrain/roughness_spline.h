@@ -1,4 +1,4 @@
-// The roughness of the ground for images: many rays.
+// The roughness of the ground for the many rays of pictures (RayWay::kSpline in ground.h).
 #pragma once
 
 #include <array>
@@ -20,11 +20,11 @@ struct SightLine {
   double height_m, descent;
 };
 
-// The same surface as a RoughnessField, to rounding. A B-spline is one on a lattice twice as fine,
-// too, with the nodes U c, U = [1 4 6 4 1]/8 along each axis; so all octaves together are one
-// spline on the lattice of the finest, C_j = U C_(j-1) + c_j. Nodes are worked out in pages where a
-// ray first comes, and kept: 110 kB and about 0.5 ms for 64 x 64 cells. Pure queries, from any
-// thread.
+// The surface of a RoughnessField, to rounding. A B-spline with the nodes c is also a B-spline on a
+// lattice twice as fine, with the nodes U c, U = [1 4 6 4 1]/8 along each axis. So all octaves
+// together are one spline on the lattice of the finest, C_j = U C_(j-1) + c_j. Nodes are worked out
+// in pages where a ray first comes, and kept: 110 kB and about 0.5 ms for 64 x 64 cells. Queries
+// are pure and may come from any thread.
 class RoughnessSpline {
  public:
   explicit RoughnessSpline(std::shared_ptr<const RoughnessField> field);
@@ -35,10 +35,10 @@ class RoughnessSpline {
   ReliefSample Sample(double x_m, double y_m) const;
 
   // Returns the first t, at most max_distance_m, at which the line is not above the surface. The
-  // line visits the cells of the lattice one by one, and passes over blocks of 8 x 8 that do not
-  // reach it. In each cell it is compared with the highest that this reaches; what is left is
-  // halved until bounds on the curvature tell, or until it is shorter than 1 mm, so that a crest
-  // cut over less than that can be missed.
+  // line visits the cells of the lattice one by one, and skips blocks of 8 x 8 cells that lie below
+  // it. In each cell it is compared with the upper bound of the height. A part of the line that is
+  // not above the bound is halved until bounds on the curvature tell, or until it is shorter than 1
+  // mm: a crest cut over less than that can be missed.
   std::optional<double> FirstBelow(const SightLine& line, double max_distance_m) const;
 
  private:
@@ -46,7 +46,7 @@ class RoughnessSpline {
   static constexpr int kNodes = kPage + 3;  // splines centred on the nodes -1 to 65 reach into it
   using Nodes = std::vector<double>;        // kNodes x kNodes, row by row
 
-  // What no point of a cell exceeds.
+  // Upper bounds over all points of a cell.
   struct Bounds {
     double height_m;
     double curvature_per_m;

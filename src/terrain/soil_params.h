@@ -1,6 +1,6 @@
 // What the soil between the rocks does to a wheel: the quantities of Bekker, Wong, and Janosi and
 // Hanamoto. rover/wheel_rut_params.h and wheel_soil.h have the equations. Both fidelities of the
-// rover drive on them, so that every drive's record hangs on the values of its preset.
+// rover drive on them: the record of every drive depends on the values of its preset.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace rockyard::terrain {
 
 enum class SoilPreset { kLandscapingSand, kMarsDrift, kHardGround };
 
-// How wheels that slip dig in; rover/wheel_rut_params.h has the law.
+// How slipping wheels dig in; rover/wheel_rut_params.h has the law.
 struct SlipSinkageParams {
   bool enabled = false;
   double exponent_per_slip = 0.5;
@@ -22,7 +22,7 @@ struct SlipSinkageParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// The defaults are those of landscaping_sand.
+// The defaults are landscaping_sand: MakeSoil returns them for that preset.
 struct SoilParams {
   SoilPreset preset = SoilPreset::kLandscapingSand;
   double sinkage_exponent = 0.79;
@@ -33,8 +33,8 @@ struct SoilParams {
   double shear_modulus_m = 0.004;
   SlipSinkageParams slip_sinkage{};
 
-  // Visits the preset first: choosing another one replaces the defaults of the values that follow
-  // it, which the same file may then state; slip_sinkage stays.
+  // Visits the preset first: another preset replaces the defaults of the values that follow, which
+  // the same file may then state; slip_sinkage stays.
   void Visit(core::FieldVisitor& v);
 };
 

@@ -15,7 +15,7 @@ constexpr double kSmallestGridCell_m = 0.25;
 // Bounds the grid's memory for wide, sparse fields: the cells grow instead.
 constexpr double kMaxGridCells = 250000.0;
 
-// Radius of the circle around the outline seen from above.
+// Returns the radius of the circle around the outline seen from above.
 double FootprintRadius(const Rock& rock) {
   return std::max(rock.semi_axes_m.x(), rock.semi_axes_m.y());
 }
@@ -41,7 +41,7 @@ struct AxisWalk {
   }
 };
 
-// Shrinks [enter, leave] to where a ray is within [0, extent]; false where nothing is left.
+// Shrinks [enter, leave] to where a ray is within [0, extent]. Returns false where nothing is left.
 bool ClipToSlab(double position, double direction, double extent, double& enter, double& leave) {
   if (direction == 0.0) return position >= 0.0 && position <= extent;
   // Ray parameters at both planes of the slab.
@@ -58,7 +58,7 @@ struct Segment {
   math::Vector3 direction_W;
   double length_m;
 
-  // Whatever touches either end within the margin does not count as between them.
+  // Returns nothing where the margins leave no segment.
   static std::optional<Segment> Between(const math::Vector3& from_W, const math::Vector3& to_W,
                                         double margin_m) {
     const double distance_m = (to_W - from_W).norm();
@@ -168,7 +168,7 @@ void Terrain::RocksNear(double x_m, double y_m, double radius_m, std::vector<int
   out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
-// Walls first, then the ground no farther than the nearest wall.
+// Walls come first, then the ground no farther than the nearest wall.
 Terrain::Nearest Terrain::MeetBackground(const math::Vector3& origin_W,
                                          const math::Vector3& direction_W, double max_distance_m,
                                          RayWay way) const {
@@ -192,7 +192,7 @@ void Terrain::MeetRocks(std::span<const int> rocks, const math::Vector3& origin_
                         const math::Vector3& direction_W, Nearest& nearest) const {
   for (const int rock : rocks) {
     const double distance = shapes_[static_cast<std::size_t>(rock)].Distance(origin_W, direction_W);
-    // Of equally near rocks the first stays, and ground or wall before any rock.
+    // Of equally near rocks the first must stay, and ground or wall before any rock.
     if (distance < nearest.distance_m) nearest = {distance, Surface::kRock, rock};
   }
 }
@@ -212,8 +212,8 @@ void Terrain::MeetRocksOnGrid(const math::Vector3& origin_W, const math::Vector3
   AxisWalk y(py + enter * direction_W.y(), direction_W.y(), cell_m_, grid_ny_);
   while (x.cell >= 0 && x.cell < grid_nx_ && y.cell >= 0 && y.cell < grid_ny_) {
     MeetRocks(RocksOfCell(x.cell, y.cell), origin_W, direction_W, nearest);
-    // On to the neighbouring cell whose border comes first; no farther than the nearest surface so
-    // far.
+    // The walk goes on to the neighbouring cell whose border comes first, no farther than to the
+    // nearest surface so far.
     AxisWalk& axis = x.next < y.next ? x : y;
     if (enter + axis.next > std::min(nearest.distance_m, leave)) return;
     axis.Advance();

@@ -1,9 +1,9 @@
 // A queryable piece of Mars (or of a test arena): ground, rocks, walls. One per trial. Every query
 // is const and thread-safe; only MoveRock changes anything.
 //
-// Physics, sensors, pictures and the experimenter's counts ask this one geometry, so that the rover
-// meets what it sees. Who works out a query in another way, as the stereo sensor does, is held to
-// CastRay by a test. A rock's index names it all through a trial, in contacts too.
+// Physics, sensors, pictures and the experimenter's counts must ask this one geometry, so that the
+// rover meets what it sees. Code that works out a query in another way, as the stereo sensor does,
+// is held to CastRay by a test. A rock's index names it all through a trial, in contacts, too.
 #pragma once
 
 #include <algorithm>
@@ -28,14 +28,14 @@ struct RayHit {
   int rock = -1;  // index in rocks() where surface == kRock
 };
 
-// A vertical plane that bounds the arena: points with normal . p < offset are inside. It is met
-// from inside only and has no upper edge.
+// A vertical plane that bounds the arena: points with normal . p < offset are inside. Rays meet it
+// from inside only, at any height.
 struct Wall {
   math::Vector3 normal_W = math::Vector3::UnitY();  // horizontal, pointing out of the arena
   double offset_m = 0.0;
 };
 
-// Positions, directions and normals are in W, m.
+// The ground, rocks and walls of one trial. Positions, directions and normals are in W, m.
 class Terrain {
  public:
   Terrain(Ground ground, std::vector<Rock> rocks, std::vector<Wall> walls);
@@ -44,9 +44,9 @@ class Terrain {
   std::span<const Rock> rocks() const { return rocks_; }
   std::span<const Wall> walls() const { return walls_; }
 
-  // Slides a rock by (dx, dy); it keeps its height above the ground under its centre. Nothing stops
-  // it: rocks may come to overlap one another or a wall, and mirror images stay. Every query sees
-  // it at its new place; indices stay. Cost: that of building the grid, once for each call.
+  // Slides a rock by (dx, dy); its centre keeps its height above the ground. Nothing stops the
+  // rock: rocks may come to overlap one another or a wall, and mirror images stay. Every query sees
+  // the rock at its new place; indices stay. Cost: that of building the grid, once for each call.
   void MoveRock(int index, double dx_m, double dy_m);
 
   // Returns the height of the highest surface (ground or rock top) above (x, y), m.
@@ -58,9 +58,9 @@ class Terrain {
     return height;
   }
 
-  // Lists the rocks that may reach into the disc around (x, y): indices of a superset, ascending,
-  // no duplicates, from a uniform grid. `out` is cleared first. Physics relies on the order: it
-  // finds the contacts of the step before again by it.
+  // Lists the rocks that may reach into the disc around (x, y): indices of a superset, from a
+  // uniform grid, without duplicates. `out` is cleared first. The order must stay ascending:
+  // physics finds the contacts of the step before again by it.
   void RocksNear(double x_m, double y_m, double radius_m, std::vector<int>& out) const;
 
   // Returns the first surface that the ray from origin_W along the unit vector direction_W meets
@@ -70,25 +70,24 @@ class Terrain {
                                 double max_distance_m) const;
 
   // Does the same against the given rocks only: gather them once with RocksNear for many short
-  // rays. `way` is that over rough ground (ground.h).
+  // rays. `way` says how the ray finds rough ground (ground.h).
   std::optional<RayHit> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                 double max_distance_m, std::span<const int> rocks,
                                 RayWay way = RayWay::kMarch) const;
 
-  // Returns the distance at which that ray meets its first surface, without the point and the
-  // normal: half the cost of CastRay.
+  // Returns the distance_m of CastRay with the same arguments, at half its cost.
   std::optional<double> RayDistance(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                     double max_distance_m, std::span<const int> rocks) const;
 
-  // Returns whether anything lies strictly between the two points (both ends shortened by
-  // margin_m).
+  // Returns whether ground, a rock or a wall lies between the two points: on the segment that is
+  // left when both ends are shortened by margin_m.
   bool Occluded(const math::Vector3& from_W, const math::Vector3& to_W, double margin_m) const;
   // Does the same against the given rocks only.
   bool Occluded(const math::Vector3& from_W, const math::Vector3& to_W, double margin_m,
                 std::span<const int> rocks) const;
 
  private:
-  // The surface that a ray meets first, as far as it is known.
+  // The nearest surface that a ray has been found to meet so far.
   struct Nearest {
     double distance_m = 0.0;
     std::optional<Surface> surface;
@@ -117,7 +116,7 @@ class Terrain {
   // Returns the nearest wall or ground within max_distance_m.
   Nearest MeetBackground(const math::Vector3& origin_W, const math::Vector3& direction_W,
                          double max_distance_m, RayWay way = RayWay::kMarch) const;
-  // These improve `nearest`: with the given rocks, or with those of the cells along the ray.
+  // Replace `nearest` by a nearer rock: one of the given rocks, or of the cells along the ray.
   void MeetRocks(std::span<const int> rocks, const math::Vector3& origin_W,
                  const math::Vector3& direction_W, Nearest& nearest) const;
   void MeetRocksOnGrid(const math::Vector3& origin_W, const math::Vector3& direction_W,

@@ -16,8 +16,8 @@ namespace {
 using core::Assumed;
 using core::Published;
 
-// Bounds on the work of one field, which messages below name: rocks kept, and rocks drawn before
-// thinning.
+// Bounds on the work of one field: rocks kept, and rocks drawn before thinning. Messages below name
+// the numbers.
 constexpr double kMaxRocks = 50000.0;
 constexpr double kMaxReferenceRocks = 1e6;
 
@@ -64,7 +64,7 @@ void RequireRocksBesideDepressions(const TerrainParams& p, core::FieldVisitor& v
   }
 }
 
-// Whether lists that belong together are as long as each other; where not, their groups say so.
+// Returns whether lists that belong together have one length. Where not, their groups refuse them.
 bool HasSoundLists(const TerrainParams& p) {
   return p.ground.ditches.IsSound() && p.ground.pits.IsSound() && p.rocks.listed.IsSound();
 }
@@ -173,7 +173,7 @@ void VisitProfile(std::string_view width_name, std::vector<double>& width_m,
                   {0.01, 50.0}));
 }
 
-// One list against x_m.
+// Requires a list to be as long as x_m.
 void RequireLength(std::string_view name, std::size_t size, std::size_t wanted,
                    core::FieldVisitor& v) {
   v.Require(name, size == wanted,
@@ -181,7 +181,7 @@ void RequireLength(std::string_view name, std::size_t size, std::size_t wanted,
             "give every list one entry for each place");
 }
 
-// Flanks that meet before they reach the floor.
+// Refuses flanks that meet before they reach the floor.
 void RequireFlanks(const std::vector<double>& width_m, const std::vector<double>& flank_m,
                    core::FieldVisitor& v) {
   if (flank_m.empty()) return;
@@ -203,7 +203,7 @@ double Depression::Distance_m(double at_x_m, double at_y_m) const {
   const double dy_m = at_y_m - y_m;
   const double c = std::cos(direction_rad);
   const double s = std::sin(direction_rad);
-  // Beyond an end only what is beyond counts along the segment.
+  // Along the segment only the distance beyond its end counts.
   const double beyond_m = std::max(std::abs(c * dx_m + s * dy_m) - half_length_m, 0.0);
   return std::hypot(beyond_m, c * dy_m - s * dx_m);
 }

@@ -1,6 +1,7 @@
-// Parameters of a terrain: all of them together, and its ditches and pits one by one. Defaults are
-// the terrain of every scenario that leaves them out, and decide its records and baselines; bounds
-// only refuse files.
+// Parameters of a terrain (scenario group terrain): ground with ditches and pits, rocks, and arena.
+// Fields are built by them; the trial, its referee and drawings ask for the arena. A scenario that
+// leaves them out has the defaults, which decide its records and baselines; bounds only refuse
+// files.
 #pragma once
 
 #include <array>
@@ -30,6 +31,7 @@ struct Depression {
 };
 
 // Straight trenches with round ends. Each list has one entry for every ditch; flank_m may be empty.
+// length_m includes the round ends; 0 stands for a ditch without an end.
 struct DitchesParams {
   std::vector<double> x_m;  // middles
   std::vector<double> y_m;
@@ -57,11 +59,8 @@ struct PitsParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Returns the ditches, then the pits, in the order of their lists, which must be
-// sound.
+// Returns the ditches, then the pits, in the order of their lists. Both must be sound.
 std::vector<Depression> ListDepressions(const DitchesParams& ditches, const PitsParams& pits);
-
-// Parameters of a terrain: ground, rocks and arena.
 
 enum class ArenaKind {
   kOpen,             // the rock field goes on beyond the arena
@@ -83,10 +82,10 @@ struct ArenaParams {
   bool IsVirtual() const {
     return kind == ArenaKind::kVirtualUnfolded || kind == ArenaKind::kVirtualReflected;
   }
-  // The mirror lines of the virtual arenas are y = +-this.
+  // Returns h: the mirror lines of the virtual arenas are y = +-h.
   double MirrorLine() const { return 0.5 * width_m - mirror_margin_m; }
-  // Returns whether a course may start or end there: in the arena and, where virtual, between the
-  // mirror lines.
+  // Returns whether a point of a course may lie there: in the arena and, where it is virtual,
+  // between the mirror lines.
   bool HoldsCoursePoint(double x_m, double y_m) const {
     const double half_width_m = IsVirtual() ? MirrorLine() : 0.5 * width_m;
     return x_m >= x_min_m && x_m <= x_min_m + length_m && y_m >= -half_width_m &&
@@ -130,14 +129,14 @@ struct GroundParams {
   }
 };
 
-// The whole of a scenario's `terrain` section.
+// The `terrain` group of a scenario.
 struct TerrainParams {
   GroundParams ground{};
   RockFieldParams rocks{};
   ArenaParams arena{};
 
-  // Returns the area over which the rocks are laid out at random, before mirroring, m2: that of
-  // LayoutBounds (arena.h). Expected counts and what is drawn are held together by it.
+  // Returns the area over which the rocks are laid out at random, before mirroring, m2. Must be
+  // that of LayoutBounds (arena.h): expected counts and drawn fields agree by it.
   double LayoutArea() const;
   // Returns the expected number of rocks with all mirror images.
   double ExpectedRocks() const;

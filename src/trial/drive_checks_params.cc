@@ -49,7 +49,7 @@ void RequireFreeEnds(const DriveParams& drive, core::FieldVisitor& v) {
   }
 }
 
-// A goal beyond a mirror line is never reached: the rover is turned back there.
+// Refuses goals that may be told beyond a mirror line: the rover is turned back there.
 void RequireDesignatedGoals(const DriveParams& drive, core::FieldVisitor& v) {
   const CourseParams& course = drive.course;
   const terrain::ArenaParams& arena = drive.terrain.arena;
@@ -83,7 +83,8 @@ void RequireOwnSize(const DriveParams& drive, core::FieldVisitor& v) {
             "is more than a factor of two from rover.geometry.width_m", believed->suggestion);
 }
 
-// Where the soil does not hold it, a rover that waits slides off, ever faster.
+// Refuses a slope on which the soil does not hold the rover: it slides off while it waits, ever
+// faster.
 void RequireHold(const DriveParams& drive, core::FieldVisitor& v) {
   const terrain::GroundParams& ground = drive.terrain.ground;
   const double held_rad = rover::SteepestHeldSlope_rad(drive.rover, ground.soil);
@@ -97,7 +98,8 @@ void RequireHold(const DriveParams& drive, core::FieldVisitor& v) {
       fmt::format("use at most {:.1f} deg, or a soil of more friction or cohesion", held_deg));
 }
 
-// A rover that is set down on an edge falls before it is told to drive.
+// Refuses ditches and pits under the start: a rover that is put down on an edge falls before it is
+// told to drive.
 void RequireLevelStart(const DriveParams& drive, core::FieldVisitor& v) {
   const terrain::GroundParams& ground = drive.terrain.ground;
   if (!ground.ditches.IsSound() || !ground.pits.IsSound()) return;
@@ -120,7 +122,8 @@ void RequireLevelStart(const DriveParams& drive, core::FieldVisitor& v) {
             "move it, or course.start_x_m and course.start_y_m");
 }
 
-// An oracle's route is planned once, from the start to the goal.
+// Refuses waypoints and tracking with a route to follow, which is planned once, from the start to
+// the goal.
 void RequireOnePlan(const DriveParams& drive, core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
   const bool follows = navigator.traits().follows_route;
@@ -137,8 +140,8 @@ void RequireOnePlan(const DriveParams& drive, core::FieldVisitor& v) {
             "use navigator pathfinder or gestalt, or no tracking");
 }
 
-// A route is for somebody who follows it, and one of these only; the lander's cameras stand where
-// designation says.
+// Requires that a route has somebody who follows it, or drives along its corners, not both, and
+// that the map of a lander has a lander, which stands where designation says.
 void RequireSoundRouteMap(const DriveParams& drive, core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
   const bool follows = navigator.traits().follows_route;
@@ -168,7 +171,7 @@ void RequireSoundRouteMap(const DriveParams& drive, core::FieldVisitor& v) {
             "use course.designation.enabled true, or oracle");
 }
 
-// A target that moves on crosses a mirror line, where no rover arrives.
+// Refuses a target that moves across a mirror line, where no rover arrives.
 void RequireTargetBetweenLines(const DriveParams& drive, core::FieldVisitor& v) {
   v.Require("course.target_speed_m_s",
             drive.course.target_speed_m_s == 0.0 ||
@@ -177,7 +180,7 @@ void RequireTargetBetweenLines(const DriveParams& drive, core::FieldVisitor& v) 
             "use a target that stands, or another kind of arena");
 }
 
-// What a rock at the goal needs of field, sensors and navigator.
+// Requires what a rock at the goal needs of field, sensors and navigator.
 void RequireFindableRock(const DriveParams& drive, core::FieldVisitor& v) {
   const GoalRockParams& rock = drive.course.goal_rock;
   if (!rock.enabled) return;
@@ -205,7 +208,7 @@ void RequireFindableRock(const DriveParams& drive, core::FieldVisitor& v) {
             "use a smaller rock or a larger clear_radius_m");
 }
 
-// A stuck rover that runs on does so until its batteries are empty.
+// Requires batteries that can be empty, which end the run of a stuck rover that runs on.
 void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
   v.Require("referee.stuck_rover",
             drive.referee.stuck_rover == StuckRover::kEnd || drive.energy.battery_wh > 0.0,
@@ -213,7 +216,7 @@ void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
             "use end, or batteries that can be empty");
 }
 
-// An answer to alarms of slip that nobody gives.
+// Refuses answers to alarms of slip that nobody would give.
 void RequireSlipReaction(const DriveParams& drive, core::FieldVisitor& v) {
   using navigation::SlipResponse;
   if (!drive.perception.visual_odometry.slip_check.enabled) return;
@@ -230,7 +233,7 @@ void RequireSlipReaction(const DriveParams& drive, core::FieldVisitor& v) {
             "use stop or as_stuck, or another navigator");
 }
 
-// A navigator that looks and steers on the move in a drive that stops for both.
+// Refuses a navigator that looks or steers on the move in a drive that stops for it.
 void RequireOverlap(const DriveParams& drive, core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
   const navigation::NavigatorTraits traits = navigator.traits();
@@ -250,7 +253,7 @@ void RequireOverlap(const DriveParams& drive, core::FieldVisitor& v) {
             "use csod, or clock.overlap.steering true");
 }
 
-// Steering so slow that a rover in a curve finds no motion to go on with.
+// Refuses steering so slow that a rover in a curve finds no motion to go on with.
 void RequireFeasibleCurves(const DriveParams& drive, core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
   const auto rates = navigator.traits().curvature_rates;
@@ -263,7 +266,7 @@ void RequireFeasibleCurves(const DriveParams& drive, core::FieldVisitor& v) {
             "use a larger limit, more knots, longer splines or a slower rover");
 }
 
-// Aids that nobody listens to.
+// Refuses aids that the estimator does not listen to, and a slip check without visual odometry.
 void RequireListener(const DriveParams& drive, core::FieldVisitor& v) {
   const localization::EstimatorKind& estimator = drive.localization.estimators.chosen();
   v.Require("localization.estimator", !drive.sensors.aids.AnyEnabled() || estimator.takes_fixes(),

@@ -1,5 +1,6 @@
-// Conditions across modules of a drive: those without which no trial can be built or would mean
-// anything, and combinations that every module accepts and that mislead.
+// Conditions across modules of a drive: conditions without which no trial can be built or would
+// mean anything (RequireConsistency), and combinations that every module accepts and that mislead
+// (RequireSoundDrive). Experiments require them when a scenario is read.
 #pragma once
 
 #include "core/fields.h"
@@ -13,7 +14,7 @@ enum class LightStripeUse {
   kAlways,           // the experiment measures it
 };
 
-// Requires, for every experiment:
+// Requires, for every experiment (drive_consistency_params.cc):
 // - start, waypoints and goal lie in the arena, between the mirror lines of a virtual one;
 // - the centre of mass lies where every wheel carries something on level ground;
 // - no more than one control step per step of the physics, and rocks that move only in multibody;
@@ -25,10 +26,10 @@ enum class LightStripeUse {
 void RequireConsistency(const DriveParams& drive, LightStripeUse light_stripe,
                         core::FieldVisitor& v);
 
-// Lengths that are written in two places of a file agree to this.
+// Difference up to which lengths that are written in two places of a file agree.
 inline constexpr double kSame_m = 1e-9;
 
-// Requires of groups that are in use, and of no others:
+// Requires, for drives to a goal and only of groups that are in use:
 // - stereo cameras are on the rover: from its rear edge to half its length ahead of its front;
 // - the elevation array that the behaviour controller takes from stereo lies on level ground that
 //   the cameras ahead can show (bounds that no view exceeds; the view may be narrower), and asks
@@ -37,7 +38,7 @@ inline constexpr double kSame_m = 1e-9;
 // - no ditch or pit reaches under the rover at the start;
 // - listed rocks leave start, waypoints and goal of a drive free by terrain.rocks.clear_radius_m;
 // - goals and waypoints that a lander designates stay between the mirror lines of a
-//   virtual_reflected arena, and so do targets: they stand;
+//   virtual_reflected arena, in which targets do not move;
 // - an oracle's route leads to one goal that nobody tracks;
 // - a route has somebody who follows it or drives along its corners, not both, and no other
 //   waypoints; the map of a lander has a lander (course.designation);

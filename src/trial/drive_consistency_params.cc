@@ -1,3 +1,4 @@
+// What any experiment requires of a drive: RequireConsistency of drive_checks_params.h.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,7 +13,8 @@
 namespace rockyard::trial {
 namespace {
 
-// What no module can check alone.
+// Requires places inside the arena, control ticks no shorter than a step, and fixed rocks with the
+// quasi-static rover.
 void RequirePossible(const DriveParams& drive, core::FieldVisitor& v) {
   const terrain::ArenaParams& arena = drive.terrain.arena;
   const CourseParams& course = drive.course;
@@ -44,12 +46,13 @@ void RequirePossible(const DriveParams& drive, core::FieldVisitor& v) {
             "use fidelity multibody or fixed rocks");
 }
 
-// The parts of the rover weigh less than the whole, or that has been refused by their own group.
+// Returns whether a mass is left for the chassis; where not, RoverMassParams has refused the
+// masses.
 bool HasChassis(const rover::RoverMassParams& mass) {
   return mass.total_kg > 6.0 * mass.wheel_kg + 2.0 * (mass.rocker_kg + mass.bogie_kg);
 }
 
-// A rover with its centre of mass beyond its wheels falls over before it drives.
+// Refuses a centre of mass beyond the wheels: such a rover falls over before it drives.
 void RequireStanding(const rover::RoverParams& rover, core::FieldVisitor& v) {
   if (!HasChassis(rover.mass)) return;
   const rover::ComRange range = rover::StandingComRange(rover);
@@ -62,7 +65,7 @@ void RequireStanding(const rover::RoverParams& rover, core::FieldVisitor& v) {
                         std::floor(1000.0 * range.max_m) / 1000.0));
 }
 
-// What an arrival of the navigator means.
+// Requires that a rover without any error arrives truly where its navigator arrives.
 void RequireArrival(const DriveParams& drive, core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
   const navigation::GoalTolerance arrival = navigator.traits().goal;
@@ -72,13 +75,15 @@ void RequireArrival(const DriveParams& drive, core::FieldVisitor& v) {
             "use a goal radius of at least the navigator's tolerance");
 }
 
-// The sensor whose conditions hold: the experiment's, or the one that the scenario chooses.
+// Returns the sensor whose conditions hold: the light stripe where the experiment measures it, else
+// the sensor that the scenario chooses.
 const TerrainSensorKind& SensorInUse(const DriveParams& drive, LightStripeUse use) {
   const TerrainSensorSet& sensors = drive.sensors.terrain_sensors;
   return use == LightStripeUse::kAlways ? sensors.Named("light_stripe") : sensors.chosen();
 }
 
-// What a behaviour controller takes for left, centre and right.
+// Requires that a navigator that tells stripes apart names every stripe of the array that it
+// judges.
 void RequireStripes(const DriveParams& drive, const TerrainSensorKind& sensor,
                     core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();

@@ -7,7 +7,7 @@ using core::Assumed;
 using core::Published;
 using core::Setting;
 
-// Of table 1 but the motors.
+// Visits the power of the instruments of table 1 (Matthies 1995).
 void VisitInstruments(EnergyParams& p, core::FieldVisitor& v) {
   v.Real("cpu_W", p.cpu_W,
          Published("computer and I/O", "Matthies 1995 table 1 (MFEX)", {0.0, 1e4}));
@@ -20,7 +20,7 @@ void VisitInstruments(EnergyParams& p, core::FieldVisitor& v) {
          Published("CCDs and clocks, during a scan", "Matthies 1995 table 1 (MFEX)", {0.0, 1e4}));
 }
 
-// What a look takes, by which instruments it has.
+// Visits what a look draws, by the instruments that take it.
 void VisitLooks(EnergyParams& p, core::FieldVisitor& v) {
   v.Real("cmos_imaging_share", p.cmos_imaging_share,
          Published("power of CMOS imagers over that of CCDs",

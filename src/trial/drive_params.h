@@ -1,6 +1,8 @@
 // Everything that one drive needs to know: the parameters of every module below, and trial's own.
-// A default decides the records of every scenario that leaves it out; each of them, and the order
-// of the groups, is part of every fingerprint.
+// Scenarios hold one of these; every experiment, and all parts of a drive, take their parameters
+// from it. Meanings and sources of trial's own stand in the .cc. Records depend on a default in
+// every scenario that leaves its parameter out. Fingerprints depend on every value and on the order
+// of the groups.
 #pragma once
 
 #include "core/fields.h"
@@ -32,11 +34,11 @@
 
 namespace rockyard::trial {
 
-// The one list of them (drive/make_estimator.cc). The first one, dead_reckoning, is that of
-// scenarios which name none.
+// Returns the estimators that scenarios can name, the one list of them (drive/make_estimator.cc).
+// The first one, dead_reckoning, is the estimator of scenarios that name none.
 localization::EstimatorSet StandardEstimators();
 
-// Electrical power by activity and the batteries.
+// Electrical power by activity, and the batteries.
 struct EnergyParams {
   double cpu_W = 3.77;
   double gyro_W = 0.80;
@@ -53,6 +55,7 @@ struct EnergyParams {
   void Visit(core::FieldVisitor& v);
 };
 
+// What the rover measures.
 struct SensorParams {
   TerrainSensorSet terrain_sensors = StandardTerrainSensors();
   sensing::LightStripeParams light_stripe;
@@ -69,6 +72,7 @@ struct SensorParams {
   void Visit(core::FieldVisitor& v);
 };
 
+// What the rover makes of its measurements.
 struct PerceptionParams {
   perception::StripeFinderParams stripe_finder;
   perception::StereoMatchingParams stereo;
@@ -84,14 +88,15 @@ struct PerceptionParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Which estimator it is; what all of them build on stands in `perception`: dead_reckoning,
-// attitude.
+// Where the rover believes to be: the estimator. What all estimators build on stands in
+// PerceptionParams: dead_reckoning and attitude.
 struct LocalizationParams {
   localization::EstimatorSet estimators = StandardEstimators();
 
   void Visit(core::FieldVisitor& v) { estimators.Visit(v); }
 };
 
+// What the rover decides.
 struct NavigationParams {
   navigation::NavigatorSet navigators = navigation::StandardNavigators();
   navigation::StuckReactionParams on_board_stuck;
@@ -101,6 +106,7 @@ struct NavigationParams {
   void Visit(core::FieldVisitor& v);
 };
 
+// The whole of one drive.
 struct DriveParams {
   terrain::TerrainParams terrain;
   rover::RoverParams rover;
@@ -113,8 +119,8 @@ struct DriveParams {
   ClockParams clock;
   EnergyParams energy;
 
-  // Lists its groups in the group that is being visited: it has no name of its own in a file. What
-  // holds across them is required by drive_checks_params.h, which asks for more or less by what the
+  // Lists the groups in the group that is being visited: a drive has no name of its own in a file.
+  // drive_checks_params.h requires what must hold across groups, more or less of it by what the
   // experiment does with the drive.
   void Visit(core::FieldVisitor& v);
 };

@@ -6,10 +6,10 @@
 namespace rockyard::trial {
 namespace {
 
-// Half of the course once more without coming nearer; half a vehicle width of progress.
+// Way without progress, over the course; progress, over the width of the rover.
 constexpr double kDistanceShare = 0.5;
 constexpr double kProgressShare = 0.5;
-// The hour for 4 m and the four hours for 7.6 m of the defaults.
+// The proportions of the defaults of RefereeParams: an hour for 4 m, four hours for 7.6 m.
 constexpr double kTimePerDistance_s_m = 900.0;
 constexpr double kTimePerCourse_s_m = 14400.0 / 7.6;
 

@@ -1,4 +1,5 @@
-// Values that a scenario may leave open: they follow others unless it states them.
+// Values that a scenario may leave open: they follow from other parameters unless the scenario
+// states them. Reading a scenario sets them; doubts about limits follow the same law.
 #pragma once
 
 #include <array>
@@ -9,23 +10,27 @@
 
 namespace rockyard::trial {
 
-// Length of the course: straight from the start by its waypoints to the goal, m.
+// Returns the length of the course, straight from the start by its waypoints to the goal, m.
 double CourseLength_m(const CourseParams& course);
 
-// What each limit that may be left open is where it is: that of `drive.referee`, which is meant for
-// the 7.6 m of Matthies 1995 and a rover half a metre wide, or more on a longer course with a
-// larger rover, in the proportions of there. A limit of 0 (none) stays none. Assumed, as they are.
+// Returns `drive.referee` with the limits that hold where a scenario leaves them open. They are
+// those of `drive.referee`, which are meant for the 7.6 m of Matthies 1995 and a rover half a metre
+// wide, or larger in proportion to a longer course and a wider rover. A limit of 0 (none) stays
+// none. The proportions are assumed, as the limits are; referee_params.cc tells them in its help.
+// Limits are doubted below about half of these values (campaign/scenario_doubts.cc), which must
+// follow them.
 RefereeParams PatienceFor(const DriveParams& drive);
 
-// A value that is null or absent in a scenario. It is set once, when the file is read, and stands
-// as a number in the resolved scenario, so that a law that changes leaves stored runs as they were.
+// A value that a scenario may leave null or absent. Must stay: it is set once, when the file is
+// read, and stands as a number in the resolved scenario, so that a law that changes leaves stored
+// runs as they were.
 struct OpenValue {
   std::string_view path;                       // in a scenario
-  double& (*in)(DriveParams& drive);           // where it is kept
-  double (*suited)(const DriveParams& drive);  // to the rest of the drive
+  double& (*in)(DriveParams& drive);           // returns where the value is kept
+  double (*suited)(const DriveParams& drive);  // returns the value that suits the rest of the drive
 };
 
-// A limit of the referee, which follows course and rover.
+// Returns the open value of a limit of the referee, which follows course and rover.
 template <double RefereeParams::*kLimit>
 constexpr OpenValue OpenLimit(std::string_view path) {
   return {path, [](DriveParams& drive) -> double& { return drive.referee.*kLimit; },

@@ -1,4 +1,5 @@
-// One closed-loop drive: terrain, rover, sensors, localizer, navigator, referee.
+// The entry of this folder: RunTrial runs one closed-loop drive of terrain, rover, sensors,
+// estimator, navigator and referee. The experiments that drive, and the sols of a mission, call it.
 #pragma once
 
 #include <array>
@@ -18,38 +19,40 @@
 
 namespace rockyard::trial {
 
-// The rover stands where the course starts, in truth. What it believes of that, among which rocks
-// it stands and what supplies it comes from here. `field` outlives the drive.
+// How a drive begins that goes on from an earlier one, beside the course, which says where the
+// rover truly stands.
 struct DriveStart {
-  localization::EstimatorMemory memory;
-  const terrain::Field& field;
-  std::optional<SolarSupply> sun;  // time 0 is the start of the drive; none: batteries alone
+  localization::EstimatorMemory memory;  // what the rover believes of where it stands
+  const terrain::Field& field;           // the rocks among which it stands; outlives the drive
+  std::optional<SolarSupply> sun;        // time 0 is the start of the drive; none: batteries alone
 };
 
+// What a drive leaves to the next one.
 struct DriveEnd {
   math::Transform X_WR = math::Transform::Identity();  // true
   localization::EstimatorMemory memory;
   std::array<double, kActivityCount> energy_wh{};  // drawn, by activity
-  double battery_wh = 0.0;                         // of these, from the batteries
+  double battery_wh = 0.0;                         // drawn from the batteries
 };
 
+// What came of one drive.
 struct DriveResult {
   truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;
-  std::string detail;
+  std::string detail;  // the sentence of the cause (truth/end_cause.h)
   truth::DriveRecord record;
   DriveEnd end;
 };
 
-// Drives the trial that `key` names: a pure function of (drive, key), bit for bit, on which stores,
-// pairs of runs, replays and kept hashes rely. With `trace` the course of the drive is recorded
-// too, and `watchers` are shown what is seen and decided; all without any influence on it. Throws
-// what the simulation throws: a contract violation, a blow-up of the physics; the experiment turns
-// that into a simulator fault.
+// Drives the trial that `key` names. Must stay: the result is a pure function of (drive, key), bit
+// for bit; stores, pairs of runs, replays and kept hashes rely on it. `trace` records the course of
+// the drive, and `watchers` are shown what is seen and decided, without any influence on the drive.
+// Throws what the simulation throws (a contract violation, a blow-up of the physics); the
+// experiment turns that into a simulator fault.
 DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, truth::Trace* trace = nullptr,
                      const Watchers& watchers = {});
 
-// The same of a drive that goes on from an earlier one: a pure function of (drive, key, start).
-// drive.course.start is where the rover truly stands, drive.energy.battery_wh what its batteries
+// Drives a trial that goes on from an earlier one: a pure function of (drive, key, start). The
+// start of drive.course is where the rover truly stands, drive.energy.battery_wh what its batteries
 // still hold; the field is that of `start`, whatever drive.terrain says.
 DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, const DriveStart& start);
 

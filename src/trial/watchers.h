@@ -1,5 +1,6 @@
-// Whoever looks over the shoulder of a trial: for pictures and for tests. A trial is the same with
-// any of them and without: they get references to const alone.
+// Watchers look over the shoulder of a trial: pictures of looks, scans and decisions are made with
+// them, and tests check with them. Must stay: a trial is the same with any watcher and without, so
+// that watchers get references to const alone.
 #pragma once
 
 #include <cstdint>
@@ -18,30 +19,32 @@
 
 namespace rockyard::trial {
 
-// A look that was just rendered and matched (sensors.stereo.fidelity image; the other fidelities
-// have no images and call nobody). Valid during the call only.
+// A look of stereo cameras that was just rendered and matched (sensors.stereo.fidelity image; with
+// the other fidelities no watcher is called). Valid during the call only.
 struct WatchedStereo {
   const math::Transform& X_WR;  // true
   const perception::StereoSight& sight;
   const vision::RectifiedPair& pair;  // aligned and reduced, in R as the rover's calibration has it
   const vision::StereoPipelineParams& matching;
-  const messages::PointCloud& cloud;  // what is handed on, with the look's number and direction
+  const messages::PointCloud& cloud;  // what the navigator gets, or elevations are taken from
 };
 
 using StereoWatcher = std::function<void(const WatchedStereo&)>;
 
-// A scan that was just taken, and what it was taken of. Valid during the call only.
+// A scan of the light stripe that was just taken, and what it was taken of. Valid during the call
+// only.
 struct WatchedScan {
-  const DriveParams& drive;  // of the sensor: a study may vary it from cell to cell
+  const DriveParams& drive;  // by which the sensor was made: studies vary it from cell to cell
   const terrain::Terrain& terrain;
-  const math::Transform& X_WR;
+  const math::Transform& X_WR;  // true
   core::TrialKey key;
   const messages::StripeScan& scan;
 };
 
 using ScanWatcher = std::function<void(const WatchedScan&)>;
 
-// A decision that followed a look, and what was seen. Valid during the call only.
+// A decision of a map-based navigator that followed a look, and what was seen. Valid during the
+// call only.
 struct WatchedStep {
   const DriveParams& drive;
   const terrain::Terrain& terrain;
@@ -49,11 +52,12 @@ struct WatchedStep {
   core::TrialKey key;
   const messages::NavigationView& view;
   const messages::PointCloud& cloud;
-  const messages::LookMoment& look;  // when, and where it believed to be then
+  const messages::LookMoment& look;  // when it looked, and what it believed then
 };
 
 using StepWatcher = std::function<void(const WatchedStep&)>;
 
+// The watchers of one trial; empty ones are not called.
 struct Watchers {
   ScanWatcher scan = {};      // called after every scan of the light stripe
   StereoWatcher stereo = {};  // after every look of stereo cameras that has images

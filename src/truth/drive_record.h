@@ -1,8 +1,9 @@
-// What one drive trial leaves behind: every number that reports and comparisons use.
+// What one drive trial leaves behind: every number that reports and comparisons use. The observer
+// of a drive fills it, and experiments that drive make their records of it.
 //
-// Stores, metrics and baselines know the values by the names of kDriveColumns, and hashes go over
-// their bits in its order. So columns are appended, never moved or renamed, and a new one changes
-// the hash of every drive.
+// Must stay: the names and the order of kDriveColumns. Stores, metrics and baselines know the
+// values by these names, and hashes go over their bits in this order. So columns are appended,
+// never moved or renamed, and a new one changes the hash of every drive.
 #pragma once
 
 #include <array>
@@ -13,7 +14,8 @@
 
 namespace rockyard::truth {
 
-// Doubles only, each with one column: a test counts them by the size of the struct.
+// The values of one drive. Must stay: doubles only, each with one column of kDriveColumns, which
+// says what it means; a test counts the members by the size of the struct.
 struct DriveRecord {
   double true_distance_m = 0.0;
   double dead_reckoned_distance_m = 0.0;
@@ -51,16 +53,16 @@ struct DriveRecord {
   double single_scan_rate_m_s = 0.0;  // the same without the time of rescans
   double scan_energy_wh = 0.0;
   double hazards_met = 0.0;  // rocks of hazard_height_m or more within reach of the array
-  // Of these, driven onto with no hazard, of whatever rock, believed while they were within reach.
+  // Rocks met and driven onto, with no hazard (of whatever rock) believed while within reach.
   double hazards_missed = 0.0;
   double contact_hazards = 0.0;  // times that the rover felt a hazard of that kind appear
   double tilt_hazards = 0.0;
   double articulation_hazards = 0.0;
   double current_hazards = 0.0;
   double moves = 0.0;            // motion commands between looks or other commands
-  double point_turns = 0.0;      // of them turns in place
+  double point_turns = 0.0;      // moves that are turns in place
   double image_sets = 0.0;       // pairs of stereo images
-  double rear_image_sets = 0.0;  // of them from rear cameras
+  double rear_image_sets = 0.0;  // pairs from rear cameras
   double safeguard_stops = 0.0;  // times that there came to be a felt hazard to get away from
   double imaging_time_s = 0.0;   // taking stereo images
   double compute_time_s = 0.0;   // stereo, map and votes
@@ -68,8 +70,8 @@ struct DriveRecord {
   double compute_energy_wh = 0.0;
   double steer_time_s = 0.0;          // wheels steering at rest
   double move_overhead_time_s = 0.0;  // at rest about moves
-  // From the verdict of being stuck until the batteries are empty. Not in sim_time_s and energy_wh,
-  // unless the rover runs on (referee.stuck_rover).
+  // From the verdict of being stuck until the batteries are empty. It counts in sim_time_s and
+  // energy_wh only where the rover runs on (referee.stuck_rover).
   double stall_time_s = 0.0;
   double active_time_s = 0.0;     // simulated time up to the verdict, whatever a stuck rover does
   double active_energy_wh = 0.0;  // energy up to the verdict
@@ -80,27 +82,27 @@ struct DriveRecord {
   double told_goal_y_m = 0.0;
   double designation_error_m = 0.0;       // designated goal to true goal
   double believed_goal_distance_m = 0.0;  // believed final position to the goal as last believed
-  // True path over displacement_m, of arrivals; NaN of other ends.
+  // True path over displacement_m where arrival was declared; else NaN.
   double path_ratio = std::numeric_limits<double>::quiet_NaN();
   double stops = 0.0;  // times that the rover came to rest
   double max_rocker_deg = 0.0;
-  double max_roll_deg = 0.0;  // absolute, as the two below
+  double max_roll_deg = 0.0;  // absolute, as max_pitch_deg
   double max_pitch_deg = 0.0;
   double first_scrape_distance_m = 0.0;  // true path up to the first scrape, or all of it
-  double stall_energy_wh = 0.0;          // of stall_time_s
+  double stall_energy_wh = 0.0;          // drawn in stall_time_s
   double stuck_noticed = 0.0;            // times that the rover noticed that it is stuck
   double max_sinkage_m = 0.0;            // deepest that a wheel went below the ground
   double beyond_soil_law = 0.0;          // 1: deeper than the sinkage law holds, D / 6
-  double unconverged_balances = 0.0;     // quasi_static: of the rover's motion
-  // The most between two progresses towards the goal (trial/referee/referee.h), or since the last
-  // one.
+  double unconverged_balances = 0.0;     // quasi_static: balances that missed their tolerance
+  // The most between two progresses towards the goal (trial/referee/referee.h), or after the last
+  // progress.
   double no_progress_distance_m = 0.0;  // driven, true
   double no_progress_turn_deg = 0.0;    // turned in place, true
   // Slopes of squared errors against the true distance along the run
   // (trial/counters/drive_counters.h).
   double heading_growth_deg2_per_m = 0.0;
   double distance_growth_m2_per_m = 0.0;
-  double hazards_begun = 0.0;      // of hazards_believed, those that the scan before did not see
+  double hazards_begun = 0.0;      // hazards believed after a scan without one
   double displacement_m = 0.0;     // start to end, true and straight
   double waypoints_reached = 0.0;  // declared, before the goal
   // What the rover believes of its own error at the end; NaN where it keeps no account of it.
@@ -113,7 +115,7 @@ struct DriveRecord {
   double aids_gated_out = 0.0;
   double aids_unanswered = 0.0;
   double visual_steps = 0.0;     // pairs of images compared with a keyframe
-  double visual_failures = 0.0;  // of these, without a motion
+  double visual_failures = 0.0;  // visual steps without a motion
   double visual_keyframes = 0.0;
   double visual_gated_out = 0.0;
   double slip_alarms = 0.0;
@@ -126,23 +128,24 @@ struct DriveRecord {
   double goal_rock_sign = std::numeric_limits<double>::quiet_NaN();
   double goal_rock_recognized = std::numeric_limits<double>::quiet_NaN();
   double search_places_reached = std::numeric_limits<double>::quiet_NaN();
-  double steer_turned_rad = 0.0;      // of a steering motor, to and fro alike: mean over them
-  double steer_turned_max_rad = 0.0;  // of the one that turned most
+  double steer_turned_rad = 0.0;      // by a steering motor, to and fro alike: mean over motors
+  double steer_turned_max_rad = 0.0;  // by the motor that turned most
   // The way between the places of visual odometry, as believed when each was ready.
   double visual_distance_m = std::numeric_limits<double>::quiet_NaN();
   double plans_on_the_move = 0.0;
-  double unsafe_plans = 0.0;  // of them, without a safe plan
+  double unsafe_plans = 0.0;  // plans on the move that found no safe motion
   double late_plans = 0.0;    // motions that ended before the next plan was ready
-  // Root of the mean square of where a plan was to begin less where it began, as believed.
+  // Root mean square of the way from where a plan was to begin to where it began, as believed.
   double plan_start_error_m = std::numeric_limits<double>::quiet_NaN();
 };
 
+// One column of the record of a drive: the only place that says what the value means.
 struct DriveColumn {
   std::string_view name;
   std::string_view unit;
   std::string_view meaning;
   double DriveRecord::*member;
-  bool may_lack = false;  // NaN where there is nothing to tell; any other NaN is a simulator fault
+  bool may_lack = false;  // may be NaN, where there is nothing to tell; else NaN is a fault
 };
 
 inline constexpr std::array kDriveColumns = {

@@ -15,7 +15,8 @@ std::optional<EndCause> CauseOf(TrialOutcome outcome, std::string_view detail) {
 }
 
 bool EndedByLimit(const Record& record) {
-  if (record.outcome == TrialOutcome::kTimeLimit) return true;  // whatever the sentence
+  // kTimeLimit has one cause: records whose sentence is of another version have it too.
+  if (record.outcome == TrialOutcome::kTimeLimit) return true;
   const auto cause = CauseOf(record);
   return cause && IsLimit(*cause);
 }

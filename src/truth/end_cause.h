@@ -1,7 +1,9 @@
-// Why a drive ended: what its outcome alone leaves open.
+// Why a drive ended: what its outcome alone leaves open. The referee gives a cause; reports, tables
+// of causes and missions find it again from a record.
 //
-// Records keep no cause but the sentence of one, by which it is found again to the letter. A
-// sentence that changes takes the cause from all runs that are stored; hashes leave it out.
+// Must stay: the sentences, to the letter. A record keeps no cause but its sentence (`detail`), by
+// which CauseOf finds the cause; with another sentence all stored runs would lose theirs. Hashes of
+// records leave the sentence out.
 #pragma once
 
 #include <array>
@@ -13,6 +15,7 @@
 
 namespace rockyard::truth {
 
+// Append only, at the same place as in kEndCauses.
 enum class EndCause {
   kArrived,
   kBelievedOnly,
@@ -20,11 +23,11 @@ enum class EndCause {
   kBellyOnRock,
   kNoMotion,
   kSankIn,
-  kGaveUp,            // the navigator
-  kNoticedStuck,      // the navigator again, by what the rover feels
-  kPatienceDistance,  // the operator, who saw it come no nearer: driving so far,
-  kPatienceTurning,   // turning so much,
-  kPatienceTime,      // or taking so long
+  kGaveUp,            // by the navigator
+  kNoticedStuck,      // by the navigator, from what the rover measures
+  kPatienceDistance,  // by the operator: driven so far without coming nearer to the goal
+  kPatienceTurning,   // by the operator: turned so much without coming nearer
+  kPatienceTime,      // by the operator: so long without coming nearer
   kBatteriesEmpty,
   kTimeLimit,
   kLeftArena,
@@ -33,15 +36,16 @@ enum class EndCause {
   kExcessiveSlip,
 };
 
+// What files, tables and records say of a cause.
 struct EndCauseInfo {
-  std::string_view name;  // in files, append only
+  std::string_view name;  // in files; must stay
   TrialOutcome outcome;
   std::string_view label;     // a few words for a table, below the outcome
-  std::string_view sentence;  // of a rover, without its name: the `detail` of a record
-  std::string_view setting;   // parameter of a scenario that decided, where one did
+  std::string_view sentence;  // the `detail` of a record: a sentence without its subject, the rover
+  std::string_view setting;   // path of the parameter that decided; empty where none did
 };
 
-// In the order of EndCause. No two of one outcome have the same sentence.
+// The causes in the order of EndCause. No two of one outcome have the same sentence.
 inline constexpr std::array<EndCauseInfo, 17> kEndCauses = {{
     {"arrived", TrialOutcome::kGoalReached, "arrived", "arrived at the goal",
      "course.goal_radius_m"},
@@ -87,24 +91,24 @@ constexpr const EndCauseInfo& Info(EndCause cause) {
   return kEndCauses[static_cast<std::size_t>(cause)];
 }
 
-// Whether a limit of the run ended the drive, the operator's patience or the time. It had neither
-// arrived nor failed: what it would have come to is not known.
+// Return whether a limit of the run ended the drive: the operator's patience or the time. Such a
+// rover had neither arrived nor failed, and what it would have come to is not known.
 constexpr bool IsLimit(EndCause cause) {
   return cause == EndCause::kPatienceDistance || cause == EndCause::kPatienceTurning ||
          cause == EndCause::kPatienceTime || cause == EndCause::kTimeLimit;
 }
 bool EndedByLimit(const Record& record);
 
-// By outcome and sentence. Nothing for what is no drive, for a fault, and for a sentence of another
-// version.
+// Return the cause that has this outcome and this sentence; nothing for a measurement, for a fault,
+// and for a sentence of another version.
 std::optional<EndCause> CauseOf(TrialOutcome outcome, std::string_view detail);
 inline std::optional<EndCause> CauseOf(const Record& record) {
   return CauseOf(record.outcome, record.detail);
 }
-// Its name; "" where there is none.
+// Returns the name of a record's cause; "" where CauseOf finds none.
 std::string_view CauseName(const Record& record);
 
-// Whether the outcome has more than one cause, so that a count of it leaves something open.
+// Returns whether an outcome has more than one cause, so that its count leaves open which.
 bool HasSeveralCauses(TrialOutcome outcome);
 
 }  // namespace rockyard::truth

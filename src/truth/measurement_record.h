@@ -1,8 +1,9 @@
 // Records of experiments that measure a sensor rather than drive: counts and sums over the scenes
-// of one cell of a table, with the values of the factors that name the cell.
+// of one cell of a table, with the values of the factors that name the cell. These experiments
+// write them, cell summaries add them up, and reports and comparisons tell them from drives.
 //
-// Records of one cell add up column by column, as the role of each column says, so that a run may
-// hold any number of scenes and any number of runs may share a cell.
+// Records of one cell add up column by column, as the role of each column says, so that a record
+// may hold any number of scenes and any number of records may share a cell.
 #pragma once
 
 #include <algorithm>
@@ -14,24 +15,24 @@
 
 namespace rockyard::truth {
 
-// First column of every such record: the number of the cell. Stored runs are told from drives by
-// this name in this place.
+// The first column of every such record: the number of the cell. Must stay: IsMeasurement tells
+// stored runs from drives by this name in this place.
 inline constexpr std::string_view kCellColumn = "cell";
 
-// Whether records of this schema are measurements, for which no drive succeeds or fails.
+// Returns whether records of this schema are measurements, which neither succeed nor fail.
 inline bool IsMeasurement(const RecordSchema& schema) {
   return !schema.empty() && schema.front().name == kCellColumn;
 }
 
-// The column of that name; null where the schema has none.
+// Returns the column of that name; null where the schema has none.
 inline const ValueInfo* FindColumn(const RecordSchema& schema, std::string_view name) {
   const auto found = std::find_if(schema.begin(), schema.end(),
                                   [&](const ValueInfo& column) { return column.name == name; });
   return found == schema.end() ? nullptr : &*found;
 }
 
-// The number of the cell, then those columns of `known` that `names` lists, in the order of
-// `names`. All of them must be known.
+// Returns the schema of the cell's number and those columns of `known` that `names` lists, in the
+// order of `names`. `known` must have all of them.
 inline RecordSchema MeasurementSchema(const RecordSchema& known,
                                       std::span<const std::string_view> names) {
   RecordSchema schema{{std::string(kCellColumn), "1", "number of the cell"}};
@@ -39,17 +40,19 @@ inline RecordSchema MeasurementSchema(const RecordSchema& known,
   return schema;
 }
 
-// The same with all columns of `known`.
+// Returns the schema of the cell's number and all columns of `known`.
 inline RecordSchema MeasurementSchema(const RecordSchema& known) {
   RecordSchema schema = MeasurementSchema(known, {});
   schema.insert(schema.end(), known.begin(), known.end());
   return schema;
 }
 
+// Returns whether a column counts what rates are shares of.
 constexpr bool IsBase(ColumnRole role) {
   return role == ColumnRole::kTrials || role == ColumnRole::kBase;
 }
 
+// Returns whether a column is a count of which a base makes a rate.
 constexpr bool IsCount(ColumnRole role) {
   return role == ColumnRole::kCount || role == ColumnRole::kMainCount;
 }

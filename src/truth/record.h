@@ -1,5 +1,6 @@
 /// @file
-/// The record of one finished trial, independent of the experiment that made it.
+/// The record of one finished trial, independent of the experiment that made it. Experiments write
+/// records; stores, summaries, comparisons and reports read them.
 #pragma once
 
 #include <array>
@@ -12,7 +13,8 @@
 
 namespace rockyard::truth {
 
-/// How a trial ended. Stored by name; append only.
+/// How a trial ended. Must stay: the names of kTrialOutcomeNames, by which stores keep outcomes;
+/// append only.
 enum class TrialOutcome {
   kGoalReached,  ///< believed and truly within tolerance
   kFalseGoal,    ///< believed only
@@ -28,7 +30,7 @@ enum class TrialOutcome {
   kExcessiveSlip,   ///< stopped, as its wheels were seen to slip too much
 };
 
-/// Their names in stores and files, in the same order.
+/// The names of outcomes in stores and files, in the order of TrialOutcome.
 inline constexpr std::array<std::string_view, 12> kTrialOutcomeNames = {
     "goal_reached",    "false_goal", "tip_over",   "high_centred",    "jammed",   "no_path",
     "energy_depleted", "time_limit", "left_arena", "simulator_fault", "measured", "excessive_slip"};
@@ -38,28 +40,29 @@ constexpr std::string_view Name(TrialOutcome outcome) {
   return kTrialOutcomeNames[static_cast<std::size_t>(outcome)];
 }
 
-/// Believed to have arrived: the success of Matthies 1995, section 7.
+/// Returns whether the rover declared arrival: the success of Matthies 1995, section 7.
 constexpr bool DeclaredSuccess(TrialOutcome outcome) {
   return outcome == TrialOutcome::kGoalReached || outcome == TrialOutcome::kFalseGoal;
 }
 
-/// Arrived, believed and truly.
+/// Returns whether the rover arrived by its own belief and in truth.
 constexpr bool TrueSuccess(TrialOutcome outcome) { return outcome == TrialOutcome::kGoalReached; }
 
-/// The rover was found unable to move.
+/// Returns whether the rover was found unable to move.
 constexpr bool IsStuck(TrialOutcome outcome) {
   return outcome == TrialOutcome::kJammed || outcome == TrialOutcome::kHighCentred;
 }
 
 /// What a column is within a cell, where records of one cell add up (truth/measurement_record.h).
-/// Stores keep no roles: experiments give them again to columns of these names.
+/// Stores keep no roles: when records are read, experiments give the roles again by the names of
+/// columns.
 enum class ColumnRole {
-  kValue,      ///< of one trial: nothing adds it up
+  kValue,      ///< a value of one trial: nothing adds it up
   kFactor,     ///< constant within a cell
   kTrials,     ///< a base: how many independent trials there were
   kBase,       ///< how often something could have happened, in trials that depend on each other
-  kCount,      ///< how often it did: a rate of the base `of`
-  kMainCount,  ///< the same, and the one to show where there is room for one
+  kCount,      ///< how often it happened: with the base `of` a rate
+  kMainCount,  ///< as kCount, and the count to show where there is room for one
   kSum,        ///< adds up to a mean per `of`
   kSquares,    ///< squares add up to a root mean square per `of`
 };
@@ -73,23 +76,23 @@ struct ValueInfo {
   std::string of = {};  ///< name of the base, or of the count, that a count or a sum refers to
 };
 
-/// Names, in order, of the values of every record of one experiment.
+/// The columns of every record of one experiment, in order.
 using RecordSchema = std::vector<ValueInfo>;
 
-/// What is kept of a trial.
+/// What is kept of one trial.
 struct Record {
   std::uint64_t trial = 0;  ///< index in the campaign
   TrialOutcome outcome = TrialOutcome::kSimulatorFault;
   std::string detail;   ///< a sentence for people: why it ended
-  RecordValues values;  ///< as RecordSchema; NaN where undefined; empty for simulator faults
+  RecordValues values;  ///< one for each column; NaN where undefined; empty for simulator faults
 };
 
-/// The simulator failed, not the rover.
+/// Returns whether the simulator failed, not the rover.
 inline bool IsFault(const Record& record) {
   return record.outcome == TrialOutcome::kSimulatorFault;
 }
 
-/// The record of a fault; its detail says how to run that trial again.
+/// Makes the record of a fault; its detail says how to run that trial again.
 inline Record MakeFault(std::uint64_t seed, std::uint64_t trial, const std::string& reason) {
   return {trial,
           TrialOutcome::kSimulatorFault,

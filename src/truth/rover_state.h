@@ -1,5 +1,5 @@
-// The true state of the rover. On-board code never includes this. Both fidelities fill all of it;
-// sensors measure from it, referee and counters judge by it.
+// The true state of the rover. Both fidelities of the rover fill all of it; sensors measure from
+// it, referee and counters judge by it. On-board code never includes this file.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,11 @@
 
 namespace rockyard::truth {
 
+// What can touch something; sensors and referee tell these apart.
 enum class BodyPart { kBelly, kRocker, kHub, kPanelEdge, kWheel };
 
-// Touch of a part of the rover with a rock. Wheel contacts are not listed here.
+// Touch of a part of the rover with a rock, the ground or a wall. Contacts of wheels are not
+// listed.
 struct BodyContact {
   BodyPart part = BodyPart::kBelly;
   int rock = -1;  // index in Terrain::rocks(); -1: ground or wall
@@ -21,6 +23,7 @@ struct BodyContact {
   math::Vector3 p_RoC_R = math::Vector3::Zero();  // where, on the rover
 };
 
+// The state after a step of the rover.
 struct RoverState {
   math::Transform X_WR = math::Transform::Identity();
   math::Vector3 v_WR_m_s = math::Vector3::Zero();

@@ -9,14 +9,15 @@
 namespace rockyard::truth {
 namespace {
 
-// More distinct values than that are not worth a list of them: with 2 bytes a row the list would
-// have to stay below three quarters of the block, which values that differ at all seldom do.
+// Most distinct values that are kept as a list. With 2 bytes a row a list pays as long as it has
+// fewer entries than three quarters of the block; columns with more than a quarter seldom stay
+// below that.
 constexpr std::size_t kMostDistinct = ValueTable::kBlockRows / 4;
-constexpr std::size_t kMostNarrow = 256;
+constexpr std::size_t kMostNarrow = 256;  // values that one byte tells apart
 
-// The distinct values by their bits, as zeros of either sign and NaNs have to come back, in the
-// order in which they come first, and which of them each value is; no values where there are too
-// many.
+// The distinct values of a column in the order in which they come first, and the place of each
+// value among them. Values are told apart by their bits, as zeros of either sign and NaNs have to
+// come back. `values` is empty where there are more than kMostDistinct.
 struct Distinct {
   std::vector<double> values;
   std::vector<std::uint16_t> which;

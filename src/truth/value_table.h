@@ -1,6 +1,6 @@
 /// @file
-/// The values of many records in less memory than one vector each takes, and those of one record:
-/// its own, or a row of a table that many share.
+/// The values of one record: its own, or a row of a table that many records share. Stores that are
+/// read put their records into one table, which takes less memory than a vector for each record.
 #pragma once
 
 #include <algorithm>
@@ -16,26 +16,28 @@
 
 namespace rockyard::truth {
 
-/// Rows of equally many values, which keep their bits. Rows are appended only. A block of
-/// kBlockRows rows holds each column as its distinct values and, of each row, which of them it is;
-/// plainly where there are many: 0, 1, 2 or 8 bytes a value. That is about half of what the columns
-/// of a drive take plainly, as many of them are constants or counts; the last, unfinished block is
-/// plain. Reading is safe from any number of threads.
+/// Rows of equally many values. Must stay: values keep their bits, as hashes go over them. Rows are
+/// appended only. A block of kBlockRows rows holds each column as a list of its distinct values and
+/// the place of each row's value in that list, or, where there are many distinct values, as the
+/// values themselves: 0, 1, 2 or 8 bytes a value. Columns of a drive, many of which are constants
+/// or counts, take about half of the memory so. The last, unfinished block holds the values
+/// themselves. Reading is safe from any number of threads.
 class ValueTable {
  public:
   static constexpr std::size_t kBlockRows = 4096;
 
-  /// An empty table of that many columns.
+  /// Makes an empty table of that many columns.
   explicit ValueTable(std::size_t columns) : columns_(columns) {}
 
-  /// Return its size.
+  /// Return the size of the table.
   std::size_t columns() const { return columns_; }
   std::size_t rows() const { return blocks_.size() * kBlockRows + unfinished_; }
 
-  /// `row` has a value for each column. Fewer than 2^32 rows. Cost: about 20 ns a value.
+  /// Appends a row with a value for each column. A table holds fewer than 2^32 rows. Cost: about 20
+  /// ns a value.
   void Append(std::span<const double> row);
 
-  /// Requires row < rows() and column < columns().
+  /// Returns one value. Requires row < rows() and column < columns().
   double At(std::size_t row, std::size_t column) const {
     const std::size_t block = row / kBlockRows;
     if (block == blocks_.size()) return plain_[(row % kBlockRows) * columns_ + column];
@@ -45,9 +47,9 @@ class ValueTable {
  private:
   /// One column of one block.
   struct Piece {
-    std::vector<double> values;        ///< distinct ones, or one for each row
-    std::vector<std::uint8_t> narrow;  ///< which of up to 256, or empty
-    std::vector<std::uint16_t> wide;   ///< which of more, or empty
+    std::vector<double> values;        ///< the distinct values, or one for each row
+    std::vector<std::uint8_t> narrow;  ///< place of each row's value among up to 256, or empty
+    std::vector<std::uint16_t> wide;   ///< place of each row's value among more, or empty
     double At(std::size_t row) const {
       if (!narrow.empty()) return values[narrow[row]];
       if (!wide.empty()) return values[wide[row]];
@@ -63,16 +65,17 @@ class ValueTable {
   std::size_t unfinished_ = 0;
 };
 
-/// Reads like a vector of doubles. What changes values of a row first copies it, and so does the
-/// operator [] of a record that is not const: the table never changes. Two threads may read one.
+/// The values of one record, which read like a vector of doubles. Whatever may change values copies
+/// the row of the table first, the operator [] of values that are not const as well, so that the
+/// table never changes. Any number of threads may read the same const values.
 class RecordValues {
  public:
   RecordValues() = default;
-  /// Values of its own.
+  /// Takes values of its own.
   RecordValues(std::initializer_list<double> values) : own_(values) {}
   // NOLINTNEXTLINE(google-explicit-constructor): a vector of doubles is what this stands for.
   RecordValues(std::vector<double> values) : own_(std::move(values)) {}
-  /// Row `row` of a table, which it keeps alive.
+  /// Refers to row `row` of a table, which the values keep alive.
   RecordValues(std::shared_ptr<const ValueTable> table, std::size_t row)
       : table_(std::move(table)), row_(static_cast<std::uint32_t>(row)) {}
 
@@ -120,15 +123,15 @@ class RecordValues {
   ConstIterator begin() const { return {*this, 0}; }
   ConstIterator end() const { return {*this, size()}; }
 
-  /// Like those of a vector; each copies a row of a table first.
+  /// As those of a vector. push_back, reserve and assign copy a row of a table first.
   void push_back(double value) { Own().push_back(value); }
   void reserve(std::size_t size) { Own().reserve(size); }
   void assign(std::size_t size, double value) { Own().assign(size, value); }
   void clear() { *this = {}; }
-  /// Lets go of the table, which would live as long as this.
+  /// Copies the row and lets go of the table, which would else live as long as these values.
   void Detach() { Own(); }
 
-  /// By value; NaN equals nothing.
+  /// Compares value by value; NaN equals nothing.
   friend bool operator==(const RecordValues& a, const RecordValues& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
   }

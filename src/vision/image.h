@@ -1,5 +1,7 @@
-// An image: a rectangle of values, row by row from the upper left corner. Rows follow each other
-// without padding: fast stages step by width() from row to row, and indices count over all pixels.
+// A rectangle of values, row by row from the upper left corner, for everything that makes, stores
+// or reads images: rendering, image files, stereo, visual odometry and the finders of the cylinder.
+// Must stay: rows follow each other without padding. Fast stages step by width() from row to row,
+// and indices count over all pixels.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +33,7 @@ class Image {
   Value& At(int x, int y) { return values_[Index(x, y)]; }
   const Value& At(int x, int y) const { return values_[Index(x, y)]; }
 
-  // A whole row, from the left.
+  // A whole row from the left; y lies inside.
   std::span<Value> Row(int y) { return {values_.data() + Index(0, y), RowSize()}; }
   std::span<const Value> Row(int y) const { return {values_.data() + Index(0, y), RowSize()}; }
 
@@ -55,8 +57,6 @@ class Image {
 // 8 bits of grey a pixel.
 using GrayImage = Image<std::uint8_t>;
 
-// Images of coloured pixels.
-
 // 8 bits of each primary colour, in the coding of the camera or of the file.
 struct Rgb {
   std::uint8_t red = 0;
@@ -68,7 +68,7 @@ struct Rgb {
 
 using ColourImage = Image<Rgb>;
 
-// Whether an image has the rows and columns of a camera, and so can be of it.
+// Returns whether an image has the rows and columns of a camera, and so can be of it.
 inline bool HasSizeOf(const ColourImage& image, const CameraModel& camera) {
   return !image.empty() && image.width() == camera.size.columns &&
          image.height() == camera.size.rows;

@@ -15,7 +15,7 @@ struct LensAngles {
   double b_rad = 0.0;  // downwards
 };
 
-// What the lens makes of a direction: a to the right, b downwards, as lens.h defines them.
+// Returns what the lens makes of a direction. Must stay the inverse of PixelRay below.
 std::optional<LensAngles> Angles(Lens lens, const Vector3& p) {
   const double aside_m = std::hypot(p.y(), p.z());
   switch (lens) {

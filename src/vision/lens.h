@@ -1,4 +1,9 @@
-// Camera models of wide-angle lenses: pixels to rays and back.
+// The lenses of a messages::Camera, the camera of the light stripe: pixels to rays and back. The
+// simulated stripe sensor images through these functions, and the triangulation on board goes back
+// through them: what differs between both is the calibration, never the lens. Must stay: Project
+// and PixelRay are each other's inverse, or ranges are wrong without any noise. The replay page
+// and the study of hazard detection draw and sample by the same rays. Cameras of stereo pairs have
+// lenses of their own (cameras/camera_model.h).
 //
 // Camera frame C: x along the optical axis, y left, z up. Columns and rows count from the pixel on
 // the axis, columns to the right (-y), rows downwards (-z); a = column * column_pitch_rad and
@@ -13,10 +18,6 @@
 // 4 mm = 1.65 rad hold for both equidistant models; a pinhole would give 1.68 x 1.38 rad. A real
 // f-theta lens is radially symmetric; the separable model is what remains of it where software
 // straightens the rows by a calibration.
-//
-// The simulated stripe sensor images through these functions, and the triangulation on board goes
-// back through them: what differs between both is the calibration, never the lens. Project and
-// PixelRay have to stay each other's inverse, or ranges are wrong without any noise.
 #pragma once
 
 #include <optional>
@@ -32,21 +33,23 @@ struct PixelPosition {
   double row_px = 0.0;
 };
 
-// Returns the unit viewing ray of an image position, in C. Cost: some sines and cosines.
+// Returns the unit viewing ray of an image position, in C.
 math::Vector3 PixelRay(const messages::Camera& camera, const PixelPosition& pixel);
 
-// Returns where the direction p_C (any length, in C) is imaged: the inverse of PixelRay. There is
-// none where the lens does not see it: behind a pinhole, along the lateral axis (equidistant_rows),
-// straight behind (equidistant), or of no length. The edge of the imager is not looked at.
+// Returns where the direction p_C (any length, in C) is imaged: the inverse of PixelRay. Returns
+// nothing where the lens does not see p_C: behind a pinhole, along the lateral axis
+// (equidistant_rows), straight behind (equidistant), or where p_C is 0. The edge of the imager is
+// not looked at.
 std::optional<PixelPosition> Project(const messages::Camera& camera, const math::Vector3& p_C);
 
-// Returns a or b of a direction in the vertical or the horizontal plane through the optical axis,
-// less than 90 deg off it: the angle itself, or its tangent (pinhole).
+// Returns a of a direction in the horizontal plane through the optical axis, or b of one in the
+// vertical plane, for an angle of less than 90 deg off the axis: the angle itself, or its tangent
+// (pinhole).
 double ImageOfAngle(messages::Lens lens, double angle_rad);
 
 // Returns whether the lens has a direction of its own for every position of an image with |a| up to
-// half_width_rad and |b| up to half_height_rad: a radially symmetric image ends straight behind the
-// camera, one with rows as planes beside, above and below it, a pinhole's nowhere.
+// half_width_rad and |b| up to half_height_rad. An equidistant image ends straight behind the
+// camera, one of equidistant_rows at 90 deg to every side, a pinhole's nowhere.
 bool HasDirections(messages::Lens lens, double half_width_rad, double half_height_rad);
 
 }  // namespace rockyard::vision

@@ -44,7 +44,7 @@ JsonValue CovarianceJson(const vision::CameraCovariance& covariance, vision::Est
   return JsonValue(std::move(rows));
 }
 
-// Between the camera and the middle of each target, m.
+// Returns the median distance between the camera and the middles of the targets, m.
 double MedianDistance(const CalibrateResult& result, std::size_t camera) {
   std::vector<double> distances_m;
   for (const math::Transform& X_AT : result.calibration.X_AT) {
@@ -57,9 +57,9 @@ double MedianDistance(const CalibrateResult& result, std::size_t camera) {
   return *middle;
 }
 
-// The predicted error of a camera (vision::PredictedError) at 5 x 5 pixels over the image, corners
-// and middle included, for points at the targets' median distance. Pixels without a ray are left
-// out.
+// Returns the predicted errors of a camera (vision::PredictedError) at 5 x 5 pixels over the image,
+// corners and middle included, for points at the targets' median distance. Pixels without a ray are
+// left out.
 std::vector<PredictedPixel> PredictedErrors(const CalibrateRequest& request,
                                             const CalibrateResult& result, std::size_t camera) {
   const vision::CameraModel model =
@@ -173,7 +173,7 @@ void CheckCounts(const CalibrateRequest& request, const vision::Target& target) 
   }
 }
 
-// Reads one camera's images; what is wrong with them goes to `problems`.
+// Reads the images of one camera; what is wrong with them goes to `problems`.
 class CornerReader {
  public:
   CornerReader(const CalibrateRequest& request, CalibrateInput& input,
@@ -229,9 +229,9 @@ class CornerReader {
   fs::path first_;
 };
 
-// Throws core::UserError: a target file that is none, another number of right images or of poses
-// than of images, one file twice, files that cannot be read, images of another size than the first,
-// images without the board.
+// Reads all input. Throws core::UserError: a target file that is none, another number of right
+// images or of poses than of images, one file twice, files that cannot be read, images of another
+// size than the first, images without the board.
 CalibrateInput ReadCalibrateInput(const CalibrateRequest& request) {
   const vision::Target target = vision::LoadTarget(request.target);
   CheckCounts(request, target);
@@ -246,7 +246,7 @@ CalibrateInput ReadCalibrateInput(const CalibrateRequest& request) {
   return input;
 }
 
-// A predicted error above this says where corners are missing, px.
+// A predicted error above this is noted, px: corners are missing there.
 constexpr double kLargeError_px = 0.5;
 constexpr double kManyOutliers = 0.02;
 

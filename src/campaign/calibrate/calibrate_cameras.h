@@ -1,5 +1,5 @@
-// What `rockyard calibrate` does: images of a chessboard to a camera, or to the two of a pair
-// (Goldberg 2002 section 2, Gennery 2001).
+// What `rockyard calibrate` does, for that command: images of a chessboard to a camera, or to the
+// two of a pair (Goldberg 2002 section 2, Gennery 2001).
 #pragma once
 
 #include <filesystem>
@@ -34,30 +34,30 @@ struct CalibrateResult {
 
   std::vector<OutputFile> files;
 
-  // Root mean square of the distances in one image, px; of one camera. NaN where all corners are
-  // outliers.
+  // Returns the root mean square of the distances in one image of one camera, px; NaN where all
+  // corners are outliers.
   double ImageRms(std::size_t camera, std::size_t image) const;
 };
 
-// "camera", or "left" and "right" of a pair.
+// Returns "camera", or "left" and "right" for the cameras of a pair.
 std::string CameraName(const CalibrateResult& result, std::size_t camera);
 
-// The image that a corner belongs to.
+// Returns the image that a corner belongs to.
 const std::filesystem::path& ImageOf(const CalibrateRequest& request,
                                      const vision::CornerResidual& corner);
 
-// Reads, finds the board, estimates and writes into the folder, which is made: camera.json and
-// camera.txt (cameras.json and cameras.txt of a pair), calibration.json. Throws core::UserError,
-// before anything is written, for whatever is wrong with the input: everything that can be told at
-// once, such as all images without a board.
+// Reads the images, finds the board, estimates and writes into the folder, which is made:
+// camera.json and camera.txt (cameras.json and cameras.txt of a pair), calibration.json. Throws
+// core::UserError, before anything is written, for whatever is wrong with the input: everything
+// that can be told at once, such as all images without a board.
 CalibrateResult CalibrateCameras(const CalibrateRequest& request);
 
-// What came out of a calibration, for programs.
-
-// The file calibration.json: described in src/campaign/README.md. Programs read it (--json):
-// members are only added.
+// Returns what came out of a calibration as the file calibration.json, described in
+// src/campaign/README.md. Programs read it (--json). Must stay: its members; others may only be
+// added.
 core::JsonValue CalibrateJson(const CalibrateRequest& request, const CalibrateResult& result);
 
+// The predicted error of a camera at one pixel.
 struct PredictedPixel {
   vision::Pixel at;
   double error_px = 0.0;

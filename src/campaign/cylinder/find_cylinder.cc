@@ -75,8 +75,8 @@ std::uint8_t ToByte(std::uint16_t sample, int full_scale) {
   return static_cast<std::uint8_t>((510 * clipped + full_scale) / (2 * full_scale));
 }
 
-// Cameras may be told in a frame whose z does not point upwards, and then the default axis is
-// wrong.
+// Refuses a cylinder that would lie in the image: cameras may be told in a frame whose z does not
+// point upwards, and then the default axis is wrong.
 void CheckAxis(const CylinderRequest& request, const vision::ColourPair& pair,
                const vision::ColourCylinder& cylinder) {
   constexpr double kMost_rad = math::DegToRad(60.0);
@@ -84,7 +84,7 @@ void CheckAxis(const CylinderRequest& request, const vision::ColourPair& pair,
   if (!eyes) return;  // the finder says so
   const double off_rad = std::acos(std::clamp(eyes->up_L.dot(cylinder.Axis_L()), -1.0, 1.0));
   if (off_rad <= kMost_rad) return;
-  // To thousandths, and none of them -0.
+  // Rounded to thousandths, and no coordinate -0.
   const Eigen::Array3d up = (1000.0 * eyes->up_L.array()).round() / 1000.0 + 0.0;
   throw core::UserError(
       "cylinder.axis",
@@ -147,7 +147,7 @@ void CopyInto(const vision::ColourImage& image, int first_column, Picture& pictu
   }
 }
 
-// The box around a region, one pixel outside of it.
+// Draws the box around a region, one pixel outside of it.
 void DrawBox(const vision::ColourRegion& region, int first_column, Picture& picture) {
   const double left = first_column + region.left - 1.0;
   const double right = first_column + region.right + 1.0;
@@ -160,8 +160,9 @@ void DrawBox(const vision::ColourRegion& region, int first_column, Picture& pict
   DrawLine({{right, top}, {right, bottom}}, colour, 1, picture);
 }
 
-// Both images side by side, with the bounding boxes of the regions: the whole white, quadrants in
-// pure colours of their classes. Where nothing was found it is the images alone.
+// Returns both images side by side, with the bounding boxes of the regions: that of the whole
+// cylinder white, those of quadrants in pure colours of their classes. Where nothing was found it
+// is the images alone.
 Picture CylinderPicture(const vision::ColourImage& left, const vision::ColourImage& right,
                         const vision::CylinderFinding& finding) {
   Picture picture(left.width() + right.width(), std::max(left.height(), right.height()));
@@ -171,7 +172,7 @@ Picture CylinderPicture(const vision::ColourImage& left, const vision::ColourIma
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const int first_column = eye == 0 ? 0 : left.width();
     const auto& regions = finding.sighting->regions.at(eye);
-    // Quadrants first, so that the whole stays visible about them.
+    // Quadrants are drawn first, so that the box of the whole stays visible about them.
     for (std::size_t i = regions.size(); i > 0; --i) {
       DrawBox(regions[i - 1], first_column, picture);
     }

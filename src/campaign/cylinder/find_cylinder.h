@@ -1,5 +1,5 @@
-// What `rockyard cylinder` does: two colour images to the place and the orientation of the coloured
-// cylinder (Matthies 1995, section 5 and appendix A).
+// What `rockyard cylinder` does, for that command: two colour images to the place and the
+// orientation of the coloured cylinder (Matthies 1995, section 5 and appendix A).
 #pragma once
 
 #include <array>
@@ -47,19 +47,20 @@ struct CylinderResult {
   std::vector<OutputFile> files;
 };
 
-// Reads both images and the cameras, looks for the cylinder and writes, where a folder is asked
-// for, regions.png and cylinder.json. Throws core::UserError, before anything is written, for
+// Reads both images and the cameras, looks for the cylinder and, where the request names a folder,
+// writes regions.png and cylinder.json. Throws core::UserError, before anything is written, for
 // whatever is wrong with the input: files that cannot be read, grey images, images of two sizes or
-// of another size than their cameras, one image twice, settings that mean nothing. A cylinder that
-// is not found is no error: the finding says why.
+// of another size than their cameras, one image twice, settings that mean nothing, and for the
+// robust finder an axis that stands far from upwards in the image. A cylinder that is not found is
+// no error: the finding says why.
 CylinderResult FindCylinderInFiles(const CylinderRequest& request);
 
-// A colour image file as 8 bits of each primary, round(255 sample / full scale); `what` becomes
-// what was read and done. Throws core::UserError.
+// Reads a colour image file as 8 bits of each primary, round(255 sample / full scale); `what`
+// becomes what was read and done. Throws core::UserError.
 vision::ColourImage ReadColour(const std::filesystem::path& path, std::string& what);
 
-// The file cylinder.json: described in src/campaign/README.md. Programs read it (--json): members
-// are only added.
+// Returns the file cylinder.json, described in src/campaign/README.md. Programs read it (--json).
+// Must stay: its members; others may only be added.
 core::JsonValue CylinderJson(const CylinderRequest& request, const CylinderResult& result);
 
 }  // namespace rockyard::campaign

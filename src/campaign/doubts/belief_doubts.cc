@@ -181,7 +181,7 @@ void DoubtMap(Values& s) {
 
 }  // namespace
 
-// Goldberg 2002, table 1.
+// Doubts what GESTALT is told, parameters of Goldberg 2002, table 1.
 void DoubtGestalt(Values& s) {
   if (!s.Uses("gestalt")) return;
   DoubtVehicle(s);

@@ -14,7 +14,7 @@
 namespace rockyard::campaign {
 namespace {
 
-// Between two looks, or two commands, the rover is blind.
+// Doubts speeds: between two looks, or two commands, the rover is blind.
 void DoubtPace(Values& s) {
   const double speed_m_s = s("rover.drive.speed_m_s");
   const double tick_m = speed_m_s / s("clock.control_rate_hz");
@@ -33,7 +33,7 @@ void DoubtPace(Values& s) {
           "drive slower, or see farther");
 }
 
-// The array of elevations of the pathfinder, fitted to a rover.
+// Doubts whether the array of elevations of the pathfinder is fitted to the rover.
 void DoubtArray(Values& s) {
   const trial::Zone seen = s.zone();
   const double width_m = s("rover.geometry.width_m");
@@ -208,7 +208,7 @@ void DoubtShape(Values& s) {
 }
 
 void DoubtTraction(Values& s) {
-  // Over the load: resistance of sand, or of a rock that half of the wheels climb.
+  // The resistance over the load: of sand, or of a rock that half of the wheels climb.
   const double resistance = s.HasRocks() ? 0.5 : 0.15;
   const double gravity_m_s2 = s("rover.physics.gravity_m_s2");
   const double weight_N = s("rover.mass.total_kg") * gravity_m_s2;
@@ -219,7 +219,7 @@ void DoubtTraction(Values& s) {
             fmt::format("the {:.3g} N that {} takes here", need_N,
                         s.HasRocks() ? "climbing rocks" : "rolling"),
             "state the torque at the wheel, behind its gears");
-  // Over the weight: on these soils wheels roll harder, on concrete they take 0.01 to 0.02.
+  // The rolling resistance over the weight: larger on soils, 0.01 to 0.02 on concrete.
   const double rolling = s.Is("terrain.ground.soil.preset", "hard_ground") ? 0.01 : 0.05;
   const double rolling_W = rolling * weight_N * s("rover.drive.speed_m_s");
   s.AtLeast("energy.driving_W", rolling_W,
@@ -241,7 +241,8 @@ void DoubtTraction(Values& s) {
           "check the units of its moduli: N, not kN");
   if (s.Is("terrain.ground.soil.preset", "hard_ground")) return;
   s.Within("terrain.ground.soil.friction_angle_deg", 15.0, 55.0, "a dry soil", "use 25 to 45");
-  // Soils as they are, between the gravities of Mars, 3.72, and Earth, 9.81.
+  // Presets as they are, held against gravity: the bound lies between Mars, 3.72, and Earth, 9.81,
+  // as kBetweenMarsAndEarth_m_s2 in scenario_doubts.cc.
   constexpr double kBetween_m_s2 = 6.0;
   const terrain::SoilParams& soil = s.drive.terrain.ground.soil;
   const terrain::SoilParams as_it_is = terrain::MakeSoil(soil.preset);
@@ -283,12 +284,13 @@ void DoubtSteering(Values& s) {
   s.AtLeast("rover.drive.steer_rate_deg_s", 0.2 * told_deg_s,
             fmt::format("a navigation.wheel_driver that reckons with {:g} deg/s", told_deg_s),
             "state the same rate in both");
-  // Corners that steer: the inner one turns most.
+  // The wheels at the corners steer: the inner one turns most.
   const double length_m = s("rover.geometry.length_m");
   const double track_m = s("rover.geometry.width_m") - s("rover.geometry.wheel_width_m");
   const double middle_m = 0.5 * s("rover.geometry.wheelbase_m") /
                           std::tan(math::DegToRad(s("rover.drive.max_steer_deg")));
-  // Published curvatures of GESTALT ask more of the inner wheels than these rovers give.
+  // The middle of the rover is taken for GESTALT: its published curvatures ask more of the inner
+  // wheels than these rovers give.
   const double turn_m = s.Uses("gestalt") ? middle_m : middle_m + 0.5 * track_m;
   const std::string path = s.OfNavigator("arcs.max_curvature_per_m", "tight_arc_radius_m");
   const double arc_m = s.Uses("gestalt") ? 1.0 / s(path) : s(path);
@@ -296,7 +298,7 @@ void DoubtSteering(Values& s) {
           fmt::format("{:g} deg give arcs of {:.3g} m at least, and the navigator drives {:.3g} m",
                       s("rover.drive.max_steer_deg"), turn_m, arc_m),
           "let the wheels turn as far as its tightest arc");
-  // Corners that turn in place stand across the way to the middle.
+  // To turn in place, wheels at the corners stand across the way to the middle.
   const double across_deg = math::RadToDeg(std::atan2(s("rover.geometry.wheelbase_m"), track_m));
   s.Doubt(s.Uses("pathfinder") && s("rover.drive.max_steer_deg") < across_deg - 2.0,
           "rover.drive.max_steer_deg",

@@ -14,18 +14,19 @@ namespace rockyard::campaign {
 
 std::vector<core::Problem> DoubtsOfSettings(const scenario::Scenario& scenario) {
   Values s(scenario);
-  // What another program brings has rules of its own (its parameters' bounds).
+  // A navigator or sensor that another program brings is not known here; bounds of its parameters
+  // are its own rules.
   const bool known = s.Uses("pathfinder") || s.Uses("gestalt") || s.Uses("route");
   if (!known || !(s.SeesBy("light_stripe") || s.SeesBy("stereo"))) return {};
   const auto ask = [&](std::initializer_list<void (*)(Values&)> rules) {
     for (const auto rule : rules) rule(s);
   };
-  // DoubtUnusual last: units are doubted only of what no rule has doubted before.
+  // DoubtUnusual must come last: units are doubted only of what no rule has doubted before.
   switch (scenario.experiment.kind) {
     case experiments::ExperimentKind::kDrive:
       ask({DoubtTask, DoubtRover, DoubtSensing, DoubtGestalt, DoubtBelief, DoubtUnusual});
       break;
-    // Its sols have courses of their own, and aids that come when operators look.
+    // Sols of a mission have courses of their own, and aids that come when operators look.
     case experiments::ExperimentKind::kMission:
       ask({DoubtMission, DoubtRover, DoubtSensing, DoubtGestalt, DoubtUnusual});
       break;

@@ -17,7 +17,7 @@
 namespace rockyard::campaign {
 namespace {
 
-// The shortest way from a point of the course to the next.
+// Returns the length of the shortest leg from a point of the course to the next.
 double Leg_m(const Values& s) {
   double leg_m = s.course_m();
   messages::Goal from{s("course.start_x_m"), s("course.start_y_m")};
@@ -53,7 +53,7 @@ void DoubtGoal(Values& s) {
   }
 }
 
-// What lies on the way is what is to be found out.
+// Doubts the terrain: what lies on the way is what is to be found out.
 void DoubtField(Values& s) {
   const double width_m = s("rover.geometry.width_m");
   const double clearance_m = s("rover.geometry.belly_clearance_m");
@@ -124,8 +124,8 @@ void DoubtField(Values& s) {
   }
 }
 
-// Listed rocks that leave no way between them are gone around, no nearer to the goal for as far as
-// they reach.
+// Doubts patience that ends on the way around listed rocks which leave no way between them: as far
+// as they reach the rover comes no nearer to the goal.
 void DoubtPatience(Values& s) {
   const auto& listed = s.drive.terrain.rocks.listed;
   const double patience_m = s.drive.referee.no_path_distance_m;
@@ -158,7 +158,8 @@ void DoubtReferee(Values& s) {
            "use the height that stops this rover");
   s.AtMost("referee.no_path_progress_m", 0.25 * s.course_m(), s.OfCourse(),
            "use some tenths of a metre");
-  // What stands on level ground: half of the width over the height of the centre of mass.
+  // The tilt at which the rover stands no more: half of the width over the height of the centre of
+  // mass.
   const double stands_deg = math::RadToDeg(
       std::atan2(0.5 * s("rover.geometry.width_m"), s("rover.mass.chassis_com_z_m")));
   s.AtLeast("referee.tip_over_deg", 0.6 * stands_deg,
@@ -193,7 +194,7 @@ void DoubtReferee(Values& s) {
   }
 }
 
-// Looks and drives from start to goal, one after the other.
+// Doubts times: the rover looks and drives from start to goal, one after the other.
 void DoubtTime(Values& s) {
   if (!s.Looks()) return;
   const double speed_m_s = s("rover.drive.speed_m_s");
@@ -204,7 +205,8 @@ void DoubtTime(Values& s) {
                                    : s(s.OfNavigator("drive.step_m", "scan_interval_m"));
   const double limit_s = s.drive.referee.time_limit_s;
   const double needed_s = s.course_m() / step_m * (look_s + step_m / speed_m_s);
-  // Shorter ones are doubted as limits (scenario_doubts.cc), or meant as durations.
+  // Shorter limits are doubted as limits, or meant as durations; the bound must agree with that of
+  // referee.time_limit_s in scenario_doubts.cc.
   const bool is_for_course = limit_s >= 800.0 * s.course_m();
   s.Doubt(is_for_course && limit_s < 0.75 * needed_s, "clock",
           fmt::format("a look takes {:.3g} s, the way with its looks {:.3g} s, and the drive ends "
@@ -241,7 +243,7 @@ void DoubtTask(Values& s) {
 
 namespace {
 
-// Of the lander, of all goals.
+// Returns the largest distance from the lander to a goal.
 double Farthest_m(const experiments::MissionParams& mission) {
   double farthest_m = 0.0;
   for (const messages::Goal& goal : mission.goals.Places()) {

@@ -10,16 +10,16 @@
 namespace rockyard::campaign {
 namespace {
 
-// A group, or a parameter, that nothing reads unless. Of one that is missing here values are
-// doubted that have no effect.
+// A group of parameters, or one, that has an effect only where `read` is true. Values without
+// effect are doubted of a group that is missing in the list below.
 struct Unread {
-  std::string_view path;  // of which it begins
+  std::string_view path;  // with which parameters begin
   bool read;
 };
 
-// Whether something that is chosen or enabled reads the parameter. Not those of the rover itself,
-// nor what its motors draw: their ranges are of one rover's size. Nor limits that follow the
-// course.
+// Returns whether something that is chosen or enabled reads the parameter. Parameters of the rover
+// itself, and what its motors draw, are left out: their ranges are of one rover's size. So are
+// limits that follow the course.
 bool IsUsed(const Values& s, const std::string& path) {
   const auto begins = [&](std::string_view group) { return path.starts_with(group); };
   const std::string_view parts[] = {"terrain.",    "sensors.",      "perception.",
@@ -84,7 +84,7 @@ bool IsUsed(const Values& s, const std::string& path) {
   return true;
 }
 
-// What is usual of a value, generously; it stands in place of the studies' range.
+// What is usual of a value, generously. It stands in place of the range of studies.
 struct Usual {
   std::string_view path;
   double low;
@@ -154,7 +154,8 @@ constexpr Usual kUsual[] = {
     {"clock.stop_time_s", 0.0, 10.0, "wheels that stop"},
 };
 
-// Assumed values far outside of the range in which studies vary them: most often another unit.
+// Doubts assumed values far outside of the range in which studies vary them: most often they are in
+// another unit.
 void DoubtUnits(Values& s) {
   constexpr double kFar = 5.0;  // times the range's end; units differ by 57 and more
   for (const core::ParameterInfo& each : s.parameters) {

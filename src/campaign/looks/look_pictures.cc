@@ -31,11 +31,12 @@ using messages::LookDirection;
 
 constexpr double kElevationCell_m = 0.05;
 constexpr Rgb kUnknownCell{60, 60, 60};
-// Of a picture under lines.
+// The greys of a picture under lines (Muted).
 constexpr int kDarkest = 80;
 constexpr int kLightest = 200;
 constexpr int kLine_px = 2;
-// Of the way from a corner to the middle of its cell: neighbours do not draw over each other.
+// How far outlines lie within their cells, as a share of the way from corner to middle: neighbours
+// do not draw over each other.
 constexpr double kInset = 0.08;
 
 Rgb Grey(std::uint8_t value) { return {value, value, value}; }
@@ -183,7 +184,7 @@ std::vector<ColouredPoint> GreyPoints(const CapturedLook& look) {
   std::vector<ColouredPoint> points;
   points.reserve(look.cloud.points_R.size());
   for (const Vector3& p_RoP_R : look.cloud.points_R) {
-    // It was triangulated from the middle of a pixel.
+    // The point was triangulated from the middle of a pixel.
     const auto pixel = vision::Project(look.pair.left, p_RoP_R);
     if (!pixel) continue;
     points.push_back(
@@ -234,7 +235,8 @@ int LevelOf(const vision::GrayImage& image) {
   return level;
 }
 
-// Of the middle of every 2^level x 2^level pixels one: a mean of colours would be no disparity.
+// Returns the middle pixel of every 2^level x 2^level pixels: a mean of colours would be no
+// disparity.
 Picture Thinned(const Picture& picture, int level) {
   const int side = 1 << level;
   Picture thinned(picture.width() / side, picture.height() / side);
@@ -313,7 +315,7 @@ struct Share {
   bool empty() const { return first > last; }
 };
 
-// A square with its upper left corner at (x, y), as far as it lies within the picture.
+// Draws a square with its upper left corner at (x, y), as far as it lies within the picture.
 void DrawDot(int x, int y, int width_px, const image_files::Rgb& colour, Picture& picture) {
   for (int row = y; row < std::min(y + width_px, picture.height()); ++row) {
     for (int column = x; column < std::min(x + width_px, picture.width()); ++column) {
@@ -367,7 +369,7 @@ void DrawLine(const PictureSegment& line, const image_files::Rgb& colour, int wi
       std::max(1, static_cast<int>(std::ceil((last - first).lpNorm<Eigen::Infinity>())));
   for (int i = 0; i <= steps; ++i) {
     const Pixel at = first + (last - first) * i / steps;
-    // Within by construction, but for rounding.
+    // The pixel lies within the picture but for rounding.
     const int x = std::clamp(static_cast<int>(std::lround(at.x())), 0, picture.width() - 1);
     const int y = std::clamp(static_cast<int>(std::lround(at.y())), 0, picture.height() - 1);
     DrawDot(x, y, width_px, colour, picture);

@@ -1,5 +1,6 @@
-// What a look of stereo cameras saw, as pictures, points and files, in the manner of figures 1
-// and 3 of Goldberg 2002.
+// What a look of stereo cameras saw, as pictures, points and files, in the manner of figures 1 and
+// 3 of Goldberg 2002. `replay --step` and replay pages show it; other commands draw lines and
+// enlarge pictures by it.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +29,8 @@
 
 namespace rockyard::campaign {
 
-// Everything that can be shown of one look of stereo cameras, kept from the moment when it happens,
-// and what a replay page keeps of it.
-
-// See trial::WatchedStereo. 50 kB with images of 128 x 128 pixels, and the points.
+// Everything that can be shown of one look, kept from the moment when it happens
+// (trial::WatchedStereo). Memory: 50 kB with images of 128 x 128 pixels, and the points.
 struct CapturedLook {
   math::Transform X_WR = math::Transform::Identity();
   perception::StereoSight sight;
@@ -47,49 +46,51 @@ class LookMemory {
  public:
   void Add(CapturedLook look);
 
-  // Of a decision that followed `cloud`: its look, and where that was a look behind the last one
-  // ahead before it; in the order in which they were taken. Forgets what came before.
+  // Returns the looks of a decision that followed `cloud`: that with this cloud, and where it was a
+  // look behind, before it the last look ahead. They come in the order in which they were taken.
+  // Forgets what came before.
   std::vector<CapturedLook> LooksOf(const messages::PointCloud& cloud);
 
  private:
   std::vector<CapturedLook> looks_;
 };
 
-// Sides of its pictures are at most this long, px: larger images are reduced by powers of two.
+// Sides of the pictures of a LookRecord are at most this long, px: larger images are reduced by
+// powers of two.
 inline constexpr int kLargestRecordSide_px = 160;
 
-// The look at `time_s` with its pictures. Cost: some milliseconds.
+// Returns what a replay page keeps of a look at `time_s`, with its pictures. Cost: some
+// milliseconds.
 replay::ReplayLook LookRecord(const trial::WatchedStereo& watched, double time_s);
 
-// Pictures of pixels made larger, and lines on them.
-
-// Every pixel as a square of `factor` >= 1 pixels.
+// Returns the picture with every pixel as a square of `factor` >= 1 pixels.
 image_files::Picture Enlarged(const image_files::Picture& picture, int factor);
 
-// The factor that makes the longer side at least 512 pixels long, or nearly: 1 for larger ones.
+// Returns the largest whole factor that makes the longer side at most 512 pixels long; 1 for longer
+// sides.
 int FactorToSee(int width, int height);
 
-// Pixels of the picture, (0, 0) in the middle of the first one.
+// A line in a picture; pixel (0, 0) is the middle of the first one.
 using PictureSegment = std::pair<vision::Pixel, vision::Pixel>;
 
-// The image of the line between two points in the camera's outer frame, where it is at least 0.05 m
-// in front of the camera's centre; nothing where none of it is.
+// Returns the image of the line between two points in the camera's outer frame, as far as the line
+// is at least 0.05 m in front of the camera's centre; nothing where none of it is.
 std::optional<PictureSegment> ImageOfLine(const vision::Cahv& camera, const math::Vector3& from_A,
                                           const math::Vector3& to_A);
 
-// Draws what of the line lies within the picture, `width_px` >= 1 wide, to the right of it and
-// below. Its ends are finite.
+// Draws what of the line lies within the picture. Its width of `width_px` >= 1 reaches to the right
+// and below. Its ends must be finite.
 void DrawLine(const PictureSegment& line, const image_files::Rgb& colour, int width_px,
               image_files::Picture& picture);
 
-// The grey of the left image under lines: neither as dark as the lower end of the ramp of colours
-// nor as light as its upper one.
+// Returns the grey that the left image has under lines: neither as dark as the lower end of the
+// ramp of colours nor as light as its upper one.
 std::uint8_t Muted(std::uint8_t grey);
 
-// The left image, enlarged (FactorToSee) and Muted, with the cells of the navigator's map that
-// hold points as outlines at their elevations: in the colour of their goodness
-// (report::ByteColour), in grey where they have none. The map lies where the rover believes it,
-// seen by the camera that it believes to have; what is nearer is drawn over what is farther.
+// Returns the left image, enlarged (FactorToSee) and Muted, with the cells of the navigator's map
+// that hold points as outlines at their elevations: in the colour of their goodness
+// (report::ByteColour), dark grey where it is unknown. The map lies where the rover believes it,
+// seen by the camera that it believes to have; nearer cells are drawn over farther ones.
 image_files::Picture GridPicture(const CapturedLook& look, const messages::NavigationView& view);
 
 // Points of a look from above, in R.
@@ -98,18 +99,18 @@ struct ElevationImage {
   vision::Image<float> heights_m;  // NaN where no point is
 };
 
-// Cells of 5 cm, or larger ones where there would be more than 1000 along a side. No points, no
-// cells.
+// Returns the points from above, in cells of 5 cm, or larger ones where there would be more than
+// 1000 along a side. No points, no cells.
 ElevationImage ElevationsOf(const messages::PointCloud& cloud);
 
-// The points in R, each in the grey of the pixel of the left image that it comes from.
+// Returns the points in R, each in the grey of the pixel of the left image that it comes from.
 std::vector<image_files::ColouredPoint> GreyPoints(const CapturedLook& look);
 
-// The points in R, in colours of their heights (HeightColour).
+// Returns the points in R, in colours of their heights (HeightColour).
 std::vector<image_files::ColouredPoint> HeightPoints(const messages::PointCloud& cloud,
                                                      const HeightSpan& span);
 
-// "front" or "rear": the cameras that look there.
+// Returns "front" or "rear", for the cameras that look there.
 std::string_view CamerasOf(messages::LookDirection direction);
 
 struct LookFile {
@@ -117,16 +118,14 @@ struct LookFile {
   std::string what;  // it shows, in words
 };
 
-// Both write into a folder that is there, and return what they have written; they throw
+// Writes left.png, grid.png, disparity.png, elevation.png and cloud.ply of each look
+// (src/campaign/README.md), with "front-" or "rear-" before the name; pictures but left.png are
+// enlarged to some 512 pixels. The folder must be there. Returns what was written. Throws
 // core::UserError or std::filesystem::filesystem_error.
-//
-// Of each look, whose name begins with "front" or "rear": left.png, grid.png, disparity.png,
-// elevation.png, cloud.ply (src/campaign/README.md); pictures but left.png are enlarged to some 512
-// pixels.
 std::vector<LookFile> WriteLookFiles(const std::filesystem::path& folder,
                                      std::span<const CapturedLook> looks,
                                      const messages::NavigationView& view);
-// Of points without images elevation.png and cloud.ply.
+// Writes elevation.png and cloud.ply of points without images, as WriteLookFiles does.
 std::vector<LookFile> WriteCloudFiles(const std::filesystem::path& folder,
                                       const messages::PointCloud& cloud);
 

@@ -34,7 +34,7 @@ vision::OdometerParams ParamsOf(const OdometryRequest& request) {
   return params;
 }
 
-// Seconds since the last call.
+// A clock whose Lap returns the seconds since the last call.
 class StageClock {
  public:
   double Lap() {
@@ -50,7 +50,7 @@ PairStage StageOf(vision::OdometryStage stage) {
   return static_cast<PairStage>(static_cast<int>(stage) + static_cast<int>(PairStage::kDetected));
 }
 
-// The pairs that are wanted, by their number.
+// Returns the pairs that are wanted, by their number.
 std::vector<std::int64_t> WantedPairs(const OdometryRequest& request, std::int64_t there) {
   std::vector<std::int64_t> wanted;
   for (std::int64_t pair = request.first; pair < there; pair += request.every) {
@@ -66,7 +66,8 @@ std::vector<std::int64_t> WantedPairs(const OdometryRequest& request, std::int64
   return wanted;
 }
 
-// Poses of every pair of the sequence, by a file; empty without one.
+// Returns the predicted pose of every pair of the sequence, from the file of the request; nothing
+// without one.
 std::vector<math::Transform> PredictedPoses(const OdometryRequest& request, std::int64_t there) {
   if (request.prediction != Prediction::kFile) return {};
   PoseFile file = ReadPoses(request.predicted);
@@ -78,8 +79,8 @@ std::vector<math::Transform> PredictedPoses(const OdometryRequest& request, std:
   return std::move(file.poses);
 }
 
-// What decides the path and the files, but for the images themselves. A setting that is left out
-// may differ when a path is gone on with, and nobody notices.
+// Returns what decides the path and the files, but for the images themselves. Must name every such
+// setting: one that is left out may differ when a path is gone on with, and nobody notices.
 core::JsonValue PathRequestJson(const OdometryRequest& request, const ImageSequence& sequence,
                                 const OdometryResult& result) {
   const auto bytes_of = [](const fs::path& file) {
@@ -127,7 +128,7 @@ class PathEstimation {
     result.resampled = reader_.resampled();
   }
 
-  // Takes what an earlier call has done of these pairs; the rest is then added.
+  // Takes what an earlier call has done of these pairs; Add is then called for the rest.
   void Resume(std::span<const std::int64_t> wanted) {
     if (!folder_.resumes()) return;
     journal_.emplace(folder_.PathOf(kJournalFile));
@@ -166,7 +167,7 @@ class PathEstimation {
     return sequence_.pairs[static_cast<std::size_t>(pair)];
   }
 
-  // The odometer numbers what it is given.
+  // Returns the pair of a number of the odometer, which counts the pairs that it is given.
   std::int64_t PairOfNumber(std::int64_t number) const {
     return pairs_[static_cast<std::size_t>(number)];
   }
@@ -174,8 +175,8 @@ class PathEstimation {
     return std::find(pairs_.begin(), pairs_.end(), keyframe_) - pairs_.begin();
   }
 
-  // Nothing, with the reason in `entry`, where the images cannot be read: of a path's first pair,
-  // to which all others are told, that is an error.
+  // Reads the images of a pair; returns nothing, with the reason in `entry`, where they cannot be
+  // read. For the first pair of a path, to which all others are told, that is an error.
   std::optional<GrayPair> Read(PairEntry& entry) const {
     try {
       return reader_.Read(FilesOf(entry.pair));
@@ -230,7 +231,7 @@ class PathEstimation {
     result_.steps.push_back(std::move(step));
   }
 
-  // The motion since the previous pair, from the file of predicted poses.
+  // Returns the motion since the previous pair, from the file of predicted poses.
   std::optional<math::Transform> ExpectedStep(std::int64_t pair) const {
     if (predicted_.empty() || result_.steps.empty()) return std::nullopt;
     const auto before = static_cast<std::size_t>(result_.steps.back().pair);

@@ -1,5 +1,6 @@
-// What `rockyard vo` does: a sequence of image pairs to the path of its cameras (Matthies 1989;
-// Howard 2012).
+// What `rockyard vo` does, for that command: a sequence of image pairs to the path of its cameras
+// (Matthies 1989; Howard 2012). Its steps are in the other files of this folder, but for
+// render_sequence.h.
 #pragma once
 
 #include <array>
@@ -41,7 +42,7 @@ struct OdometryRequest {
   Prediction prediction = Prediction::kSteady;
   std::filesystem::path predicted;  // of kFile: a pose for every pair of the whole sequence
 
-  // Which pairs: from `first` on (from 0), every `every`th, at most `count`.
+  // Which pairs are read: from number `first` (from 0) on every `every`th one, at most `count`.
   std::int64_t first = 0;
   std::int64_t every = 1;
   std::optional<std::int64_t> count;
@@ -55,8 +56,8 @@ struct OdometryRequest {
       pictured;  // the pair whose features are drawn; absent: the middle one
 };
 
-// Where the time of a pair goes. From kDetected on in the order of vision::OdometryStage. The names
-// are in times.csv and vo.json.
+// Where the time of a pair goes. Must stay: from kDetected on the order of vision::OdometryStage,
+// and the names, which are in times.csv and vo.json.
 enum class PairStage {
   kRead,
   kAligned,
@@ -78,16 +79,16 @@ struct PathStep {
   std::int64_t reference = 0;  // the pair that it was compared with
   bool keyframe = false;
   vision::MotionResult result;  // from the reference to this pair
-  // Of the cameras' outer frame, in that of the first pair. Where no motion was found, what was
-  // predicted, else where the pair before was.
+  // The pose of the cameras' outer frame in that of the first pair. Where no motion was found it is
+  // the pose that was predicted, else that of the pair before.
   math::Transform X_AB = math::Transform::Identity();
-  // Of X_AB as of a motion from the first pair; nothing from the first gap on.
+  // The covariance of X_AB as of a motion from the first pair; absent from the first gap on.
   std::optional<vision::MotionCovariance> covariance;
   std::string unreadable;  // of NoMotion::kNoImages: why
   StageSeconds seconds{};
 };
 
-// Errors where truth is given. All of them over pairs that have a true pose.
+// Errors of a path, where truth is given. All are over pairs that have a true pose.
 struct PathErrors {
   std::int64_t pairs = 0;
   double distance_m = 0.0;   // along the true path
@@ -97,8 +98,8 @@ struct PathErrors {
   std::optional<vision::ErrorSummary> absolute_rigid_m;  // positions laid upon each other
   std::optional<vision::ErrorSummary> relative_m;
   std::optional<vision::ErrorSummary> relative_rad;
-  // Of motions from their keyframes, e' C^-1 e: 6 on average where covariances are right, and 5 %
-  // of them above the 95 % point of chi-squared.
+  // The normalized errors of motions from their keyframes, e' C^-1 e: 6 on average where
+  // covariances are right, and 5 % of them above the 95 % point of chi-squared.
   std::optional<vision::ErrorSummary> normalized;
   double normalized_above_95 = 0.0;  // share
 };
@@ -135,7 +136,7 @@ struct rockyard::core::EnumNames<rockyard::campaign::Prediction> {
 
 namespace rockyard::campaign {
 
-// The name of a value in files.
+// Returns the name of a value in files.
 template <typename Enum>
 std::string_view NameOf(Enum value) {
   return core::EnumNames<Enum>::kNames[static_cast<std::size_t>(value)];
@@ -145,10 +146,12 @@ std::string_view NameOf(Enum value) {
 using OdometryProgress =
     std::function<void(std::int64_t done, std::int64_t planned, std::int64_t gaps)>;
 
-// Reads, aligns, finds the motion of each pair and writes into the folder, which is made:
-// trajectory.csv, covariance.csv, times.csv, trajectory_kitti.txt, trajectory_tum.txt,
-// features.png, path.svg and vo.json; with truth errors.csv as well. All of that is written at the
-// end, each file whole or not at all; what was done when somebody asked for an end is written too.
+// Reads and aligns the images, finds the motion of each pair and writes into the folder, which is
+// made: trajectory.csv, covariance.csv, times.csv, trajectory_kitti.txt, trajectory_tum.txt,
+// path.svg and vo.json at the end, each file whole or not at all; with truth errors.csv as well.
+// Where `stop` asks for an end, what was done is written too. features.png is written with the
+// pictured pair.
+//
 // journal.jsonl grows pair by pair: with ExistingFiles::kResume a path that was cut off goes on and
 // ends as if it had not been, but for the times. A pair whose images cannot be read is a gap.
 // Throws core::UserError, before anything is written, for whatever is wrong with the input, the

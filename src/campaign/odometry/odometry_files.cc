@@ -38,7 +38,7 @@ void AddCovariance(report::CsvRow& row, const vision::MotionCovariance* covarian
   }
 }
 
-// The path in the frame of the truth.
+// Returns the transform that brings the path into the frame of the truth.
 math::Transform ToTruth(const OdometryResult& result) {
   return result.truth.front() * result.steps[result.steps_with_truth.front()].X_AB.inverse();
 }
@@ -99,8 +99,8 @@ JsonValue SequenceJson(const OdometryRequest& request, const OdometryResult& res
                             "every", request.every);
 }
 
-// A line a pair: its number, time, reference, keyframe, whether there was a motion and why not, the
-// pose (m, unit quaternion), counts, iterations, rms of what is left over.
+// trajectory.csv: a line for each pair with number, time, reference, keyframe, whether there was a
+// motion and why not, the pose (m, unit quaternion), counts, iterations, rms of what is left over.
 std::string TrajectoryCsv(const OdometryResult& result) {
   std::string csv =
       "pair,time_s,reference,keyframe,motion,reason,x_m,y_m,z_m,qw,qx,qy,qz,features_reference,"
@@ -118,8 +118,9 @@ std::string TrajectoryCsv(const OdometryResult& result) {
   return csv;
 }
 
-// A line a pair: the upper triangles, row by row, of the covariance of the motion from its
-// reference and of that of the pose (vision::MotionCovariance); empty where there is none.
+// covariance.csv: a line for each pair with the upper triangles, row by row, of the covariance of
+// the motion from its reference and of that of the pose (vision::MotionCovariance); empty where
+// there is none.
 std::string CovarianceCsv(const OdometryResult& result) {
   report::CsvRow head("pair", "reference");
   AddCovarianceNames(head, "motion");
@@ -134,7 +135,7 @@ std::string CovarianceCsv(const OdometryResult& result) {
   return csv;
 }
 
-// A line a pair: milliseconds of each stage.
+// times.csv: a line for each pair with the milliseconds of each stage.
 std::string TimesCsv(const OdometryResult& result) {
   report::CsvRow head("pair");
   for (const std::string_view stage : kPairStageNames) head.Add(fmt::format("{}_ms", stage));
@@ -147,8 +148,8 @@ std::string TimesCsv(const OdometryResult& result) {
   return csv;
 }
 
-// A line a pair with a true pose: true and estimated position, first poses made equal, and their
-// distance, m.
+// errors.csv: a line for each pair with a true pose: true and estimated position, first poses made
+// equal, and their distance, m.
 std::string ErrorsCsv(const OdometryResult& result) {
   std::string csv = "pair,true_x_m,true_y_m,true_z_m,x_m,y_m,z_m,error_m\n";
   if (result.truth.empty()) return csv;
@@ -245,7 +246,7 @@ std::vector<Vector3> PositionsOf(const vision::Trajectory& path) {
   return positions;
 }
 
-// True positions in the frame of the first pair.
+// Returns the true positions in the frame of the first pair.
 std::vector<Vector3> TruePositions(const OdometryResult& result) {
   std::vector<Vector3> positions;
   if (result.truth.empty()) return positions;
@@ -257,7 +258,7 @@ std::vector<Vector3> TruePositions(const OdometryResult& result) {
   return positions;
 }
 
-// The two axes along which points extend most, and how they are drawn.
+// The plane of a drawing: the two axes along which points extend most, and how points are drawn.
 class PathPlane {
  public:
   explicit PathPlane(const std::vector<Vector3>& points) {
@@ -284,7 +285,7 @@ class PathPlane {
   }
   double height_px() const { return height_px_; }
 
-  // A bar of a round length, at most a third of the drawing.
+  // Returns a bar of a round length, at most a third of the drawing.
   std::string ScaleBar() const {
     const double most_m = kDrawing_px / 3.0 / px_a_m_;
     const double power_m = std::pow(10.0, std::floor(std::log10(most_m)));

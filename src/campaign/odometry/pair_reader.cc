@@ -62,7 +62,7 @@ vision::CameraPair CamerasOf(const OdometryRequest& request, const ImageSequence
   return pair;
 }
 
-// All pixels are free where there is no file.
+// Reads the mask of free pixels; all are free where there is no file.
 vision::Image<std::uint8_t> MaskOf(const fs::path& path, const vision::ImageSize& size) {
   if (path.empty()) return {size.columns, size.rows, 1};
   vision::Image<std::uint8_t> mask = GrayOf(path, std::nullopt);
@@ -71,7 +71,7 @@ vision::Image<std::uint8_t> MaskOf(const fs::path& path, const vision::ImageSize
   return mask;
 }
 
-// Of cameras that cannot be aligned, the file is named too.
+// Aligns the eyes. Where the cameras cannot be aligned, the problems name the file too.
 perception::AlignedEyes EyesOf(const fs::path& file, const vision::StereoRig& rig) {
   try {
     return {rig, 0};
@@ -89,7 +89,7 @@ constexpr const char* kForm = "give \"P0: \" and \"P1: \" with the twelve number
 
 using Projection = Eigen::Matrix<double, 3, 4>;
 
-// The projection of a line that is one; nothing of other lines.
+// Returns the projection on a line; nothing where the line is none.
 std::optional<Projection> ProjectionOf(std::string_view line) {
   std::vector<std::string_view> words = WordsOf(line);
   if (!words.empty() && words.front().ends_with(':')) {
@@ -187,7 +187,7 @@ struct NaturalOrder {
   }
 };
 
-// The digits that a text begins with, without leading zeros.
+// Takes the digits that a text begins with, and returns them without leading zeros.
 std::string_view LeadingNumber(std::string_view& text) {
   std::size_t end = 0;
   while (end < text.size() && IsDigit(text[end])) ++end;
@@ -212,7 +212,7 @@ fs::path IfThere(const fs::path& path) {
   return fs::exists(path, error) ? path : fs::path();
 }
 
-// Names of the files in a folder but for hidden ones.
+// Returns the names of the files in a folder but for hidden ones.
 std::set<std::string, NaturalOrder> NamesIn(const fs::path& folder) {
   std::set<std::string, NaturalOrder> names;
   std::error_code error;
@@ -273,7 +273,7 @@ ImageSequence SequenceOfFolders(const fs::path& folder, const char* left, const 
   return sequence;
 }
 
-// Time in ns to path.
+// Returns the paths of the images of a camera by their times, ns.
 std::map<std::int64_t, fs::path> ListedImages(const fs::path& camera) {
   const fs::path list = camera / "data.csv";
   const std::string text = core::ReadTextFile(list, kLargestText, "EuRoC's list of images");

@@ -27,7 +27,7 @@ constexpr auto kCounts =
                    &vision::MotionCounts::matches, &vision::MotionCounts::points,
                    &vision::MotionCounts::consistent, &vision::MotionCounts::iterations});
 
-// Rotation and translation, row by row, then the covariance.
+// Returns rotation and translation, row by row, then the covariance.
 JsonValue MotionJson(const std::optional<vision::Motion>& motion) {
   if (!motion) return {};
   std::vector<double> numbers;
@@ -50,7 +50,7 @@ JsonValue EntryJson(const PairEntry& entry) {
       core::ListOf(counts), "seconds", core::ListOf(entry.seconds));
 }
 
-// Throws std::exception for what EntryJson does not write.
+// Reads what EntryJson wrote. Throws std::exception for anything else.
 class EntryReader {
  public:
   explicit EntryReader(const JsonValue& json) : json_(json) {}
@@ -143,7 +143,8 @@ void PathJournal::Add(const PairEntry& entry) {
 }
 
 void PathJournal::FailToWrite() const {
-  // Of a path that was begun: also where it has no right to.
+  // A path that was begun cannot go on: it counts as a failure of the machine, also where a right
+  // to write is missing.
   const std::error_code error(errno, std::generic_category());
   throw core::MachineError(path_.string(), "cannot be written: " + error.message(),
                            "check the free space and the permissions of its folder");

@@ -58,7 +58,7 @@ TruePath TruthByTime(const OdometryRequest& request, const PoseFile& file,
   return truth;
 }
 
-// Of every motion whose two pairs have true poses.
+// Returns the normalized error of every motion whose two pairs have true poses.
 std::vector<double> NormalizedErrors(const TruePath& truth, const OdometryResult& result) {
   std::vector<double> normalized;
   for (const PathStep& step : result.steps) {

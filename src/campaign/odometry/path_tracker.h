@@ -1,4 +1,5 @@
-// From motions against keyframes to a path; that path beside the true one.
+// From motions against keyframes to a path, and that path beside the true one. EstimatePath places
+// its pairs and judges its path by it.
 #pragma once
 
 #include <map>
@@ -10,16 +11,16 @@
 
 namespace rockyard::campaign {
 
-// The first pair stands at the identity.
+// Places pair after pair. The first pair stands at the identity.
 class PathTracker {
  public:
-  // Where the next pair is expected, told in the frame of the present keyframe. `step`: the motion
-  // since the pair before that others expect. Nothing without that before any motion is known.
+  // Returns where the next pair is expected, told in the frame of the present keyframe; nothing
+  // where nothing tells it. `step`: the motion since the pair before that a file predicts.
   std::optional<math::Transform> Predict(Prediction prediction,
                                          const std::optional<math::Transform>& step) const;
 
-  // Pose and covariance of a pair whose motion was sought; `predicted` as above, which takes its
-  // place where there is none.
+  // Fills pose and covariance of a pair whose motion was sought. `predicted`: what Predict
+  // returned, which stands in for a motion that was not found.
   void Place(const vision::OdometryStep& found, const std::optional<math::Transform>& predicted,
              PathStep& step);
 
@@ -37,14 +38,14 @@ class PathTracker {
 // True poses by the number of the pair.
 using TruePath = std::map<std::int64_t, math::Transform>;
 
-// The truth that the request names; nothing where it names none. Poses of KITTI's form belong to
-// the pairs of the whole sequence one by one; those of TUM's form to the pair whose time is
-// nearest, at most 0.02 s away (Sturm et al. 2012 and their tools). Throws core::UserError: a file
-// that cannot be read, another number of poses than of pairs, times where the sequence has none, no
-// pair with a pose.
+// Reads the truth that the request names; returns nothing where it names none. Poses of KITTI's
+// form belong to the pairs of the whole sequence one by one; those of TUM's form to the pair whose
+// time is nearest, at most 0.02 s away (Sturm et al. 2012 and their tools). Throws core::UserError:
+// a file that cannot be read, another number of poses than of pairs, times where the sequence has
+// none, no pair with a pose.
 std::optional<TruePath> ReadTruth(const OdometryRequest& request, const ImageSequence& sequence);
 
-// Fills truth, steps_with_truth and errors, and notes what cannot be told.
+// Fills truth, steps_with_truth and errors of the result, and notes what cannot be told.
 void JudgePath(const OdometryRequest& request, const TruePath& truth, OdometryResult& result);
 
 }  // namespace rockyard::campaign

@@ -30,7 +30,7 @@ struct NumberLine {
   throw core::UserError(fmt::format("{}: line {}", path.string(), line), reason, suggestion);
 }
 
-// The rotation nearest to a matrix that is one but for the digits of a file.
+// Returns the rotation nearest to a matrix that is one but for the digits of a file.
 Eigen::Matrix3d ExactRotation(const Eigen::Matrix3d& near) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(near, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
@@ -75,8 +75,8 @@ void CheckGrowing(const std::filesystem::path& path, const std::vector<NumberLin
   }
 }
 
-// A text file of at most 64 MB whose lines are numbers; those that are empty or begin with # are
-// left out. Throws core::UserError with the line: a word that is no finite number; no line with
+// Reads a text file of at most 64 MB whose lines are numbers; lines that are empty or begin with #
+// are left out. Throws core::UserError with the line: a word that is no finite number; no line with
 // numbers at all; a file that cannot be read. `kind` says what to give instead: "a file of poses".
 std::vector<NumberLine> ReadNumberLines(const std::filesystem::path& path, std::string_view kind) {
   const std::string text = core::ReadTextFile(path, kLargestText, kind);

@@ -1,5 +1,5 @@
-// Files of poses and times, as the benchmarks of others write them; text files of numbers,
-// line by line.
+// Files of poses and times, as the benchmarks of others write them; text files of numbers, line by
+// line. `render --pairs` writes them, `vo` reads and writes them.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,16 @@
 
 namespace rockyard::campaign {
 
-// A pose a line: twelve numbers, the rows of [R p], of X_AB from the body B to A (the odometry
-// benchmark of KITTI). The numbers read back to the same bits; ReadPoses makes rotations exact.
+// Returns a line for each pose: twelve numbers, the rows of [R p], of X_AB from the body B to A
+// (the odometry benchmark of KITTI). The numbers read back to the same bits; ReadPoses makes
+// rotations exact.
 std::string KittiPoses(std::span<const math::Transform> poses);
 
-// A pose a line: "time x y z qx qy qz qw" (TUM RGB-D benchmark), with a first line of comment. As
-// many times (s) as poses.
+// Returns a line for each pose: "time x y z qx qy qz qw" (TUM RGB-D benchmark), after a line of
+// comment. There must be as many times (s) as poses.
 std::string TumPoses(std::span<const math::Transform> poses, std::span<const double> times_s);
 
-// A time a line, s.
+// Returns a line for each time, s.
 std::string TimesText(std::span<const double> times_s);
 
 // What a file of poses holds.
@@ -40,16 +41,16 @@ PoseFile ReadPoses(const std::filesystem::path& path);
 // Reads times, as ReadPoses reads poses.
 std::vector<double> ReadTimes(const std::filesystem::path& path);
 
-// The words of a line, which blanks, tabs, carriage returns or commas part.
+// Returns the words of a line, which blanks, tabs, carriage returns or commas part.
 std::vector<std::string_view> WordsOf(std::string_view line);
 
-// The finite number that all of a word is; nothing otherwise.
+// Reads the finite number that all of a word is. Returns false where it is none.
 bool ParseNumber(std::string_view word, double& number);
 
-// The lines of a text, without their ends.
+// Returns the lines of a text, without their ends.
 std::vector<std::string_view> LinesOf(std::string_view text);
 
-// Of files of text.
+// The largest text file that is read, bytes.
 inline constexpr std::size_t kLargestText = std::size_t{64} << 20;
 
 }  // namespace rockyard::campaign

@@ -24,7 +24,7 @@ namespace {
 
 using math::Pose2;
 
-// Masks are images that people can look at.
+// Returns the mask as an image that people can look at.
 vision::GrayImage MaskPicture(const vision::Image<std::uint8_t>& free) {
   vision::GrayImage picture(free.width(), free.height());
   std::transform(
@@ -49,7 +49,7 @@ std::vector<math::Pose2> PlannedWay(const SequenceRequest& request, const Render
                    request.turn_rad);
 }
 
-// Images from beyond the arena show rocks that nobody placed.
+// Throws where the way leaves the arena: images from beyond it show rocks that nobody placed.
 void CheckArena(const std::vector<math::Pose2>& way, const terrain::ArenaParams& arena) {
   for (std::size_t i = 0; i < way.size(); ++i) {
     const bool inside = way[i].x_m >= arena.x_min_m &&
@@ -64,7 +64,8 @@ void CheckArena(const std::vector<math::Pose2>& way, const terrain::ArenaParams&
   }
 }
 
-// From the identity, the commanded steps one after the other, each in the true attitude.
+// Returns the poses by wheels: from the identity, the commanded steps one after the other, each in
+// the true attitude.
 std::vector<math::Transform> PosesByWheels(const std::vector<math::Pose2>& way,
                                            const std::vector<math::Transform>& truth, double slip) {
   const auto level = [](const math::Pose2& pose) {
@@ -84,8 +85,8 @@ std::vector<math::Transform> PosesByWheels(const std::vector<math::Pose2>& way,
   return poses;
 }
 
-// All that decides what is rendered. A setting that is left out may differ when a sequence is gone
-// on with, and nobody notices.
+// Returns all that decides what is rendered. Must name every such setting: one that is left out may
+// differ when a sequence is gone on with, and nobody notices.
 core::JsonValue SequenceRequestJson(const SequenceRequest& request, const RenderStage& stage) {
   const RenderRequest& scene = request.scene;
   const auto number = [](const std::optional<double>& value) {
@@ -100,7 +101,8 @@ core::JsonValue SequenceRequestJson(const SequenceRequest& request, const Render
       number(scene.x_m), "y_m", number(scene.y_m), "heading_rad", number(scene.heading_rad));
 }
 
-// The pairs of images go into the folder as they are taken, all else when they are there.
+// The folder of a sequence. Pairs of images go into it as they are taken, all else when they are
+// there.
 class SequenceFolder {
  public:
   SequenceFolder(const SequenceRequest& request, const RenderStage& stage)
@@ -153,9 +155,9 @@ class SequenceFolder {
 };
 
 constexpr double kSamePlace_m = 1e-3;
-// Below this a circle's chord is its arc, to every digit.
+// Below this turn the chord of a circle is its arc, to every digit.
 constexpr double kNoTurn_rad = 1e-9;
-// Quotients of lengths or angles that are whole but for rounding.
+// Quotients of lengths or angles that are off a whole number by less are whole but for rounding.
 constexpr double kRounding = 1e-9;
 
 Pose2 OnCircle(const Pose2& from, double step_m, double turn_rad) {
@@ -167,7 +169,7 @@ Pose2 OnCircle(const Pose2& from, double step_m, double turn_rad) {
           from.heading_rad + turn_rad};
 }
 
-// Of so many parts, which may be more than any integer, those that are wanted.
+// Returns the number of parts, at most `most`: it may be larger than any integer.
 std::int64_t PartsOf(double parts, std::int64_t most) {
   return static_cast<std::int64_t>(std::min(parts, static_cast<double>(most)));
 }

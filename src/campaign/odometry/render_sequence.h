@@ -1,5 +1,5 @@
-// What `rockyard render --pairs` does: the pairs of images that a scenario's rover takes on its
-// way, with the true poses, as a folder that `rockyard vo` reads.
+// What `rockyard render --pairs` does, for that command: the pairs of images that a scenario's
+// rover takes on its way, with the true poses, as a folder that `rockyard vo` reads.
 #pragma once
 
 #include <cstdint>
@@ -47,30 +47,34 @@ struct SequenceResult {
 // Called after each pair: how many there are, of how many.
 using SequenceProgress = std::function<void(std::int64_t done, std::int64_t planned)>;
 
-// Writes left/000000.png, right/000000.png and so on, cameras.json (both cameras in the frame R of
-// the rover), left_free.png and right_free.png (0 where a pixel shows the rover itself), and once
-// all pairs are there poses.txt (X_WR of each pair as the first three rows of a matrix, row by row,
-// as KITTI writes poses), wheels.txt (poses by commanded steps and true attitudes, from the
-// identity: what wheels tell) and times.txt (s). The noise of each pair is its own. Throws
-// core::UserError for what is wrong with scenario or folder, a way that leaves the arena, and a
-// course without a route. Cost: some 0.3 s a pair of 512 x 384 pixels.
+// Writes left/000000.png, right/000000.png and so on, and at the end cameras.json (both cameras in
+// the frame R of the rover), left_free.png and right_free.png (0 where a pixel shows the rover
+// itself), poses.txt (X_WR of each pair, in KITTI's form), wheels.txt (poses by commanded steps and
+// true attitudes, from the identity: what wheels tell) and times.txt (s). The noise of each pair is
+// its own. Must stay: names and forms, which EstimatePath reads.
+//
+// Throws core::UserError for what is wrong with scenario or folder, a way that leaves the arena,
+// and a course without a route. Cost: some 0.3 s a pair of 512 x 384 pixels.
 SequenceResult RenderSequence(const SequenceRequest& request, const SequenceProgress& progress = {},
                               const Stop& stop = {});
 
-// The names of a sequence's files.
+// Returns the name of an image of a sequence.
 std::string SequenceImageName(std::int64_t number);
 
-// `count` poses in W, the first of them `start`: from each to the next it is `step_m` (backwards
-// where negative, 0: it stays) along a circle on which the heading grows by `turn_rad`:
+// Returns `count` poses in W, the first of them `start`. From each to the next the rover goes
+// `step_m` (backwards where negative; where 0 it stays) along a circle on which the heading grows
+// by `turn_rad`:
+//
 //   chord = step sin(turn / 2) / (turn / 2), in the direction of heading + turn / 2.
+//
 // Requires count >= 1.
 std::vector<math::Pose2> CircleWay(const math::Pose2& start, std::int64_t count, double step_m,
                                    double turn_rad);
 
-// The way from `start` along straight lines through `corners`, in at most `count` poses: at each
-// corner it turns on the spot, in equal turns of at most `turn_rad`, then it drives in steps of
-// `step_m`, the last one to the corner as long as it needs. Corners nearer than 1 mm are passed
-// over. Requires count >= 1, step_m > 0, turn_rad > 0.
+// Returns the way from `start` along straight lines through `corners`, in at most `count` poses. At
+// each corner the rover turns on the spot, in equal turns of at most `turn_rad`, then it drives in
+// steps of `step_m`, the last one as long as it is to the corner. Corners nearer than 1 mm are
+// passed over. Requires count >= 1, step_m > 0, turn_rad > 0.
 std::vector<math::Pose2> CornerWay(const math::Pose2& start,
                                    std::span<const messages::Goal> corners, std::int64_t count,
                                    double step_m, double turn_rad);

@@ -34,12 +34,12 @@ using vision::DisparityImage;
 using vision::Image;
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-// Of heights that a colour is given to; the rest, at either end, takes that of the end.
+// The share of heights at either end that takes the colour of that end.
 constexpr double kLeftOut = 0.01;
 
 Rgb Gray(std::uint8_t value) { return {value, value, value}; }
 
-// Up or down the axis of the outer frame to which `direction` is nearest.
+// Returns the axis of the outer frame, up or down it, to which `direction` is nearest.
 Vector3d NearestAxis(const Vector3d& direction) {
   Eigen::Index axis = 0;
   direction.cwiseAbs().maxCoeff(&axis);
@@ -55,7 +55,7 @@ std::vector<Vector3d> PositionsOf(const std::vector<ColouredPoint>& points) {
   return positions;
 }
 
-// In pixels; NaN where a filter dropped the pixel.
+// Returns the disparities in pixels; NaN where a filter dropped the pixel.
 Image<float> DisparityValues(const DisparityImage& disparities) {
   Image<float> values(disparities.width(), disparities.height(), kUnknown);
   for (int y = 0; y < values.height(); ++y) {
@@ -69,7 +69,7 @@ Image<float> DisparityValues(const DisparityImage& disparities) {
   return values;
 }
 
-// The left image beside that picture.
+// Returns the left image beside the picture of disparities.
 Picture PairPicture(const vision::GrayImage& left, const Picture& disparities) {
   Picture picture(left.width() + disparities.width(), left.height());
   for (int y = 0; y < left.height(); ++y) {
@@ -81,9 +81,9 @@ Picture PairPicture(const vision::GrayImage& left, const Picture& disparities) {
   return picture;
 }
 
-// A grid over the points, seen against the axis of the outer frame (up or down it) that is nearest
-// to the images' upward direction: nobody says which way a camera file's frame stands, and a camera
-// on a rover stands nearly upright.
+// Returns a grid over the points, seen against the axis of the outer frame (up or down it) that is
+// nearest to the images' upward direction: nobody says which way the frame of a camera file stands,
+// and a camera on a rover stands nearly upright.
 vision::ElevationGrid GridOverPoints(const std::vector<ColouredPoint>& points,
                                      const vision::RectifiedPair& cameras, double cell_m) {
   const Vector3d& axis_A = cameras.left.A;
@@ -92,7 +92,7 @@ vision::ElevationGrid GridOverPoints(const std::vector<ColouredPoint>& points,
   return vision::GridOver(PositionsOf(points), away, up, cell_m);
 }
 
-// Heights over the grid's cells; m, NaN where no point is.
+// Returns the heights over the cells of the grid, m; NaN where no point is.
 Image<float> HeightsOf(const std::vector<ColouredPoint>& points,
                        const vision::ElevationGrid& grid) {
   return vision::ElevationMap(PositionsOf(points), grid);
@@ -100,9 +100,9 @@ Image<float> HeightsOf(const std::vector<ColouredPoint>& points,
 
 using core::JsonValue;
 
-// A share of range ends above this says that the range may be too short.
+// Where more pixels than this share match best at an end of the range, the range may be too short.
 constexpr double kManyAtTheEnd = 0.1;
-// Fewer matches than this are few of a pair that was taken as aligned.
+// A density below this is little for a pair that was taken as aligned.
 constexpr double kFew = 0.25;
 
 vision::DisparityImage Matched(const StereoInput& input, const vision::StereoPipelineParams& params,

@@ -1,5 +1,5 @@
-// What `rockyard stereo` does: a pair of image files to disparities, points and pictures (Goldberg
-// 2002 section 2).
+// What `rockyard stereo` does, for that command: a pair of image files to disparities, points and
+// pictures (Goldberg 2002 section 2). `render` and pictures of looks share its colours.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,29 +22,29 @@
 
 namespace rockyard::campaign {
 
-// What can be made of disparities: numbers, points, a map, pictures.
-
-// Yellow is near, violet far, over the range that was searched; dropped pixels are black.
+// Returns a picture of disparities: yellow is near, violet far, over the range that was searched;
+// dropped pixels are black.
 image_files::Picture DisparityPicture(const vision::DisparityImage& disparities,
                                       const vision::CorrelatorParams& range);
 
-// The points of all pixels with a disparity above zero, in the cameras' outer frame, with the grey
-// of the left image.
+// Returns the points of all pixels with a disparity above zero, in the cameras' outer frame, with
+// the grey of the left image.
 std::vector<image_files::ColouredPoint> PointsOf(const vision::DisparityImage& disparities,
                                                  const vision::GrayImage& left,
                                                  const vision::RectifiedPair& cameras);
 
-// The middle 98 % of the heights, m; nothing where no height is known.
+// The span of the middle 98 % of heights.
 struct HeightSpan {
   double low_m = 0.0;
   double high_m = 0.0;
 };
+// Returns the span of the heights; nothing where no height is known.
 std::optional<HeightSpan> HeightSpanOf(const vision::Image<float>& heights_m);
 
-// The colour of a height: violet at the lower end of the span, yellow at the upper one.
+// Returns the colour of a height: violet at the lower end of the span, yellow at the upper one.
 image_files::Rgb HeightColour(double height_m, const HeightSpan& span);
 
-// These colours over HeightSpanOf; cells without a point are black.
+// Returns a picture in HeightColour over HeightSpanOf; cells without a point are black.
 image_files::Picture ElevationPicture(const vision::Image<float>& heights_m);
 
 struct StereoRequest {
@@ -85,19 +85,19 @@ struct StereoResult {
 
   std::vector<OutputFile> files;
 
-  // Share of all pixels that have a disparity.
+  // Returns the share of all pixels that have a disparity.
   double Density() const;
 };
 
-// Reads, aligns, matches, checks and writes into the folder, which is made: disparity.pfm,
-// disparity.png, picture.png, stereo.json; with cameras also left.png and right.png (aligned),
-// points.ply, elevation.pfm and elevation.png. Throws core::UserError, before anything is written,
-// for whatever is wrong with the input.
+// Reads, aligns and matches the images, checks what was found, and writes into the folder, which is
+// made: disparity.pfm, disparity.png, picture.png, stereo.json; with cameras also left.png and
+// right.png (aligned), points.ply, and where there are points elevation.pfm and elevation.png.
+// Throws core::UserError, before anything is written, for whatever is wrong with the input.
 StereoResult MatchPair(const StereoRequest& request);
 
-// The file stereo.json: inputs, size, cameras, parameters, range, how many pixels each filter
-// dropped, the score against known disparities, points, files. Programs read it (--json): members
-// are only added.
+// Returns the file stereo.json: inputs, size, cameras, parameters, range, how many pixels each
+// filter dropped, the score against known disparities, points, files. Programs read it (--json).
+// Must stay: its members; others may only be added.
 core::JsonValue StereoJson(const StereoRequest& request, const StereoResult& result);
 
 }  // namespace rockyard::campaign

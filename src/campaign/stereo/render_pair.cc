@@ -20,7 +20,7 @@ namespace {
 
 using vision::Image;
 
-// Pictures of disparities are made of those that a matcher stores.
+// Returns the disparities as a matcher stores them: pictures are made of such.
 vision::DisparityImage Stored(const Image<float>& disparities) {
   vision::DisparityImage stored(disparities.width(), disparities.height(),
                                 vision::Dropped(vision::Drop::kOutside));

@@ -1,5 +1,6 @@
-// What `rockyard render` does: what the stereo cameras of a scenario's rover see, as files that
-// `rockyard stereo` reads; the stage that it stands on: terrain, rover and cameras of a trial.
+// What `rockyard render` does, for that command: what the stereo cameras of a scenario's rover see,
+// as files that `rockyard stereo` reads. The stage that the rover stands on, of terrain, rover and
+// cameras of a trial, serves sequences (odometry/render_sequence.h), too.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@ struct RenderRequest {
   ExistingFiles existing = ExistingFiles::kRefuse;
   messages::LookDirection direction = messages::LookDirection::kAhead;
 
-  // Where the rover stands, in W; what is absent is of the trial's start.
+  // Where the rover stands, in W. What is absent is taken from the start of the trial.
   std::optional<double> x_m;
   std::optional<double> y_m;
   std::optional<double> heading_rad;
@@ -45,18 +46,19 @@ struct RenderResult {
   std::vector<OutputFile> files;
 };
 
-// Stands the rover on the terrain of the trial and takes one look, at rest on the ground and
-// whatever else stands there. Writes left.png, right.png, cameras.json (both cameras in the frame
-// of the rover), disparity.pfm (what is true of the left image) and disparity.png (the same to look
-// at). Throws core::UserError for what is wrong with scenario, place or folder. Cost: some 0.5 s
-// for images of 512 x 512 pixels.
+// Stands the rover on the terrain of the trial and takes one look. Writes left.png, right.png,
+// cameras.json (both cameras in the frame R of the rover), disparity.pfm (what is true of the left
+// image) and disparity.png (a picture of that). Throws core::UserError for what is wrong with
+// scenario, place or folder. Cost: some 0.5 s for images of 512 x 512 pixels.
 RenderResult RenderPair(const RenderRequest& request);
 
-// Everything at rest: the rover settles on the ground and whatever else stands there.
+// The terrain, rover and cameras of a trial, at rest: the rover settles on the ground and whatever
+// else stands there.
 class RenderStage {
  public:
-  // Of the request its scenario with overrides, seed and trial. A scenario whose stereo sensor has
-  // other fidelities has cameras all the same. Throws core::UserError for what is wrong with them.
+  // Takes scenario with overrides, seed and trial of the request. A scenario whose stereo sensor
+  // has another fidelity has cameras all the same. Throws core::UserError for what is wrong with
+  // scenario or overrides.
   explicit RenderStage(const RenderRequest& request);
   RenderStage(const RenderStage&) = delete;  // the rover stands on this very terrain
   RenderStage& operator=(const RenderStage&) = delete;
@@ -69,7 +71,7 @@ class RenderStage {
                                   direction);
   }
 
-  // Stands the rover there and gives back where it came to rest.
+  // Stands the rover at a pose and returns where it came to rest.
   const math::Transform& Stand(const math::Pose2& X_WR);
 
  private:
@@ -80,8 +82,8 @@ class RenderStage {
   sensing::StereoImager imager_;
 };
 
-// Where the rover is to stand at first: of the request, and what is absent there of the trial's
-// start.
+// Returns where the rover is to stand at first: the place of the request, and where that is absent,
+// the start of the trial.
 math::Pose2 FirstPose(const RenderRequest& request, const math::Pose2& start);
 
 }  // namespace rockyard::campaign

@@ -30,7 +30,7 @@ using vision::GrayImage;
 using vision::Image;
 using vision::StereoPipelineParams;
 
-// The smallest side that is matched: less is no image.
+// The smallest side of an image that is matched, px.
 constexpr int kLeastSide_px = 16;
 
 std::string SizeText(int columns, int rows) { return fmt::format("{} x {}", columns, rows); }
@@ -82,7 +82,8 @@ vision::CameraModel CameraOf(const fs::path& file, std::string_view eye,
   return vision::Reduced(camera, 1 << level);
 }
 
-// The image that the aligned camera would have taken, and which of its pixels come from the image.
+// Returns the image that the aligned camera would have taken, and which of its pixels come from the
+// image.
 std::pair<GrayImage, Image<std::uint8_t>> Resampled(const GrayImage& image,
                                                     const vision::CameraModel& real,
                                                     const vision::Cahv& aligned,
@@ -99,7 +100,8 @@ std::pair<GrayImage, Image<std::uint8_t>> Resampled(const GrayImage& image,
   return {table.Rectify(image), table.Inside()};
 }
 
-// vision::Rectify names left, right and so on: they stand in this file.
+// Aligns the cameras. Problems of vision::Rectify name left, right and so on; they are told with
+// the file.
 vision::RectifiedPair RectifyOrThrow(const fs::path& file, const vision::CameraPair& cameras) {
   core::Result<vision::RectifiedPair> found = vision::Rectify(cameras.left, cameras.right);
   if (found.ok()) return *found;
@@ -110,7 +112,8 @@ vision::RectifiedPair RectifyOrThrow(const fs::path& file, const vision::CameraP
   throw core::UserError(std::move(problems));
 }
 
-// Without cameras: as the images are, or with the right one's rows moved to those of the left one.
+// Takes the images of a pair without cameras: as they are, or with the rows of the right one moved
+// to those of the left one.
 void TakeImages(const StereoRequest& request, GrayImage left, GrayImage right, StereoInput& input) {
   if (request.align) {
     core::Result<vision::RowAlignment> found = vision::FindRowAlignment(left, right);
@@ -132,14 +135,15 @@ void TakeImages(const StereoRequest& request, GrayImage left, GrayImage right, S
 
 // Below this share of matched pixels a pair is looked at twice.
 constexpr double kHardlyAny = 0.05;
-// Swapped eyes: turned back, the pair has this many times as many matches.
+// Eyes are taken for swapped where the pair has this many times as many matches when they are
+// turned back.
 constexpr double kClearlyMore = 3.0;
 // A pixel shows texture where the Laplacian is this many grey levels from 0, whatever filter and
 // gain the pair is matched with, and an image has texture where this share of its pixels does.
 constexpr int kTexture_levels = 4;
 constexpr double kTextured = 0.25;
-// Share of the image's width that is searched where nobody says otherwise, at least so many
-// disparities: a camera pair's overlap at arm's length.
+// Where nobody says otherwise, 1 / kWidthShare of the image's width is searched, at least so many
+// disparities: the overlap of a camera pair at arm's length.
 constexpr int kWidthShare = 8;
 constexpr int kLeastDisparities = 16;
 
@@ -172,7 +176,7 @@ bool HasTexture(const GrayImage& image) {
   return static_cast<double>(textured) >= kTextured * static_cast<double>(filtered.values().size());
 }
 
-// What the pair would show if its eyes were the other way round.
+// Returns the share of matches that the pair would have if its eyes were the other way round.
 double MatchedShareSwapped(const StereoInput& input, const StereoPipelineParams& params,
                            int threads) {
   vision::StereoProducts products;
@@ -237,7 +241,7 @@ StereoPipelineParams WithRange(const StereoRequest& request, const StereoInput& 
     return params;
   }
   if (NamesRange(request)) return params;
-  // The peak filter takes one disparity at either end.
+  // One disparity more is searched at either end, since the peak filter takes one there.
   const int searched = std::max(kLeastDisparities, input.left.width() / kWidthShare);
   params.correlator.min_disparity_px = -1;
   params.correlator.disparities = std::min(searched + 2, 512);

@@ -1,5 +1,6 @@
 // The images of a pair: read, made grey, reduced and, where there are cameras, aligned; which
-// disparities are searched in them, and whether what was found makes sense at all.
+// disparities are searched in them, and whether what was found makes sense at all. MatchPair is
+// made of these steps.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ namespace rockyard::campaign {
 struct StereoInput {
   vision::GrayImage left;
   vision::GrayImage right;
-  // Where both come from the camera's images; empty where nothing was resampled.
+  // Which pixels come from the images of the cameras; empty where nothing was resampled.
   vision::Image<std::uint8_t> left_inside;
   vision::Image<std::uint8_t> right_inside;
   std::optional<vision::RectifiedPair> cameras;   // of these images
@@ -34,19 +35,20 @@ struct StereoInput {
 // vision::FindRowAlignment refuse, and cameras where the images are to align themselves.
 StereoInput ReadStereoInput(const StereoRequest& request, int pyramid_level);
 
-// The parameters of the request: its settings over the defaults. Throws core::UserError.
+// Returns the parameters of the request: its settings over the defaults. Throws core::UserError.
 vision::StereoPipelineParams StereoParamsOf(const StereoRequest& request);
 
-// The same with the range that is searched in these images: that of the request's depths; else that
-// of its settings, where one names the range; else from infinity (disparity 0) to an eighth of the
-// image's width. Throws core::UserError where depths are asked for and there are no cameras.
+// Returns the parameters with the range that is searched in these images: that of the request's
+// depths; else that of its settings, where one names the range; else from infinity (disparity 0) to
+// an eighth of the image's width, at least 16 px. Throws core::UserError where depths are asked for
+// and there are no cameras.
 vision::StereoPipelineParams WithRange(const StereoRequest& request, const StereoInput& input,
                                        vision::StereoPipelineParams params);
 
 // Throws core::UserError where hardly anything was matched although the images have texture: the
 // eyes are swapped (with them swapped back there are matches), or the images share nothing within
-// the range. Images without texture are no error. `threads` as for vision::MatchStereo, which is
-// called once more where little was matched.
+// the range. Images without texture are no error. Where little was matched, vision::MatchStereo is
+// called once more, with the threads of the request.
 void CheckThatTheyMatch(const StereoRequest& request, const StereoInput& input,
                         const vision::StereoPipelineParams& params,
                         const vision::DisparityImage& disparities);

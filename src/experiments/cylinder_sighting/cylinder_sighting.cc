@@ -39,8 +39,8 @@ void SetFactor(std::string_view name, double value, StudiedView& studied) {
   }
 }
 
-// The share of the image above the highest hills: three deviations above their mean, or the level
-// line of sight where that is higher.
+// Returns the share of the image above the highest hills: three deviations above their mean, or the
+// level line of sight where that is higher.
 double SkyShare(const CylinderPictureParams& picture, const vision::Cahv& camera) {
   const rendering::BackdropParams& hills = picture.backdrop;
   const double height_m = hills.horizon_distance_m * std::tan(hills.horizon_elevation_rad) +
@@ -81,7 +81,8 @@ CylinderSightingExperiment::CylinderSightingExperiment(const CylinderSightingPar
 
 StudiedView CylinderSightingExperiment::Draw(std::size_t cell, core::TrialKey key) const {
   StudiedView studied{params_.picture, {}, params_.published, params_.robust};
-  // Everything is drawn, also what a factor or a parameter then replaces: the other numbers stay.
+  // Records depend on the order of the draws. Everything is drawn, also what a factor or a
+  // parameter then replaces, so that the other numbers stay.
   core::RandomStream stream(key, core::Purpose::kExperiment);
   studied.view.present = params_.present;
   studied.view.orientation_rad = SampleUniform(stream, -std::numbers::pi, std::numbers::pi);
@@ -132,7 +133,8 @@ std::vector<double> CylinderSightingExperiment::Measure(std::size_t cell,
 
 namespace {
 
-// The meaning of the columns "..._wrong" tells these numbers.
+// Must agree with the meaning of the columns "..._wrong" (ForEachFinderColumn) and with
+// JudgeSighting's.
 constexpr double kWrongDeviations = 3.0;
 constexpr double kWrongTurn_rad = math::DegToRad(10.0);
 constexpr double kWrongShare = 0.10;

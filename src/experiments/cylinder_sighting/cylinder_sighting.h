@@ -1,9 +1,9 @@
-// The experiment "cylinder_sighting": where finders see the coloured cylinder, in rendered images.
+// The experiment "cylinder_sighting" (make_experiment.cc): where finders see the coloured cylinder,
+// in rendered images. A scene is a view, which is measured several times with new noise. All
+// finders are given the same images.
 //
-// One run is a block of views of one cell, each measured several times with new noise; run i
-// belongs to cell i modulo their number, so that every prefix of the runs covers the cells evenly.
-// All finders are given the same images. Its record holds the factors, then counts and sums; its
-// outcome is `measured`.
+// Range is the distance along the ground from the origin of L; depth the distance before the left
+// camera along its axis.
 #pragma once
 
 #include <array>
@@ -22,21 +22,20 @@
 
 namespace rockyard::experiments {
 
-// What the views of one cell add up to, for each finder.
-
 inline constexpr std::size_t kCylinderMisses = core::EnumNames<vision::CylinderMiss>::kNames.size();
 
+// What the views of one cell add up to for one finder.
 struct FinderSums {
   double found = 0.0;
-  double wrong = 0.0;  // of these
+  double wrong = 0.0;  // found and wrong (JudgeSighting)
   double right = 0.0;  // found and not wrong
-  // Of what was not found, by reason; the first is of none.
+  // What was not found, by reason; the first entry is of no reason.
   std::array<double, kCylinderMisses> misses{};
-  // Of what was found, wrong or not.
+  // Errors of what was found, wrong or not.
   ErrorSums orientation_deg;
   ErrorSums stereo;
   ErrorSums size;
-  // Of what was right.
+  // Errors of what was right.
   ErrorSums right_orientation_deg;
   ErrorSums right_range;
   ErrorSums right_bearing_mrad;
@@ -63,7 +62,7 @@ void ForEachFinderColumn(const std::string& finder, const std::string& called,
          kCount, found},
         s.wrong);
   visit({right, "1", "of these, not wrong", kCount, found}, s.right);
-  // Another reason, or another name of one, is another column of stored runs.
+  // Stored runs depend on the reasons: another reason, or another name of one, is another column.
   for (std::size_t i = 1; i < kCylinderMisses; ++i) {
     const std::string reason(core::EnumNames<vision::CylinderMiss>::kNames[i]);
     visit({std::string(finder).append("_").append(reason), "1",
@@ -101,7 +100,7 @@ void ForEachColumn(const SightingSums& s, const Visitor& visit) {
   ForEachFinderColumn("robust", "rockyard's own finder", kCount, s.robust, visit);
 }
 
-// What is true of a view. L as in rendering/cylinder/cylinder_scene.h.
+// What is true of a view. Frame L is that of rendering/cylinder/cylinder_scene.h.
 struct CylinderTruth {
   bool present = true;
   double orientation_rad = 0.0;
@@ -110,13 +109,13 @@ struct CylinderTruth {
 };
 
 // Adds one finding to the sums. A pose is wrong if its orientation is off by more than three of its
-// own standard deviations and more than 10 deg, or its range along the ground, from the origin of
-// L, by more than three of its own and more than 10 %; every pose is where there is no cylinder.
-// Distances by stereo and by size are depths, compared as shares of the true depth.
+// own standard deviations and more than 10 deg, or its range by more than three of its own standard
+// deviations and more than 10 %; without a cylinder every pose is wrong. Distances by stereo and by
+// size are depths, compared as shares of the true depth.
 void JudgeSighting(const CylinderTruth& truth, const vision::CylinderFinding& finding,
                    FinderSums& sums);
 
-// Every column but the number of the cell: the factors that may name a cell, then those of
+// Returns every column but the number of the cell: the factors that may name a cell, then those of
 // SightingSums.
 const truth::RecordSchema& CylinderSightingColumns();
 
@@ -135,8 +134,9 @@ class CylinderSightingExperiment final : public CellExperiment {
   // view.
   explicit CylinderSightingExperiment(const CylinderSightingParams& params);
 
-  // The view of that key in a cell: orientation, sun, bearing and distance as the parameters draw
-  // them. Finders know the third colour, and no row above the horizon is theirs.
+  // Returns the view of that key in a cell: orientation, sun, bearing and distance as the
+  // parameters draw them. Finders are told the third colour, and that rows above the horizon are
+  // not theirs.
   StudiedView Draw(std::size_t cell, core::TrialKey key) const;
 
  private:

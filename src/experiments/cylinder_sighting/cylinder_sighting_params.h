@@ -1,5 +1,6 @@
-// Parameters of the experiment on the coloured cylinder before the lander's cameras. A default
-// decides the records of scenarios that leave it out; a bound only refuses files.
+// Parameters of the experiment "cylinder_sighting", on the coloured cylinder before the lander's
+// cameras. A default decides the records of scenarios that leave it out; a bound only refuses
+// files.
 #pragma once
 
 #include <cstdint>

@@ -44,8 +44,8 @@ WalkPlan PlanOf(const DeadReckoningWalkParams& params, const std::vector<double>
   plan.step_s = params.step_m / params.speed_m_s;
   plan.scale_deviation = values[3];
   plan.rest_s = values[4];
-  // Variances a metre times the step. The heading's runs in time: q_t = q v, and at rest as in
-  // driving.
+  // Variances a metre times the step. The variance of the heading grows with time, q_t = q v, at
+  // rest as in driving.
   const double rad_per_deg = math::DegToRad(1.0);
   const double turn_variance_rad2_per_m = values[1] * rad_per_deg * rad_per_deg;
   plan.noise.turn_deviation_rad = std::sqrt(turn_variance_rad2_per_m * params.step_m);
@@ -82,8 +82,8 @@ std::vector<double> DeadReckoningExperiment::Measure(std::size_t cell, core::Tri
 
 namespace {
 
-// What wheels and gyro measure of `way_m`: the wheels roll 1 / distance_scale as far, as slip on
-// level sand makes them.
+// Returns what wheels and gyro measure of `way_m`: the wheels roll 1 / distance_scale as far, as
+// slip on level sand makes them.
 messages::MotionMeasurement Measured(const WalkingRover& rover, double way_m, double turn_rad,
                                      double duration_s) {
   messages::MotionMeasurement motion;

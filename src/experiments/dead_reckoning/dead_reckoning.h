@@ -1,8 +1,10 @@
-// The experiment "dead_reckoning": how the error of dead reckoning grows along a straight line.
+// The experiment "dead_reckoning" (make_experiment.cc): how the error of dead reckoning grows along
+// a straight line. A scene is a walk.
 //
-// One run is a block of walks of one cell; run i belongs to cell i modulo their number, so that
-// every prefix of the runs covers the cells evenly. Its record holds the cell's factors, then
-// counts and sums; its outcome is `measured`.
+// A walk follows Matthies 1995, section 5: x += dr cos(h), y += dr sin(h), h += dh, with dr = 6.7
+// cm and dh = 0, each corrupted in every step by independent normal noise. The rover truly drives
+// along x. What it measures goes through the dead reckoning that flies, so that the end of the walk
+// is the error.
 #pragma once
 
 #include <cmath>
@@ -23,12 +25,6 @@
 
 namespace rockyard::experiments {
 
-// One walk along a straight line by dead reckoning whose measurements are noisy.
-//
-// Matthies 1995, section 5: x += dr cos(h), y += dr sin(h), h += dh, with dr = 6.7 cm and dh = 0,
-// each corrupted in every step by independent normal noise. The rover truly drives along x; what
-// it measures goes through the dead reckoning that flies, so that its end is the error.
-
 // How a walk ended: what is believed less what is true.
 struct WalkError {
   double along_m = 0.0;   // in the direction of the start
@@ -42,7 +38,8 @@ struct WalkErrorSums : ErrorSums {
   double deviation = 0.0;  // n times the sample's, so that runs add up to a mean per walk
 };
 
-// Needs two errors or more.
+// Returns the sums over the walks of one member of their errors, of which there must be two or
+// more.
 inline WalkErrorSums SumsOf(const std::vector<WalkError>& errors, double WalkError::*error) {
   EXPECT(errors.size() >= 2);
   const auto n = static_cast<double>(errors.size());
@@ -87,7 +84,7 @@ void ForEachColumn(const WalkSums& s, const Visitor& visit) {
   error("distance", "m", "odometer less true distance", s.distance_m);
 }
 
-// Of one step, all independent.
+// Standard deviations of the noise of one step, all independent.
 struct StepNoise {
   double distance_deviation_m = 0.0;
   double turn_deviation_rad = 0.0;       // in driving
@@ -101,7 +98,7 @@ struct WalkPlan {
   double step_s = 0.0;  // of driving
   double rest_s = 0.0;  // of standing after every step
   StepNoise noise;
-  double scale_deviation = 0.0;  // of an error that a walk keeps
+  double scale_deviation = 0.0;  // of the scale error that a walk keeps
 };
 
 // The rover that walks: its wheels as they are, and what it believes of them.
@@ -111,12 +108,12 @@ struct WalkingRover {
   localization::DeadReckoningParams dead_reckoning;
 };
 
-// Returns the error at the end. The noise comes from stream kExperiment of `key`. Cost: 0.15 us a
-// step.
+// Returns the error at the end of a walk. The noise comes from stream kExperiment of `key`. Cost:
+// 0.15 us a step.
 WalkError WalkStraight(const WalkingRover& rover, const WalkPlan& plan, core::TrialKey key);
 
-// Every column but the number of the cell: first the factors that name a cell, then those of
-// WalkSums.
+// Returns every column but the number of the cell: first the factors that name a cell, then those
+// of WalkSums.
 const truth::RecordSchema& DeadReckoningColumns();
 
 class DeadReckoningExperiment final : public CellExperiment {
@@ -131,7 +128,8 @@ class DeadReckoningExperiment final : public CellExperiment {
   WalkingRover rover_;
 };
 
-// What the walks of one cell have in common. `values` are those of params.Factors().
+// Returns what the walks of one cell have in common. `values` are those of params.Factors(), in
+// their order.
 WalkPlan PlanOf(const DeadReckoningWalkParams& params, const std::vector<double>& values);
 
 }  // namespace rockyard::experiments

@@ -1,5 +1,5 @@
-// Parameters of the experiment on dead reckoning along a straight line. A default decides the
-// records of scenarios that leave it out; a bound only refuses files.
+// Parameters of the experiment "dead_reckoning", which measures dead reckoning along a straight
+// line. A default decides the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ struct DeadReckoningWalkParams {
   std::vector<double> scale_deviations{0.0};
   std::vector<double> rests_s{0.0};
 
-  // In the order of their columns, the last one changing fastest.
+  // Returns the factors in the order of their columns (PlanOf reads them so), the last one changing
+  // fastest.
   std::vector<CellFactor> Factors() const;
   double Cells() const { return CellsOf(Factors()); }
 

@@ -15,7 +15,7 @@ using math::Vector3;
 LanderPair::LanderPair(const LanderCameras& cameras, const Vector3& p_goal_L) {
   const Vector3 top_L(0.0, 0.0, cameras.mast_height_m);
   const Vector3 ahead_L = (p_goal_L - top_L).normalized();
-  // Pan and no roll: rows of the images are level.
+  // The cameras pan and do not roll: rows of the images are level.
   const double along_m = std::hypot(ahead_L.x(), ahead_L.y());
   const Vector3 right_L = along_m > 0.0
                               ? Vector3(ahead_L.y() / along_m, -ahead_L.x() / along_m, 0.0)
@@ -112,7 +112,8 @@ PickErrors Draw(const trial::DesignationParams& errors, core::TrialKey key) {
   return drawn;
 }
 
-// Of a normal error the mean magnitude is the root of 2/pi standard deviations.
+// Returns an estimate of the standard deviation of a normal error, whose mean magnitude is the root
+// of 2/pi standard deviations.
 double Spread(double error_m) { return std::sqrt(0.5 * std::numbers::pi) * std::abs(error_m); }
 
 void AddPlace(const Vector3& error_m, DesignationSums& sums) {
@@ -139,7 +140,7 @@ void AddPanned(const Vector3& error_m, double near_enough_m, DesignationSums& su
   sums.Add(kMiss, miss_m);
 }
 
-// What a drive's course would have told for the same goal.
+// Adds what a drive's course would have told for the same goal.
 void AddCourse(const trial::CourseParams& course, core::TrialKey key, DesignationSums& sums) {
   const messages::Goal told = trial::DesignatedGoal(course, key);
   const double downrange_m = told.x_m - course.goal_x_m;

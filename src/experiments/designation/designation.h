@@ -1,8 +1,6 @@
-// The experiment "designation": where operators put goals in the lander's stereo images.
-//
-// One run is a block of independent designations of a goal at one range; run i belongs to cell i
-// modulo their number, so that every prefix of the runs covers the cells evenly. Its record holds
-// the range, then counts and sums; its outcome is `measured`.
+// The experiment "designation" (make_experiment.cc): where operators put goals in the lander's
+// stereo images. A cell is a range of the goal along the ground; a scene is one designation of a
+// goal at it.
 #pragma once
 
 #include <array>
@@ -41,14 +39,14 @@ struct StereoPick {
 
 class LanderPair {
  public:
-  // Turned towards p_goal_L, which is not the mast's top.
+  // The pair is turned towards p_goal_L, which is not the mast's top.
   LanderPair(const LanderCameras& cameras, const math::Vector3& p_goal_L);
 
-  // Where both cameras image a place; nothing where one of them has it behind its back.
+  // Returns where both cameras image a place; nothing where one of them has it behind its back.
   std::optional<StereoPick> See(const math::Vector3& p_L) const;
 
-  // The place in L that stands for a measurement, triangulated. Nothing where its disparity is not
-  // positive, so that it lies at infinity or beyond.
+  // Returns the place in L that a measurement stands for, by triangulation. Nothing where its
+  // disparity is not positive, so that the place lies at infinity or beyond.
   std::optional<math::Vector3> Place(const StereoPick& pick) const;
 
  private:
@@ -56,11 +54,12 @@ class LanderPair {
   vision::Cahv right_;
 };
 
-// The place as it is told in the lander's frame by a pan axis whose angle is wrong by pan_rad,
+// Returns the place as a pan axis tells it in the lander's frame whose angle is wrong by pan_rad,
 // positive to the left.
 math::Vector3 Panned(const math::Vector3& p_L, double pan_rad);
 
-// The columns after the range, by their place in DesignationColumns.
+// The columns after the range. Must stay in the order of DesignationColumns, whose values
+// DesignationSums holds by these numbers.
 enum class DesignationColumn : std::size_t {
   kDesignations,
   kBeyond,
@@ -103,8 +102,8 @@ class DesignationSums {
   std::array<double, kSize> values_{};
 };
 
-// Every column but the number of the cell: the range that names a cell, then what DesignationSums
-// holds, in its order.
+// Returns every column but the number of the cell: the range that names a cell, then those of
+// DesignationColumn, in its order.
 const truth::RecordSchema& DesignationColumns();
 
 class DesignationExperiment final : public CellExperiment {
@@ -115,7 +114,7 @@ class DesignationExperiment final : public CellExperiment {
   DesignationExperiment(const DesignationStudyParams& params, const trial::CourseParams& course);
 
  private:
-  // The course with its start under the mast and its goal at that range.
+  // Returns the course with its start under the mast and its goal at that range.
   trial::CourseParams CourseOf(double range_m) const;
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override;
 
@@ -124,7 +123,7 @@ class DesignationExperiment final : public CellExperiment {
   LanderCameras cameras_;
 };
 
-// The cameras that a scenario gives the lander.
+// Returns the cameras that a scenario gives the lander.
 LanderCameras CamerasOf(const DesignationStudyParams& study,
                         const trial::DesignationParams& designation);
 

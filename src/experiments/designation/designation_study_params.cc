@@ -31,8 +31,8 @@ void DesignationStudyParams::Visit(core::FieldVisitor& v) {
   v.Require("ranges_m", Cells() <= kMaxCells, "names more than 2000 cells", "shorten the list");
 }
 
-// Turned towards the goal, the cameras image it half its disparity f B / Z off their middle; of a
-// side of N pixels, (N - 1) / 2 lie on either side of the middle. An operator's pick is taken as
+// Cameras that are turned towards the goal image it half its disparity f B / Z off their middle; of
+// a side of N pixels, (N - 1) / 2 lie on either side of the middle. An operator's pick is taken as
 // within 5 standard deviations.
 void RequireDesignable(const DesignationStudyParams& study, const trial::DriveParams& drive,
                        core::FieldVisitor& v) {

@@ -1,5 +1,5 @@
-// Parameters of the experiment on goals designated in the lander's stereo images. A default decides
-// the records of scenarios that leave it out; a bound only refuses files.
+// Parameters of the experiment "designation", on goals designated in the lander's stereo images. A
+// default decides the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct DesignationStudyParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Requires that both cameras image the goal of every range, wide of the image's edges. Each failure
+// Requires that both cameras image the goal at every range, wide of the image's edges. Each failure
 // names the parameter, what is wrong and a remedy.
 void RequireDesignable(const DesignationStudyParams& study, const trial::DriveParams& drive,
                        core::FieldVisitor& v);

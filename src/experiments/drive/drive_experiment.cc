@@ -12,7 +12,8 @@
 namespace rockyard::experiments {
 namespace {
 
-// A number that is none is a fault of the simulation (RecordOf), unless its column may lack one.
+// Returns the values of a record. A number that is none is a fault of the simulation (RecordOf),
+// unless its column may lack one.
 std::vector<double> Values(const truth::DriveRecord& drive) {
   std::vector<double> values;
   values.reserve(truth::kDriveColumns.size());

@@ -1,4 +1,5 @@
-// The drive experiment: one trial is one closed-loop drive to the goal.
+// The experiment "drive": one trial is one closed-loop drive to the goal. Campaigns make it by
+// make_experiment.h; replays and traces make it themselves, for RunTraced.
 #pragma once
 
 #include "experiments/experiment.h"
@@ -9,7 +10,7 @@
 
 namespace rockyard::experiments {
 
-// Names and units of a drive record, in the order of truth::kDriveColumns.
+// Returns names, units and meanings of a drive record, in the order of truth::kDriveColumns.
 const truth::RecordSchema& DriveSchema();
 
 class DriveExperiment final : public Experiment {
@@ -19,7 +20,8 @@ class DriveExperiment final : public Experiment {
   const truth::RecordSchema& schema() const override;
   truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
 
-  // The same record; the course of the drive goes to `trace`, up to the fault where there is one.
+  // Returns the same record as Run; the course of the drive goes to `trace`, up to the fault where
+  // there is one.
   truth::Record RunTraced(std::uint64_t seed, std::uint64_t index, truth::Trace& trace) const;
 
  private:

@@ -1,4 +1,5 @@
-// Study "false_alarm": flat sand, no rock.
+// Studies "false_alarm", flat sand without rocks, and "missed", hazards on straight drives through
+// random fields.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@
 namespace rockyard::experiments {
 namespace {
 
-// The drive of one cell.
+// Returns the drive of one cell of the study "false_alarm".
 trial::DriveParams WithFactors(trial::DriveParams drive, const CellTable& table, std::size_t cell) {
   const std::vector<std::string_view> columns = table.columns();
   const std::vector<double> values = table.Values(cell);
@@ -39,6 +40,7 @@ trial::DriveParams WithFactors(trial::DriveParams drive, const CellTable& table,
   return drive;
 }
 
+// The study "false_alarm".
 class AlarmStudy final : public CellExperiment {
  public:
   AlarmStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
@@ -70,7 +72,7 @@ class AlarmStudy final : public CellExperiment {
       return;
     }
     const messages::ElevationScan second = judge.Scan(sand_, X_WR, key, 1);
-    // It begins with the same scans: equal numbers have equal noise.
+    // Look takes the same scans again: equal numbers have equal noise.
     const Percept percept = judge.Look(sand_, X_WR, key, 0);
     sums[1] += static_cast<double>(percept.scans);
     sums[2] += 1.0;
@@ -94,8 +96,6 @@ std::unique_ptr<Experiment> MakeAlarmStudy(const HazardDetectionParams& params,
   return std::make_unique<AlarmStudy>(params, drive, watcher);
 }
 
-// Study "missed": hazards on straight drives through random fields.
-
 namespace {
 
 using math::Vector3;
@@ -104,12 +104,13 @@ using trial::DriveParams;
 // A rock in the way.
 struct Hazard {
   double contact_x_m;        // of the rover's front
-  terrain::Terrain without;  // the same field without this rock
+  terrain::Terrain without;  // the field without this rock
   terrain::Terrain alone;    // this rock on bare sand
   bool seen_single = false;
   bool seen_double = false;
 };
 
+// The study "missed".
 class FieldStudy final : public CellExperiment {
  public:
   FieldStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
@@ -142,8 +143,8 @@ class FieldStudy final : public CellExperiment {
     const auto poses = static_cast<std::int64_t>(
         std::floor((course.goal_x_m - start_x_m) / params_.scan_interval_m));
     // Scans are numbered one after the other, as in the closed loop: what a point keeps from scan
-    // to scan passes from pose to pose. Poses with nothing to see count as the one scan that they
-    // take without an alarm.
+    // to scan passes from pose to pose. Records depend on the numbers: a pose with nothing to see
+    // counts as the one scan that it takes without an alarm.
     std::int64_t scan_number = 0;
     for (std::int64_t pose = 0; pose <= poses; ++pose) {
       const double x_m = start_x_m + static_cast<double>(pose) * params_.scan_interval_m;
@@ -159,13 +160,14 @@ class FieldStudy final : public CellExperiment {
     }
   }
 
-  // At the start, where a hazard would be met before it could be scanned from first_scan_m on.
+  // Returns the way at the start on which a hazard would be met before it could be scanned from
+  // first_scan_m on.
   double Unseen_m() const { return params_.first_scan_m + params_.scan_interval_m; }
 
   double front_m() const { return drive_.sensors.light_stripe.front_x_m; }
 
-  // High enough rocks whose outline meets the path swept by the rover, far enough from the start to
-  // be scanned from first_scan_m on, and met before the goal.
+  // Returns the hazards: rocks that are high enough, whose outline meets the path swept by the
+  // rover, far enough from the start to be scanned from first_scan_m on, and met before the goal.
   std::vector<Hazard> HazardsIn(const terrain::Terrain& field) const {
     const trial::CourseParams& course = drive_.course;
     const double half_m = 0.5 * drive_.rover.geometry.width_m;
@@ -202,11 +204,12 @@ class FieldStudy final : public CellExperiment {
     });
   }
 
-  // Whether a stripe that is charged is charged for this rock, all noise being the same: it would
-  // not be without the rock, or the rock would do it by itself on bare sand.
+  // Returns whether a stripe that is charged is charged for a rock, all noise being the same:
+  // without the rock it would not be, or the rock alone on bare sand charges it, which bare sand
+  // does not.
   static bool IsDueTo(bool without, bool alone, bool sand) { return !without || (alone && !sand); }
 
-  // Returns the number of scans.
+  // Looks from x_m along the course and notes which hazards are seen. Returns the number of scans.
   std::int64_t LookFrom(double x_m, const terrain::Terrain& field, core::TrialKey key,
                         std::int64_t first_scan, std::vector<Hazard>& hazards) const {
     math::Transform X_WR = math::Transform::Identity();

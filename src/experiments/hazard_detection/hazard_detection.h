@@ -1,8 +1,11 @@
-// The experiment "hazard_detection": what the light stripe sensor sees, misses and imagines.
+// The experiment "hazard_detection" (make_experiment.cc): what the light stripe sensor sees, misses
+// and imagines.
 //
-// One run is a block of independent scenes of one cell; run i belongs to cell i modulo their
-// number, so that every prefix of the runs covers the cells evenly. Its record holds the cell's
-// factors, then counts and sums; its outcome is `measured`.
+// It has five studies, of which a scenario chooses one (HazardStudy). A scene is one rock before
+// the rover, a drive through a field, flat sand or a plane, by study. Stripes, rows and points are
+// those of the hazard array (messages/stripe_array.h). A stripe is charged where a report or a scan
+// shows a hazard on it. Range is the distance from the camera; distance counts from the rover's
+// front along the ground.
 #pragma once
 
 #include <memory>
@@ -15,20 +18,22 @@
 
 namespace rockyard::experiments {
 
-// Every column of any study but the number of the cell: first the factors that name a cell, then
-// the bases, and counts and sums of these. A study takes those that it measures, and its factors
-// those of their lists (CellFactor::column). Its sums stand in the order in which it names them.
+// Returns every column of any study but the number of the cell: first the factors that name a cell,
+// then the bases, and counts and sums of these. A study takes those that it measures, and its
+// factors those of their lists (CellFactor::column). Must stay: the order in which a study names
+// its columns, which is that of its sums.
 const truth::RecordSchema& HazardColumns();
 
-// What hazard_detection.scenes_per_run scenes of one cell count. Draws from the sensor's streams
-// and from kSceneRock, kScenePlacement and kScenePhase under the key of each scene. The watcher
-// sees the scans of the scenes, not those of bare sand that they are compared with. Scan numbers
-// begin at 0 in every scene and count on from pose to pose.
+// Makes the study that `params` chooses. A run counts scenes_per_run scenes of one cell. Draws from
+// the sensor's streams and from kSceneRock, kScenePlacement and kScenePhase under the key of each
+// scene. The watcher sees the scans of the scenes, not those of bare sand that they are compared
+// with. Scan numbers begin at 0 in every scene and count on from pose to pose.
 std::unique_ptr<Experiment> MakeHazardDetection(const HazardDetectionParams& params,
                                                 const trial::DriveParams& drive,
                                                 const trial::ScanWatcher& watcher = {});
 
-// Its studies. rock_studies.cc: one rock, seen from where the rover stands, or on the way past it.
+// Make its studies. rock_studies.cc: one rock, seen from where the rover stands, or while it drives
+// on to the rock.
 std::unique_ptr<Experiment> MakeDetectionStudy(const HazardDetectionParams& params,
                                                const trial::DriveParams& drive,
                                                const trial::ScanWatcher& watcher);

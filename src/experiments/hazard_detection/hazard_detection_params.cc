@@ -20,7 +20,8 @@ using core::kMatthiesSection6;
 using core::Published;
 using core::Setting;
 
-// Nearer emitters are looked at by the camera of the other side (sensing/stripe_layout_params.h).
+// Least baseline: nearer emitters are looked at by the camera of the other side
+// (sensing/stripe_layout_params.h).
 constexpr double kMinBaseline_m = 0.05;
 constexpr double kLeastHeight_m = 0.001;  // far below what any sensor tells from the ground
 
@@ -28,7 +29,7 @@ bool AtLeast(const std::vector<double>& values, double low) {
   return std::all_of(values.begin(), values.end(), [&](double value) { return value >= low; });
 }
 
-// Each value 0, or no less than `low`.
+// Returns whether each value is 0, or no less than `low`.
 bool AreNoneOrAtLeast(const std::vector<double>& values, double low) {
   return std::all_of(values.begin(), values.end(),
                      [&](double value) { return value == 0.0 || value >= low; });
@@ -120,7 +121,8 @@ void VisitPlanes(HazardDetectionParams& p, core::FieldVisitor& v) {
                  {0.0, 1.0}));
 }
 
-// A list that takes the place of terrain.rocks.k_per_m2 keeps the condition of that field.
+// Requires of rock_k_per_m2, which takes the place of terrain.rocks.k_per_m2, what that field
+// requires.
 void RequireFields(const HazardDetectionParams& study, const trial::DriveParams& drive,
                    core::FieldVisitor& v) {
   if (study.study != HazardStudy::kMissed) return;
@@ -147,7 +149,7 @@ void RequireFields(const HazardDetectionParams& study, const trial::DriveParams&
             "move the goal away, or begin to scan later");
 }
 
-// Whether the sensor can be built with the emitters at this baseline.
+// Returns whether the sensor can be built with the emitters at this baseline.
 bool HoldsBaseline(sensing::LightStripeParams sensor, double baseline_m) {
   sensor.inner_emitter_y_m = BaselineEmitterY(sensor.camera_separation_m, baseline_m);
   sensor.outer_emitter_y_m = sensor.inner_emitter_y_m;
@@ -159,7 +161,7 @@ bool HoldsBaseline(sensing::LightStripeParams sensor, double baseline_m) {
   return true;
 }
 
-// Emitters that the study "precision" moves, and planes that no scan would find.
+// Refuses emitters that the study "precision" cannot move, and planes that no scan would find.
 void RequirePlanes(const HazardDetectionParams& study, const trial::DriveParams& drive,
                    core::FieldVisitor& v) {
   if (study.study != HazardStudy::kPrecision) return;

@@ -1,5 +1,5 @@
-// Parameters of the experiments on the detection performance of the light stripe sensor. A default
-// decides the records of scenarios that leave it out; a bound only refuses files.
+// Parameters of the experiment "hazard_detection", on the detection performance of the light stripe
+// sensor. A default decides the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace rockyard::experiments {
 // What is measured.
 enum class HazardStudy {
   kDetection,   // one rock before a rover that stands
-  kApproach,    // one rock on the course of a rover that drives past
+  kApproach,    // one rock on the course of a rover that drives on to it
   kFalseAlarm,  // flat sand
   kMissed,      // hazards on straight drives through random fields
   kPrecision,   // range and elevation of a plane
@@ -29,8 +29,9 @@ enum class RockProportions {
   kNatural,  // the diameter follows from the height by the terrain's height ratios and burial
 };
 
-// Of the emitter on the left that stands on the cameras' axis, outwards from the left camera. The
-// study moves emitters there, and the condition on baselines_m asks whether the sensor works there.
+// Returns y of the left emitter that stands on the cameras' axis, baseline_m outwards from the left
+// camera. The study "precision" moves emitters there (WithBaseline), and the condition on
+// baselines_m asks whether the sensor works there (HoldsBaseline).
 constexpr double BaselineEmitterY(double camera_separation_m, double baseline_m) {
   return 0.5 * camera_separation_m + baseline_m;
 }
@@ -64,7 +65,8 @@ struct HazardDetectionParams {
   double plane_width_m = 0.01;
   std::vector<double> rows{0.0, 1.0, 2.0, 3.0};
 
-  // Factors of the chosen study in the order of their columns, the last one changing fastest.
+  // Returns the factors of the chosen study in the order of their columns, the last one changing
+  // fastest. Studies read their values by place.
   std::vector<CellFactor> Factors() const;
   double Cells() const { return CellsOf(Factors()); }
 
@@ -72,7 +74,7 @@ struct HazardDetectionParams {
 };
 
 // Requires that the light stripe is the sensor in use, on flat ground, with scans that each pose
-// takes for itself, and of the study in use that its lists ask for what sensor, rocks and course
+// takes for itself, and that the lists of the study in use ask for what sensor, rocks and course
 // can show. Each failure names the parameter, what is wrong and a remedy.
 void RequireMeasurable(const HazardDetectionParams& study, const trial::DriveParams& drive,
                        core::FieldVisitor& v);

@@ -1,5 +1,10 @@
 // The rover's hazard detection at one pose: scans, triangulation, criteria and two-scan rule, as in
-// the closed loop.
+// the closed loop; and scenes with one rock. The studies of rocks, fields and false alarms look
+// with it.
+//
+// Scenes with one rock lie on flat sand before a rover that drives straight on. World: the course
+// runs along x, and the circle around the rock (its largest diameter) begins at x = 0. The rover's
+// front is sensors.light_stripe.front_x_m ahead of its centre.
 #pragma once
 
 #include <cstdint>
@@ -25,21 +30,23 @@ struct Percept {
   explicit Percept(std::size_t stripes) : first(stripes), believed(stripes) {}
 
   std::int64_t scans = 0;
-  perception::HazardFindings first;    // of the first scan alone
+  perception::HazardFindings first;    // by the first scan alone
   messages::PerStripe<bool> believed;  // stripes charged under the rule of the scenario
 };
 
+// The sensor and the on-board software of one scenario. `watcher` is shown each scan.
 class HazardJudge {
  public:
   explicit HazardJudge(const trial::DriveParams& drive, trial::ScanWatcher watcher = {});
 
   std::size_t stripes() const { return stripes_; }
 
+  // Returns the elevations of one scan at X_WR. Draws the sensor's noise of that scan number.
   messages::ElevationScan Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                core::TrialKey key, std::int64_t scan_number) const;
 
-  // Scans numbered from `first_scan` at one pose until the rule is decided. Draws the sensor's
-  // noise for these numbers only: the same noise on every terrain.
+  // Returns what the rover makes of one pose by scans numbered from `first_scan`, as many as the
+  // rule needs. Draws the sensor's noise for these numbers only: the same noise on every terrain.
   Percept Look(const terrain::Terrain& terrain, const math::Transform& X_WR, core::TrialKey key,
                std::int64_t first_scan) const;
 
@@ -52,7 +59,7 @@ class HazardJudge {
   std::size_t stripes_;
 };
 
-// Stripes that are charged in `a` and not in `b`.
+// Returns the stripes that are charged in `a` and not in `b`.
 inline messages::PerStripe<bool> ChargedOnlyIn(const messages::PerStripe<bool>& a,
                                                const messages::PerStripe<bool>& b) {
   messages::PerStripe<bool> only(a.size());
@@ -67,30 +74,26 @@ inline bool Any(const messages::PerStripe<bool>& flags) {
   return false;
 }
 
-// Scenes with one rock on flat sand before a rover that drives straight on.
-//
-// World: the course runs along x, and the circle around the rock (its largest diameter) begins at
-// x = 0. The rover's front is sensors.light_stripe.front_x_m ahead of its centre.
-
-// A cell of rocks; diameter_m is not read where proportions are natural.
+// The rocks of a cell; diameter_m is not read where proportions are natural.
 struct RockCell {
   double height_m = 0.0;
   double diameter_m = 0.0;
   double lateral_offset_m = 0.0;
 };
 
-// A rock of the given height above the ground, its nearest end at x = 0. Width, burial, yaw and
-// profile follow the laws of the terrain's rocks; half its full height is c = h / (2 (1 - burial)),
-// and for natural proportions its diameter is 2 c / height ratio. Draws four numbers.
+// Returns a rock of the cell's height above the ground, its nearest end at x = 0. Width, burial,
+// yaw and profile follow the laws of the terrain's rocks; half its full height is c = h / (2 (1 -
+// burial)), and for natural proportions its diameter is 2 c / height ratio. Records depend on the
+// draws: four numbers, in the order width, height ratio, burial, yaw, whatever the proportions.
 terrain::Rock DrawSceneRock(const RockCell& cell, RockProportions proportions,
                             const terrain::RockFieldParams& law, double lateral_m,
                             core::RandomStream& stream);
 
-// Flat sand with the rock, or without one where the height is 0.
+// Returns flat sand with the rock, or without one where the height is 0.
 terrain::Terrain SceneTerrain(const terrain::Rock& rock);
 
-// The rover on flat ground, its front `gap_m` before x = 0, on a straight line that meets x = 0 at
-// y = 0 under its heading.
+// Returns the pose of the rover on flat ground, its front `gap_m` before x = 0, on a straight line
+// that meets x = 0 at y = 0 under its heading.
 math::Transform PoseBefore(double gap_m, double heading_rad, double front_x_m);
 
 }  // namespace rockyard::experiments

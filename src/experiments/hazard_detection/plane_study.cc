@@ -25,8 +25,8 @@ using trial::DriveParams;
 // Published: "range resolution is approximately 2 mm at 30 cm" (Matthies 1995 sec. 6).
 constexpr double kStatedRange_m = 0.3;
 
-// All emitters but the centre one at a given baseline from the camera of their side, which has to
-// stand on the axis of the cameras.
+// Returns the drive with all emitters but the centre one at a given baseline from the camera of
+// their side, which has to stand on the axis of the cameras.
 DriveParams WithBaseline(DriveParams drive, double baseline_m) {
   sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
   sensor.inner_emitter_y_m = BaselineEmitterY(sensor.camera_separation_m, baseline_m);
@@ -34,11 +34,11 @@ DriveParams WithBaseline(DriveParams drive, double baseline_m) {
   return drive;
 }
 
-// Contribution of one measured error to the mean range that a column stands for: errors uniform
-// over a column have a quarter of it as their mean magnitude.
+// Returns what one measured error contributes to the mean range that a column stands for: errors
+// uniform over a column have a quarter of that range as their mean magnitude.
 double RangeOfAPixel(double range_error_m) { return 4.0 * std::abs(range_error_m); }
 
-// Columns of one scanline to points, with one calibration.
+// From columns of one scanline to points, by one calibration.
 class Scanline {
  public:
   Scanline(const messages::StripeCalibration& calibration, std::size_t row, std::size_t stripe)
@@ -48,7 +48,7 @@ class Scanline {
     return triangulator_.Elevation(row_, stripe_, column_px).elevation_m;
   }
 
-  // From the camera to where the column's ray meets the light plane.
+  // Returns the range from the camera to where the column's ray meets the light plane.
   double Range(double column_px) const {
     const messages::Camera& camera = Camera();
     const Vector3 ray_R =
@@ -58,7 +58,7 @@ class Scanline {
     return (z_m - camera.X_RC.translation().z()) / ray_R.z();
   }
 
-  // Position in the image, between pixels, of a point at a known elevation: Newton's method from a
+  // Returns the column, between pixels, of a point at a known elevation: Newton's method from a
   // column nearby. None where it does not settle.
   std::optional<double> ColumnOf(double elevation_m, double column_px) const {
     constexpr int kSteps = 20;

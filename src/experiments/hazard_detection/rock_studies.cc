@@ -1,4 +1,4 @@
-// Studies "detection" and "approach": one rock a scene.
+// Studies "detection" and "approach": scenes with one rock.
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ class RockStudy : public CellExperiment {
     return {values[0], values[1], values[2]};
   }
 
-  // The last factor of the cell.
+  // Returns the last factor of the cell.
   double LastOf(std::size_t cell) const { return table().Values(cell).back(); }
 
   RockScene DrawScene(const RockCell& cell, core::TrialKey key) const {
@@ -62,7 +62,8 @@ class RockStudy : public CellExperiment {
     return PoseBefore(gap_m, heading_rad, front_x_m_);
   }
 
-  // Charges that the rock caused: those that bare sand does not draw under the same noise.
+  // Returns the charges that the rock caused: those that bare sand does not draw under the same
+  // noise.
   Percept CausedByRock(const Percept& seen, const math::Transform& X_WR, core::TrialKey key,
                        std::int64_t first_scan) const {
     const Percept bare = bare_judge_.Look(bare_, X_WR, key, first_scan);
@@ -144,7 +145,7 @@ class ApproachStudy final : public RockStudy {
     return sums;
   }
 
-  // From first_scan_m before the rock until the front reaches it.
+  // Drives from first_scan_m before the rock until the front reaches it.
   void AddDrive(const RockCell& rock, core::TrialKey key, std::vector<double>& sums) const {
     const RockScene drawn = DrawScene(rock, key);
     RandomStream phase(key, Purpose::kScenePhase);
@@ -158,8 +159,8 @@ class ApproachStudy final : public RockStudy {
     for (std::int64_t pose = 0; pose < poses && !(single && believed); ++pose) {
       const double gap_m = last_gap_m + static_cast<double>(poses - 1 - pose) * interval_m;
       // Scans of a drive are numbered one after the other, as in the closed loop: what a point
-      // keeps from scan to scan passes from pose to pose, and later noise depends on earlier
-      // rescans.
+      // keeps from scan to scan passes from pose to pose. So later noise, and the record, depend on
+      // earlier rescans.
       const Percept percept = LookAt(drawn.terrain, Pose(gap_m, drawn.heading_rad), key, scans);
       scans += percept.scans;
       single |=

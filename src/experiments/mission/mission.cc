@@ -24,17 +24,19 @@ namespace {
 
 constexpr double kSecondsPerSolarHour = math::kSolOfMars_s / 24.0;
 constexpr double kNoon_h = 12.0;
-// A drive that the sun alone has to carry keeps so far from the moments at which it just does.
+// A window in which the sun alone has to carry the drive ends so far from the moments at which the
+// sun just does.
 constexpr double kSunMargin_s = 1.0;
-// More than any gate's patience that makes sense.
+// Most times that operators tell a filter the same fix: more than any gate's patience that makes
+// sense.
 constexpr int kInsistence = 100;
 
-// True solar time at which the window opens.
+// Returns the true solar time at which the window opens.
 double WindowOpening_h(const MissionDayParams& day) {
   return kNoon_h - 0.5 * day.Window_s() / kSecondsPerSolarHour;
 }
 
-// The most that an activity of a drive draws, W.
+// Returns the most that an activity of a drive draws, W.
 double LargestLoad_W(const trial::DriveParams& drive) {
   const trial::PowerBudget budget = trial::MakePowerBudget(drive);
   double largest_W = 0.0;
@@ -44,7 +46,7 @@ double LargestLoad_W(const trial::DriveParams& drive) {
   return largest_W;
 }
 
-// Rocks keep clear of the start and of every goal, whichever sol it is.
+// Returns the course of all sols: rocks keep clear of the start and of every goal.
 terrain::Course CourseOf(const trial::DriveParams& drive,
                          const std::vector<messages::Goal>& goals) {
   terrain::Course course{.start_x_m = drive.course.start_x_m,
@@ -166,7 +168,7 @@ Sol Mission::RunSol(std::int64_t number, const Window& window, messages::Goal& t
   Sol sol;
   SolBooks books(SunFrom(number, 0.0), battery_wh_);
   double asleep_from_s = 0.0;
-  // Loads are booked in the order of time: each finds the batteries as earlier ones left them.
+  // Must book loads in the order of time: each finds the batteries as earlier ones left them.
   if (number % SolsPerCommand(params_.day) == 0) {
     books.AddLoad(params_.power.sleep_W, 0.0, window.begin_s, books.energy().sleep_wh);
     books.AddDrive(DriveOn(number, window, sol, told));
@@ -264,7 +266,8 @@ void Mission::TellBelief(Sol& sol) const {
 
 void Mission::JudgeGoal(const messages::Goal& told, Sol& sol, MissionCourse& course) {
   const double radius_m = drive_.course.goal_radius_m;
-  // Operators compare in the frame in which goals are told: belief and told place are both in it.
+  // Operators compare in the frame in which goals are told, which both the belief and the told
+  // place are in.
   sol.believed_reached = Distance_m(memory_.pose, told) <= radius_m;
   sol.truly_reached = Distance_m(truth_, goals_[goal_]) <= radius_m;
   if (!sol.believed_reached) {
@@ -283,7 +286,7 @@ void Mission::JudgeGoal(const messages::Goal& told, Sol& sol, MissionCourse& cou
 
 std::optional<MissionEnd> Mission::EndAfter(const Sol& sol) {
   stuck_sols_ = sol.end == SolEnd::kStuck ? stuck_sols_ + 1 : 0;
-  // Where several reasons hold, the first of these is told.
+  // Must stay in this order: where several reasons hold, the first is told.
   if (sol.end == SolEnd::kTipped) return MissionEnd::kTipped;
   if (Distance_m(truth_, {params_.lander_x_m, params_.lander_y_m}) > params_.radio_range_m) {
     return MissionEnd::kLost;

@@ -18,7 +18,7 @@ const truth::RecordSchema& MissionColumns() {
 
 namespace {
 
-// Sols of all missions of a seed have keys of their own.
+// Missions that a seed can have: sols of all of them have keys of their own (SolKey).
 constexpr std::uint64_t kMissions = (std::uint64_t{1} << 32) / kMostSols;
 
 truth::RecordSchema ColumnsWithSols(const MissionParams& params) {

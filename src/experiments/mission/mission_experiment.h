@@ -1,7 +1,7 @@
-// The experiment "mission": one run is one mission of many sols.
+// The experiment "mission" (make_experiment.cc): one run is one mission of many sols.
 //
 // Its outcome is `measured`; MissionColumns lists what is counted. With mission.sol_columns a block
-// of columns for every sol follows, NaN after the last one.
+// of columns for every sol follows, with NaN for sols that the mission did not last.
 #pragma once
 
 #include <array>
@@ -22,15 +22,13 @@
 
 namespace rockyard::experiments {
 
-// The values of one mission, each beside its column.
-
-// Sols after which the paper's mission is over: its primary one of a week, and its goal of four.
-// Columns are named by them.
+// Sols after which the paper's mission is over: its primary mission of a week, and its goal of four
+// weeks. Must stay: columns are named by them.
 inline constexpr std::array<std::int64_t, 2> kCheckpoints{7, 30};
 
 // Where the rover is at a checkpoint, or where its mission ended before that.
 struct Checkpoint {
-  bool lasted = false;  // the mission did
+  bool lasted = false;  // the mission lasted up to the checkpoint
   double position_error_m = 0.0;
   double heading_error_deg = 0.0;
   double position_sd_m = 0.0;  // as believed
@@ -40,16 +38,17 @@ struct Checkpoint {
   bool goal_frame_inside_95 = false;
 };
 
+// What the columns of one mission tell.
 struct MissionRecord {
   std::int64_t goals = 0;
-  std::int64_t spare_images = 0;  // of a sol
+  std::int64_t spare_images = 0;  // in a sol, see SpareImages
   MissionCourse course;
   std::array<Checkpoint, kCheckpoints.size()> checkpoints;
   double distance_m = 0.0;
   double longest_sol_m = 0.0;
   std::array<std::int64_t, kSolEnds> sol_ends{};
   std::int64_t sights = 0;  // days on which the lander took its image
-  std::int64_t unseen = 0;  // of these, without the rover
+  std::int64_t unseen = 0;  // of `sights`, without the rover in them
   SolEnergy energy;
   double battery_left_wh = 0.0;
 
@@ -58,9 +57,9 @@ struct MissionRecord {
 
 namespace mission_columns {
 
-// A count of this many of the base `of`.
+// Returns a column that counts some of the base `of`.
 truth::ValueInfo Count(const std::string& name, const std::string& meaning, const std::string& of);
-// A sum in that unit, with a mean per mission.
+// Returns a column of a sum in that unit, with a mean for each of the base `of`.
 truth::ValueInfo Sum(const std::string& name, const std::string& unit, const std::string& meaning,
                      const std::string& of = "missions");
 
@@ -69,7 +68,7 @@ truth::ValueInfo Sum(const std::string& name, const std::string& unit, const std
 // Calls visit(column, value) for what a sum of energies holds.
 template <typename Visitor>
 void ForEachEnergyColumn(const SolEnergy& e, Visitor visit) {
-  // In the order of trial::Activity.
+  // Must have the order of trial::Activity.
   constexpr std::array<std::string_view, trial::kActivityCount> kActivities{
       "drive", "turn", "steer", "scan", "stall", "imaging", "compute", "overhead"};
   const auto sum = [&](const std::string& name, const std::string& meaning, double value) {
@@ -126,7 +125,7 @@ void ForEachCheckpointColumn(const MissionRecord& r, Visitor visit) {
   }
 }
 
-// Every column of a mission.
+// Calls visit(column, value) for every column of a mission.
 template <typename Visitor>
 void ForEachColumn(const MissionRecord& r, Visitor visit) {
   using mission_columns::Count;
@@ -170,8 +169,8 @@ void ForEachColumn(const MissionRecord& r, Visitor visit) {
   visit(Sum("battery_left_wh", "Wh", "what the batteries hold at the end"), r.battery_left_wh);
 }
 
-// Calls visit(column, value) for every column of sol `number`, from 1; null: the mission did not
-// last so long, and every value is NaN.
+// Calls visit(column, value) for every column of sol `number`, from 1. `sol` is null where the
+// mission did not last so long; then every value is NaN.
 template <typename Visitor>
 void ForEachSolColumn(std::int64_t number, const Sol* sol, Visitor visit) {
   const std::string prefix = "sol_" + std::to_string(number) + "_";
@@ -183,7 +182,8 @@ void ForEachSolColumn(std::int64_t number, const Sol* sol, Visitor visit) {
     visit(truth::ValueInfo{prefix + name, unit, meaning}, sol == nullptr ? kNothing : x);
   };
   const auto flag = [](bool yes) { return yes ? 1.0 : 0.0; };
-  // Records hold the numbers of SolEnd and LanderSight.
+  // Records hold the numbers of SolEnd and LanderSight; the meanings of "end" and "sight" must list
+  // them.
   value("end", "1",
         "0 goal, 1 time, 2 energy, 3 stuck, 4 no path, 5 slip, 6 tipped, 7 no command, 8 patience",
         static_cast<double>(s.end));
@@ -206,8 +206,8 @@ void ForEachSolColumn(std::int64_t number, const Sol* sol, Visitor visit) {
   value("battery_left_wh", "Wh", "in the evening of the night", s.battery_left_wh);
 }
 
-// Every column but the number of the cell and those of sols (mission.sol_columns), in the order of
-// ForEachColumn.
+// Returns every column but the number of the cell and those of sols (mission.sol_columns), in the
+// order of ForEachColumn.
 const truth::RecordSchema& MissionColumns();
 
 class MissionExperiment final : public CellExperiment {

@@ -158,7 +158,7 @@ void RequireField(const MissionParams& mission, const trial::DriveParams& drive,
             "puts the first goal within 0.1 m of the start", "use a goal that has to be driven to");
 }
 
-// A sol's command names one goal.
+// Requires one goal: a sol's command names one.
 void RequireOneGoal(const trial::DriveParams& drive, core::FieldVisitor& v) {
   const trial::CourseParams& course = drive.course;
   v.Require("course.waypoints.x_m", course.waypoints.x_m.empty(),
@@ -196,14 +196,15 @@ void RequireClock(const MissionParams& mission, const trial::DriveParams& drive,
 void RequireSun(const trial::DriveParams& drive, core::FieldVisitor& v) {
   const sensing::SunSensorParams& sky = drive.sensors.aids.sun;
   const double declination_rad = math::SunDeclination(sky.areocentric_longitude_rad);
-  // Of the noon sun, and at a pole no sol has a noon.
+  // The sine of the elevation of the noon sun; at a pole no sol has a noon.
   const double noon = std::cos(sky.latitude_rad - declination_rad);
   v.Require("sensors.aids.sun.latitude_deg", noon > 0.0 && std::cos(sky.latitude_rad) > 1e-3,
             "puts the site where no sun rises in that season, or at a pole",
             "use another latitude or areocentric_longitude_deg");
 }
 
-// An update at noon reaches a rover that drives.
+// Requires an estimator that takes fixes where updates come at noon: such an update reaches a rover
+// that drives.
 void RequireNoonListener(const MissionParams& mission, const trial::DriveParams& drive,
                          core::FieldVisitor& v) {
   v.Require("mission.lander_update",

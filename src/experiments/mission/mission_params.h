@@ -1,5 +1,5 @@
-// Parameters of a mission of many sols. A default decides the records of scenarios that leave it
-// out; a bound only refuses files.
+// Parameters of the experiment "mission", a mission of many sols. A default decides the records of
+// scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@
 
 namespace rockyard::experiments {
 
-// Most sols of a mission, and the stride of their random keys (SolKey): another number is other
-// noise in every mission of a seed but number 0.
+// Most sols of a mission, and the stride of their random keys (SolKey). Must stay: another number
+// is other noise in every mission of a seed but number 0.
 inline constexpr std::uint32_t kMostSols = 1024;
 
 // When operators find the rover in the lander's images of a day.
 enum class LanderUpdate {
   kNone,
   kNoon,     // while it drives, or where it stands if it has ended its drive by then
-  kEvening,  // at the end of its drive: what is uplinked on the next morning
+  kEvening,  // at the end of its drive; the place is uplinked on the next morning
 };
 
 // Where the rover is to go, one place after the other.
@@ -31,7 +31,8 @@ struct MissionGoalsParams {
   std::vector<double> y_m{0.0, 0.0};
   std::int64_t attempts = 3;
 
-  // Lists of different lengths, which Visit refuses, give as many as the shorter one has.
+  // Returns the goals. Lists of different lengths, which Visit refuses, give as many as the shorter
+  // one has.
   std::vector<messages::Goal> Places() const;
 
   void Visit(core::FieldVisitor& v);
@@ -53,9 +54,9 @@ struct MissionDayParams {
   double radio_bit_s = 2000.0;
 
   double Window_s() const { return 3600.0 * window_h; }
-  // What the rover sends to the lander for a command, images compressed.
+  // Returns the bits that the rover sends to the lander for a command, images compressed.
   double RoverBits() const;
-  // How long that takes after a drive, s.
+  // Returns how long RoverBits takes after a drive, s.
   double TransmitTime_s() const { return RoverBits() / radio_bit_s; }
 
   void Visit(core::FieldVisitor& v);

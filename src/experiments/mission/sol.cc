@@ -77,7 +77,7 @@ SolEnd SolEndOf(truth::TrialOutcome outcome, std::optional<truth::EndCause> caus
       return SolEnd::kTime;
     case TrialOutcome::kExcessiveSlip:
       return SolEnd::kSlip;
-    // A mission's arena is open, and a fault of the simulation is thrown.
+    // No drive of a mission has these: its arena is open, and a fault of the simulation is thrown.
     case TrialOutcome::kLeftArena:
     case TrialOutcome::kSimulatorFault:
     case TrialOutcome::kMeasured:
@@ -119,7 +119,7 @@ std::int64_t SpareImages(const MissionDayParams& day) {
 std::int64_t SolsPerCommand(const MissionDayParams& day) {
   const double needed = NeededBits(day);
   const double sols_of_bits = std::ceil(needed / SolBits(day));
-  // The last session carries what is left of them.
+  // The last session carries the bits that are left.
   const double last_s =
       (needed - std::max(0.0, sols_of_bits - 1.0) * SolBits(day)) / day.downlink_bit_s;
   const double answer_s = last_s + 2.0 * day.latency_min * kSecondsPerMinute +

@@ -25,7 +25,8 @@ sensing::StereoParams OfRays(sensing::StereoParams params) {
   return params;
 }
 
-// One over the depths that perfect matches give: of what both eyes see, as far as it is searched.
+// Returns one over the depths that perfect matches give: those of what both eyes see, within the
+// disparities that are searched.
 sensing::DepthImage PerfectMatches(const sensing::StereoTruth& truth,
                                    const sensing::StereoParams& cameras, double scale_px_m) {
   return (truth.both_px >= cameras.min_disparity_px && truth.both_px <= cameras.max_disparity_px)
@@ -48,7 +49,8 @@ const truth::RecordSchema& StereoColumns() {
 
 namespace {
 
-// Where the cell ends follows from where it begins.
+// Returns the columns after the factors. farthest_m is no factor of its own: where the cell ends
+// follows from where it begins.
 std::vector<std::string_view> MeasuredColumns() {
   std::vector<std::string_view> names{"farthest_m"};
   for (const truth::ValueInfo& column : StereoColumns()) {
@@ -68,7 +70,7 @@ struct StereoSensingExperiment::Cell {
         rays(OfRays(drive.sensors.stereo)),
         rays_R(sensing::MakeStereoView(rays, kAhead)) {}
 
-  // What of a look's pixels belongs to it.
+  // Returns what of a look's pixels belongs to the cell.
   PixelLimits Limits() const {
     const sensing::StereoParams& cameras = drive.sensors.stereo;
     return {bin.nearest_m, bin.farthest_m, cameras.min_disparity_px, cameras.max_disparity_px,
@@ -78,7 +80,8 @@ struct StereoSensingExperiment::Cell {
   trial::DriveParams drive;
   DistanceBin bin;
   sensing::StereoGroundTruth truth;
-  // Of both eyes: for the points that disparities stand for.
+  // The cameras as the error model has them, and their view, for the points that disparities stand
+  // for.
   sensing::StereoParams rays;
   sensing::StereoView rays_R;
 };

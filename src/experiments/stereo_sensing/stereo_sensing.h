@@ -1,9 +1,8 @@
-// The experiment "stereo_sensing": what stereo cameras measure, miss and imagine, at whichever
-// fidelity the scenario has.
+// The experiment "stereo_sensing" (make_experiment.cc): what stereo cameras measure, miss and
+// imagine, at whichever fidelity the scenario has. A scene is a look from a random place.
 //
-// One run is a block of looks of one cell; run i belongs to cell i modulo their number, so that
-// every prefix of the runs covers the cells evenly. Its record holds the cell's factors, then
-// counts and sums; its outcome is `measured`.
+// Range r is the distance from the left camera along the ray, depth Z that along the optical axis;
+// a bin of distances is one of ranges.
 #pragma once
 
 #include <memory>
@@ -19,14 +18,14 @@
 
 namespace rockyard::experiments {
 
-// Every column but the number of the cell: first the factors that name a cell, of which a scenario
-// has those of its lists (StereoSensingParams::Factors), then those of StereoSums.
+// Returns every column but the number of the cell: first the factors that name a cell, of which a
+// scenario has those of its lists (StereoSensingParams::Factors), then those of StereoSums.
 const truth::RecordSchema& StereoColumns();
 
 class StereoSensingExperiment final : public CellExperiment {
  public:
-  // Cost of a run: that of the looks, 30 ms more each for the truth, and 0.1 s for cameras that
-  // take images.
+  // Cost of a run: that of the looks, 30 ms more for the truth of each look, and 0.1 s for cameras
+  // that take images.
   StereoSensingExperiment(const StereoSensingParams& params, const trial::DriveParams& drive);
   ~StereoSensingExperiment() override;
 

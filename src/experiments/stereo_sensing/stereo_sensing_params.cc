@@ -35,7 +35,7 @@ void VisitFactors(StereoSensingParams& p, core::FieldVisitor& v) {
             "does not ascend", "list every edge once, from the nearest to the farthest");
 }
 
-// Whether the cameras can be built with that baseline.
+// Returns whether the cameras can be built with that baseline.
 bool HoldsStereoBaseline(sensing::StereoParams cameras, double baseline_m) {
   cameras.baseline_m = baseline_m;
   try {

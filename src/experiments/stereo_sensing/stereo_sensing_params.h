@@ -1,5 +1,5 @@
-// Parameters of the experiment on what stereo cameras measure and miss. A default decides the
-// records of scenarios that leave it out; a bound only refuses files.
+// Parameters of the experiment "stereo_sensing", on what stereo cameras measure and miss. A default
+// decides the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,8 @@ struct StereoSensingParams {
   double hazard_goodness = 42.0;
   std::int64_t min_rock_pixels = 4;
 
-  // In the order of their columns, the last one changing fastest.
+  // Returns the factors in the order of their columns, the last one, the nearest distance of a bin,
+  // changing fastest.
   std::vector<CellFactor> Factors() const;
   double Cells() const { return CellsOf(Factors()); }
   // Returns the edge that ends the bin of distances that begins at `nearest_m`, one of the list but

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// In the order of kPixelKinds.
+// Must have the order of kPixelKinds.
 enum PixelKind : std::size_t { kPlain, kFront, kBehind, kShadow };
 
 class RowErrors {
@@ -37,7 +37,7 @@ class RowErrors {
   }
 
  private:
-  // Counts a pixel; gives back its error where it is plain and good.
+  // Counts a pixel. Returns its error of disparity where it is plain and good, else kNone.
   double PlainError(const sensing::StereoTruth& truth, double matched_px, int row, int column) {
     const double true_px = truth.left_px(row, column);
     if (true_px < limits_.min_disparity_px || true_px > limits_.max_disparity_px) return kNone;
@@ -71,8 +71,8 @@ class RowErrors {
     return kind == kPlain ? error_px : kNone;
   }
 
-  // Z = f B / d along the optical axis, r = |e| Z along the ray: |dr/dd| = |e| Z^2 / (f B) = r Z /
-  // (f B), r^2 / (f B) on the axis, where |e| = 1.
+  // With Z = f B / d along the optical axis and r = |e| Z along the ray a pixel of disparity stands
+  // for |dr/dd| = |e| Z^2 / (f B) = r Z / (f B); on the axis, where |e| = 1, for r^2 / (f B).
   void AddRange(double range_m, double depth_m, double error_m) {
     const double step_m = range_m * depth_m / scale_px_m_;
     const double axis_step_m = range_m * range_m / scale_px_m_;
@@ -126,7 +126,7 @@ namespace {
 
 using math::Vector3;
 
-// Of a rock, what both eyes see.
+// What both eyes see of a rock.
 struct VisiblePart {
   std::int64_t pixels = 0;
   Vector3 sum_R = Vector3::Zero();
@@ -152,7 +152,7 @@ std::vector<VisiblePart> VisibleParts(std::size_t rocks, const sensing::StereoTr
   return parts;
 }
 
-// The class of a height, in halves of the hazard's; none below one half.
+// Returns the class of a height, in halves of the hazard's (kRockHeights); none below one half.
 RockSums* ClassOf(double height_m, double hazard_height_m, StereoSums& sums) {
   const auto halves = static_cast<std::int64_t>(std::floor(2.0 * height_m / hazard_height_m));
   if (halves < 1) return nullptr;
@@ -212,7 +212,7 @@ namespace {
 
 using messages::LookDirection;
 
-// Far enough that no map reaches it.
+// A goal so far ahead that no map reaches it.
 constexpr double kGoalAhead_m = 100.0;
 
 messages::LookMoment FirstMoment(const messages::PointCloud& cloud) {

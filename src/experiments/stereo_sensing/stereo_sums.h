@@ -1,4 +1,6 @@
-// What the experiment "stereo_sensing" counts and adds up of the looks of one cell.
+// What the experiment "stereo_sensing" counts and adds up of the looks of one cell: pixels against
+// their truth, and rocks and cells of the navigator's map of a look against its map with perfect
+// matches. Range, depth and bins: stereo_sensing.h.
 #pragma once
 
 #include <array>
@@ -23,19 +25,21 @@ struct PixelSums {
   double pixels = 0.0;
   double good = 0.0;        // matched within kWrong_px of the truth
   double wrong = 0.0;       // matched farther off
-  double bias_px = 0.0;     // sum over good ones of matched less true disparity
-  double error2_px2 = 0.0;  // sum of their squares
+  double bias_px = 0.0;     // sum over good pixels of matched less true disparity
+  double error2_px2 = 0.0;  // sum of the squares of that
 
   void Add(double true_px, double matched_px);  // 0: no match
 };
 
-// From here on a match is wrong rather than inexact: the neighbouring disparity of the search.
+// From this error on a match is wrong rather than inexact: it has reached the neighbouring
+// disparity of the search. Meanings of columns call it 1 px.
 inline constexpr double kWrong_px = 1.0;
 
 inline constexpr std::size_t kEdgeDistances = 8;  // columns from a jump in depth, from 1 on
 inline constexpr std::size_t kLags = 7;           // columns between neighbours in a row, from 1 on
 inline constexpr std::array<const char*, 4> kPixelKinds{"plain", "front", "behind", "shadow"};
-// Rocks by height: from 0.5, 1, 1.5 and 2 times the height of a hazard on.
+// Classes of rocks by height: from 0.5, 1, 1.5 and 2 times the height of a hazard on. ClassOf
+// counts in these halves.
 inline constexpr std::array<const char*, 4> kRockHeights{"05", "10", "15", "20"};
 
 struct RockSums {
@@ -48,19 +52,19 @@ struct StereoSums {
   double looks = 0.0;
   // All pixels that both eyes see, away from margins.
   PixelSums all;
-  double range_m = 0.0;  // sums over good ones of `all`
+  double range_m = 0.0;  // this and the next four are sums over the good pixels of `all`
   double range_bias_m = 0.0;
   double range_error2_m2 = 0.0;
   double range_step2_m2 = 0.0;
   double axis_step2_m2 = 0.0;
-  // Of these: plain ground and rocks, on the nearer and on the farther side of a jump in depth, the
-  // rest in shadow.
+  // Pixels of `all`: plain ground and rocks, those on the nearer and on the farther side of a jump
+  // in depth, the rest in shadow.
   std::array<PixelSums, kPixelKinds.size()> kinds;
   std::array<PixelSums, kEdgeDistances> fronts;
   std::array<PixelSums, kEdgeDistances> behinds;
   std::array<double, kLags> pairs{};
   std::array<double, kLags> products_px2{};
-  // Pixels apart from these.
+  // Pixels that are not in `all`.
   PixelSums margin;
   double hidden_pixels = 0.0;
   double hidden_matched = 0.0;
@@ -164,32 +168,30 @@ void ForEachColumn(const StereoSums& s, const Visitor& visit) {
         s.hazard_found);
 }
 
-// Errors of matched disparities against the truth, pixel by pixel.
-
-// What of a look belongs to a cell, and how its pixels are told apart.
+// Which pixels of a look belong to a cell, and which lie beside a jump in depth.
 struct PixelLimits {
   double nearest_m = 0.0;   // true range from the left camera, along the ray
   double farthest_m = 0.0;  // not included
   double min_disparity_px = 0.0;
   double max_disparity_px = 0.0;
-  int edge_reach_px = 0;  // within as many columns of a jump in depth a pixel is beside it
+  int edge_reach_px = 0;  // columns from a jump in depth up to which a pixel lies beside it
 };
 
-// Adds the pixels of one look to `sums`. `matched_px` are disparities on the pixels of `truth`, 0
-// where there is no match; `view` is the left eye's, in any frame. True disparities outside the
-// searched range do not count. Pairs of neighbours lie in one row and within the cell.
+// Adds the pixels of one look, with the errors of their matched disparities, to `sums`.
+// `matched_px` are disparities on the pixels of `truth`, 0 where there is no match; `view` is the
+// left eye's, in any frame. True disparities outside the searched range do not count. Pairs of
+// neighbours lie in one row and within the cell.
 void AddPixels(const sensing::StereoTruth& truth, const sensing::DepthImage& matched_px,
                const sensing::StereoView& view, const PixelLimits& limits, StereoSums& sums);
 
-// Rocks and cells of the map of one look against those with perfect matches.
-
-// The maps of one look, in R: with perfect matches of all that both eyes see, and with its own.
+// The maps that the scenario's navigator makes of one look, in R: with perfect matches of all that
+// both eyes see, and with the matches of the look.
 struct LookMaps {
   const messages::MapView& perfect;
   const messages::MapView& seen;
 };
 
-// The cell of distances from the left camera.
+// The bin of ranges of a cell.
 struct DistanceBin {
   double nearest_m = 0.0;
   double farthest_m = 0.0;  // not included
@@ -197,28 +199,29 @@ struct DistanceBin {
   bool Holds(double distance_m) const { return distance_m >= nearest_m && distance_m < farthest_m; }
 };
 
-// Adds the rocks in view whose visible part lies, on average, within the bin. A rock is found where
-// the map calls a hazard the cell that holds the middle of its visible part.
+// Adds the rocks in view the mean range of whose visible part lies within the bin. A rock is found
+// where the map calls a hazard the cell that holds the middle of its visible part.
 void AddRocksInView(const StereoSensingParams& params, const terrain::Terrain& terrain,
                     const sensing::StereoTruth& truth, const sensing::StereoView& view_R,
                     const LookMaps& maps, const DistanceBin& bin, StereoSums& sums);
 
-// Adds the cells of the map whose middle, on the ground, lies within the bin.
+// Adds the cells of the map whose middle on the ground lies, by its distance from the left camera,
+// within the bin.
 void AddCellsOfMap(const StereoSensingParams& params, const sensing::StereoView& view_R,
                    const LookMaps& maps, const DistanceBin& bin, StereoSums& sums);
 
-// What the scenario's navigator makes of the points of one look.
-
 // Returns the map of a navigator that begins to drive, level and at the origin of the map's frame,
-// and gets `cloud` as its first look: coordinates of the map are those of R. A look behind, if it
-// asks for one, shows nothing. Throws std::runtime_error where the navigator keeps no map.
+// and gets `cloud` as its first look: coordinates of the map are those of R. A look behind, if the
+// navigator asks for one, shows nothing. Throws std::runtime_error where the navigator keeps no
+// map.
 messages::MapView MapOfLook(const navigation::NavigatorKind& navigator,
                             const messages::PointCloud& cloud);
 
 // What a map says of one place.
 enum class Verdict { kUnknown, kClear, kHazard };
 
-// Cells of `hazard_goodness` or less are hazards; outside the map all is unknown.
+// Returns what a map says of the place. Cells of `hazard_goodness` or less are hazards; outside the
+// map all is unknown.
 Verdict VerdictAt(const messages::MapView& map, double x_m, double y_m, double hazard_goodness);
 
 }  // namespace rockyard::experiments

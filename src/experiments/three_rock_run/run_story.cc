@@ -10,10 +10,10 @@
 namespace rockyard::experiments {
 namespace {
 
-// A rover that turns at all turns by an increment of 10 deg.
+// Least turn that counts as one: a rover that turns at all turns by an increment of 10 deg.
 constexpr double kLeastTurn_rad = math::DegToRad(5.0);
 
-// The first alarm that some rock raised.
+// Returns the first alarm that some rock raised.
 const RockEvent* FirstTrueAlarm(const RunHistory& history) {
   const auto& alarms = history.alarms();
   const auto found = std::find_if(alarms.begin(), alarms.end(),
@@ -89,7 +89,7 @@ HeadingStages StagesOf(const RunHistory& history) {
 
 namespace {
 
-// Activities and events are known by the names that truth/trace.h lists.
+// Activities and events must have the names that truth/trace.h lists.
 std::vector<Moment> MomentsOf(const truth::Trace& trace) {
   std::vector<Moment> moments;
   moments.reserve(trace.samples.size());
@@ -105,7 +105,7 @@ std::vector<Moment> MomentsOf(const truth::Trace& trace) {
   return moments;
 }
 
-// Index of the rock nearest to the zone, if it is within reach_m of it.
+// Returns the index of the rock nearest to the zone, if it is within reach_m of the zone.
 std::optional<int> NearestRock(std::span<const PlacedRock> rocks, const math::Pose2& rover,
                                const RoverZone& zone, double reach_m) {
   std::optional<int> nearest;

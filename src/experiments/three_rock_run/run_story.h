@@ -1,4 +1,6 @@
-// Whether a drive went as the published run is told, and what its heading error was at each stage.
+// What happened on a drive among a few rocks, read from its trace; whether it went as the published
+// run is told, and what its heading error was at each stage. The experiment "three_rock_run" judges
+// its drives by it. It sees the truth: rocks are told apart by where they truly are.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +13,6 @@
 #include "truth/trace.h"
 
 namespace rockyard::experiments {
-
-// What happened on a drive among a few rocks, read from its trace: the heading error along the way,
-// which rock raised each alarm, and which was scraped.
-//
-// An experiment sees the truth: rocks are told apart by where they truly are.
 
 struct PlacedRock {
   double x_m = 0.0;  // centre, in W
@@ -43,21 +40,22 @@ struct Moment {
 // An alarm that was believed, or a scrape.
 struct RockEvent {
   double path_m = 0.0;
-  std::size_t moment = 0;   // index of the first moment after it, or of the last one
-  std::optional<int> rock;  // index of the rock; of an alarm none where there is no rock
+  std::size_t moment = 0;   // index of the first moment after the event, or of the last moment
+  std::optional<int> rock;  // index of the rock; none for an alarm without a rock
 };
 
 // The turn in place by which the rover answers an alarm: every tick of turning that follows it by
 // no more than kTurnChain_m of path since the alarm or the tick of turning before.
 struct AvoidanceTurn {
   double turned_rad = 0.0;  // true, positive to the left
-  std::size_t end = 0;      // index of the moment at its end; of the alarm where it did not turn
+  std::size_t end = 0;      // index of the moment at its end; that of the alarm without a turn
 };
 
-// Looks between which an avoidance goes on are one scan interval (0.065 m) apart.
+// Path without turning after which an avoidance is over. Looks during an avoidance are one scan
+// interval (0.065 m) apart.
 inline constexpr double kTurnChain_m = 0.15;
-// An alarm belongs to the nearest rock within this of the array; elevations are seen wrongly by
-// less, and the rover pitches and rolls.
+// How far from the array the nearest rock may be to own an alarm. Elevations are seen wrongly by
+// less, but the rover pitches and rolls.
 inline constexpr double kAlarmReach_m = 0.10;
 
 class RunHistory {
@@ -71,12 +69,12 @@ class RunHistory {
   const std::vector<RockEvent>& alarms() const { return alarms_; }
   const std::vector<RockEvent>& scrapes() const { return scrapes_; }
 
-  // The first moment at which the path is at least path_m; null where it never is.
+  // Returns the first moment at which the path is at least path_m; null where it never is.
   const Moment* At(double path_m) const;
 
-  // The first alarm of a rock; null where there was none.
+  // Returns the first alarm of a rock; null where there was none.
   const RockEvent* FirstAlarm(int rock) const;
-  // The last scrape of a rock; null where there was none.
+  // Returns the last scrape of a rock; null where there was none.
   const RockEvent* LastScrape(int rock) const;
   int Scrapes(int rock) const;
 
@@ -88,8 +86,8 @@ class RunHistory {
   std::vector<RockEvent> scrapes_;
 };
 
-// From the edge of a round rock to a zone of a rover at `rover`, m; negative where its circle
-// reaches into the zone by that much or covers its edge.
+// Returns the gap from the edge of a round rock to a zone of a rover at `rover`, m; negative where
+// the rock's circle reaches into the zone by that much or covers its edge.
 double GapToZone(const PlacedRock& rock, const math::Pose2& rover, const RoverZone& zone);
 
 // Indices of the rocks in the order in which they are placed.
@@ -99,7 +97,7 @@ inline constexpr int kRockC = 2;
 
 // Conditions on rock A, which do not depend on what lies beyond it.
 struct FirstRockStory {
-  bool false_alarm = false;  // a hazard was believed where there is none, before A was detected
+  bool false_alarm = false;  // the first alarm belongs to no rock
   bool detected = false;     // A raised the first other alarm, at about the told path
   bool turned = false;       // the rover turned in place then
   bool unscraped = false;
@@ -135,7 +133,7 @@ ThirdRockStory TellThirdRock(const RunHistory& history, const ThreeRockTold& tol
                              double length_m);
 
 // Heading errors, believed less true, deg, counted positive towards the side to which the rover
-// turned at rock A: what an underestimated turn leaves there is negative, as in the published run.
+// turned at rock A. What an underestimated turn leaves there is negative, as in the published run.
 struct HeadingStages {
   double after_a_deg = 0.0;  // at the end of the turn in place at A
   double after_b_deg = 0.0;  // kSettled_m past the last scrape of B
@@ -144,10 +142,11 @@ struct HeadingStages {
   double final_deg = 0.0;
 };
 
-// Path after a scrape at which its jump is in the estimate.
+// Path after a scrape at which the scrape's jump is in the estimate.
 inline constexpr double kSettled_m = 0.10;
 
-// Of a drive in which A and C were detected, and B and C scraped (FirstRockStory and so on).
+// Returns the stages of a drive in which A and C were detected, and B and C scraped (FirstRockStory
+// and so on).
 HeadingStages StagesOf(const RunHistory& history);
 
 }  // namespace rockyard::experiments

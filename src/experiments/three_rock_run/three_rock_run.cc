@@ -18,8 +18,9 @@ const truth::RecordSchema& ThreeRockColumns() {
 
 namespace {
 
-// A rover that spins its wheels at a rock believes to arrive without having passed it. Twice the
-// position error that the published run ended with.
+// How far from the goal a rover may truly be that counts as having passed B; one that spins its
+// wheels at a rock believes to arrive without having passed it. Twice the position error that the
+// published run ended with; the meaning of the column b_passed tells it.
 constexpr double kLostGoal_m = 2.0 * kPublishedPositionError_m;
 
 RoverZone ArrayOf(const sensing::LightStripeParams& sensor) {
@@ -129,7 +130,7 @@ bool ThreeRockRunExperiment::TryThirdRock(const RunHistory& with_b, Course& cour
     const ThirdRockStory story = TellThirdRock(driven.history, params_.told, driven.Arrived(),
                                                driven.result.record.true_distance_m);
     record.c_counts.Add(story);
-    // Rock C may lie where it changes what was told of the others.
+    // Rock C may change what was told of the others.
     const bool others = TellFirstRock(driven.history, params_.told).AsTold(params_.told) &&
                         TellSecondRock(driven.history, params_.told, driven.Passed()).AsTold();
     if (!others || !story.AsTold()) continue;
@@ -140,7 +141,8 @@ bool ThreeRockRunExperiment::TryThirdRock(const RunHistory& with_b, Course& cour
 }
 
 core::RandomStream StreamOf(DrawnPart part, std::int64_t number, core::TrialKey key) {
-  // 0; 1, 3, 5, ... of B; 2, 4, 6, ... of C: more tries of one rock move no try of the other.
+  // Must stay: 0; 1, 3, 5, ... of B; 2, 4, 6, ... of C, so that more tries of one rock move no try
+  // of the other.
   const std::int64_t substream =
       part == DrawnPart::kStart ? 0 : 2 * number + (part == DrawnPart::kSecondRock ? 1 : 2);
   return {key, core::Purpose::kExperiment, static_cast<std::uint32_t>(substream)};

@@ -1,10 +1,11 @@
-// The experiment "three_rock_run": drives like the one of Matthies 1995, figures 7 and 8.
+// The experiment "three_rock_run" (make_experiment.cc): drives like the one of Matthies 1995,
+// figures 7 and 8.
 //
-// One run draws a goal and rock A, and drives. Where that goes as the published run is told, it
-// draws places of rock B beside the way that the rover took, until a drive among both goes as told,
-// then likewise of C. A drive depends on no rock that it has not come to, so that the last one is a
-// drive among all three. The outcome of a run is `measured`; conditions, tries and errors are
-// columns.
+// One run draws a goal and rock A, and drives. Where the drive goes as the published run is told,
+// the run draws places of rock B beside the way that the rover took, until a drive among both goes
+// as told, then places of rock C likewise. A drive depends on no rock that it has not come to, so
+// that the last one is a drive among all three. The outcome of a run is `measured`; conditions,
+// tries and errors are columns.
 #pragma once
 
 #include <cstdint>
@@ -23,43 +24,41 @@
 
 namespace rockyard::experiments {
 
-// The numbers of a rock as they are drawn, and where they put it.
-
-// A rock as it is drawn: `offset_m` is its centre beside the rover's way, to the left.
+// The numbers of a rock as they are drawn.
 struct DrawnRock {
-  double along_m = 0.0;  // A: gap before the rover; B: path to it; C: path from B to it
-  double offset_m = 0.0;
+  double along_m = 0.0;   // A: gap before the rover; B: path to it; C: path from B to it
+  double offset_m = 0.0;  // of its centre beside the rover's way, to the left
   double diameter_m = 0.0;
   double height_m = 0.0;
 };
 
-// What the streams of a trial are for: kExperiment has a substream for the goal and rock A, then
-// one for each place that is tried of B, and of C.
+// What the streams of a trial are for. Records depend on the substreams of kExperiment: one for the
+// goal and rock A, then one for each place that is tried of B, and of C (StreamOf).
 enum class DrawnPart { kStart, kSecondRock, kThirdRock };
 
-// The stream of the number-th try, from 0.
+// Returns the stream of the number-th try, from 0.
 core::RandomStream StreamOf(DrawnPart part, std::int64_t number, core::TrialKey key);
 
-// Uniform numbers of the prior, the next ones of `stream`.
+// Return uniform numbers of the prior, the next ones of `stream`. Must stay: the order along,
+// offset, diameter, height.
 double DrawUniform(const UniformRange& range, core::RandomStream& stream);
 DrawnRock DrawRock(const RockPrior& prior, core::RandomStream& stream);
 
-// Rock A, so that a rover on the line to the goal, whose front is front_x_m ahead of its centre,
-// comes to within its gap at path_m.
+// Returns the place of rock A, so that a rover on the line to the goal, whose front is front_x_m
+// ahead of its centre, comes to within the rock's gap at path_m.
 PlacedRock PlaceFirstRock(const DrawnRock& rock, double path_m, double front_x_m);
 
-// A rock beside the way that was driven: `offset_m` to the left of the rover where its centre had
-// come to path_m. None where the run ended before.
+// Returns the place of a rock beside the way that was driven: `offset_m` to the left of the rover
+// where its centre had come to path_m. None where the run ended before.
 std::optional<PlacedRock> PlaceOnPath(const DrawnRock& rock, double path_m,
                                       const RunHistory& history);
 
-// The values of one run, each beside its column.
-
 // What the paper tells of the run in numbers (section 5), signed as HeadingStages. Meanings of the
-// columns "..._below" repeat them.
+// columns "..._below" repeat them: both change together.
 inline constexpr HeadingStages kPublishedStages{-5.0, 10.0, 10.0, 15.0, 15.3};
 inline constexpr double kPublishedPositionError_m = 1.0;
 
+// A rock that was not placed.
 inline constexpr PlacedRock kNowhere{
     std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
     std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
@@ -81,6 +80,7 @@ struct ThirdRockCounts {
   }
 };
 
+// What the columns of one run tell.
 struct ThreeRockRecord {
   FirstRockStory a_story;
   bool a_as_told = false;
@@ -95,12 +95,12 @@ struct ThreeRockRecord {
 
   double goal_m = 0.0;
   double b_path_m = 0.0;
-  // The last that were tried.
+  // The rocks that were tried last.
   PlacedRock a = kNowhere;
   PlacedRock b = kNowhere;
   PlacedRock c = kNowhere;
 
-  // Of accepted runs; 0 of others.
+  // Ends of accepted runs; 0 of other runs.
   int b_scrapes = 0;
   int c_scrapes = 0;
   HeadingStages stages;
@@ -108,7 +108,7 @@ struct ThreeRockRecord {
   double position_error_m = 0.0;
   double length_m = 0.0;
 
-  // Of the drive that was accepted.
+  // Takes the end of the drive that was accepted.
   void SetEnd(const RunHistory& history, const truth::DriveRecord& end) {
     b_scrapes = history.Scrapes(kRockB);
     c_scrapes = history.Scrapes(kRockC);
@@ -193,12 +193,12 @@ void ForEachColumn(const ThreeRockRecord& r, Visitor visit) {
   rock("c", r.c);
 }
 
-// Every column but the number of the cell, in the order of ThreeRockRecord.
+// Returns every column but the number of the cell, in the order of ForEachColumn.
 const truth::RecordSchema& ThreeRockColumns();
 
 class ThreeRockRunExperiment final : public CellExperiment {
  public:
-  // The rocks and the goal of `drive` are replaced.
+  // The experiment replaces the rocks and the goal of `drive`.
   ThreeRockRunExperiment(const ThreeRockRunParams& params, trial::DriveParams drive);
 
  private:
@@ -209,7 +209,7 @@ class ThreeRockRunExperiment final : public CellExperiment {
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override;
   ThreeRockRecord RecordUnder(core::TrialKey key) const;
   Driven DriveAmong(const Course& course) const;
-  // They try places of a rock until the drive goes as told, and say whether it did.
+  // Try places of a rock until the drive goes as told. Return whether it did.
   bool TrySecondRock(const RunHistory& with_a, Course& course, ThreeRockRecord& record) const;
   bool TryThirdRock(const RunHistory& with_b, Course& course, ThreeRockRecord& record) const;
 

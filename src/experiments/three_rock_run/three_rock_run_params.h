@@ -1,5 +1,5 @@
 // Parameters of the experiment "three_rock_run": from which layouts it draws, and what a run has to
-// show to be like the one that Matthies 1995 tells of (section 5, figures 7 and 8). A default
+// show to be like the run that Matthies 1995 tells of (section 5, figures 7 and 8). A default
 // decides the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace rockyard::experiments {
 // Lowest and highest value of a uniform distribution.
 using UniformRange = std::array<double, 2>;
 
-// From what one rock is drawn.
+// The distributions from which one rock is drawn.
 struct RockPrior {
   UniformRange along_m;   // where on the rover's way
   UniformRange offset_m;  // of its centre beside the rover's way, to the left

@@ -14,12 +14,13 @@ namespace {
 
 using math::Transform;
 
-// The meaning of the column "wrong" tells these numbers.
+// Must agree with the meaning of the column "wrong" (ForEachColumn).
 constexpr double kWrongSigma = 6.0;
 constexpr double kWrong_m = 0.05;
 constexpr double kWrong_rad = 2.0 * std::numbers::pi / 180.0;
 
-// An arc of a length and a turn, from the middle of its chord's direction.
+// Returns the pose at the end of an arc of a length and a turn from the origin along x. The chord
+// leads in the direction of half the turn.
 Transform Arc(double way_m, double turn_rad) {
   const double half = 0.5 * turn_rad;
   const double chord_m = half == 0.0 ? way_m : way_m * std::sin(half) / half;
@@ -27,7 +28,8 @@ Transform Arc(double way_m, double turn_rad) {
                         0.0);
 }
 
-// Draws from (key, kExperiment), substream 1: 0 is the place's.
+// Returns a step from the level pose `level`. Draws from (key, kExperiment), substream 1: substream
+// 0 is RandomPlace's.
 StudiedStep DrawStep(const VisualMotionStudyParams& params, const Transform& level, double way_m,
                      double turn_rad, core::TrialKey key) {
   core::RandomStream stream(key, core::Purpose::kExperiment, 1);
@@ -79,7 +81,8 @@ void AddStep(const StudiedStep& step, const vision::MotionResult& seen, VisualSu
   const double nees = error.dot(math::SolveSymmetric(seen.motion->covariance, error));
   sums.nees += nees;
   sums.position_m += way_m.norm();
-  // e' P^-1 e is 6 on average: all six coordinates off by kWrongSigma make 6 kWrongSigma^2.
+  // An error of kWrongSigma standard deviations in all six coordinates has e' P^-1 e = 6
+  // kWrongSigma^2; 6 is the average.
   const bool far = way_m.norm() > kWrong_m || turn_rad.norm() > kWrong_rad;
   if (far && nees > 6.0 * kWrongSigma * kWrongSigma) sums.wrong += 1.0;
   sums.along_m.Add(way_m.x());

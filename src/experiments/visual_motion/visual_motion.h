@@ -1,9 +1,5 @@
-// The experiment "visual_motion": how well visual odometry measures one motion, at whichever
-// fidelity the scenario has.
-//
-// One run is a block of motions of one cell; run i belongs to cell i modulo their number, so that
-// every prefix of the runs covers the cells evenly. Its record holds the cell's factors, then
-// counts and sums; its outcome is `measured`.
+// The experiment "visual_motion" (make_experiment.cc): how well visual odometry measures one
+// motion, at whichever fidelity the scenario has. A scene is a motion.
 #pragma once
 
 #include <cstdint>
@@ -22,17 +18,17 @@ namespace rockyard::experiments {
 
 struct VisualSums {
   double steps = 0.0;
-  double found = 0.0;  // motions
-  double wrong = 0.0;  // of these, off by more than kWrongSigma of what they state and kWrong_m
+  double found = 0.0;  // steps that gave a motion
+  double wrong = 0.0;  // motions that are off (the column "wrong")
   double matches = 0.0;
   double points = 0.0;
   double consistent = 0.0;
-  double nees = 0.0;        // of motions: e' P^-1 e, 6 on average where the covariance is right
-  double position_m = 0.0;  // length of the error of the way
+  double nees = 0.0;        // sum of e' P^-1 e, 6 on average where the covariance is right
+  double position_m = 0.0;  // sum of the lengths of errors of the way
   ErrorSums along_m;        // x, y, z of the first rover frame
   ErrorSums across_m;
   ErrorSums up_m;
-  ErrorSums roll_deg;  // about these axes
+  ErrorSums roll_deg;  // about x, y, z of the first rover frame
   ErrorSums pitch_deg;
   ErrorSums heading_deg;
 };
@@ -67,8 +63,8 @@ void ForEachColumn(const VisualSums& s, const Visitor& visit) {
   error("heading", "deg", "about z", s.heading_deg);
 }
 
-// Every column but the number of the cell: first the factors that name a cell, of which a scenario
-// has those of its lists (VisualMotionStudyParams::Factors), then those of VisualSums.
+// Returns every column but the number of the cell: first the factors that name a cell, of which a
+// scenario has those of its lists (VisualMotionStudyParams::Factors), then those of VisualSums.
 const truth::RecordSchema& VisualMotionColumns();
 
 class VisualMotionExperiment final : public CellExperiment {
@@ -81,13 +77,13 @@ class VisualMotionExperiment final : public CellExperiment {
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override;
 
   VisualMotionStudyParams params_;
-  std::vector<trial::DriveParams> drives_;  // of each cell
+  std::vector<trial::DriveParams> drives_;  // by cell
 };
 
-// A motion from a place to another one, and where on-board software expects it.
+// A motion from a place to another one, and where on-board software expects it to end.
 struct StudiedStep {
-  math::Transform X_WF = math::Transform::Identity();  // R at first
-  math::Transform X_WS = math::Transform::Identity();  // and then
+  math::Transform X_WF = math::Transform::Identity();  // R at the start, frame F
+  math::Transform X_WS = math::Transform::Identity();  // R at the end, frame S
   math::Transform predicted_FS = math::Transform::Identity();
 };
 

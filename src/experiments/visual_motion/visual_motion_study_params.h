@@ -1,5 +1,5 @@
-// Parameters of the experiment on how well visual odometry measures one motion. A default decides
-// the records of scenarios that leave it out; a bound only refuses files.
+// Parameters of the experiment "visual_motion", on how well visual odometry measures one motion. A
+// default decides the records of scenarios that leave it out; a bound only refuses files.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,8 @@ struct VisualMotionStudyParams {
   double tilt_sd_rad = math::DegToRad(3.0);
   double prediction_error = 0.1;
 
-  // In the order of their columns, the last one changing fastest.
+  // Returns the factors in the order of their columns, the last one changing fastest. Way and turn
+  // come first, as Measure reads them so.
   std::vector<CellFactor> Factors() const;
   double Cells() const { return CellsOf(Factors()); }
 

@@ -14,9 +14,9 @@ using messages::MotionKind;
 // Below this curvature an arc of any length that is judged is straight to a tenth of a micrometre.
 constexpr double kStraight_per_m = 1e-9;
 
-// The place on an arc at signed distance s (negative: driven backwards) from R's origin, which it
-// leaves along x: (sin(c s) / c, (1 - cos(c s)) / c), the latter as 2 sin^2(c s / 2) / c, which
-// keeps its digits where c s is small.
+// Returns the place on an arc at signed distance s (negative: driven backwards) from R's origin,
+// which the arc leaves along x: (sin(c s) / c, (1 - cos(c s)) / c). The latter is taken as 2
+// sin^2(c s / 2) / c, which keeps its digits where c s is small.
 PathPoint OnArc(double curvature_per_m, double s_m) {
   if (std::abs(curvature_per_m) < kStraight_per_m) return {s_m, 0.0};
   const double angle_rad = curvature_per_m * s_m;
@@ -65,7 +65,7 @@ CandidateMotion MakePointTurn(double turn_rad, const PathSampling& sampling) {
   return candidate;
 }
 
-// Angles of the turns in place to one side, ascending.
+// Returns the angles of the turns in place to one side, ascending.
 std::vector<double> PointTurnAngles(const GestaltArcParams& arcs) {
   if (arcs.num_point_turns == 0) return {arcs.point_turn_amount_rad};
   std::vector<double> angles;

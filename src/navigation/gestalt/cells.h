@@ -1,4 +1,5 @@
-// What the map of GESTALT holds of each cell, in memory that wraps around.
+// What the map of GESTALT holds of each cell, in memory that wraps around. The map writes it;
+// planes and steps of patches read it.
 #pragma once
 
 #include <cstddef>
@@ -47,8 +48,8 @@ class CellWindow {
   MapCell& At(int ix, int iy) { return slots_[Slot(ix, iy)]; }
   const MapCell& At(int ix, int iy) const { return slots_[Slot(ix, iy)]; }
 
-  // Moves the window. The cells that come in are those that went out: the caller empties them
-  // first.
+  // Moves the window. Slots of cells that go out hold the cells that come in: the caller empties
+  // them first.
   void MoveTo(std::int64_t first_x, std::int64_t first_y) {
     first_x_ = first_x;
     first_y_ = first_y;

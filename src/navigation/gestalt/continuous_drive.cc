@@ -1,7 +1,7 @@
-// GESTALT on the move (Howard 2012, section 2): once a fraction of the motion under way is driven
-// the rover looks; where the plan that follows is ready, it replaces that motion. Arcs (CSOD), for
-// whose change the rover stands to steer, or clothoid splines (CSAD), which begin with the
-// curvature that it steers.
+// The part of GestaltCycle on the move (Howard 2012, section 2). Once a fraction of the motion
+// under way is driven the rover looks; where the plan that follows is ready, it replaces that
+// motion. Motions are arcs (CSOD), for whose change the rover stands to steer, or clothoid splines
+// (CSAD), which begin with the curvature that it steers.
 #include <cmath>
 
 #include "core/check.h"
@@ -14,8 +14,8 @@ namespace {
 
 using messages::PoseEstimate;
 
-// Where the rover looked from, in O. Odometry, whose frame is D, says how it moved since: X_OL =
-// X_OR (X_DR)^-1 X_DL.
+// Returns where the rover looked from, in O. Odometry, whose frame is D, says how the rover moved
+// since: X_OL = X_OR (X_DR)^-1 X_DL.
 PoseEstimate LookedFrom(const NavigatorInput& input) {
   const PoseEstimate& looked_D = input.look->odometry;
   const math::Pose2 looked_O =
@@ -57,7 +57,7 @@ NavigatorDecision GestaltCycle::Replan(const NavigatorInput& input) {
                   math::MakePose({seen.x_m, seen.y_m, attitude.z_m}, seen.heading_rad,
                                  attitude.pitch_rad, attitude.roll_rad),
                   input.estimate);
-  // Along the motion under way from where it looked, s = s_look + v (t - t_look).
+  // A predicted plan begins on the motion under way, s = s_look + v (t - t_look) along it.
   const bool predicts = params_.continuous.plan_start == PlanStart::kPredicted;
   const PlanOrigin origin = predicts
                                 ? manoeuvre_.Ahead(seen, plans_.WaySince(*input.look, input.time_s))

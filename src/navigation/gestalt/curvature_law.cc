@@ -30,7 +30,7 @@ constexpr double kTurnOfQuadrature_rad = 1.0;
 
 // With u = t l / 2, a = c_m l / 2 and b = c' l^2 / 8 the chord is
 //   l / 2 int_-1^1 cos(a t) e^(i b t^2) dt,
-// as what is odd in t vanishes; |a| <= tau / 2 and |b| <= tau^2 / 8. The series of both factors,
+// as what is odd in t vanishes; |a| <= tau / 2 and |b| <= tau^2 / 8. The series of both factors are
 // integrated term by term. The largest terms left out, up to tau = 1/8: a^4 b^2 / 432 and b^4 / 216
 // along, a^2 b^3 / 108 across; 4e-13 l together.
 Chord SeriesChord(const Piece& piece) {
@@ -44,8 +44,8 @@ Chord SeriesChord(const Piece& piece) {
   return {2.0 * piece.half_m * along, 2.0 * piece.half_m * across};
 }
 
-// The same by quadrature with n = 8 nodes, -u and u at a time. Of f = e^(i theta) its error is at
-// most
+// The chord by quadrature with n = 8 nodes, -u and u at a time. With f = e^(i theta) the error is
+// at most
 //   l (n!)^4 / ((2n + 1) ((2n)!)^3) max |f^(2n)| l^(2n)   (Abramowitz and Stegun 1964, 25.4.30),
 // and |f^(16)| l^16 <= I tau^16, with I = sum_j 16! / (j! (16 - 2j)! 2^j) = 46206736 the terms of
 // the derivative: 8e-16 l up to tau = 1.
@@ -96,7 +96,7 @@ math::Pose2 AlongClothoid(const math::Pose2& from, double curvature_per_m, doubl
 }
 
 double SpeedShare(const SpeedLawParams& params, double curvature_per_m) {
-  // How much of the way from the one curvature to the other.
+  // How far |c| is from the one curvature to the other.
   const double way = (std::abs(curvature_per_m) - params.full_speed_curvature_per_m) /
                      (params.slow_curvature_per_m - params.full_speed_curvature_per_m);
   return 1.0 - (1.0 - params.min_speed_share) * std::clamp(way, 0.0, 1.0);
@@ -104,12 +104,13 @@ double SpeedShare(const SpeedLawParams& params, double curvature_per_m) {
 
 namespace {
 
-// Where the speed falls, a piece ends when it has fallen to this share of that at its beginning:
-// p^2 is linear in the distance there and c has a singularity at p = 0, which then lies 1.78
-// lengths of the piece beyond its end. Eight nodes converge as rho^-16 with rho = 9, to 5e-16.
+// Where the speed falls, a piece ends when the speed has fallen to this share of that at the
+// piece's beginning. p^2 is linear in the distance there and c has a singularity at p = 0, which
+// then lies 1.78 lengths of the piece beyond its end. Eight nodes converge as rho^-16 with rho = 9,
+// to 5e-16.
 constexpr double kSlowingOfPiece = 0.8;
 
-// Largest turn of such a piece, as of those of clothoids.
+// Largest turn of such a piece; as kTurnOfQuadrature_rad of clothoids.
 constexpr double kTurnOfPiece_rad = 1.0;
 
 }  // namespace
@@ -247,7 +248,7 @@ math::Pose2 CurvatureLaw::Along(const math::Pose2& from, double from_per_m, doub
   EXPECT(length_m >= 0.0);
   if (length_m == 0.0) return from;
   const double whole = Integral(to_per_m) - Integral(from_per_m);
-  // Also where a curvature is not a number.
+  // True also where a curvature is not a number.
   const bool steady = !(std::abs(whole) > 0.0);
   const bool clothoid = law_ == SplineLaw::kDistance || slope_m_ == 0.0 || steady;
   if (clothoid) {

@@ -66,7 +66,7 @@ void GestaltCycle::OnPoseUpdate(const PoseEstimate& before, const PoseEstimate& 
   search_.ForgetGround();
   manoeuvre_.OnPoseUpdate(before, after);
   progress_.CountFrom(DistanceToGoal_m(after));
-  // What was seen from where it stood is told no more: it is asked for again.
+  // What was seen from where the rover stood is no longer told: it is asked for again.
   plans_.Drop();
   // What was seen ahead is forgotten with the map.
   if (stage_ == Stage::kLookingBehind) stage_ = Stage::kLookingAhead;
@@ -110,14 +110,14 @@ NavigatorDecision GestaltCycle::OnCloud(const NavigatorInput& input) {
     evaluation_.Show(origin, input.attitude, goal_O_);
     return BeginSpline(*safe, input);
   }
-  // Step 3 of the cycle: forward arcs look bad, so the rear cameras are asked, too.
+  // Step 3 of the cycle: where forward arcs look bad, the rear cameras are asked, too.
   const bool looks_behind = ahead && params_.drive.rear_cameras &&
                             BestVote(evaluation_.votes().forward) < params_.votes.min_fwd_threshold;
   return looks_behind ? Look(Stage::kLookingBehind) : Choose(input);
 }
 
-// Step 7 of the paper and what it leaves open: an arc, a turn in place, or giving up after a search
-// all round.
+// Chooses by step 7 of the paper and what it leaves open: an arc, a turn in place, or giving up
+// after a search all round.
 NavigatorDecision GestaltCycle::Choose(const NavigatorInput& input) {
   MotionVotes& votes = evaluation_.votes();
   MotionVote* chosen = ChooseArc(votes, params_);

@@ -1,5 +1,5 @@
 // The drive cycle of GESTALT (Goldberg 2002, section 4): look, map and vote, choose, drive blindly,
-// look again.
+// look again. GestaltNavigator runs it.
 //
 // A cycle begins at rest:
 //   1. At the goal within goal_tolerance: arrived. Out of time, or no progress for long: given up.
@@ -8,16 +8,16 @@
 //   4. Drive the chosen arc for min(step, distance to the goal), or turn in place.
 //   5. After a turn that was better than every arc: the straight drive that it was voted on with
 //      (Howard 2012). After one for want of a way: another look.
-// Nothing to choose after turning in place by search_turn: given up.
+// The rover gives up where there is nothing to choose after it has turned in place by search_turn.
 //
 // A hazard that the rover feels on the way (tilt, joint angles, motor current, contact) ends a
 // drive: the rover marks an obstacle where it feels it, backs off along the arc unless it touches
-// something at that end too, and begins a cycle. The paper names these safeguards, not what
-// follows; all of it is assumed.
+// something at that end too, and begins a cycle. The paper names these sensors and not what
+// follows, so that all of it is assumed.
 //
-// That is the cycle at rest. With continuous.cycle csod or csad forward drives are replaced on the
-// move (continuous_drive.cc, Howard 2012, section 2); the rover comes back to the cycle at rest
-// where it feels a hazard, where no plan on the move is safe, and where none is ready in time.
+// With continuous.cycle csod or csad forward drives are replaced on the move (continuous_drive.cc,
+// Howard 2012, section 2). The rover comes back to the cycle at rest where it feels a hazard, where
+// no plan on the move is safe, and where none is ready in time.
 #pragma once
 
 #include "navigation/gestalt/evaluation.h"
@@ -41,8 +41,8 @@ class GestaltCycle {
   NavigatorDecision Decide(const NavigatorInput& input);
 
   // Operators have moved the rover: the map is forgotten, as it lies where the rover no longer
-  // stands, but for what was felt since the last progress. A manoeuvre under way ends as it would
-  // have; a search begins anew.
+  // stands, but for places where a hazard was felt since the last progress. A manoeuvre under way
+  // ends as it would have; all ground may be searched again.
   void OnPoseUpdate(const messages::PoseEstimate& before, const messages::PoseEstimate& after);
 
   // The estimate is corrected: in O the goal moves, and the rover keeps its place but for rounding.
@@ -81,7 +81,7 @@ class GestaltCycle {
   NavigatorDecision ContinueBackOff(const NavigatorInput& input);
   NavigatorDecision OnFelt(const NavigatorInput& input);
 
-  // On the move: continuous_drive.cc.
+  // These drive on the move: continuous_drive.cc.
   NavigatorDecision DriveOn(const NavigatorInput& input);
   NavigatorDecision EndMotion(const NavigatorInput& input);
   NavigatorDecision Replan(const NavigatorInput& input);
@@ -96,7 +96,8 @@ class GestaltCycle {
   bool Progresses(const messages::PoseEstimate& estimate);
   bool AtGoal(const messages::PoseEstimate& estimate) const;
   messages::MotionVote& NextTurn(const messages::PoseEstimate& estimate);
-  // A turn that leads better than every arc is a move like them, with a drive that may follow.
+  // Returns kTurningToDrive for a turn after whose end the rover may drive straight on, else
+  // kTurning.
   Stage StageOf(const messages::MotionVote& turn) const;
 
   GestaltParams params_;

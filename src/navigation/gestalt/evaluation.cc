@@ -9,7 +9,8 @@ namespace {
 
 using messages::LookDirection;
 
-// Of a motion that is replaced on the move a step ends where the next plan is made.
+// Returns the parameters for votes on arcs. A motion that is replaced on the move ends, for its
+// waypoint vote, where the next plan is made.
 GestaltParams ForArcVotes(const GestaltParams& params) {
   GestaltParams voting = params;
   if (params.continuous.cycle == DriveCycle::kStopAndLook) return voting;

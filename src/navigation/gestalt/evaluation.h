@@ -1,4 +1,5 @@
-// What GESTALT makes of its looks: the map, the votes on every motion, and the choice among them.
+// What GESTALT makes of its looks: the map, the votes on every motion, and the choice among
+// splines. The cycle owns one.
 #pragma once
 
 #include <optional>
@@ -20,7 +21,7 @@ class Evaluation {
   Evaluation(const GestaltParams& params, double full_speed_m_s);
 
   // Adds what was seen from X_OR to the map. A look ahead begins a cycle of the map, with its
-  // window around `rover`.
+  // window around `rover`; a look behind adds to that cycle.
   void See(const messages::PointCloud& cloud, const math::Transform& X_OR,
            const messages::PoseEstimate& rover);
 
@@ -36,7 +37,7 @@ class Evaluation {
   // Chooses the best spline and marks it as chosen; null where none is safe.
   const messages::Spline* TakeSafeSpline();
 
-  // Shows the last votes to people.
+  // Makes view() of the last votes, for traces and pages.
   void Show(const PlanOrigin& origin, const messages::AttitudeEstimate& attitude,
             const messages::Goal& goal);
   const messages::NavigationView* view() const { return view_ ? &*view_ : nullptr; }
@@ -47,7 +48,7 @@ class Evaluation {
   GestaltParams params_;
   GestaltMap map_;
   ArcVoter voter_;
-  std::optional<SplineVoter> spline_voter_;  // with csad
+  std::optional<SplineVoter> spline_voter_;  // where the cycle is csad
   MotionVotes votes_;
   SplineVotes spline_votes_;
   bool looked_behind_ = false;

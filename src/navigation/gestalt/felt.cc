@@ -11,7 +11,7 @@ using messages::HazardSide;
 using messages::MotionCommand;
 using messages::PoseEstimate;
 
-// Which side a hazard lies on: +1 left, -1 right, 0 ahead.
+// Returns the side that a hazard lies on: +1 left, -1 right, 0 ahead.
 double Aside(const messages::VehicleHazard& hazard) {
   if (hazard.side == HazardSide::kLeft) return 1.0;
   return hazard.side == HazardSide::kRight ? -1.0 : 0.0;
@@ -44,7 +44,7 @@ void FeltHazards::Move(const PoseEstimate& before, const PoseEstimate& after, Ge
 void FeltHazards::MarkVetoes(MotionVotes& votes) const {
   for (auto* row : {&votes.forward, &votes.backward}) {
     for (messages::MotionVote& vote : *row) {
-      // Equal to the bit: an arc that is driven is a copy of its candidate, which is made once.
+      // Compares bits: an arc that is driven is a copy of its candidate, which is made once.
       vote.vetoed = std::any_of(vetoed_.begin(), vetoed_.end(), [&](const MotionCommand& felt_on) {
         return felt_on.direction == vote.motion.direction &&
                felt_on.curvature_per_m == vote.motion.curvature_per_m;

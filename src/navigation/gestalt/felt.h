@@ -1,4 +1,5 @@
-// What GESTALT remembers of the hazards that it felt on its way.
+// What GESTALT remembers of the hazards that it felt on its way. The cycle tells it of them, and
+// asks it when it votes.
 #pragma once
 
 #include <vector>
@@ -10,8 +11,8 @@
 
 namespace rockyard::navigation {
 
-// Places of felt hazards, and motions on which one was felt. No camera has seen these hazards, so
-// that no look would find them again. Invariant: places live until the next progress, whatever
+// Places of felt hazards, and motions on which one was felt. No look would find these hazards
+// again, as no camera has seen them. Invariant: places live until the next progress, whatever
 // happens to the map, and are marked in it whenever it is made anew; vetoes live until a manoeuvre
 // ends as it was meant to.
 class FeltHazards {
@@ -19,9 +20,9 @@ class FeltHazards {
   explicit FeltHazards(const GestaltParams& params)
       : rover_(params.map.rover), drive_(params.drive) {}
 
-  // Takes what the rover feels during the motion: a contact at the front, any other hazard at the
-  // end that leads, both half a width aside if the sensor names a side; a touch behind while
-  // driving backward at the rear.
+  // Notes the place of what the rover feels during the motion: of a contact at the front, of any
+  // other hazard at the end that leads, both half a width aside if the sensor names a side; of a
+  // touch behind while driving backward at the rear.
   void Feel(const NavigatorInput& input, const messages::MotionCommand& motion, GestaltMap& map);
 
   // Follows a jump of the estimate: the places keep their distance and bearing from the rover. They
@@ -29,6 +30,7 @@ class FeltHazards {
   void Move(const messages::PoseEstimate& before, const messages::PoseEstimate& after,
             GestaltMap& map);
 
+  // Sets the mark `vetoed` of every arc.
   void MarkVetoes(MotionVotes& votes) const;
 
   void ForgetPlaces() { places_O_.clear(); }

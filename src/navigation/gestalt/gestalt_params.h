@@ -1,7 +1,9 @@
-// Parameters of GESTALT but for its map (map_params.h): arcs, votes and waypoints of Goldberg 2002,
-// table 1, the drive cycle, and driving on the move (Howard 2012). Names and defaults of table 1
-// are the table's, and a test holds them to it; what the papers leave open is marked as assumed. A
-// default decides the records of every scenario that leaves it out; a bound only refuses files.
+// Parameters of GESTALT but for its map (map_params.h), which the files of this folder read: arcs,
+// votes and waypoints of Goldberg 2002, table 1, the drive cycle, and driving on the move (Howard
+// 2012). Names and defaults of table 1 are the table's, and a test holds them to it; what the
+// papers leave open is marked as assumed. A default decides the records of every scenario that
+// leaves it out; a bound only refuses files. Meanings, units and origins stand in
+// gestalt_params.cc.
 #pragma once
 
 #include <array>
@@ -70,12 +72,9 @@ struct GestaltVoteParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Parameters of the splines among which a rover that steers while it drives chooses (Howard 2012,
-// sections 2 and 3).
-
-// Full speed up to one curvature, min_speed_share of it from another one on: "The maximum speed
-// [...] was 7 cm/sec and is reduced only for high-curvature maneuvers" (Howard 2012, section 3). By
-// default curves are driven as fast as straight lines.
+// The speed law (SpeedShare): full speed up to full_speed_curvature, min_speed_share of it from
+// slow_curvature on: "The maximum speed [...] was 7 cm/sec and is reduced only for high-curvature
+// maneuvers" (Howard 2012, section 3). By default curves are driven as fast as straight lines.
 struct SpeedLawParams {
   double full_speed_curvature_per_m = 0.5;
   double min_speed_share = 1.0;
@@ -84,15 +83,16 @@ struct SpeedLawParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// In what the curvature between two knots is linear: "Clothoid trajectories are motions whose
-// curvature varies linearly with distance or time" (Howard 2012, section 2). The two are the same
-// at constant speed.
+// In what the curvature between two knots is linear (CurvatureLaw): "Clothoid trajectories are
+// motions whose curvature varies linearly with distance or time" (Howard 2012, section 2). The two
+// are the same at constant speed.
 enum class SplineLaw {
   kDistance,
   kTime,  // at the speed of the speed law
 };
 
-// Knots of either kind are spaced evenly from -max_curvature to +max_curvature.
+// The splines among which a rover that steers while it drives chooses (Howard 2012, sections 2 and
+// 3). First and second knots are spaced evenly from -max_curvature to +max_curvature.
 struct GestaltSplineParams {
   double length_m = 3.0;
   std::int64_t num_first_knots = 15;
@@ -102,13 +102,12 @@ struct GestaltSplineParams {
   SplineLaw law = SplineLaw::kDistance;
   double waypoint_m = 3.0;
 
-  // |dc/ds| of a spline from one of the first knots' curvatures to the next.
+  // Returns |dc/ds| of a spline from one curvature of the first knots to the next. Conditions on a
+  // drive hold max_curvature_rate against it.
   double LeastRate_per_m2() const;
 
   void Visit(core::FieldVisitor& v);
 };
-
-// What the drive cycle needs beside table 1, and all of GESTALT's parameters together.
 
 // How looking, planning and driving follow each other.
 enum class DriveCycle {
@@ -120,13 +119,13 @@ enum class DriveCycle {
 
 // Where a plan that is made on the move begins.
 enum class PlanStart {
-  kPredicted,  // from where it looked, along the motion under way, at the speed that it had
+  kPredicted,  // from where the rover looked, along the motion under way, at its speed then
   kEstimated,  // where the rover believes to be when the plan is ready: as if planning took no time
 };
 
 // What a rover does on the move where no new plan is safe.
 enum class NoSafePlan {
-  kStop,    // at once, and looks about as it does at rest
+  kStop,    // stops at once, and looks about as it does at rest
   kFinish,  // drives on as far as the motion under way was judged, and stops there
 };
 
@@ -145,7 +144,7 @@ struct GestaltContinuousParams {
   NoSafePlan no_safe_plan = NoSafePlan::kStop;
   LatePlan late_plan = LatePlan::kWait;
 
-  // Driven between two plans, m, where none is late.
+  // Returns the distance driven between two plans, m, where none is late.
   double ReplanDistance_m() const { return replan_fraction * motion_m; }
 
   void Visit(core::FieldVisitor& v);

@@ -1,5 +1,6 @@
 // The seam between the map and the votes of GESTALT: goodness and certainty of every cell around
-// the rover (Goldberg 2002, section 4).
+// the rover (Goldberg 2002, section 4). The map writes the grid; the votes on arcs and splines read
+// it.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,8 @@ inline std::size_t CellIndex(int ix, int iy, int width) {
          static_cast<std::size_t>(ix);
 }
 
-// How safe it is for a rover centred at the cell, and how sure that is: 8 bits each, 255 is best.
+// How safe it is for a rover centred at the cell (goodness), and how sure that is (certainty): 8
+// bits each, 255 is best.
 struct CellValue {
   std::uint8_t goodness = 0;
   std::uint8_t certainty = 0;
@@ -32,16 +34,16 @@ struct GoodnessGrid {
   double ystep_m = 0.2;
   int nx = 0;
   int ny = 0;
-  CellValue unknown;             // of everything outside the window
+  CellValue unknown;             // everything outside the window
   std::vector<CellValue> cells;  // [iy][ix]
 
   const CellValue& Cell(int ix, int iy) const { return cells[CellIndex(ix, iy, nx)]; }
   const CellValue& At(double x_m, double y_m) const {
     return AtCells((x_m - x0_m) / xstep_m, (y_m - y0_m) / ystep_m);
   }
-  // At a place in cells from the window's corner. Written so that one that is not a number lies
-  // outside. What is not negative loses its fraction by the conversion, as by std::floor, which is
-  // a call.
+  // Returns the value at a place that is told in cells from the window's corner. Written so that a
+  // place that is not a number lies outside. The conversion to int drops the fraction, as the
+  // values are not negative; std::floor would be a call.
   const CellValue& AtCells(double column, double row) const {
     if (!(column >= 0.0 && column < nx && row >= 0.0 && row < ny)) return unknown;
     return Cell(static_cast<int>(column), static_cast<int>(row));

@@ -78,7 +78,7 @@ PlanOrigin Manoeuvre::Ahead(const PoseEstimate& from, double way_m) const {
       CommandAt(to_m).curvature_per_m};
 }
 
-// What presses on the rear is felt where the rear leads.
+// A touch behind is felt only where the rear leads.
 bool Manoeuvre::Feels(const NavigatorInput& input) const {
   const bool backward = !turns() && motion_.direction < 0;
   return input.vehicle_hazard != nullptr || (backward && Touches(input, -1));

@@ -49,7 +49,7 @@ double GestaltMap::CentreY_m(std::int64_t j) const {
   return params_.grid.y0_m + (static_cast<double>(j) + 0.5) * params_.grid.ystep_m;
 }
 
-// Squared distances of columns and rows; their sum is that of a cell.
+// The squared distance of a cell is the sum of those of its column and row.
 void GestaltMap::MeasureDistances(LatticeCell first) {
   for (std::size_t i = 0; i < squares_x_m2_.size(); ++i) {
     const double distance = CentreX_m(first.x + static_cast<std::int64_t>(i)) - rover_x_m_;
@@ -66,7 +66,7 @@ bool GestaltMap::InWindow(LatticeCell cell) const {
          cell.y >= cells_.first_y() && cell.y < cells_.first_y() + cells_.ny();
 }
 
-// The box of cells that may hold something: loops need not visit the rest of the window.
+// Keeps the box of cells that may hold something: loops need not visit the rest of the window.
 void GestaltMap::GrowBox(int ix, int iy) {
   if (box_.empty()) {
     box_ = {ix, ix + 1, iy, iy + 1};
@@ -89,7 +89,8 @@ void GestaltMap::BeginCycle(double x_m, double y_m) {
   cells_.MoveTo(first.x, first.y);
 }
 
-// Step "cells are zeroed": those that leave the window, lie too far away, or got no data for long.
+// Step "cells are zeroed" of the paper: cells that leave the window, lie too far away, or got no
+// data for long.
 void GestaltMap::DropOldCells(LatticeCell first) {
   const CellBox old = box_;
   box_ = {};
@@ -132,8 +133,8 @@ void GestaltMap::Add(const messages::PointCloud& cloud, const math::Transform& X
   for (const math::Vector3& p_RP_R : cloud.points_R) {
     // The believed pose takes points from R into the map's frame, the world as estimated.
     const math::Vector3 p_WP_W = X_WR * p_RP_R;
-    // Written so that coordinates that are not numbers fail.
-    // Heights are bounded so that the exact sums of a cell cannot run over.
+    // Written so that coordinates that are not numbers fail. Heights are bounded so that the exact
+    // sums of a cell cannot run over.
     const bool sound =
         std::abs(p_WP_W.x()) <= 2.0 * kFarthest_m && std::abs(p_WP_W.y()) <= 2.0 * kFarthest_m &&
         std::abs(p_WP_W.z() - z_R) <= kLargestHeight_m && std::abs(p_WP_W.z()) <= kFarthest_m;

@@ -1,5 +1,5 @@
 // The local map of GESTALT: range points in, goodness and certainty out (Goldberg 2002, section 4,
-// steps 1 to 3).
+// steps 1 to 3). Evaluation keeps one; felt hazards mark it.
 #pragma once
 
 #include <cstddef>
@@ -20,30 +20,30 @@ namespace rockyard::navigation {
 // A grid with a fixed memory that wraps around the vehicle (Howard 2012, section 2). Frame: the
 // world as estimated on board; the map stays where it was put when the estimate jumps.
 //
-// Deviations from the paper. Its ten floats a cell are whole numbers of micrometres here, so that
-// what a map holds does not depend on the order of its points, on the window or on the distance
-// from the origin. The bounds x0..xN give the size of the window and the phase of its cells; the
-// window follows the rover, as bounds that are fixed would end every drive after 10 m.
+// Deviations from the paper. The ten floats of a cell are whole numbers of micrometres here, so
+// that what a map holds does not depend on the order of its points, on the window or on the
+// distance from the origin. The bounds x0..xN give the size of the window and the phase of its
+// cells; the window follows the rover, as bounds that are fixed would end every drive after 10 m.
 class GestaltMap {
  public:
   explicit GestaltMap(const GestaltMapParams& params);
 
   // Begins a navigation cycle with the rover at (x, y), which must be finite: moves the window by
   // whole cells so that the rover is in its middle one (the upper of two), and throws out cells
-  // that leave it, whose centre is farther than grid_dist_timeout_m, or that got no data for more
-  // than max_idles cycles. Cost: O(cells).
+  // that leave the window, whose centre is farther than grid_dist_timeout_m, or that got no data
+  // for more than max_idles cycles. Cost: O(cells).
   void BeginCycle(double x_m, double y_m);
 
-  // Takes the points of a cloud, seen from X_WR as estimated, in any number of clouds a cycle.
-  // Points are left out that are not finite, outside the window, in cells whose centre is farther
-  // than grid_dist_timeout_m from the rover of BeginCycle, or more than 10 m above or below R; and
-  // those beyond the 65536th of a cell, up to which its sums are exact if its points span less than
-  // 23 m of height: 20 m where R stays at its height.
+  // Takes the points of a cloud, seen from X_WR as estimated, in any number of clouds a cycle. Left
+  // out are points that are not finite, outside the window, in cells whose centre is farther than
+  // grid_dist_timeout_m from the rover of BeginCycle, or more than 10 m above or below R. Left out,
+  // too, are points beyond the 65536th of a cell, up to which its sums are exact if its points span
+  // less than 23 m of height: 20 m where R stays at its height.
   void Add(const messages::PointCloud& cloud, const math::Transform& X_WR);
 
-  // Marks what the rover felt: every patch that holds the cell at (x, y), or one whose centre lies
-  // within `radius_m` of it, becomes a step obstacle. Marks age and are thrown out as data are; new
-  // data keep them.
+  // Marks what the rover felt: every patch that holds the cell at (x, y), or a cell whose centre
+  // lies within `radius_m` of (x, y), becomes a step obstacle. Marks age and are thrown out as data
+  // are; new data keep them.
   void MarkObstacle(double x_m, double y_m, double radius_m);
 
   // Forgets everything but where the rover is.
@@ -53,7 +53,7 @@ class GestaltMap {
   // contents hold until the next call. Cost: O(cells), see the gestalt_benchmark.
   const GoodnessGrid& Evaluate();
 
-  // Returns the cells as they are, with the goodness of the last Evaluate, for people.
+  // Returns the cells as they are, with the goodness of the last Evaluate, for the view.
   messages::MapView View() const;
 
  private:
@@ -63,7 +63,7 @@ class GestaltMap {
   };
 
   LatticeCell LatticeAt(double x_m, double y_m) const;
-  // The centre of a column or row of the lattice, m.
+  // Return the centre of a column or row of the lattice, m.
   double CentreX_m(std::int64_t i) const;
   double CentreY_m(std::int64_t j) const;
   // Returns whether the centre of a cell lies within grid_dist_timeout_m of the rover.

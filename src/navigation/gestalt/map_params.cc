@@ -13,13 +13,14 @@ using core::kGoldbergTable1;
 using core::Published;
 using core::Setting;
 
-// Keeps the memory of a map below 10 MB, whatever is set.
+// Most cells of a map: keeps its memory below 10 MB.
 constexpr double kMaxCells = 40000.0;
-// Distances of cells from planes in the search for outliers, in one evaluation: a fifth of a
+// Most distances of cells from planes in the search for outliers of one evaluation: a fifth of a
 // second.
 constexpr double kMaxDistances = 2e7;
 
-// Cells that cover `extent_m`; a hair of tolerance for extents such as 9 m in steps of 0.1 m.
+// Returns the number of cells that cover `extent_m`; the tolerance is for extents such as 9 m in
+// steps of 0.1 m.
 int Cells(double extent_m, double step_m) {
   return static_cast<int>(std::ceil(extent_m / step_m - 1e-6));
 }
@@ -48,7 +49,8 @@ void VisitValidity(GestaltMapParams& p, core::FieldVisitor& v) {
                       "Goldberg 2002 sec. 4 step 3: more than 1 point", {1, 1000}));
 }
 
-// Cells that a patch has at most, with a cell more on every side than the square of the vehicle.
+// Returns how many cells a patch has at most, with a cell more on every side than the square of the
+// vehicle.
 double MostPatchCells(const GestaltMapParams& p) {
   return (p.PatchSide_m() / p.grid.xstep_m + 2.0) * (p.PatchSide_m() / p.grid.ystep_m + 2.0);
 }

@@ -1,6 +1,7 @@
 // Parameters of the map of GESTALT: its grid, its tests and the vehicle (Goldberg 2002, table 1 and
 // section 4, steps 1 to 3). Defaults of table 1 are the table's, and a test holds them to it; each
-// enum names the readings of what the paper leaves open.
+// enum names the readings of what the paper leaves open. A default decides the records of every
+// scenario that leaves it out. Meanings, units and origins stand in map_params.cc.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ enum class HazardHeight {
   kWheelDiameter,  // twice rover.wheel_radius_m, which no printed formula uses
 };
 
-// From where the elevations of a patch count in the step test.
+// The reference from which the elevations of a patch count in the step test.
 enum class StepReference {
   kLevel,  // as printed: a smooth slope is a step from its low end to its high one
   kPlane,  // from the patch's own plane, where it has one: slopes are left to the pitch test
@@ -35,7 +36,8 @@ enum class RoughnessFormula {
 // The square that stands for the vehicle whatever its heading.
 enum class PatchSize {
   kWidth,   // obstacles grow by half the vehicle's width (section 4)
-  kLength,  // by half its length: covers the vehicle while it drives along an axis of the map
+  kLength,  // they grow by half its length: covers the vehicle while it drives along an axis of the
+            // map
 };
 
 // What a plane that fails the coverage or the eigenvalue test leads to.
@@ -48,7 +50,7 @@ enum class FailedFit {
 // The certainty of a cell that was evaluated.
 enum class CellCertainty {
   kFull,      // 255 (section 4, step 3)
-  kOfHazard,  // that of the pair of the hazard that decides; 255 where there is none
+  kOfHazard,  // that of the deciding hazard's pair; 255 without a hazard
 };
 
 // Which cells a cell borders.
@@ -62,7 +64,7 @@ struct GestaltGridParams {
   double xstep_m = 0.2;
   double ystep_m = 0.2;
 
-  // Table 1's xelts and yelts: cells along each axis, the last one whole.
+  // Return table 1's xelts and yelts: cells along each axis, the last one whole.
   int nx() const;
   int ny() const;
 
@@ -100,7 +102,7 @@ struct GestaltPairParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// What GESTALT believes of its vehicle. It is not the true one (rover.geometry): a drive is refused
+// What GESTALT believes of its vehicle, beside the true one (rover.geometry): a drive is refused
 // where length or width is off by more than a factor of two, and no condition looks closer.
 struct GestaltRoverParams {
   bool modelled = true;
@@ -135,9 +137,9 @@ struct GestaltMapParams {
   GestaltPairParams pairs;
   GestaltRoverParams rover;
 
-  // h of the hazard formulas.
+  // Returns h of the hazard formulas.
   double HazardHeight_m() const;
-  // Side of the square that stands for the vehicle.
+  // Returns the side of the square that stands for the vehicle.
   double PatchSide_m() const;
   // Returns the distance from the rover, m, beyond which nothing is known in some direction.
   double Reach_m() const;

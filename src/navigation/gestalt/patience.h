@@ -1,4 +1,5 @@
-// How long GESTALT goes on: progress towards its goal, and the search for a way.
+// How long GESTALT goes on: progress towards its goal, and the search for a way. The cycle gives up
+// by both.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +22,18 @@ class Progress {
     kGivesUp,  // max_fruitless_cycles are over
   };
 
-  // Counts a cycle that begins at that distance from the goal. The first distance to a goal is what
-  // progress is counted from, and is no gain itself.
+  // Counts a cycle that begins at that distance from the goal. Progress counts from the first
+  // distance to a goal, which is no gain itself.
   Cycle BeginCycle(double goal_distance_m);
 
   // Counts a felt hazard. Returns false after max_felt.
   bool GoesOnAfterFelt() { return ++felt_hazards_ <= params_.max_felt; }
 
-  // The next goal.
+  // Is told that there is a next goal: all counts anew.
   void Restart();
 
-  // The estimate or the goal has jumped: the rover is at that distance, or that much farther.
+  // Are told that the estimate or the goal has jumped: the best distance is now that one, or
+  // changes by that much.
   void CountFrom(double goal_distance_m) { best_m_ = goal_distance_m; }
   void Shift(double change_m) { best_m_ += change_m; }
 
@@ -48,8 +50,8 @@ class Search {
  public:
   explicit Search(const GestaltParams& params);
 
-  // Returns the turn in place that competes with arcs: the next one of a search, or the best of
-  // all.
+  // Returns the turn in place that competes with arcs: the next turn of a search, or, without a
+  // search, the best of all.
   messages::MotionVote& NextTurn(MotionVotes& votes, double goal_bearing_rad) const;
 
   bool HasTurnedAround() const;
@@ -61,7 +63,7 @@ class Search {
   // The rover drives, or what it has seen is forgotten: all ground may be searched again.
   void ForgetGround() { turned_rad_ = 0.0; }
 
-  // The next goal.
+  // Is told that there is a next goal: the search is over, and all ground may be searched.
   void Restart();
 
  private:

@@ -7,7 +7,8 @@
 namespace rockyard::navigation {
 namespace {
 
-// A cell whose mean is no farther from a plane is no outlier: the resolution of coordinates.
+// A cell whose mean is no farther from a plane is no outlier: this is the resolution of
+// coordinates.
 constexpr double kInPlane_m = 1e-6;
 
 struct Farthest {
@@ -21,20 +22,21 @@ Farthest FarthestFrom(const math::Vector3& normal, const math::Vector3& mean_m,
   for (std::size_t i = 0; i < cells.size(); ++i) {
     // |n . (mean of the cell - mean of the patch)|: the plane passes through the patch's mean.
     const double distance_m = std::abs(normal.dot(cells[i].spread->mean_m - mean_m));
-    // Of equals the first, so that trials repeat to the bit.
+    // The first of equals is taken, so that trials repeat to the bit.
     if (distance_m > farthest.distance_m) farthest = {i, distance_m};
   }
   return farthest;
 }
 
-// Against shares such as 0.56 of 25 cells that should be whole numbers.
+// Tolerance for shares such as 0.56 of 25 cells that should be whole numbers.
 constexpr double kRounding = 1e-6;
 
-// Smallest upward part of a normal that a rise is divided by: planes steeper than 89 deg.
+// Smallest upward part of a normal that a rise is divided by; steeper planes (89 deg) count as so
+// steep.
 constexpr double kOnEnd = 0.0175;
 
-// Cells on one side of the middle cell that a square of that side touches when it is centred on it:
-// ceil((side - step) / (2 step)). A side that ends at a cell's border does not touch the next one.
+// Returns how many cells on one side of the middle cell a square touches that is centred on it:
+// ceil((side - step) / (2 step)). A side that ends at a cell's border does not touch the next cell.
 int Reach(double side_m, double step_m) {
   return std::max(0, static_cast<int>(std::ceil(0.5 * (side_m - step_m) / step_m - kRounding)));
 }
@@ -113,7 +115,7 @@ void PatchPlanes::Fit(const CellWindow& cells, const CellBox& box) {
   cell_holds_data_.assign(static_cast<std::size_t>(cells.nx()), 0);
   columns_.assign(static_cast<std::size_t>(cells.nx()), {});
   rows_with_data_.assign(static_cast<std::size_t>(cells.nx()), 0);
-  // From above the box, where every sum is zero.
+  // Begins above the box, where every sum is zero.
   for (int iy = box.y - reach_.y; iy < out.y_end; ++iy) {
     SlideDown(cells, box, out, iy);
     if (iy >= out.y) FitRow(cells, box, out, iy);
@@ -189,7 +191,7 @@ void PatchPlanes::FitRow(const CellWindow& cells, const CellBox& box, const Cell
   }
 }
 
-// Preliminary tests of step 3, before a plane is fitted.
+// The preliminary tests of step 3, before a plane is fitted.
 void PatchPlanes::Assess(const CellWindow& cells, const Sums& patch, int columns_with_data,
                          Cell middle) {
   PatchPlane& plane = planes_[CellIndex(middle.ix, middle.iy, width_)];

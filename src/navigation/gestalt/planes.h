@@ -1,4 +1,5 @@
-// Planes through vehicle-sized patches of the map (Goldberg 2002, section 4, step 3).
+// Planes through vehicle-sized patches of the map (Goldberg 2002, section 4, step 3). The map fits
+// them; roughness, pitch and, where steps count from planes, steps are judged by them.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ namespace rockyard::navigation {
 // A cell with data, for the plane of one patch where the sums of PatchPlanes do not do.
 struct PatchCell {
   const math::PointMoments* moments;
-  const math::PointSpread* spread;  // of those moments
+  const math::PointSpread* spread;  // of the points of `moments`
 };
 
 // Returns the spread of all points of `cells`, whose moments add up to `sum`: from the sum, which
@@ -24,10 +25,11 @@ struct PatchCell {
 // over. Cost: O(1) or O(cells).
 math::PointSpread SpreadOf(const std::vector<PatchCell>& cells, const math::PointMoments& sum);
 
-// Leaves out up to `outliers` cells, one after the other, each time the one whose mean lies
-// farthest from the plane of what is left (Goldberg 2002, section 4, step 3, names no rule). Of
-// equally far ones it takes the first; none that lies within a micrometre of the plane; never the
-// last cell. Cost: O(cells times outliers).
+// Returns the plane without up to `outliers` cells. They are left out one after the other, each
+// time the cell whose mean lies farthest from the plane of what is left (Goldberg 2002, section 4,
+// step 3, names no rule). Records depend on the choice: of equally far cells it takes the first; it
+// takes none that lies within a micrometre of the plane, and never the last cell. Cost: O(cells
+// times outliers).
 math::PlaneFit FitWithoutOutliers(std::vector<PatchCell> cells, math::PointMoments sum,
                                   std::int64_t outliers);
 
@@ -52,13 +54,13 @@ struct PatchReach {
 PatchReach ReachOf(const GestaltMapParams& params);
 
 // Merges the moments of all patches and fits their planes. Sums of whole numbers slide over the
-// map: O(cells) whatever the size of the patch, and exact. Cells outside the window count as
-// empty. Patches of more than math::kExactPoints points are merged from the means and covariances
-// of their cells instead, where sums of whole numbers could run over.
+// map: O(cells) whatever the size of the patch, and exact. Cells outside the window count as empty.
+// Sums of whole numbers could run over in patches of more than math::kExactPoints points: these are
+// merged from the means and covariances of their cells instead.
 //
 // With outliers_per_cell each patch is searched that often for the cell whose mean lies farthest
 // from the plane, which is then left out: O(cells times cells of a patch times outliers_per_cell).
-// What is left need not have enough data and coverage by itself: those are tested before.
+// Data and coverage of a patch are tested before, so that what is left may have too little.
 class PatchPlanes {
  public:
   explicit PatchPlanes(const GestaltMapParams& params);
@@ -66,7 +68,7 @@ class PatchPlanes {
   // Fits the patch around every cell of `cells`; `box` holds those that are not empty.
   void Fit(const CellWindow& cells, const CellBox& box);
 
-  // Returns the plane of cell (ix, iy), row by row, as of the last Fit.
+  // Returns the planes of all cells, row by row, as of the last Fit.
   const std::vector<PatchPlane>& planes() const { return planes_; }
   PatchReach reach() const { return reach_; }
 
@@ -99,16 +101,16 @@ class PatchPlanes {
   // data.
   void Assess(const CellWindow& cells, const Sums& patch, int columns_with_data, Cell middle);
   // Fits the plane of the patch around `middle`, whose points have `moments`, or puts it off until
-  // there are enough for a batch.
+  // a batch is full.
   void FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
                 PatchPlane& plane);
   void FitWaiting();
   void Store(double residual_m, double eigen_ratio, PatchPlane& plane) const;
-  // What tests ask of the normal: slope, and rise along x and y.
+  // Stores what tests ask of the normal: slope, and rise along x and y.
   void StoreNormal(const math::Vector3& normal, PatchPlane& plane) const;
   void FindSpreads(const CellWindow& cells);
-  // The cells with data of the patch around `middle`. Finds the spreads of all cells when it is
-  // first called in a Fit.
+  // Returns the cells with data of the patch around `middle`. Finds the spreads of all cells when
+  // it is first called in a Fit.
   std::vector<PatchCell> CellsOf(const CellWindow& cells, Cell middle);
 
   GestaltMapParams params_;
@@ -121,7 +123,7 @@ class PatchPlanes {
   std::vector<Sums> columns_;                  // over the rows of a patch
   std::vector<std::uint8_t> cell_holds_data_;  // of the row that was added last
   std::vector<std::uint8_t> row_holds_data_;   // among the columns of the patch around a cell
-  math::PlaneBatch waiting_;                   // of patches whose planes are put off
+  math::PlaneBatch waiting_;                   // patches whose planes are put off
   std::array<PatchPlane*, math::PlaneBatch::kSize> waiting_planes_{};
   std::vector<std::int32_t> rows_with_data_;  // of the patches of the row at hand
   std::vector<math::PointSpread> spreads_;    // of all cells, or nothing where not needed

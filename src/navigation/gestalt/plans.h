@@ -1,4 +1,5 @@
-// Plans that GESTALT makes on the move (Howard 2012, section 2).
+// Plans that GESTALT makes on the move (Howard 2012, section 2). The cycle asks it when to look,
+// and tells it what came of the looks; drive records hold its counts.
 #pragma once
 
 #include <cstdint>
@@ -15,32 +16,35 @@ class PlansOnTheMove {
  public:
   explicit PlansOnTheMove(const GestaltContinuousParams& params) : params_(params) {}
 
-  // A motion begins at that time that the next plan is to replace. Returns its number.
+  // Is told that a motion begins which the next plan is to replace. Returns the number of the
+  // motion.
   std::int64_t Begin(double time_s);
-  // A motion begins that is driven to its end.
+  // Is told that a motion begins which is driven to its end.
   void Stop() { on_ = false; }
   bool on() const { return on_; }
 
-  // Measures the speed; is called at each tick of the motion.
+  // Measures the speed; is called once at each tick of the motion.
   void Measure(double driven_m, double time_s);
 
   // Returns whether the rover looks at this tick of a motion of `leg_m`.
   bool Asks(double leg_m);
   bool awaits_look() const { return awaits_look_; }
 
-  // The answer is no longer wanted.
+  // Is told that the answer to the look is no longer wanted.
   void Drop() { awaits_look_ = false; }
 
-  // The motion has ended and nothing has replaced it. Returns whether the rover waits for a plan.
+  // Is told that the motion has ended and nothing has replaced it. Returns whether the rover waits
+  // for a plan.
   bool WaitsAtEnd();
 
-  // What came of the look: it was answered, and the plan begins at `origin` where the rover
-  // believes to be at `now`, or there is no safe plan.
+  // Are told what came of the look: it was answered; then the plan begins at `origin`, where the
+  // rover believes to be at `now`, or there is no safe plan.
   void Answer();
   void Start(const messages::PoseEstimate& origin, const messages::PoseEstimate& now);
   void Refuse() { ++counts_.unsafe; }
 
-  // Returns the way since the look until that time, at the speed that was measured then.
+  // Returns the way since the look until time_s, at the speed that was measured when the look was
+  // asked for.
   double WaySince(const messages::LookMoment& look, double time_s) const {
     return look_speed_m_s_ * (time_s - look.time_s);
   }

@@ -16,20 +16,20 @@ using messages::SplineVote;
 // Steering and errors closer than this are equal, whatever rounding made of them.
 constexpr double kEqual = 1e-9;
 
-// Spacing of the arcs in curvature, 1/m; a single arc is as wide as all of them.
+// Returns the spacing of the arcs in curvature, 1/m; a single arc is as wide as all of them.
 double ArcSpacing(const GestaltArcParams& arcs) {
   const std::int64_t gaps = std::max<std::int64_t>(1, arcs.num_forward_arcs - 1);
   return 2.0 * arcs.max_curvature_per_m / static_cast<double>(gaps);
 }
 
-// The angle by which a rover that heads straight on misses a goal of that radius,
+// Returns the angle by which a rover that heads straight on misses a goal of that radius,
 //   e = max(0, |bearing| - asin(radius / distance)), 0 within it.
 double MissedBy(const GoalDirection& goal, double radius_m) {
   if (goal.distance_m <= radius_m) return 0.0;
   return std::max(0.0, std::abs(goal.bearing_rad) - std::asin(radius_m / goal.distance_m));
 }
 
-// Changes of curvature along a spline, 1/m.
+// Returns the changes of curvature along a spline, 1/m.
 double Steering(const Spline& spline) {
   return std::abs(spline.first_knot_per_m - spline.start_per_m) +
          std::abs(spline.second_knot_per_m - spline.first_knot_per_m);
@@ -37,7 +37,8 @@ double Steering(const Spline& spline) {
 
 }  // namespace
 
-// Where a frame K lies in W.
+// Where a frame K lies in the frame of the grid and of the estimate, W here and O in the drive
+// cycle.
 struct SplineVoter::Frame {
   explicit Frame(const math::Pose2& place_W)
       : place(place_W),
@@ -228,7 +229,7 @@ HazardVote SplineVoter::JudgeWhole(const FirstHalf& first, std::size_t spline, c
 }
 
 math::Pose2 SplineVoter::AtWaypoint(std::size_t spline, double waypoint_m) const {
-  // From the last of its points on that is not beyond, or from the knot.
+  // Begins at the last of the spline's points that is not beyond, or at the knot.
   const Spline& knots = second_halves_[spline].spline;
   const std::size_t count = sampling_.CountWithin(waypoint_m);
   if (count <= first_points_ || sampling_.distance_m[count - 1] > waypoint_m) {
@@ -284,7 +285,7 @@ bool SplineVoter::TurnedEnough(double turned_rad) const {
 double SplineVoter::Knot_m() const { return 0.5 * params_.splines.length_m; }
 
 const SplineVote* ChooseSpline(std::span<const SplineVote> votes, const GestaltParams& params) {
-  // In whole steps of kEqual: "closer than kEqual" would be no order.
+  // Counts in whole steps of kEqual: "closer than kEqual" would be no order.
   const auto worth = [](const SplineVote& vote) {
     return std::make_tuple(vote.merged, -std::round(Steering(vote.spline) / kEqual),
                            -std::round(std::abs(vote.waypoint_error_rad) / kEqual));
@@ -293,7 +294,7 @@ const SplineVote* ChooseSpline(std::span<const SplineVote> votes, const GestaltP
   for (const SplineVote& vote : votes) {
     const bool may_be_driven = vote.feasible && vote.hazard > params.drive.min_drive_goodness;
     if (!may_be_driven) continue;
-    // Splines run from right to left: of equals the first.
+    // Splines run from right to left: the first of equals is taken.
     if (best == nullptr || worth(vote) > worth(*best)) best = &vote;
   }
   return best;

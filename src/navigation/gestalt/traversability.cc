@@ -12,8 +12,8 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // Replaces value i by the extreme of the `span` values from it on with the given stride, for all i
-// below `count`; values behind must exist. Works upwards in place, as it only looks ahead.
-// Doubling: a span of 2 k is two spans of k, a span of k + m two overlapping ones.
+// below `count`; values behind must exist. Works upwards in place, as it only looks ahead. It
+// doubles: a span of 2 k is two spans of k, a span of k + m two overlapping spans of k.
 template <typename Better>
 void SpanExtremes(std::vector<double>& values, std::size_t stride, int span, Better better) {
   int covered = 1;
@@ -28,8 +28,6 @@ void SpanExtremes(std::vector<double>& values, std::size_t stride, int span, Bet
     covered += step;
   }
 }
-
-// The hazard formulas of Goldberg 2002, section 4, step 3.
 
 // Returns a goodness in [0, 255] as 8 bits: to the nearest, halves up. The paper does not say how
 // it rounds; cutting off would give up to one less.
@@ -67,7 +65,8 @@ CellValue ToCell(const GoodnessPair& pair, bool known) {
           known};
 }
 
-// Whether one of the neighbours of cell (ix, iy) is unknown; those outside the grid are.
+// Returns whether one of the neighbours of cell (ix, iy) is unknown; neighbours outside the grid
+// are.
 bool BordersUnknown(const GoodnessGrid& grid, int ix, int iy, BorderNeighbours neighbours) {
   if (ix == 0 || iy == 0 || ix == grid.nx - 1 || iy == grid.ny - 1) return true;
   const std::size_t width = static_cast<std::size_t>(grid.nx);
@@ -169,7 +168,7 @@ CellValue Traversability::Unknown() const {
                 false);
 }
 
-// Step hazard: 127 (1 - min(1, e/h)) from e = h/3 on. A mark of what the rover felt is a step
+// The step hazard: 127 (1 - min(1, e/h)) from e = h/3 on. A mark of what the rover felt is a step
 // obstacle.
 std::int64_t Traversability::FromSteps(const PatchPlane& plane, double step_m) const {
   const std::int64_t obstacle = params_.pairs.step_obst.goodness;
@@ -178,8 +177,8 @@ std::int64_t Traversability::FromSteps(const PatchPlane& plane, double step_m) c
   return StepGoodness(step_m, params_.HazardHeight_m(), obstacle);
 }
 
-// Whether anything could be said of the patch: enough data, and a plane or what FailedFit allows
-// instead.
+// Returns whether anything could be said of the patch: enough data, and a plane or what FailedFit
+// allows instead.
 bool Traversability::IsKnown(const PatchPlane& plane, bool step_hazard) const {
   if (plane.marked) return true;
   if (!plane.enough) return false;
@@ -190,12 +189,13 @@ bool Traversability::IsKnown(const PatchPlane& plane, bool step_hazard) const {
   return params_.tests.step || !plane_tests;
 }
 
-// The least goodness of all hazards of the patch, with that hazard's certainty or full certainty.
+// Returns the least goodness of all hazards of the patch, with the certainty of that hazard's pair
+// or full certainty.
 CellValue Traversability::Value(const PatchPlane& plane, double step_m) const {
   const GestaltPairParams& pairs = params_.pairs;
   const double h_m = params_.HazardHeight_m();
   GoodnessPair value{kBestGoodness, kFullCertainty};
-  // The least goodness decides; of equal ones the first, in the order step, roughness, pitch.
+  // The least goodness decides; of equals the first, in the order step, roughness, pitch.
   const auto apply = [&value](std::int64_t goodness, const GoodnessPair& pair) {
     if (goodness < value.goodness) value = {goodness, pair.certainty};
   };

@@ -1,5 +1,6 @@
 // Differences of elevation within vehicle-sized patches of the map, and the goodness of cells from
-// what their patches hold (Goldberg 2002, section 4, step 3).
+// what their patches hold (Goldberg 2002, section 4, step 3). The map calls both when it is
+// evaluated.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +15,21 @@
 namespace rockyard::navigation {
 
 // Finds the largest difference of elevation between any two cells of each patch. The elevation of a
-// cell is the mean height of its points (the paper does not say): the ten moments hold no other,
-// and a single bad point does not make a step. Minima and maxima over windows go by doubling. Cost:
-// O(cells log reach).
+// cell is the mean height of its points (the paper does not say): the ten moments hold no other
+// height, and a single bad point does not make a step. Minima and maxima over windows are found by
+// doubling. Cost: O(cells log reach).
 class PatchSteps {
  public:
   // Works on the same cells and box as PatchPlanes::Fit.
   void Find(const CellWindow& cells, const CellBox& box, PatchReach reach);
 
-  // As Find, but elevations count from the patch's own plane where it has one:
+  // Does as Find, but elevations count from the patch's own plane where it has one:
   //   e = max - min over the cells of  z - (dz/dx x + dz/dy y),
   // with the means of their points. Cost: O(cells times cells of a patch).
   void FindFromPlanes(const CellWindow& cells, const CellBox& box, PatchReach reach,
                       const std::vector<PatchPlane>& planes);
 
-  // Returns the differences, m, row by row; 0 where a patch holds no points.
+  // Returns the differences of all patches, m, row by row; 0 where a patch holds no points.
   const std::vector<double>& steps_m() const { return steps_; }
 
  private:

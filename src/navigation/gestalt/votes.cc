@@ -26,8 +26,8 @@ constexpr double kMinDistance_m = 1e-6;
 // A goal this near to straight behind is on the left, whatever rounding made of it.
 constexpr double kBehind_rad = 1e-9;
 
-// Whether driving in the direction brings the rover nearer to the goal, at first: forward for goals
-// up to 90 deg off, backward for the others.
+// Returns whether driving in the direction brings the rover nearer to the goal, at first: forward
+// for goals up to 90 deg off, backward for the others.
 bool LeadsToGoal(const GoalDirection& goal, int direction) {
   const bool goal_is_ahead = std::abs(goal.bearing_rad) <= 0.5 * std::numbers::pi;
   return goal_is_ahead == (direction > 0);
@@ -229,13 +229,13 @@ bool MayBeDriven(const MotionVote& vote, const GestaltParams& params) {
   return vote.hazard > params.drive.min_drive_goodness && !vote.vetoed;
 }
 
-// Distance of an arc from the middle of its row, in arcs.
+// Returns the distance of an arc from the middle of its row, in arcs.
 double FromStraight(std::size_t index, std::size_t count) {
   return std::abs(static_cast<double>(index) - 0.5 * static_cast<double>(count - 1));
 }
 
-// The middle of [first, end). An even set has two; arcs run from right to left, so the first is the
-// right one.
+// Returns the middle of [first, end). An even set has two; arcs run from right to left, so the
+// first is the right one.
 std::size_t Middle(std::span<const MotionVote> row, std::size_t first, std::size_t end) {
   const std::size_t right = (first + end - 1) / 2;
   const std::size_t left = (first + end) / 2;
@@ -261,7 +261,8 @@ struct Peak {
   }
 };
 
-// The longest set of adjacent arcs with the highest vote; an arc that may not be driven ends a set.
+// Returns the longest set of adjacent arcs with the highest vote; an arc that may not be driven
+// ends a set.
 Peak BestPeak(std::span<MotionVote> row, double highest, const GestaltParams& params) {
   const auto shares = [&](std::size_t i) {
     return i < row.size() && row[i].merged == highest && MayBeDriven(row[i], params);
@@ -299,7 +300,7 @@ MotionVote* ChooseArc(MotionVotes& votes, const GestaltParams& params) {
   return best.middle;
 }
 
-// When a turn in place is preferred, by the reading that the parameters choose.
+// Decides by the reading of the paper that the parameters choose.
 bool TurnsInPlace(const MotionVote& turn, const MotionVote* arc, const GestaltParams& params) {
   switch (params.drive.point_turns) {
     case PointTurns::kNever:

@@ -14,7 +14,8 @@ using messages::MotionCommand;
 using messages::MotionKind;
 using messages::PoseEstimate;
 
-// A turn in place cannot end more exactly than one control tick, 1.3 deg at 26 deg/s and 20 Hz.
+// The finest aim of a turn towards the goal. A turn in place cannot end more exactly than one
+// control tick, 1.3 deg at 26 deg/s and 20 Hz.
 constexpr double kFinestAim_rad = math::DegToRad(2.0);
 
 bool OnlyOutermostStripes(const HazardReport& report) {
@@ -38,8 +39,8 @@ bool RightIsClearFor(const HazardReport& report, const PathfinderParams& params)
   return !report.stripe_hazard.back();
 }
 
-// Hazards on both sides: the printed order of the rules turns right, the other choices are
-// assumptions.
+// The answer to hazards on both sides: the printed order of the rules turns right, the other
+// choices are assumptions.
 int TurnFromBothSides(const HazardReport& report, double goal_bearing_rad,
                       const PathfinderParams& params) {
   switch (params.both_sides) {
@@ -108,7 +109,7 @@ NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
     odometer_at_scan_m_ = input.estimate.distance_m;
     return ScanOrGoOn(input);
   }
-  // A report answers a scan, so that the rover stands.
+  // Where there is a report, the rover stands: it answers a scan.
   if (input.report != nullptr) return OnReport(input);
   return Continue(input);
 }
@@ -154,7 +155,8 @@ NavigatorDecision PathfinderNavigator::OnHazard(const NavigatorInput& input) {
   if (newly_seen || params_.turn_direction == TurnDirection::kEachScan) {
     avoid_direction_ = ChooseTurn(*input.report, GoalBearing(input.estimate), params_);
   }
-  // A hazard that is new: its turn is counted from here, and latched where the parameters say so.
+  // The turn from a new hazard is counted from here, and its side latched where the parameters say
+  // so.
   if (newly_seen) avoided_turn_rad_ = 0.0;
   clearing_left_m_ = 0.0;
   facing_goal_ = false;
@@ -270,7 +272,7 @@ double PathfinderNavigator::GoalBearing(const PoseEstimate& estimate) const {
 bool PathfinderNavigator::NeedsPointTurn(const PoseEstimate& estimate) const {
   const double bearing_rad = std::abs(GoalBearing(estimate));
   if (facing_goal_) return bearing_rad > std::max(params_.heading_deadband_rad, kFinestAim_rad);
-  // Otherwise a hazard beside the goal would turn the rover away and back for ever.
+  // Without this distance a hazard beside the goal would turn the rover away and back for ever.
   if (estimate.distance_m - odometer_at_avoiding_m_ < params_.point_turn_after_m) return false;
   if (bearing_rad > params_.point_turn_bearing_rad) return true;
   return bearing_rad > params_.tight_arc_bearing_rad &&

@@ -1,5 +1,6 @@
-// The Pathfinder behaviour controller (Matthies 1995, section 7): no map, no memory beyond the
-// manoeuvre under way.
+// The Pathfinder behaviour controller (Matthies 1995, section 7), the navigator `pathfinder`, by
+// which drives go unless a scenario names another: no map, no memory beyond the manoeuvre under
+// way.
 //
 //   IF no hazard: move forward and turn toward the goal;
 //   ELSE IF hazard on the left: turn in place to the right until no hazard is detected;
@@ -7,9 +8,9 @@
 //   A centre hazard is passed on the right if that is clear, otherwise on the left.
 //
 // Scans are taken at rest: before the first move, after every scan_interval_m of measured driving,
-// and after every turn_increment of measured turning. A hazard that the rover feels interrupts any
-// of this (vehicle_reaction.h); afterwards it scans and goes on. What the paper leaves open is in
-// PathfinderParams.
+// and after every turn_increment of measured turning. A hazard that the rover feels interrupts
+// whatever is under way (vehicle_reaction.h); afterwards the rover scans and goes on. What the
+// paper leaves open is in PathfinderParams.
 #pragma once
 
 #include <limits>
@@ -35,6 +36,7 @@ struct HazardSides {
   bool any() const { return left || centre || right; }
 };
 
+// Returns the sides on which `report` shows hazards, by the parameters' names for its stripes.
 HazardSides ClassifySides(const messages::HazardReport& report, const PathfinderParams& params);
 
 // Returns the turn direction (+1 left, -1 right) that the rules choose. `goal_bearing_rad` is
@@ -48,7 +50,7 @@ double CurvatureToGoal(double goal_bearing_rad, const PathfinderParams& params);
 // The controller of one drive. It draws no random numbers.
 class PathfinderNavigator final : public Navigator {
  public:
-  // With `uses_hazard_sensor` false the rover drives blind: it never asks for a scan.
+  // `uses_hazard_sensor` false: the rover drives blind, it never asks for a scan.
   PathfinderNavigator(const PathfinderParams& params, const messages::Goal& goal,
                       bool uses_hazard_sensor);
 
@@ -107,7 +109,7 @@ class PathfinderNavigator final : public Navigator {
   double avoided_turn_rad_ = 0.0;       // measured since the hazard appeared
 };
 
-// For a set of navigators.
+// Describes the navigator `pathfinder`, for a set of navigators.
 NavigatorDescription<PathfinderParams> DescribePathfinder();
 
 }  // namespace rockyard::navigation

@@ -1,7 +1,7 @@
 // Parameters of the Pathfinder behaviour controller: what Matthies 1995, section 7, leaves open.
-// Defaults are the plain reading of the paper (a test holds the rules to it). The scenarios of its
-// runs state few of them, so that a default decides their records and baselines; a bound only
-// refuses files.
+// Defaults are the plain reading of the paper, and a test holds the rules to it. Records and
+// baselines of the paper's runs depend on the defaults, as their scenarios state few parameters; a
+// bound only refuses files.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace rockyard::navigation {
 
-// What follows when max_repeats reactions have brought no progress.
+// What the rover does when max_repeats reactions have brought no progress.
 enum class ReactionsExhausted {
   kGiveUp,
   kGoOn,  // felt hazards are ignored for ignore_m of driving

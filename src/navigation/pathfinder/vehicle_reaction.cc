@@ -18,7 +18,7 @@ std::optional<NavigatorDecision> VehicleReaction::Decide(const NavigatorInput& i
   EXPECT(input.vehicle_hazard == nullptr || input.vehicle_hazard->side != HazardSide::kBehind);
   const bool touches =
       input.vehicle_hazard != nullptr && input.vehicle_hazard->kind == VehicleHazardKind::kContact;
-  // What had gone for a tick may come again as something new, see Appeared.
+  // A hazard that had gone for a tick may come again as a new one (Appeared).
   if (input.vehicle_hazard == nullptr) was_clear_ = true;
   if (!touches) was_released_ = true;
   switch (stage_) {
@@ -53,7 +53,7 @@ std::optional<NavigatorDecision> VehicleReaction::Begin(const NavigatorInput& in
   cause_ = hazard->kind;
   was_clear_ = false;
   was_released_ = cause_ != VehicleHazardKind::kContact;
-  // Away from its side: left (+1) for a hazard on the right, right for all others.
+  // Away from the hazard's side: left (+1) for a hazard on the right, right for all others.
   turn_direction_ = hazard->side == HazardSide::kRight ? +1 : -1;
   return Start(Stage::kBackingOff, {MotionKind::kArc, 0.0, -1}, input.estimate);
 }

@@ -1,12 +1,13 @@
-// The reaction to a hazard that the rover feels: stop, back off, turn away from its side.
+// The reaction of the behaviour controller to a hazard that the rover feels: stop, back off, turn
+// away from its side.
 //
 // A hazard ahead is passed on the right, as one that is seen in the centre. A touch behind ends a
 // back-off and does nothing else: the rover drives away from it by going on. During a reaction the
-// hazard that started it may last. While the rover turns the reaction starts again with a touch
-// after a tick without one, and with a hazard of another kind after a tick without any. Tilts,
-// joint angles and currents of the kind that started it do not start it again, or one near its
-// threshold would with every noisy sample: what still holds when the turn has ended starts the next
-// reaction. Draws no random numbers.
+// hazard that started it may last. While the rover turns, the reaction starts again with a touch
+// after a tick without a touch, and with a hazard of another kind after a tick without any hazard.
+// Tilts, joint angles and currents of the kind that started it do not start it again: one near its
+// threshold would do so with every noisy sample. What still holds when the turn has ended starts
+// the next reaction. Draws no random numbers.
 #pragma once
 
 #include <limits>
@@ -28,7 +29,7 @@ class VehicleReaction {
 
   void OnPoseUpdate(const messages::PoseEstimate& before, const messages::PoseEstimate& after);
 
-  // Distances are to another goal from now on: progress, and reactions without it, count anew.
+  // The goal is another one from now on: progress, and reactions without it, count anew.
   void OnNextGoal();
 
  private:
@@ -37,7 +38,7 @@ class VehicleReaction {
   std::optional<NavigatorDecision> Begin(const NavigatorInput& input, double goal_distance_m);
   std::optional<NavigatorDecision> BackOff(const NavigatorInput& input);
   std::optional<NavigatorDecision> Turn(const NavigatorInput& input, double goal_distance_m);
-  // Returns whether this is new since the reaction began.
+  // Returns whether `hazard` is new since the reaction began.
   bool Appeared(const messages::VehicleHazard& hazard) const;
   NavigatorDecision Start(Stage stage, const messages::MotionCommand& motion,
                           const messages::PoseEstimate& estimate);
@@ -50,7 +51,7 @@ class VehicleReaction {
   int turn_direction_ = 0;
   messages::VehicleHazardKind cause_ = messages::VehicleHazardKind::kContact;
   bool was_clear_ = false;     // nothing felt at some tick of this reaction
-  bool was_released_ = false;  // no touch at some tick of it
+  bool was_released_ = false;  // no touch at some tick of this reaction
   std::int64_t repeats_ = 0;
   double best_goal_distance_m_ = std::numeric_limits<double>::infinity();
   double ignored_until_m_ = -std::numeric_limits<double>::infinity();  // odometer

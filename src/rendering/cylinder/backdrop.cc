@@ -24,7 +24,7 @@ constexpr int kHueOctave = 7;           // 0.5 m
 constexpr int kHorizonNodes = 1024;     // along the hills' edge, half on either side
 constexpr double kHorizonNode_m = 4.0;  // between them
 
-// What a line of the image looks along: direction = A + (row - c_v) / f V' + (column - c_h) / f H'.
+// The directions of a line of the image: A + (row - c_v) / f V' + (column - c_h) / f H'.
 struct LineOfSight {
   double ahead = 1.0;  // per unit along the axis
   double up = 0.0;
@@ -42,7 +42,8 @@ LineOfSight LineAt(const vision::Cahv& camera, double row) {
   return {direction.x(), direction.z(), per_column, -middle_column * per_column};
 }
 
-// How far along the axis a line of the image meets the ground; nothing at or above the level.
+// Returns how far along the axis a line of the image meets the ground; nothing at or above the
+// level.
 std::optional<double> ToGround(const vision::Cahv& camera, const LineOfSight& line) {
   if (line.up >= 0.0) return std::nullopt;
   return -camera.C.z() / line.up;

@@ -1,4 +1,4 @@
-// Ground, hills and sky behind everything, line by line.
+// Ground, hills and sky behind everything in the images of the coloured cylinder, line by line.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +20,18 @@ struct TextureLine {
   double footprint_u_m = 0.0;
 };
 
-// Octave j lies on a lattice of spacing s_j = 4 mm 2^j and interpolates normal numbers of its nodes
-// (PixelNoise by node, substream j) linearly along both axes. A line takes the octaves with
-// spacings between 2 and 32 of its pixels' width |step_v|, the first and the last faded, and less
-// of those that are finer than the footprint along u by the root of s / footprint_u, as the mean of
-// independent cells is. Cost: 5 ns a pixel.
+// Value noise in octaves. Octave j lies on a lattice of spacing s_j = 4 mm 2^j and interpolates
+// normal numbers of its nodes (PixelNoise by node, substream j) linearly along both axes. A line
+// takes the octaves with spacings between 2 and 32 of its pixels' width |step_v|, the first and the
+// last faded. Octaves finer than the footprint along u are weakened by the root of s / footprint_u,
+// as the mean of independent cells is. Cost: 5 ns a pixel.
 class LatticeTexture {
  public:
   explicit LatticeTexture(core::TrialKey key) : key_(key) {}
 
   // Adds `deviation` times noise of about unit variance to every value of the line.
   void AddTo(const TextureLine& line, double deviation, std::span<float> values);
-  // The same with the one lattice of that spacing's number.
+  // Does so with that octave alone.
   void AddOctave(const TextureLine& line, int octave, double deviation, std::span<float> values);
 
   static double SpacingOf(int octave);
@@ -41,9 +41,9 @@ class LatticeTexture {
   std::vector<float> nodes_;
 };
 
-// A level ground up to the hills, an upright wall across the view at horizon_distance_m whose edge
-// is the horizon, and an even sky. For cameras with level lines every line of the image meets
-// either plane along a line across the view. The pixel that holds the horizon is mixed by the share
+// A level ground up to the hills, and an even sky. The hills are an upright wall across the view at
+// horizon_distance_m, whose edge is the horizon. With level cameras every line of the image meets
+// either plane along a line across the view. A pixel that holds the horizon is mixed by the share
 // of its height. Hills are lit as slopes of 60 deg that face the cameras. For one thread.
 class Backdrop {
  public:
@@ -51,7 +51,7 @@ class Backdrop {
 
   void Fill(const vision::Cahv& camera, ColourPlanes& planes);
 
-  // The height of the horizon across the view, m above the ground.
+  // Returns the height of the horizon at y_m across the view, m above the ground.
   double HorizonHeight(double y_m) const;
 
  private:

@@ -11,7 +11,7 @@ namespace rockyard::rendering {
 
 namespace {
 
-constexpr double kAnyWidth_m = 1e-9;  // of a passband, which the shares do not depend on
+constexpr double kAnyWidth_m = 1e-9;  // makes 1 of an irradiance of 1 W/m2/nm: shares come out
 
 SunLight StrengthsOf(const CylinderLightParams& light) {
   SunParams sun;
@@ -46,8 +46,7 @@ constexpr double kLargestCount = 255.0;
 // Weights of brightness (ITU-R BT.601).
 constexpr std::array<float, 3> kBrightness{0.299F, 0.587F, 0.114F};
 
-// [a, 1 - 2a, a] along both axes, edges repeated; its variance is 2 a. The result and the image may
-// not be the same.
+// Blurs by [a, 1 - 2a, a] along both axes, edges repeated; the variance of these weights is 2 a.
 void BlurLight(float a, ColourPlane& plane) {
   if (a == 0.0F) return;
   const int columns = plane.width();
@@ -71,8 +70,8 @@ void BlurLight(float a, ColourPlane& plane) {
   }
 }
 
-// Weights of a Gaussian of that deviation, from the middle on, that add up to 1 with their mirror
-// image.
+// Returns the weights of a Gaussian of that deviation, from the middle on, that add up to 1 with
+// their mirror image.
 std::vector<float> ColourBlurWeights(double deviation) {
   std::vector<float> weights{1.0F};
   if (deviation == 0.0) return weights;
@@ -85,7 +84,8 @@ std::vector<float> ColourBlurWeights(double deviation) {
   return weights;
 }
 
-// Along a line with its ends repeated; `line` holds reach = weights - 1 more values on either side.
+// Blurs along a line with its ends repeated. `padded` holds weights.size() - 1 more values than the
+// line on either side, which are filled in here.
 void BlurLine(const std::vector<float>& weights, std::vector<float>& padded, std::span<float> to) {
   const std::size_t reach = weights.size() - 1;
   std::fill_n(padded.begin(), reach, padded[reach]);

@@ -1,5 +1,6 @@
-// Light and surfaces in three channels, an image of them before it is counted, and the light of
-// sun, sky and ground on a surface.
+// Images of the coloured cylinder in three channels: the light of sun, sky and ground on a surface,
+// and the counts of a colour camera of one chip. The renderer of the cylinder lights its bodies by
+// it; the study of cylinder finders reads the images out.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,8 +21,8 @@ inline Colour ToColour(const ColourValues& values) { return {values[0], values[1
 
 using ColourPlane = vision::Image<float>;
 
-// Red, green, blue; all of one size. Radiance times pi (as irradiance of a white surface), or
-// counts.
+// The three channels of an image. Values are radiances times pi (the irradiance of a white surface
+// that looks the same), or counts.
 using ColourPlanes = std::array<ColourPlane, 3>;
 
 inline ColourPlanes MakePlanes(int columns, int rows) {
@@ -39,20 +40,22 @@ inline Colour PixelOf(const ColourPlanes& planes, int column, int row) {
   return {planes[0].At(column, row), planes[1].At(column, row), planes[2].At(column, row)};
 }
 
-// Directions are in L (cylinder_scene.h): x along the cameras' line of sight, y left, z up.
+// The light of sun, sky and ground. Directions are in L (cylinder_scene.h): x along the cameras'
+// line of sight, y left, z up.
 class ColourLight {
  public:
-  // Strengths of sun and sky by radiometry.h (Beer and Lambert), over what a level surface gets
-  // from both with the sun in the zenith outside of the atmosphere.
+  // Strengths of sun and sky come from radiometry.h (Beer and Lambert), as shares of what a surface
+  // that faces the sun gets outside of the atmosphere.
   ColourLight(const CylinderLightParams& light, const Colour& ground);
 
-  // Irradiance of a surface with that unit normal, convex and seen by all of its sky:
+  // Returns the irradiance of a surface with that unit normal, with nothing before its sky:
   //   sun max(0, n.s) + sky (1 + n_z)/2 + ground (1 - n_z)/2
-  // where the level ground sends back `ground` times what falls on it. No surface shades another.
+  // where the level ground sends back its reflectance times what falls on it. No surface shades
+  // another.
   Colour On(const math::Vector3& normal_L) const;
 
   const math::Vector3& toward_sun_L() const { return toward_sun_L_; }
-  // Radiance of the sky, times pi, as On is for a white surface.
+  // Returns the radiance of the sky times pi, in the units of On.
   const Colour& sky() const { return sky_; }
 
  private:
@@ -62,31 +65,31 @@ class ColourLight {
   Colour ground_;
 };
 
-// From light to the counts of a colour camera of one chip.
-
-// Steps, all but the last linear in light:
+// From light to counts. The steps are these; the first three are linear in light:
 //   1. each channel takes the share `crosstalk` of its light from its neighbours in the spectrum,
 //      c = (1 - k) R + k G for red, (1 - k) G + k (R + B)/2 for green, (1 - k) B + k G for blue;
 //   2. gains: a level white card is grey with the sun at the elevation of the balance, and the
 //      brightest channel of the level ground in the present light has exposure_level of the largest
 //      count;
-//   3. blur of all by [a, 1 - 2a, a] along lines and columns, a = s^2/2; then, along the line, of
-//      what the channels differ from their brightness Y = 0.299 R + 0.587 G + 0.114 B by a
-//      Gaussian;
-//   4. noise of each channel: of deviation sqrt(read^2 + n N / W) at n of N counts, full well W;
+//   3. all channels are blurred by [a, 1 - 2a, a] along lines and columns, a = s^2/2; then the
+//      differences of the channels from their brightness Y = 0.299 R + 0.587 G + 0.114 B are
+//      blurred along the line by a Gaussian;
+//   4. noise of each channel, with the deviation sqrt(read^2 + n N / W) at n of N counts, W the
+//      full well;
 //   5. counts: N (n / N)^gamma rounded and cut to 0 to N = 255.
 class ColourReadout {
  public:
   ColourReadout(const ColourCameraParams& camera, const CylinderLightParams& light,
                 const Colour& ground);
 
-  // Counts of 8 bits before noise and gamma: may be above 255.
+  // Returns counts before noise and gamma (steps 1 to 3): they may be above 255.
   ColourPlanes Counts(const ColourPlanes& light) const;
-  // Noise is that of (key, kCylinderNoise, 3 image + channel) by pixel.
+  // Returns the image with noise and gamma (steps 4 and 5). Noise is drawn from (key,
+  // kCylinderNoise, 3 image + channel) by pixel.
   vision::ColourImage Read(const ColourPlanes& counts, core::TrialKey key,
                            std::uint32_t image) const;
 
-  // The response to even light, in counts.
+  // Returns the response to even light, in counts.
   Colour CountsOf(const Colour& light) const { return gains_ * Mixed(light); }
 
  private:

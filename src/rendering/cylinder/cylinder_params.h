@@ -1,9 +1,11 @@
 // What stands before the lander's colour cameras: the cylinder of Matthies 1995, section 5, its
-// light, its surroundings, and the cameras themselves.
+// light, its surroundings, and the cameras themselves. The study of cylinder finders holds these
+// parameters.
 //
 // Colours, light, response and surroundings are assumed, each with its range of studies: they were
-// written down before any finder was run on an image. Drives render none of these images: the
-// lander's fix has numbers that were fitted to them, which stay until they are fitted anew.
+// written down before any finder was run on an image. Drives render none of these images. The
+// numbers of the lander's fix (CylinderLawParams in sensing/aid_params.h) were fitted to such
+// images, and must be fitted anew where the images change.
 #pragma once
 
 #include <array>

@@ -50,7 +50,7 @@ class PinholeRays {
   Vector3 first_;
 };
 
-// The pixels that a body may cover. A body that reaches behind the camera may cover all of them.
+// Returns the pixels that a body may cover: all where the body reaches behind the camera.
 PixelBox BoxOf(const BodyCaster& body, const vision::Cahv& camera, const ColourPlane& plane) {
   const PixelBox all{0, 0, plane.width() - 1, plane.height() - 1};
   double left = std::numeric_limits<double>::infinity();
@@ -116,7 +116,7 @@ class EyeRenderer {
     }
   }
 
-  // Whether a neighbour shows another part; beyond the image nothing differs.
+  // Returns whether a neighbour shows another part; beyond the image nothing differs.
   bool IsEdge(int column, int row) const {
     const std::int16_t part = parts_.At(column, row);
     const auto differs = [&](int x, int y) {

@@ -13,7 +13,7 @@ namespace {
 using core::SampleUniform;
 using math::Vector3;
 
-// The smaller root of a t^2 + 2 b t + c = 0 that lies ahead; nothing where the line misses.
+// Returns the smaller root of a t^2 + 2 b t + c = 0; nothing where there is none or it lies behind.
 std::optional<double> FirstRoot(double a, double b, double c) {
   const double discriminant = b * b - a * c;
   if (a <= 0.0 || discriminant < 0.0) return std::nullopt;
@@ -42,7 +42,7 @@ ColouredBody Cylinder(const CylinderTargetParams& target, const math::Transform&
   return body;
 }
 
-// Boxes below the cylinder, from the ground up to it.
+// Adds boxes below the cylinder, from the ground up to it.
 void AddStand(const CylinderTargetParams& target, const math::Transform& X_LT,
               std::vector<BodyCaster>& bodies) {
   const double bottom_m = target.middle_height_m - 0.5 * target.height_m;
@@ -120,7 +120,7 @@ void AddRocks(const CylinderPictureParams& params, const math::Transform& X_LT, 
     const bool red = core::SampleBernoulli(stream, clutter.red_share);
     const double brightness =
         1.0 + clutter.rock_brightness_spread * SampleUniform(stream, -1.0, 1.0);
-    // After all its draws: where the cylinder stands moves no other rock.
+    // Must come after all draws of the rock: then the place of the cylinder moves no other rock.
     if (!IsClear(place, half_m, params, X_LT)) continue;
     const Colour colour = brightness * ToColour(red ? clutter.red_rock : clutter.rock);
     constexpr double kSunk = 0.1;
@@ -130,7 +130,8 @@ void AddRocks(const CylinderPictureParams& params, const math::Transform& X_LT, 
   }
 }
 
-// Each channel uniform: any colour that paint, foil or cloth may have.
+// Adds hardware. Each channel of its colours is uniform: any colour that paint, foil or cloth may
+// have.
 void AddHardware(const CylinderPictureParams& params, const math::Transform& X_LT,
                  core::TrialKey key, std::vector<BodyCaster>& bodies) {
   const ClutterParams& clutter = params.clutter;
@@ -200,7 +201,8 @@ std::optional<BodyHit> BodyCaster::CastEllipsoid(const ColourRay& ray_B) const {
   return BodyHit{*along, normal, 0};
 }
 
-// The last of the three slabs that the ray enters, unless it has left another before.
+// The ray meets the box where it enters the last of the three slabs, unless it has left another
+// before.
 std::optional<BodyHit> BodyCaster::CastBox(const ColourRay& ray_B) const {
   double entered = 0.0;
   double left = std::numeric_limits<double>::infinity();

@@ -1,4 +1,6 @@
-// The cameras and the coloured cylinder before them, with all that stands around it.
+// The cameras and the coloured cylinder before them, with all that stands around it: bodies that
+// rays meet by closed forms. The renderer of the cylinder casts its rays here; the study of
+// cylinder finders takes cameras and true pose from here.
 //
 // Frame L: origin on the ground below the cameras' centre of rotation, from which distances count;
 // x along the cameras' line of sight over the ground, y left, z up. Frame T: the cylinder, its
@@ -20,18 +22,19 @@
 
 namespace rockyard::rendering {
 
-// `orientation_rad` is theta of Matthies 1995, app. A.1: the azimuth, in T, of the middle between
-// the cameras as seen from the cylinder. Blue is in the middle of the view at 45 deg. Finders tell
-// theta in the same frame (vision/cylinder/colour_cylinder.h): their errors are differences of
-// both.
+// How the cylinder stands before the cameras. `orientation_rad` is theta of Matthies 1995, app.
+// A.1: the azimuth, in T, of the middle between the cameras as seen from the cylinder. Blue is in
+// the middle of the view at 45 deg. Must be the theta of vision/cylinder/colour_cylinder.h: errors
+// of finders are differences of both.
 struct CylinderView {
   double distance_m = 5.0;       // along the ground, from the origin of L
   double bearing_rad = 0.0;      // to the left
   double orientation_rad = 0.0;  // theta
-  bool present = true;           // without it: its surroundings alone
+  bool present = true;           // else: the surroundings alone
 };
 
-// The pose of T: its heading is the azimuth of the cameras' middle from it less theta.
+// Returns the pose of T in L. Its heading is the azimuth of the middle between the cameras, as seen
+// from T, less theta.
 inline math::Transform CylinderPose(const CylinderPictureParams& params, const CylinderView& view) {
   const math::Vector3 p_LT_L(view.distance_m * std::cos(view.bearing_rad),
                              view.distance_m * std::sin(view.bearing_rad),
@@ -40,7 +43,7 @@ inline math::Transform CylinderPose(const CylinderPictureParams& params, const C
   return math::MakePose(p_LT_L, azimuth_rad - view.orientation_rad, 0.0, 0.0);
 }
 
-// How far the cameras look down, rad: none where they look along the ground, else towards the
+// Returns how far the cameras look down, rad: 0 where they look along the ground, else towards the
 // middle of the cylinder's axis at its distance.
 inline double CameraPitch(const CylinderPictureParams& params, const CylinderView& view) {
   if (params.cameras.pointing == CameraPointing::kLevel) return 0.0;
@@ -48,7 +51,7 @@ inline double CameraPitch(const CylinderPictureParams& params, const CylinderVie
   return std::atan2(drop_m, view.distance_m - params.cameras.front_m);
 }
 
-// Left and right camera, told in L: parallel, pinholes, rows level.
+// Returns the left and the right camera in L: parallel pinholes with level rows.
 inline std::array<vision::Cahv, 2> CylinderCameras(const CylinderPictureParams& params,
                                                    const CylinderView& view) {
   const ColourCameraParams& camera = params.cameras;
@@ -70,16 +73,14 @@ inline std::array<vision::Cahv, 2> CylinderCameras(const CylinderPictureParams& 
   return pair;
 }
 
-// Everything before the cameras that is no background: the cylinder, its stand, rocks, hardware.
-
-// A half line from `origin` (m) along `direction`, of any length.
+// A half line from `origin` (m) along `direction`, whose length need not be 1.
 struct ColourRay {
   math::Vector3 origin = math::Vector3::Zero();
   math::Vector3 direction = math::Vector3::UnitX();
 };
 
 struct BodyHit {
-  double along = 0.0;  // origin + along * direction
+  double along = 0.0;  // the hit lies at origin + along * direction
   math::Vector3 normal = math::Vector3::UnitZ();
   int part = 0;  // a face or a quadrant, from 0 on; below kBodyParts
 };
@@ -93,7 +94,8 @@ enum class BodyShape {
                // to 3, its flat top is part 4
 };
 
-// Positions are in L. A body stands upright and is turned by its heading about z.
+// A body before the cameras. Positions are in L. It stands upright and is turned by its heading
+// about z.
 struct ColouredBody {
   BodyShape shape = BodyShape::kBox;
   math::Vector3 middle_L = math::Vector3::Zero();
@@ -102,15 +104,16 @@ struct ColouredBody {
   std::array<Colour, kBodyParts> colours{};  // by part
 };
 
-// The first meeting of a ray with a body from outside, by closed forms; the bottom of a cylinder is
-// not seen. Nothing behind the origin.
+// Casts rays at one body, by closed forms.
 class BodyCaster {
  public:
   explicit BodyCaster(ColouredBody body);
 
+  // Returns where the ray first meets the body from outside, ahead of its origin. The bottom of a
+  // cylinder is not met.
   std::optional<BodyHit> Cast(const ColourRay& ray) const;
   const ColouredBody& body() const { return body_; }
-  // Corners of the upright box around it, in L.
+  // Returns the corners of the upright box around the body, in L.
   std::array<math::Vector3, 8> Corners() const;
 
  private:
@@ -123,13 +126,15 @@ class BodyCaster {
   double sine_;
 };
 
-// Bodies in L. With the cylinder present the first is the cylinder.
+// Returns all bodies before the cameras, in L: the cylinder first, if present, then its stand,
+// rocks and hardware.
 //
-// Rocks are ellipsoids, sunk by a tenth of their height; hardware are boxes. Their numbers are
-// Poisson's, their places uniform over the ground between nearest_m and farthest_m within the
-// columns' field of view; one that would come nearer to the cylinder than clear_m is left out.
-// Draws from (key, kCylinderScene): substream 0 rocks, 1 hardware, whatever the view is, so that
-// surroundings stay where the cylinder turns.
+// Rocks are ellipsoids, sunk by a tenth of their height; pieces of hardware are boxes. Their
+// numbers are Poisson's, their places uniform over the ground between nearest_m and farthest_m
+// within the columns' field of view. A body that would come nearer to the cylinder than clear_m is
+// left out. It draws from (key, kCylinderScene), substream 0 for rocks and 1 for hardware, the same
+// numbers whatever the view: surroundings stay where the cylinder turns. Substream 2 is the
+// horizon's (backdrop.cc).
 std::vector<BodyCaster> CylinderBodies(const CylinderPictureParams& params,
                                        const CylinderView& view, core::TrialKey key);
 

@@ -1,4 +1,6 @@
-// An image of the terrain before the camera's own faults, with the truth about every pixel.
+// An image of the terrain before the camera's own faults, with the truth about every pixel, and
+// what the other eye of a pair sees of it. PictureRenderer fills pictures, PictureReadout reads
+// them out; the stereo cameras' images and true disparities come from here.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +18,7 @@ namespace rockyard::rendering {
 
 // What lies behind the middle of each pixel, and the light from all of it.
 struct Picture {
-  // Beside the codes of SurfacePoint: the lens does not look anywhere.
+  // A code beside those of SurfacePoint: the lens does not look anywhere.
   static constexpr int kBlind = -5;
 
   Picture() = default;
@@ -30,18 +32,16 @@ struct Picture {
   int columns() const { return radiance_w_m2_sr.width(); }
   int rows() const { return radiance_w_m2_sr.height(); }
 
-  // Mean over the pixel, within the passband.
+  // The mean over the pixel, within the passband.
   vision::Image<float> radiance_w_m2_sr;
-  // From the ray's origin to the surface; infinite where there is none.
+  // The distance along the ray from its origin to the surface; infinite where there is none.
   vision::Image<double> range_m;
   vision::Image<Eigen::Vector3f> normal_W;  // of the terrain, without the texture's relief
   vision::Image<int> surface;               // a rock, a code of SurfacePoint, or kBlind
   vision::Image<float> sunlit;              // share of the sun that the surface sees
 };
 
-// What the other eye of a pair sees of a picture.
-
-// A pixel of one eye and the point behind it as the other eye sees it.
+// How the other eye of a pair sees the point behind a pixel.
 enum class OtherEye : std::uint8_t {
   kNone,  // there is no point: sky, or blind
   kVisible,
@@ -49,6 +49,7 @@ enum class OtherEye : std::uint8_t {
   kOutside,   // not within its image
 };
 
+// What the other eye sees of a picture, by pixel of the picture.
 struct StereoTruth {
   vision::Image<OtherEye> other;
   // Where the other eye images the point, also where it is occluded; NaN where it cannot. For
@@ -58,8 +59,8 @@ struct StereoTruth {
 };
 
 // Looks at every point of a picture from the pupil of another camera of the same outer frame A.
-// Where that moves with the angle (CAHVORE), it looks from where the line of sight of the position
-// leaves the axis. Cost: a ray and a projection for each pixel, 0.1 to 0.5 us.
+// Where the pupil moves with the angle (CAHVORE), it looks from where the line of sight of the
+// point leaves the axis. Cost: a ray and a projection for each pixel, 0.1 to 0.5 us.
 StereoTruth SeenFromOtherEye(const PictureScene& scene, const Picture& picture,
                              const PixelRays& rays, const math::Transform& X_WA,
                              const vision::CameraModel& other);

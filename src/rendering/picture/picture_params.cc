@@ -67,8 +67,8 @@ void TextureParams::VisitAs(core::FieldVisitor& v, std::string_view calibrated_t
                  "grains and clods that the terrain does not hold", {0.0, 1.0}, {0.0, 0.5}));
 }
 
-// 600 to 800 nm and signal to noise above 200 (Lakdawalla 2018, table 7.1; Schwochert and Maki
-// 2005) are at hand; all else is what such a camera may have.
+// Sources give 600 to 800 nm and a signal to noise above 200 (Lakdawalla 2018, table 7.1;
+// Schwochert and Maki 2005); all else is what such a camera may have.
 ImagerParams PictureCameraParams::EngineeringImager() {
   ImagerParams imager;
   imager.f_number = 12.0;

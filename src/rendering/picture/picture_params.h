@@ -1,5 +1,7 @@
-// Parameters of images of the terrain: what it looks like, and what the camera makes of it. Error
-// models that were fitted to such images stand for these values until they are fitted anew.
+// Parameters of images of the terrain: what the terrain looks like (scenario group sensors.look),
+// and what the camera makes of it (sensors.stereo.images.camera). Only rendered images depend on
+// them, the light stripe's not. Error models that were fitted to such images stand for these values
+// until they are fitted anew.
 #pragma once
 
 #include <array>
@@ -12,9 +14,9 @@
 
 namespace rockyard::rendering {
 
-// How mottled a surface is, and at which scales. A texture is a sum of octaves, wavelengths falling
-// by two from the longest to the finest, with variances in proportion to wavelength^(exponent - 2):
-// the power spectrum over the plane then falls as f^-exponent (texture_field.h).
+// How mottled a surface is, and at which scales. A texture is a sum of octaves. Their wavelengths
+// halve from the longest to the finest, their variances are in proportion to wavelength^(exponent -
+// 2): the power spectrum over the plane then falls as f^-exponent (texture_field.h).
 struct TextureParams {
   double contrast = 0.1;           // standard deviation of the albedo over its mean
   double spectral_exponent = 2.6;  // 2: each octave varies as much as the others
@@ -26,7 +28,8 @@ struct TextureParams {
   void Visit(core::FieldVisitor& v);
 
  protected:
-  // The same, where contrast and exponent were fitted to what `calibrated_to` says.
+  // Visits the fields. Where `calibrated_to` is not empty, it is told as what contrast and exponent
+  // were fitted to.
   void VisitAs(core::FieldVisitor& v, std::string_view calibrated_to);
 };
 
@@ -35,14 +38,14 @@ struct GravelParams : TextureParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// The ends of the family of soils, of which the first is dust that the wind has smoothed; and
-// rocks.
+// Return the ends of the family of soils, where drift is dust that the wind has smoothed, and the
+// texture of rocks.
 TextureParams DriftTexture();
 GravelParams GravelTexture();
 TextureParams RockTexture();
 
-// The texture at the given share of the way from `smooth` (0) to `rough` (1): wavelengths along
-// their logarithms, the other values along a line.
+// Returns the texture at the given share of the way from `smooth` (0) to `rough` (1). Logarithms of
+// wavelengths and the other values are interpolated linearly.
 TextureParams Between(const TextureParams& smooth, const TextureParams& rough, double share);
 
 // What soil and rocks look like, beside the albedos that come with the sun (sun_params.h).
@@ -82,7 +85,7 @@ struct PictureCameraParams {
   FlatField flat_field = FlatField::kCorrected;
   double stuck_share = 1e-5;
 
-  // An imager of the class of the engineering cameras of the Mars Exploration Rovers.
+  // Returns an imager of the class of the engineering cameras of the Mars Exploration Rovers.
   static ImagerParams EngineeringImager();
 
   double PixelArea() const { return pixel_pitch_m * pixel_pitch_m; }

@@ -27,7 +27,7 @@ std::vector<float> GaussianWeights(double sigma_px) {
   return weights;
 }
 
-// Every pixel times `weight`, added to `sum`.
+// Adds every pixel times `weight` to `sum`.
 void AddRow(std::span<const float> from, float weight, std::span<float> sum) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * from[i];
 }
@@ -43,7 +43,8 @@ vision::Image<float> Blurred(const vision::Image<float>& sharp, double sigma_px)
   vision::Image<float> blurred(width, height);
   std::vector<float> line(static_cast<std::size_t>(width + 2 * reach));
   for (int y = 0; y < height; ++y) {
-    // Columns first, with what lies beyond the ends beside them, then rows.
+    // The blur along columns comes first, into `line`, whose ends are then repeated for the blur
+    // along rows.
     std::fill(line.begin(), line.end(), 0.0F);
     const std::span<float> middle(line.data() + reach, static_cast<std::size_t>(width));
     for (int k = -reach; k <= reach; ++k) {
@@ -145,7 +146,7 @@ vision::Image<float> PictureReadout::Rates(const Picture& picture) const {
 double PictureReadout::Exposure(const vision::Image<float>& rates_e_s) const {
   std::vector<double> metered(rates_e_s.values().begin(), rates_e_s.values().end());
   if (params_.flat_field == FlatField::kCorrected) {
-    // What is delivered counts: a dark corner is brightened.
+    // The delivered image is metered, in which a dark corner is brightened.
     for (std::size_t i = 0; i < metered.size(); ++i) {
       const float gain = gain_.values()[i];
       if (gain > 0.0F) metered[i] /= static_cast<double>(gain);

@@ -1,4 +1,5 @@
-// From the light of a picture to the numbers that a camera delivers.
+// From the light of a picture to the numbers that a camera delivers: the last step of the stereo
+// cameras' images.
 #pragma once
 
 #include <cstdint>
@@ -25,20 +26,21 @@ struct RawImage {
 //   rate       electrons per second = ElectronsPerRadiance * g * L
 //   exposure   ExposureTime over all pixels as they are delivered: all but brightest_share of them
 //              below target_fill of the largest count
-//   read-out   as of ImageReadout: shot, dark and read noise, fixed pattern, well, black level,
-//   bits flat field where it is corrected: (count - black) / (g (1 + r)) + black, r the pixel's
-//   response stuck      pixels that always show 0 or the largest count, by halves
+//   read-out   by ImageReadout: shot, dark and read noise, fixed pattern, well, black level, bits
+//   flat field where it is corrected: (count - black) / (g (1 + r)) + black, r the pixel's response
+//   stuck      pixels that always show 0 or the largest count, half of them each
 // Pattern and stuck pixels belong to (trial, camera), noise to (trial, image).
 class PictureReadout {
  public:
-  // `camera` numbers the cameras of a rover. The axis is the ray through the middle of the image.
+  // `camera` numbers the cameras of a rover, from 0. The axis is the ray through the middle of the
+  // image.
   PictureReadout(const PictureCameraParams& params, const PixelRays& rays, int camera,
                  core::TrialKey key);
 
   int largest_count() const { return readout_.largest_count(); }
 
-  // Returns the vignetting of a pixel: 1 on the axis. Natural is the solid angle of the pixel times
-  // the cosine from the axis, over that on the axis: cos^4 for a pinhole.
+  // Returns the vignetting of a pixel: 1 on the axis. Natural vignetting is the solid angle of the
+  // pixel times the cosine from the axis, over the solid angle on the axis: cos^4 for a pinhole.
   float Gain(int column, int row) const { return gain_.At(column, row); }
 
   // Returns electrons per second, by pixel.
@@ -47,7 +49,7 @@ class PictureReadout {
   // Returns the time that exposure control settles at for these rates.
   double Exposure(const vision::Image<float>& rates_e_s) const;
 
-  // Reads an image out that is exposed for that long. Draws from (kImageNoise, image).
+  // Reads out an image that is exposed for exposure_s. Draws from (kImageNoise, image).
   RawImage Read(const vision::Image<float>& rates_e_s, double exposure_s, ImageNumber image) const;
 
  private:
@@ -67,11 +69,12 @@ class PictureReadout {
   std::vector<Stuck> stuck_;
 };
 
-// Returns the image with 8 bits a pixel: the highest ones, of images of more.
+// Returns the image with 8 bits a pixel: the highest eight of its `bits`.
 vision::GrayImage ToGray(const vision::Image<std::uint16_t>& counts, int bits);
 
-// Blurs an image by a Gaussian of that standard deviation along rows and columns, sampled at whole
-// pixels and normalized, up to 4 of them; beyond the edges it goes on as at them.
+// Blurs an image by a Gaussian of that standard deviation along rows and columns. Its weights are
+// sampled at whole pixels, up to four deviations, and normalized. Beyond the edges the image is
+// taken to be as at the edges.
 vision::Image<float> Blurred(const vision::Image<float>& sharp, double sigma_px);
 
 }  // namespace rockyard::rendering

@@ -15,8 +15,9 @@ using math::Vector3;
 // faces the sun are split.
 constexpr double kSunStep = 0.06;
 
-// The parallelogram of a surface that a pixel covers: the ray turns by `by` from one pixel to the
-// next, and the point moves by t (by - ray (n.by) / (n.ray)), which lies in the tangent plane.
+// Returns a side of the parallelogram of a surface that a pixel covers: the ray turns by `by` from
+// one pixel to the next, and the point moves by t (by - ray (n.by) / (n.ray)), which lies in the
+// tangent plane.
 Vector3 Swept(const Vector3& by, const Vector3& ray, const Vector3& normal, double range_m) {
   // A ray along the surface would see an endless strip of it.
   constexpr double kGrazing = 1e-6;
@@ -26,14 +27,14 @@ Vector3 Swept(const Vector3& by, const Vector3& ray, const Vector3& normal, doub
 
 }  // namespace
 
-// What a row and its neighbours need: rows that have been met, by row modulo 3, and the rocks that
-// the tiles of two rows of tiles may show, by row of tiles modulo 2.
+// What the rendering of a row and its neighbours keeps: what the rays of rows have met, by row
+// modulo 3, and the rocks that the tiles of two rows of tiles may show, by row of tiles modulo 2.
 struct PictureRenderer::Band {
   std::array<Row, 3> rows;
   std::array<int, 3> numbers{-1, -1, -1};
   std::array<std::vector<std::vector<int>>, 2> candidates;
   std::array<int, 2> tile_rows{-1, -1};
-  // Those of a row of blocks, and of one pixel.
+  // The rocks that a row of blocks and one pixel may show.
   std::vector<std::vector<int>> in_blocks;
   int block_row = -1;
   std::vector<int> in_pixel;
@@ -80,7 +81,7 @@ const std::vector<int>& PictureRenderer::Candidates(int column, int row, Band& b
   return candidates[static_cast<std::size_t>(column / PixelRays::kTile)];
 }
 
-// The rocks that the rays within one pixel may meet.
+// Returns the rocks that the rays within one pixel may meet.
 const std::vector<int>& PictureRenderer::InPixel(int column, int row, Band& band) const {
   const std::vector<int>& in_tile = Candidates(column, row, band);
   const vision::Ray ray = rays_.At(column, row);
@@ -134,8 +135,8 @@ double PictureRenderer::WholePixel(int column, int row, const Met& met, TerrainL
   return scene_.Radiance(met, ray_W, seen.albedo, seen.normal_W);
 }
 
-// How one pixel sees the surfaces in it: each with its texture over the whole pixel, where the
-// pixel first meets it.
+// How one pixel sees the surfaces in it. Each surface has one look, with its texture over the whole
+// pixel, taken where the pixel first meets the surface.
 class PictureRenderer::PixelLooks {
  public:
   struct Seen {
@@ -149,7 +150,7 @@ class PictureRenderer::PixelLooks {
     for (std::size_t i = 0; i < count_; ++i) {
       if (seen_[i].surface == point.surface) return seen_[i];
     }
-    // Where a pixel shows more surfaces the last one is asked anew for each of its parts.
+    // Where a pixel shows more surfaces than kMost, the last look is replaced.
     const std::size_t i = std::min(count_, kMost - 1);
     count_ = i + 1;
     const SurfaceLook whole = look_of();
@@ -194,7 +195,8 @@ double PictureRenderer::SplitPixel(int column, int row, Band& band, TerrainLook&
     const Vector3 normal_W = (met.point.normal_W + seen.tilt_W).normalized();
     return scene_.Radiance(met, part.ray_W, seen.albedo, normal_W);
   };
-  // The surface in the middle is seen there, others where a part first meets them.
+  // The look of the surface in the middle is taken there, the looks of other surfaces where a part
+  // first meets them: the order decides bits.
   if (middle.met.point.surface != SurfacePoint::kSky) {
     seen_at(middle.met, DirectionOf(rays_.At(column, row)));
   }

@@ -1,4 +1,4 @@
-// Images of the terrain through any camera.
+// Images of the terrain through any camera: the stereo cameras' images are rendered here.
 #pragma once
 
 #include <vector>
@@ -12,22 +12,22 @@
 namespace rockyard::rendering {
 
 // Renders a scene through one camera. A pixel takes the light of the ray through its middle, with
-// textures filtered to what it covers of the surface. Where a neighbour on any side shows another
-// surface, the same one behind an edge, or another sunlight, it is split into edge_samples^2 rays,
-// unless those in its corners show what its middle does; the parts take the texture as the whole
-// pixel sees it, once for each surface.
+// textures filtered to what the pixel covers of the surface. Where one of its four neighbours shows
+// another surface, the same surface behind an edge, or another sunlight, the pixel is split into
+// edge_samples^2 rays, unless the rays in its corners show what its middle does. The parts of a
+// pixel take the texture as the whole pixel sees it, once for each surface.
 //
 // Deviations: nothing reflects twice, and nothing smaller than a pixel is seen between the middles
 // of pixels; relief of the texture does not move a silhouette.
 class PictureRenderer {
  public:
-  // X_WA is the pose of the camera's outer frame. All of it has to live on.
+  // X_WA is the pose of the camera's outer frame. Scene and rays must outlive this.
   PictureRenderer(const PictureScene& scene, const LookParams& look, const PixelRays& rays,
                   const math::Transform& X_WA);
 
-  // Renders the rows first .. last - 1 into a picture of the camera's size. A row does not depend
-  // on which others are rendered with it, nor on what `look` has worked out before: bands of rows
-  // may be given to threads, each with a TerrainLook of its own.
+  // Renders the rows first .. last - 1 into a picture of the camera's size. The bits of a row must
+  // not depend on which other rows are rendered with it, nor on what `look` has worked out before:
+  // bands of rows may be given to threads, each with a TerrainLook of its own.
   void RenderRows(int first, int last, TerrainLook& look, Picture& picture) const;
 
  private:

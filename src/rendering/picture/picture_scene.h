@@ -1,4 +1,5 @@
-// The terrain, the sunlight and the rover as any camera meets them at one moment.
+// The terrain, the sunlight and the rover as any camera meets them at one moment: what the pictures
+// of the stereo cameras, and their true disparities, ask.
 #pragma once
 
 #include <optional>
@@ -22,11 +23,12 @@ struct Met {
   double sunlit = 0.0;  // share of the sun's disc that the point sees
 };
 
-// Pure queries, from any thread. The terrain and the rover's body have to live on. Built anew where
-// a rock, the rover or the sun moves: about 0.1 ms for each hundred rocks.
+// Answers pure queries, from any thread. The terrain and the rover's body have to outlive the
+// scene. A scene must be built anew where a rock, the rover or the sun moves: about 0.1 ms for each
+// hundred rocks.
 class PictureScene {
  public:
-  // Rays end here: beyond is the sky.
+  // Rays end at this distance: beyond is the sky.
   static constexpr double kFarthest_m = 200.0;
 
   PictureScene(const terrain::Terrain& terrain, const SunParams& sun, const LookParams& look,
@@ -36,23 +38,23 @@ class PictureScene {
   const SunLight& light() const { return light_; }
   const PlacedBody& rover() const { return rover_; }
 
-  // Lists the rocks that may reach into the cone from around an eye, ascending: the candidates of
-  // Meet for every ray whose origin lies within spread_m of eye_W and whose direction lies in the
-  // cone.
+  // Lists, ascending, the rocks that a ray may meet whose origin lies within spread_m of eye_W and
+  // whose direction lies in the cone: the candidates of Meet.
   void RocksInCone(const math::Vector3& eye_W, double spread_m, const RayCone& cone_W,
                    std::vector<int>& out) const;
   // Does the same among the given rocks only.
   void RocksInCone(const math::Vector3& eye_W, double spread_m, const RayCone& cone_W,
                    std::span<const int> among, std::vector<int>& out) const;
 
-  // Returns what the unit ray meets first: of the terrain what Terrain::CastRay gives, with the
-  // same bits, over rough ground within 1e-9 m (RayWay::kSpline); and the rover's own parts; with
-  // its share of the sun.
+  // Returns what the unit ray meets first, with its share of the sun: what Terrain::CastRay gives,
+  // or one of the rover's own parts. The point must have the bits of Terrain::CastRay; over rough
+  // ground it lies within 1e-9 m (RayWay::kSpline).
   Met Meet(const math::Vector3& origin_W, const math::Vector3& ray_W,
            std::span<const int> rocks) const;
 
-  // Returns whether the terrain or the rover lies between a point of a surface and an eye. What is
-  // nearer to either than kOcclusionMargin_m does not count.
+  // Returns whether the terrain or the rover lies between a point of a surface and an eye. Terrain
+  // nearer to either of them than kOcclusionMargin_m does not count, nor the rover that near to the
+  // point.
   bool Hides(const math::Vector3& p_W, const math::Vector3& eye_W) const;
 
   // Returns the radiance of a point that is seen along ray_W, given how it looks:

@@ -21,7 +21,7 @@ PixelRays::PixelRays(const vision::CameraModel& camera)
     for (int column = 0; column < columns_; ++column) {
       const std::optional<vision::Ray> ray = BackProject(camera, vision::Pixel(column, row));
       sees_.push_back(ray ? 1 : 0);
-      // What no ray goes through has any direction: it is never asked.
+      // A pixel without a ray is never asked for its direction: any will do.
       origins_A_.push_back(ray ? ray->origin : Vector3::Zero());
       directions_A_.push_back(ray ? ray->direction : Vector3::UnitX());
     }
@@ -77,7 +77,7 @@ PixelRays::Tile PixelRays::MakeTile(int first_column, int first_row, int side) c
   return tile;
 }
 
-// A pixel at the edge of what a lens sees has no size: it is taken as blind.
+// A pixel at the edge of what a lens sees has no known size: it is taken as blind.
 void PixelRays::MarkEdges() {
   const std::vector<char> has_ray = sees_;
   for (int row = 0; row < rows_; ++row) {

@@ -1,4 +1,5 @@
-// The viewing rays of a camera, worked out once.
+// The viewing rays of a camera, worked out once: pictures are rendered and read out by them, and
+// the masks of the rover's own parts are held against them.
 #pragma once
 
 #include <vector>
@@ -11,27 +12,27 @@ namespace rockyard::rendering {
 
 // Rays through the middles of the pixels of an image and how they change from pixel to pixel, in
 // the camera's outer frame A. Pixel (0, 0) is the upper left one, its middle at column 0 and row 0.
-// It costs a ray of the camera for each pixel, and 50 bytes; a camera needs one for as long as it
-// is not recalibrated.
+// Making one costs a ray of the camera for each pixel, and 50 bytes; it holds until the camera is
+// calibrated anew.
 class PixelRays {
  public:
-  // The image has 2 columns and 2 rows at least, and some pixel sees.
+  // The image must have 2 columns and 2 rows at least, and a pixel that sees.
   explicit PixelRays(const vision::CameraModel& camera);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
 
-  // Whether the pixel looks anywhere; its neighbours have to, too, so that its size is known.
+  // Returns whether the pixel and all its neighbours have a ray, so that its size is known.
   bool Sees(int column, int row) const { return sees_[Index(column, row)]; }
 
-  // The ray of a pixel that sees.
+  // Returns the ray of a pixel that sees.
   vision::Ray At(int column, int row) const {
     const std::size_t i = Index(column, row);
     return {one_origin_ ? origins_A_.front() : origins_A_[i], directions_A_[i]};
   }
 
-  // The ray beside the middle of a pixel, by shares of a column and of a row up to 1/2: along the
-  // derivatives, which leaves out how they change within a pixel.
+  // Returns the ray beside the middle of a pixel, by shares of a column and of a row up to 1/2. It
+  // follows the derivatives in the middle, as if they did not change within a pixel.
   vision::Ray Beside(int column, int row, double columns_right, double rows_down) const {
     vision::Ray ray = At(column, row);
     ray.direction =
@@ -40,9 +41,9 @@ class PixelRays {
     return ray;
   }
 
-  // All rays through a square of pixels, with half a pixel around it. There are tiles of kTile x
-  // kTile pixels, and blocks of kTilesPerBlock x kTilesPerBlock tiles. Cones only sift rocks, so
-  // that these sizes decide time alone.
+  // A Tile holds all rays through a square of pixels, with half a pixel around it. There are tiles
+  // of kTile x kTile pixels, and blocks of kTilesPerBlock x kTilesPerBlock tiles. Their cones only
+  // sift rocks, so that these sizes decide time alone.
   static constexpr int kTile = 8;
   static constexpr int kTilesPerBlock = 8;
   struct Tile {
@@ -60,8 +61,8 @@ class PixelRays {
     return blocks_[static_cast<std::size_t>(block_row) * block_columns() + block_column];
   }
 
-  // How the direction changes with a column and with a row, from the neighbours on both sides, or
-  // from the pixel itself and the one neighbour at an edge of the image.
+  // Return how the direction changes with a column and with a row: from the neighbours on both
+  // sides, at an edge of the image from the pixel itself and its one neighbour.
   math::Vector3 ByColumn(int column, int row) const;
   math::Vector3 ByRow(int column, int row) const;
 

@@ -12,16 +12,17 @@ namespace {
 
 using math::Vector3;
 
-// Rough ground further than this towards the sun casts no shadow: as far as in image_scene.cc.
+// Rough ground further than this towards the sun casts no shadow. Must equal kGroundShadow_m of
+// image_scene.cc.
 constexpr double kGroundShadowReach_m = 2.0;
-// Cells of the grid across the sun's rays; more of them than this become larger ones. They decide
-// time and memory alone.
+// Size of the cells of the grid across the sun's rays. Where there would be more than kMostSunCells
+// of them, they are larger. Cells decide time and memory alone.
 constexpr double kSunCell_m = 0.06;
 constexpr double kMostSunCells = 1e6;
-// Rays over the disc that ask for a cap.
+// Number of rays over the disc by which a cap is asked.
 constexpr int kCapRays = 8;
 
-// The share of a unit disc on the side x > -d of the line x = -d, -1 < d < 1:
+// Returns the share of a unit disc on the side x > -d of the line x = -d, -1 < d < 1:
 //   1/2 + (d sqrt(1 - d^2) + asin d) / pi.
 double ShareOfDisc(double d) {
   return 0.5 + (d * std::sqrt(1.0 - d * d) + std::asin(d)) * std::numbers::inv_pi;
@@ -68,8 +69,8 @@ void SunShadows::AddSilhouette(int index) {
   }
   seen.speed2 = speed2;
   seen.is_cap = rock.cap_growth > 0.0;
-  // Its penumbra is as wide as half the disc seen from where its shadow ends: on level ground at
-  // top / sin h; twice that leaves room for ground that falls away.
+  // The penumbra of a rock is as wide as half the disc seen from where its shadow ends: on level
+  // ground at top / sin h. Twice that distance leaves room for ground that falls away.
   const double throw_m = 4.0 * rock.semi_axes_m.z() / std::max(toward_sun_W_.z(), 0.02);
   seen.reach_m = rock.semi_axes_m.maxCoeff() + throw_m * half_diameter_rad_ + kRounding_m;
   rocks_.push_back(seen);
@@ -134,8 +135,8 @@ double SunShadows::LeftBy(const Silhouette& rock, const Vector3& p_W, double x_m
   const double along = rock.along_per_m.dot(p_W - rock.center_W);
   if (along >= 0.0) return 1.0;  // the rock lies away from the sun
   if (half_diameter_rad_ == 0.0) return m < 1.0 ? 0.0 : 1.0;
-  // From the point to where its ray is nearest to the centre, in the rock's own measure: -q.e /
-  // |e|^2.
+  // The way from the point to where its ray is nearest to the centre, in the rock's own measure, is
+  // -q.e / |e|^2.
   const double radius_m = half_diameter_rad_ * -along / rock.speed2;
   const double rho = std::sqrt(m);
   // grad sqrt(m) = M x / sqrt(m), so the distance from the edge is (rho - 1) rho / |M x|.

@@ -1,4 +1,5 @@
-// How much of the sun a point sees.
+// How much of the sun a point sees, for pictures of the terrain. The error model of stereo has a
+// simpler shade of its own (sensing/sun_shade.h), stripe images theirs in ImageScene.
 #pragma once
 
 #include <span>
@@ -12,21 +13,21 @@ namespace rockyard::rendering {
 
 // The rover among the shapes that cast shadows, and its pose.
 struct PlacedBody {
-  const RoverBody* body = nullptr;  // none: no rover
+  const RoverBody* body = nullptr;  // nullptr: no rover
   math::Transform X_WR = math::Transform::Identity();
 };
 
-// Shadows of rocks, of rough ground and of a rover under a sun with a disc, or a point. Rocks are
-// seen along the sun's rays, sorted into a grid across them: there an ellipsoid is an ellipse
+// Shadows of rocks, of rough ground and of a rover under a sun that is a disc or a point. Rocks are
+// seen along the sun's rays, sorted into a grid across the rays: there an ellipsoid is an ellipse
 //   m(x - x0) = (x - x0)^T M (x - x0) = 1,   M = A^T P A,
-// A its map onto the unit sphere, P the projection along the mapped ray. Where the edge of an
-// ellipse runs through the sun's disc, which is as wide as d = diameter * distance there, the disc
-// is cut by a straight line at the distance (sqrt(m) - 1) / |grad sqrt(m)|; what several rocks
-// leave of it is multiplied. Caps (rock.h) are asked by eight rays over the disc, and
-// ground and rover by one: their shadows have hard edges. Walls cast none.
+// A its map onto the unit sphere, P the projection along the mapped ray. At the rock the sun's disc
+// is as wide as diameter * distance. Where the edge of the ellipse runs through it, the disc is cut
+// by a straight line at the distance (sqrt(m) - 1) / |grad sqrt(m)| from its middle. The shares
+// that several rocks leave are multiplied. Caps (rock.h) are asked by eight rays over the disc,
+// ground and rover by one: the shadows of these two have hard edges. Walls cast no shadow.
 class SunShadows {
  public:
-  // `toward_sun_W` is a unit vector with z > 0. What is referred to has to live on.
+  // `toward_sun_W` is a unit vector with z > 0. Terrain and rover must outlive this.
   SunShadows(const terrain::Terrain& terrain, const math::Vector3& toward_sun_W,
              double sun_diameter_rad, const PlacedBody& rover);
 
@@ -42,7 +43,8 @@ class SunShadows {
     double x_m = 0.0, y_m = 0.0;          // of its centre, across the rays
     double xx = 0.0, xy = 0.0, yy = 0.0;  // M
     math::Vector3 center_W = math::Vector3::Zero();
-    // q . e of a point from the centre: negative before the rock
+    // q . e of a point is its dot product with the vector from the centre; negative where the rock
+    // lies towards the sun.
     math::Vector3 along_per_m = math::Vector3::Zero();
     double speed2 = 0.0;  // |e|^2
     bool is_cap = false;

@@ -11,10 +11,10 @@ namespace {
 
 using math::Vector3;
 
-// Rocks have pieces of a square of this side of their texture: large enough that two alike are
-// rare within an image, small enough that its pages are used again.
+// Side of the square of the rocks' texture in which their pieces begin: large enough that two rocks
+// alike are rare within an image, small enough that the pages of the texture are used again.
 constexpr double kRockPieces_m = 0.5;
-// Components of the normal below this do not see their face.
+// A face whose component of the normal is smaller has no weight.
 constexpr double kLeastComponent = 0.5;
 
 double Mottled(double albedo, double contrast, double value) {

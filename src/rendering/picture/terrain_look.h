@@ -1,4 +1,4 @@
-// Albedo and fine relief of the terrain, as a pixel sees them.
+// Albedo and fine relief of the terrain, as a pixel of a picture sees them.
 #pragma once
 
 #include <vector>
@@ -20,15 +20,15 @@ struct SurfaceLook {
 
 // The textures of soil and rocks, fixed to the ground and to each rock:
 //   albedo = mean (1 + contrast v),   normal ~ n - relief grad v,
-// v the TextureField of soil at (x, y) of W, or that of rocks in the rock's own axes: seen along
-// the axis nearest to the normal, or blended between axes where the normal has two or three
-// components above 1/2, with weights w_i = |n_i| - 1/2 over sqrt(sum w^2) that keep the variance.
-// Each rock has a piece of the texture and a mean albedo of its own, drawn from (key, kRockLook,
-// rock). Walls and the rover are plain. Soil draws from (key, kSoilTexture), rocks from (key,
-// kRockTexture).
+// where v is a TextureField. The texture of soil is taken at (x, y) of W. The texture of rocks is
+// taken in the rock's own axes, seen along the axis nearest to the normal. Where the normal has two
+// or three components above 1/2, the textures seen along their axes are blended with the weights
+// w_i = |n_i| - 1/2 over sqrt(sum w^2), which keep the variance. Each rock has a piece of the
+// texture and a mean albedo of its own, drawn from (key, kRockLook, rock). Walls and the rover are
+// plain. Soil draws from (key, kSoilTexture), rocks from (key, kRockTexture).
 //
-// For one thread at a time: it remembers what it has worked out of the textures. Another one of
-// the same key looks the same.
+// An object serves one thread at a time, as it remembers what it has worked out of the textures.
+// Objects of the same key give the same bits.
 class TerrainLook {
  public:
   TerrainLook(const terrain::Terrain& terrain, const SunParams& sun, const LookParams& look,
@@ -39,7 +39,7 @@ class TerrainLook {
   SurfaceLook At(const SurfacePoint& point, const math::Vector3& by_column_W,
                  const math::Vector3& by_row_W);
 
-  // Forgets textures where they take too much memory; changes nothing else.
+  // Forgets textures where they take too much memory. Results stay the same.
   void Trim() {
     soil_.field.Trim();
     rock_.field.Trim();

@@ -60,8 +60,8 @@ std::int64_t WholeBelow(double x) {
   return cut - (static_cast<double>(cut) > x ? 1 : 0);
 }
 
-// log2 of a positive number by its chords between powers of two: enough to fade by, and the same
-// on every machine.
+// Returns log2 of a positive number by its chords between powers of two: enough to fade by. Must
+// stay free of libm, so that images have the same bits on every machine.
 double ChordLog2(double x) {
   const auto bits = std::bit_cast<std::uint64_t>(x);
   constexpr std::uint64_t kFraction = (1ULL << 52) - 1;
@@ -102,7 +102,7 @@ Square NumbersAround(const PixelNoise& noise, std::int64_t column0, std::int64_t
   return square;
 }
 
-// D along one axis at a node, from those `stride` apart.
+// Returns D along one axis at a node, from nodes `stride` apart.
 inline float LowPass(const float* from, std::ptrdiff_t stride) {
   constexpr float kSixteenth = 1.0F / 16.0F;
   return kSixteenth *
@@ -110,7 +110,8 @@ inline float LowPass(const float* from, std::ptrdiff_t stride) {
           (from[-2 * stride] + from[2 * stride]) - (from[-3 * stride] + from[3 * stride]));
 }
 
-// D of the nodes in and around a page: of every other row, then of every other column.
+// Returns D of the nodes in and around a page: first along columns, of every other row, then along
+// rows, of every other column.
 Square ThinnedOut(Square& fine, int coarse_first, int coarse_size) {
   Square coarse(coarse_first, coarse_size);
   Square line(fine.first, fine.size);
@@ -125,8 +126,8 @@ Square ThinnedOut(Square& fine, int coarse_first, int coarse_size) {
   return coarse;
 }
 
-// U of coarse nodes, at the fine nodes first .. last - 1 of both axes; `first` is odd, and so is
-// `last`.
+// Returns U of coarse nodes, at the fine nodes first .. last - 1 of both axes. `first` must be odd
+// and `last` even.
 Square Refined(Square& coarse, int first, int last) {
   // Along one axis, from the coarse nodes on both sides of a fine one and from the next.
   const auto on_node = [](float left, float here, float right) {
@@ -226,7 +227,7 @@ const TextureField::Page& TextureField::MakePage(const Place& place) {
   return *(pages_[place.Key()] = std::move(page));
 }
 
-// Refines what the page over this one holds.
+// Fills page.coarser: refines what the page over this one, of the next coarser octave, holds.
 void TextureField::AddParent(const Page& parent, const Place& place, Page& page) {
   const int left = static_cast<int>(place.column & 1) * kPage / 2;
   const int down = static_cast<int>(place.row & 1) * kPage / 2;

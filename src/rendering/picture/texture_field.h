@@ -1,4 +1,5 @@
-// Band-limited noise over a plane, filtered to what a pixel sees of it.
+// Band-limited noise over a plane, filtered to what a pixel sees of it: the textures of soil and
+// rocks in pictures of the terrain.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,9 +20,9 @@ struct Footprint {
   Eigen::Vector2d column_m = Eigen::Vector2d::Zero();  // from one column to the next
   Eigen::Vector2d row_m = Eigen::Vector2d::Zero();
 
-  // The rectangle of the same second moments: a box of sides c and r has the moments
-  // (c c^T + r r^T) / 12, one along unit axes e, f with lengths l, w has (l^2 e e^T + w^2 f f^T)
-  // / 12.
+  // The rectangle with the same second moments. A parallelogram of sides c and r has the moments
+  // (c c^T + r r^T) / 12, a rectangle along unit axes e, f with lengths l, w has
+  // (l^2 e e^T + w^2 f f^T) / 12.
   struct Ellipse {
     Eigen::Vector2d long_axis;  // unit
     double length_m;
@@ -37,7 +38,7 @@ struct Footprint {
     const double large = 0.5 * (a + d) + root;
     // The determinant is the square of the area, in the form in which nothing cancels.
     const double area = column_m.x() * row_m.y() - column_m.y() * row_m.x();
-    // Of the two rows of M - small I the one along the larger component.
+    // The axis is one of the two rows of M - small I: the one that is larger.
     Eigen::Vector2d axis =
         half >= 0.0 ? Eigen::Vector2d(half + root, b) : Eigen::Vector2d(b, root - half);
     const double norm = axis.norm();
@@ -60,17 +61,17 @@ struct TextureSample {
 // B the cubic B-spline, N independent normal numbers by node, D a low-pass that keeps every other
 // node and U the refinement of B-splines, [1 4 6 4 1]/8 along each axis, which tells the same
 // surface on the finer lattice. What is left lies between the wavelengths 2 s and 6 s or so, so
-// that an octave means out over a pixel that is larger. D is [-1 -1 5 10 5 -1 -1]/16 along each
-// axis: U D keeps constants and cubics, so that the power of an octave falls as f^8 towards long
+// that an octave averages out over a larger pixel. D is [-1 -1 5 10 5 -1 -1]/16 along each axis: U
+// D keeps constants and cubics, so that the power of an octave falls as f^8 towards long
 // wavelengths; Cook and DeRose project exactly, with 32 coefficients.
 //
 // As U is exact, the octaves 0 to j are together one B-spline on lattice j, C_j = U C_(j-1) + a_j
-// (N - U D N): a place costs one of them, whatever the number of octaves. Nodes are worked out in
+// (N - U D N): a sample costs one spline, whatever the number of octaves. Nodes are worked out in
 // pages, where a place is first asked for, and kept.
 //
 // Numbers come from (key, purpose, octave) by node, see PixelNoise; lattices repeat after 2^16 rows
-// of nodes and 2^19 columns. For one thread at a time, as pages are filled in; another object of
-// the same key gives the same texture.
+// of nodes and 2^19 columns. An object serves one thread at a time, as pages are filled in. Objects
+// of the same key give the same bits.
 class TextureField {
  public:
   static constexpr int kMostTaps = 8;
@@ -78,16 +79,17 @@ class TextureField {
   TextureField(const TextureParams& texture, core::TrialKey key, core::Purpose purpose,
                int most_taps = kMostTaps);
 
-  // Returns the mean of the texture over a pixel's footprint around (u, v), and that of its
-  // gradient. Along its longer axis a footprint is sampled up to most_taps times; at each of these
-  // octaves fade out by the shorter axis w, in full for s >= 0.85 w and gone for s <= 0.42 w,
-  // linearly in an approximation of log2(s). Cost: 15 to 100 ns, and some ns for each new node.
+  // Returns the mean of the texture over a pixel's footprint around (u, v), and the mean of its
+  // gradient. A footprint is sampled up to most_taps times along its longer axis. At each sample
+  // octaves fade by the shorter axis w: they are there in full for s >= 0.85 w and gone for s <=
+  // 0.42 w, linearly in an approximation of log2(s) between. Cost: 15 to 100 ns, and some ns for
+  // each new node.
   TextureSample Mean(double u_m, double v_m, const Footprint& footprint);
 
-  // Returns the standard deviation of the gradient along an axis, 1/m, of the texture itself.
+  // Returns the standard deviation of the gradient of the unfiltered texture along an axis, 1/m.
   double SlopeDeviation() const;
 
-  // Forgets what it has worked out where that takes more than about 64 MB.
+  // Forgets its pages where they take more than about 64 MB.
   void Trim();
 
   int octaves() const { return static_cast<int>(amplitudes_.size()); }
@@ -120,7 +122,7 @@ class TextureField {
     std::uint64_t key = 0;
     const Page* page = nullptr;
   };
-  // C_(octave - 1) + share a_octave, at that many places.
+  // How a footprint is sampled: C_(octave - 1) + share a_octave (N - U D N), at `taps` places.
   struct Level {
     int octave;
     double share;
@@ -141,7 +143,7 @@ class TextureField {
   int most_taps_;
   std::vector<double> spacings_m_;
   std::vector<double> amplitudes_;  // of N, by octave
-  // The page of each octave that was asked for last.
+  // The page that was last asked for, of each octave.
   std::vector<Latest> latest_;
   std::unordered_map<std::uint64_t, std::unique_ptr<Page>> pages_;
 };

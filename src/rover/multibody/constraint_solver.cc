@@ -10,8 +10,8 @@ namespace {
 constexpr double kJointRecovery = 0.2;
 // Joint stops are watched from this angle before them, rad.
 constexpr double kStopWatch_rad = 0.05;
-// Contacts that free motion would bring this near within the step are solved, m: room for what the
-// other contacts change about the motion.
+// Contacts that free motion would bring this near within the step are solved, m; the distance
+// leaves room for what other contacts change about the motion.
 constexpr double kActiveGap_m = 0.005;
 // Sweeps end where no impulse, N s or N m s, has changed by more than this share of what a wheel
 // bears on average.
@@ -51,8 +51,8 @@ void ConstraintSolver::Clear() {
   sinkage_.Clear();
 }
 
-// Projected Gauss-Seidel on the velocities: every row starts from its last impulse, then the sweeps
-// go through joints, motors and contacts in a fixed order, so that equal inputs give equal bits.
+// Every row starts from its last impulse, then the sweeps go through joints, motors and contacts.
+// Records depend on this order of the rows.
 void ConstraintSolver::Solve(const Step& step, LooseRocks* loose_rocks, ContactFinder& finder,
                              Multibody& body) {
   const DofMatrix& mass_inverse = step.mass_inverse;
@@ -60,8 +60,8 @@ void ConstraintSolver::Solve(const Step& step, LooseRocks* loose_rocks, ContactF
   const DofVector free_velocity = body.Velocity();
   velocity_ = free_velocity;
   before_ = step.before;
-  // A motor that held its rate begins the step at the rate that its ramp says; a stalled one where
-  // it is.
+  // A motor that held its rate begins the step at the rate that its ramp says; a stalled motor
+  // begins at the rate that it has.
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     const Row& motor = motors_[i];
     if (motor.low < motor.impulse && motor.impulse < motor.high) {
@@ -82,7 +82,7 @@ void ConstraintSolver::Solve(const Step& step, LooseRocks* loose_rocks, ContactF
       contact.Forget();
     }
   }
-  // Braked wheels get all sweeps: what they leave open would be creep.
+  // Braked wheels get all sweeps: what sweeps leave open would let them creep.
   const bool driven = std::any_of(step.rates.to.begin(), step.rates.to.end(),
                                   [](double rate) { return rate != 0.0; });
   const double enough_Ns = driven ? kConverged * mean_load_N_ * step_s_ : 0.0;
@@ -117,8 +117,8 @@ void ConstraintSolver::Start(const DofMatrix& mass_inverse, Row& row) {
   for (int dof = 0; dof < kDof; ++dof) {
     if (row.J[dof] != 0.0) row.response += row.J[dof] * mass_inverse.col(dof);
   }
-  // d(J v + c p)/dp = J M^-1 J' + c, and e . e / m more for a rock of mass m that yields
-  // horizontally along e.
+  // d(J v + c p)/dp = J M^-1 J' + c. A rock of mass m that yields horizontally along e adds
+  // e . e / m.
   row.diagonal = row.J.dot(row.response) + row.softness;
   if (row.rock != nullptr) {
     row.diagonal += row.direction_W.head<2>().squaredNorm() / row.rock->mass_kg;
@@ -145,8 +145,8 @@ void ConstraintSolver::StartStops(const DofMatrix& mass_inverse, const Multibody
       row.high = row.impulse = 0.0;
       continue;
     }
-    // J v is the rate away from the stop. It must not use up the room within the step: J v >= -room
-    // / h; beyond the stop (room < 0) a fifth of the error is taken back.
+    // J v is the rate away from the stop. It must not use up the room within the step,
+    // J v >= -room / h; beyond the stop (room < 0) the share kJointRecovery is taken back.
     row.J[6 + joint] = angle_rad > 0.0 ? -1.0 : 1.0;
     row.target = -(room_rad > 0.0 ? 1.0 : kJointRecovery) * room_rad / step_s_;
     row.high = kUnbounded;
@@ -237,7 +237,7 @@ void ConstraintSolver::StartFriction(const DofMatrix& mass_inverse, const Part& 
   rows.friction.Set(rows.along.diagonal, rows.across.diagonal, coupling);
 }
 
-// The motor's row and the friction's, as far as one is felt in the other.
+// Finds what the motor's row and the friction rows do to each other.
 void ConstraintSolver::StartDriven(ContactRows& rows) {
   const auto wheel = static_cast<std::size_t>(rows.contact->part);
   touches_[wheel] = true;
@@ -253,7 +253,7 @@ void ConstraintSolver::StartDriven(ContactRows& rows) {
   if (rows.law.slips) rows.slip_from = {RimSpeed(rows, before_), ContactVelocity(rows, before_)};
 }
 
-// Motion resistance acts on the axle, so that the wheel has to pull it by traction.
+// Motion resistance acts on the axle, so that the wheel has to overcome it by traction.
 void ConstraintSolver::StartDrag(const DofMatrix& mass_inverse, const Part& part,
                                  const Multibody& body, ContactRows& rows) {
   rows.drag.impulse = rows.contact->drag_Ns;
@@ -270,7 +270,8 @@ void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
   contact.drag_Ns = rows.drag.impulse;
 }
 
-// By the slip at the end of the step; a wheel off the soil leaves its hole behind.
+// Wheels dig by their slip at the end of the step; a wheel that turns off the soil has no slip and
+// leaves its hole.
 void ConstraintSolver::Dig() {
   messages::PerWheel<double> slip_m_s{};
   for (std::size_t i = 0; i < contact_count_; ++i) {
@@ -313,7 +314,8 @@ double ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
   return largest_change_Ns_;
 }
 
-// b - J v - c p, plus e . u for a rock that moves with u: the row sees the motion against the rock.
+// Returns b - J v - c p, plus e . u for a rock that moves with u: the row sees the motion against
+// the rock.
 double ConstraintSolver::Residual(const Row& row) const {
   double residual = row.target - row.J.dot(velocity_) - row.softness * row.impulse;
   if (row.rock != nullptr) residual += row.direction_W.dot(row.rock->v_W_m_s);
@@ -355,8 +357,8 @@ void ConstraintSolver::FollowSlip(const Eigen::Vector2d& v_m_s, ContactRows& row
   rows.along.softness = rows.across.softness = rows.slip.softness_m_per_Ns / theta;
 }
 
-// Right side of the pair's block: what remains without its own impulses. `lack` is what its rows
-// lack to their targets but for the softness, so that b = lack + A p.
+// Returns the right side b of the block of both friction rows: what remains without the impulses p
+// of these rows. `lack` is what the rows lack to their targets, softness left out: b = lack + A p.
 std::array<double, 2> ConstraintSolver::RightSide(const ContactRows& rows,
                                                   const FrictionBlock& block,
                                                   const Eigen::Vector2d& lack) {
@@ -383,9 +385,9 @@ void ConstraintSolver::RelaxFriction(ContactRows& rows) {
   Apply(across, rows.across);
 }
 
-// The motor of a wheel and the friction at its contact, solved together. One after the other, each
-// would undo what the other did to the light wheel, and the heavy rover between them would take
-// some hundred sweeps to move.
+// Solves the motor of a wheel and the friction at its contact together. Solved one after the other,
+// each would undo what the other did to the light wheel, and the heavy rover between them would
+// take some hundred sweeps to move.
 void ConstraintSolver::RelaxDrivenFriction(const Eigen::Vector2d& lack_m_s, ContactRows& rows) {
   Row& motor = *rows.motor;
   const Eigen::Vector2d& g = rows.motor_coupling;
@@ -398,7 +400,7 @@ void ConstraintSolver::RelaxDrivenFriction(const Eigen::Vector2d& lack_m_s, Cont
       motor.impulse + hold_Ns -
       (g[0] * (p[0] - rows.along.impulse) + g[1] * (p[1] - rows.across.impulse)) / motor.diagonal;
   if (q < motor.low || q > motor.high) {
-    // It stalls: its torque is given, and friction alone decides how the wheel turns.
+    // The motor stalls: its torque is given, and friction alone decides how the wheel turns.
     q = std::clamp(q, motor.low, motor.high);
     p = rows.friction.Solve(RightSide(rows, rows.friction, lack_m_s - (q - motor.impulse) * g),
                             rows.along.softness, most_Ns);

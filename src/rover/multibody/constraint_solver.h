@@ -1,5 +1,6 @@
-// Velocity constraints of one step: differential, joint stops, motors, contacts with friction, slip
-// and motion resistance. Projected Gauss-Seidel, started from the impulses of the last step.
+// Velocity constraints of one step of RockerBogie: differential, joint stops, motors, contacts with
+// friction, slip and motion resistance. They are solved by projected Gauss-Seidel, started from the
+// impulses of the last step.
 #pragma once
 
 #include <array>
@@ -30,19 +31,18 @@ class ConstraintSolver {
   // What a step begins with.
   struct Step {
     const DofMatrix& mass_inverse;
-    const DofVector& before;  // velocities, before gravity accelerated the body
-    const MotorRates& rates;  // of the wheels
+    const DofVector& before;  // velocities before gravity accelerated the body
+    const MotorRates& rates;  // told to the wheels' motors
     double duration_s;
   };
 
   // Changes the velocities of `body`, already accelerated by gravity, so that they keep all
-  // constraints. Leaves the impulses in the contacts. Rocks yield where loose_rocks is given; null:
-  // they are fixed.
+  // constraints. Leaves the impulses in the contacts. Rocks are fixed where loose_rocks is null.
   void Solve(const Step& step, LooseRocks* loose_rocks, ContactFinder& finder, Multibody& body);
 
-  // The length of the last step.
+  // Returns the length of the last step.
   double step_s() const { return step_s_; }
-  // The mean torque of a wheel's motor over the last step.
+  // Returns the mean torque of a wheel's motor over the last step.
   double MotorTorque_Nm(std::size_t wheel) const { return motors_[wheel].impulse / step_s_; }
 
  private:
@@ -73,18 +73,17 @@ class ConstraintSolver {
     FrictionBlock friction;  // of along and across, without the softness of the slip
     SlipStep slip;           // in the last sweep
     WheelSlip slip_from;     // at the beginning of the step
-    // Of a wheel: the row of its motor, null for other parts, what a unit impulse of the motor does
-    // to the velocity of the contact, and the friction's block while the motor holds its rate.
-    Row* motor = nullptr;
+    Row* motor = nullptr;    // of the wheel; null for other parts
+    // What a unit impulse of the motor does to the velocity of the contact.
     Eigen::Vector2d motor_coupling = Eigen::Vector2d::Zero();
-    FrictionBlock driven_friction;
+    FrictionBlock driven_friction;  // `friction` while the motor holds its rate
   };
   static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   static constexpr std::size_t kStops = 4;  // rockers and bogies
 
-  // Impulses of a step of another length start this one.
+  // Scales the impulses of a step of another length, from which this step starts.
   void SetStep(double step_s, LooseRocks* loose_rocks, ContactFinder& finder);
-  // Completes a row of given J, target, softness and impulse, and applies the impulse.
+  // Completes a row whose J, target, softness and impulse are set, and applies the impulse.
   void Start(const DofMatrix& mass_inverse, Row& row);
   void StartDifferential(const DofMatrix& mass_inverse, const Multibody& body);
   void StartStops(const DofMatrix& mass_inverse, const Multibody& body);
@@ -101,22 +100,24 @@ class ConstraintSolver {
   void KeepForNextStep(const ContactRows& rows) const;
   void Dig();
 
-  // One sweep over all rows. Returns the largest change of an impulse, the measure of convergence:
-  // N s, of motors N m s.
+  // Makes one sweep over all rows. Returns the largest change of an impulse, N s or N m s of
+  // motors, by which the sweeps end.
   double Sweep(LooseRocks* loose_rocks);
   // Returns what the row's left side lacks to its target.
   double Residual(const Row& row) const;
   // Sets the row's impulse and lets the change act on rover and rock.
   void Apply(double impulse, Row& row);
-  // Gives the row the impulse that satisfies it, within its bounds, with all others as they are.
+  // Gives the row the impulse that satisfies it, within its bounds, with all other rows as they
+  // are.
   void Relax(Row& row);
   void RelaxFriction(ContactRows& rows);
   void StartDriven(ContactRows& rows);
   void RelaxDrivenFriction(const Eigen::Vector2d& lack_m_s, ContactRows& rows);
-  // Brings the slip law to the motion of the moment, with the contact's velocity over the soil.
+  // Sets the friction rows by the slip of the present motion; v_m_s: the contact's velocity over
+  // the soil.
   void FollowSlip(const Eigen::Vector2d& v_m_s, ContactRows& rows) const;
   double RimSpeed(const ContactRows& rows, const DofVector& velocity) const;
-  // Returns the velocity of the contact's point of the rover, along and across, m/s.
+  // Returns the velocity of the rover's point at the contact, along and across, m/s.
   static Eigen::Vector2d ContactVelocity(const ContactRows& rows, const DofVector& velocity);
   static std::array<double, 2> RightSide(const ContactRows& rows, const FrictionBlock& block,
                                          const Eigen::Vector2d& lack_m_s);

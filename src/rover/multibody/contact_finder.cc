@@ -85,8 +85,8 @@ void ContactFinder::GatherRocks(const Vector3& p_WRo) {
 }
 
 Contact& ContactFinder::Add(int part, int other, bool& found) {
-  // Both lists are ordered by (part, other), so one pass through the last one finds every pair
-  // again: calls have to come in that order.
+  // Calls must come in the order of (part, other), in which both lists are, so that one pass
+  // through last_ finds every pair again.
   const auto key = std::tuple(part, other);
   while (next_last_ < last_.size() &&
          std::tuple(last_[next_last_].part, last_[next_last_].other) < key) {
@@ -103,7 +103,8 @@ Contact& ContactFinder::Add(int part, int other, bool& found) {
 }
 
 void ContactFinder::SetTangents(const math::Transform& X_WB, Contact& contact) const {
-  // Across a wheel is its axle; where the normal is the axle (side of the wheel), any direction.
+  // A wheel rolls across its axle; where the normal is the axle (side of the wheel), along_W is any
+  // tangent.
   Vector3 along = X_WB.linear().col(1).cross(contact.n_W);
   if (along.squaredNorm() < 1e-4) along = Vector3::UnitZ().cross(contact.n_W);
   contact.along_W = along.normalized();
@@ -112,7 +113,7 @@ void ContactFinder::SetTangents(const math::Transform& X_WB, Contact& contact) c
 
 Vector3 ContactFinder::Support(const Part& part, const math::Transform& X_WB, const Vector3& n_W) {
   Vector3 p_W = X_WB * part.center_B;
-  // Of the parts that meet planes only wheels have an extent; corners are points.
+  // Wheels are the only parts with an extent that meet planes; corners are points.
   if (part.core != Core::kCylinder) return p_W;
   const Vector3 axle_W = X_WB.linear().col(1);
   // Sine of the angle by which the axle dips towards the plane.
@@ -135,7 +136,7 @@ void ContactFinder::MeetGround(int index, const math::Transform& X_WB) {
             X_WB);
 }
 
-// In the order of what they touch: the second place, walls, the first one.
+// Contacts are added in the order of `other`: kGroundAhead, walls, kGround.
 void ContactFinder::MeetWheelGround(int index, const math::Transform& X_WB) {
   const Part& part = parts_[static_cast<std::size_t>(index)];
   const auto support = [&](const Vector3& n_W) { return Support(part, X_WB, n_W); };
@@ -180,8 +181,8 @@ void ContactFinder::MeetWalls(int index, const math::Transform& X_WB) {
 
 bool ContactFinder::AreApart(const Part& part, const math::Transform& X_WB,
                              const SurfacePoint& surface) {
-  // The tangent plane of the rock at that point separates the two if the whole part lies beyond it:
-  // min n . (x - p) over the core, less the margin.
+  // The tangent plane of the rock at that point separates part and rock if the whole part lies
+  // beyond the plane: min n . (x - p) over the core, less the margin.
   const Vector3 n_B = X_WB.linear().transpose() * surface.normal_W;
   const double min_m =
       LeastAlong(part, n_B) + surface.normal_W.dot(X_WB.translation() - surface.point_W);

@@ -1,4 +1,5 @@
-// Finds where the rover touches, or is about to touch, the terrain.
+// Finds where the multibody touches, or is about to touch, the terrain, for the constraint solver.
+// Both fidelities number what a part touches by the constants below.
 #pragma once
 
 #include <array>
@@ -13,15 +14,16 @@
 
 namespace rockyard::rover {
 
-// What a part touches is a rock by its index >= 0, the ground, or wall i as kFirstWall - i. A wheel
-// between the flanks of a ditch touches the ground twice. Contacts are in the order of these
-// numbers, in which pairs are found again from step to step and impulses are solved for.
+// What a part touches: a rock by its index >= 0, the ground (kGround), or wall i (kFirstWall - i).
+// A wheel between the flanks of a ditch touches the ground twice; kGroundAhead is the place farther
+// ahead. Must stay: contacts of a part are in the order of these numbers, in which pairs are found
+// again from step to step and impulses are solved for.
 inline constexpr int kGround = -1;
 inline constexpr int kFirstWall = -2;
 inline constexpr int kGroundAhead = -1000;
 
-// A contact of a part with one thing. It is kept from step to step while the two stay near, so that
-// the last impulses start the next solution.
+// A contact of a part with one thing. A contact is kept from step to step while the two stay near,
+// so that its last impulses start the next solution.
 struct Contact {
   int part = 0;
   int other = kGround;
@@ -32,9 +34,8 @@ struct Contact {
   math::Vector3 along_W = math::Vector3::UnitX();  // rolling direction of a wheel, tangential
   math::Vector3 across_W = math::Vector3::UnitY();
   math::Vector3 near_W = math::Vector3::Zero();  // nearest point of the rock
-  // Of the last step: the impulses along n_W, along_W and across_W, and of the motion resistance.
-  std::array<double, 3> impulse_Ns{};
-  double drag_Ns = 0.0;
+  std::array<double, 3> impulse_Ns{};            // of the last step: along n_W, along_W, across_W
+  double drag_Ns = 0.0;                          // of the last step: of the motion resistance
 
   bool IsSoil() const { return other == kGround || other == kGroundAhead; }
   void Forget() {
@@ -48,13 +49,13 @@ class ContactFinder {
  public:
   ContactFinder(const RoverGeometryParams& params, const terrain::Terrain& terrain);
 
-  // Updates contacts() for the present poses. Ordered by part, then by other.
+  // Updates contacts() for the present poses; they are in the order of part, then of `other`.
   void Update(const Multibody& body);
   // Forgets everything, for a rover that was lifted.
   void Clear();
-  // Multiplies the impulses of all contacts, for a step of another length than the last one.
+  // Multiplies the impulses of all contacts, for a step whose length differs from the last one's.
   void ScaleImpulses(double ratio);
-  // Reads the place of a rock again.
+  // Takes the new place of a rock from the terrain.
   void OnRockMoved(int rock);
 
   std::vector<Contact>& contacts() { return contacts_; }
@@ -65,7 +66,7 @@ class ContactFinder {
  private:
   void GatherRocks(const math::Vector3& p_WRo);
   void MeetGround(int index, const math::Transform& X_WB);
-  // Walls and ground, of which a wheel may touch two places.
+  // Meets walls and ground, of which a wheel may touch two places.
   void MeetWheelGround(int index, const math::Transform& X_WB);
   void AddGround(int index, int other, const GroundTouch& touch, const math::Transform& X_WB);
   void MeetWalls(int index, const math::Transform& X_WB);
@@ -76,7 +77,7 @@ class ContactFinder {
   // Returns the point of a part that reaches farthest against n_W.
   static math::Vector3 Support(const Part& part, const math::Transform& X_WB,
                                const math::Vector3& n_W);
-  // Starts a contact from the one of the last step, if there was one; `found` says so.
+  // Adds a contact, with its state of the last step where there was one (`found`).
   Contact& Add(int part, int other, bool& found);
   void SetTangents(const math::Transform& X_WB, Contact& contact) const;
 

@@ -6,16 +6,16 @@
 namespace rockyard::rover {
 namespace {
 
-// Ends the iteration, relative to the bound.
+// Error of |p| that ends the iteration, relative to the bound.
 constexpr double kTolerance = 1e-9;
 // Never reached: Newton doubles the digits in each iteration.
 constexpr int kMaxIterations = 30;
 
-// Without the care for overflow that std::hypot pays for.
+// Returns the length of p, without the care for overflow that std::hypot pays for.
 double Length(const std::array<double, 2>& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1]); }
 
-// Loads below this are taken as this where the soil's answer is looked up, N: a wheel that has just
-// touched has none, and all of it vanishes with the load.
+// Least load at which the soil's answer is looked up, N: a wheel that has just touched has no load
+// yet. All forces are ratios to the load, so that they vanish with it.
 constexpr double kMinLoad_N = 0.1;
 
 }  // namespace
@@ -104,9 +104,8 @@ SlipStep ContactLaws::StepOfSlip(const ContactLaw& law, const SlipChange& change
   const double v_m_s = (theta * to.v_m_s + (1.0 - theta) * from.v_m_s).norm();
   // Slip speed v = |omega r| i is to come with the friction tau T_max (Janosi and Hanamoto 1961):
   //   c = v / (tau T_max h) = |omega r| (i / tau) / (T_max h).
-  // Both grow together, so c at the slip of the last sweep is found again after a few; the same
-  // ratio at the traction of the last sweep would make wheels that share a slip take turns in
-  // pulling.
+  // c at the slip of the last sweep settles after a few sweeps, as i and tau grow together. c at
+  // the traction of the last sweep would make wheels that share a slip take turns in pulling.
   const double slip = std::min(v_m_s / rim_m_s, 1.0);
   const double softness = rim_m_s * soil_.SlipPerShare(slip, law.rut, shares_) /
                           (law.rut.largest_traction_N * change.duration_s);

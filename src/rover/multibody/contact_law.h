@@ -1,4 +1,5 @@
-// What a contact resists with: spring, damper, friction, slip and motion resistance.
+// What a contact of the multibody resists with: spring, damper, friction, slip and motion
+// resistance. The constraint solver takes the laws of every contact in every step.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,10 +23,10 @@ class FrictionBlock {
   // Sets A = [a0 a01; a01 a1] and forgets s.
   void Set(double a0, double a1, double a01);
 
-  // Returns p. (A + s I) p = b holds for s = c within the bound, or for the s > c that gives
-  // |p| = most, found by Newton's method on the length of p (More and Sorensen 1983 sec. 3), which
-  // approaches s from below without overshoot. It starts from the s of the last call: one or two
-  // iterations within the sweeps of one step.
+  // Returns the p of (A + s I) p = b, where s = softness (c) if then |p| <= most, and else s > c is
+  // such that |p| = most. It finds s by Newton's method on the length of p (More and Sorensen 1983
+  // sec. 3), which approaches s from below without overshoot, and starts from the s of the last
+  // call: one or two iterations within the sweeps of one step.
   std::array<double, 2> Solve(const std::array<double, 2>& b, double softness, double most);
 
   double a0() const { return a0_; }
@@ -38,7 +39,7 @@ class FrictionBlock {
   double a0_ = 1.0;
   double a1_ = 1.0;
   double a01_ = 0.0;
-  double shift_ = 0.0;
+  double shift_ = 0.0;  // s
 };
 
 // The law of one contact in one step. Its normal force is the stiffness times the penetration
@@ -49,7 +50,7 @@ struct ContactLaw {
   double friction = 0.0;    // largest friction over load
   double drag_ratio = 0.0;  // motion resistance over load
   bool slips = false;       // a wheel on soil: friction comes with slip
-  Rut rut{};                // of such a wheel, at the load of the last step
+  Rut rut{};                // where it slips: the rut at the load of the last step
 };
 
 // Rim speed of a wheel, m/s, and the velocity of its contact over the soil, along and across, m/s.
@@ -68,7 +69,8 @@ struct SlipChange {
 // What slip does within one step: the friction impulse p answers to the slip velocity at one moment
 // of the step,
 //   theta v_1 + (1 - theta) v_0 = -c p,
-// with v_0 and v_1 at its beginning and end.
+// with v_0 and v_1 the slip velocities at the beginning and at the end of the step. Progress
+// (quasi_static/progress.h) takes the same theta.
 struct SlipStep {
   double softness_m_per_Ns = 0.0;  // c
   double theta = 1.0;
@@ -79,13 +81,13 @@ class ContactLaws {
  public:
   ContactLaws(const RoverParams& params, const terrain::SoilParams& soil);
 
-  // Returns the law of a contact whose impulses are those of a step of that length; a wheel has dug
-  // in for that slip (SlipSinkage).
+  // Returns the law of a contact whose impulses are those of a step of step_s; dug_slip: the slip
+  // that a wheel has dug in for (SlipSinkage).
   ContactLaw Of(const Part& part, const Contact& contact, double step_s,
                 double dug_slip = 0.0) const;
 
-  // Returns what the slip of a wheel on soil does in one step; `theta` is that of the last call for
-  // this step, 1 at the first.
+  // Returns what the slip of a wheel on soil does in one step. `theta` is what the last call for
+  // the same step returned, 1 at the first call.
   //
   // Traction answers to slip the faster the slower the rim turns: its time constant is
   //   T = m |omega r| (i / tau) / T_max
@@ -96,7 +98,7 @@ class ContactLaws {
   // rover that stops every 6.5 cm would lose a third of a millimetre more each time at 60 Hz.
   SlipStep StepOfSlip(const ContactLaw& law, const SlipChange& change, double theta) const;
 
-  // The damping of every contact.
+  // Returns the damping of every contact.
   double damping_Ns_m() const { return params_.damping_Ns_m; }
 
  private:

@@ -40,12 +40,14 @@ struct CompositeInertia {
   Matrix3d inertia_kg_m2 = Matrix3d::Zero();
 };
 
-// The inertia of one body about its centre of mass: R diag(I) R' with its axes as columns of R.
+// Returns the inertia of one body about its centre of mass: R diag(I) R' with the body's axes as
+// columns of R.
 CompositeInertia Single(const BodyMass& body, const Matrix3d& R_WB) {
   return {body.mass_kg, Vector3::Zero(), R_WB * body.inertia_kg_m2.asDiagonal() * R_WB.transpose()};
 }
 
-// The same for a wheel, whose moments across the axle a are equal: I_x 1 + (I_y - I_x) a a'.
+// Returns the inertia of a wheel, whose moments across the axle a are equal:
+// I_x 1 + (I_y - I_x) a a'.
 CompositeInertia SingleWheel(const BodyMass& wheel, const Vector3& axle_W) {
   const double across = wheel.inertia_kg_m2.x();
   return {wheel.mass_kg, Vector3::Zero(),
@@ -53,8 +55,9 @@ CompositeInertia SingleWheel(const BodyMass& wheel, const Vector3& axle_W) {
               (wheel.inertia_kg_m2.y() - across) * axle_W * axle_W.transpose()};
 }
 
-// Adds what is known about a point Q at d from P. With h the first moment about Q and
-// s = h + m d / 2, Huygens and Steiner's theorem reads I_P = I_Q + 2 (d . s) 1 - d s' - s d'.
+// Adds to `sum`, about P, the bodies of `part`, about a point Q at d from P. With h the first
+// moment about Q and s = h + m d / 2, Huygens and Steiner's theorem reads I_P = I_Q + 2 (d . s) 1 -
+// d s' - s d'.
 void AddAt(const Vector3& d_m, const CompositeInertia& part, CompositeInertia& sum) {
   const Vector3 s = part.moment_kg_m + 0.5 * part.mass_kg * d_m;
   const Matrix3d outer = d_m * s.transpose();
@@ -64,9 +67,10 @@ void AddAt(const Vector3& d_m, const CompositeInertia& part, CompositeInertia& s
   sum.inertia_kg_m2.diagonal().array() += 2.0 * d_m.dot(s);
 }
 
-// Fills row and column of a joint. While it alone turns at unit rate, all that hangs on it, h and I
-// about the joint, has the momentum p = a x h and the angular momentum l = I a about the joint.
-// What this is about the centre of the chassis or the axis of an ancestor is the entry there.
+// Fills row and column of a joint. While the joint alone turns at unit rate about its axis a, all
+// that hangs on it, with h and I about the joint, has the momentum p = a x h and the angular
+// momentum l = I a about the joint. The entries are p and the angular momentum about the centre of
+// the chassis, and for each ancestor the angular momentum about the ancestor's axis.
 void FillJoint(const Multibody& body, int joint, const CompositeInertia& carried, DofMatrix& mass) {
   const Vector3 axis = Axis_W(body, joint);
   const Vector3 p = axis.cross(carried.moment_kg_m);
@@ -108,8 +112,9 @@ struct FreeJoints {
 // wheel's axle a, so that its spin is
 //   s = -a . w - (a . y) (rocker rate + bogie rate),
 // w the chassis' rate, y the axis of the arms; the bogie's rate counts where the wheel hangs on it.
-// Its moment of inertia I about the axle then drops out of what chassis and arms resist with, A,
-// their coupling B and H. Free arms move at -H^-1 B' v, and the chassis is left with A - B H^-1 B'.
+// The wheel's moment of inertia I about the axle then drops out of the matrices of the chassis, A,
+// of the arms, H, and of their coupling, B. Free arms move at -H^-1 B' v, and the chassis is left
+// with A - B H^-1 B'.
 void FreeSide(const Multibody& body, std::size_t index, double spin_kg_m2, const DofMatrix& mass,
               FreeJoints& joints, Matrix6& chassis) {
   const SideJoints& side = kSides[index];
@@ -138,8 +143,8 @@ void FreeSide(const Multibody& body, std::size_t index, double spin_kg_m2, const
   }
 }
 
-// The inverse of a symmetric positive definite matrix of 3 x 3 blocks, by the last block's Schur
-// complement.
+// Returns the inverse of a symmetric positive definite matrix of 3 x 3 blocks, by the last block's
+// Schur complement.
 Matrix6 InverseOfBlocks(const Matrix6& m) {
   const Matrix3d last = m.bottomRightCorner<3, 3>().inverse();
   const Matrix3d follows = last * m.bottomLeftCorner<3, 3>();
@@ -156,7 +161,7 @@ Matrix6 InverseOfBlocks(const Matrix6& m) {
 }  // namespace
 
 JointSpaceInertia::JointSpaceInertia(const RoverParams& params) : masses_(MakeRoverMasses(params)) {
-  // What FillMass takes for granted.
+  // MakeRoverMasses promises what FillMass and FillInverse take for granted.
   EXPECT(masses_.rocker.com_B.isZero() && masses_.bogie.com_B.isZero() &&
          masses_.wheel.com_B.isZero());
   EXPECT(masses_.wheel.inertia_kg_m2.x() == masses_.wheel.inertia_kg_m2.z());
@@ -189,7 +194,7 @@ void JointSpaceInertia::FillMass(const Multibody& body) {
   FillChassis(rover, mass_);
 }
 
-// With S what the chassis resists with while all joints are free,
+// With S the matrix of the chassis while all joints are free (FreeSide),
 //   M^-1 = [1; T] S^-1 [1, T'] + [0, 0; 0, U N U' for either side, 1/I for the spin of a wheel].
 void JointSpaceInertia::FillInverse(const Multibody& body) {
   const double spin_kg_m2 = masses_.wheel.inertia_kg_m2.y();

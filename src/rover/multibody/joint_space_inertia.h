@@ -1,4 +1,5 @@
-// The joint-space mass matrix of the articulated body and its inverse.
+// The joint-space mass matrix of the articulated body and its inverse, by which RockerBogie lets
+// the constraint solver turn impulses into velocities.
 #pragma once
 
 #include "rover/multibody/multibody.h"

@@ -58,9 +58,9 @@ void LooseRocks::Hold() {
 }
 
 void LooseRocks::Hold(LooseRock& rock) const {
-  // hold_Ns is already in the velocity, so the impulse that stops the rock is hold - m u. The soil
-  // gives at most h F along it, F for a rock that slides the other way: Coulomb's law, in one
-  // projection.
+  // hold_Ns is already in the velocity, so the impulse that stops the rock is hold - m u. Along
+  // this impulse the soil gives at most h F, where F holds a rock that is pushed the other way:
+  // Coulomb's law, in one projection.
   const Vector3 wanted_Ns = rock.hold_Ns - rock.mass_kg * rock.v_W_m_s;
   const auto& shape = terrain_.rocks()[static_cast<std::size_t>(rock.index)];
   // The soil pushes along wanted_Ns, so the rock is pushed the other way; the load is that of this

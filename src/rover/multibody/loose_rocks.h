@@ -1,4 +1,5 @@
-// Rocks that slide when the rover pushes them harder than the soil holds them.
+// Rocks that slide when the rover pushes them harder than the soil holds them: the part of the
+// multibody's constraint solver that knows rocks as bodies (terrain.rocks.mobility movable).
 #pragma once
 
 #include <vector>
@@ -10,7 +11,7 @@
 namespace rockyard::rover {
 
 // A rock that the rover touches, or that still slides: a mass that translates horizontally under
-// the contacts' impulses and the soil's, which is bounded by terrain::HoldingForce.
+// the impulses of contacts and soil. The soil's is bounded by terrain::HoldingForce.
 struct LooseRock {
   int index = 0;
   double mass_kg = 0.0;
@@ -24,8 +25,8 @@ struct LooseRock {
   void PushBack(const math::Vector3& impulse_Ns);
 };
 
-// The part of the constraint solver that knows rocks as bodies. A step: Start, then in every sweep
-// the contacts (which call PushBack) and Hold, then Move.
+// The loose rocks of one rover. A step calls Start, then in every sweep the contacts (which call
+// PushBack) and Hold, then Move.
 class LooseRocks {
  public:
   // The terrain must outlive this; Move moves its rocks. Draws no random numbers.
@@ -34,7 +35,7 @@ class LooseRocks {
 
   // Forgets velocities and impulses.
   void Clear();
-  // The next steps have another length.
+  // Sets the length of the next steps.
   void SetStep(double step_s);
   // Takes up the rocks of the active contacts, and keeps those that still slide.
   void Start(const std::vector<Contact>& contacts);
@@ -42,7 +43,7 @@ class LooseRocks {
   // valid until the next Start.
   LooseRock* Find(int index);
 
-  // Lets the soil take, of every rock, as much of its motion as the holding force can in one step.
+  // Lets the soil take from every rock as much motion as the holding force can take in one step.
   void Hold();
   // Moves the rocks by one step of their velocities; `finder` learns where they are.
   void Move(ContactFinder& finder);

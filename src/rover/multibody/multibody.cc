@@ -54,8 +54,8 @@ void Multibody::BuildLinks(const RoverParams& params) {
   const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
   const RoverMasses masses = MakeRoverMasses(params);
   std::array<Vector3, kJoints> pivot_R;
-  // A link hangs on its parent by a revolute joint about +y at its own frame's origin; Bullet asks
-  // for the vector from the parent's centre of mass, which is the joint of all parents but the
+  // A link hangs on its parent by a revolute joint about +y at its own frame's origin. Bullet asks
+  // for the vector from the parent's centre of mass, which is at the parent's joint but for the
   // chassis.
   const auto add = [&](int joint, int parent, const BodyMass& body, const Vector3& p_R) {
     const Vector3 from = parent == kChassis ? p_RCom_ : pivot_R[static_cast<std::size_t>(parent)];
@@ -100,8 +100,8 @@ void Multibody::StopMotion() {
 
 void Multibody::SetSteer(std::size_t wheel, double angle_rad) {
   btMultibodyLink& link = bullet_->body.getLink(kFirstWheel + static_cast<int>(wheel));
-  // Bullet stores the rotation from parent to link, the inverse of that which turns the axle by
-  // +angle.
+  // Bullet stores the rotation from parent to link, the inverse of the rotation that turns the axle
+  // by +angle.
   link.m_zeroRotParentToThis = btQuaternion(btVector3(0, 0, 1), -angle_rad);
   link.updateCacheMultiDof();
   moved_ = true;

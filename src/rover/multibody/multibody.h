@@ -1,5 +1,6 @@
-// The rover's articulated body: chassis, two rockers, two bogies, six wheels. Dynamics by Bullet's
-// btMultiBody (Featherstone's articulated-body algorithm), double precision.
+// The rover's articulated body: chassis, two rockers, two bogies, six wheels. Its dynamics are
+// those of Bullet's btMultiBody (Featherstone's articulated-body algorithm), in double precision.
+// RockerBogie moves it; both fidelities, parts and links number bodies by the constants below.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,9 +12,9 @@
 
 namespace rockyard::rover {
 
-// The joints are all revolute about the lateral axis, in this order: parents before what they
-// carry, left before right. Both fidelities number bodies so. A body has the number of the joint
-// that carries it; the chassis is kChassis.
+// The joints, all revolute about the lateral axis. Must stay: parents come before what they carry,
+// left before right, rockers, bogies and then wheels. A body has the number of the joint that
+// carries it; the chassis is kChassis.
 inline constexpr int kChassis = -1;
 inline constexpr int kLeftRocker = 0;
 inline constexpr int kRightRocker = 1;
@@ -23,8 +24,9 @@ inline constexpr int kFirstWheel = 4;  // wheels in the order of messages::Wheel
 inline constexpr int kJoints = 10;
 inline constexpr int kDof = 6 + kJoints;
 
-// Generalized velocities are the angular, then the linear velocity of the chassis' centre of mass
-// in W, then joint rates, positive about +y (a wheel rolls forward).
+// Generalized velocities, in Bullet's order: the angular velocity of the chassis and the linear
+// velocity of its centre of mass, in W, then joint rates, positive about +y (a wheel rolls
+// forward).
 using DofVector = Eigen::Matrix<double, kDof, 1>;
 using DofMatrix = Eigen::Matrix<double, kDof, kDof>;
 
@@ -36,13 +38,14 @@ class Multibody {
   Multibody(const Multibody&) = delete;
   Multibody& operator=(const Multibody&) = delete;
 
-  // Sets the pose, all joints to zero and all velocities to zero.
+  // Sets the pose, and all joint angles and velocities to zero.
   void Reset(const math::Transform& X_WR);
   void StopMotion();
-  // Turns the axle of a wheel about the vertical through its centre; takes no time and no torque.
+  // Turns the axle of a wheel about the z axis of its carrier through the wheel's centre, at once
+  // and without torque.
   void SetSteer(std::size_t wheel, double angle_rad);
 
-  // Refreshes what the queries below return from the joint angles and the chassis pose.
+  // Brings what the queries below return up to date with the joint angles and the chassis pose.
   void UpdatePoses();
   const math::Transform& X_WR() const { return X_WR_; }
   // Returns the frame of a body, with indices from kChassis: origin at its joint (chassis: X_WR),
@@ -61,8 +64,8 @@ class Multibody {
   // Moves the positions by one step.
   void Move(double step_s);
 
-  // Fills the row of the Jacobian for the velocity, along unit vector n, of the point p fixed to a
-  // body.
+  // Fills a row of the Jacobian: J with v = J velocities for the velocity v, along the unit vector
+  // n, of the point p fixed to a body.
   void FillJacobian(int body, const math::Vector3& p_W, const math::Vector3& n_W,
                     DofVector& row) const;
 

@@ -27,11 +27,12 @@ constexpr double kSettleTime_s = 5.0;
 // Spacing of the points at which Place looks for what lies beneath, m.
 constexpr double kProbe_m = 0.03;
 
-// Highest rise of the terrain above the plane through p with normal n, over a rectangle in R.
+// A rectangle in R, and how high what stands on it is above R's x-y plane.
 struct Footprint {
   double x_m, y_m, half_length_m, half_width_m, clearance_m;
 };
 
+// Returns by how much the terrain rises above the clearance over R's x-y plane, 0 at least.
 double RiseBelow(const Footprint& area, const math::Transform& X_WR,
                  const terrain::Terrain& terrain) {
   const Vector3 up = X_WR.linear().col(2);
@@ -74,7 +75,8 @@ math::Transform RockerBogie::LiftedPose(const math::Pose2& X_WR) const {
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 up = ground.Normal(X_WR.x_m, X_WR.y_m);
   const Vector3 heading(std::cos(X_WR.heading_rad), std::sin(X_WR.heading_rad), 0.0);
-  // Lies in the plane, forward . up = 0, and keeps its heading as seen from above.
+  // `forward` lies in the ground's tangent plane, forward . up = 0, and keeps its heading as seen
+  // from above.
   Vector3 forward = heading - heading.dot(up) / up.z() * Vector3::UnitZ();
   forward.normalize();
   math::Transform X = math::Transform::Identity();
@@ -114,8 +116,8 @@ void RockerBogie::Place(const math::Pose2& X_WR) {
   UpdateState();
 }
 
-// Wheels braked, the rover sinks onto its contacts; velocities are damped from step to step, which
-// leaves the loads as they are at rest.
+// The rover sinks onto its contacts with braked wheels; velocities are damped from step to step,
+// which leaves the loads as they are at rest.
 void RockerBogie::Settle() {
   const messages::PerWheel<double> braked{};
   const int steps = static_cast<int>(kSettleTime_s / params_.physics.step_s);
@@ -157,7 +159,7 @@ int RockerBogie::Substeps(const messages::PerWheel<double>& commanded_rad_s) {
   const double speed_m_s = params_.drive.speed_m_s * params_.physics.time_scale;
   const double gentle_m_s2 = kGentle * params_.physics.gravity_m_s2;
   if (speed_m_s <= gentle_m_s2 * params_.drive.ramp_s) return 1;
-  // Where wheels slip much, the body takes a few times as long as a gentle ramp would to come to
+  // Where wheels slip much, the body takes this many times as long as a gentle ramp to come to
   // their speed.
   constexpr double kLongest = 3.0;
   if (commanded_rad_s != commanded_rad_s_) {
@@ -170,8 +172,8 @@ int RockerBogie::Substeps(const messages::PerWheel<double>& commanded_rad_s) {
   return kSubsteps;
 }
 
-// v* = v + h M^-1 f, impulses of all constraints on v*, positions with the new v (semi-implicit
-// Euler), for one part of a step.
+// Advances one part of a step (semi-implicit Euler): v* = v + h M^-1 f, impulses of all constraints
+// on v*, positions with the new v.
 void RockerBogie::Advance(const messages::PerWheel<double>& commanded_rad_s, int parts) {
   const double h = params_.physics.step_s / parts;
   MotorRates rates = motors_.Advance(commanded_rad_s, h);

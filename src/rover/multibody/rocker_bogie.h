@@ -1,5 +1,5 @@
-// The rocker-bogie rover: Bullet's articulated body under rockyard's contacts and constraints. The
-// default fidelity, against which the quasi-static one is held.
+// The rocker-bogie rover: Bullet's articulated body under rockyard's contacts and constraints. It
+// is the default fidelity, made by MakeRover, against which the quasi-static rover is held.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ namespace rockyard::rover {
 // cost.
 class RockerBogie final : public Rover {
  public:
-  // The first puts the rover on fixed rocks, the second on rocks that it can push.
+  // Make a rover on fixed rocks, and a rover on rocks that it can push.
   RockerBogie(const RoverParams& params, const terrain::Terrain& terrain);
   RockerBogie(const RoverParams& params, const terrain::RockHoldingParams& holding,
               terrain::Terrain& terrain);
@@ -34,7 +34,7 @@ class RockerBogie final : public Rover {
  private:
   math::Transform LiftedPose(const math::Pose2& X_WR) const;
   void SetSteer(std::size_t wheel, double angle_rad);
-  // How many parts the next step is made in.
+  // Returns in how many parts the next step is made.
   int Substeps(const messages::PerWheel<double>& commanded_rad_s);
   void Advance(const messages::PerWheel<double>& commanded_rad_s, int parts);
   void Settle();

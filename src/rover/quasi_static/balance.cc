@@ -10,35 +10,36 @@ using math::Vector3;
 
 // Speed at which motion resistance has reached 0.7 of itself, in shares of the rim speed.
 constexpr double kResistanceCreep = 0.003;
-// A wheel that stands, or turns slowly, while others turn is judged by this share of the fastest
-// rim.
+// The slip of a wheel that stands, or turns slowly, while others turn is measured in shares of this
+// share of the fastest rim.
 constexpr double kMinReference = 0.05;
-// Where all stand, by this share of the top speed: friction then lets them creep by 24 um/s at
-// 0.15 m/s, which no balance at rest lasts long enough to show.
+// Where all wheels stand, slip is measured in shares of this share of the top speed: friction then
+// lets them creep by 24 um/s at 0.15 m/s, which no balance at rest lasts long enough to show.
 constexpr double kStandingReference = 0.08;
-// The last change of the rates, over the rover's speed. Newton's method leaves far less.
+// Largest last change of the rates, over the top speed. The error that it leaves is far smaller.
 constexpr double kSettledChange = 1e-2;
 // Force that a rover at rest may be left with, over its weight.
 constexpr double kBalanced = 0.01;
-// Changes of the rates, over the rim speed, below which tractions are taken along their tangent;
-// above it, force over speed, which overshoots nothing.
+// Change of the rates, over the top speed, below which tractions are taken along their tangent; at
+// larger changes they are taken along their chord (force over speed), which does not overshoot.
 constexpr double kTangentRange = 0.3;
-// A step is cut where the slope at its end is more than this share of that at its start, turned.
+// A step of Newton's method is cut where the slope at its end has the other sign and more than this
+// share of the size of the slope at its start.
 constexpr double kOvershoot = 0.3;
 constexpr int kMaxCuts = 6;
-// Change of a load, over the mean wheel load, at which tractions follow it once more; and the
-// longest step by which they do.
+// Change of a load, over the mean wheel load, from which on its traction follows it; and the
+// largest step by which it follows, over the same.
 constexpr double kLoadTolerance = 0.05;
 constexpr double kLoadStep = 0.5;
-// Of the wheel radius, for arms of contacts at the axle.
+// Least arm of a contact about the axle, over the wheel radius.
 constexpr double kLeastArm = 1e-6;
-// Stands for no motion at all.
+// Damping of a coordinate that does not move.
 constexpr double kHeld = 1e12;
 // A wheel that has dug in for a slip this near to its own has done so: less than a hundredth of the
 // sinkage is left.
 constexpr double kDugIn = 2e-3;
 
-// The rates that move one side: the six of the chassis, the rocker, and that side's bogie.
+// Returns the rates that move one side: the six of the chassis, the rocker, and that side's bogie.
 SideVector OfSide(const LinkageVector& rates, std::size_t side) {
   SideVector result;
   result << rates.head<7>(), rates[kFirstBogieDof + static_cast<int>(side)];
@@ -188,9 +189,9 @@ void QuasiStaticBalance::AcrossTheNormal(double along_m_s, double across_m_s, Ro
   row.k_bb = traction.per_speed + bend * across_m_s * across_m_s;
 }
 
-// The rim falls back until the ground asks for the stall force S along it. Its slip then is large
-// over what is left of its own speed, so that soil, too, answers with all of its traction T, and
-// what S leaves of T acts across the wheel, smooth as on rock:
+// The rim falls back until the ground asks for the stall force S along it. The slip is then large
+// against what is left of the rim's speed, so that soil, too, answers with all of its traction T,
+// and what S leaves of T acts across the wheel, smooth as on rock:
 //
 //   F_across = sqrt(T^2 - S^2) b / sqrt(b^2 + v_c^2),  a' = S sqrt(b^2 + v_c^2) / sqrt(T^2 - S^2).
 void QuasiStaticBalance::GiveWay(double along_m_s, double across_m_s, Row& row) const {
@@ -213,13 +214,13 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
   contact.depth_m = -row.gap_m - step_s_ * row.normal.dot(w);
   contact.load_N = row.stiffness_N_m * (contact.depth_m - row.rest_m);
   contact.sliding_speed_m_s = 0.0;
-  // An open contact has no force. In the first evaluation one that bore load before keeps its
+  // An open contact has no force. In the first evaluation a contact that bore load before keeps its
   // spring all the same: a far-off start would else open contacts that the solution has closed.
   if (contact.load_N <= 0.0 && !(first_ && row.loaded)) {
     contact.load_N = 0.0;
     return;
   }
-  // Loads of the first evaluation are those of rates that are only guessed.
+  // Tractions do not follow the loads of the first evaluation, whose rates are only guessed.
   if (contact.load_N > 0.0 && !first_) FollowLoad(contact, row);
   row.acts = true;
   if (row.max_N == 0.0) {
@@ -240,7 +241,8 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
   if (contact.IsSoil()) AddResistance(w, row);
 }
 
-// Against the axle's motion along the wheel: the wheel has to pull it by traction.
+// Adds the motion resistance, against the axle's motion along the wheel: the wheel has to overcome
+// it by traction.
 void QuasiStaticBalance::AddResistance(const SideVector& rates, Row& row) {
   const double v_m_s = row.axle.dot(rates);
   const double creep_m_s = kResistanceCreep * row.reference_m_s;
@@ -251,8 +253,8 @@ void QuasiStaticBalance::AddResistance(const SideVector& rates, Row& row) {
   row.k_axle = per_speed * creep_m_s * creep_m_s / root2;
 }
 
-// Minus the derivative of the contact's force by the rates, at the last evaluation: h k n n' across
-// the spring, and K_t in the tangent plane.
+// Adds minus the derivative of the contact's force by the rates, at the last evaluation: h k n n'
+// along the normal, and K_aa, K_ab, K_bb in the tangent plane.
 void QuasiStaticBalance::AddStiffness(const RestingContact& contact, const Row& row) {
   if (!row.acts) return;
   const double k_n = step_s_ * row.stiffness_N_m;
@@ -290,13 +292,14 @@ void QuasiStaticBalance::Evaluate(const LinkageVector& rates,
   AddStops(rates);
 }
 
-// The linear velocity counts as it is, the six angular rates by the rim speed they would cause.
+// The linear velocity counts as it is, each of the six angular rates by the speed that it would
+// give a wheel's rim.
 bool QuasiStaticBalance::IsSmall(const LinkageVector& change, double speed_m_s) const {
   return change.head<3>().squaredNorm() < speed_m_s * speed_m_s &&
          change.tail<6>().cwiseAbs().maxCoeff() * wheel_radius_m_ < speed_m_s;
 }
 
-// Rates of a rover at rest are so small that no change of theirs says whether forces balance.
+// Rates of a rover at rest are so small that their change does not say whether forces balance.
 bool QuasiStaticBalance::IsBalanced() const {
   return equations_.force().head<3>().norm() < kBalanced * messages::kWheelCount * mean_load_N_;
 }
@@ -311,7 +314,7 @@ void QuasiStaticBalance::FollowLoad(RestingContact& contact, Row& row) {
   if (std::abs(change_N) > max_N) traction_lags_ = true;
 }
 
-// A last small change moves the loads along the springs; the tractions stay.
+// Lets a last small change of the rates move the loads along the springs; the tractions stay.
 void QuasiStaticBalance::Finish(const LinkageVector& change,
                                 std::vector<RestingContact>& contacts) const {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -411,7 +414,8 @@ messages::PerWheel<double> QuasiStaticBalance::TurnShares() const {
   return shares;
 }
 
-// A motor that gives way turns its wheel slower. Wheels off the soil have none.
+// The slip of a wheel whose motor gives way is that over its slower rim. Wheels off the soil have
+// no slip.
 messages::PerWheel<double> QuasiStaticBalance::SoilSlips() const {
   messages::PerWheel<double> slips{};
   for (const Row& row : rows_) {

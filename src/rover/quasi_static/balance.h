@@ -1,4 +1,5 @@
-// Balance of forces of a rover that moves without inertia.
+// Balance of forces of a rover that moves without inertia; QuasiStaticRover solves one for each
+// stretch of its way, and while it settles and stands.
 #pragma once
 
 #include <array>
@@ -13,8 +14,8 @@
 
 namespace rockyard::rover {
 
-// Which coordinates move: all, or only those that settle a rover held by hand at its place, on
-// wheels without traction.
+// Which coordinates move. kSettling: only those that settle a rover which is held by hand at its
+// place, on wheels without traction.
 enum class Freedom { kAll, kSettling };
 
 // Finds the rates w of the linkage at which all generalized forces balance at the end of a step h:
@@ -23,29 +24,30 @@ enum class Freedom { kAll, kSettling };
 //   N_c = max(0, k_c (-gap_c - h n_c . J_c w - rest_c)),
 //   F_c = T_c(N_c) share(|s_c| / |omega r|) s_c / |s_c|,   s_c = omega r a_c - (J_c w)_tangential.
 //
-// So every contact is a spring along its normal at its place at the end of the step (wheels on
-// soil: the sinkage curve's tangent) and, across it, a traction along its slip velocity: Janosi and
-// Hanamoto's share on soil, see wheel_soil.h, and Coulomb's law on rock, reached at slips
-// beyond kRockCreep. All that lets a rover climb, slip, slide sideways, get blocked, lift on its
-// belly or jam follows from this one balance; nothing tests for it. With T_c fixed, w minimizes a
-// convex function (power of gravity, springs and dissipation; compare Pang and Tedrake 2021), and
-// Newton's method with cuts of the step finds it; T_c follows N_c from iteration to iteration.
+// So every contact c is a spring along its normal n_c at its place at the end of the step (for a
+// wheel on soil the spring is the tangent of the sinkage curve) and a traction along its slip
+// velocity s_c, across the normal: Janosi and Hanamoto's share on soil (wheel_soil.h), and on rock
+// Coulomb's law, smooth over slips of about kRockCreep (progress.h). All that lets a rover climb,
+// slip, slide sideways, get blocked, lift on its belly or jam follows from this one balance; no
+// rule tests for it. With T_c fixed, w minimizes a convex function (power of gravity, springs and
+// dissipation; compare Pang and Tedrake 2021), which Newton's method with cuts of the step finds;
+// T_c follows N_c from iteration to iteration.
 //
-// Where a motor's stall force S is less than F_c . a_c, its omega falls until F_c . a_c = S; what S
-// leaves of T_c acts across the wheel.
+// Where a motor's stall force S is less than F_c . a_c, the rate omega of its wheel falls until
+// F_c . a_c = S; what S leaves of T_c acts across the wheel.
 //
-// D is 0.03 % of what weight and speed suggest: it says how fast a rover falls that nothing holds.
+// D is 0.03 % of weight over speed: it says how fast a rover falls that nothing holds.
 class QuasiStaticBalance {
  public:
-  // The soil is that under all wheels; its table of answers is made here, up to the rover's weight.
+  // `soil` is under all wheels; the table of its answers is made here, up to the rover's weight.
   QuasiStaticBalance(const RoverParams& params, const terrain::SoilParams& soil);
 
   // What is asked of the rover in one step.
   struct Drive {
     messages::PerWheel<double> rate_rad_s{};
     double step_s = 0.0;
-    // The linkage and its contacts are given as they are after this time at the rates that the
-    // solution starts from: half a step, so that directions are those midway.
+    // Linkage and contacts are given as they are this long after the beginning of the step, at the
+    // rates that the solution starts from: half a step, so that directions are those midway, or 0.
     double lead_s = 0.0;
     Freedom freedom = Freedom::kAll;
   };
@@ -59,35 +61,35 @@ class QuasiStaticBalance {
 
   static constexpr int kMaxIterations = 20;
 
-  // Returns what the wheels do in the last solution, whose rates are given. The inertia is left to
-  // the caller.
+  // Returns what the wheels do in the last solution, whose rates are given. The caller sets the
+  // inertia.
   SteadyDrive Steady(const LinkageVector& rates) const;
 
   // Returns the share of its commanded rate at which each wheel turns in the last solution: 1 but
   // for a motor that gives way because the ground holds more than its stall torque. Such a rim
-  // moves along with the ground, not beyond rest.
+  // falls back, no further than to rest.
   messages::PerWheel<double> TurnShares() const;
 
-  // Lets the wheels turn by these ways of their rims, at the slips of the last solution: those on
+  // Lets the wheels turn by these ways of their rims, at the slips of the last solution: wheels on
   // soil dig in, or come out again (SlipSinkage), which the next solution sees.
   void Dig(const messages::PerWheel<double>& rim_way_m);
-  // True where the rover has dug in for the slips of the last solution, as always without slip
-  // sinkage: the next solution of the same drive on the same ground is the same.
+  // Returns whether the wheels have dug in for the slips of the last solution, as always without
+  // slip sinkage: the next solution of the same drive on the same ground is then the same.
   bool HasDugIn() const;
-  // The rover stands elsewhere.
+  // Puts all wheels on fresh soil, for a rover that stands elsewhere.
   void ForgetHoles() { sinkage_.Clear(); }
 
-  // The motor's torque about the axle in the last solution, positive where it drives forward.
+  // Returns a motor's torque about the axle in the last solution, positive where it drives forward.
   double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
 
  private:
   // A contact as the iterations see it: directions in the space of the rates.
   struct Row {
     SideVector normal, along, across;
-    SideVector axle;  // wheel on soil: along, at the axle, where the motion resistance acts
+    SideVector axle;  // wheel on soil: `along` at the axle, where the motion resistance acts
     std::size_t side = 0;
     std::size_t wheel = 0;  // where the contact is a wheel's
-    bool loaded = false;    // before
+    bool loaded = false;    // whether the contact bore load in the last balance
     bool soil = false;      // a wheel on soil
     double stiffness_N_m = 0.0;
     double gap_m = 0.0;          // at the beginning of the step
@@ -96,8 +98,8 @@ class QuasiStaticBalance {
     double arm_m = 0.0;          // motor torque over force along
     double stall_N = 0.0;        // force along at the stall torque
     double reference_m_s = 0.0;  // slip is measured in shares of this
-    // At the load that the traction is taken from.
-    double max_N = 0.0;
+    // These are at the load that the traction is taken from.
+    double max_N = 0.0;            // largest traction T_c
     bool motor_bound = false;      // the ground can hold more than the motor
     double shear_ratio = 0.0;      // 0: Coulomb
     double u_per_speed_s_m = 0.0;  // of the slip speed, where the shear ratio is not 0
@@ -112,6 +114,7 @@ class QuasiStaticBalance {
     double k_aa = 0.0, k_ab = 0.0, k_bb = 0.0;
     double k_axle = 0.0;
   };
+  // Traction of a row at a slip speed.
   struct Traction {
     double per_speed;  // force over slip speed
     double slope;      // derivative of force by slip speed
@@ -125,11 +128,11 @@ class QuasiStaticBalance {
   void SetTraction(const RestingContact& contact, Row& row) const;
   Traction TractionOf(const Row& row, double speed_m_s) const;
 
-  // Forces at the given rates and their derivatives.
+  // Evaluates all forces at the given rates, and their derivatives.
   void Evaluate(const LinkageVector& rates, std::vector<RestingContact>& contacts);
   void AddForces(const SideVector& rates, RestingContact& contact, Row& row);
-  // Sets slip, forces and stiffness of a row whose rim slips at that velocity: with the rim as fast
-  // as told, and where the motor cannot hold that.
+  // Set slip, forces and stiffness of a row whose rim slips at that velocity: with the rim as fast
+  // as told (AcrossTheNormal), and where the motor cannot hold that rate (GiveWay).
   void AcrossTheNormal(double along_m_s, double across_m_s, Row& row) const;
   void GiveWay(double along_m_s, double across_m_s, Row& row) const;
   void FollowLoad(RestingContact& contact, Row& row);
@@ -159,14 +162,14 @@ class QuasiStaticBalance {
   // These are of the balance at hand.
   Posture posture_;
   double step_s_ = 0.0;
-  double rim_speed_m_s_ = 0.0;  // largest
+  double rim_speed_m_s_ = 0.0;  // of the fastest rim
   bool rims_turn_ = false;
   LinkageVector gravity_;
   LinkageVector damping_;
   std::vector<Row> rows_;
-  bool first_ = false;  // evaluation: contacts that bore load before count as closed
-  bool tangent_ = false;
-  bool traction_lags_ = false;  // behind a load, in the last evaluation
+  bool first_ = false;    // in the first evaluation: contacts that bore load before count as closed
+  bool tangent_ = false;  // whether tractions are taken along their tangent, not along their chord
+  bool traction_lags_ = false;  // whether a traction lagged behind its load in the last evaluation
   LinkageEquations equations_;
   messages::PerWheel<double> torque_Nm_{};
 };

@@ -16,7 +16,7 @@ constexpr double kRegatherStep_m = 0.25;
 constexpr int kMostSweeps = 20;
 constexpr double kResting_m = 1e-4;
 
-// Height of the lowest point of a part that rocks can touch.
+// Returns the height of the lowest point of a part that rocks can touch.
 double LowestPoint(const Part& part, const Linkage::Frame& frame) {
   const auto down = frame.R_WB.row(2);
   if (part.core == Core::kBox) {
@@ -27,7 +27,7 @@ double LowestPoint(const Part& part, const Linkage::Frame& frame) {
   return frame.p_WB.z() + std::min(a_m, b_m) - part.margin_m;
 }
 
-// How far a part extends from its centre along n.
+// Returns how far a part extends from its centre along n.
 double Extent(const Part& part, const Linkage::Frame& frame, const Vector3& n_W) {
   const Vector3 n_B = frame.R_WB.transpose() * n_W;
   const double core_m = part.core == Core::kBox ? n_B.cwiseAbs().dot(part.b_B)
@@ -35,9 +35,9 @@ double Extent(const Part& part, const Linkage::Frame& frame, const Vector3& n_W)
   return core_m + part.margin_m;
 }
 
-// No more than the gap between a part and a rock: that along one direction.
-// f(n) = n . (c_part - c_rock) - D(n) - extent of the part along n is no more than the gap
-// for any unit n: a cheap way out before the projections.
+// Returns a lower bound of the gap between a part and a rock, a cheap way out before the
+// projections: f(n) = n . (c_part - c_rock) - D(n) - extent of the part along n is no more than the
+// gap for any unit n.
 double Separation(const Part& part, const Linkage::Frame& frame, const Vector3& center_W,
                   const RockSupport& rock) {
   const Vector3 n_W = rock.GuessNormal(center_W);
@@ -62,7 +62,7 @@ QuasiStaticContacts::QuasiStaticContacts(const RoverGeometryParams& params,
     placed_parts_.push_back({i});
     BodyParts& body = bodies_.back();
     body.last = placed_parts_.size();
-    // About the first part of a body, a ball that holds all of them.
+    // The ball is about the centre of the body's first part, and holds all of its parts.
     body.radius_m =
         std::max(body.radius_m, (part.center_B - body.center_B).norm() + part.bounding_radius_m);
   }
@@ -73,8 +73,8 @@ void QuasiStaticContacts::Clear() {
   gathered_ = false;
 }
 
-// Rocks near the rover, kept while it stays within kRegatherStep_m: the radius has room for that
-// way twice.
+// Lists the rocks near the rover, for as long as it stays within kRegatherStep_m of here: the
+// radius has room for that way twice.
 void QuasiStaticContacts::Gather(const Vector3& p_WR) {
   if (gathered_ &&
       (p_WR - gathered_at_W_).head<2>().squaredNorm() < kRegatherStep_m * kRegatherStep_m)
@@ -129,8 +129,8 @@ void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
   MeetCorners(linkage, reach_m);
 }
 
-// A pair that goes on starts from its last load, which decides stiffness and traction of its first
-// balance.
+// A contact that goes on starts from its last load, from which the next balance takes stiffness and
+// traction.
 void QuasiStaticContacts::Add(const RestingContact& contact) {
   contacts_.push_back(contact);
   for (const RestingContact& before : last_) {
@@ -142,8 +142,8 @@ void QuasiStaticContacts::Add(const RestingContact& contact) {
   }
 }
 
-// The point of the rounded cylinder that is first along -n, moved across the rim in proportion to
-// the tilt: see ContactFinder::Support.
+// Returns the point of the rounded cylinder that reaches farthest against n, moved across the rim
+// in proportion to the tilt. Must agree with ContactFinder::Support (multibody/contact_finder.cc).
 Vector3 QuasiStaticContacts::WheelSupport(const Linkage& linkage, std::size_t wheel,
                                           const Vector3& n_W) const {
   const Vector3 axle_W = linkage.axle_W(wheel);
@@ -234,8 +234,8 @@ void QuasiStaticContacts::MeetBody(const Linkage& linkage, double reach_m) {
   }
 }
 
-// How low the parts are that rocks can touch, beside the wheels, and where their bodies are: the
-// same for all rocks.
+// Finds how low the parts are that rocks can touch, beside the wheels, and where their bodies are,
+// once for all rocks.
 void QuasiStaticContacts::PlaceParts(const Linkage& linkage) {
   for (PlacedPart& placed : placed_parts_) {
     const Part& part = parts_[placed.index];
@@ -277,7 +277,8 @@ void QuasiStaticContacts::MeetPart(const Linkage& linkage, const PlacedPart& pla
        .n_W = surface.normal_W});
 }
 
-// Corners of chassis and panel against walls and, for a rover that leans far over, the ground.
+// Tests corners of chassis and panel against walls and, unless a rover stands upright on a plane,
+// against the ground.
 void QuasiStaticContacts::MeetCorners(const Linkage& linkage, double reach_m) {
   const Linkage::Frame& chassis = linkage.chassis();
   const terrain::Ground& ground = terrain_.ground();

@@ -1,5 +1,5 @@
-// Where the rover of the quasi-static fidelity touches the terrain, or may touch it within its next
-// step.
+// Where the quasi-static rover touches the terrain, or may touch it within its next stretch: the
+// contacts of its balance of forces.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace rockyard::rover {
 
-// A contact of a part with one thing, as one balance of forces sees it.
+// A contact of a part with one thing, as a balance of forces sees it.
 struct RestingContact {
   int part = 0;         // index in MakeParts; wheels come first
   int other = kGround;  // a rock, kGround or a wall, as in contact_finder.h
@@ -25,8 +25,7 @@ struct RestingContact {
   math::Vector3 n_W = math::Vector3::UnitZ();
   // The load in the last balance of forces; a contact that goes on starts from it.
   double load_N = 0.0;
-  // The load that traction is taken from; it follows load_N from one balance of the normals to the
-  // next.
+  // The load that traction is taken from; it follows load_N from iteration to iteration.
   double traction_load_N = 0.0;
   double sliding_speed_m_s = 0.0;
   double depth_m = 0.0;  // penetration at the end of the step, in the last balance
@@ -35,19 +34,20 @@ struct RestingContact {
   bool IsSoil() const { return IsWheel() && (other == kGround || other == kGroundAhead); }
 };
 
-// Finds the contacts of a rover in one posture. Draws no random numbers. Forces are summed in the
-// order of the list (wheel by wheel ground, walls and rocks, then body, then corners), and so the
-// last bit hangs on it.
+// Finds the contacts of a rover in one posture. Draws no random numbers. Records depend on the
+// order of the list, in which forces are summed: for each wheel ground, walls and rocks, then the
+// body, then its corners.
 class QuasiStaticContacts {
  public:
   QuasiStaticContacts(const RoverGeometryParams& params, const terrain::Terrain& terrain);
 
-  // Finds every pair nearer than reach_m. Loads of pairs that go on are kept.
+  // Finds every contact nearer than reach_m. Loads of contacts that go on are kept.
   void Update(const Linkage& linkage, double reach_m);
   // Returns false where no rock or wall can be nearer than reach_m to a rover at p_WR. It is much
   // cheaper than Update, and may return true in vain.
   bool MayMeetObstacle(const math::Vector3& p_WR, double reach_m);
-  // The same of its wheels, and closer.
+  // Returns false where no rock or wall can be nearer than reach_m to a wheel; it is tighter than
+  // MayMeetObstacle.
   bool WheelMayMeetObstacle(const Linkage& linkage, double reach_m);
   // Forgets everything, for a rover that was lifted.
   void Clear();
@@ -56,12 +56,13 @@ class QuasiStaticContacts {
   const std::vector<RestingContact>& contacts() const { return contacts_; }
 
  private:
+  // A rock near the rover.
   struct NearRock {
     int index = 0;
     RockSupport support;
     RockBody body;
-    messages::PerWheel<math::Vector3> wheel_normal_W;  // last one, where the wheel was near
-    messages::PerWheel<bool> known{};
+    messages::PerWheel<math::Vector3> wheel_normal_W;  // the last gap's, from which the next starts
+    messages::PerWheel<bool> known{};                  // whether wheel_normal_W is set
   };
 
   // A part of the body in the posture at hand.
@@ -69,7 +70,7 @@ class QuasiStaticContacts {
     std::size_t index = 0;
     double lowest_m = 0.0;  // z in W
   };
-  // The placed parts first to last - 1 belong to one body and lie in a ball.
+  // The placed parts `first` to `last` - 1, which belong to one body, and a ball that holds them.
   struct BodyParts {
     int body = kChassis;
     std::size_t first = 0;

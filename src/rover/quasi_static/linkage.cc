@@ -9,10 +9,12 @@ namespace {
 
 using math::Vector3;
 
-// The differential: the right rocker turns back by what the left one turns.
+// Returns the sign of a rocker's angle: by the differential the right rocker turns back by what the
+// left one turns.
 double RockerSign(std::size_t side) { return side == 0 ? 1.0 : -1.0; }
 
-// R Ry(a): turns a frame's axes about its own y axis. Positive angles lower the front.
+// Returns R Ry(a): the axes of a frame, turned about its own y axis. Positive angles lower the
+// front.
 Eigen::Matrix3d Pitched(const Eigen::Matrix3d& R, double angle_rad) {
   const double c = std::cos(angle_rad);
   const double s = std::sin(angle_rad);
@@ -69,7 +71,8 @@ Linkage::Linkage(const RoverParams& params) {
                                                                : geometry.rocker_pivot_R[side]);
   }
   // Rockers weigh on their pivots, which the chassis carries; a bogie and its wheels are one lump.
-  // The masses are those of MakeRoverMasses, so that both fidelities have the same wheel loads.
+  // The masses must be those of MakeRoverMasses (rover_layout_params.cc), so that both fidelities
+  // have the same wheel loads.
   const double chassis_kg =
       mass.total_kg - 6.0 * mass.wheel_kg - 2.0 * (mass.rocker_kg + mass.bogie_kg);
   // Chassis and rockers as one lump, at their common centre of mass.
@@ -194,7 +197,8 @@ void LinkageEquations::AddStiffness(std::size_t side, double k, const SideVector
 void LinkageEquations::AddStiffness(std::size_t side, const SideVector& p, const SideVector& a,
                                     const SideVector& q, const SideVector& b, const SideVector& r,
                                     const SideVector& c) {
-  // Whole columns, not the lower triangle alone: the processor takes two rows at a time.
+  // Whole columns are summed, not the lower triangle alone: the processor takes several rows at a
+  // time.
   SideMatrix& stiffness = side_stiffness_[side];
   for (int j = 0; j < stiffness.cols(); ++j) stiffness.col(j) += a[j] * p + b[j] * q + c[j] * r;
 }
@@ -204,8 +208,9 @@ void LinkageEquations::AddAt(int dof, double force, double stiffness) {
   diagonal_[dof] += stiffness;
 }
 
-// Row 7 of a side is its bogie, which stands in row 7 (left) or 8 (right) of the system. The two
-// bogies share no term, so entry (8, 7) is zero. The force is the last entry of each row.
+// Returns the system with the force as the last entry of each row. Row 7 of a side is its bogie,
+// which is row 7 (left) or 8 (right) of the system. The two bogies share no term, so that entry
+// (8, 7) is zero.
 LinkageEquations::Rows LinkageEquations::Augmented() const {
   const auto& [left, right] = side_stiffness_;
   constexpr int kLeft = kFirstBogieDof;

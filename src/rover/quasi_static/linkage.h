@@ -1,5 +1,6 @@
 // Rocker-bogie linkage of the quasi-static rover: nine coordinates, poses of its bodies, velocities
-// of its points, and what gravity does.
+// of its points, and what gravity does. Contacts are found on it, and the balance of forces is
+// solved in its rates.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,9 +14,9 @@
 
 namespace rockyard::rover {
 
-// The nine rates are the velocity of R's origin in W (m/s), the angular velocity of the chassis in
-// W (rad/s), the rate of the left rocker (the differential turns the right one back by as much) and
-// the rates of left and right bogie (rad/s). Generalized forces stand in the same order, N and N m.
+// The nine rates: the velocity of R's origin in W (m/s), the angular velocity of the chassis in W
+// (rad/s), the rate of the left rocker (the differential turns the right one back by as much), the
+// rates of left and right bogie (rad/s). Generalized forces are in the same order, N and N m.
 inline constexpr int kLinkageDof = 9;
 inline constexpr int kRockerDof = 6;
 inline constexpr int kFirstBogieDof = 7;  // by Side
@@ -25,7 +26,7 @@ using LinkageVector = Eigen::Matrix<double, kLinkageDof, 1>;
 using SideVector = Eigen::Matrix<double, 8, 1>;
 using PointJacobian = Eigen::Matrix<double, 3, 8>;
 
-// Where the linkage is: nine coordinates.
+// Where the linkage is, by its nine coordinates.
 struct Posture {
   math::Vector3 p_WR = math::Vector3::Zero();
   Eigen::Quaterniond q_WR = Eigen::Quaterniond::Identity();
@@ -50,11 +51,11 @@ class Linkage {
 
   explicit Linkage(const RoverParams& params);
 
-  // Takes up steering angles, which the next Update turns the axles by.
+  // Takes steering angles; the next Update turns the axles by them.
   void Steer(const messages::PerWheel<double>& steer_rad);
-  // Cosine and sine of a wheel's steering angle.
+  // Returns cosine and sine of a wheel's steering angle.
   const Eigen::Vector2d& steer(std::size_t wheel) const { return steer_[wheel]; }
-  // Takes up a posture; the steering angles turn the axles.
+  // Takes a posture and steering angles, and turns the axles by the angles.
   void Update(const Posture& posture, const messages::PerWheel<double>& steer_rad);
 
   const Frame& chassis() const { return chassis_; }
@@ -70,8 +71,8 @@ class Linkage {
 
   // Returns the side of a body, 0 left, 1 right; 0 for the chassis.
   static std::size_t SideOf(int body);
-  // Returns J with v = J rates for a point fixed to a body, all in W; wheels do not spin.
-  // SideVector names the columns.
+  // Returns J with v = J rates for a point fixed to a body, all in W; wheels do not spin. Its
+  // columns are the rates of SideVector.
   PointJacobian Jacobian(int body, const math::Vector3& p_W) const;
 
   // Returns the generalized force of gravity, N and N m.
@@ -99,11 +100,11 @@ class Linkage {
   std::array<Frame, kJoints> bodies_;
 };
 
-// Sums the force on the linkage and minus its derivative by the rates, from terms that act in the
-// space of one side's rates.
+// The 9 x 9 system of one step of Newton's method: the force on the linkage and minus its
+// derivative by the rates, summed from terms that act in the space of one side's rates.
 class LinkageEquations {
  public:
-  // Begins with a force and with a diagonal as minus its derivative.
+  // Begins with a force, and with a diagonal as minus the force's derivative.
   void Reset(const LinkageVector& force, const LinkageVector& diagonal);
 
   // Adds a force that acts on one side's rates.
@@ -117,8 +118,8 @@ class LinkageEquations {
   void AddAt(int dof, double force, double stiffness);
 
   const LinkageVector& force() const { return force_; }
-  // Returns the change of the rates at which the linearized force vanishes, by elimination.
-  // A call costs about 0.1 us.
+  // Returns the change of the rates with which the linearized force vanishes. A call costs about
+  // 0.1 us.
   LinkageVector Solve() const;
 
  private:

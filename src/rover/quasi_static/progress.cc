@@ -8,25 +8,28 @@ namespace {
 
 // Longest step of the integration, s: about the time in which traction answers to slip at 15 cm/s.
 constexpr double kStep_s = 1.0 / 80.0;
-// From this near to the rims' speed on, the motion is steady.
+// Difference of the speed q from the rims' share below which the motion is steady.
 constexpr double kSteady = 1e-3;
-// From this near on, slip decays as in the linear law.
+// Difference, over the rims' share, below which slip decays as in the linear law.
 constexpr double kNearlySteady = 0.03;
 // A rover that gets on by less than this share of its rims' speed has no speed to gain.
 constexpr double kStuck = 0.02;
-// The speed of a step is known to this, and found in so many iterations.
+// Error of the speed of a step; last change of Newton's method, which leaves an error of its
+// square; most iterations.
 constexpr double kExact = 1e-5;
 constexpr double kLastChange = 2e-3;
 constexpr int kIterations = 12;
 // A rover that is drawn downhill does not run this many times faster than steadily.
 constexpr double kFastest = 3.0;
 
-// Of the moment of a step of z times the decay at which forces are taken.
+// Returns at which share of a step of z decay times forces are taken; must be the theta of
+// ContactLaws::StepOfSlip (multibody/contact_law.cc).
 double Theta(double z) { return std::isfinite(z) ? (z + 3.0) / (z + 6.0) : 1.0; }
 
 }  // namespace
 
-// tau at a slip speed and its derivative by that speed, s/m: the laws of balance.h.
+// Returns tau at a slip speed and its derivative by that speed, s/m; must be the laws of
+// QuasiStaticBalance::TractionOf.
 ShearShare Progress::ShareAt(const WheelLump& lump, double slip_m_s, double rim_m_s) const {
   // A braked wheel has all its traction at any slip.
   if (rim_m_s <= 0.0) return {1.0, 0.0};
@@ -72,13 +75,13 @@ Progress::Rate Progress::RateAt(double speed, double rim) const {
           (soil.slope_W + rock.slope_W) / drive_.inertia_J};
 }
 
-// q_1 = q_0 + h dq/dt at theta q_1 + (1 - theta) q_0 and the rims of that moment, with the theta of
-// the multibody's slip (contact_law.h). The right side falls with q_1: Newton's method within what
-// is left of the bracket.
+// Solves q_1 = q_0 + h dq/dt, with dq/dt at theta q_1 + (1 - theta) q_0 and the rims of that
+// moment. The right side falls with q_1, so that Newton's method stays within a bracket that
+// shrinks.
 double Progress::Step(double rim_from, double rim_to, double time_s) {
   const double before = speed_;
   const double mean_rim = 0.5 * (rim_from + rim_to);
-  // Traction answers the faster the slower the rims turn.
+  // The slower the rims turn, the faster traction answers.
   const double theta = mean_rim > 0.0 ? Theta(time_s / (mean_rim * decay_s_)) : 1.0;
   const double rim = theta * rim_to + (1.0 - theta) * rim_from;
   double low = 0.0;
@@ -97,13 +100,13 @@ double Progress::Step(double rim_from, double rim_to, double time_s) {
   }
   speed_ = next < kExact ? 0.0 : next;
   if (speed_ > 0.0 || before == 0.0) return 0.5 * (before + speed_) * time_s;
-  // It comes to rest within the step: half of what speed it had, for the time that this took.
+  // The rover comes to rest within the step: its way is half of its speed times the time to rest.
   const double slowing = -RateAt(0.5 * before, rim).value;
   return 0.5 * before * (slowing * time_s > before ? before / slowing : time_s);
 }
 
-// q = rho + (q_0 - rho) e^(-t/T), whose integral is the way. Slip answers the faster the slower the
-// rims turn.
+// Follows q = rho + (q_0 - rho) e^(-t/T), whose integral is the way. T goes with the speed of the
+// rims.
 double Progress::Settle(double rim, double time_s) {
   const double decay_s = rim * decay_s_;
   const double before = speed_ - rim;
@@ -116,7 +119,7 @@ double Progress::Advance(double rim_from, double rim_to, double time_s) {
   const double mean = 0.5 * (rim_from + rim_to);
   const WheelLump& soil = drive_.soil;
   const WheelLump& rock = drive_.rock;
-  // Means over the traction of all wheels, times that traction.
+  // Sums over both lumps of their mean speeds times their traction.
   const double along = soil.traction_N * soil.along_m_s + rock.traction_N * rock.along_m_s;
   const double rims = soil.traction_N * soil.rim_m_s + rock.traction_N * rock.rim_m_s;
   const bool stuck = std::abs(along) <= kStuck * rims;

@@ -20,22 +20,24 @@ constexpr double kMaxMove = 2.0;
 constexpr double kMaxTurn_rad = 0.1;
 // A change of steering below this keeps the stretch, rad.
 constexpr double kSameSteer_rad = 0.017;
-// Slower changes than these in a stretch are none: less than a thousandth of a wheel's load.
+// Movements below these in a stretch count as none: they change a wheel's load by less than a
+// thousandth.
 constexpr double kSteady_m = 2e-6;
 constexpr double kSteady_rad = 1e-5;
 // Rates that differ by no more than this share are the same.
 constexpr double kSameRate = 1e-9;
 // A rover that moves so many times faster than its rims falls.
 constexpr double kFalls = 3.0;
-// Standing rovers that a balance lets move faster than this share of their top speed slide: ten
-// times as fast as friction lets braked wheels creep. Beyond the larger share they do not settle
-// but slide down a slope.
+// A rover that a balance at rest lets move faster than the share kStands of its top speed does not
+// stand: ten times as fast as friction lets braked wheels creep. Beyond kSlides it does not settle
+// but slides down a slope.
 constexpr double kStands = 1.6e-3;
 constexpr double kSlides = 0.1;
-// A drive that differs from the last one by less still says where the rover will be.
+// Where a drive differs from the last one by less, the last rates still say where the rover will be
+// half a stretch ahead.
 constexpr double kSimilar = 0.25;
-// A stretch of set points that others are known to follow outlasts them by this share: one that
-// ended with them would begin another that nobody needs.
+// A stretch of set points that others are known to follow outlasts them by this share: a stretch
+// that ended with them would begin another that nobody needs.
 constexpr double kOutlasts = 1e-6;
 // Rates that change by less than this share of the top speed from one stretch to the next do so
 // smoothly.
@@ -56,8 +58,8 @@ void Limit(double time_s, double max_m, double max_rad, LinkageVector& rates) {
   rates /= scale;
 }
 
-// The share of `shape` that `rate_rad_s` is, at least 0; nothing where the ratios of the wheels
-// differ.
+// Returns the share of `shape` that `rate_rad_s` is, at least 0; nothing where the ratios of the
+// wheels differ.
 std::optional<double> ShareOf(const messages::PerWheel<double>& rate_rad_s,
                               const messages::PerWheel<double>& shape) {
   std::size_t fastest = 0;
@@ -81,7 +83,7 @@ std::optional<RimShares> Shares(const MotorRates& rates, const messages::PerWhee
   return RimShares{*from, *to};
 }
 
-// Moment of inertia about R's z axis.
+// Returns the rover's moment of inertia about R's z axis.
 double YawInertia(const RoverParams& params) {
   const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
   const RoverMasses masses = MakeRoverMasses(params);
@@ -107,7 +109,7 @@ QuasiStaticRover::QuasiStaticRover(const RoverParams& params, const terrain::Ter
       motors_(params),
       yaw_inertia_kg_m2_(YawInertia(params)) {}
 
-// Above every rock beneath, so that settling only lowers the rover onto them.
+// The posture is above every rock beneath, so that settling only lowers the rover onto rocks.
 Posture QuasiStaticRover::LiftedPosture(const math::Pose2& X_WR) const {
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 up = ground.Normal(X_WR.x_m, X_WR.y_m);
@@ -179,7 +181,8 @@ bool QuasiStaticRover::Steer(const messages::PerWheel<double>& wanted_rad) {
   return changed;
 }
 
-// A wheel that swings into a rock pushes the rover away, against its braked wheels.
+// Steers the wheels of a rover at rest: a wheel that swings into a rock pushes the rover away,
+// against its braked wheels.
 void QuasiStaticRover::SteerAtRest() {
   double swing_rad = 0.0;
   for (std::size_t i = 0; i < kWheelCount; ++i) {
@@ -224,8 +227,8 @@ bool QuasiStaticRover::SteersAsPlanned() const {
   return true;
 }
 
-// True where rates and steering are those of the last stretch within a share of the fastest rate,
-// or as many radians.
+// Returns whether rates and steering are those of the last stretch, rates within `share` of the
+// fastest rate, steering within `share` rad.
 bool QuasiStaticRover::Like(const messages::PerWheel<double>& rate_rad_s, double share) const {
   double fastest = 0.0;
   double change = 0.0;
@@ -238,7 +241,7 @@ bool QuasiStaticRover::Like(const messages::PerWheel<double>& rate_rad_s, double
   return change <= share * fastest && turn <= share;
 }
 
-// Finds the contacts half a step ahead, or those of now where the way there leads into a rock.
+// Finds the contacts lead_s ahead, or the present contacts where the way there leads into a rock.
 double QuasiStaticRover::LookAhead(double lead_s) {
   const double way_m = params_.quasi_static.settle_distance_m;
   linkage_.Update(Moved(posture_, rates_, lead_s), state_.steer_rad);
@@ -255,8 +258,8 @@ double QuasiStaticRover::LookAhead(double lead_s) {
   return 0.0;
 }
 
-// Turn rate, rad/s, of the rigid motion nearest to what the rims do, for wheels evenly about R's
-// origin. Least squares of v_i = Omega x r_i over the wheels:
+// Returns the turn rate, rad/s, of the rigid motion nearest to what the rims do, for wheels evenly
+// about R's origin, by least squares of v_i = Omega x r_i over the wheels:
 //   Omega = sum (r_i x v_i)_z / sum r_i^2,   v_i = omega_i r (cos delta_i, sin delta_i) in R.
 double QuasiStaticRover::TurnRate(const messages::PerWheel<double>& rate_rad_s) const {
   double moment = 0.0;
@@ -281,14 +284,14 @@ double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_ra
   const double way_s = params_.quasi_static.settle_distance_m / (rate * radius_m);
   const double max_rad = params_.quasi_static.settle_turn_rad;
   const double time_s = turn_rad_s * way_s > max_rad ? max_rad / turn_rad_s : way_s;
-  // Where the wheels are steered on from tick to tick, half a longer stretch ahead is another
-  // heading than that of the way that will be driven by these set points.
+  // Where the wheels are steered on from tick to tick, a stretch ends with its set points: half of
+  // a longer stretch ahead the heading would not be that of the way driven by them.
   return std::min(IsBorneByObstacles() ? params_.quasi_static.rock_settle_share * time_s : time_s,
                   (1.0 + kOutlasts) * held_s_);
 }
 
-// On rocks the direction of the contacts, and with it the motion, changes within centimetres:
-// longer stretches lose a share of the way to wheels that leave a rock in the middle of one.
+// On rocks the direction of the contacts, and with it the motion, changes within centimetres: long
+// stretches lose a share of the way to wheels that leave a rock in the middle of a stretch.
 bool QuasiStaticRover::IsBorneByObstacles() const {
   const std::vector<RestingContact>& contacts = contacts_.contacts();
   return std::any_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
@@ -296,8 +299,8 @@ bool QuasiStaticRover::IsBorneByObstacles() const {
   });
 }
 
-// One stretch: contacts half a stretch ahead at the last rates, one balance there, and the rates
-// from that balance for the whole stretch (a midpoint rule).
+// Plans one stretch: contacts half a stretch ahead at the expected rates, one balance there, and
+// the rates of that balance for the whole stretch (a midpoint rule).
 void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   const bool same_drive = Like(rate_rad_s, 0.0);
   const bool similar_drive = Like(rate_rad_s, kSimilar);
@@ -321,8 +324,8 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   }
   Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
   turn_share_ = balance_.TurnShares();
-  // From here on RollOn may repeat this balance, which is the same in the rover's frame: only on a
-  // level plane, where a turn of the rover changes nothing.
+  // From here on RollOn may repeat this balance in the rover's frame: only on a level plane, where
+  // a turn of the rover changes nothing.
   steady_ = stands_level && MeetsNothing(rates_, lead_s) && IsSteady() && balance_.HasDugIn();
   Limit(stretch_.duration_s, kMaxMove * params_.quasi_static.settle_distance_m, kMaxTurn_rad,
         rates_);
@@ -332,7 +335,8 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   BeginProgress(rate_rad_s, same_drive);
 }
 
-// Twice the kinetic energy of the rates a, or what motion a has of motion b.
+// Returns twice the kinetic energy of the rates a where b = a, and else what a and b have in
+// common.
 double QuasiStaticRover::Inertia(const LinkageVector& a, const LinkageVector& b) const {
   return params_.mass.total_kg * a.head<3>().dot(b.head<3>()) + yaw_inertia_kg_m2_ * a[5] * b[5];
 }
@@ -348,7 +352,8 @@ void QuasiStaticRover::BeginProgress(const messages::PerWheel<double>& rate_rad_
   const bool falls = rates_.head<3>().norm() > kFalls * rim_m_s;
   in_balance_ = in_balance_ && !falls;
   if (!falls) drive.inertia_J = Inertia(rates_, rates_);
-  // Another motion keeps what the old one has of it; the same at other rates goes on as it was.
+  // Another motion keeps what the old motion has in common with it; the same drive goes on as it
+  // was.
   double kept = 1.0;
   if (!same_drive) {
     kept = drive.inertia_J > 0.0 ? std::max(0.0, Inertia(carried_rates_, rates_) / drive.inertia_J)
@@ -369,7 +374,7 @@ LinkageVector QuasiStaticRover::ExpectedRates() const {
   return smooth ? LinkageVector(rates_ + change) : rates_;
 }
 
-// Six wheels on a level plane.
+// Returns whether all six wheels are on a level plane.
 bool QuasiStaticRover::StandsLevel() const {
   const std::vector<RestingContact>& contacts = contacts_.contacts();
   if (!terrain_.ground().IsPlane()) return false;
@@ -378,8 +383,8 @@ bool QuasiStaticRover::StandsLevel() const {
          }) == static_cast<std::ptrdiff_t>(kWheelCount);
 }
 
-// True where a rover that moves like a rigid body at these rates touches nothing but soil until the
-// stretch ends; its contacts were found lead_s after the beginning.
+// Returns whether a rover that moves like a rigid body at these rates touches nothing but soil
+// until the stretch ends; its contacts were found lead_s after the beginning.
 bool QuasiStaticRover::MeetsNothing(const LinkageVector& rates, double lead_s) const {
   const std::vector<RestingContact>& contacts = contacts_.contacts();
   const double rest_s = stretch_.duration_s - lead_s;
@@ -391,14 +396,15 @@ bool QuasiStaticRover::MeetsNothing(const LinkageVector& rates, double lead_s) c
   });
 }
 
-// All coordinates but the three in the plane are at rest.
+// Returns whether all coordinates but the three in the plane are at rest.
 bool QuasiStaticRover::IsSteady() const {
   return stretch_.duration_s * std::abs(rates_[2]) < kSteady_m &&
          stretch_.duration_s * rates_.segment<2>(3).cwiseAbs().maxCoeff() < kSteady_rad &&
          stretch_.duration_s * rates_.tail<3>().cwiseAbs().maxCoeff() < kSteady_rad;
 }
 
-// On level ground nothing has changed but the heading: the last balance holds in the rover's frame.
+// Goes on by the last balance, turned with the rover: on level ground nothing has changed but the
+// heading.
 void QuasiStaticRover::RollOn() {
   last_rates_ = rates_;
   const double turn_rad = stretch_.duration_s * rates_[5];
@@ -419,7 +425,7 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
                      std::any_of(rates.to.begin(), rates.to.end(), turns);
   if (rolls || progress_.speed() != 0.0) return Roll(rates, command.rate_rad_s);
   // The forces of a drive in balance, each within its friction, hold the rover as well when it
-  // brakes. While wheels swing, a push that they gave may take its time: the next one comes soon.
+  // brakes. While wheels are steered, a balance may wait for SteerAtRest, unless the rover slides.
   if (!standing_ && !in_balance_ && (!steered || slides_)) Stand();
   standing_ = standing_ || in_balance_;
   if (steered) SteerAtRest();
@@ -432,7 +438,7 @@ void QuasiStaticRover::Roll(const MotorRates& rates,
   GoOn(rates, commanded_rad_s);
   messages::PerWheel<double> rim_way_m{};
   for (std::size_t i = 0; i < kWheelCount; ++i) {
-    // Motors hold their rates, which the balance takes as given, but for those that stall.
+    // Motors hold the rates that the balance takes as given, but for motors that stall.
     const double turn_rad = 0.5 * step_s() * (rates.from[i] + rates.to[i]) * turn_share_[i];
     state_.wheel_angle_rad[i] += turn_rad;
     rim_way_m[i] = std::abs(turn_rad) * params_.geometry.wheel_radius_m;
@@ -457,7 +463,7 @@ void QuasiStaticRover::GoOn(const MotorRates& rates,
   RollBetween(rates);
 }
 
-// On the way from one motion to another the mean rates of a step are a motion of their own.
+// On the way from one motion to another the mean rates of each step are a motion of their own.
 void QuasiStaticRover::RollBetween(const MotorRates& rates) {
   messages::PerWheel<double> mean_rad_s{};
   for (std::size_t i = 0; i < kWheelCount; ++i) {
@@ -466,7 +472,7 @@ void QuasiStaticRover::RollBetween(const MotorRates& rates) {
   const double least_rad_s = kSameRate * params_.drive.speed_m_s / params_.geometry.wheel_radius_m;
   if (std::none_of(mean_rad_s.begin(), mean_rad_s.end(),
                    [&](double rate) { return std::abs(rate) > least_rad_s; })) {
-    // It goes through rest from one way to the other.
+    // The rover goes through rest from one direction to the other.
     progress_.Stop();
     return Rest();
   }
@@ -476,7 +482,8 @@ void QuasiStaticRover::RollBetween(const MotorRates& rates) {
 
 void QuasiStaticRover::Follow(const RimShares& rims) {
   double way_s = progress_.Advance(rims.from, rims.to, step_s());
-  // A step may end this stretch and use up others; the rest of it lies within the last one.
+  // A step may end this stretch and use up others; what is left of its way lies within the last
+  // stretch.
   while (stretch_.elapsed_s + way_s >= stretch_.duration_s) {
     way_s -= stretch_.duration_s - stretch_.elapsed_s;
     posture_ = stretch_.to;
@@ -497,11 +504,11 @@ void QuasiStaticRover::Stand() {
   Rest();
 }
 
-// Brakes on: the balance with wheels that do not turn gives the loads of a rover at rest, and says
-// whether it slides. It falls or slides on by what the balance lets it in one step.
+// Balances a rover whose wheels do not turn: the balance gives the loads at rest, and says whether
+// the rover slides. A rover that falls or slides moves on by what the balance lets it in one step.
 void QuasiStaticRover::Hold() {
-  // What it did while it drove starts the next balance of a drive, and what it did at the last look
-  // that of a rover at rest.
+  // The rates of the drive start its next balance, and the rates of the last balance at rest start
+  // this one.
   std::swap(rates_, held_rates_);
   Balance({{}, step_s(), 0.0, Freedom::kAll});
   const double speed_m_s = rates_.head<3>().norm();

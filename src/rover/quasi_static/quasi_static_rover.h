@@ -1,6 +1,7 @@
-// The rover as a sequence of balances of forces, some centimetres apart. Inertia counts where it
-// starts and stops (progress.h). It is to come out as RockerBogie does at a fraction of the cost:
-// differential tests and results/studies/equivalence.md hold it to that.
+// The rover of fidelity quasi_static, made by MakeRover: a sequence of balances of forces, some
+// centimetres apart. Inertia counts where it starts and stops (progress.h). It is to move as
+// RockerBogie does at a fraction of the cost: differential tests and results/studies/equivalence.md
+// hold it to that.
 #pragma once
 
 #include "rover/motor_ramp.h"
@@ -12,16 +13,15 @@
 
 namespace rockyard::rover {
 
-// At the beginning and end of a step, what share of a motion's rates the wheels turn at.
+// The share of a motion's rates at which the wheels turn at the beginning and at the end of a step.
 struct RimShares {
   double from = 0.0;
   double to = 0.0;
 };
 
-// The posture is interpolated between two balances, settle_distance_m of rim travel (or
-// settle_turn_rad of turning) apart, on rocks rock_settle_share of that. The rover draws no random
-// numbers.
-// tests/rover/quasi_static/benchmark.cc measures its cost.
+// The posture is interpolated between two balances, which are settle_distance_m of rim travel or
+// settle_turn_rad of turning apart, on rocks rock_settle_share of that. The rover draws no random
+// numbers. tests/rover/quasi_static/benchmark.cc measures its cost.
 class QuasiStaticRover final : public Rover {
  public:
   QuasiStaticRover(const RoverParams& params, const terrain::Terrain& terrain);
@@ -43,8 +43,8 @@ class QuasiStaticRover final : public Rover {
   const Work& work() const { return work_; }
 
  private:
-  // The way between two balances, at constant rates. Its times are those of a rover that drives at
-  // these rates; one that starts or stops takes longer.
+  // The way between two balances, at constant rates. Times are those of a rover that drives at
+  // these rates; a rover that starts or stops takes longer.
   struct Stretch {
     Posture from;
     Posture to;
@@ -54,7 +54,7 @@ class QuasiStaticRover final : public Rover {
     messages::PerWheel<double> steer_rad{};
   };
 
-  // Turns the steering towards what is wanted; returns whether it moved.
+  // Turns the steering towards the wanted angles; returns whether it moved.
   bool Steer(const messages::PerWheel<double>& wanted_rad);
   void SteerAtRest();
   void Balance(const QuasiStaticBalance::Drive& drive);
@@ -63,8 +63,8 @@ class QuasiStaticRover final : public Rover {
   // Lets the motion of the stretch go on for one step, while the rims turn at these shares of its
   // rates.
   void Follow(const RimShares& rims);
-  // One step of wheels that turn, or of a rover that has not come to rest yet; GoOn moves the
-  // rover.
+  // Makes one step of wheels that turn, or of a rover that has not come to rest yet: GoOn moves the
+  // rover, Roll the wheels.
   void Roll(const MotorRates& rates, const messages::PerWheel<double>& commanded_rad_s);
   void GoOn(const MotorRates& rates, const messages::PerWheel<double>& commanded_rad_s);
   void RollBetween(const MotorRates& rates);
@@ -104,13 +104,13 @@ class QuasiStaticRover final : public Rover {
   messages::PerWheel<double> met_steer_rad_{};  // at the last look for contacts
   double held_s_ = 0.0;                         // as the set points say (messages/commands.h)
   LinkageVector rates_ = LinkageVector::Zero();
-  LinkageVector last_rates_ = LinkageVector::Zero();     // of the stretch before
+  LinkageVector last_rates_ = LinkageVector::Zero();     // of the stretch before the present one
   LinkageVector held_rates_ = LinkageVector::Zero();     // of the last balance at rest
   LinkageVector carried_rates_ = LinkageVector::Zero();  // of the motion that progress_ counts
-  bool standing_ = true;                                 // and known to hold
-  bool slides_ = false;                                  // in the last balance at rest
-  bool in_balance_ = false;  // are the forces of the last balance, and nothing falls
-  bool steady_ = false;  // rates_ hold for as long as the ground is level and the drive the same
+  bool standing_ = true;     // whether the rover stands and is known to hold
+  bool slides_ = false;      // whether it slides in the last balance at rest
+  bool in_balance_ = false;  // whether the last balance met its tolerance and nothing falls
+  bool steady_ = false;      // whether rates_ hold while the ground is level and the drive the same
   Work work_;
   truth::RoverState state_;
 };

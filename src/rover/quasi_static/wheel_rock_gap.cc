@@ -14,13 +14,14 @@ constexpr int kMaxEllipsoidIterations = 12;
 // The gap is stationary in the normal and Newton's method is quadratic: after a step of this size
 // the error of the gap is below 1e-9 m.
 constexpr double kConverged_rad = 3e-3;
-// The same for caps, whose points move far with their normals.
+// The iterations and the last step for caps, whose points move far with their normals.
 constexpr int kMaxCapIterations = 40;
 constexpr double kCapConverged_rad = 1e-5;
 // A paraboloid, B = 0, is the limit of quadrics with a centre far away; nearer to 0 than this B is
 // set to it, which moves no point of the surface by more than a millionth of its height.
 constexpr double kLeastBend = 1e-6;
-// Keeps a base met from straight below from dividing by nothing.
+// Least n' S n: keeps the normal straight down, along which the rim of a base has no extent, from
+// dividing by zero.
 constexpr double kLeastSquare_m2 = 1e-18;
 // Longest step on the sphere, rad.
 constexpr double kLongestStep_rad = 0.5;
@@ -54,24 +55,24 @@ struct Support {
         Sn(piece.S_m2 * n),
         D(std::sqrt(std::max(n.dot(Sn), kLeastSquare_m2))) {}
 
-  // Of the rock's point with that normal, from the piece's centre.
+  // Returns the rock's point with the normal n, from the piece's centre.
   Vector3 Point() const { return piece.sign * Sn / D; }
 };
 
-// Newton's step from n, no farther than the border to a cap's quadric. The rim bends in one
-// direction only, so that steps from its side are too long for the flank, which bends most of all
-// right behind the border.
+// Returns Newton's step from n, cut where it crosses from a cap's rim to its quadric. The rim bends
+// in one direction only, so that steps from its side are too long for the flank, which bends most
+// of all right behind the border.
 Vector3 UpToBorder(const RockSupport& rock, const Support& support, const Vector3& n,
                    const Vector3& step) {
   if (!support.piece.is_rim) return step;
   const double before_m = rock.FromBorder_m(n);
   const double after_m = rock.FromBorder_m(n + step);
-  // By secant, which ends beyond the border since the distance from it is concave.
+  // The step is cut by secant, which ends beyond the border since FromBorder_m is concave.
   return after_m > 0.0 ? Vector3(before_m / (before_m - after_m) * step) : step;
 }
 
-// The arc of a circle that holds the maximum of a function, by the signs of its slope. Its ends are
-// less than half a turn apart.
+// The arc of a circle that holds the maximum of a function, found by the signs of the function's
+// slope. Its ends are less than half a turn apart.
 class Bracket {
  public:
   // Takes the slope at n about the axis, and returns `next`, or the middle of the arc where that
@@ -90,11 +91,11 @@ class Bracket {
   std::optional<Vector3> high_;
 };
 
-// Flat on the rim: n = cos(a) e1 + sin(a) e2 in the plane of the disc. Returns the sideways pull,
-// the derivative of the smooth part of f along the axle.
+// Finds the best n in the plane of the disc, n = cos(a) e1 + sin(a) e2, where the rim lies flat on
+// the rock. Returns the sideways pull, the derivative of the smooth part of f along the axle.
 double AlignInPlane(const Pair& pair, Vector3& n) {
   n -= n.dot(pair.axle_W) * pair.axle_W;
-  // Nothing is left of the normal of a side face: any direction starts as well.
+  // Nothing is left of the normal of a side face; any direction is as good a start.
   if (n.squaredNorm() < 1e-6) n = pair.axle_W.unitOrthogonal();
   n.normalize();
   const int max_iterations = pair.MaxIterations();
@@ -129,14 +130,14 @@ double AlignInPlane(const Pair& pair, Vector3& n) {
          support.piece.sign * pair.axle_W.dot(support.Sn) / support.D;
 }
 
-// True where the rock's point with the normal `face_W` of a side face lies over that face.
+// Returns whether the rock's point with the normal `face_W` of a side face lies over that face.
 bool TouchesFace(const Pair& pair, const Vector3& face_W) {
   const Support support(*pair.rock, pair.offset_W, face_W);
   const Vector3 d = support.offset_W - support.Point();
   return (d - d.dot(face_W) * face_W).squaredNorm() <= pair.core_radius_m * pair.core_radius_m;
 }
 
-// On an edge of the rim: both angles of n.
+// Finds the best n, by both of its angles, where an edge of the rim touches.
 void AlignOnEdge(const Pair& pair, Vector3& n) {
   Vector3 last = n;
   Vector3 move = Vector3::Zero();
@@ -197,7 +198,8 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
   }
 }
 
-// f(n) of the header: a lower bound of the gap for any unit n, the gap itself at its maximum.
+// Returns f(n) of the header: a lower bound of the gap for any unit n, the gap itself at its
+// maximum.
 double Separation(const WheelShape& wheel, const Vector3& offset_W, const Vector3& axle_W,
                   const RockSupport& rock, const Vector3& n) {
   const double t = n.dot(axle_W);
@@ -208,6 +210,7 @@ double Separation(const WheelShape& wheel, const Vector3& offset_W, const Vector
 
 }  // namespace
 
+// Must agree with AddWheels (part_shapes.cc).
 WheelShape::WheelShape(const RoverGeometryParams& params)
     : margin_m(std::min(0.25 * params.wheel_width_m, 0.5 * params.wheel_radius_m)) {
   core_radius_m = params.wheel_radius_m - margin_m;
@@ -251,8 +254,8 @@ Vector3 RockSupport::GuessNormal(const Vector3& center_W) const {
   const Vector3 d = center_W - center_W_;
   Vector3 scaled;
   if (IsCap()) {
-    // The normal where the line from the centre of the base to the other's leaves a round cap, as
-    // in RockBody's points from inside. S_xx of the rim is a^2 up to yaw.
+    // The normal where the line from the centre of the base to center_W leaves a round cap, as in
+    // RockBody::NearestOnCap from inside. S_xx of the rim is a^2 up to yaw.
     const double a2_m2 = pieces_[1].S_m2(0, 0);
     const double zeta = std::max(d.z(), 0.0) / height_m_;
     const double rho2 = d.head<2>().squaredNorm() / a2_m2;
@@ -282,9 +285,9 @@ WheelRockGap FindGap(const WheelShape& wheel, const Vector3& center_W, const Vec
   Vector3& n = result.n_W;
   Pair pair{offset_W, axle_W, wheel.core_radius_m, wheel.margin_m, &rock};
   const double pull_m = AlignInPlane(pair, n);
-  // The pull exceeds the half width, so the rim does not lie flat on the rock: it is met by the
-  // rim's edge on that side, or by the side face where the rock's point with that normal lies over
-  // it.
+  // Where the pull exceeds the half width, the rim does not lie flat on the rock: the rim's edge on
+  // that side touches it, or the side face, where the rock's point with the face's normal lies over
+  // the face.
   if (std::abs(pull_m) > wheel.core_half_width_m) {
     const double across_m = pull_m > 0.0 ? -wheel.core_half_width_m : wheel.core_half_width_m;
     pair.offset_W += across_m * axle_W;

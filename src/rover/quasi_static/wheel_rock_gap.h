@@ -1,5 +1,5 @@
-// Signed distance of a wheel from a rock: the wheel that part_shapes.h describes (a disc grown to a
-// rounded cylinder) against the rock, exactly and without sampling.
+// Signed distance of a wheel from a rock, exactly and without sampling; the contacts of the
+// quasi-static rover are found by it.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,9 +11,9 @@
 
 namespace rockyard::rover {
 
-// A wheel: a disc of core radius, as wide as twice the core's half width along the axle, and all
-// points within the margin of it. The same wheel as that of MakeParts, which the multibody meets
-// rocks with.
+// A wheel: all points within the margin of a core, which is a disc of core_radius_m, as wide as
+// twice core_half_width_m along the axle. Must be the wheel of MakeParts (part_shapes.cc), with
+// which the multibody meets rocks.
 struct WheelShape {
   double core_radius_m;
   double core_half_width_m;
@@ -25,12 +25,13 @@ struct WheelShape {
 // A rock by its support function D(n) = n . o + sign sqrt(n' S n) about its centre, for unit n.
 //
 // An ellipsoid has one piece: S = diag(a^2, b^2, c^2) in its own frame, sign 1, o = 0. A cap has
-// two. With m = (a n_x)^2 + (b n_y)^2 they meet where h n_z = (1 - A/2) sqrt(m), the normal at its
-// base: above, the quadric (A/2B)^2 diag(-B a^2, -B b^2, h^2) about its own centre, A h / 2B over
-// the top, with the sign of -B (B = 1 - A); below, the base's rim, diag(a^2, b^2, 0). D is once
-// differentiable there.
+// two pieces, which meet at the normals of the edge of its base, h n_z = (1 - A/2) sqrt(m) with m =
+// (a n_x)^2 + (b n_y)^2. Above, S is that of the quadric, (A/2B)^2 diag(-B a^2, -B b^2, h^2) about
+// the quadric's centre, A h / 2B over the top, with the sign of -B (B = 1 - A); below, it is that
+// of the rim of the base, diag(a^2, b^2, 0). D is once differentiable where they meet.
 class RockSupport {
  public:
+  // One piece of D.
   struct Piece {
     Eigen::Matrix3d S_m2;
     double sign = 1.0;
@@ -48,14 +49,14 @@ class RockSupport {
   const Piece& PieceAt(const math::Vector3& n_W) const {
     return IsCap() && FromBorder_m(n_W) < 0.0 ? pieces_[1] : pieces_[0];
   }
-  // How far n, of any length, lies on the quadric's side of the border between a cap's pieces:
-  // h n_z - (1 - A/2) sqrt(m), a concave function.
+  // Returns how far n, of any length, lies on the quadric's side of the border between a cap's
+  // pieces: h n_z - (1 - A/2) sqrt(m), a concave function.
   double FromBorder_m(const math::Vector3& n_W) const;
-  // D(n), the farthest that the rock reaches from its centre along n, m.
+  // Returns D(n), the farthest that the rock reaches from its centre along n, m.
   double Along(const math::Vector3& n_W) const;
 
-  // Returns a first normal of a pair: from the rock towards the other's centre, bent by the rock's
-  // axes.
+  // Returns a normal from which FindGap may start: from the rock towards center_W, bent by the
+  // rock's axes.
   math::Vector3 GuessNormal(const math::Vector3& center_W) const;
 
  private:
@@ -78,14 +79,13 @@ struct WheelRockGap {
 //   f(n) = n . (c - o) - D(n) - r sqrt(1 - t^2) - w |t| - m,   t = n . axle,
 // for core radius r, half width w, margin m (the difference of both support functions). Where the
 // rim lies flat on the rock, t = 0 and n has one angle; elsewhere n has two. Newton's method on the
-// circle or sphere starts from `n_W`, the normal of a pose nearby or GuessNormal for a new pair,
-// and ends within some micrometres. Penetration may reach about the margin. A cap's flank has
+// circle or sphere starts from `n_W`, the normal found at a pose nearby or GuessNormal for a new
+// pair, and ends within some micrometres. Penetration may reach about the margin. A cap's flank has
 // nearly one normal, across which D bends hundreds of times as much as beside it: steps from the
 // rim's piece end at the border, and those that go too far are halved.
 //
-// Every unit n bounds the gap from below. If that says that the gap exceeds reach_m, FindGap
-// returns that bound at once with an unfinished normal. It costs 20 ns for such a bound, 0.1 us
-// otherwise.
+// Every f(n) is a lower bound of the gap. If f(n_W) exceeds reach_m, FindGap returns it at once,
+// with n_W as the normal, which costs 20 ns; else a call costs 0.1 us.
 WheelRockGap FindGap(const WheelShape& wheel, const math::Vector3& center_W,
                      const math::Vector3& axle_W, const RockSupport& rock, double reach_m,
                      const math::Vector3& n_W);

@@ -1,4 +1,6 @@
-// Aids of localization in a drive: when they are asked, when they answer, what became of it.
+// Aids of localization in a drive, on board: when they are asked, when their data arrive, and what
+// becomes of them. Onboard keeps it; Drive hands its requests to the sensors of the world
+// (drive/aid_sensors.h) and their answers back.
 #pragma once
 
 #include <cmath>
@@ -13,24 +15,23 @@
 
 namespace rockyard::trial {
 
-// Each by the number of its measurement, from 0 in a trial; none where it is not due.
+// What is to be measured now: for each aid the number of the measurement, from 0 in a trial;
+// nothing where it is not due.
 struct AidRequest {
   std::optional<std::int64_t> lander = {};
   std::optional<std::int64_t> sun = {};
   std::optional<std::int64_t> beacon = {};
 };
 
-// None where an aid was not asked, and where it saw or heard nothing.
+// What was measured; nothing where an aid was not asked, or saw or heard nothing.
 struct AidAnswer {
   std::optional<messages::PoseFix> lander = {};
   std::optional<messages::SunSighting> sun = {};
   std::optional<messages::BeaconReading> beacon = {};
 };
 
-// The aids of localization of one drive: when they measure, when their data arrive, and what
-// becomes of them.
-
-// All aids of one drive draw from one counter: an estimator tells their moments apart by number.
+// Numbers moments. Must stay: all aids of one drive, visual odometry as well, take numbers from one
+// counter, as an estimator tells their moments apart by number.
 class CaptureCounter {
  public:
   messages::CaptureNumber Next() { return next_++; }
@@ -39,13 +40,15 @@ class CaptureCounter {
   messages::CaptureNumber next_ = 0;
 };
 
-// Counts measurements by way and by time; the first is due one interval after the start. One that
-// comes late (a tick is longer than the interval) does not put the next ones off.
+// When the measurements of one aid are due, by way and by time; the first is due one interval after
+// the start. A measurement that comes late (a tick is longer than the interval) does not put the
+// next ones off.
 class AidSchedule {
  public:
   explicit AidSchedule(const sensing::AidScheduleParams& params) : params_(params) {}
 
-  // Whether a measurement is due at this odometer and simulated time, neither of which falls.
+  // Returns whether a measurement is due at this odometer and simulated time, neither of which
+  // falls.
   bool IsDue(double way_m, double time_s) {
     if (!params_.enabled) return false;
     const bool by_way = Passes(way_m, params_.every_m, ways_);
@@ -67,31 +70,32 @@ class AidSchedule {
   double times_ = 0.0;  // and of time
 };
 
-// How often.
+// Counts of measurements, columns of truth/drive_record.h.
 struct AidCounts {
-  std::int64_t used = 0;
-  std::int64_t in_doubt = 0;    // of these, after the estimator doubted itself
-  std::int64_t gated_out = 0;   // turned away
-  std::int64_t unanswered = 0;  // was due, and saw or heard nothing
+  std::int64_t used = 0;        // that corrected the estimate
+  std::int64_t in_doubt = 0;    // that were used after the estimator doubted itself
+  std::int64_t gated_out = 0;   // that were turned away
+  std::int64_t unanswered = 0;  // that were due, and saw or heard nothing
 };
 
+// Returns the almanac of a scenario, which the rover and the simulated sun go by.
 localization::SunAlmanac AlmanacOf(const sensing::SunSensorParams& sun);
 
-// The moment of a measurement is captured as it is taken; what on-board software makes of it is
-// handed to the estimator `delay_s` later.
+// The aids of one drive. The moment of a measurement is captured as it is taken; what on-board
+// software makes of the measurement is handed to the estimator `delay_s` later.
 class AidSuite {
  public:
   // `captures` outlives it.
   AidSuite(const sensing::AidParams& params, CaptureCounter& captures);
 
-  // Once a control tick, after the estimator took it: what is to be measured now.
+  // Returns what is to be measured now; called once a control tick, after the estimator took it.
   AidRequest Due(const localization::Estimator& estimator, double time_s);
-  // Takes what was measured of that, and hands in what is ready. Returns whether the estimate was
+  // Takes what was measured, and hands in what is ready. Returns whether the estimate was
   // corrected.
   bool Take(const AidRequest& request, const AidAnswer& answer, double time_s,
             localization::Estimator& estimator);
 
-  // What was taken before operators moved the rover is of no use any more.
+  // Drops what was taken before operators moved the rover.
   void OnPlaced() { waiting_.clear(); }
 
   const AidCounts& counts() const { return counts_; }
@@ -102,7 +106,7 @@ class AidSuite {
     messages::PoseFix fix;
   };
 
-  // Captures the moment of `fix`, or counts that there is none.
+  // Captures the moment of `fix`, or counts a measurement without one.
   void Keep(std::optional<messages::PoseFix> fix, double ready_s,
             localization::Estimator& estimator);
   bool HandIn(const messages::PoseFix& fix, localization::Estimator& estimator);

@@ -1,4 +1,5 @@
-// What becomes of the alarms of the slip check in a drive (navigation.on_slip).
+// What becomes of the alarms of the slip check in a drive (navigation.on_slip): the drive ends, or
+// the navigator is told. Onboard keeps it.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +13,11 @@ namespace rockyard::trial {
 
 // An alarm as the navigator is told of it, at one tick.
 struct ToldSlip {
-  std::optional<messages::VehicleHazard> hazard;  // ahead, where it is to plan anew
-  bool as_stuck = false;
+  std::optional<messages::VehicleHazard> hazard;  // ahead, where the navigator is to plan anew
+  bool as_stuck = false;                          // where the rover takes itself for stuck
 };
 
-// Raised by what was seen, ended or told at the next decision.
+// An alarm is raised by what was seen; at the next decision it ends the drive or is told.
 class SlipAlarms {
  public:
   explicit SlipAlarms(const navigation::SlipReactionParams& params) : params_(params) {}
@@ -28,13 +29,13 @@ class SlipAlarms {
   // The rover was moved by hand.
   void OnPlaced() { raised_ = false; }
 
-  // Whether the drive ends by the alarm that is raised.
+  // Returns whether the drive ends by the alarm that is raised.
   bool EndsDrive() const {
     return raised_ &&
            (params_.reaction == navigation::SlipResponse::kStop || count_ > params_.max_alarms);
   }
 
-  // What the navigator is told, once an alarm; nothing where none is raised.
+  // Returns what the navigator is told, once for each alarm; nothing where none is raised.
   std::optional<ToldSlip> Take() {
     if (!std::exchange(raised_, false)) return std::nullopt;
     if (params_.reaction == navigation::SlipResponse::kAsStuck) return ToldSlip{{}, true};

@@ -75,7 +75,7 @@ bool VisualAid::Tick(double time_s, localization::Estimator& estimator) {
   const Waiting ready = *waiting_;
   waiting_.reset();
   const bool corrected = HandIn(ready, estimator);
-  // Moments that nothing will be compared with any more.
+  // The estimator forgets moments that nothing will be compared with any more.
   for (const Moment* moment : {&ready.from, &ready.to}) {
     if (moment->look != keyframe_->look) estimator.Forget(moment->capture);
   }

@@ -1,5 +1,5 @@
-// Visual odometry of one drive: when it takes images, when the motion is ready, and what becomes of
-// it.
+// Visual odometry of one drive, on board: when it takes images, when a motion is ready, and what
+// becomes of the motion. Onboard keeps it beside the reader of its images (eyes/visual_reader.h).
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,21 @@
 
 namespace rockyard::trial {
 
-// How often.
+// Counts, columns of truth/drive_record.h but for `used`.
 struct VisualCounts {
   std::int64_t steps = 0;      // pairs of images that were compared with others
-  std::int64_t failures = 0;   // of these, without a motion
+  std::int64_t failures = 0;   // steps without a motion
   std::int64_t keyframes = 0;  // pairs that others were compared with
   std::int64_t used = 0;       // motions that the estimator took
-  std::int64_t gated_out = 0;  // or turned away
+  std::int64_t gated_out = 0;  // motions that the estimator turned away
 };
 
 // What the check of slip made of one motion, between two looks.
 struct SlipReading {
   perception::MeasuredSlip seen;
-  Eigen::Vector2d rolled_m = Eigen::Vector2d::Zero();  // by the wheels, as RolledWay has it
-  std::int64_t from = 0;
-  std::int64_t to = 0;
+  Eigen::Vector2d rolled_m = Eigen::Vector2d::Zero();  // by the wheels (perception::RolledWay)
+  std::int64_t from = 0;                               // number of the first look
+  std::int64_t to = 0;                                 // number of the second look
 };
 
 // A pair of images is due at the start, and then by way, turn or time since the last one
@@ -38,41 +38,42 @@ class VisualAid {
   // `captures` outlives it.
   VisualAid(const DriveParams& drive, CaptureCounter& captures);
 
-  // Whether images are to be taken now.
+  // Returns whether images are to be taken now.
   bool IsDue(const messages::LocalizationEstimate& believed, double time_s) const;
 
-  // What a look takes (clock.compute). The first pair of a path is only kept.
+  // Return what a look takes (clock.compute). The first pair of a path takes no computing.
   double imaging_s() const { return imaging_s_; }
   double computing_s() const { return computing_s_; }
 
-  // Where R is now, as believed, in R of the keyframe.
+  // Returns where R is believed to be now, in R of the keyframe.
   math::Transform Expected(const messages::LocalizationEstimate& believed) const;
-  // Takes the pair of images of now, and what comes of it, which is ready at `ready_s`. Returns
+  // Takes what comes of a pair of images that is taken now; it is ready at `ready_s`. Returns
   // whether a motion is worked out, which takes computing_s.
   bool Take(const VisualStep& step, double time_s, double ready_s,
             localization::Estimator& estimator);
 
-  // Hands in what is ready. Returns whether the estimate was corrected.
+  // Hands in a motion that is ready. Returns whether the estimate was corrected.
   bool Tick(double time_s, localization::Estimator& estimator);
 
-  // What was seen before operators moved the rover is of no use any more.
+  // Drops what was seen before operators moved the rover.
   void OnPlaced();
 
-  // After an alarm of slip: the way that raised it counts once, and what follows is compared with
-  // images that are due at once. No images are under way; the eyes are renewed.
+  // Begins a new keyframe after an alarm of slip, with images that are due at once: the way that
+  // raised the alarm counts once. No images are under way; callers renew the eyes as well.
   void BeginAnew(localization::Estimator& estimator);
 
-  // The slip of the last motion that was handed in, once; nothing where it is not checked.
+  // Returns the slip of the last motion that was handed in, once; nothing where slip is not
+  // checked.
   std::optional<SlipReading> TakeSlip();
 
   const VisualCounts& counts() const { return counts_; }
 
  private:
-  // A pair whose moment is kept.
+  // A pair of images whose moment the estimator keeps, and what was believed then.
   struct Moment {
     std::int64_t look = 0;
     messages::CaptureNumber capture = 0;
-    messages::AttitudeEstimate attitude;  // believed then
+    messages::AttitudeEstimate attitude;
     messages::PoseEstimate odometry;
   };
   struct Waiting {

@@ -1,5 +1,6 @@
-// The simulated clock: control rate, and what scans, stops and on-board computing take. A default
-// decides the times of every scenario that leaves it out; a bound only refuses files.
+// The simulated clock: control rate, what scans, stops and on-board computing take, and what may go
+// on at once. The loop of a drive, its timeline and the times of looks go by it. Records depend on
+// a default in every scenario that leaves its parameter out; a bound only refuses files.
 #pragma once
 
 #include "core/fields.h"
@@ -7,7 +8,8 @@
 
 namespace rockyard::trial {
 
-// Without any of it one activity goes on at a time (Matthies 1995, section 2.1.2).
+// What may go on beside the drive; with nothing of it one activity goes on at a time (Matthies
+// 1995, section 2.1.2).
 struct OverlapParams {
   bool imaging = false;
   bool computing = false;
@@ -32,6 +34,7 @@ struct OverlapParams {
   }
 };
 
+// Rates and times of the clock.
 struct ClockParams {
   double scan_time_s = 20.0;
   double scan_fixed_s = 2.0;

@@ -1,4 +1,5 @@
-// The computer of the simulated clock: whose times of imaging, stereo and navigation a look takes.
+// The computer of the simulated clock: whose times of imaging, stereo and navigation a look takes
+// (eyes/compute_profile.h).
 #pragma once
 
 #include <array>
@@ -9,29 +10,31 @@
 namespace rockyard::trial {
 
 // Computers whose times stand in eyes/compute_tables.h: the four of Goldberg 2002, section 5 (one
-// of table 2, three of table 3), and others whose stereo goes with the width of the images. The
-// names in scenarios, below, have this order.
+// of table 2, three of table 3), and others whose stereo goes with the width of the images. Must
+// stay: the names in scenarios (EnumNames<Computer>) have this order.
 enum class Computer {
-  kNone,            // images, stereo and navigation take no time
-  kR3000,           // 12 MHz, on board of the Athena SDM (table 2)
-  kPentium3,        // 500 MHz workstation (table 3)
-  kSparc,           // 300 MHz workstation (table 3)
-  kRad6000,         // 20 MHz, a desktop cage (table 3)
-  kMer,             // RAD6000 of 20 MHz as flown by MER (Howard 2012 table 2)
-  kMsl,             // RAD750 of 200 MHz of MSL, by instructions a second (Howard 2012 section 3)
-  kFpga,            // Virtex 5 for stereo beside the RAD6000 (Howard 2012 table 2)
-  kSparc10,         // workstation (Matthies 1995 section 8)
-  kPowerPc750,      // 133 MHz, radiation hardened, ten times MER's (Goldberg 2002 section 6)
-  kPowerPcG4,       // 500 MHz, commercial, ten times that (Goldberg 2002 section 6)
-  kAthena2012,      // Virtex 4 and a processor like the Pentium M (Howard 2012 section 3)
+  kNone,        // images, stereo and navigation take no time
+  kR3000,       // 12 MHz, on board of the Athena SDM (table 2)
+  kPentium3,    // 500 MHz workstation (table 3)
+  kSparc,       // 300 MHz workstation (table 3)
+  kRad6000,     // 20 MHz, a desktop cage (table 3)
+  kMer,         // RAD6000 of 20 MHz as flown by MER (Howard 2012 table 2)
+  kMsl,         // RAD750 of 200 MHz of MSL, by instructions a second (Howard 2012 section 3)
+  kFpga,        // Virtex 5 for stereo beside the RAD6000 (Howard 2012 table 2)
+  kSparc10,     // workstation (Matthies 1995 section 8)
+  kPowerPc750,  // 133 MHz, radiation hardened, ten times as fast as MER's (Goldberg 2002 sec. 6)
+  kPowerPcG4,   // 500 MHz, commercial, ten times as fast as kPowerPc750 (Goldberg 2002 sec. 6)
+  kAthena2012,  // Virtex 4 and a processor like the Pentium M (Howard 2012 section 3)
   kSapphireRapids,  // one core of 2026, by the benchmarks of rockyard's own stages
 };
 
 // Time of a pair of images where a scenario leaves acquisition_s open and the cameras feed gates or
-// a processor of today, s. Howard 2012 section 3 has poses at some 5 Hz on the drive and 10 Hz at
-// most; 10 Hz is assumed, and 5 to 15 Hz are the range of studies.
+// a processor of today, s; the help of acquisition_s states it. Howard 2012 section 3 has poses at
+// some 5 Hz on the drive and 10 Hz at most; 10 Hz is assumed, and 5 to 15 Hz are the range of
+// studies.
 inline constexpr double kFastCameras_s = 0.1;
 
+// The computer, and what it takes.
 struct ComputeParams {
   Computer computer = Computer::kNone;
   double acquisition_s = 8.974;
@@ -43,7 +46,7 @@ struct ComputeParams {
   double visual_cpu_s = 0.084;
   double visual_time_factor = 1.0;
 
-  // What acquisition_s is where a scenario leaves it open.
+  // Returns acquisition_s where a scenario leaves it open.
   double SuitedAcquisition_s() const {
     const bool fast = computer == Computer::kFpga || computer == Computer::kAthena2012 ||
                       computer == Computer::kSapphireRapids;

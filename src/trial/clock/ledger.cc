@@ -25,7 +25,7 @@ void Ledger::SpendBeside(Activity activity, double duration_s) {
 }
 
 Stall Ledger::StallUntilEmpty() const {
-  // Without regard to a sun: missions, which have one, refuse stuck rovers that run on.
+  // A sun is left out: missions, which have one, refuse stuck rovers that run on.
   const double rest_J = std::max(0.0, battery_wh_ * kJoulesPerWattHour - energy_J_);
   return {rest_J / budget_.Power(Activity::kStalled), rest_J / kJoulesPerWattHour};
 }

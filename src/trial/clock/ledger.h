@@ -1,5 +1,5 @@
-// The simulated clock and the batteries: what every activity takes. The one clock of a trial: what
-// times, rates and energies of its record are made of.
+// The simulated clock and the batteries: what every activity takes. Drive spends on it, the referee
+// reads it. It is the one clock of a trial: times, rates and energies of the record come from it.
 #pragma once
 
 #include <array>
@@ -15,24 +15,27 @@ struct Stall {
   double energy_wh = 0.0;
 };
 
+// The ledger of one trial.
 class Ledger {
  public:
-  // Batteries of 0 Wh are never empty, unless there is a sun, which supplies what it can before
-  // them: then they are empty as soon as it does not suffice.
+  // A sun supplies what it can before the batteries. Batteries of 0 Wh are never empty without a
+  // sun; with one they are empty as soon as the sun does not suffice.
   Ledger(const PowerBudget& budget, double battery_wh,
          const std::optional<SolarSupply>& sun = std::nullopt)
       : budget_(budget), battery_wh_(battery_wh), sun_(sun) {}
 
+  // Spends time of the clock on an activity.
   void Spend(Activity activity, double duration_s);
-  // What goes on beside that: its own power, no time of the clock.
+  // Spends the power of an activity that goes on beside another one, and no time of the clock.
   void SpendBeside(Activity activity, double duration_s);
 
-  // Closed form of a stall that nobody ends: what is left in the batteries, at stall power. Spends
-  // nothing. Zero where the batteries are never empty.
+  // Returns what a stall takes that nobody ends, in closed form: what is left in the batteries, at
+  // stall power; zero where the batteries are never empty. Spends nothing.
   Stall StallUntilEmpty() const;
 
   double time_s() const { return time_s_; }
-  // Alone and beside others: where some went on at once, all together are more than time_s().
+  // Returns the time of an activity, alone and beside others; where some went on at once, all
+  // activities together are more than time_s().
   double time_s(Activity activity) const { return time_alone_s(activity) + beside_s(activity); }
   double time_alone_s(Activity activity) const {
     return by_activity_s_[static_cast<std::size_t>(activity)];
@@ -43,7 +46,7 @@ class Ledger {
             budget_.PowerBeside(activity) * beside_s(activity)) /
            kJoulesPerWattHour;
   }
-  // Of energy_wh(), what came from the batteries.
+  // Returns the part of energy_wh() that came from the batteries.
   double battery_drawn_wh() const { return (sun_ ? shortfall_J_ : energy_J_) / kJoulesPerWattHour; }
   bool empty() const {
     if (sun_) return battery_drawn_wh() > battery_wh_;
@@ -63,7 +66,7 @@ class Ledger {
   std::optional<SolarSupply> sun_;
   double time_s_ = 0.0;
   double energy_J_ = 0.0;
-  double shortfall_J_ = 0.0;  // beyond the sun
+  double shortfall_J_ = 0.0;  // what the sun did not supply
   std::array<double, kActivityCount> by_activity_s_{};
   std::array<double, kActivityCount> beside_by_activity_s_{};
 };

@@ -100,13 +100,13 @@ double SolarSupply::Carries_s(double load_W) const {
 }
 
 double SolarSupply::ShortSinceNoon_J(double load_W, double hour_angle_rad) const {
-  // Every whole sol holds the same, twice that of noon to midnight.
+  // Every whole sol has the same shortfall, twice that from noon to midnight.
   const double sols = std::round(hour_angle_rad / (2.0 * std::numbers::pi));
   const double within = hour_angle_rad - 2.0 * std::numbers::pi * sols;
   const double carrying = CarryingAngle(load_W);
   const double sunset = CarryingAngle(0.0);
-  // In closed form, so that a drive or a night cut into pieces adds up to the whole.
-  // From 0 to h >= 0: nothing as long as the sun carries the load, then the load less S.
+  // The shortfall from noon to h >= 0: nothing as long as the sun carries the load, then the load
+  // less S. The closed form lets a drive or a night cut into pieces add up to the whole.
   const auto from_noon = [&](double h) {
     if (h <= carrying) return 0.0;
     const double sun_end = std::max(carrying, std::min(h, sunset));

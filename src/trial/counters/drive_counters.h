@@ -1,5 +1,5 @@
-// What the observer of a drive counts and adds up. Each of them defines columns of
-// truth/drive_record.h.
+// What the observer of a drive counts and adds up. Records depend on it: each class defines columns
+// of truth/drive_record.h.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace rockyard::trial {
 // How often the rover was told to turn in place.
 class TurnCounter {
  public:
-  // Once a control tick, with what the navigator told. Scans are not shown: a turn goes on across
-  // them. The other way round is another turn.
+  // Takes what the navigator told, at each decision that is no look at rest: a turn goes on across
+  // looks. A turn the other way round is another turn.
   void Observe(const messages::MotionCommand& motion) {
     const bool turning = motion.kind == messages::MotionKind::kTurnInPlace;
     const int direction = turning ? motion.direction : 0;
@@ -37,7 +37,8 @@ class TurnCounter {
 // looks, and curvatures that change at each tick, belong to the move under way.
 class MoveCounter {
  public:
-  // Once a control tick, with what the navigator told; true where a move begins.
+  // Takes what the navigator told, at each decision that is no look at rest. Returns whether a move
+  // begins.
   bool Observe(const messages::MotionCommand& motion) {
     const bool same = motion.move != 0 ? motion.move == last_.move : moving_ && motion == last_;
     moving_ = motion.kind != messages::MotionKind::kStop;
@@ -56,7 +57,7 @@ class MoveCounter {
 
   std::int64_t moves() const { return moves_; }
   std::int64_t point_turns() const { return point_turns_; }
-  // Arcs driven the other way than the last arc before, whatever lies between them.
+  // Returns how many arcs were driven the other way than the last arc before, whatever lay between.
   std::int64_t reversals() const { return reversals_; }
 
  private:
@@ -72,13 +73,13 @@ class MoveCounter {
 // for the overhead of a move, or because the trial is over.
 class StopCounter {
  public:
-  // Once a control tick; `moving` while the wheels are told to drive or to turn the rover.
+  // Takes one control tick; `moving` while the wheels are told to drive or to turn the rover.
   void Observe(bool moving) {
     if (moving_ && !moving) ++stops_;
     moving_ = moving;
   }
 
-  // With the one that the end of the trial makes of a rover that still moves.
+  // Returns the stops, with the stop that the end of the drive makes of a rover that still moves.
   std::int64_t stops() const { return stops_ + (moving_ ? 1 : 0); }
 
  private:
@@ -101,7 +102,7 @@ class SteerCounter {
   // Starts, or starts again with wheels that were turned by hand: that turning does not count.
   void Restart(const messages::PerWheel<double>& steer_rad) { last_rad_ = steer_rad; }
 
-  // Once a control tick, with the true angles.
+  // Takes the true angles after one control tick.
   void Observe(const messages::PerWheel<double>& steer_rad) {
     for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
       if (steered_[i]) turned_rad_[i] += std::abs(steer_rad[i] - last_rad_[i]);
@@ -109,14 +110,14 @@ class SteerCounter {
     last_rad_ = steer_rad;
   }
 
-  // Mean over the steered wheels.
+  // Returns the mean over the steered wheels.
   double mean_rad() const {
     double sum_rad = 0.0;
     for (const double turned_rad : turned_rad_) sum_rad += turned_rad;
     return sum_rad / static_cast<double>(std::count(steered_.begin(), steered_.end(), true));
   }
 
-  // Of the motor that turned most.
+  // Returns the turning of the motor that turned most.
   double max_rad() const { return *std::max_element(turned_rad_.begin(), turned_rad_.end()); }
 
  private:
@@ -125,11 +126,12 @@ class SteerCounter {
   messages::PerWheel<double> turned_rad_{};  // 0 of wheels that are not steered
 };
 
-// A rover that turns away from a hazard scans it again and again. A hazard begins where one is
-// believed and the scan before saw none, which is once for each time that the rover avoids.
+// Looks whose hazard was believed, and hazards that began. A rover that turns away from a hazard
+// scans it again and again. A hazard begins where one is believed and the look before saw none,
+// which is once for each time that the rover avoids.
 class HazardCounter {
  public:
-  // Once a look; `believed`: its report names a hazard.
+  // Takes one look; `believed`: its report names a hazard.
   void Observe(bool believed) {
     if (believed) {
       ++believed_;
@@ -154,7 +156,8 @@ class HazardCounter {
 // Matthies 1995 sec. 5 reads off twenty runs (fig. 5).
 class ErrorGrowth {
  public:
-  // After `distance_m` of true way, which never falls. Where it has not grown nothing counts.
+  // Takes the error after `distance_m` of true way, which never falls. It counts only where the way
+  // has grown.
   void Observe(double distance_m, double error) {
     const double weight_m2 = distance_m * (distance_m - last_m_);
     moment_ += weight_m2 * error * error;
@@ -162,7 +165,7 @@ class ErrorGrowth {
     last_m_ = distance_m;
   }
 
-  // 0 where there was no way.
+  // Returns the slope; 0 where there was no way.
   double per_m() const { return weight_m3_ > 0.0 ? moment_ / weight_m3_ : 0.0; }
 
  private:

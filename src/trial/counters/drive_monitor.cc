@@ -33,7 +33,7 @@ DriveMonitor::DriveMonitor(const Underside& underside, const terrain::Terrain& t
       min_clearance_m_(std::numeric_limits<double>::infinity()) {}
 
 void DriveMonitor::Restart(const truth::RoverState& state) {
-  // Up to where the rover was taken away, however little is left of the chord.
+  // The path counts up to where the rover was taken away, however little is left of the chord.
   distance_m_ += OpenChord();
   last_X_WR_ = state.X_WR;
   chord_x_m_ = state.X_WR.translation().x();
@@ -81,8 +81,8 @@ void DriveMonitor::ObserveClearance(const math::Transform& X_WR) {
 
 void DriveMonitor::Report(truth::DriveRecord& record) const {
   record.true_distance_m = distance_m_ + OpenChord();
-  // Never above the path, whose chords lead from one to the other: a mirror line turns the rover
-  // and leaves it where it is.
+  // The displacement never exceeds the path, whose chords lead from start to end: operators at a
+  // mirror line turn the rover and leave it where it is.
   const auto end = last_X_WR_.translation();
   const auto [start_x_m, start_y_m] = start_m_.value_or(std::pair(end.x(), end.y()));
   record.displacement_m = std::hypot(end.x() - start_x_m, end.y() - start_y_m);

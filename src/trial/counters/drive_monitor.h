@@ -1,4 +1,5 @@
-// What reports ask for of the true drive, and of the belief held against it.
+// The true path, tilt, articulation and clearance of a drive, and its belief held against the
+// truth: the observer of a drive fills columns of the record by them, and missions those of a sol.
 #pragma once
 
 #include <array>
@@ -23,33 +24,33 @@ struct Underside {
 
 // Path length counts chords of kChord_m between horizontal positions, so that the jitter of a rover
 // at work (turning, rocking over a stone) does not add up to travel. The overhead tracker of
-// Matthies 1995 sec. 3 resolves 0.3 mm at 15 Hz, 1 cm at the speed of Rocky 3.2. The chord decides
-// true_distance_m of every drive, and with it rates, patience and errors of odometry.
+// Matthies 1995 sec. 3 resolves 0.3 mm at 15 Hz, 1 cm at the speed of Rocky 3.2. Records depend on
+// the chord: true_distance_m of every drive, and with it rates, patience and errors of odometry.
 class DriveMonitor {
  public:
   static constexpr double kChord_m = 0.01;
 
   DriveMonitor(const Underside& underside, const terrain::Terrain& terrain);
 
-  // Starts, or starts again after the rover was moved by hand: what lies between does not count.
+  // Starts, or starts again after operators moved the rover by hand: what they moved does not
+  // count.
   void Restart(const truth::RoverState& state);
 
-  // Once a control tick. `turning` is true while the rover turns in place by its own will.
+  // Takes the state after one control tick. `turning`: the rover turns in place by itself.
   void Observe(const truth::RoverState& state, bool turning);
 
   double distance_m() const { return distance_m_; }
   double turned_in_place_rad() const { return turned_rad_; }
   double max_sinkage_m() const { return max_sinkage_m_; }
 
-  // Fills the true path and how far it led, tilt, articulation and clearance of the record.
+  // Fills the columns of true path and displacement, tilt, articulation, clearance and sinkage.
   void Report(truth::DriveRecord& record) const;
 
  private:
   double OpenChord() const;  // from the last counted position to the present one, m
   void ObserveClearance(const math::Transform& X_WR);
 
-  // Nine points of the belly, in R.
-  std::array<math::Vector3, 9> belly_R_;
+  std::array<math::Vector3, 9> belly_R_;  // points of the belly
   const terrain::Terrain& terrain_;
   math::Transform last_X_WR_ = math::Transform::Identity();
   std::optional<std::pair<double, double>> start_m_;  // x, y
@@ -67,23 +68,23 @@ class DriveMonitor {
 };
 
 // What the rover believes of its own error, held against the truth.
-
 struct Belief {
   double position_sd_m = 0.0;  // root of the summed variances of x and y
   double heading_sd_rad = 0.0;
   double nees = 0.0;       // e' P^-1 e of x, y, heading: chi-squared, 3 degrees of freedom
-  bool inside_95 = false;  // nees is at most that distribution's 95 % quantile
+  bool inside_95 = false;  // nees is at most the 95 % quantile of that distribution
 };
 
-// The believed pose in the world frame.
+// Returns the believed pose in W.
 const messages::PoseEstimate& WorldPose(const messages::LocalizationEstimate& estimate);
 
-// Of the world frame. Nothing where the estimate has no covariance, or one that is not positive
-// definite: an oracle's, and that of a rover that has not moved.
+// Returns the belief in W. Nothing where the estimate has no covariance, or one that is not
+// positive definite: an oracle's, or that of a rover that has not moved.
 std::optional<Belief> BeliefOf(const messages::LocalizationEstimate& estimate,
                                const math::Pose2& truth_W);
 
-// The same of the frame in which goals are told, and the true pose in it.
+// Returns the belief in the frame in which goals are told; `truth` is the true pose in that frame.
+// Nothing where BeliefOf has nothing.
 std::optional<Belief> GoalFrameBeliefOf(const messages::LocalizationEstimate& estimate,
                                         const math::Pose2& truth);
 

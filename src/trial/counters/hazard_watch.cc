@@ -24,8 +24,8 @@ double FarthestCorner(const Zone& zone) {
 
 }  // namespace
 
-// In coordinates in which the rock's outline is the unit circle the zone is a parallelogram: the
-// two meet where the origin is inside of it or within 1 of an edge.
+// In coordinates in which the rock's outline is the unit circle the zone is a parallelogram:
+// outline and zone meet where the origin is inside the parallelogram or within 1 of an edge of it.
 bool Reaches(const terrain::Rock& rock, const Zone& zone, const math::Transform& X_WR) {
   const double c = std::cos(rock.yaw_rad);
   const double s = std::sin(rock.yaw_rad);
@@ -108,7 +108,7 @@ void HazardWatch::OnBelieved(const math::Transform& X_WR) {
   for (Hazard& hazard : hazards_) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(hazard.rock)];
     if (hazard.settled || !IsNear(rock, X_WR) || !Reaches(rock, view_, X_WR)) continue;
-    // Believed before the next look of this watch: it has been met all the same.
+    // A hazard that is believed before the next look of the watch has been met all the same.
     if (!hazard.met) ++met_;
     hazard.met = true;
     hazard.settled = true;

@@ -1,4 +1,6 @@
-// Counts the rocks that the hazard sensor had to see, and those that it let the rover drive onto.
+// Counts the rocks that the terrain sensor had to see, and those that it let the rover drive onto,
+// for the record of a drive. The kinds of sensors, the goal's rock and doubts about scenarios take
+// its zones.
 #pragma once
 
 #include <cstdint>
@@ -19,32 +21,32 @@ struct Zone {
   double y_high_m = 0.0;
 };
 
-// From the front of the light stripe array to its farthest row, as wide as the outermost stripes.
+// Returns the zone from the front of the light stripe array to its farthest row, as wide as the
+// outermost stripes.
 Zone ArrayZone(const sensing::LightStripeParams& sensor);
 
-// Whether the outline of a rock, as seen from above, reaches into a zone of a rover at X_WR, which
-// is taken as level.
+// Returns whether the outline of a rock, as seen from above, reaches into a zone of a rover at
+// X_WR, which is taken as level.
 bool Reaches(const terrain::Rock& rock, const Zone& zone, const math::Transform& X_WR);
 
-// A hazard is a rock of at least min_height_m. It is met once its outline comes within reach of the
-// array: from the front of the rover to the farthest row, as wide as the outermost stripes. It is
-// missed once the front of the rover or a row of wheels is over its outline, if no hazard was
-// believed while it was within reach: one that is believed credits every rock within reach at that
-// pose, whichever raised it, so that missed() is a lower bound. Each rock counts once. Scenes are
-// looked at every kLook_m of motion or a turn of kLookCosine, whether or not the rover scans; a
-// look costs some nanoseconds for each hazard of the field.
+// A hazard is a rock of at least min_height_m. A hazard is met once its outline comes into the zone
+// `view`. It is missed once the front of the rover or a row of wheels is over its outline, if no
+// hazard was believed while it was in the zone: a believed hazard credits every rock in the zone at
+// that pose, whichever rock raised it, so that missed() is a lower bound. Each rock counts once.
+// Records depend on when it looks: after every kLook_m of motion or a turn of kLookCosine, whether
+// or not the rover scans. A look costs some nanoseconds for each hazard of the field.
 class HazardWatch {
  public:
   static constexpr double kLook_m = 0.05;
   static constexpr double kLookCosine = 0.99;  // 8 deg
 
-  // `view` is what the array covers.
+  // `view` is what a hazard report covers (TerrainSensorKind::reported_zone).
   HazardWatch(const Zone& view, const rover::RoverGeometryParams& rover, double min_height_m,
               const terrain::Terrain& terrain);
 
-  // Once a control tick.
+  // Takes the pose after a control tick.
   void Observe(const math::Transform& X_WR);
-  // A hazard is believed at this pose.
+  // Takes that a hazard is believed which was seen from this pose.
   void OnBelieved(const math::Transform& X_WR);
 
   std::int64_t met() const { return met_; }
@@ -57,7 +59,7 @@ class HazardWatch {
     bool settled = false;  // believed or missed
   };
 
-  // Whether any zone could reach the rock.
+  // Returns whether any zone could reach the rock.
   bool IsNear(const terrain::Rock& rock, const math::Transform& X_WR) const;
   void Look(const math::Transform& X_WR);
 

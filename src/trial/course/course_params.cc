@@ -92,15 +92,16 @@ void WaypointParams::Visit(core::FieldVisitor& v) {
 
 namespace {
 
-// A place that is nearer than this to the one before is no place to drive to. Visit holds the goal
-// to the same distance from the start.
+// Least distance of a place to drive to from the place before it. Visit requires the same distance
+// of the goal from the start (0.01 m2, squared).
 constexpr double kShortestLeg_m = 0.1;
 
 bool AreApart(const messages::Goal& a, const messages::Goal& b) {
   return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) > kShortestLeg_m;
 }
 
-// Whether every waypoint is apart from the place before it, and the goal from the last of them.
+// Returns whether every waypoint is apart from the place before it, and the goal from the last
+// waypoint.
 bool HasLegs(const CourseParams& course) {
   messages::Goal from{course.start_x_m, course.start_y_m};
   for (const messages::Goal& to : course.Goals()) {
@@ -139,7 +140,7 @@ double CourseParams::DesignationRange_m(const messages::Goal& place) const {
   const double dy = goal_y_m - start_y_m;
   const double straight_m = std::hypot(dx, dy);
   if (straight_m <= 0.0) return 0.0;
-  // The place along the line from start to goal, and to its left.
+  // Coordinates of the place along the line from start to goal, and to its left.
   const double ahead_m = ((place.x_m - start_x_m) * dx + (place.y_m - start_y_m) * dy) / straight_m;
   const double left_m = ((place.y_m - start_y_m) * dx - (place.x_m - start_x_m) * dy) / straight_m;
   return std::hypot(ahead_m - designation.lander_ahead_m, left_m - designation.lander_left_m);

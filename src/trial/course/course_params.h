@@ -1,5 +1,7 @@
-// Where a trial starts, where it leads and by which waypoints, and how near counts as there. It is
-// what is true: what the rover is told of it comes from goal_designation.h.
+// Where a trial starts, where it leads and by which waypoints, and how near the goal counts as
+// arrived. These places are true; the rover is told what goal_designation.h makes of them. The
+// referee judges arrival by them, and terrain keeps rocks away from them. Meanings and sources
+// stand in the .cc.
 #pragma once
 
 #include <array>
@@ -15,17 +17,19 @@
 
 namespace rockyard::trial {
 
-// By whose knowledge of the rocks a route is planned, and who drives along it.
+// By whose knowledge of the rocks a route is planned.
 enum class RouteMap {
   kOracle,  // the true rocks
   kLander,  // those that the lander's stereo pair shows (goal_designation.h)
 };
 
+// Who drives along a route.
 enum class RouteUse {
-  kNavigator,  // the navigator that follows it, blind to hazards
-  kWaypoints,  // any other: its corners are places to drive to before the goal
+  kNavigator,  // the navigator that follows a route, blind to hazards
+  kWaypoints,  // any other navigator: the corners are places to drive to before the goal
 };
 
+// The map and the use of a route.
 struct RouteMapParams {
   RouteMap source = RouteMap::kOracle;
   RouteUse use = RouteUse::kNavigator;
@@ -35,7 +39,7 @@ struct RouteMapParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// How an oracle plans a route for a rover that is to need no path selection of its own.
+// How PlanRoute (route_planner.h) plans a route, on whichever map.
 struct RoutePlanParams {
   double cell_m = 0.05;
   double margin_m = 0.05;
@@ -58,15 +62,16 @@ struct RoutePlanParams {
   }
 };
 
-// Further places that a rover drives to that has not found the rock where it was told: corners of
-// squares around the told place, one square after the other, each as much larger as the first.
+// Where a rover drives to that has not found the rock where it was told: to the corners of squares
+// around the told place, one square after the other, each larger than the last by the size of the
+// first.
 struct LocalSearchParams {
   std::int64_t squares = 0;  // 0: none
   double spacing_m = 0.5;    // half the side of the first square, and what each later one adds
 
-  // The corners in the order of driving, in the frame of the told place: square i = 1, 2, ... has
-  // its corners i spacing_m off along x and y, begun where x and y are positive and driven
-  // counter-clockwise.
+  // Returns the corners in the order of driving, in the frame of the told place: square i = 1, 2,
+  // ... has its corners i spacing_m off along x and y; the rover begins where both are positive and
+  // drives counter-clockwise.
   std::vector<messages::Goal> Places(const messages::Goal& told) const;
 
   void Visit(core::FieldVisitor& v);
@@ -83,18 +88,19 @@ struct GoalRockParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Each list has one entry for every waypoint, in the order in which the rover drives to them.
+// Waypoints; each list has one entry for every waypoint, in the order of driving.
 struct WaypointParams {
   std::vector<double> x_m;  // in the world frame
   std::vector<double> y_m;
 
-  // The waypoints as places. Lists of different lengths, which Visit refuses, give as many as the
-  // shorter one has.
+  // Returns the waypoints as places. Lists of different lengths, which Visit refuses, give as many
+  // as the shorter list has.
   std::vector<messages::Goal> Places() const;
 
   void Visit(core::FieldVisitor& v);
 };
 
+// The course of a trial.
 struct CourseParams {
   double start_x_m = 0.0;
   double start_y_m = 0.0;
@@ -115,17 +121,19 @@ struct CourseParams {
 
   math::Pose2 Start() const { return {start_x_m, start_y_m, start_heading_rad}; }
 
-  // The true places that the rover drives to one after the other, in W: every waypoint, then the
-  // goal.
+  // Returns the true places that the rover drives to one after the other, in W: every waypoint,
+  // then the goal.
   std::vector<messages::Goal> Goals() const;
 
-  // The true goal at a simulated time, which is goal_x_m, goal_y_m where the target stands.
+  // Returns the true goal at a simulated time: goal_x_m, goal_y_m where the target stands.
   messages::Goal GoalAt(double time_s) const;
 
-  // Where the lander's cameras stand, in W; the start where start and goal are one.
+  // Returns where the lander's cameras stand, in W; the start where start and goal are one. SightOf
+  // (goal_designation.cc) is the same geometry in another order of operations.
   messages::Goal LanderPlace() const;
 
-  // From the lander's cameras to a place in W; 0 where start and goal are one, which Visit refuses.
+  // Returns the horizontal range from the lander's cameras to a place in W; 0 where start and goal
+  // are one, which Visit refuses.
   double DesignationRange_m(const messages::Goal& place) const;
 
   void Visit(core::FieldVisitor& v);

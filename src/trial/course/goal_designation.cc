@@ -21,19 +21,21 @@ namespace {
 
 using math::Vector3;
 
-// Points are looked at on these shares of the outline, the last just inside of it: there many, as
-// they tell how wide a rock looks (0.4 % too narrow at 5 deg from the tangent's point).
+// Points are looked at on rings at these shares of a rock's outline. The last ring lies just inside
+// the outline and has many points, as they tell how wide a rock looks (0.4 % too narrow at 5 deg
+// from the tangent's point). Records of lander maps depend on the points, and on kMargin_m.
 struct Ring {
   double share;
   int points;
 };
 constexpr std::array kRings{Ring{0.2, 12}, Ring{0.4, 12},  Ring{0.6, 24},
                             Ring{0.8, 24}, Ring{0.92, 24}, Ring{0.999, 72}};
-// Ends of rays are shortened by this: a point is not hidden by the surface that it lies on.
+// Ends of rays are shortened by this, so that a point is not hidden by the surface that it lies on.
+// The sensors of the rover have a margin of their own (rendering/occlusion.h).
 constexpr double kMargin_m = 0.002;
 
-// The points of a rock that a camera might show: its top and rings of its surface, none below the
-// ground.
+// Returns the points of a rock that a camera might show: its top and rings of its surface, none
+// below the ground.
 std::vector<Vector3> SurfacePoints(const terrain::Rock& rock, const terrain::Ground& ground) {
   const terrain::RockShape shape(rock);
   const Vector3& centre = rock.center_W;
@@ -54,10 +56,10 @@ std::vector<Vector3> SurfacePoints(const terrain::Rock& rock, const terrain::Gro
   return points;
 }
 
-// What is seen of a rock; angles about the mast, from the bearing of its centre.
+// What is seen of a rock. Angles are about the mast, from the bearing of the rock's centre.
 struct Sight {
-  int seen = 0;
-  int alone = 0;  // of them, if nothing but the ground stood in the way
+  int seen = 0;   // points that are seen
+  int alone = 0;  // points that would be seen if no other rock stood in the way
   double nearest_m = std::numeric_limits<double>::infinity();  // horizontal
   double left_rad = -std::numeric_limits<double>::infinity();
   double right_rad = std::numeric_limits<double>::infinity();
@@ -80,7 +82,7 @@ struct Sight {
   }
 };
 
-// `before` holds every rock that may stand between, and the rock itself.
+// Returns what is seen of a rock. `before` holds every rock that may hide it, and the rock itself.
 Sight Look(const terrain::Terrain& terrain, int index, std::span<const int> before,
            const Vector3& mast_W) {
   const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
@@ -97,7 +99,7 @@ Sight Look(const terrain::Terrain& terrain, int index, std::span<const int> befo
   return sight;
 }
 
-// A rock from above, about the mast.
+// A rock seen from above, in polar coordinates about the mast.
 struct Outline {
   double nearest_m = 0.0;
   double farthest_m = 0.0;
@@ -115,7 +117,7 @@ Outline OutlineOf(const terrain::Rock& rock, const Vector3& mast_W) {
           beside ? std::asin(radius_m / centre_m) : std::numbers::pi};
 }
 
-// Standard normal numbers of one rock.
+// Standard normal numbers of one rock, by which its errors are scaled.
 struct RockErrors {
   double downrange = 0.0;
   double left = 0.0;
@@ -127,7 +129,7 @@ struct RockErrors {
 RockErrors DrawErrors(core::TrialKey key, std::size_t index) {
   core::RandomStream stream(key, core::Purpose::kLanderMap, static_cast<std::uint32_t>(index));
   RockErrors draws;
-  // All five in this order, whichever are used: so no error shifts another one.
+  // Records depend on it: all five are drawn in this order, whichever are used.
   for (double* draw : {&draws.downrange, &draws.left, &draws.right, &draws.top, &draws.base}) {
     *draw = core::SampleNormal(stream, 0.0, 1.0);
   }
@@ -170,8 +172,8 @@ class Mapper {
   }
 
  private:
-  // Those whose outlines share a bearing with that of a rock and begin before it ends, itself
-  // included.
+  // Returns the rocks that may hide a rock: their outlines share a bearing with it and begin before
+  // it ends. The rock itself is included.
   std::vector<int> RocksBefore(const Outline& rock) const {
     std::vector<int> before;
     for (std::size_t i = 0; i < outlines_.size(); ++i) {
@@ -183,7 +185,7 @@ class Mapper {
     return before;
   }
 
-  // None where the errors leave nothing of its size.
+  // Returns the rock as it is believed to be; nothing where the errors leave nothing of its size.
   std::optional<terrain::Rock> Believe(const terrain::Rock& truth, const Sight& sight,
                                        const RockErrors& draws) const {
     const double ground_m = terrain_.ground().Height(truth.center_W.x(), truth.center_W.y());
@@ -203,7 +205,8 @@ class Mapper {
     const double bearing_rad =
         std::atan2(truth.center_W.y() - mast_W_.y(), truth.center_W.x() - mast_W_.x()) +
         0.5 * (left_rad + right_rad);
-    // Across the line of sight by the pan error times the range, as a goal is.
+    // The pan error displaces the rock across the line of sight by pan error times range, to first
+    // order, as a designated goal (Designated).
     const double centre_m = nearest_m + radius_m;
     const double x = std::cos(bearing_rad);
     const double y = std::sin(bearing_rad);
@@ -239,15 +242,15 @@ std::vector<MappedRock> MapFromLander(const CourseParams& course, const terrain:
 
 namespace {
 
-// From the lander's cameras to a place.
+// The line from the lander's cameras to a place.
 struct LineOfSight {
   double range_m = 0.0;
   double along_x = 1.0;  // unit vector
   double along_y = 0.0;
 };
 
-// The place less CourseParams::LanderPlace, but in this order of operations: the last bits of all
-// told goals hang on it.
+// Returns the place less CourseParams::LanderPlace. Records depend on this order of operations, by
+// the last bits of all told goals, so that LanderPlace must not replace it.
 LineOfSight SightOf(const messages::Goal& place, const CourseParams& course) {
   const double dx = course.goal_x_m - course.start_x_m;
   const double dy = course.goal_y_m - course.start_y_m;
@@ -261,7 +264,7 @@ LineOfSight SightOf(const messages::Goal& place, const CourseParams& course) {
   return {range_m, sight_x_m / range_m, sight_y_m / range_m};
 }
 
-// Numbers of one substream.
+// The random numbers of one substream, in the order in which they are drawn.
 struct Draws {
   double crossrange = 0.0;  // standard normal, as the next
   double downrange = 0.0;
@@ -277,6 +280,8 @@ Draws Draw(core::TrialKey key, std::uint32_t substream) {
   return draws;
 }
 
+// Returns a place as it is told. Its pan error, `pan` times crossrange_bias_m, must be PanError_rad
+// times the range.
 messages::Goal Designated(const messages::Goal& truth, const CourseParams& course,
                           const Draws& draws) {
   if (!course.designation.enabled) return truth;
@@ -293,7 +298,8 @@ bool AreSpaced(const messages::Goal& a, const messages::Goal& b, double spacing_
   return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) >= spacing_m;
 }
 
-// Corners that are far enough from the place kept before them and from the end.
+// Returns the corners that are far enough from the place kept before them and from the goal, then
+// the goal.
 std::vector<messages::Goal> Thinned(const messages::Route& route, const messages::Goal& start,
                                     const messages::Goal& goal, double spacing_m) {
   std::vector<messages::Goal> places;

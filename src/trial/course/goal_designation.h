@@ -1,4 +1,15 @@
-// What operators know and tell: the lander's map of the rocks, the goal that they designate.
+// What operators know and tell the rover: the goal, waypoints and route that they designate in the
+// stereo images of the lander, and the lander's map of the rocks. Drive takes told places and route
+// from it, the aids of a drive the lander's place and pan error, missions the pan error, and the
+// experiment on designation the told goal.
+//
+// Ranges are horizontal distances from the lander's cameras, unless they are said to be along a
+// ray.
+//
+// Records depend on the random numbers: Purpose::kGoalDesignation with the substreams 0 (goal) and
+// 1, 2, ... (waypoints), always three numbers each (crossrange, downrange, pan), and
+// Purpose::kLanderMap with a rock's index as substream, always five numbers. They are drawn whether
+// or not they are used, so that no error, waypoint or rock shifts the numbers of another.
 #pragma once
 
 #include <cstddef>
@@ -14,70 +25,66 @@
 
 namespace rockyard::trial {
 
-// A rock of the map, and which it is in truth.
+// A rock of the map, and the true rock that it stands for.
 struct MappedRock {
   terrain::Rock rock;        // as believed, in W: round, its base on the ground
-  std::size_t index = 0;     // in Terrain::rocks()
-  double range_m = 0.0;      // true, horizontal, from the mast to the nearest point that is seen
-  double share_seen = 0.0;   // of the points that would be seen if it stood alone
+  std::size_t index = 0;     // of the true rock in Terrain::rocks()
+  double range_m = 0.0;      // true, from the mast to the nearest point that is seen
+  double share_seen = 0.0;   // of the points that would be seen if the rock stood alone
   double resolved_px = 0.0;  // the smaller of its seen width and height
 };
 
-// The rocks that the cameras of course.designation show from a mast of course.lander_map, in the
-// order of Terrain::rocks(). A rock is known where what other rocks and the ground leave of it is
-// resolved_px wide and high and its nearest point no farther than reach_m.
+// Returns the lander's map: the rocks that the stereo pair of course.designation shows from a mast
+// of course.lander_map, in the order of Terrain::rocks(). The map has a rock if its seen part,
+// which other rocks and the ground leave, is at least resolved_px wide and high, and if the nearest
+// seen point is no farther than reach_m. Both are judged by true angles and ranges.
 //
-// With f the horizontal distance of the nearest point seen and 2 alpha the angle between its
-// outermost points, seen from above, a round rock has
-//   r = f sin(alpha) / (1 - sin(alpha)), its centre at f + r:
-// the far side is never seen, so that its depth is believed to be its width, and what is hidden of
-// either side is believed not to be there. The height is that of the highest point seen above the
-// ground. Errors, for the range R along the ray (Matthies 1995, eqs. 1 to 3):
-//   each edge, left, right, top and base: sigma = edge_sd pixel_rad (an angle);
-//   f: sigma = disparity_sd pixel_rad R^2 / B; sizes are the believed f times angles;
-//   everything turns about the lander with the pan error of the trial, as designated goals do
-//   (PanError_rad): map and goal are wrong together.
-// Errors of rocks are independent of each other and of the goal's. To first order, as designation.
+// With f the range of the nearest seen point and 2 alpha the angle between the outermost seen
+// points, as seen from above, a round rock has
+//   r = f sin(alpha) / (1 - sin(alpha)), its centre at f + r.
+// The far side is never seen: the believed depth of a rock is its width, and what is hidden of
+// either side is believed not to be there. The believed height is that of the highest seen point
+// above the ground. Random errors, to first order as those of designation and independent for each
+// rock, with R the range along the ray (Matthies 1995, eqs. 1 and 2):
+//   left, right, top and base edge: sigma = edge_sd pixel_rad (an angle);
+//   f: sigma = disparity_sd pixel_rad R^2 / B; sizes are the believed f times angles.
+// One error is common to all rocks and to designated goals: everything turns about the lander by
+// the pan error of the trial (PanError_rad; eq. 3), so that map and goal are wrong together.
 //
-// Randomness: Purpose::kLanderMap, substream = the rock's index, always five numbers. Limits: no
-// rover or lander hides anything; a matcher that fails, or rocks that it takes for one, are
-// not modelled; the ground's height is known. A rock under the mast itself is not in the map. Cost:
-// 10 to 30 us a rock, 7 ms among the rocks of VL-2 in the arena of the paper.
+// Limits: no rover or lander hides anything; a matcher that fails, or that takes several rocks for
+// one, is not modelled; the ground's height is known. A rock under the mast itself is not in the
+// map. Cost: 10 to 30 us a rock, 7 ms among the rocks of VL-2 in the arena of the paper.
 std::vector<MappedRock> MapFromLander(const CourseParams& course, const terrain::Terrain& terrain,
                                       core::TrialKey key);
 
-// The places that a rover is told, as an operator designates them in the lander's stereo images,
-// and the route that it is told to follow.
-
-// True goal plus downrange and crossrange error, seen from the lander's cameras; the true goal
-// where designation is off or the lander stands on it. Randomness: Purpose::kGoalDesignation,
-// always three numbers (crossrange, downrange, pan), so that changing one error shifts no other.
-// Cost: below 1 us.
+// Returns the told goal: the true goal plus downrange and crossrange error, as seen from the
+// lander's cameras; the true goal where designation is off or the lander stands on the goal. Cost:
+// below 1 us.
 messages::Goal DesignatedGoal(const CourseParams& course, core::TrialKey key);
 
-// By how much the pan axis of the lander's cameras is wrong in a trial, positive to the left: what
-// its goals, its waypoints and its map (MapFromLander) have in common. 0 where designation is off.
+// Returns by how much the pan axis of the lander's cameras is wrong in a trial, positive to the
+// left: the error that goals, waypoints and map (MapFromLander) have in common. 0 where designation
+// is off.
 double PanError_rad(const DesignationParams& designation, core::TrialKey key);
 
-// Every waypoint of the course in the order of driving, then DesignatedGoal. Each waypoint is
-// designated from the same place as the goal, by its own range and with random errors of its own
-// (the same stream, substream 1, 2, ...; the goal's is 0, so that it does not depend on waypoints).
-// The pan axis is wrong by one angle in a trial, whatever is designated.
+// Returns the told waypoints of the course in the order of driving, then DesignatedGoal. Each
+// waypoint is designated from the same place as the goal, by its own range and with random errors
+// of its own; the goal does not depend on waypoints. All have the pan error of the trial.
 std::vector<messages::Goal> DesignatedGoals(const CourseParams& course, core::TrialKey key);
 
-// By course.designation, about the line from start to goal. The pan error is that of the trial
-// where goals are designated with it and 0 where they are not.
+// Returns where the lander stands, with the pan error of the trial, for the aids of a drive.
 sensing::LanderPlace LanderPlaceOf(const CourseParams& course, core::TrialKey key);
 
-// The route to `goal` that is planned on the map of course.route_map, as it is before anything
-// moves; empty where that map shows no way.
+// Returns the route to `goal` that is planned, before anything moves, on the map that
+// course.route_map.source names: the true rocks, or MapFromLander. Empty where that map shows no
+// way.
 messages::Route ToldRoute(const DriveParams& drive, const terrain::Terrain& terrain,
                           core::TrialKey key, const messages::Goal& goal);
 
-// In the order of driving, the goal last: DesignatedGoals, or, where course.route_map.use is
-// waypoints, the corners of ToldRoute to the designated goal that lie spacing_m from the one before
-// and from the goal. Where the map shows no way, and where it shows a straight one, that is the
-// goal alone.
+// Returns the places that the rover is told to drive to, in the order of driving, the goal last:
+// DesignatedGoals or, where course.route_map.use is waypoints, the corners of ToldRoute that are at
+// least spacing_m from the place before and from the goal, then the designated goal. The list is
+// the goal alone where the map shows no way, or a straight one.
 std::vector<messages::Goal> ToldPlaces(const DriveParams& drive, const terrain::Terrain& terrain,
                                        core::TrialKey key);
 

@@ -1,4 +1,5 @@
-// Which terrain a trial drives on: the same for the drive and for whoever wants to look at it.
+// Which terrain a trial drives on. Drives, studies, replays and the command `terrain` all build it
+// by these two functions, so that they see the same terrain.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +10,14 @@
 
 namespace rockyard::trial {
 
-// The key of the rock field: trials that share a layout share it. Their results hang together,
-// which intervals reckon with; noise and start stay those of the trial.
+// Returns the key of a trial's rock field. Trials of one layout share it, so that their results are
+// not independent, which confidence intervals reckon with; noise and start stay those of the trial.
 inline core::TrialKey LayoutKey(const DriveParams& drive, core::TrialKey key) {
   const auto group = static_cast<std::uint32_t>(drive.course.trials_per_layout);
   return {key.seed, key.trial / group};
 }
 
+// Returns the places that the terrain keeps free of rocks, and the rock at the goal.
 inline terrain::Course TerrainCourse(const CourseParams& course) {
   terrain::Course points{
       course.start_x_m, course.start_y_m, course.goal_x_m, course.goal_y_m, {}, {}};

@@ -20,26 +20,27 @@ struct Offset {
 };
 
 constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
-// Of ways that cost the same the order decides, too: another one is another route.
+// Records depend on this order, which decides among ways of the same cost.
 constexpr Offset kNeighbours[] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
                                   {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
-// As many as have their centres within the length; one at least.
+// Returns how many cells have their centres within the length; one at least.
 int Cells(double length_m, double cell_m) {
   constexpr double kRounding = 1e-9;
   return std::max(1, static_cast<int>(std::floor(length_m / cell_m + 0.5 + kRounding)));
 }
 
-// What is left of the length belongs to the last cell.
+// Returns the cell of x, -1 or `cells` beyond the grid. What is left of the length belongs to the
+// last cell.
 int CellAt(double x_m, double min_m, double max_m, double cell_m, int cells) {
   const double cell = std::floor((x_m - min_m) / cell_m);
   const double last = x_m <= max_m ? cells - 1 : cells;
   return static_cast<int>(std::clamp(cell, -1.0, last));
 }
 
-// Shortest way over an empty grid, in cells. As what ShortestPath expects of the rest of a way it
-// must never exceed the true cost, nor fall by more than a step costs: a cell that is closed is not
-// opened again.
+// Returns the shortest way over an empty grid, in cells: what ShortestPath expects the rest of a
+// way to cost. It must never exceed the true cost, nor fall by more than a step costs, as a closed
+// cell is not opened again.
 double OctileDistance(int dx, int dy) {
   const int low = std::min(std::abs(dx), std::abs(dy));
   const int high = std::max(std::abs(dx), std::abs(dy));
@@ -108,7 +109,7 @@ std::vector<std::size_t> ShortestPath(const FreeGrid& grid, std::size_t from, st
   const int goal_y = static_cast<int>(to / columns);
   std::vector<double> cost(grid.size(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> before(grid.size(), kNowhere);
-  // Least expected cost first, then the smaller index: one order, whatever the library.
+  // Records depend on this order: least expected cost first, then the smaller index.
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   const auto reach = [&](std::size_t cell, double new_cost, std::size_t parent) {
@@ -149,13 +150,13 @@ using messages::Goal;
 
 constexpr double kMaxCells = 1e6;  // beyond it cells grow: a bound of time and memory
 
-// What a way keeps clear of, and by how much.
+// The height of rocks from which on a way keeps clear of them, and by how much.
 struct Demand {
   double min_height_m = 0.0;
   double room_m = 0.0;
 };
 
-// Where the rover's centre may be.
+// Returns where the rover's centre may be.
 terrain::Rectangle CentreBounds(const DriveParams& drive, double room_m) {
   const terrain::ArenaParams& arena = drive.terrain.arena;
   terrain::Rectangle bounds = terrain::DrivableBounds(arena);
@@ -171,8 +172,8 @@ terrain::Rectangle CentreBounds(const DriveParams& drive, double room_m) {
   return bounds;
 }
 
-// From each corner on to the farthest cell of the way that can be seen from it, as far as every
-// cell before is seen too.
+// Pulls a way straight: from each corner it leads on to the last cell up to which every cell of the
+// way is in clear sight of the corner.
 messages::Route PullStraight(const FreeGrid& grid, const std::vector<std::size_t>& way,
                              const Goal& start, const Goal& goal) {
   messages::Route route;
@@ -200,7 +201,7 @@ messages::Route Plan(const DriveParams& drive, std::span<const terrain::Rock> ro
     if (rock.height_m >= demand.min_height_m) grid.Block(rock, demand.room_m);
   }
   const Goal start{drive.course.start_x_m, drive.course.start_y_m};
-  // No way under this demand; a weaker one may leave both ends free.
+  // Without free ends there is no way under this demand; a weaker demand may leave both ends free.
   if (!grid.IsFree(start) || !grid.IsFree(goal)) return {};
   const std::vector<std::size_t> way =
       ShortestPath(grid, grid.Index(grid.Column(start.x_m), grid.Row(start.y_m)),
@@ -219,8 +220,8 @@ messages::Route PlanRoute(const DriveParams& drive, std::span<const terrain::Roc
   const double turning_m = 0.5 * std::hypot(rover.length_m, rover.width_m);
   const double passing_m = 0.5 * rover.width_m;
   const double squeezing_m = passing_m - 0.5 * rover.wheel_width_m;
-  // From the most generous to the tightest; the first with a way is taken, so that another margin
-  // or one more demand between them changes routes.
+  // Records depend on the demands: from the most generous to the tightest, the first with a way is
+  // taken, so that another margin or one more demand between them changes routes.
   const std::array demands{Demand{low_m, turning_m + params.margin_m},
                            Demand{low_m, passing_m + params.margin_m},
                            Demand{belly_m, turning_m + params.margin_m},

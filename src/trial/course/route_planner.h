@@ -1,5 +1,6 @@
 // The best way to a goal among rocks that somebody knows: an oracle, or operators with a map; never
-// on-board code.
+// on-board code. Told routes are planned by it (goal_designation.h), and the path of rendered
+// sequences for visual odometry.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +15,14 @@
 
 namespace rockyard::trial {
 
-// Where the centre of a rover may be: cells of a rectangle, free or blocked. Their centres lie
-// within it (unless it is narrower than half a cell); the last ones are longer or shorter than the
-// others.
+// Where the centre of a rover may be: cells of a rectangle, free or blocked. The centres of cells
+// lie within the rectangle (unless it is narrower than half a cell); the last cells are longer or
+// shorter than the others.
 class FreeGrid {
  public:
   FreeGrid(const terrain::Rectangle& bounds, double cell_m);
 
-  // Blocks the cells whose centres lie inside the rock's outline, its half axes longer by room_m.
+  // Blocks the cells whose centres lie inside the rock's outline with half axes longer by room_m.
   void Block(const terrain::Rock& rock, double room_m);
 
   int nx() const { return nx_; }
@@ -37,12 +38,12 @@ class FreeGrid {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) +
            static_cast<std::size_t>(ix);
   }
-  // The cell that holds a point; beyond the grid where the point is.
+  // Return column and row of the cell that holds a point, -1 or nx(), ny() beyond the grid.
   int Column(double x_m) const;
   int Row(double y_m) const;
   messages::Goal Centre(std::size_t index) const;
 
-  // Whether a straight way leads over free cells only, looked at every half cell.
+  // Returns whether a straight way leads over free cells only, as tested every half cell.
   bool IsClear(const messages::Goal& from, const messages::Goal& to) const;
 
  private:
@@ -53,14 +54,14 @@ class FreeGrid {
   std::vector<std::uint8_t> blocked_;
 };
 
-// The cells of a shortest path between free cells, both ends included; empty where there is none.
-// Moves lead to the eight neighbours, across a corner only where both cells beside it are free. Of
-// equally short ways always the same one.
+// Returns the cells of a shortest path between free cells, both ends included; empty where there is
+// none. Moves lead to the eight neighbours, across a corner only where both cells beside it are
+// free. Of equally short paths it always returns the same one.
 std::vector<std::size_t> ShortestPath(const FreeGrid& grid, std::size_t from, std::size_t to);
 
-// The shortest path from the start of the course to `goal` among `rocks` on a grid (A*, eight
-// neighbours; Hart, Nilsson and Raphael 1968), its corners pulled straight. The first of these that
-// there is:
+// Returns the shortest path from the start of the course to `goal` among `rocks` on a grid (A*,
+// eight neighbours; Hart, Nilsson and Raphael 1968), with its corners pulled straight. It is the
+// path of the first of these demands that has one:
 //
 //   |   | rocks that it keeps clear of | by, from the rover's centre                           |
 //   | 1 | of low_rock_m and higher     | half its diagonal and margin_m: it may turn anywhere  |
@@ -70,13 +71,13 @@ std::vector<std::size_t> ShortestPath(const FreeGrid& grid, std::size_t from, st
 //   | 5 | belly_clearance_m and higher | half its width                                        |
 //   | 6 | belly_clearance_m and higher | that to the middle of its wheels, which climb flanks  |
 //
-// Corners as messages::Route has them: without the start, the goal itself as the last one. An empty
-// route where there is none: what no path selection could cure, as far as this grid tells.
-// Outlines are ellipses, their half axes lengthened by the room that is kept (the true parallel
-// curve lies up to 1 cm further out). The way stays inside of the arena: one across a mirror line
-// has another inside the lines that is as long. Limits: rocks only, no slopes; rocks that the rover
-// pushes are taken as fixed. Deterministic, no random numbers. Cost: 1 to 3 ms for the nominal
-// arena, 10 ms among the rocks of VL-2.
+// The last corner is the goal itself, as messages::Route asks. The route is empty where there is no
+// path: no path selection could help the rover, as far as this grid tells. Outlines are ellipses,
+// their half axes lengthened by the room that is kept (the true parallel curve lies up to 1 cm
+// further out). The way stays inside the arena: a way across a mirror line has another inside the
+// lines that is as long. Limits: rocks only, no slopes; rocks that the rover pushes are taken as
+// fixed. It draws no random numbers. Cost: 1 to 3 ms for the nominal arena, 10 ms among the rocks
+// of VL-2.
 messages::Route PlanRoute(const DriveParams& drive, std::span<const terrain::Rock> rocks,
                           const messages::Goal& goal);
 

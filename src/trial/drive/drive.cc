@@ -28,15 +28,15 @@ Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
   return motion.kind == MotionKind::kTurnInPlace ? Activity::kTurning : Activity::kDriving;
 }
 
-// Open fields go on; every other arena ends where its layout ends.
+// Returns where the arena ends; nothing for an open field, which goes on.
 std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
   if (arena.kind == terrain::ArenaKind::kOpen) return std::nullopt;
   const terrain::Rectangle bounds = terrain::DrivableBounds(arena);
   return ArenaBounds{bounds.x_min_m, bounds.x_max_m};
 }
 
-// The navigator of the scenario. A route that it is told to follow is planned on the ground as it
-// is before anything moves.
+// Makes the navigator of the scenario. A route that it is told to follow is planned before anything
+// moves.
 std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
                                                      const terrain::Terrain& terrain,
                                                      core::TrialKey key,
@@ -183,8 +183,8 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   UseAids();
   observer_.OnTick(activity == Activity::kTurning);
   tracer_.Sample(activity);
-  // Operators turn a rover whose position reaches the line; one that turns in place stays its own
-  // master, also beyond the line.
+  // Operators turn a rover whose position reaches a mirror line, but not a rover that turns in
+  // place, also beyond the line.
   if (motion.kind == MotionKind::kArc) ReflectAtMirrorLine(motion.direction);
   if (motion.kind == MotionKind::kStop) return std::nullopt;
   return AskReferee(activity, motion.direction, stretch.duration_s);
@@ -225,7 +225,7 @@ void Drive::UseAids() {
 void Drive::ReflectAtMirrorLine(int direction) {
   const auto reflection = operators_.Reflect(direction);
   if (!reflection) return;
-  // What it saw lay around a rover that stood elsewhere.
+  // Looks under way show what lay around a rover that stood elsewhere.
   timeline_.Drop();
   observer_.OnReflection();
   tracer_.Event("reflection", "");

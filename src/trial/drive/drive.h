@@ -1,4 +1,4 @@
-// The closed loop of one trial. See run_trial.h for the entry point.
+// The closed loop of one trial, which RunTrial (run_trial.h) steps until it ends.
 #pragma once
 
 #include <cstdint>
@@ -21,30 +21,30 @@
 
 namespace rockyard::trial {
 
-// What is asked for in seconds happens in whole steps of the rover: a control tick of 1/25 s takes
-// two steps of 1/60 s. duration_s is the time of these steps, and all that steers, measures or
-// keeps books goes by it, never by the time asked for.
+// A time in whole steps of the rover. What is asked for in seconds happens in whole steps: a
+// control tick of 1/25 s takes two steps of 1/60 s. Must stay: all that steers, measures or keeps
+// books goes by duration_s, never by the time asked for.
 struct Stretch {
   std::int64_t steps = 1;
-  double duration_s = 0.0;
+  double duration_s = 0.0;  // of these steps
 };
 
-// The nearest whole number of steps, one at least.
+// Returns the stretch of the nearest whole number of steps, one at least.
 Stretch WholeSteps(double asked_s, double step_s);
 
 // One drive from the start to its end. Every control tick what runs on board decides from what the
-// world measures; the world holds its wheel commands for a few physics steps; observer and referee,
-// who see both, say when the drive is over. What the drive itself hands from one to another are
-// measurements, commands and verdicts: it knows neither where the rover is nor where it believes to
-// be. Looks may be under way meanwhile (timeline.h).
+// world measures; the world holds the wheel commands for a few physics steps; observer and referee,
+// who see both sides, say when the drive is over. Looks may be under way meanwhile (timeline.h).
+// Must stay: the drive hands measurements, commands and verdicts from one to another, and knows
+// neither where the rover is nor where the rover believes to be.
 class Drive {
  public:
   Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace, const Watchers& watchers,
         const DriveStart* start = nullptr);
 
-  // One decision, and what follows from it. The verdict, once the drive is over.
+  // Makes one decision, and what follows from it. Returns the verdict once the drive is over.
   std::optional<Verdict> Step();
-  // Ends a drive by its verdict, once.
+  // Ends the drive by its verdict; called once.
   DriveResult Finish(const Verdict& verdict);
 
   double time_s() const { return ledger_.time_s(); }
@@ -53,9 +53,9 @@ class Drive {
  private:
   // Shows the navigator where the tracker sees the goal, or the rock at it.
   void TrackGoal();
-  // The navigator has done with so many goals.
+  // Takes note that the navigator has done with `passed` goals and drives to the next one.
   void OnWaypoints(std::size_t passed);
-  // Whether the rover goes on meanwhile.
+  // Returns whether the rover goes on while the look of this decision is taken and computed.
   bool LooksOnTheMove(const navigation::NavigatorDecision& decision) const;
   // Stops and looks.
   std::optional<Verdict> Look(messages::LookDirection direction);
@@ -63,34 +63,36 @@ class Drive {
   // not free.
   std::optional<Verdict> LookOnTheMove(messages::LookDirection direction);
   std::unique_ptr<SeenLook> See(messages::LookDirection direction);
-  // Takes images for visual odometry: stops for them, and for the computer, where these may not
-  // overlap with the drive.
+  // Takes images for visual odometry: the rover stops for them, and for the computer, where imaging
+  // and computing may not overlap with the drive.
   std::optional<Verdict> SeeMotion();
-  // Returns for how much of it the rover rests.
+  // Spends the time of imaging or computing, beside the drive where `beside`. Returns for how much
+  // of it the rover rests.
   double SpendOnVision(Activity activity, double duration_s, bool beside);
-  // What the navigator made of the last look.
+  // Shows watcher and tracer what the navigator made of the last look.
   void ShowStep();
-  // What a move takes beyond the motion of wheels.
+  // Spends what a move takes beyond the motion of wheels (clock.compute.move_overhead_s).
   void SpendOverhead();
   void RestBetweenMoves(double duration_s);
-  // One tick of the motion that was told. A rover that is told to stop, or whose plan is at its
-  // end, waits at rest.
+  // Makes one tick of the motion that was told. A rover that is told to stop, or whose plan is at
+  // its end, waits at rest.
   std::optional<Verdict> Follow(const messages::MotionCommand& told);
-  // What cannot go on while the rover drives, it stops for.
+  // Stops for what cannot go on while the rover drives.
   std::optional<Verdict> RestFor(const Timeline::Rest& rest);
+  // Moves the rover for a stretch, and lets sensors, estimator, aids and operators act at its end.
   std::optional<Verdict> Move(const messages::MotionCommand& motion, const Stretch& stretch);
 
   // Holds the command for so many physics steps.
   void ApplyCommand(const messages::WheelCommand& command, std::int64_t steps);
-  // The estimator takes one stretch of encoders and gyro.
+  // Lets the estimator take one stretch of encoders and gyro.
   messages::MotionMeasurement Propagate(double duration_s, bool moving);
-  // Aids measure, and what they measured before reaches the estimator.
+  // Lets aids measure, and hands the estimator what is ready of earlier measurements.
   void UseAids();
-  // A stretch in which the wheels stood; a gyro may drift in it.
+  // Lets the estimator take a stretch at rest, where the gyro drifts in it.
   void PropagateAtRest(double duration_s);
   void ReflectAtMirrorLine(int direction);
   std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);
-  // What a stuck rover would still take, and with referee.stuck_rover run_on takes.
+  // Notes what a stuck rover would still take; with referee.stuck_rover run_on spends it.
   void Strand();
   // Spends time at rest.
   void Rest(Activity activity, double duration_s);
@@ -100,8 +102,8 @@ class Drive {
   std::vector<messages::Goal> told_places_;  // waypoints, then the goal, as the rover is told
   Onboard onboard_;
 
-  Stretch tick_;  // of control
-  Stretch stop_;  // before a scan
+  Stretch tick_;  // one control tick
+  Stretch stop_;  // until the rover has come to rest
   Ledger ledger_;
   Timeline timeline_;
 
@@ -112,8 +114,8 @@ class Drive {
   StepWatcher step_watcher_;
 
   std::unique_ptr<SeenLook> seen_;  // to be told at the next tick
-  bool rolling_ = false;            // in the last stretch
-  bool sees_goal_ = false;          // at the tracker's last look; of a goal rock: ever
+  bool rolling_ = false;            // whether the wheels rolled in the last stretch
+  bool sees_goal_ = false;          // at the tracker's last look; of a goal rock: at any look
   Stall stall_;                     // of a rover that was found stuck
 };
 

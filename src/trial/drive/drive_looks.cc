@@ -1,4 +1,5 @@
-// How a drive looks at the terrain: at rest, or on the move.
+// How a drive looks at the terrain, at rest or on the move, and takes images for visual odometry:
+// the second half of Drive.
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,7 +17,7 @@ bool Drive::LooksOnTheMove(const navigation::NavigatorDecision& decision) const 
 }
 
 std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
-  // What is under way was seen from farther back.
+  // Looks under way were taken from farther back, and are dropped.
   timeline_.Drop();
   observer_.OnLook();
   if (auto verdict = Move({}, stop_)) return verdict;
@@ -75,7 +76,7 @@ std::optional<Verdict> Drive::SeeMotion() {
   const bool compares = onboard_.TakeMotion(step, now_s, now_s + imaging_s + computing_s);
   if (compares) tracer_.Vision(step);
   double rest_s = SpendOnVision(Activity::kImaging, imaging_s, overlap.imaging);
-  // The first images have none to be compared with.
+  // The first images have no others to be compared with.
   if (compares) rest_s += SpendOnVision(Activity::kComputing, computing_s, overlap.computing);
   if (rest_s <= 0.0) return std::nullopt;
   PropagateAtRest(rest_s);

@@ -18,7 +18,8 @@ Underside UndersideOf(const rover::RoverGeometryParams& rover) {
   return {0.0, 0.5 * rover.belly_length_m, 0.5 * rover.belly_width_m, rover.belly_clearance_m};
 }
 
-// Where a navigator reads no report, hazards can neither be met nor missed.
+// Returns the height from which rocks are watched; none is where the navigator reads no report, as
+// hazards can then neither be met nor missed.
 double WatchedHeight(const DriveParams& drive) {
   return drive.navigation.navigators.chosen().traits().reads ==
                  navigation::LookReading::kHazardReport

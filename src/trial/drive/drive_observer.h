@@ -1,4 +1,5 @@
-// What a drive's record tells: gathered while it goes on, reported at its end.
+// What the record of a drive tells: Drive lets the observer gather it while the drive goes on and
+// report it at the end. The report of the columns stands in drive_observer_report.cc.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +23,15 @@
 
 namespace rockyard::trial {
 
-// Shows watchers what the rover makes of a look, with the truth of that moment beside it. `world`
-// outlives them.
+// Returns watchers for the on-board side, which show `watchers` what the rover makes of a look,
+// with the truth of that moment beside it. `world` outlives them.
 SightWatchers WithTruth(const Watchers& watchers, const World& world);
 
-// Holds what the rover believes against what is true, for the referee and for the record. Changes
-// nothing.
+// Holds what the rover believes against what is true, for the referee and for the record. Must
+// stay: it changes nothing in the drive.
 class DriveObserver {
  public:
-  // All outlive it. `told`: the waypoints, then the goal, as the rover is told.
+  // All references outlive it. `told`: the waypoints, then the goal, as the rover is told.
   DriveObserver(const World& world, const Onboard& onboard, const Ledger& ledger,
                 std::vector<messages::Goal> told);
 
@@ -39,13 +40,13 @@ class DriveObserver {
   void OnReflection() { ++reflections_; }
   // The navigator told a motion. Returns whether a new move begins with it.
   bool OnMotion(const messages::MotionCommand& motion);
-  // The rover stops for a look; what it believed of it.
+  // The rover stops for a look.
   void OnLook() { moves_.OnLook(); }
-  // The look of that number is taken here.
+  // The look of that number is taken where the rover is now.
   void OnSeen(std::int64_t look) { looked_from_X_WR_[look] = world_.state().X_WR; }
-  // Where the rover truly was when it took the look. Forgets the looks before it.
+  // Returns where the rover truly was when it took the look. Forgets the looks before it.
   math::Transform LookedFrom(std::int64_t look);
-  // What is reported of a look.
+  // The report of a look is there; `hazard`: whether it names one.
   void OnReport(bool hazard, std::int64_t look);
   void OnWheels(bool moving) { stops_.Observe(moving); }
   void OnScrape();
@@ -56,22 +57,22 @@ class DriveObserver {
   void OnSlip(const SlipReading& slip);
   // Visual odometry corrected the estimate.
   void OnSeenMotion();
-  // Once a control tick, after the estimate.
+  // A control tick has ended, and the estimator has taken it.
   void OnTick(bool turning_in_place);
 
-  // For the referee: truth and belief of now.
+  // Returns truth and belief of now, for the referee.
   Observation Observed(Activity activity, int direction, double duration_s) const;
-  // Looks whether the rover has found the rock at its goal, where there is one.
+  // Looks and returns whether the rover has found the rock at its goal, where there is one.
   bool FoundRock();
 
-  // All columns that a drive has. `stall`: of a rover that was found stuck.
+  // Returns all columns of the record. `stall`: of a rover that was found stuck.
   truth::DriveRecord Report(bool declared_success, const Stall& stall,
                             const Referee& referee) const;
-  // What the drive leaves to the next one.
+  // Returns what the drive leaves to the next one.
   DriveEnd End() const;
 
  private:
-  // What the rover believes, against what the monitor saw.
+  // Holds believed heading and distance against the true ones.
   void ObserveErrors();
 
   void ReportGoals(truth::DriveRecord& record) const;
@@ -107,11 +108,11 @@ class DriveObserver {
   SlipOnset slip_onset_;
   std::int64_t slip_alarms_ = 0;
   std::int64_t false_slip_alarms_ = 0;
-  std::optional<double> largest_slip_;     // as seen
+  std::optional<double> largest_slip_;     // that visual odometry saw
   std::optional<double> first_slip_m_;     // true path length at the first alarm
   bool recognized_ = false;                // the goal rock
   messages::PoseEstimate seen_at_;         // the last place of visual odometry, or the start
-  std::optional<double> seen_distance_m_;  // way between them
+  std::optional<double> seen_distance_m_;  // way between the places of visual odometry
 };
 
 }  // namespace rockyard::trial

@@ -1,4 +1,4 @@
-// What a finished drive says of itself: the columns of its record.
+// The columns of a finished drive's record (truth/drive_record.h), filled by DriveObserver::Report.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

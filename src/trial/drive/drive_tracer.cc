@@ -9,6 +9,7 @@
 namespace rockyard::trial {
 namespace {
 
+// Must stay: the texts of truth/trace.h.
 std::string Name(Activity activity) {
   switch (activity) {
     case Activity::kDriving:
@@ -31,7 +32,7 @@ std::string Name(Activity activity) {
   return "";
 }
 
-// One character a stripe, left to right.
+// Returns one character for each stripe, left to right: # where it shows a hazard.
 std::string Pattern(const messages::HazardReport& report) {
   std::string text;
   for (const bool hazard : report.stripe_hazard) text += hazard ? '#' : '.';
@@ -98,11 +99,11 @@ void DriveTracer::Vision(const VisualStep& step) {
 
 void DriveTracer::Waypoint(std::size_t index) {
   if (trace_ == nullptr) return;
-  // Where somebody named them, how far their true places are; corners of a route have none.
+  // Waypoints that somebody named have true places; corners of a route are as they were told.
   const CourseParams& course = world_.params().course;
   const bool named = course.route_map.use != RouteUse::kWaypoints;
   const std::vector<messages::Goal> goals = named ? course.Goals() : told_places_;
-  // The told goal, and what a local search tries after it.
+  // Behind the waypoints come the told goal and the places of a local search.
   const std::size_t waypoints = goals.size() - 1;
   if (index >= waypoints) {
     return Event("waypoint", fmt::format("place {} of the search", index - waypoints + 1));

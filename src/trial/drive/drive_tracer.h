@@ -1,4 +1,5 @@
-// What a drive tells of its course, where somebody asks for a trace.
+// What a drive tells of its course where somebody asks for a trace: Drive calls the tracer at every
+// tick, rest and event. Must stay: the texts of activities and events, which truth/trace.h lists.
 #pragma once
 
 #include <cstddef>
@@ -17,25 +18,26 @@
 
 namespace rockyard::trial {
 
+// Writes the trace of one drive; without a trace it does nothing.
 class DriveTracer {
  public:
-  // Without a trace it does nothing. All outlive it; `told` as the observer's.
+  // All references outlive it. `told`: the waypoints, then the goal, as the rover is told.
   DriveTracer(const World& world, const Onboard& onboard, const Ledger& ledger,
               std::vector<messages::Goal> told, truth::Trace* trace);
 
   void Event(std::string kind, std::string detail);
-  // Reports of hazards that are believed, and every look that shows points.
+  // Tells of a report that names a hazard, and of a look that shows points.
   void Look(messages::LookDirection direction, const Percept& percept);
-  // What was declared, and how far the rover truly is from there.
+  // Tells that the rover declared to be at a place, and how far it truly is from there.
   void Waypoint(std::size_t index);
-  // What came of a pair of images for visual odometry.
+  // Tells what came of a pair of images for visual odometry.
   void Vision(const VisualStep& step);
-  // What was chosen among the motions that were voted for.
+  // Tells which of the motions that were voted for was chosen.
   void Votes(const messages::NavigationView& view);
 
-  // A control tick.
+  // Adds a control tick.
   void Sample(Activity activity);
-  // A moment between control ticks; `activity`: of the rest that ends here.
+  // Adds a moment between control ticks. `activity`: of the rest that ends here, if one does.
   void Rest(std::optional<Activity> activity, bool set_back = false);
 
  private:
@@ -47,7 +49,7 @@ class DriveTracer {
   const Ledger& ledger_;
   std::vector<messages::Goal> told_places_;
   truth::Trace* trace_;
-  std::vector<math::Vector3> rock_centers_;  // where the trace knows rocks that can move
+  std::vector<math::Vector3> rock_centers_;  // of rocks that can move, as last told
 };
 
 }  // namespace rockyard::trial

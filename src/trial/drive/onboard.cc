@@ -6,14 +6,15 @@
 namespace rockyard::trial {
 namespace {
 
-// Corners of a route are passed, places that somebody named are arrived at.
+// Returns the distance at which a corner of a route is passed; nothing for places that somebody
+// named, at which the rover arrives.
 std::optional<double> PassingOf(const DriveParams& drive) {
   const RouteMapParams& map = drive.course.route_map;
   if (map.use != RouteUse::kWaypoints) return std::nullopt;
   return map.passing_m;
 }
 
-// What the rover drives to: the designated places, then those of a local search.
+// Returns what the rover drives to: the designated places, then the places of a local search.
 std::vector<messages::Goal> WithSearch(std::vector<messages::Goal> goals,
                                        const GoalRockParams& rock) {
   if (!rock.enabled) return goals;

@@ -1,4 +1,5 @@
-// What runs on board: measurements in, commands out. It has never seen a truth.
+// What runs on board: measurements in, commands out. Drive asks it for every decision; observer and
+// tracer read what it believes. Must stay: nothing here ever sees a truth.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +29,7 @@
 
 namespace rockyard::trial {
 
-// From motions to wheels.
+// Turns motions into wheel commands.
 struct Locomotion {
   navigation::MotionFollower follower;
   navigation::WheelDriver driver;
@@ -36,7 +37,7 @@ struct Locomotion {
   void OnPlaced() { driver.Straighten(); }
 };
 
-// Looks whether the rover gets on, where navigation.on_board_stuck asks for that.
+// Watches whether the rover is stuck, where navigation.on_board_stuck asks for that.
 class StuckWatch {
  public:
   explicit StuckWatch(const DriveParams& drive);
@@ -55,71 +56,77 @@ class StuckWatch {
 // What the navigator decided.
 struct Decided {
   navigation::NavigatorDecision decision;
-  bool told_slip = false;  // an alarm of slip was among what it went by
-  std::size_t passed = 0;  // goals that it has done with at this decision
+  bool told_slip = false;  // whether it was told of an alarm of slip
+  std::size_t passed = 0;  // how many goals it has done with at this decision
 };
 
-// What the aids brought at one tick.
+// What aids and visual odometry brought at one tick.
 struct AidNews {
   bool saw_motion = false;  // visual odometry corrected the estimate
   std::optional<SlipReading> slip = {};
 };
 
+// The on-board side of one drive.
 class Onboard {
  public:
-  // `drive` outlives it. `goals`: what the rover is told to drive to, in the order of driving.
-  // `navigator` has the first for its goal. ramp_s: of its motors. `key`: of what it draws itself,
-  // the samples of visual odometry. `watchers` are shown what it makes of a look.
+  // `drive` outlives it. `goals`: what the rover is told to drive to, in the order of driving;
+  // `navigator` has the first for its goal. ramp_s: the ramp of the motors. `key`: names the random
+  // numbers that are drawn on board, the samples of visual odometry. `watchers` are shown what is
+  // made of a look.
   Onboard(const DriveParams& drive, core::TrialKey key, std::vector<messages::Goal> goals,
           std::unique_ptr<navigation::Navigator> navigator, double ramp_s,
           const SightWatchers& watchers = {});
   Onboard(const Onboard&) = delete;
   Onboard& operator=(const Onboard&) = delete;
 
-  // The estimator begins where the rover believes to stand.
+  // Sets the estimator, which begins where the rover believes to stand.
   void Begin(std::unique_ptr<localization::Estimator> estimator) {
     estimator_ = std::move(estimator);
   }
-  // Operators moved the rover by hand, and say where it is.
+  // Takes where operators say that they moved the rover by hand.
   void Place(const messages::PoseUpdate& update);
 
   const messages::LocalizationEstimate& estimate() const { return estimator_->estimate(); }
   localization::EstimatorMemory Remember() const { return estimator_->Remember(); }
 
-  // The decision of a control tick; `seen` answers the oldest look without an answer, or is null.
+  // Returns the decision of a control tick; `seen` answers the oldest look without an answer, or is
+  // null.
   Decided Decide(double time_s, const SeenLook* seen);
-  // The motion of the next tick: along the command, to rest before its end.
+  // Returns the motion of the next tick: along the command, and to rest before the command's end.
   messages::MotionCommand Follow(const messages::MotionCommand& told, double tick_s);
-  // What the wheels do for the next tick.
+  // Returns the wheel command of the next tick.
   messages::WheelCommand Drive(const messages::MotionCommand& motion, double tick_s);
   const navigation::WheelDriver& wheel_driver() const { return parts_.get<Locomotion>().driver; }
 
-  // Takes what was measured over one tick. A rover that stands has one too, and feels nothing then.
+  // Takes what was measured over one tick. A rover that stands has ticks, too, but feels nothing.
   void Propagate(const messages::MotionMeasurement& motion) { estimator_->Propagate(motion); }
-  // Takes what was felt over it. Returns the hazards that appeared.
+  // Takes what was felt over the tick. Returns the hazards that appeared.
   std::vector<messages::VehicleHazard> Feel(const messages::VehicleState& felt,
                                             const messages::WheelCommand& command,
                                             const messages::MotionMeasurement& motion);
-  // Looks whether the rover gets on.
+  // Returns the sign by which the rover notices that it is stuck, if it does.
   std::optional<perception::StuckSign> NoticeStuck(const messages::WheelCommand& command,
                                                    const messages::MotionMeasurement& motion);
+  // Hands what was felt last to the estimator.
   void FeelStance(double duration_s);
 
   TerrainSensing& terrain_sensing() { return terrain_sensing_; }
   const TerrainSensing& terrain_sensing() const { return terrain_sensing_; }
-  // A look as it is taken now: its order, and what came of it.
+  // Return the order of a look, and what came of a look that was taken now.
   LookOrder OrderLook(messages::LookDirection direction) {
     return terrain_sensing_.Order(direction, estimate().attitude);
   }
   std::unique_ptr<SeenLook> TakeLook(const LookOrder& order, const LookData& data, double time_s);
 
-  // Aids: what is due, and what was measured of that.
+  // Returns what aids are to measure now.
   AidRequest DueAids(double time_s) { return parts_.get<AidSuite>().Due(*estimator_, time_s); }
+  // Takes what aids measured, and hands the estimator what is ready, motions seen included.
   AidNews TakeAids(const AidRequest& request, const AidAnswer& answer, double time_s);
 
-  // Visual odometry.
+  // Returns whether visual odometry takes images now.
   bool SeesMotionNow(double time_s) const { return vision().IsDue(estimate(), time_s); }
-  // What a look adds, worked out at once; the computer has it ready later.
+  // Returns what a look of visual odometry adds. It is worked out at once, though the computer has
+  // it ready later (ready_s).
   VisualStep ReadMotion(const MotionData& data) {
     return parts_.get<VisualReader>().Read(data, vision().Expected(estimate()));
   }
@@ -127,8 +134,8 @@ class Onboard {
     return parts_.get<VisualAid>().Take(step, time_s, ready_s, *estimator_);
   }
 
-  // The goal is seen there. Returns where that is believed to be. A rover that recognizes its goal
-  // (`leaves_rest`) leaves out what lies between.
+  // Takes where the goal is seen. Returns where the goal is believed to be. With `leaves_rest`, as
+  // a rover that recognizes a rock at its goal, it leaves out the places on the way.
   messages::Goal TakeSighting(const messages::FeatureSighting& sighting, bool leaves_rest);
 
   bool EndsBySlip() const { return parts_.get<SlipAlarms>().EndsDrive(); }

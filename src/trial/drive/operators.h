@@ -1,6 +1,6 @@
 // The "virtual" arena as operators ran it (Matthies 1995 sec. 7): whenever the rover's position
-// reaches a mirror line, it is turned in place to the mirror-image heading, and its own estimate is
-// reflected about the line.
+// reaches a mirror line, operators turn the rover in place to the mirror-image heading and reflect
+// its own estimate about the line. Drive asks them after every tick of an arc.
 #pragma once
 
 #include <cmath>
@@ -14,23 +14,25 @@
 
 namespace rockyard::trial {
 
+// What operators do at a mirror line.
 struct Reflection {
   math::Pose2 pose;             // true pose after the operators turned the rover
   messages::PoseUpdate update;  // estimate after its reflection
   double line_m = 0.0;          // y of the mirror line
 };
 
+// The arena between two mirror lines.
 class MirrorArena {
  public:
-  // Mirror lines at y = +-half_width_m.
+  // The mirror lines are at y = +-half_width_m.
   explicit MirrorArena(double half_width_m) : half_width_m_(half_width_m) {}
 
-  // True on or beyond a line, where Reflect may have something to do.
+  // Returns whether a rover at y is on or beyond a line, where Reflect may have something to do.
   bool Reaches(double y_m) const { return std::abs(y_m) >= half_width_m_; }
 
-  // The reflection that is due at this pose: on or beyond a line and driving outward, forwards
-  // (direction +1) or backwards (-1). It turns the rover to the mirror-image heading, with which
-  // the same drive leads inward.
+  // Returns the reflection of a rover on or beyond a line that drives outward, forwards (direction
+  // +1) or backwards (-1). It turns the rover to the mirror-image heading, with which the same
+  // drive leads inward.
   std::optional<Reflection> Reflect(const math::Pose2& pose, int direction,
                                     const messages::PoseEstimate& estimate) const;
 
@@ -48,19 +50,19 @@ inline std::optional<Reflection> MirrorArena::Reflect(
                     line_m};
 }
 
-// The operators of one drive. They let a rover drive before they turn it again.
+// The operators of one drive. They let a rover roll for a tick at least before they turn it again.
 class Operators {
  public:
-  // All outlive it.
+  // Both outlive it.
   Operators(const World& world, const Onboard& onboard) : world_(world), onboard_(onboard) {
     const terrain::ArenaParams& arena = world.params().terrain.arena;
     if (arena.kind == terrain::ArenaKind::kVirtualReflected) mirror_.emplace(arena.MirrorLine());
   }
 
-  // Once a control tick: whether the rover rolls.
+  // Takes whether the rover rolls; called once a control tick.
   void OnWheels(bool moving) { has_rolled_ = has_rolled_ || moving; }
 
-  // What they do with a rover that drives in that direction, if anything.
+  // Returns what they do with a rover that drives in that direction, if anything.
   std::optional<Reflection> Reflect(int direction) {
     const math::Transform& X_WR = world_.state().X_WR;
     if (!mirror_ || !has_rolled_ || !mirror_->Reaches(X_WR.translation().y())) return std::nullopt;
@@ -74,7 +76,7 @@ class Operators {
   const World& world_;
   const Onboard& onboard_;
   std::optional<MirrorArena> mirror_;
-  bool has_rolled_ = true;  // since they turned it
+  bool has_rolled_ = true;  // whether the rover has rolled since they turned it
 };
 
 }  // namespace rockyard::trial

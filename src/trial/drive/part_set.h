@@ -1,4 +1,5 @@
-// The parts of one side of a drive, told alike of what happens to the rover as a whole.
+// The parts of one side of a drive: world and on-board code keep theirs in a PartSet, which tells
+// all of them when operators put the rover down.
 #pragma once
 
 #include <tuple>
@@ -6,8 +7,8 @@
 
 namespace rockyard::trial {
 
-// Holds one part of each type. A part that does not say what it does when operators put the rover
-// down elsewhere does not compile here, so that none is forgotten.
+// Holds one part of each type. A part without an OnPlaced, which says what it does when the rover
+// is put down, does not compile here, so that none is forgotten.
 template <typename... Parts>
 class PartSet {
  public:
@@ -22,7 +23,8 @@ class PartSet {
     return std::get<Part>(parts_);
   }
 
-  // The rover has been put down, at the start or later; `where` is what this side knows of that.
+  // Tells all parts that the rover has been put down elsewhere; `where` is what this side of the
+  // drive knows of the place.
   template <typename... Where>
   void OnPlaced(const Where&... where) {
     (std::get<Parts>(parts_).OnPlaced(where...), ...);

@@ -1,4 +1,4 @@
-// Ends a drive that has no end of its own.
+// Ends a drive that has no end of its own; RunTrial asks it before each decision.
 #pragma once
 
 #include <cstdint>
@@ -6,29 +6,29 @@
 
 namespace rockyard::trial {
 
-// Counts the decisions of a drive, not seconds of a clock, so that it ends the same drives on every
-// machine. The referee ends a drive in simulated time; but a navigator that always stands still is
-// never judged, and looks that take no time never bring time_limit_s nearer. Both would be faults
-// of the program, and become simulator faults. So does a drive without limit of time or patience
-// that goes on for ever.
+// Counts the decisions of a drive. Must stay: decisions, not seconds of a clock, so that it ends
+// the same drives on every machine. The referee ends a drive in simulated time; but a navigator
+// that always stands still is never judged, and looks that take no time never bring time_limit_s
+// nearer. Both would be faults of the program, and become simulator faults. So does a drive without
+// limit of time or patience that goes on for ever.
 class TickGuard {
  public:
-  // Where there is no time limit. At 20 Hz nearly three hours of motion, 1.5 km at 0.15 m/s: some
-  // hundred times what the longest drives of a course take; simulated in seconds.
+  // Most decisions where there is no time limit: at 20 Hz nearly three hours of motion, 1.5 km at
+  // 0.15 m/s, some hundred times what the longest drives of a course take; simulated in seconds.
   static constexpr std::int64_t kUnlimited = 200'000;
-  // Per control tick up to the time limit: one move and one look, and as much again.
+  // Decisions for each control tick up to the time limit: one move and one look, and as much again.
   static constexpr double kTicksPerStep = 4.0;
-  static constexpr std::int64_t kMin = 100'000;  // for short limits
-  // Decisions in a row that take no simulated time.
+  static constexpr std::int64_t kMin = 100'000;  // decisions on top, for short limits
+  // Most decisions in a row that take no simulated time.
   static constexpr std::int64_t kMaxWithoutTime = 10'000;
 
-  // `time_limit_s` 0: none.
+  // `time_limit_s` 0: no limit.
   TickGuard(double time_limit_s, double tick_s)
       : left_(time_limit_s > 0.0
                   ? kMin + static_cast<std::int64_t>(kTicksPerStep * time_limit_s / tick_s)
                   : kUnlimited) {}
 
-  // Before each decision. Throws std::runtime_error, which becomes the fault.
+  // Counts a decision; called before each. Throws std::runtime_error, which becomes the fault.
   void Observe(double time_s) {
     if (--left_ < 0) throw std::runtime_error("the drive makes more decisions than its time has");
     if (time_s > last_s_) {

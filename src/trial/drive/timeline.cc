@@ -27,7 +27,7 @@ double Timeline::StepBeside(Activity activity, double left_s) {
   if (computes) step_s = std::min(step_s, computer_->left_s);
   const auto go_on = [&](UnderWay& look, Activity stage) {
     look.left_s -= step_s;
-    // What the rover rests for is paid by its rest.
+    // A stage that the rover rests for is spent by the rest itself.
     if (stage != activity) ledger_.SpendBeside(stage, step_s);
   };
   if (images) go_on(*cameras_, Activity::kImaging);
@@ -59,7 +59,7 @@ void Timeline::Settle() {
   const double computing_s = cameras_->look->percept.time.computing_s;
   computer_ = UnderWay{std::move(cameras_->look), computing_s};
   cameras_.reset();
-  // It may take no time.
+  // Computing may take no time.
   Settle();
 }
 

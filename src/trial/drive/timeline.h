@@ -1,4 +1,5 @@
-// What goes on at one time in a drive, and what is ready when.
+// What goes on at one time in a drive, and when looks are ready: Drive passes all time of the rover
+// as a whole through it.
 #pragma once
 
 #include <deque>
@@ -14,7 +15,7 @@ namespace rockyard::trial {
 
 // A look at the terrain on its way to the navigator.
 struct SeenLook {
-  // Null where the navigator does not read it.
+  // Return report or cloud; null where the navigator does not read such.
   const messages::HazardReport* report() const {
     return percept.report ? &*percept.report : nullptr;
   }
@@ -25,45 +26,47 @@ struct SeenLook {
 };
 
 // The rover as a whole does one thing at a time: it drives, steers, rests. Looks may be under way
-// beside that: the cameras take images, then the computer works on them. Each has place for one
-// look; images wait in the cameras until the computer is free. The clock goes by what the rover as
-// a whole does; what goes on beside it draws its own power for as long as it lasts, to the end of
-// it within a tick. What may not overlap (OverlapParams) goes on only while the rover rests for it.
+// beside that: the cameras take the images of a look, then the computer works on them. Cameras and
+// computer each have place for one look; images wait in the cameras until the computer is free. The
+// clock goes by what the rover as a whole does; a stage of a look beside it draws its own power
+// until the stage ends, also within a tick. A stage that may not overlap (OverlapParams) goes on
+// only while the rover rests for it.
 class Timeline {
  public:
   // `ledger` outlives it.
   Timeline(const OverlapParams& overlap, Ledger& ledger) : overlap_(overlap), ledger_(ledger) {}
 
-  // The rover does this for so long.
+  // Lets the rover do one thing for some time.
   void Pass(Activity activity, double duration_s);
 
-  // Whether the cameras are free.
+  // Returns whether the cameras are free.
   bool TakesLook() const { return !cameras_; }
-  // Its images are taken from now on; they must be free. A look without scanning time.
+  // Begins to take the images of a look without scanning time; the cameras must be free.
   void Begin(std::unique_ptr<SeenLook> look);
-  // What is under way or ready is of no use any more.
+  // Drops all looks that are under way or ready.
   void Drop();
 
-  // What the rover has to rest for, and how long still: images first.
+  // What the rover has to rest for.
   struct Rest {
     Activity activity = Activity::kImaging;
-    double duration_s = 0.0;
+    double duration_s = 0.0;  // that is left
   };
+  // Returns what the rover has to rest for, images before computing; nothing where it may go on.
   std::optional<Rest> MustRest() const;
 
-  // The oldest look that is ready, once; null where there is none.
+  // Returns the oldest look that is ready, once; null where there is none.
   std::unique_ptr<SeenLook> TakeReady();
 
  private:
   struct UnderWay {
     std::unique_ptr<SeenLook> look;
-    double left_s = 0.0;  // of the stage that it is in
+    double left_s = 0.0;  // of the stage that the look is in
   };
 
-  // Ends what has no time left.
+  // Ends stages that have no time left.
   void Settle();
-  // How long both go on as they do, of at most left_s; 0 where nothing is under way beside
-  // `activity`.
+  // Lets cameras and computer go on until one of their stages ends, for left_s at most. Returns for
+  // how long; 0 where nothing goes on beside `activity`.
   double StepBeside(Activity activity, double left_s);
 
   OverlapParams overlap_;

@@ -1,4 +1,5 @@
-// What the rover makes of what it feels: the hazard criteria of the vehicle sensors, and counts.
+// What the rover makes of what it feels, on board: the hazard criteria of the vehicle sensors. The
+// navigator is told of its hazards, and the record of a drive takes its counts.
 #pragma once
 
 #include <array>
@@ -14,13 +15,13 @@
 
 namespace rockyard::trial {
 
-// Costs nothing where the rover has none of these sensors.
+// Judges what is felt; it costs nothing where the rover has none of these sensors.
 class VehicleGuard {
  public:
   explicit VehicleGuard(const DriveParams& drive);
 
-  // Once a control tick, with what was felt, what the wheels were told and what was measured of
-  // their motion meanwhile. The hazards of kinds that were not felt at the tick before.
+  // Takes what was felt over one control tick, what the wheels were told and what was measured of
+  // their motion. Returns the hazards of kinds that were not felt at the tick before.
   std::vector<messages::VehicleHazard> Feel(const messages::VehicleState& felt,
                                             const messages::WheelCommand& command,
                                             const messages::MotionMeasurement& motion);
@@ -29,18 +30,19 @@ class VehicleGuard {
   // towards a hazard.
   void OnPlaced();
 
-  // Of the last tick: what the rover has to get away from, null where there is nothing.
+  // Return what the rover felt at the last tick: what it has to get away from, null where there is
+  // nothing, and whether something touches it behind.
   const messages::VehicleHazard* hazard() const { return hazard_ ? &*hazard_ : nullptr; }
   bool touches_behind() const { return felt_.touches_behind; }
-  // What was measured at the last tick.
+  // Returns what was measured at the last tick.
   const messages::VehicleState& measured() const { return measured_; }
 
-  // How often a hazard of that kind appeared, whatever else was felt.
+  // Returns how often a hazard of that kind appeared, whatever else was felt.
   std::int64_t count(messages::VehicleHazardKind kind) const {
     return counts_[static_cast<std::size_t>(kind)];
   }
 
-  // How often there came to be something to get away from.
+  // Returns how often there came to be something to get away from.
   std::int64_t stops() const { return stops_; }
 
  private:
@@ -53,7 +55,7 @@ class VehicleGuard {
   std::int64_t stops_ = 0;
 };
 
-// "contact left" and so on.
+// Returns "contact left" and so on, for traces.
 std::string Describe(const messages::VehicleHazard& hazard);
 
 }  // namespace rockyard::trial

@@ -13,7 +13,7 @@ std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::
   return rover::MakeRover(drive.rover, rocks.holding, terrain);
 }
 
-// A goal rock is recognized by what would track a goal.
+// Returns whether the drive has a tracker: to track a goal, or to recognize a rock at the goal.
 bool TracksGoal(const CourseParams& course) {
   return course.tracking.enabled ||
          (course.goal_rock.enabled && course.goal_rock.recognition_m > 0.0);

@@ -1,4 +1,5 @@
-// What is: the ground, the rover on it, and its sensors. Hands out measurements.
+// The true side of a drive: the ground, the rover on it, and its sensors. Drive steps the world and
+// hands its measurements to the on-board side; observer, operators and tracer see its truth.
 #pragma once
 
 #include <cstdint>
@@ -26,16 +27,16 @@
 
 namespace rockyard::trial {
 
-// What feels the motion of the wheels and of the body.
+// The sensors that feel the motion of the wheels and of the body.
 class MotionPart {
  public:
   MotionPart(const DriveParams& drive, core::TrialKey key);
 
-  // The rover stands where the drive begins.
+  // Begins with the rover where the drive begins.
   void Begin(const DriveParams& drive, core::TrialKey key, const truth::RoverState& state);
   void OnPlaced(const truth::RoverState& state);
 
-  // Once a physics step, which ends at `time_s`. Returns whether a scrape begins.
+  // Takes one physics step, which ends at `time_s`. Returns whether a scrape begins.
   bool Observe(const truth::RoverState& state, double time_s);
 
   messages::MotionMeasurement Measure(const truth::RoverState& state, double duration_s,
@@ -49,27 +50,28 @@ class MotionPart {
 
  private:
   std::optional<sensing::MotionSensors> motion_;  // from Begin on
-  bool feels_;                                    // by any of:
+  bool feels_;                                    // whether any sensor of vehicle_ is there
   sensing::VehicleSensors vehicle_;
 };
 
-// One look of the tracker for what the rover drives to.
+// One look of the tracker for what the rover drives to; without a sighting where it sees nothing.
 struct GoalLook {
   std::optional<messages::FeatureSighting> sighting = {};
 };
 
-// On-board code gets what these functions return, and never the world itself. What comes after
-// `state` is for those who may see the truth: the referee, the record, an oracle.
+// The world of one drive. Must stay: on-board code gets what the functions before state() return,
+// and never the world itself. state() and what comes after it is for those who may see the truth:
+// the referee, the record, an oracle.
 class World {
  public:
-  // `drive` outlives it. Without `given` the field is built that the trial's key names.
+  // `drive` outlives it. Without a `given` field it builds the field that LayoutKey names.
   World(const DriveParams& drive, core::TrialKey key, const terrain::Field* given = nullptr);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  // Puts the rover down where the course starts, once.
+  // Puts the rover down where the course starts; called once.
   void Begin();
-  // Operators put it down there, with its sensors switched off meanwhile.
+  // Puts the rover down as operators do, with its sensors switched off meanwhile.
   void Place(const math::Pose2& X_WR);
 
   double step_s() const { return rover_->step_s(); }
@@ -78,7 +80,8 @@ class World {
   // body begins.
   bool Step(const messages::WheelCommand& command, double time_s);
 
-  // Each since the last call of its kind, over one on-board tick.
+  // Return what was measured, and felt, since the last call of the same function, over one on-board
+  // tick.
   messages::MotionMeasurement MeasureMotion(double duration_s, bool moving) {
     return parts_.get<MotionPart>().Measure(state(), duration_s, moving);
   }
@@ -93,18 +96,19 @@ class World {
     return aids_.Answer(request, state().X_WR, time_s);
   }
   MotionData LookForMotion() { return parts_.get<VisualEyes>().Look(state().X_WR); }
-  // What was seen before is of no use any more.
+  // Makes the next look for motion a keyframe.
   void RenewEyes() { parts_.get<VisualEyes>().Renew(); }
 
   bool tracks_goal() const { return tracker_.has_value(); }
-  // The tracker's next look for the goal, or for the rock at it; nothing before it is due.
+  // Returns the tracker's look for the goal, or for the rock at the goal; nothing before one is
+  // due.
   std::optional<GoalLook> LookForGoal(double time_s);
 
   const truth::RoverState& state() const { return rover_->state(); }
   const rover::Rover& rover() const { return *rover_; }
   const terrain::Field& field() const { return field_; }
   const sensing::ScrapeDetector& scrapes() const { return parts_.get<MotionPart>().scrapes(); }
-  double start_z_m() const { return start_z_m_; }  // where the drive began
+  double start_z_m() const { return start_z_m_; }  // height of R's origin where the drive began
   const DriveParams& params() const { return params_; }
   core::TrialKey key() const { return key_; }
 

@@ -21,7 +21,7 @@ using Machine = Column Table3Row::*;
 constexpr std::array<Machine, 3> kMachines{&Table3Row::pentium_3_s, &Table3Row::sparc_s,
                                            &Table3Row::rad6000_s};
 
-// The time of a row for cells of a size, on the grid of table 3.
+// Returns the time of a row for cells of a size, on the grid of table 3.
 double TimeAt(const Column& times_s, Growth growth, double cell_m) {
   const std::size_t first = cell_m > kTable3Cells_m[1] ? 0 : 1;  // of the two nearest sizes
   double share = std::log(cell_m / kTable3Cells_m[first]) /
@@ -33,7 +33,8 @@ double TimeAt(const Column& times_s, Growth growth, double cell_m) {
   return from_s * std::pow(to_s / from_s, share);
 }
 
-// Time for cells of that size over time for those of table 2: geometric mean of the machines.
+// Returns the time of a row of table 3 for cells of that size over the time for the cells of table
+// 2: the geometric mean of the machines.
 double AthenaGrowth(std::string_view table3_row, double cell_m) {
   const auto row = std::find_if(kTable3Rows.begin(), kTable3Rows.end(),
                                 [&](const Table3Row& other) { return other.name == table3_row; });
@@ -88,12 +89,14 @@ ComputeTimes Table3Times(Machine machine, double acquisition_s, const GridSize& 
   return times;
 }
 
-// In software, of other images than the printed ones: pixels times disparities.
+// Returns the time of stereo in software for images of another width than the printed one: it goes
+// with pixels times disparities.
 double SoftwareStereo(const PrintedTime& printed, double width_px) {
   return printed.middle_s() * std::pow(width_px / printed.width_px, 3);
 }
 
-// Straight in the logarithms of time and width between two of `times`, and on beyond the last ones.
+// Returns the time at a width, on straight lines in the logarithms of time and width through
+// `times` and on beyond the outermost two.
 template <std::size_t kCount>
 double AlongTheLogarithm(const std::array<PrintedTime, kCount>& times, double width_px) {
   static_assert(kCount >= 2);
@@ -110,26 +113,26 @@ ComputeTimes WithStereo(ComputeTimes times, double stereo_s) {
   return times;
 }
 
-// Times of MER's computer over those of others: by instructions a second, and by section 6 of
+// Times of other computers over those of MER's: by instructions a second, and by section 6 of
 // Goldberg 2002.
 constexpr double kMslShare = kMerMips / kMslMips;
 constexpr double kPowerPc750Share = 1.0 / kPowerPc750OverMer;
 constexpr double kPowerPcG4Share = kPowerPc750Share / kPowerPcG4OverPowerPc750;
 
-// Of a computer that takes a share of the time; the cameras are the same.
+// Returns the times of a computer that takes a share of `times`; the cameras are the same.
 ComputeTimes InAShare(const ComputeTimes& times, double share) {
   return {times.start_up_s * share, times.acquisition_s, times.stereo_s * share,
           times.navigation_s * share};
 }
 
-// Map and votes go by clock from the Pentium III to the Pentium M.
+// Stereo is the FPGA's; map and votes go by clock from the Pentium III to the Pentium M.
 ComputeTimes AthenaTimes2012(const ComputeParams& params, const GridSize& grid, double width_px) {
   const ComputeTimes pentium_3 = Table3Times(&Table3Row::pentium_3_s, params.acquisition_s, grid);
   return WithStereo(InAShare(pentium_3, kPentium3Clock_MHz / kPentiumMClock_MHz),
                     AlongTheLogarithm(kFpgaStereo, width_px) * params.virtex_4_time_factor);
 }
 
-// Points take most of a cycle, so that the area of the grid does not matter.
+// Points take most of a cycle of the map, so that the area of the grid does not matter.
 ComputeTimes OwnTimes(const ComputeParams& params, const GridSize& grid, double width_px) {
   return {.acquisition_s = params.acquisition_s,
           .stereo_s = AlongTheLogarithm(kOwnStereo, width_px),
@@ -175,7 +178,7 @@ ComputeTimes PublishedTimes(const ComputeParams& params, const GridSize& grid, d
   return {};
 }
 
-// Of section 5 of Goldberg 2002, or of Matthies 1995.
+// Returns the time of a computer's stereo in section 5 of Goldberg 2002, or in Matthies 1995.
 double SectionStereo(const ComputeParams& params, Computer computer) {
   ComputeParams other = params;
   other.computer = computer;
@@ -238,8 +241,9 @@ DecisionCost CostOf(const DriveParams& drive) {
   return drive.navigation.navigators.chosen().traits().cost;
 }
 
-// The map that the computer sets up when it starts: the navigator's, or where that keeps none, the
-// first one of the software, which is on board whoever decides.
+// Returns the grid of the map that the computer sets up when it starts: the map of the navigator,
+// or where it keeps none, of the first navigator that keeps one, whose software is on board whoever
+// decides.
 GridSize GridOf(const DriveParams& drive) {
   const auto grid_of = [](const DecisionCost& cost) -> std::optional<GridSize> {
     const auto* map = std::get_if<CostOfMap>(&cost);

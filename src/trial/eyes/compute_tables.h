@@ -1,8 +1,11 @@
-// Times of computing as data: of every step of a navigation cycle, tables 2 and 3 of Goldberg 2002;
-// of stereo by the width of the matched images, and what a stereo unit in gates takes, tables 1 and
-// 2 of Howard 2012 with their text and Matthies 1995 section 8; of rockyard's own stages on one
-// core of today, its benchmarks' (results/). The clock of a trial and the benchmark of GESTALT read
-// them here.
+// Times of computing as data. Every step of a navigation cycle: tables 2 and 3 of Goldberg 2002.
+// Stereo by the width of the matched images, and what a stereo unit in gates takes: tables 1 and 2
+// of Howard 2012 with their text, and Matthies 1995 section 8. Rockyard's own stages on one core of
+// today: its benchmarks (results/). compute_profile.cc, the benchmark of GESTALT and tests of
+// published values read the tables.
+//
+// Must stay: published numbers as they are printed. Names of rows in kAthenaRows refer to those of
+// kTable3Rows (AthenaRow::grows_as).
 #pragma once
 
 #include <array>
@@ -21,23 +24,25 @@ struct PrintedTime {
   constexpr double middle_s() const { return 0.5 * (low_s + high_s); }
 };
 
-// Table 2, and section 3: "24 to 30 seconds [...] from a pair of 256 pixel wide images" on MER.
+// Howard 2012 table 2, and section 3: "24 to 30 seconds [...] from a pair of 256 pixel wide images"
+// on MER.
 inline constexpr PrintedTime kMerStereo{256.0, 24.0, 30.0};
 
-// Table 2, Virtex 5: one number a width.
+// Howard 2012 table 2, Virtex 5: one number for each width.
 inline constexpr std::array kFpgaStereo = {
     PrintedTime{256.0, 0.005, 0.005},
     PrintedTime{512.0, 0.019, 0.019},
     PrintedTime{1024.0, 0.082, 0.082},
 };
 
-// Sections 1 and 3: million instructions a second of the RAD6000 of MER and the RAD750 of MSL,
-// whose ratio makes MSL's 1.32 to 1.65 s of MER's time. A clock of 200 MHz against 20 MHz is in it.
+// Howard 2012 sections 1 and 3: million instructions a second of the RAD6000 of MER and the RAD750
+// of MSL, whose ratio makes MSL's 1.32 to 1.65 s of MER's time. The ratio includes the clocks of
+// 200 MHz against 20 MHz.
 inline constexpr double kMerMips = 22.0;
 inline constexpr double kMslMips = 400.0;
 
 // Matthies 1995 section 8, Sparc 10: images of 512 x 480 by a pyramid to 64 x 60, then a time for
-// each scanline. All of the 60 are computed at most, and the 45 with range at least.
+// each scanline: for all of the 60 at most, and for the 45 that have range at least.
 inline constexpr double kSparc10Pyramid_s = 0.100;
 inline constexpr double kSparc10Scanline_s = 0.003;
 inline constexpr PrintedTime kSparc10Scanlines{64.0, 45 * kSparc10Scanline_s,
@@ -48,19 +53,19 @@ inline constexpr PrintedTime kSparc10Scanlines{64.0, 45 * kSparc10Scanline_s,
 inline constexpr double kPentiumMClock_MHz = 1600.0;
 inline constexpr double kPentium3Clock_MHz = 500.0;
 
-// Visual odometry: table 3 and section 3. MSL's 8.8 s are MER's times 22 / 400.
+// Visual odometry: Howard 2012 table 3 and section 3. MSL's 8.8 s are MER's time times 22 / 400.
 inline constexpr double kMerVisualOdometry_s = 160.0;       // images 256 px wide
 inline constexpr double kFpgaFeaturesAndMatches_s = 0.016;  // 512 px wide; "+ CPU"
 
-// How what a module takes goes with the width of the images; section 3. The height does not matter
-// (section 2).
+// How the memory or slices of a module in the FPGA grow with the width of the images (Howard 2012
+// section 3). The height does not matter (section 2).
 enum class WidthGrowth {
   kNotStated,
   kLinear,
   kSquare,
 };
 
-// Table 1: blocks of memory and slices of a Virtex 5 for images 512 px wide.
+// A row of Howard 2012 table 1: blocks of memory and slices of a Virtex 5 for images 512 px wide.
 struct FpgaModule {
   std::string_view name;
   int blocks;
@@ -84,7 +89,7 @@ inline constexpr std::array kFpgaModules = {
     FpgaModule{"VO SAD Operator", 64, 1379, WidthGrowth::kNotStated, WidthGrowth::kNotStated},
 };
 
-// What a number of table 1 is for images of another width; nothing where the paper states no growth
+// Returns a number of table 1 for images of another width; nothing where the paper states no growth
 // and the width is not the table's.
 constexpr std::optional<double> AtWidth(int printed, WidthGrowth growth, double width_px) {
   const double ratio = width_px / kFpgaTableWidth_px;
@@ -100,8 +105,9 @@ constexpr std::optional<double> AtWidth(int printed, WidthGrowth growth, double 
   return std::nullopt;
 }
 
-// Of rockyard on one core of today: dense stereo by the width of square images with disparities of
-// an eighth of it, vectors of 512 bits: levels 3 to 0 of results/studies/stereo_speedup.json.
+// Rockyard's dense stereo on one core of today, by the width of square images with disparities of
+// an eighth of the width, with vectors of 512 bits: levels 3 to 0 of
+// results/studies/stereo_speedup.json.
 inline constexpr std::array kOwnStereo = {
     PrintedTime{64.0, 0.120e-3, 0.120e-3},
     PrintedTime{128.0, 0.285e-3, 0.285e-3},
@@ -109,15 +115,15 @@ inline constexpr std::array kOwnStereo = {
     PrintedTime{512.0, 2.689e-3, 2.689e-3},
 };
 
-// A whole cycle of GESTALT's map with 16384 points, 9 m x 9 m in cells of 50, 20 and 10 cm
-// (results/gestalt.md): points, planes, traversability and votes.
+// A whole cycle of rockyard's map of GESTALT with 16384 points, 9 m x 9 m in cells of 50, 20 and
+// 10 cm (results/gestalt.md): points, planes, traversability and votes.
 inline constexpr std::array<double, 3> kOwnCycles_s{0.325e-3, 0.372e-3, 0.541e-3};
 
-// A step of visual odometry on images of 512 x 384 pixels with 400 features
+// A step of rockyard's visual odometry on images of 512 x 384 pixels with 400 features
 // (results/studies/odometry_speed.json).
 inline constexpr double kOwnVisualOdometry_s = 2.349e-3;
 
-// The part of a cycle that a row belongs to; the blocks of table 2.
+// The part of a cycle that a row of Goldberg 2002 belongs to: the blocks of its table 2.
 enum class Phase {
   kStartUp,      // once a trial
   kAcquisition,  // every pair of images
@@ -129,17 +135,18 @@ enum class Phase {
 // How a row's time goes with the grid.
 enum class Growth {
   kNone,   // depends on images alone
-  kCells,  // with the number of cells, and as table 3 has it with their size
-  kPaths,  // as table 3 has it with the size of cells: as long a path crosses more of them
+  kCells,  // with the number of cells, and with their size as in table 3
+  kPaths,  // with the size of cells as in table 3: a path of one length crosses more small cells
 };
 
-// Table 2, R3000 at 12 MHz, 10 m x 10 m in cells of 20 cm; s, mean over all samples.
+// A row of Goldberg 2002 table 2, R3000 at 12 MHz, 10 m x 10 m in cells of 20 cm; s, mean over all
+// samples.
 struct AthenaRow {
   std::string_view name;
   Phase phase;
   Growth growth;
   double time_s;
-  std::string_view grows_as = {};  // row of table 3; empty: whatever the cells
+  std::string_view grows_as = {};  // row of table 3; empty: it does not depend on the cells
 };
 
 inline constexpr double kAthenaCell_m = 0.2;
@@ -176,7 +183,8 @@ inline constexpr std::array kAthenaRows = {
     AthenaRow{"Done driving commanded arc", Phase::kDriving, Growth::kNone, 15.0},
 };
 
-// Table 3: one pair of images, 9 m x 9 m, cells of 50, 20 and 10 cm; s, mean of ten runs.
+// Goldberg 2002 table 3: one pair of images, 9 m x 9 m, cells of 50, 20 and 10 cm; s, mean of ten
+// runs.
 inline constexpr std::array<double, 3> kTable3Cells_m{0.5, 0.2, 0.1};
 inline constexpr double kTable3Area_m2 = 81.0;
 inline constexpr std::size_t kTable3RowCount = 10;
@@ -187,7 +195,7 @@ struct Table3Row {
   Growth growth;
   std::array<double, 3> pentium_3_s;
   std::array<double, 3> sparc_s;
-  std::array<double, 3> rad6000_s;  // in ticks of 1/60 s; the last row is not available (0 here)
+  std::array<double, 3> rad6000_s;  // timed in ticks of 1/60 s; 0 in the last row: not available
 };
 
 inline constexpr std::array<Table3Row, kTable3RowCount> kTable3Rows = {{
@@ -253,13 +261,14 @@ inline constexpr std::array<Table3Row, kTable3RowCount> kTable3Rows = {{
      {0.0, 0.0, 0.0}},
 }};
 
-// Section 6, of computers that were to be measured: a PowerPC 750 of 133 MHz would be "an order of
-// magnitude faster than the MER flight processor", a PowerPC G4 of 500 MHz as a co-processor "an
-// order of magnitude" faster than that. Known to a factor of the root of ten.
+// Goldberg 2002 section 6, on computers that were to be measured: a PowerPC 750 of 133 MHz would be
+// "an order of magnitude faster than the MER flight processor", a PowerPC G4 of 500 MHz as a
+// co-processor "an order of magnitude" faster than that. Both are known to a factor of the root of
+// ten.
 inline constexpr double kPowerPc750OverMer = 10.0;
 inline constexpr double kPowerPcG4OverPowerPc750 = 10.0;
 
-// The totals as printed, by computer and size of cells.
+// The totals of table 3 as printed, by computer and size of cells.
 inline constexpr std::array<double, 3> kPentium3Totals_s{0.421, 0.584, 1.61};
 inline constexpr std::array<double, 3> kSparcTotals_s{1.48, 2.0, 4.82};
 inline constexpr std::array<double, 3> kRad6000Totals_s{11.5, 15.4, 42.2};

@@ -1,5 +1,5 @@
-// The light stripe sensor and what the rover makes of its images at once, for whoever studies the
-// sensor without a drive: a pose in, a scan out.
+// The light stripe sensor together with what the rover makes of its images, without a drive: a pose
+// in, a scan out. The experiment that measures hazard detection scans with it.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,15 @@
 
 namespace rockyard::trial {
 
+// Both halves of the sensor, as one.
 class HazardScanner {
  public:
-  // The watcher is called after every scan; it has no influence on it.
+  // The watcher is called after every scan, on which it has no influence.
   explicit HazardScanner(const DriveParams& drive, ScanWatcher watcher = {});
 
-  // What the rover makes of one scan at X_WR: the columns in which stripes are found. Pure function
-  // of its arguments, whatever was scanned before. `scan_number` counts every scan of the trial
-  // from 0 and indexes the noise.
+  // Returns what the rover makes of one scan at X_WR: the columns in which stripes are found. The
+  // result is a pure function of the arguments, whatever was scanned before. `scan_number` counts
+  // every scan of the trial from 0 and indexes the noise.
   messages::StripeScan Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
                             core::TrialKey key, std::int64_t scan_number) const;
 

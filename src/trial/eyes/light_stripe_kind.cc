@@ -1,3 +1,4 @@
+// The light stripe sensor as one of the kinds that scenarios can name (terrain_sensor_kinds.h).
 #include <memory>
 
 #include "rover/rover_layout_params.h"
@@ -24,7 +25,7 @@ void RequireFinder(const DriveParams& drive, core::FieldVisitor& v) {
       "use at most its averaging_rows plus twice its margin_rows");
 }
 
-// Images show the rover itself, rays do not.
+// Refuses images in which the rover hides a point of flat ground; rays do not see the rover.
 void RequireFreeView(const DriveParams& drive, core::FieldVisitor& v) {
   const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
   v.Require("sensors.light_stripe.fidelity",
@@ -36,6 +37,7 @@ void RequireFreeView(const DriveParams& drive, core::FieldVisitor& v) {
             "emitter_height_m 0.25 do on Rocky 3.2, or ahead of it");
 }
 
+// The kind `light_stripe` of scenarios.
 class LightStripe final : public TerrainSensorKind {
  public:
   LightStripe() : TerrainSensorKind("light_stripe", "light stripe hazard sensor") {}

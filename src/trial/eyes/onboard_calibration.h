@@ -1,5 +1,7 @@
 // What the rover of a trial believes of its own geometry: the truth plus the errors of the scenario
-// (perception.calibration).
+// (perception.calibration). Must stay: the one place where on-board geometry is made. Estimators,
+// wheel driver, detectors and readers of all sensors take it from here, studies without a drive
+// too.
 #pragma once
 
 #include <optional>
@@ -14,17 +16,18 @@
 
 namespace rockyard::trial {
 
-// Equal to the truth, bit for bit, where all errors are zero.
+// Return the believed drive geometry and light stripe sensor. Must stay: where all errors are zero
+// they equal the truth bit for bit.
 messages::DriveCalibration OnboardDriveCalibration(
     const rover::RoverParams& rover, const perception::DriveCalibrationErrors& errors);
 messages::StripeCalibration OnboardStripeCalibration(
     const sensing::LightStripeParams& sensor, const perception::CalibrationErrorParams& errors);
 
-// What a wrong mount makes of the points that a pair of stereo cameras sees,
+// Returns how a wrong mount displaces the points that a pair of stereo cameras sees,
 //   p_believed = X_RC_believed X_RC_true^-1 p_true,
-// with C at the middle of the pair, x along its optical axis, y to its left. None where all errors
-// are zero, so that points stay as they are, bit for bit. What the pair sees follows its true
-// mount.
+// with C at the middle of the pair, x along its optical axis, y to its left. Nothing where all
+// errors are zero, so that points stay as they are, bit for bit. What the pair sees follows its
+// true mount.
 std::optional<math::Transform> StereoMisplacement(const sensing::StereoParams& sensor,
                                                   const perception::CalibrationErrorParams& errors,
                                                   messages::LookDirection direction);

@@ -5,7 +5,8 @@
 namespace rockyard::trial {
 namespace {
 
-// The noise of pixels is drawn by the number of a look: those for motion stand behind all others.
+// The noise of pixels is drawn by the number of a look. Looks for motion are numbered from here on,
+// behind all looks at terrain.
 constexpr std::int64_t kFirstMotionLook = std::int64_t{1} << 29;
 
 }  // namespace

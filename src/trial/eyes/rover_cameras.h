@@ -1,5 +1,5 @@
-// The stereo cameras of one rover, down to images: one pair ahead and one behind for all who look
-// through them.
+// The stereo cameras of one rover, down to images: one pair ahead and one pair behind, by which the
+// world takes the images of terrain sensing and of visual odometry.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,20 @@
 
 namespace rockyard::trial {
 
-// Terrain sensing and visual odometry see through the same lenses, with the same faulty pixels and
-// the same drift. Each counts its own looks from 0, and no two looks of a trial share their noise,
-// whoever took them: images of one pose and moment that both ask for are two exposures.
+// Who looks: terrain sensing, or visual odometry. Both see through the same lenses, with the same
+// faulty pixels and the same drift. Each counts its own looks from 0. Records depend on it: no two
+// looks of a trial share their noise, whoever took them, so that images of one pose and moment that
+// both ask for are two exposures.
 enum class CameraUse { kTerrain, kMotion };
 
+// The cameras of one rover.
 class RoverCameras {
  public:
-  // `drive` outlives it. Cameras are made at the first look: 50 ms and 60 MB for 512 x 512 pixels
-  // that drives without images do without.
+  // `drive` outlives it. Cameras are made at the first look, which drives without images save: 50
+  // ms and 60 MB for 512 x 512 pixels.
   RoverCameras(const DriveParams& drive, core::TrialKey key) : drive_(drive), key_(key) {}
 
-  // Pure function of its arguments; `number` < 2^29.
+  // Takes a pair of images: a pure function of its arguments; `number` < 2^29.
   sensing::StereoImages Expose(CameraUse use, const terrain::Terrain& terrain,
                                const math::Transform& X_WR, messages::LookDirection direction,
                                std::int64_t number);

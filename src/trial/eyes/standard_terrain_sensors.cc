@@ -1,3 +1,4 @@
+// The one list of terrain sensors, apart from TerrainSensorSet, which knows no kind.
 #include "trial/eyes/terrain_sensor_kinds.h"
 #include "trial/eyes/terrain_sensor_set_params.h"
 

@@ -1,5 +1,5 @@
-// The stereo cameras of a rover as the closed loop uses them: a pose in, images out, or what stereo
-// matching would make of images.
+// The stereo cameras of a rover on the world's side: a pose in, images out, or what stereo matching
+// would make of images. Drives look with it, and the experiment that measures stereo.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class StereoEyes final : public TerrainSensor {
   // `cameras` outlive it.
   StereoEyes(const DriveParams& drive, core::TrialKey key, RoverCameras& cameras);
 
-  // Cost: 0.2 to 0.3 ms, or some 0.3 s with images of 512 x 512 pixels.
+  // A look costs 0.2 to 0.3 ms, or some 0.3 s with images of 512 x 512 pixels.
   LookData Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
                 messages::LookDirection direction, std::int64_t number) const override;
 

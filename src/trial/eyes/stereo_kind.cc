@@ -1,3 +1,4 @@
+// The stereo cameras as one of the kinds that scenarios can name (terrain_sensor_kinds.h).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +16,8 @@
 namespace rockyard::trial {
 namespace {
 
-// Without images, the outlines of rocks in both eyes are worked out for ellipsoids.
+// Refuses pointed rocks without images: rays work out the outlines of rocks in both eyes for
+// ellipsoids.
 void RequireRoundRocks(const DriveParams& drive, core::FieldVisitor& v) {
   const terrain::RockFieldParams& rocks = drive.terrain.rocks;
   v.Require("terrain.rocks.pointedness",
@@ -25,8 +27,8 @@ void RequireRoundRocks(const DriveParams& drive, core::FieldVisitor& v) {
             "use 0, sensors.stereo.fidelity image, or terrain_sensor light_stripe");
 }
 
-// Distance from R's origin, straight ahead, up to which cameras show level ground: the end of their
-// range, or the upper edge of the image where that meets the ground before.
+// Returns the distance from R's origin, straight ahead, up to which the cameras show level ground:
+// the end of their range, or the upper edge of the image where it meets the ground before.
 double GroundReach_m(const sensing::StereoParams& stereo) {
   const sensing::StereoMountParams& mount = stereo.front;
   const double range_m = std::sqrt(
@@ -37,7 +39,7 @@ double GroundReach_m(const sensing::StereoParams& stereo) {
   return mount.ahead_m + std::min(range_m, image_m);
 }
 
-// Distance from which they show it: the lower edge of the image.
+// Returns the distance from which on the cameras show level ground: the lower edge of the image.
 double GroundStart_m(const sensing::StereoParams& stereo) {
   const sensing::StereoMountParams& mount = stereo.front;
   const double lower_rad =
@@ -63,8 +65,8 @@ void RequireCameras(const DriveParams& drive, core::FieldVisitor& v) {
             kMount);
 }
 
-// The array that the behaviour controller judges: a stripe whose first two rows are not seen is a
-// hazard, so that an array beyond the view would stop every rover.
+// Requires that cameras see the array that the behaviour controller judges: a stripe whose first
+// two rows are not seen is a hazard, so that an array beyond the view would stop every rover.
 void RequireArray(const DriveParams& drive, core::FieldVisitor& v) {
   const sensing::StereoParams& stereo = drive.sensors.stereo;
   const perception::CloudElevationParams& array = drive.perception.cloud_elevations;
@@ -97,6 +99,7 @@ bool ReadsReports(const DriveParams& drive) {
          navigation::LookReading::kHazardReport;
 }
 
+// The kind `stereo` of scenarios.
 class StereoCameras final : public TerrainSensorKind {
  public:
   StereoCameras() : TerrainSensorKind("stereo", "stereo cameras ahead and behind") {}

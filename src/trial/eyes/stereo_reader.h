@@ -1,5 +1,6 @@
 // On-board perception of stereo cameras: from images, or from what matching would make of them, to
-// points and elevations.
+// points and elevations. Drives read their looks with it, and so does the experiment that measures
+// stereo.
 #pragma once
 
 #include <functional>
@@ -18,11 +19,13 @@ namespace rockyard::trial {
 // What one look shows, pixel by pixel and as points.
 struct StereoSeen {
   sensing::DepthImage disparities_px;  // of the reduced left image; 0 where there is no match
-  messages::PointCloud cloud;          // of those pixels, as far as they are wanted and in range
+  messages::PointCloud cloud;          // of matched pixels that are wanted (sensing::IsWanted)
 };
 
-// Images are matched by perception::StereoPoints. Points come out where the cameras were calibrated
-// to be; a wrong mount (perception.calibration) then moves them rigidly, whatever the fidelity.
+// Reads the looks of stereo cameras of any fidelity. Images are matched by
+// perception::StereoPoints. Points come out where the calibrated cameras see them
+// (sensing::CalibratedRig, MakeStereoView); a wrong mount (perception.calibration) then moves them
+// rigidly, whatever the fidelity.
 class StereoReader final : public TerrainReader {
  public:
   // The watcher is shown every look that has images.
@@ -32,13 +35,13 @@ class StereoReader final : public TerrainReader {
   StereoSeen See(const LookOrder& order, const LookData& data) const;
 
   messages::PointCloud Points(const LookOrder& order, const LookData& data) const override;
-  // The highest points of the cloud.
+  // Returns the highest points of the cloud as elevations.
   messages::ElevationScan Elevations(const LookOrder& order, const LookData& data) const override {
     return perception::CloudElevations(Points(order, data), order.attitude, elevations_);
   }
 
  private:
-  // One of the two pairs of cameras, as the rover believes to have it.
+  // One of the two pairs of cameras, as the rover believes that it is mounted.
   struct Pair {
     Pair(const DriveParams& drive, messages::LookDirection direction);
 

@@ -1,4 +1,5 @@
-// The light stripe sensor of a rover as the closed loop uses it: a pose in, a scan or images out.
+// The light stripe sensor of a rover on the world's side: a pose in, a scan or images out. Drives
+// look with it, and HazardScanner for studies.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +20,17 @@ class StripeEyes final : public TerrainSensor {
  public:
   StripeEyes(const DriveParams& drive, core::TrialKey key);
 
-  // Nothing behind. Cost: some microseconds, or some milliseconds with images.
+  // Nothing is measured behind. A look costs some microseconds, or some milliseconds with images.
   LookData Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
                 messages::LookDirection direction, std::int64_t number) const override;
 
-  // The same ahead, as another trial's sensor would measure.
+  // Looks ahead as the sensor of the trial that `key` names.
   LookData Scan(const terrain::Terrain& terrain, const math::Transform& X_WR, core::TrialKey key,
                 std::int64_t scan_number) const;
 
  private:
   core::TrialKey key_;
-  // One of both.
+  // One of these two is set, by the fidelity.
   std::optional<sensing::LightStripe> geometric_;
   std::optional<sensing::StripeImager> image_;
 };

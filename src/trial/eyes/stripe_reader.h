@@ -1,5 +1,6 @@
 // On-board perception of the light stripe sensor: from a scan or images to elevations and points.
-// What in them is a hazard is decided by perception::HazardDetector.
+// Drives read their looks with it, and HazardScanner for studies; perception::HazardDetector
+// decides which elevations are a hazard.
 #pragma once
 
 #include <functional>
@@ -12,14 +13,16 @@
 
 namespace rockyard::trial {
 
-// Finder and triangulation go by one calibration, the one that the rover believes.
+// Reads the looks of the light stripe sensor. Must stay: finder and triangulation go by the same
+// calibration, which the rover believes.
 class StripeReader final : public TerrainReader {
  public:
   // The watcher is shown every scan that is read.
   explicit StripeReader(const DriveParams& drive,
                         std::function<void(const messages::StripeScan&)> watcher = {});
 
-  // The columns in which stripes are found: those of the geometric sensor, or of the images.
+  // Returns the columns in which stripes are found: as the geometric sensor gives them, or as the
+  // finder finds them in images.
   messages::StripeScan ScanOf(const LookData& data) const;
 
   messages::ElevationScan Elevations(const LookOrder& order, const LookData& data) const override;

@@ -1,5 +1,5 @@
-// What a rover asks of its terrain sensor, and what on-board perception makes of the answer for its
-// navigator.
+// What a rover asks of its terrain sensor, and what on-board perception makes of the answer for the
+// navigator. Onboard keeps it; Drive orders looks by it.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace rockyard::trial {
 // What one look shows: a report or points, as the navigator reads them.
 struct Percept {
   bool look_again = false;  // undecided: another look at this pose has to follow
-  LookTime time = {};       // that the look took
+  LookTime time = {};       // what the look took
   std::optional<messages::HazardReport> report = {};
   std::optional<messages::PointCloud> cloud = {};
 };
@@ -34,40 +34,39 @@ class TerrainSensing {
   // `watchers` are shown what its sensor's reader makes of a look.
   explicit TerrainSensing(const DriveParams& drive, const SightWatchers& watchers = {});
 
-  // The next look is from a new pose.
+  // Begins looks from a new pose.
   void Begin() { hazard_detector_.Reset(); }
 
-  // The next look, by a rover that believes to stand like that. Noise is indexed by its number,
-  // counted over the trial.
+  // Returns the order of the next look, by a rover that believes to stand so.
   LookOrder Order(messages::LookDirection direction, const messages::AttitudeEstimate& attitude);
-  // Takes what came of it.
+  // Takes what came of the look, and returns what it shows.
   Percept Take(const LookOrder& order, const LookData& data);
 
   std::int64_t looks() const { return looks_; }  // so far: the number of the next one
-  // Looks are scans or sets of images, by the kind of the sensor.
+  // Return counts of looks, which are scans or sets of images by the kind of the sensor.
   std::int64_t scans() const { return takes_image_sets_ ? 0 : looks_; }
   std::int64_t rescans() const { return rescans_; }  // looks again at one pose, of any sensor
   std::int64_t image_sets() const { return takes_image_sets_ ? looks_ : 0; }
   std::int64_t rear_image_sets() const { return takes_image_sets_ ? looks_behind_ : 0; }
   const LookTime& look_time() const { return look_time_; }
 
-  // Whether a look can be taken from a rover on the move: images in one moment, for points. A light
-  // stripe scan takes its time, and hazards of a report may ask for a second look from one pose.
+  // Returns whether a look can be taken from a rover on the move: images of one moment, for points.
+  // A light stripe scan takes time, and a hazard report may ask for a second look from one pose.
   bool LooksOnTheMove() const { return reads_points_ && look_time_.scanning_s == 0.0; }
 
  private:
   Percept Judge(const messages::ElevationScan& elevations);
 
-  bool takes_image_sets_;  // else scans
-  bool reads_points_;      // the navigator
+  bool takes_image_sets_;  // whether looks are sets of images, not scans
+  bool reads_points_;      // whether the navigator reads points, not reports
   std::unique_ptr<TerrainReader> reader_;
   perception::HazardDetector hazard_detector_;
   LookTime look_time_;
 
   bool looks_again_ = false;
   std::int64_t looks_ = 0;
-  std::int64_t looks_behind_ = 0;  // of these
-  std::int64_t rescans_ = 0;       // too
+  std::int64_t looks_behind_ = 0;
+  std::int64_t rescans_ = 0;
 };
 
 }  // namespace rockyard::trial

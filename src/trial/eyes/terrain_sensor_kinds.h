@@ -1,4 +1,4 @@
-// The terrain sensors that there are.
+// The kinds of terrain sensors that there are, which StandardTerrainSensors lists.
 #pragma once
 
 #include <memory>
@@ -7,9 +7,9 @@
 
 namespace rockyard::trial {
 
-// Light stripes and cameras of Matthies 1995, section 6.
+// Makes the light stripes and cameras of Matthies 1995, section 6 (light_stripe_kind.cc).
 std::unique_ptr<TerrainSensorKind> LightStripeKind();
-// Pairs of cameras of Goldberg 2002.
+// Makes the pairs of cameras of Goldberg 2002 (stereo_kind.cc).
 std::unique_ptr<TerrainSensorKind> StereoKind();
 
 }  // namespace rockyard::trial

@@ -7,7 +7,8 @@ namespace {
 
 using core::Setting;
 
-// The groups of light_stripe and stereo are of those kinds.
+// The other groups of SensorParams. light_stripe and stereo are not listed, as they belong to the
+// kinds of these names.
 constexpr std::array<std::string_view, 6> kOtherGroups{"sun",      "look",    "gyro",
                                                        "encoders", "tracker", "vehicle"};
 

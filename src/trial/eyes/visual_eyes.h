@@ -1,5 +1,5 @@
-// The cameras of visual odometry as the closed loop uses them: a pose in, images out, or the motion
-// that images would give.
+// The cameras of visual odometry on the world's side: a pose in, images out, or the motion that
+// images would give. World looks with them, and the experiment that measures visual motions.
 #pragma once
 
 #include <cstdint>
@@ -18,18 +18,18 @@
 namespace rockyard::trial {
 
 // One interface for both fidelities (sensors.visual_odometry.fidelity). The error model stands for
-// cameras and odometry together, keyframes included: it is the one that knows the true motion.
+// cameras and odometry together, keyframes included, as it has to know the true motion.
 class VisualEyes {
  public:
   // `drive`, `terrain` and `cameras` outlive it.
   VisualEyes(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain,
              RoverCameras& cameras);
 
-  // The next look, of a rover at X_WR; looks count from 0. Cost: 1 us, or that of two rendered
-  // images.
+  // Takes the next look, of a rover at X_WR; looks count from 0. A look costs 1 us, or as much as
+  // two rendered images.
   MotionData Look(const math::Transform& X_WR);
 
-  // What was seen before is of no use any more: the next look is a keyframe.
+  // Makes the next look a keyframe, as what was seen before is of no use any more.
   void Renew() { X_WK_.reset(); }
   void OnPlaced(const truth::RoverState& /*state*/) { Renew(); }
 
@@ -42,9 +42,8 @@ class VisualEyes {
   const terrain::Terrain& terrain_;
   RoverCameras& cameras_;
   std::int64_t next_ = 0;
-  // Of the error model: its keyframe, and where the rover truly was.
-  std::int64_t keyframe_ = 0;
-  std::optional<math::Transform> X_WK_;
+  std::int64_t keyframe_ = 0;            // of the error model
+  std::optional<math::Transform> X_WK_;  // where the rover truly was at the keyframe
 };
 
 }  // namespace rockyard::trial

@@ -8,7 +8,7 @@
 namespace rockyard::trial {
 namespace {
 
-// The cameras as the rover believes that they sit on it.
+// Returns the cameras ahead as the rover believes that they are mounted.
 vision::StereoRig BelievedRig(const DriveParams& drive) {
   constexpr messages::LookDirection kAhead = messages::LookDirection::kAhead;
   vision::StereoRig rig =

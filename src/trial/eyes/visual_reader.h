@@ -1,4 +1,5 @@
-// On-board visual odometry: from the images of a pair to a motion since its keyframe.
+// On-board visual odometry: from a pair of images to the motion since the keyframe. Onboard reads
+// the looks of visual odometry with it, and visual_aid.h hands the motions to the estimator.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +15,19 @@
 
 namespace rockyard::trial {
 
-// What one pair of images adds. `reference` and this pair are numbers of looks; where a motion was
-// found it is that of R from the reference to this one.
+// What one pair of images adds. A motion that was found is that of R from `reference` to `number`.
 struct VisualStep {
-  std::int64_t number = 0;
-  std::int64_t reference = 0;
-  bool keyframe = false;  // whether later looks are compared with this one
+  std::int64_t number = 0;     // of this look
+  std::int64_t reference = 0;  // number of the look that it was compared with
+  bool keyframe = false;       // whether later looks are compared with this one
   vision::MotionResult result;
 };
 
 // What leaves the world: images, or the step that an error model gives in their place.
 using MotionData = std::variant<VisualStep, sensing::StereoImages>;
 
-// Odometry with the cameras that the rover believes to have. Where an error model speaks, it says
-// what that does.
+// Odometry with the cameras as the rover believes that they are mounted. A step of the error model
+// is passed on as it is.
 class VisualReader {
  public:
   // `drive` outlives it. The odometry is made at the first images.
@@ -37,7 +37,7 @@ class VisualReader {
   // of the keyframe. Cost of images: a step of vision::VisualOdometer.
   VisualStep Read(const MotionData& data, const math::Transform& predicted);
 
-  // What was seen before is of no use any more: the next pair is a keyframe.
+  // Makes the next pair a keyframe, as what was seen before is of no use any more.
   void Renew();
   void OnPlaced() { Renew(); }
 

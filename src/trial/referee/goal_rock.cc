@@ -29,7 +29,7 @@ void GoalRock::Observe(const truth::RoverState& state) {
   if (touched) sign_ = RockSign::kContact;
 }
 
-// The rock is round: the distance of its centre from the rectangle, less its radius.
+// The rock is round, so that it is the distance of its centre from the rectangle, less its radius.
 double GoalRock::Distance_m(const math::Transform& X_WR) const {
   const math::Pose2 pose = math::ToPose2(X_WR);
   const double dx_m = rock().center_W.x() - pose.x_m;
@@ -53,7 +53,7 @@ double GoalRock::FrontDistance_m(const math::Transform& X_WR) const {
 
 std::optional<GoalRock> GoalRockOf(const DriveParams& drive, const terrain::Terrain& terrain) {
   if (!drive.course.goal_rock.enabled) return std::nullopt;
-  // Terrains list it last.
+  // The terrain lists the goal's rock last (terrain/course.h).
   return GoalRock(terrain, static_cast<int>(terrain.rocks().size()) - 1,
                   drive.sensors.terrain_sensors.chosen().reported_zone(drive),
                   drive.rover.geometry);

@@ -1,4 +1,5 @@
-// Whether a rover has found the rock at its goal.
+// Whether a rover has found the rock at its goal: the observer of a drive asks it for the referee
+// and the record, the world for what the tracker recognizes.
 #pragma once
 
 #include <optional>
@@ -12,15 +13,15 @@
 
 namespace rockyard::trial {
 
-// How the rock was found.
+// How the rock was found. Must stay: records hold these numbers (goal_rock_sign).
 enum class RockSign {
   kNone = 0,     // it was not
   kArray = 1,    // a hazard was believed while its outline was within the array's reach
   kContact = 2,  // the rover's body, which has its contact switches, touched it
 };
 
-// Sees the truth; the drive ends by what it says, and on-board code never knows. Records hold the
-// numbers of RockSign.
+// The goal's rock, as those see it who may see the truth: the drive ends when it is found, and
+// on-board code never knows.
 class GoalRock {
  public:
   // `rock` is the index of a rock of `terrain`, which outlives this; `view` is what the array
@@ -28,17 +29,19 @@ class GoalRock {
   GoalRock(const terrain::Terrain& terrain, int rock, const Zone& view,
            const rover::RoverGeometryParams& rover);
 
-  // A hazard is believed that was seen from there.
+  // Takes that a hazard is believed which was seen from X_WR.
   void OnBelieved(const math::Transform& X_WR);
-  // Once a control tick.
+  // Takes the state after a control tick.
   void Observe(const truth::RoverState& state);
 
   RockSign sign() const { return sign_; }
   bool found() const { return sign_ != RockSign::kNone; }
 
-  // From the rover's footprint, as seen from above, to the rock's outline; 0 where they meet.
+  // Returns the distance of the rover's footprint from the rock's outline, both as seen from above;
+  // 0 where they meet.
   double Distance_m(const math::Transform& X_WR) const;
-  // From the middle of the rover's front to the rock's outline, which is round; 0 inside of it.
+  // Returns the distance of the middle of the rover's front from the rock's outline; 0 inside of
+  // it.
   double FrontDistance_m(const math::Transform& X_WR) const;
 
   math::Vector3 center_W() const { return rock().center_W; }
@@ -53,7 +56,7 @@ class GoalRock {
   RockSign sign_ = RockSign::kNone;
 };
 
-// The rock at the goal of a drive that has one.
+// Returns the rock at the goal of a drive, where there is one.
 std::optional<GoalRock> GoalRockOf(const DriveParams& drive, const terrain::Terrain& terrain);
 
 }  // namespace rockyard::trial

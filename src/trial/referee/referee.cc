@@ -13,8 +13,9 @@ double Between(double x0_m, double y0_m, double x1_m, double y1_m) {
   return std::hypot(x1_m - x0_m, y1_m - y0_m);
 }
 
-// A rock that bears the belly; one that the chassis runs into pushes back rather than up.
-constexpr double kMinLiftShare = 0.7071;  // within 45 deg of the vertical
+// Least lift share of a rock that bears the belly, within 45 deg of the vertical; a rock that the
+// chassis runs into pushes back rather than up.
+constexpr double kMinLiftShare = 0.7071;
 
 bool RestsOnBelly(const truth::RoverState& state) {
   return std::any_of(state.contacts.begin(), state.contacts.end(), [](const auto& contact) {
@@ -31,7 +32,7 @@ bool IsEmbedded(const truth::RoverState& state, double wheel_radius_m) {
   return mean_m > wheel_radius_m;
 }
 
-// Whether so much is more than an operator bears. A limit of 0 is none.
+// Returns whether a value is beyond a limit. A limit of 0 is none.
 bool IsBeyond(double value, double limit) { return limit > 0.0 && value > limit; }
 
 bool IsMotion(Activity activity) {
@@ -53,7 +54,7 @@ Referee::Referee(const RefereeParams& params, const CourseParams& course,
                 course.start_x_m, course.start_y_m} {}
 
 std::optional<Verdict> Referee::Observe(const Observation& observation, const Ledger& ledger) {
-  // Where several hold after one tick, the first one of these is the outcome.
+  // Records depend on this order: where several rules hold after one tick, the first is the cause.
   const truth::RoverState& state = observation.state;
   if (state.X_WR.linear()(2, 2) < tip_over_cosine_) {
     return Verdict{EndCause::kFellOver};
@@ -120,7 +121,7 @@ void Referee::AddObeyed(const Observation& observation, Window& window) {
   window.last_X_WR = X_WR;
 }
 
-// A rover that rocks to and fro between two rocks does not move. One that is told to dither and
+// A rover that rocks to and fro between two rocks does not move. A rover that is told to dither and
 // does so is not stuck: it finds no path.
 bool Referee::MovedSince(const Window& window, const Observation& observation) const {
   const auto moved = [&](double distance_m, double turn_rad) {
@@ -162,7 +163,8 @@ std::optional<Verdict> Referee::CheckNoPath(const Observation& observation, doub
   return std::nullopt;
 }
 
-// The rover believes to be nearer than ever and has truly moved: spinning wheels are no progress.
+// Progress: the rover believes to be nearer than ever and has truly moved, as spinning wheels are
+// no progress.
 bool Referee::MadeProgress(const Observation& observation) {
   const double goal_distance_m =
       Between(observation.estimate.x_m, observation.estimate.y_m, told_goal_.x_m, told_goal_.y_m);

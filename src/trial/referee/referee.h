@@ -1,4 +1,5 @@
-// Sees the truth and says when a trial is over, and as what; on-board code never hears of it.
+// The referee sees the truth and says when a drive is over, and why; Drive asks it after every
+// tick. On-board code never hears of it.
 #pragma once
 
 #include <optional>
@@ -15,13 +16,14 @@
 
 namespace rockyard::trial {
 
+// Why a drive is over.
 struct Verdict {
   truth::EndCause cause = truth::EndCause::kArrived;
 
   truth::TrialOutcome outcome() const { return truth::Info(cause).outcome; }
 };
 
-// Bounds of the arena along x; the sides of open and virtual arenas have none.
+// The bounds of the arena along x, beyond which a rover has left it.
 struct ArenaBounds {
   double min_x_m = 0.0;
   double max_x_m = 0.0;
@@ -30,7 +32,7 @@ struct ArenaBounds {
 // Truth and belief at the end of one control tick.
 struct Observation {
   Activity activity = Activity::kDriving;
-  int direction = 1;        // of the motion that was told: +1 forward or left, -1 backward or right
+  int direction = 1;        // of the told motion: +1 forward or left, -1 backward or right
   double duration_s = 0.0;  // of the tick
   const truth::RoverState& state;
   const messages::PoseEstimate& estimate;
@@ -38,47 +40,54 @@ struct Observation {
   double turned_in_place_rad = 0.0;  // so far, true
 };
 
+// The referee of one drive.
 class Referee {
  public:
-  // Arrival is judged at the true goal of `course`; progress is what brings the rover nearer to the
-  // goal or waypoint that it drives to, first of all `told_goal`.
+  // Arrival is judged at the true goal of `course`. Progress brings the rover nearer to the goal or
+  // waypoint that it was told and drives to, at first `told_goal`.
   Referee(const RefereeParams& params, const CourseParams& course, const messages::Goal& told_goal,
           std::optional<ArenaBounds> bounds, double wheel_radius_m);
 
-  // The verdict after a tick, if the trial is over for another reason than the navigator's own.
+  // Returns the verdict after a tick, if the drive is over for another reason than that its
+  // navigator stopped. Records depend on the order of the rules: where several hold after one tick,
+  // the first one in referee.cc is the cause.
   std::optional<Verdict> Observe(const Observation& observation, const Ledger& ledger);
 
-  // Operators have turned the rover where it stands and reflected its estimate about the mirror
-  // line y = line_m; `state` is the one after. What they did is no motion of the rover's own:
-  // headings and the estimate of the open window go with it.
+  // Takes that operators have turned the rover where it stands and reflected its estimate about the
+  // mirror line y = line_m; `state` is the state after that. What they did is no motion of the
+  // rover's own: headings and estimate at the beginning of the open window are reflected, too.
   void OnReflection(const truth::RoverState& state, double line_m);
 
-  // The rover declared that it is at a waypoint and drives to the next goal: patience begins anew.
+  // Takes that the rover declared to be at a waypoint and drives to the next goal: patience begins
+  // anew.
   void OnNextGoal(const messages::Goal& told_goal, const Observation& observation, double time_s);
 
-  // The goal that it drives to is believed to lie elsewhere: what it gained, it has gained.
+  // Takes that the goal which the rover drives to is believed to lie elsewhere. That is no
+  // progress: patience goes on.
   void OnGoalMoved(const messages::Goal& told_goal) { told_goal_ = told_goal; }
 
-  // The verdict on a navigator that stopped by itself, at a simulated time.
+  // Returns the verdict on a navigator that stopped by itself, at a simulated time.
   Verdict OnNavigatorStop(navigation::NavigatorStatus status, const truth::RoverState& state,
                           double time_s) const;
 
-  // The most that was driven, and turned in place, since a progress towards the goal and before the
-  // next one. Nothing before a verdict depends on the patience, so a trial that had none ends with
-  // less of it as no path where one of the two is more, and as it did where neither is.
+  // Return the most that was driven, and turned in place, between two progresses towards the goal,
+  // or since the last one. Must stay: nothing before a verdict depends on the operator's patience,
+  // so that a trial without patience tells what it would have been with some: no path where one of
+  // the two exceeds the patience, else what it was.
   double no_progress_distance_m() const { return no_progress_distance_m_; }
   double no_progress_turn_rad() const { return no_progress_turn_rad_; }
 
  private:
-  // A stretch of commanded motion, scans left out.
+  // A window of commanded motion, in which scans do not count.
   struct Window {
-    math::Pose2 pose;  // at its beginning, true and believed
-    messages::PoseEstimate estimate;
+    math::Pose2 pose;                 // true, at the beginning
+    messages::PoseEstimate estimate;  // believed, at the beginning
     double duration_s = 0.0;
-    double belly_s = 0.0;  // of it with the belly on a rock
+    double belly_s = 0.0;  // time with the belly on a rock
     math::Transform last_X_WR = math::Transform::Identity();
-    // True motion the way it was told, summed tick by tick: it grows under a rover that is told to
-    // go to and fro and does so, and not under one that is rocked to and fro while told one way.
+    // True motion in the told direction, summed tick by tick: it grows for a rover that is told to
+    // go to and fro and does so, and not for a rover that is rocked to and fro while told one
+    // direction.
     double obeyed_m = 0.0;
     double obeyed_rad = 0.0;
   };
@@ -93,7 +102,8 @@ class Referee {
     double turned_rad = 0.0;
   };
 
-  // Stuck is high-centred where the belly rested on a rock, and jammed otherwise.
+  // Returns the verdict of being stuck, at the end of a window without motion: high-centred where
+  // the belly rested on a rock, else jammed.
   std::optional<Verdict> CheckStuck(const Observation& observation);
   void OpenWindow(const Observation& observation);
   static void AddObeyed(const Observation& observation, Window& window);

@@ -1,6 +1,8 @@
-// When a trial is over, other than by arriving. The defaults are those of the course of Matthies
-// 1995; those that a scenario may leave open follow its course (open_values_params.h). They decide
-// the records of every scenario that states no others; bounds only refuse files.
+// When a drive is over, other than by arriving: the parameters of the referee. The defaults are
+// those of the course of Matthies 1995; limits that a scenario may leave open follow its course
+// (open_values_params.h), and the help of those in the .cc states that law. Records depend on the
+// defaults in every scenario that states no others; bounds only refuse files. Meanings and sources
+// stand in the .cc.
 #pragma once
 
 #include <array>
@@ -14,7 +16,7 @@ namespace rockyard::trial {
 // What becomes of a rover whose wheels spin without moving it.
 enum class SpinningWheels {
   kStuck,    // it is stuck after stall_window_s, whatever its odometer says
-  kDriveOn,  // it carries on until it believes to have arrived or an other rule ends the run
+  kDriveOn,  // it carries on until it believes to have arrived or another rule ends the run
 };
 
 // What becomes of a rover that the referee has found stuck.
@@ -23,6 +25,7 @@ enum class StuckRover {
   kRunOn,  // it spins its wheels until its batteries are empty: that time and energy count as well
 };
 
+// Rules by which a drive ends.
 struct RefereeParams {
   double tip_over_rad = math::DegToRad(60.0);
   StuckRover stuck_rover = StuckRover::kEnd;

@@ -14,7 +14,7 @@ void SlipOnset::Observe(const messages::PoseEstimate& odometry, const math::Pose
                         double path_m) {
   if (!params_.enabled || path_m_) return;
   ticks_.push_back({odometry, truth});
-  // The newest tick from which on the wheels have rolled far enough is the first one.
+  // ticks_ begins with the newest tick since which the wheels have rolled far enough.
   while (ticks_.size() > 1 &&
          odometry.distance_m - ticks_[1].odometry.distance_m >= params_.min_way_m) {
     ticks_.pop_front();

@@ -1,4 +1,5 @@
-// What the slip check of a drive had to find, in truth.
+// What the slip check of a drive had to find, in truth: the observer of a drive fills columns of
+// the record by it.
 #pragma once
 
 #include <cstdint>
@@ -19,20 +20,20 @@ class SlipOnset {
  public:
   explicit SlipOnset(const perception::SlipCheckParams& params) : params_(params) {}
 
-  // The odometry frame's pose, the true one, and the true path length so far.
+  // Takes the pose in the odometry frame, the true pose, and the true path length so far.
   void Observe(const messages::PoseEstimate& odometry, const math::Pose2& truth, double path_m);
-  // The rover was moved by hand.
+  // Begins anew, after the rover was moved by hand.
   void Restart() { ticks_.clear(); }
 
-  // True path length at which the limit was first exceeded.
+  // Returns the true path length at which the limit was first exceeded, if it was.
   const std::optional<double>& path_m() const { return path_m_; }
 
-  // Visual odometry looks from there.
+  // Takes the true pose at a look of visual odometry.
   void OnLook(std::int64_t number, const math::Pose2& truth) {
     if (params_.enabled) looks_[number] = truth;
   }
-  // Whether the wheels truly slipped that much between the two looks of a reading. Readings come in
-  // the order of their looks.
+  // Returns whether the true slip between the two looks of a reading exceeded the limit. Readings
+  // come in the order of their looks.
   bool TrulyExceeded(const SlipReading& reading);
 
  private:
@@ -47,7 +48,8 @@ class SlipOnset {
   std::map<std::int64_t, math::Pose2> looks_;
 };
 
-// The true motion in the plane from one pose to another as a check of slip takes it, without error.
+// Returns the true motion in the plane from one pose to another, without error, as the check of
+// slip takes motions.
 messages::RelativeMotion TrueMotion(const math::Pose2& from, const math::Pose2& to);
 
 }  // namespace rockyard::trial

@@ -19,7 +19,7 @@ Eigen::Matrix3d CrossMatrix(const Vector3& v) {
   return matrix;
 }
 
-// X with R exp(turn) and t + shift.
+// Returns X_AT with the rotation R exp(turn) and the translation t + shift.
 Transform Turned(const Transform& X_AT, const Vector3& turn_rad, const Vector3& shift_m) {
   Transform moved = X_AT;
   const double angle_rad = turn_rad.norm();
@@ -54,7 +54,7 @@ std::size_t Bundle::IndexOf(const CornerResidual& corner) const {
 
 void Bundle::Exclude(const CornerResidual& corner) { used_[IndexOf(corner)] = false; }
 
-// The number of columns of TangentBasis.
+// Must return the number of columns of TangentBasis.
 Eigen::Index Bundle::CameraSize(std::size_t camera) const {
   const bool makes_frame = HasPoses() && camera == 0;
   const Eigen::Index linear = makes_frame ? 5 : 11;
@@ -138,7 +138,7 @@ void Bundle::AddCorner(const BundleState& state, const std::vector<Basis>& bases
   normal.matrix.block(at, at, size, size).noalias() += by_camera.transpose() * by_camera;
   normal.right.segment(at, size).noalias() += by_camera.transpose() * residual;
   if (!HasPoses()) return;
-  // p_A = R exp(turn) p_T + t + shift: by the turn -R [p_T]x.
+  // p_A = R exp(turn) p_T + t + shift; its derivative by the turn is -R [p_T]x.
   Eigen::Matrix<double, 2, 6> by_pose;
   by_pose << -by_point * X_AT.linear() * CrossMatrix(p_T), by_point;
   const Eigen::Index pose = PoseStart(corner.image);
@@ -189,10 +189,10 @@ BundleState Bundle::Moved(const BundleState& state, const std::vector<Basis>& ba
 
 std::optional<BundleState> Bundle::Solve(BundleState state) const {
   constexpr int kMostSteps = 200;
-  // Of the sum, by which a step makes it smaller: a thousandth of a standard deviation of 1000
-  // corners.
+  // A step that lessens the sum by this share or less is the last: with 1000 corners some
+  // thousandth of a standard deviation of the unknowns is left.
   constexpr double kEnough = 1e-9;
-  constexpr double kMostDamping = 1e12;  // no step makes the sum smaller: it is the least
+  constexpr double kMostDamping = 1e12;  // beyond, no step makes the sum smaller: it is the least
   std::optional<double> sum = SumAt(state);
   if (!sum) return std::nullopt;
   double damping = 1e-3;
@@ -224,7 +224,7 @@ std::optional<BundleState> Bundle::Solve(BundleState state) const {
 std::optional<Eigen::MatrixXd> Bundle::CameraCofactors(const BundleState& state) const {
   const std::vector<Basis> bases = BasesAt(state);
   const Normal normal = NormalAt(state, bases);
-  // Unknowns of many units: first to a diagonal of ones.
+  // The unknowns have many units: scale the diagonal to ones before factoring.
   if (!(normal.matrix.diagonal().minCoeff() > 0.0)) return std::nullopt;
   const Eigen::VectorXd scale = normal.matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * normal.matrix * scale.asDiagonal();
@@ -253,7 +253,7 @@ namespace {
 
 using math::Vector3;
 
-// Two unit vectors across a unit vector and across each other.
+// Returns two unit vectors square to `axis`, a unit vector, and to each other.
 Eigen::Matrix<double, 3, 2> Across(const Vector3& axis) {
   int least = 0;
   axis.cwiseAbs().minCoeff(&least);
@@ -299,7 +299,7 @@ std::optional<Pixel> ProjectByNumbers(const Cahvor& camera, const Vector3& p_A,
   by_numbers.middleCols<3>(kBlockA) = -*pixel * slope;
   by_numbers.block<1, 3>(0, kBlockH) = slope;
   by_numbers.block<1, 3>(1, kBlockV) = slope;
-  // For dO across O: dzeta = lambda . dO, dlambda = -dzeta O - zeta dO and
+  // With dO across O, dzeta = lambda . dO, dlambda = -dzeta O - zeta dO and
   // dtau = -2 (1 + tau) dzeta / zeta, so that
   // dp' = (1 - share) (O dzeta + zeta dO) + lambda share' dtau.
   Eigen::Matrix3d bent_by_axis =

@@ -1,6 +1,8 @@
-// Least squares over cameras and poses of targets (Bundle), with what goes into a calibration and
-// what comes out; and, for their derivatives and covariances, a CAHVOR camera as 18 numbers in the
-// order of flight calibrations: C, A, H, V, O, R. A Cahv is one with O = A and R = 0.
+// Least squares over cameras and poses of targets (Bundle), with the data that go into a
+// calibration and the result that comes out. Calibrate (calibrate.h) solves by it; `rockyard
+// calibrate` fills the data and reports the result. Derivatives and covariances take a CAHVOR
+// camera as 18 numbers in the order of flight calibrations: C, A, H, V, O, R. A Cahv is a Cahvor
+// with O = A and R = 0.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +17,7 @@
 namespace rockyard::vision {
 
 inline constexpr int kCameraNumbers = 18;
+// Where each vector begins. Must stay: reports of calibrations store covariances in this order.
 enum ParameterBlock {
   kBlockC = 0,
   kBlockA = 3,
@@ -30,34 +33,34 @@ using NumbersJacobian = Eigen::Matrix<double, 2, kCameraNumbers>;
 CameraVector NumbersOf(const Cahvor& camera);
 Cahvor CameraOfNumbers(const CameraVector& numbers);
 
-// Project(camera, p_A) with its derivatives by the 18 numbers and by p_A. Of O only what is across
-// it counts, as Project divides its length out: the derivative is that for |O| = 1, at which it
-// must be given. Nothing where Project gives nothing.
+// Returns Project(camera, p_A) with its derivatives by the 18 numbers and by p_A. Requires
+// |O| = 1. The derivative by O holds for changes across O, as Project divides its length out.
+// Returns nothing where Project does.
 std::optional<Pixel> ProjectByNumbers(const Cahvor& camera, const math::Vector3& p_A,
                                       NumbersJacobian& by_numbers, PixelJacobian& by_point);
 
-// What is estimated of a camera.
+// Which numbers of a camera are estimated.
 enum class EstimatedLens {
   kCahv,   // C, A, H, V
   kCahvor  // and O, R1, R2; R0 stays 0: with O near A it does what a focal length does
 };
 
-// In which frame.
+// The frame in which a camera is estimated.
 enum class EstimatedPlace {
   kFree,   // where the targets say
-  kOrigin  // the camera makes the frame: C = 0, A = z, H has no y
+  kOrigin  // the camera makes the frame A: C = 0, A = z, H has no y
 };
 
-// The columns span the ways in which the numbers may change: A and O stay of unit length to first
-// order, what is not estimated stands still. Between 5 (a Cahv that makes the frame) and 15.
+// Returns a matrix whose columns span the ways in which the numbers may change: A and O stay of
+// unit length to first order, numbers that are not estimated stand still. It has 5 (a Cahv that
+// makes the frame) to 15 columns; Bundle::CameraSize must agree.
 Eigen::Matrix<double, kCameraNumbers, Eigen::Dynamic> TangentBasis(const Cahvor& camera,
                                                                    EstimatedLens lens,
                                                                    EstimatedPlace place);
 
-// The camera moved by basis * step, with A and O of unit length; with `lens` kCahv O is A.
+// Returns the camera changed by `change` = basis * step, with A and O made unit length again; with
+// `lens` kCahv O is A.
 Cahvor Stepped(const Cahvor& camera, const CameraVector& change, EstimatedLens lens);
-
-// What a calibration starts from and what it gives.
 
 // The corners of one image, in the order of CornerPosition.
 using CornerImage = std::vector<Pixel>;
@@ -73,12 +76,12 @@ struct CalibrationData {
 
 struct CalibrationOptions {
   EstimatedLens lens = EstimatedLens::kCahvor;
-  // How far the optical axis O is expected to lie from the normal A of the image plane, rad, a
-  // standard deviation of either direction: what is known of O where distortion is too small to
-  // tell. Assumed, > 0; lenses of rovers have 0.001 to 0.01.
+  // The standard deviation, in either direction, of the angle between the optical axis O and the
+  // normal A of the image plane, rad: the prior that holds O where distortion is too small to tell
+  // it. Assumed, > 0; lenses of rovers have 0.001 to 0.01.
   double axis_sd_rad = 0.02;
-  // A corner is an outlier further than so many standard deviations from its place. Of 3000 good
-  // ones 1 % of the calibrations lose one.
+  // A corner is an outlier further than this many standard deviations from its place. Of 3000 good
+  // corners one is lost in 1 % of the calibrations.
   double outlier_sds = 5.0;
 };
 
@@ -90,52 +93,55 @@ struct CornerResidual {
 };
 
 struct Calibration {
-  std::vector<Cahvor> cameras;        // told in A
+  std::vector<Cahvor> cameras;        // told in frame A
   std::vector<math::Transform> X_AT;  // poses of the targets
-  // Of the 18 numbers of each camera, one camera after the other (2 x 18 for a pair). Its rank is
-  // the number of what is estimated.
+  // The covariance of the 18 numbers of each camera, one camera after the other (36 x 36 for a
+  // pair). Its rank is how many numbers of the cameras are estimated.
   Eigen::MatrixXd covariance;
   double sigma_px = 0.0;  // of a coordinate of a corner: sqrt(sum of squares / degrees of freedom)
   double rms_px = 0.0;    // of the distance from a corner to its prediction
   std::int64_t corners = 0;  // that were used, over all images
   std::int64_t degrees_of_freedom = 0;
   std::vector<CornerResidual> residuals;  // of the corners that were used
-  std::vector<CornerResidual> outliers;   // that were not
+  std::vector<CornerResidual> outliers;   // of the excluded corners that are imaged
 };
 
-// Cameras and poses of targets fitted to corners by least squares.
-//
-// What is minimized, over cameras k, images i and corners j that are in use, is
-//   sum |z_kij - Project(camera_k, X_AT_i p_Tj)|^2 + (sigma / axis_sd)^2 sum_k |O_k - A_k|^2,
-// with derivatives in closed form (ProjectByNumbers) by Levenberg's and Marquardt's method
-// (Marquardt 1963). Each corner touches one camera and one pose, so that the normal equations are
-// made of blocks of at most 21 x 21. A solver of our own, as the problem has one dense system of a
-// few hundred unknowns and steps on spheres and rotations, and the covariance is the inverse of a
-// matrix that is there anyway; a library would add 28 packages to what rockyard needs.
-
+// The unknowns of a calibration: cameras, and the pose of the target of each image.
 struct BundleState {
   std::vector<Cahvor> cameras;
   std::vector<math::Transform> X_AT;
 };
 
+// Fits cameras and poses of targets to corners by least squares: over cameras k, images i and the
+// corners j in use it minimizes
+//   sum |z_kij - Project(camera_k, X_AT_i p_Tj)|^2 + (sigma / axis_sd)^2 sum_k |O_k - A_k|^2,
+// the second part (the prior on O) for kCahvor only, by the method of Levenberg and Marquardt
+// (Marquardt 1963) with derivatives in closed form (ProjectByNumbers). Each corner touches one
+// camera and one pose, so that the normal equations consist of blocks of at most 21 x 21. The
+// solver is rockyard's own: there is one dense system of a few hundred unknowns, steps go over
+// spheres and rotations, and the covariance is the inverse of a matrix that is there anyway; a
+// library would add 28 packages to what rockyard needs.
 class Bundle {
  public:
-  // `data` must outlive it. Without surveyed poses the first camera makes the frame.
+  // `data` must outlive the bundle. Without surveyed poses the first camera makes the frame.
   Bundle(const CalibrationData& data, const CalibrationOptions& options);
 
-  // Of one coordinate of a corner, px: what the axis' prior is weighed against.
+  // Sets sigma, the standard deviation of one coordinate of a corner, which the prior on O is
+  // weighed against.
   void SetSigma(double sigma_px) { sigma_px_ = sigma_px; }
   void Exclude(const CornerResidual& corner);
 
-  // The state with the least sum, from `state` on. Nothing where a corner's place is not imaged at
-  // the start, or where 200 steps do not end it.
+  // Returns the state with the least sum, from `state` on. Returns nothing where a corner in use is
+  // not imaged at the start, or where 200 steps do not reach the least sum.
   std::optional<BundleState> Solve(BundleState state) const;
 
-  // Of the corners in use, or else of the excluded ones that are imaged.
+  // Returns the residuals of the corners in use, or else of the excluded ones, without those of
+  // corners that are not imaged.
   std::vector<CornerResidual> Residuals(const BundleState& state, bool in_use) const;
 
-  // The inverse of the normal equations' matrix, told in the 18 numbers of each camera: the
-  // covariance for a sigma of 1 px. Nothing where the matrix is singular.
+  // Returns the cameras' part of the inverse of the normal equations' matrix, told in the 18
+  // numbers of each camera: the covariance for a sigma of 1 px. Returns nothing where the matrix is
+  // singular.
   std::optional<Eigen::MatrixXd> CameraCofactors(const BundleState& state) const;
 
   std::int64_t unknowns() const;

@@ -17,6 +17,8 @@ namespace {
 using core::Problem;
 using math::Vector3;
 
+// The largest standard deviations of a calibration that is not refused: a share of the focal
+// length, and a share of the image's width for the principal point.
 constexpr double kOpenFocal = 0.02;
 constexpr double kOpenCentre = 0.03;
 
@@ -26,8 +28,8 @@ double SumOfSquares(const std::vector<CornerResidual>& residuals) {
   return sum;
 }
 
-// Of one coordinate, from the median distance: a Rayleigh distribution's is sqrt(2 ln 2) = 1.1774
-// sigma. At least a thousandth of a pixel, below which nothing is an outlier's distance.
+// Returns sigma of one coordinate from the median distance, which for a Rayleigh distribution is
+// sqrt(2 ln 2) = 1.1774 sigma; at least 1e-3 px, so that corners without noise make no outliers.
 double RobustSigma(const std::vector<CornerResidual>& residuals) {
   std::vector<double> distances_px;
   distances_px.reserve(residuals.size());
@@ -37,7 +39,7 @@ double RobustSigma(const std::vector<CornerResidual>& residuals) {
   return std::max(1e-3, *middle / 1.1774);
 }
 
-// Whether there were any.
+// Excludes the outliers and returns whether there were any.
 bool ExcludeOutliers(const CalibrationOptions& options, const BundleState& state, Bundle& bundle) {
   const std::vector<CornerResidual> residuals = bundle.Residuals(state, true);
   const double limit_px = options.outlier_sds * RobustSigma(residuals);
@@ -57,12 +59,12 @@ Problem NoConvergence() {
 
 std::int64_t DegreesOfFreedom(const Bundle& bundle, std::size_t corners, std::size_t cameras,
                               const CalibrationOptions& options) {
-  // What is expected of O counts as two measurements a camera.
+  // The prior on O counts as two measurements a camera.
   const std::size_t priors = options.lens == EstimatedLens::kCahvor ? 2 * cameras : 0;
   return static_cast<std::int64_t>(2 * corners + priors) - bundle.unknowns();
 }
 
-// The fit, with sigma and outliers settled.
+// Solves by rounds, until sigma and the outliers are settled.
 std::optional<BundleState> Fit(const CalibrationOptions& options, BundleState state,
                                Bundle& bundle) {
   constexpr int kMostRounds = 10;
@@ -71,13 +73,13 @@ std::optional<BundleState> Fit(const CalibrationOptions& options, BundleState st
     if (!next) return std::nullopt;
     state = *std::move(next);
     bundle.SetSigma(RobustSigma(bundle.Residuals(state, true)));
-    // The first round weighs the prior by a guess.
+    // The first round weighs the prior by a guess of sigma, so that there are at least two.
     if (!ExcludeOutliers(options, state, bundle) && round > 0) break;
   }
   return state;
 }
 
-// The targets' part in what is not known, where it is too large.
+// Returns a problem for each camera whose intrinsics the targets leave too open.
 std::vector<Problem> Doubts(const CalibrationData& data, const Calibration& calibration) {
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < calibration.cameras.size(); ++i) {
@@ -97,13 +99,14 @@ std::vector<Problem> Doubts(const CalibrationData& data, const Calibration& cali
   return problems;
 }
 
-// value and the standard deviation by its gradient.
+// Returns `value` with the standard deviation that follows from its gradient.
 Estimate EstimateOf(double value, const CameraVector& gradient,
                     const CameraCovariance& covariance) {
   return {value, std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)))};
 }
 
-// |A x X| with X = H or V: by X (X - (A.X) A) / f, by A (|X|^2 A - (A.X) X) / f, for |A| = 1.
+// Returns f = |A x X|, X = H or V. For |A| = 1 its derivatives are (X - (A.X) A) / f by X and
+// (|X|^2 A - (A.X) X) / f by A.
 Estimate FocalOf(const Cahvor& camera, const CameraCovariance& covariance, const Vector3& X,
                  ParameterBlock block) {
   const Vector3& A = camera.linear.A;
@@ -114,6 +117,7 @@ Estimate FocalOf(const Cahvor& camera, const CameraCovariance& covariance, const
   return EstimateOf(focal_px, gradient, covariance);
 }
 
+// Returns the coordinate A . X of the principal point, X = H or V.
 Estimate CentreOf(const Cahvor& camera, const CameraCovariance& covariance, const Vector3& X,
                   ParameterBlock block) {
   CameraVector gradient = CameraVector::Zero();

@@ -9,27 +9,28 @@
 
 namespace rockyard::vision {
 
-// The cameras of the data, which have one or two lists of images of equal length, each image with
-// all corners. Frame A is that of the survey; without one it is that of the first camera: C = 0,
-// z along its A, x along the part of its H across A. The problems, with path "targets": what
+// Returns the calibrated cameras. `data` has one or two lists of images of equal length, each image
+// with all corners. Frame A is that of the survey; without one it is that of the first camera:
+// C = 0, z along its A, x along the part of its H across A. The problems, with path "targets": what
 // StartValues refuses, no convergence, or targets that leave the focal length open to more than
 // 2 % or the principal point to more than 3 % of the image's width (one standard deviation).
-// Outliers are left out one round after the other, at most 10, against the median distance of
-// those that are in use (which is 1.1774 sigma). Nothing is random. Cost: 20 images of 54 corners
-// by two cameras about 0.1 s.
+// Outliers are left out in at most 10 rounds. Each takes sigma from the median distance of the
+// corners in use, which is 1.1774 sigma. Cost: 20 images of 54 corners by two cameras about 0.1 s.
 core::Result<Calibration> Calibrate(const CalibrationData& data,
                                     const CalibrationOptions& options = {});
 
-// The camera as a model, a Cahv where no distortion was estimated.
+// Returns a calibrated camera as a model, a Cahv where no distortion was estimated.
 CameraModel ModelOf(const Calibration& calibration, std::size_t camera, const ImageSize& size,
                     EstimatedLens lens);
 
-// What follows from the covariance.
+// The covariance of one camera's 18 numbers (bundle.h).
 using CameraCovariance = Eigen::Matrix<double, kCameraNumbers, kCameraNumbers>;
+// Returns the covariance of one camera out of that of all.
 CameraCovariance CovarianceOf(const Calibration& calibration, std::size_t camera);
 
-// The standard deviation, px, of the distance by which the image of p_A is predicted wrongly:
-// sqrt(trace(J S J')). Nothing where p_A is not imaged.
+// Returns the root mean square, px, of the distance by which the image of p_A is predicted wrongly:
+// sqrt(trace(J S J')), J the derivative by the 18 numbers, S their covariance. Returns nothing
+// where p_A is not imaged.
 std::optional<double> PredictedError(const Cahvor& camera, const CameraCovariance& covariance,
                                      const math::Vector3& p_A);
 
@@ -38,7 +39,7 @@ struct Estimate {
   double sd = 0.0;
 };
 
-// |A x H| and |A x V|, focal lengths in px; A . H and A . V, the principal point.
+// Focal lengths |A x H| and |A x V|; the principal point (A . H, A . V).
 struct Intrinsics {
   Estimate focal_h_px;
   Estimate focal_v_px;
@@ -47,7 +48,7 @@ struct Intrinsics {
 };
 Intrinsics IntrinsicsOf(const Cahvor& camera, const CameraCovariance& covariance);
 
-// The distance of the centres of two cameras, m.
+// Returns the distance of the centres of the two cameras, m.
 Estimate BaselineOf(const Calibration& calibration);
 
 }  // namespace rockyard::vision

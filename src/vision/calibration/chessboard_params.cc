@@ -5,7 +5,7 @@ namespace rockyard::vision {
 using core::Setting;
 
 void ChessboardParams::Visit(core::FieldVisitor& v) {
-  // Bounds include the 0 of what is missing, so that the conditions below can say so.
+  // Ranges include 0, the value of a missing field, so that the conditions below can name it.
   v.Integer("rows", rows, Setting("rows of inner corners", {0, 100}));
   v.Integer("columns", columns, Setting("columns of inner corners", {0, 100}));
   v.Real("spacing_m", spacing_m, Setting("side of a square", {0.0, 100.0}));

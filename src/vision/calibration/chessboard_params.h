@@ -1,9 +1,10 @@
-// A chessboard as a target of known geometry.
+// A chessboard as a target of known geometry: what target files describe, images are searched for
+// and calibration takes as known.
 //
 // Its frame T: origin at one of the outermost inner corners, x along a row of corners, y along a
-// column of them, z into the board, so that x points right and y down for whom sees the board
-// upright. The square between corners (0, 0), (0, 1), (1, 0) and (1, 1) is dark. With one of rows
-// and columns odd and the other even, the square beside the opposite corner is bright, and an image
+// column of them, z into the board, so that x points right and y down for who sees the board
+// upright. The square between corners (0, 0), (0, 1), (1, 0) and (1, 1) is dark. As one of rows and
+// columns is odd and the other even, the square inside the opposite corner is bright, and an image
 // shows which corner is the origin.
 #pragma once
 
@@ -26,7 +27,8 @@ struct ChessboardParams {
   std::size_t corners() const { return static_cast<std::size_t>(rows * columns); }
 };
 
-// Where corner `index` is, row by row from the origin: p_T, m.
+// Returns where corner `index` is, p_T, m. Corners count row by row from the origin, in this order
+// in all of calibration.
 math::Vector3 CornerPosition(const ChessboardParams& board, std::size_t index);
 
 }  // namespace rockyard::vision

@@ -21,6 +21,7 @@ std::vector<float> GaussianWeights(double sigma_px) {
   return weights;
 }
 
+// The numbers of CornerCandidates, and kFarthest_px of RefineCorner, as the header describes them.
 constexpr int kApart_px = 3;
 constexpr double kLeastShare = 0.02;
 constexpr double kCircle_px = 5.0;
@@ -43,7 +44,8 @@ Image<float> Saddles(const Image<float>& smooth) {
   return saddles;
 }
 
-// Of equal neighbours the first in reading order counts.
+// Returns whether no pixel within kApart_px is larger; of equal ones the first in reading order is
+// the peak.
 bool IsPeak(const Image<float>& saddles, int x, int y) {
   const float value = saddles.At(x, y);
   for (int dy = -kApart_px; dy <= kApart_px; ++dy) {
@@ -76,7 +78,8 @@ bool Contains(const GrayImage& image, int x, int y) {
   return x >= 1 && y >= 1 && x + 1 < image.width() && y + 1 < image.height();
 }
 
-// One step: the solution of sum w g g^T q = sum w g g^T p with the window about `at`.
+// Returns the q of sum w g g^T q = sum w g g^T p with the window about `at`: one step of
+// RefineCorner.
 std::optional<Pixel> MeetOfEdges(const GrayImage& image, const Pixel& at, double radius_px) {
   const double falloff = 0.5 / (0.25 * radius_px * radius_px);
   const int reach = static_cast<int>(std::ceil(radius_px));

@@ -17,15 +17,15 @@ namespace {
 
 constexpr double kSmoothing_px = 1.5;
 constexpr double kFirstRadius_px = 4.0;
-// A window about a corner, as a share of the way to its nearest neighbour: edges that belong to it
-// alone.
+// The radius of a window about a corner over the way to its nearest neighbour: below a half, so
+// that the edges inside belong to this corner alone.
 constexpr double kShareOfSquare = 0.45;
 constexpr double kLeastRadius_px = 3.0;
 constexpr double kMostRadius_px = 12.0;
 
 // Corners that belong together, by their places in a grid of unknown origin and orientation. The
-// first coordinate grows towards the second one's right hand as it does in images: turning from the
-// direction of the first to that of the second is turning from columns to rows.
+// grid is never mirrored: the second coordinate's direction is to the right hand of the first's, as
+// down is to the right hand of rightwards.
 using CornerGrid = std::map<std::pair<int, int>, Pixel>;
 
 constexpr std::size_t kMostNear = 16;
@@ -33,6 +33,9 @@ constexpr double kLeastDifference = 6.0;  // grey levels across an edge
 
 double Cross(const Pixel& a, const Pixel& b) { return a.x() * b.y() - a.y() * b.x(); }
 
+// Returns whether the line from a to b is an edge all along: brightness differs across it at five
+// places, with the same sign. Longer lines of a board change the sign halfway, and diagonals have
+// no difference.
 bool IsEdge(const Image<float>& smooth, const Pixel& a, const Pixel& b) {
   const Pixel along = b - a;
   const double length_px = along.norm();
@@ -78,7 +81,8 @@ struct Place {
   Pixel second;  // along the second
 };
 
-// Grows one grid.
+// Grows one grid from a corner with two edges, along edges. The directions of an edge's grid lines
+// are handed on from corner to corner, so that perspective and distortion may turn them slowly.
 class GridGrowth {
  public:
   GridGrowth(const std::vector<Pixel>& corners, const Neighbours& neighbours,
@@ -98,7 +102,8 @@ class GridGrowth {
   }
 
  private:
-  // Two edges at more than 30 deg to each other, the second to the right hand of the first.
+  // Starts at two edges of `seed` more than 30 deg apart, the second to the right hand of the
+  // first.
   std::optional<Place> StartAt(std::size_t seed) const {
     for (const std::size_t a : neighbours_[seed]) {
       for (const std::size_t b : neighbours_[seed]) {
@@ -118,7 +123,8 @@ class GridGrowth {
     waiting_.push(place);
   }
 
-  // The step is first times u plus second times v: about (1, 0), (-1, 0), (0, 1) or (0, -1).
+  // Adds the corner `to` where the step to it is u first + v second with (u, v) about (1, 0),
+  // (-1, 0), (0, 1) or (0, -1).
   void Step(const Place& from, std::size_t to) {
     const Pixel step = corners_[to] - corners_[from.corner];
     const double area = Cross(from.first, from.second);
@@ -150,11 +156,7 @@ class GridGrowth {
   std::queue<Place> waiting_;
 };
 
-// The grids among `corners`, largest first. Two corners are neighbours where the line between them
-// is an edge from end to end: brightness differs across it, with the same sign at five places.
-// Longer lines of a board change their sign halfway, diagonals have none. From a corner with two
-// edges the grid grows along edges, directions handed on from corner to corner, so that perspective
-// and distortion may turn them slowly. `smooth` is the image smoothed by 1.5 px or so.
+// Returns the grids among `corners`, largest first. `smooth` is the image smoothed by about 1.5 px.
 std::vector<CornerGrid> FindGrids(const Image<float>& smooth, const std::vector<Pixel>& corners) {
   const Neighbours neighbours = EdgesAmong(smooth, corners);
   std::vector<bool> taken(corners.size(), false);
@@ -169,7 +171,8 @@ std::vector<CornerGrid> FindGrids(const Image<float>& smooth, const std::vector<
   return grids;
 }
 
-// The corners row by row, where the grid has the board's shape: as it lies or a quarter turned.
+// Returns the corners row by row where the grid has the board's shape, as it lies or turned by a
+// quarter.
 std::optional<std::vector<Pixel>> Sorted(const CornerGrid& grid, const ChessboardParams& board) {
   if (grid.size() != board.corners()) return std::nullopt;
   std::pair<int, int> low = grid.begin()->first;
@@ -198,7 +201,8 @@ double SquareBrightness(const Image<float>& smooth, const std::vector<Pixel>& co
                                  corners[first + columns + 1]));
 }
 
-// The square at the origin is dark, its neighbour bright.
+// Turns the order of the corners by half a turn where the square at the origin is not darker than
+// its neighbour.
 void TurnToDarkOrigin(const Image<float>& smooth, const ChessboardParams& board,
                       std::vector<Pixel>& corners) {
   const auto columns = static_cast<std::size_t>(board.columns);

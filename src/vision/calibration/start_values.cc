@@ -20,11 +20,12 @@ using math::Transform;
 using math::Vector3;
 
 constexpr double kLeastTilt_deg = 5.0;
-// Of surveyed points: their spread across the plane that fits best over that along it.
+// The least spread of surveyed points across the plane that fits best, over the smaller spread
+// along it.
 constexpr double kLeastDepth = 0.02;
 
-// Points as columns, homogeneous. Shifts them to their mean and scales them to a root mean square
-// of 1 a coordinate.
+// Returns the matrix that shifts `points`, homogeneous columns, to their mean and scales them to a
+// root mean square of 1 a coordinate.
 MatrixXd Normalization(const MatrixXd& points) {
   const Eigen::Index size = points.rows() - 1;
   const Eigen::VectorXd mean = points.topRows(size).rowwise().mean();
@@ -49,10 +50,10 @@ MatrixXd Homogeneous(const Points& points) {
   return columns;
 }
 
-// The matrix P of three rows with (pixel, 1) ~ P (point, 1), of homogeneous columns: the
+// Returns the matrix P of three rows p1, p2, p3 with pixel ~ P point for homogeneous columns: the
 // eigenvector of the least eigenvalue of the equations p1 X - u p3 X = 0, p2 X - v p3 X = 0. Sizes
-// are dynamic, and the vector is a singular one, because Eigen's other templates compile for half a
-// minute.
+// are dynamic, and the eigenvector is computed as a singular vector, because Eigen's other
+// templates compile for half a minute.
 MatrixXd DirectLinear(const MatrixXd& points, const MatrixXd& pixels) {
   const Eigen::Index side = points.rows();
   const MatrixXd of_points = Normalization(points);
@@ -98,7 +99,7 @@ Problem ParallelTargets() {
           "tilt the target by 20 to 45 deg, about different axes, from image to image"};
 }
 
-// The largest angle between the normals of two targets.
+// Returns the largest angle between the normals of two targets.
 double LargestTilt_deg(const std::vector<Transform>& X_AT) {
   double largest_rad = 0.0;
   for (const Transform& a : X_AT) {
@@ -178,7 +179,7 @@ Eigen::Matrix3d PlaneHomography(const ChessboardParams& board, const CornerImage
 
 std::optional<double> FocalLength(const std::vector<Eigen::Matrix3d>& homographies,
                                   const Pixel& middle) {
-  // a / f^2 + b = 0 for each of the two conditions.
+  // Each of the two conditions is a / f^2 + b = 0; f^2 = -(sum a a) / (sum a b).
   double aa = 0.0;
   double ab = 0.0;
   for (const Eigen::Matrix3d& homography : homographies) {
@@ -194,7 +195,7 @@ std::optional<double> FocalLength(const std::vector<Eigen::Matrix3d>& homographi
     ab += a1 * b1 + a2 * b2;
   }
   const double focal_px = std::sqrt(-aa / ab);
-  // Wider than 170 deg or narrower than half a degree, or nothing at all.
+  // No lens is wider than 170 deg or narrower than half a degree, and NaN is none.
   if (!(focal_px > 0.1 * middle.x() && focal_px < 200.0 * middle.x())) return std::nullopt;
   return focal_px;
 }

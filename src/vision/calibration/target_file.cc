@@ -43,7 +43,7 @@ struct BoardPose {
   }
 };
 
-// Reads `json` into `params`; problems go to the list, below `place`.
+// Reads `json` into `params`, and adds problems with `place` before their paths.
 template <typename Params>
 void ReadInto(const JsonValue& json, const std::string& place, Params& params,
               std::vector<Problem>& problems) {

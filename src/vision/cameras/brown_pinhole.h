@@ -1,5 +1,6 @@
 // A pinhole with radial-tangential distortion (Brown 1966, "Decentering distortion of lenses";
-// Conrady 1919), in the convention that OpenCV and the Middlebury calibrations use.
+// Conrady 1919), in the convention that OpenCV and the Middlebury calibrations use. For pairs of
+// cameras from files (camera_file.h); no rover of rockyard's own has one.
 //
 // Camera frame C: z along the optical axis, x along the rows to the right, y down the columns.
 //
@@ -30,15 +31,16 @@ struct BrownPinhole {
   bool operator==(const BrownPinhole& other) const;
 };
 
-// Where p_A (m) is imaged, and its derivative by p_A. Nothing for points with Z <= 0; beyond the
-// part from the axis outwards where r g grows; where the tangential terms fold the image (the
-// determinant of d(x', y')/d(x, y) is not positive); and where the result is not finite.
+// Returns where p_A (m) is imaged, and its derivative by p_A. Returns nothing for points with
+// Z <= 0; beyond the part from the axis outwards where r g grows; where the tangential terms fold
+// the image (the determinant of d(x', y')/d(x, y) is not positive); and where the result is not
+// finite.
 std::optional<Pixel> Project(const BrownPinhole& camera, const math::Vector3& p_A,
                              PixelJacobian* jacobian = nullptr);
 
-// The ray of a pixel, and its derivative by the pixel: the inverse of Project. Newton's method from
-// the radial part's own inverse, at most 30 steps, to 1e-14; nothing where it does not get there or
-// ends outside of what Project images.
+// Returns the ray of a pixel and its derivative by the pixel: the inverse of Project. Newton's
+// method starts from the inverse of the radial part and takes at most 30 steps, to 1e-14. Returns
+// nothing without convergence or where it ends outside of what Project images.
 std::optional<Ray> BackProject(const BrownPinhole& camera, const Pixel& pixel,
                                RayJacobian* jacobian = nullptr);
 

@@ -20,7 +20,7 @@ std::optional<Ray> BackProject(const Cahv& camera, const Pixel& pixel, RayJacobi
   std::optional<Ray> ray = Finite({camera.C, direction});
   if (ray && jacobian != nullptr) {
     jacobian->origin.setZero();
-    // Of d / |d|: what is across the direction, over the length.
+    // The derivative of d / |d| is that of d, across the direction, over |d|.
     jacobian->direction = (by_pixel - direction * (direction.transpose() * by_pixel)) / length;
   }
   return ray;
@@ -124,11 +124,12 @@ namespace {
 
 using math::Vector3;
 
-// A point this much nearer to the axis than to the pupil counts as on it: what is neglected is of
-// the square.
+// A point whose distance from the axis is at most this share of zeta counts as on the axis. The
+// error is of the order of the square.
 constexpr double kOnAxis = 1e-9;
 
-// The lens on its axis, where theta, chi and |lambda| / zeta are the same but for the share.
+// Projects a point on the axis, where theta, chi and |lambda| / zeta are equal and only the
+// distortion's share 1 + R0 is left.
 std::optional<Pixel> ProjectOnAxis(const Cahvore& camera, const Vector3& o, double zeta,
                                    const Vector3& lambda, PixelJacobian* jacobian) {
   const double share = 1.0 + camera.R[0];
@@ -143,7 +144,7 @@ std::optional<Pixel> ProjectOnAxis(const Cahvore& camera, const Vector3& o, doub
   return pixel;
 }
 
-// The rows of the direction's derivative where the ray is on the axis.
+// Fills in the derivatives of a ray on the axis.
 void FillOnAxis(const Eigen::Matrix<double, 3, 2>& slope_by_pixel, double share,
                 RayJacobian* jacobian) {
   jacobian->origin.setZero();
@@ -185,8 +186,8 @@ std::optional<Pixel> Project(const Cahvore& camera, const Vector3& p_A, PixelJac
       MeetPlane(camera.linear, o + distorted * outward, jacobian ? &by_bent : nullptr);
   if (!pixel || jacobian == nullptr) return pixel;
 
-  // dtheta = (cos(theta) dlambda - sin(theta) dzeta) / reach; d outward = what of dp is across the
-  // axis and the outward direction, over lambda.
+  // dtheta = (cos(theta) dlambda - sin(theta) dzeta) / reach. d outward is the part of dp across
+  // both the axis and the outward direction, over |lambda|.
   const Vector3 theta_by_point =
       (std::cos(sight->theta_rad) * outward - std::sin(sight->theta_rad) * o) / sight->reach_m;
   const Eigen::Matrix3d outward_by_point =
@@ -257,7 +258,8 @@ namespace {
 
 constexpr int kMostThetaSteps = 30;
 constexpr double kThetaTolerance_rad = 1e-14;
-// Below this angle sines are replaced by the first terms of their series, whose error is theta^4.
+// Below this angle the first terms of series replace the formulas with sines; their relative error
+// is of the order of theta^2.
 constexpr double kSmallAngle_rad = 1e-4;
 
 struct PupilPolynomial {

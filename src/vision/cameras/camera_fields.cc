@@ -16,14 +16,16 @@ using core::Setting;
 
 using math::Vector3;
 
-// As kModelNames; those with C, A, H and V come first, which Visit relies on.
+// Places in kModelNames: both lists have one order. Models with C, A, H and V must come first, as
+// Visit compares places.
 enum ModelIndex { kCahvModel, kCahvorModel, kCahvoreModel, kBrownModel };
 constexpr std::array<std::string_view, 4> kModelNames = {"cahv", "cahvor", "cahvore", "brown"};
+// In the order of CahvoreType; LineSorter::TakeType (camera_text.cc) writes the same names.
 constexpr std::array<std::string_view, 3> kTypeNames = {"perspective", "fisheye", "general"};
 
-// Axes are printed with six digits or so.
+// The tolerance of a unit vector's length: files print axes with six digits or so.
 constexpr double kUnitTolerance = 1e-3;
-// The sine of the angle between rows and columns: they are square to each other but for the skew.
+// The smallest sine of the angle between rows and columns, which are square but for the skew.
 constexpr double kSmallestSine = 0.1;
 
 FieldInfo Within(std::string_view doc, double limit) { return core::Setting(doc, {-limit, limit}); }
@@ -35,7 +37,7 @@ bool AllKnown(std::span<const double> values) {
   return true;
 }
 
-// The visitor, with a memory of what is missing: all of it is told at once.
+// A visitor that remembers which fields are missing, so that RequireAll tells them in one problem.
 class CalibrationFields {
  public:
   explicit CalibrationFields(FieldVisitor& v) : v_(v) {}
@@ -69,7 +71,7 @@ class CalibrationFields {
     Note(name, index >= 0);
   }
 
-  // Of what is known; a condition on what is missing holds.
+  // Requires a condition on known fields; callers pass true where a field is missing.
   void Require(std::string_view name, bool holds, std::string_view reason,
                std::string_view suggestion) {
     v_.Require(name, holds, reason, suggestion);
@@ -99,8 +101,8 @@ class CalibrationFields {
 Vector3 VectorOf(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
 Triple TripleOf(const Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-// Whether pixels and directions belong to each other one by one: H' and V' have lengths and are not
-// parallel.
+// Returns whether each pixel has a direction of its own: the focal lengths are not 0, and rows and
+// columns are not near to parallel.
 bool SpansImage(const CameraFields& fields) {
   const Vector3 A = VectorOf(fields.A);
   const Vector3 H = VectorOf(fields.H_px);
@@ -208,7 +210,8 @@ AnyLens LensOf(const CameraFields& fields) {
 void CameraFields::Visit(FieldVisitor& visitor) {
   CalibrationFields v(visitor);
   v.Choose("model", model, kModelNames, "camera model");
-  // Of an unknown model the names of all fields are known, and what they lack is not told.
+  // For an unknown model only the missing model is told; all fields are visited, so that their
+  // names are known.
   const bool any = model < 0;
   if (any) v.RequireAll();
   v.Side("columns", columns);

@@ -1,5 +1,6 @@
 // Cameras as files hold them: the fields of every model, their ranges and what must hold across
-// them. The text form of flight calibrations (camera_text.h) is read through the same fields.
+// them. Files in JSON (camera_file.h) and the text of flight calibrations (camera_text.h) are both
+// read through these fields.
 //
 //   {"model": "cahvore", "columns": 1024, "rows": 1024, "C": [...], "A": [...], "H": [...],
 //    "V": [...], "O": [...], "R": [...], "E": [...], "type": "general", "linearity": 0.37}
@@ -9,8 +10,8 @@
 //
 // cahv has no O, R and E, cahvor no E; linearity belongs to type general alone. position_m and
 // rotation_wxyz are X_AC of a pinhole, its pose in the camera's outer frame. No field has a
-// default: a calibration with a number left out is none. People keep such files: names, order of
-// vectors and units stay.
+// default: a calibration with a number left out is refused. Must stay, as people keep such files:
+// names of fields, order of numbers and units.
 #pragma once
 
 #include <array>
@@ -59,10 +60,10 @@ struct CameraPairFields {
   void Visit(core::FieldVisitor& v);
 };
 
-// The camera of fields that were read without a problem.
+// Returns the camera of fields that were read without a problem.
 CameraModel ModelOf(const CameraFields& fields);
 
-// The fields of a camera, which ModelOf takes back.
+// Returns the fields of a camera: the inverse of ModelOf.
 CameraFields FieldsOf(const CameraModel& camera);
 
 }  // namespace rockyard::vision

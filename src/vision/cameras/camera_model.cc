@@ -26,7 +26,7 @@ std::optional<Ray> BackProject(const CameraModel& camera, const Pixel& pixel,
 }
 
 std::optional<Pixel> ProjectDirection(const CameraModel& camera, const Vector3& direction_A) {
-  // As far from the centre as makes nothing of a moving pupil's centimetres, 1e-11 rad.
+  // At this distance the centimetres by which a pupil moves are 1e-11 rad.
   constexpr double kFar_m = 1e9;
   return Project(camera, CentreOf(camera) + kFar_m * direction_A.normalized());
 }

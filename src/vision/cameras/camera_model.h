@@ -1,6 +1,6 @@
-// One camera of whatever model, with the size of its image: what stereo, rendering and visual
-// odometry take. Simulated images are made and read through the same functions; what the two sides
-// differ in is the numbers of the camera, true or calibrated.
+// One camera of whatever model, with the size of its image. Rendering makes images through it;
+// stereo, visual odometry, calibration and the finders of the cylinder read them through it. Both
+// sides use the same functions and differ in the numbers of the camera, true or calibrated.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace rockyard::vision {
 
-// A further lens brings Project, BackProject, Moved and Mapped, its centre (CentreOf), and fields
-// (camera_fields.h).
+// A further lens needs Project, BackProject, Moved and Mapped, a centre for CentreOf, and fields
+// for files (camera_fields.h).
 using AnyLens = std::variant<Cahv, Cahvor, Cahvore, BrownPinhole>;
 
 struct CameraModel {
@@ -20,37 +20,39 @@ struct CameraModel {
   ImageSize size;
 };
 
-// Where p_A (m, in the camera's outer frame A) is imaged, inside of the image or not; into
-// `jacobian`, where there is one, the derivative by p_A. Nothing, and `jacobian` as it was, where
+// Returns where p_A (m, in the camera's outer frame A) is imaged, inside of the image or not, and
+// writes the derivative by p_A to `jacobian`, if given. Returns nothing and leaves `jacobian` where
 // the model sees nothing: behind the camera, beyond the growing part of its distortion, without
-// convergence, or where a number is not finite. Cost: 20 to 300 ns, of a CAHVORE up to 500 ns.
+// convergence, or where a number is not finite. Cost: 20 to 300 ns, for a CAHVORE up to 500 ns.
 std::optional<Pixel> Project(const CameraModel& camera, const math::Vector3& p_A,
                              PixelJacobian* jacobian = nullptr);
 
-// The ray of a pixel, inside of the image or not, and its derivative by the pixel: the inverse of
-// Project. Nothing where no direction is imaged there.
+// Returns the ray of a pixel, inside of the image or not, and its derivative by the pixel: the
+// inverse of Project. Returns nothing where the model images no direction at `pixel`.
 std::optional<Ray> BackProject(const CameraModel& camera, const Pixel& pixel,
                                RayJacobian* jacobian = nullptr);
 
-// Where the point at infinity in this direction (of any length but 0) is imaged.
+// Returns where the point at infinity in a direction (of any length but 0) is imaged.
 std::optional<Pixel> ProjectDirection(const CameraModel& camera, const math::Vector3& direction_A);
 
-// Where all lines of sight meet; those of a CAHVORE, near its optical axis.
+// Returns C, where all lines of sight meet. Only those near the optical axis meet in the C of a
+// CAHVORE.
 math::Vector3 CentreOf(const CameraModel& camera);
 
-// Whether a position lies on some pixel: -0.5 <= column < columns - 0.5, rows likewise.
+// Returns whether a position lies on some pixel: -0.5 <= column < columns - 0.5, rows likewise.
 bool IsInside(const ImageSize& size, const Pixel& pixel);
 
-// The middle of the image: ((columns - 1) / 2, (rows - 1) / 2).
+// Returns the middle of the image: ((columns - 1) / 2, (rows - 1) / 2).
 Pixel MiddleOf(const ImageSize& size);
 
-// The camera with its vectors told in B: X_BA is the pose of its present outer frame.
+// Returns the camera with its vectors told in B: X_BA is the pose of its present outer frame.
 CameraModel Moved(const math::Transform& X_BA, const CameraModel& camera);
 
-// The camera of the image whose pixels are means of `factor` x `factor` pixels of this one, as a
-// level of a pyramid by box filters is (2, 4, 8, ...). Pixel j covers factor j to factor j + factor
-// - 1, hence column' = (column - (factor - 1) / 2) / factor; columns and rows that do not fill a
-// pixel are lost. Requires 1 <= factor <= columns, rows.
+// Returns the camera of the image whose pixels are means of `factor` x `factor` pixels of the
+// camera's image, as levels of a pyramid by box filters are (2, 4, 8, ...). Pixel j covers factor j
+// to factor j + factor - 1, hence column' = (column - (factor - 1) / 2) / factor; columns and rows
+// that do not fill a pixel are lost. Must agree with ReduceImage (stereo/pyramid.h), which makes
+// these images. Requires 1 <= factor <= columns, rows.
 CameraModel Reduced(const CameraModel& camera, int factor);
 
 }  // namespace rockyard::vision

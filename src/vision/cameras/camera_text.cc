@@ -24,7 +24,7 @@ namespace {
 using core::JsonValue;
 using core::Problem;
 
-// A problem of a field, told by its line.
+// Returns a problem of a field as one of the line in which the field stands.
 Problem OfLine(const Problem& problem, const CameraBlock& block, std::string_view source_name) {
   const std::string_view field = std::string_view(problem.path).substr(0, problem.path.find('['));
   const auto line = block.lines.find(field);
@@ -35,7 +35,7 @@ Problem OfLine(const Problem& problem, const CameraBlock& block, std::string_vie
 }
 
 CameraModel ModelIn(const CameraBlock& block, std::string_view source_name) {
-  // The other types have theirs by nature, and say so or say 0.
+  // Types 1 and 2 have a fixed linearity; files repeat it or say 0.
   JsonValue json = block.fields;
   const JsonValue* type = json.Find("type");
   if (type != nullptr && type->text() != "general") json.Erase("linearity");
@@ -106,7 +106,7 @@ std::string LensLines(const Cahvore& lens) {
   return LinearLines(lens.linear) + VectorLine("O", lens.O) + VectorLine("R", lens.R) +
          VectorLine("E", lens.E);
 }
-// The form has no keys for others, which the callers are told.
+// The text form has no keys for other lenses; CameraText refuses them.
 template <typename Lens>
 std::string LensLines(const Lens&) {
   return {};
@@ -174,7 +174,7 @@ std::string_view Trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-// For messages: printable and short.
+// Returns a text for messages: printable and short.
 std::string Shown(std::string_view text) {
   std::string shown(text.substr(0, kMostShown));
   for (char& c : shown) {
@@ -183,7 +183,7 @@ std::string Shown(std::string_view text) {
   return shown;
 }
 
-// The first `most` words, and one more where there are more.
+// Returns the first `most` words, and one more where the text has more.
 std::vector<std::string_view> Words(std::string_view text, std::size_t most) {
   std::vector<std::string_view> words;
   while (words.size() <= most) {
@@ -196,7 +196,7 @@ std::vector<std::string_view> Words(std::string_view text, std::size_t most) {
   return words;
 }
 
-// A whole word as a finite number.
+// Returns a whole word as a finite number.
 template <typename Number>
 std::optional<Number> NumberIn(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
@@ -237,7 +237,7 @@ class LineSorter {
   CameraBlocks Finish() && { return std::move(sorted_); }
 
  private:
-  // What has no key: a row of a covariance.
+  // Takes a line without a key: a row of a covariance, or a problem.
   void TakeRow(std::string_view line) {
     if (in_matrix_ && NumberIn<double>(Words(line, 1).front())) return;
     Add(fmt::format("is \"{}\", without a \"=\"", Shown(line)), "write a line KEY = VALUES");
@@ -300,7 +300,7 @@ class LineSorter {
   }
 
   void TakeType(std::string_view value) {
-    // By the flight software's number less 1, with the names of camera_fields.h.
+    // By the flight software's number less 1. Must agree with kTypeNames (camera_fields.cc).
     constexpr std::array<std::string_view, 3> kTypes = {"perspective", "fisheye", "general"};
     const std::optional<int> number = NumberIn<int>(value);
     if (!number || *number < 1 || *number > 3) {

@@ -1,5 +1,6 @@
 // The text form of flight calibrations (.cahv, .cahvor, .cahvore), as JPL's camera model library
-// writes it: a line `Key = values` for everything, `#` before comments.
+// writes it: a line `Key = values` for everything, `#` before comments. camera_file.h reads it, and
+// `rockyard calibrate` writes it.
 //
 //   # A fisheye on a mast.
 //   Model = CAHVORE3,0.37 = general
@@ -13,11 +14,11 @@
 //   E = 0.001 0.002 0.0015
 //
 // Model is CAHV, CAHVOR, CAHVORE1 (perspective), CAHVORE2 (fisheye) or CAHVORE3 with its linearity
-// after a comma; what follows a second `=` is for people. Mclass is another name of Model, and
-// CAHVORE may get its number from Mtype or T and its linearity from Mparm or P, which
-// types 1 and 2 may have too, without a meaning. CAHV ends at V,
-// CAHVOR at R. Covariances (`S =`, `S internal =`, and the rows of numbers below them) and what
-// follows from the vectors (Hs, Hc, Vs, Vc, Theta) are passed over. Any other key is an error.
+// after a comma; what follows a second `=` is for people. Mclass is another name of Model. CAHVORE
+// may get its number from Mtype or T and its linearity from Mparm or P; a linearity of types 1 and
+// 2 is read and ignored. CAHV ends at V, CAHVOR at R. Covariances (`S =`, `S internal =`, and the
+// rows of numbers below them) and what follows from the vectors (Hs, Hc, Vs, Vc, Theta) are passed
+// over. Any other key is an error.
 //
 // A pair is two such blocks in one text, below lines `Camera = left` and `Camera = right`.
 #pragma once
@@ -39,24 +40,22 @@ struct CameraPair {
   CameraModel right;
 };
 
-// Longer files of cameras are refused: a covariance of 21 x 21 numbers takes 8 KiB.
+// Longer files of cameras are refused, in bytes: a covariance of 21 x 21 numbers takes 8 KiB.
 inline constexpr std::size_t kLargestCameraFile = std::size_t{1} << 20;
 
-// The camera in a text. Throws UserError with everything that is wrong: the paths are
-// `source_name`, the reasons name lines. Memory and time grow with the length of the text.
+// Returns the camera in a text. Throws UserError with everything that is wrong: the paths are
+// `source_name`, the reasons name lines.
 CameraModel ParseCameraText(std::string_view text, std::string_view source_name);
 
-// The pair in a text. Throws UserError.
+// Returns the pair in a text. Throws as ParseCameraText does.
 CameraPair ParseCameraPairText(std::string_view text, std::string_view source_name);
 
-// The text of a Cahv, Cahvor or Cahvore, which reads back to the same bits. `comment` becomes lines
-// behind `#`.
+// Returns the text of a Cahv, Cahvor or Cahvore (no other lens is allowed), which reads back to the
+// same bits. `comment` becomes lines behind `#`.
 std::string CameraText(const CameraModel& camera, std::string_view comment = {});
 std::string CameraPairText(const CameraPair& pair, std::string_view comment = {});
 
-// Lines of a camera's text, sorted into the fields of camera_fields.h.
-
-// The fields of one camera as the JSON that camera_fields.h describes, and the lines they stand in.
+// The lines of one camera, sorted into the fields of camera_fields.h.
 struct CameraBlock {
   std::string camera;  // left or right; empty where the text says neither
   int line = 1;        // where it begins
@@ -66,10 +65,11 @@ struct CameraBlock {
 
 struct CameraBlocks {
   std::vector<CameraBlock> blocks;
-  std::vector<core::Problem> problems;  // of lines; the first 20
+  std::vector<core::Problem> problems;  // the first 20, each names its line
 };
 
-// What a text holds. A new block begins with each line `Camera = NAME`, the first three only.
+// Sorts the lines of a text. A block begins with each line `Camera = NAME`. There are at most three
+// blocks, one more than a pair has, so that the reader can refuse what follows.
 CameraBlocks SortLines(std::string_view text, std::string_view source_name);
 
 }  // namespace rockyard::vision

@@ -8,7 +8,8 @@ namespace {
 
 constexpr int kMostUndistortSteps = 200;
 constexpr double kUndistortTolerance = 2.0 * std::numeric_limits<double>::epsilon();
-// What r' may miss, relative, where the steps have ended: more is the end of the growing part.
+// The largest relative error of r' after the last step. A larger one means that r' lies beyond the
+// end of the growing part.
 constexpr double kLargestMiss = 1e-12;
 
 // dr'/dr as a polynomial of t = r^2: c0 + 3 c1 t + 5 c2 t^2 + 7 c3 t^3.
@@ -34,9 +35,9 @@ double Growth(const RadialPolynomial& polynomial, double r) { return GrowthAt(po
 bool GrowsUpTo(const RadialPolynomial& polynomial, double r) {
   const double end = r * r;
   if (!(polynomial.c[0] > 0.0 && GrowthAt(polynomial, end) > 0.0)) return false;
-  // Both ends are positive: what lies between is, unless the cubic has its local minimum there.
-  // Of q0 + q1 t + q2 t^2 + q3 t^3 it stands at (sqrt(q2^2 - 3 q1 q3) - q2) / (3 q3), written for
-  // q2 > 0 without the cancellation.
+  // The growth is positive at both ends, and so between them unless its local minimum lies there.
+  // The minimum of q0 + q1 t + q2 t^2 + q3 t^3 is at (sqrt(q2^2 - 3 q1 q3) - q2) / (3 q3), written
+  // for q2 > 0 without the cancellation.
   const double q1 = 3.0 * polynomial.c[1];
   const double q2 = 5.0 * polynomial.c[2];
   const double q3 = 7.0 * polynomial.c[3];

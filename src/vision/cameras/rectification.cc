@@ -108,8 +108,8 @@ core::Result<Axes> AxesOf(const Vector3& baseline, const View& left, const View&
 // A rectangle of slopes (to the right, down) from A'.
 using Box = Eigen::AlignedBox2d;
 
-// The rectangle around what a camera sees: around the rays of its border, and of a coarse grid for
-// lenses whose image bulges.
+// Returns the rectangle around what a camera sees, from the rays of its border and of a coarse grid
+// inside, for lenses whose image bulges.
 Box FieldOf(const CameraModel& camera, const Axes& axes, double largest_slope) {
   Box box;
   for (int i = 0; i <= kBorderSteps; ++i) {

@@ -10,7 +10,8 @@ namespace {
 
 using math::Vector3;
 
-// The camera's frame in A: x along columns, y down, z along the middle ray.
+// Returns the axes of the camera's own frame as columns, in A: x to the right along a row, y down,
+// z along the middle ray.
 Eigen::Matrix3d AxesOf(const CameraModel& camera) {
   RayJacobian by_pixel;
   const std::optional<Ray> ray = BackProject(camera, MiddleOf(camera.size), &by_pixel);
@@ -45,7 +46,7 @@ CameraModel DriftedRight(const CameraModel& left, const CameraModel& right, cons
       (Eigen::AngleAxisd(-drift.yaw_rad, Vector3::UnitY()).toRotationMatrix() *
        Eigen::AngleAxisd(-drift.pitch_rad, Vector3::UnitX()).toRotationMatrix()) *
       Eigen::AngleAxisd(drift.roll_rad, Vector3::UnitZ()).toRotationMatrix();
-  // As a pose: p becomes centre + baseline's change + turn (p - centre).
+  // `move` takes p to centre + the baseline's change + turn (p - centre).
   math::Transform move = math::Transform::Identity();
   move.linear() = axes * turn * axes.transpose();
   move.translation() = centre + drift.baseline_m * baseline.normalized() - move.linear() * centre;

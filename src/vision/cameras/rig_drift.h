@@ -1,6 +1,6 @@
-// The right camera of a rig that has drifted against the left one since both were calibrated.
-// Images are those of the drifted camera; software on board keeps the calibrated pair and does not
-// know.
+// The right camera of a rig that has drifted against the left one since both were calibrated. The
+// stereo imager draws the drift of each pair once a trial and takes images by the drifted camera;
+// software on board keeps the calibrated pair and does not know.
 //
 // In the right camera's own frame (x along its columns, y down, z along the ray of the middle of
 // its image; all by its rays, so for every lens) the camera is turned about its centre by
@@ -17,8 +17,7 @@
 
 namespace rockyard::vision {
 
-// What the right camera is, less what its calibration says. Signs as in perception's calibration
-// errors, seen from behind the camera.
+// The true right camera less what its calibration says. Signs are as seen from behind the camera.
 struct RigDrift {
   double roll_rad = 0.0;     // > 0: turned right side down
   double pitch_rad = 0.0;    // > 0: looks further down
@@ -29,12 +28,13 @@ struct RigDrift {
   bool operator==(const RigDrift&) const = default;
 };
 
-// Independent normal numbers: five draws, in the order of the members, whatever the deviations are,
-// so that a change of one leaves the others.
+// Returns independent normal numbers. Records depend on the draws: always five, in the order of the
+// members, whatever the deviations are, so that a change of one deviation leaves the other numbers.
 RigDrift DrawRigDrift(const RigDriftParams& params, core::RandomStream& stream);
 
-// The drifted right camera, in the frame that both have. Without drift the camera itself, bit for
-// bit. Requires centres apart and a ray in the middle of the right image. A pure function.
+// Returns the drifted right camera in the outer frame of both. Records depend on this: without
+// drift it is `right` itself, bit for bit. Requires centres apart and a ray in the middle of the
+// right image.
 CameraModel DriftedRight(const CameraModel& left, const CameraModel& right, const RigDrift& drift);
 
 }  // namespace rockyard::vision

@@ -1,5 +1,6 @@
 // The coloured cylinder by which the lander finds the rover (Matthies 1995, section 5 and appendix
-// A).
+// A). `rockyard cylinder` and the experiment on sightings of the cylinder look for it in images;
+// the lander's law of fixes in drives takes its diameter.
 //
 // Frame T of the cylinder: origin in its centre, z along its axis upwards, x forward. Its wall has
 // four quadrants, counter-clockwise seen from above:
@@ -7,10 +8,15 @@
 //   A   0 to  90 deg   blue                      C 180 to 270 deg   orange (class "red")
 //   B  90 to 180 deg   pink (class "magenta")    D 270 to 360 deg   pink
 //
-// Its orientation theta is the azimuth of the viewer in T: of the middle between two cameras. The
-// viewer's left is n = rho (sin(theta), -cos(theta)) (equations 9, 10), so that quadrant A stands
-// in the middle at 0 < theta < 90 deg, D to its left and B to its right (equations 5 to 8), and the
-// range -180 < theta < -90 deg, that of section 5 with the large errors, shows no blue.
+// Its orientation theta is the azimuth, in T, of the viewer, that is of the middle between two
+// cameras. The viewer's left is n = rho (sin(theta), -cos(theta)) (equations 9, 10), so that at
+// 0 < theta < 90 deg quadrant A stands in the middle, D to its left and B to its right (equations
+// 5 to 8). At -180 < theta < -90 deg, where section 5 has the large errors, no blue is seen.
+//
+// Words of this folder: L is the cameras' outer frame. The wall is the round surface without the
+// lids; its rims are the upper and the lower end. A class is one of three colours, and the label of
+// a pixel says its class or background. A region is a set of pixels that hang together, a box its
+// bounding box. A surface has a colour of its own: those of the quadrants, and the ground.
 #pragma once
 
 #include <array>
@@ -21,8 +27,8 @@
 
 namespace rockyard::vision {
 
-// The three classes of colours of A.3. The third one is called after the orange of section 5; the
-// green panel that section 5 proposes in its place is of the same class with other ranges.
+// The three classes of colours of A.3. The third is called after the orange of section 5; the green
+// panel that section 5 proposes in its place belongs to the same class with other ranges.
 enum class CylinderColour { kBlue, kMagenta, kRed };
 
 inline constexpr int kCylinderColours = 3;
@@ -34,12 +40,12 @@ inline constexpr std::array<CylinderColour, 4> kQuadrantColours = {
 
 // Section 5: "a cylinder 19.2 cm in diameter by 10 cm high".
 struct ColourCylinder {
-  double diameter_m = 0.192;  // also that of the lander's law of fixes in drives (sensing)
+  double diameter_m = 0.192;  // records of drives depend on this default: the lander's law of fixes
   double height_m = 0.10;
-  // Where its axis points, in the cameras' outer frame L, of any length: upwards.
+  // The direction of its axis upwards, in frame L, of any length.
   std::array<double, 3> axis_L = {0.0, 0.0, 1.0};
 
-  // The axis with length 1.
+  // Returns the axis with length 1.
   math::Vector3 Axis_L() const { return math::Vector3(axis_L.data()).normalized(); }
 
   void Visit(core::FieldVisitor& v);

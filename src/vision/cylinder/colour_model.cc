@@ -14,7 +14,7 @@ namespace {
 constexpr double kHalfLevel = 0.5;  // grey levels
 constexpr int kLevels = 256;
 
-// ln of every grey level.
+// Returns ln of every grey level.
 std::array<float, kLevels> LogTable() {
   std::array<float, kLevels> table{};
   for (std::size_t level = 0; level < table.size(); ++level) {
@@ -23,7 +23,8 @@ std::array<float, kLevels> LogTable() {
   return table;
 }
 
-// Ratios lie between ln(0.5 / 255) and its negative, 6.24: a grid of cells of kStep.
+// Ratios lie between ln(0.5 / 255) and its negative, 6.24, and are counted in cells of kStep.
+// kSteps must cover -kLargestRatio to kLargestRatio.
 constexpr double kLargestRatio = 6.3;
 constexpr double kStep = 0.1;
 constexpr int kSteps = 126;
@@ -34,7 +35,7 @@ int CellOf(float ratio) {
 
 double MiddleOfCell(int cell) { return (cell + 0.5) * kStep - kLargestRatio; }
 
-// The cell of half of all counts.
+// Returns the median of counted ratios, interpolated within its cell.
 double MedianOf(const std::array<std::int64_t, kSteps>& counts) {
   std::int64_t all = 0;
   for (const std::int64_t count : counts) all += count;
@@ -91,7 +92,8 @@ class LabelTable {
   }
 
  private:
-  // Normal densities in two dimensions: least |c - mean|^2 / sd^2 + 4 ln(sd).
+  // Returns the label of the largest of normal densities in two dimensions: that of the least
+  // |c - mean|^2 / sd^2 + 4 ln(sd).
   static std::uint8_t LabelAt(const LogRatios& ratios, const LogRatios& light,
                               const SurfaceColourParams& surfaces,
                               const ColourModelParams& params) {
@@ -118,7 +120,7 @@ class LabelTable {
 };
 
 Eigen::Vector3d PrimariesOf(const SurfaceColour& colour) {
-  // As grey levels, far above half a one.
+  // The factor keeps primaries far above half a grey level, at which LogRatiosOf cuts.
   return 255.0 * Eigen::Vector3d(colour[0], colour[1], colour[2]);
 }
 
@@ -175,8 +177,9 @@ ClassImage LabelSurfaces(const ColourImage& image, const LogRatios& light,
 }
 
 Eigen::Matrix2d WhiteningOf(const Eigen::Matrix2d& covariance) {
-  // Two rows are tridiagonal as they stand: not to make them so spares the compiler ten seconds of
-  // Householder's templates. Scaled as SelfAdjointEigenSolver::compute does.
+  // A 2 x 2 matrix is tridiagonal already; computeFromTridiagonal spares the compiler ten seconds
+  // of Householder's templates. Records depend on the scaling, which is that of
+  // SelfAdjointEigenSolver::compute.
   const double largest = std::max(
       {std::abs(covariance(0, 0)), std::abs(covariance(1, 0)), std::abs(covariance(1, 1))});
   const double scale = largest == 0.0 ? 1.0 : largest;

@@ -9,7 +9,7 @@
 namespace rockyard::vision {
 namespace {
 
-// Whether low <= value / over <= high.
+// Returns whether low <= value / over <= high.
 bool RatioIn(double value, double over, double low, double high) {
   return value >= low * over && value <= high * over;
 }
@@ -43,7 +43,7 @@ void FillGap(int first, int end, int row, std::span<std::uint8_t> labels) {
   }
 }
 
-// Pixels first to last of a row, of one region.
+// Neighbouring pixels of one region, first to last of a row.
 struct ColourRun {
   int row = 0;
   int first = 0;
@@ -57,7 +57,7 @@ class RunSets {
     std::iota(parents_.begin(), parents_.end(), std::size_t{0});
   }
 
-  // The earliest run of the set.
+  // Returns the earliest run of the set.
   std::size_t Find(std::size_t run) {
     while (parents_[run] != run) {
       parents_[run] = parents_[parents_[run]];
@@ -125,7 +125,7 @@ void Add(const ColourRun& run, ColourRegion& region) {
   region.right = std::max(region.right, run.last);
   region.bottom = std::max(region.bottom, run.row);
   region.pixels += pixels;
-  // Sums, until all runs are there.
+  // The centroid holds sums until FindRegions divides them.
   region.centroid += Pixel(0.5 * (run.first + run.last), run.row) * pixels;
 }
 

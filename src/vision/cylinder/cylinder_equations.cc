@@ -87,10 +87,10 @@ double RelativeStepByStereo(const ViewOfCylinder& view, double d_m) {
 
 namespace {
 
-// sin^2 of the angle between two lines of sight below which they are parallel.
+// sin^2 of the angle between two lines of sight below which they count as parallel.
 constexpr double kParallel = 1e-12;
 
-// The middle of the shortest line between two lines of sight, p_i = o_i + s_i d_i.
+// Returns the middle of the shortest line between two lines of sight, p_i = o_i + s_i d_i.
 std::optional<math::Vector3> NearestPoint(const Ray& a, const Ray& b) {
   const math::Vector3 between = b.origin - a.origin;
   const double cosine = a.direction.dot(b.direction);
@@ -134,7 +134,7 @@ std::optional<EyeGeometry> GeometryOf(const ColourPair& pair) {
   PixelJacobian by_point;
   const auto again = Project(pair.left_camera, middle->origin + middle->direction, &by_point);
   if (!again) return std::nullopt;
-  // At a depth of one metre along the axis.
+  // by_point is taken one metre along the ray; the factor makes it one metre of depth.
   eyes.focal_px = by_point.row(0).norm() * middle->direction.dot(eyes.forward_L);
   const Eigen::Matrix<double, 3, 2> by_pixel = DirectionByPixel(by_point);
   eyes.right_L = by_pixel.col(0).normalized();

@@ -20,9 +20,9 @@ namespace rockyard::vision {
 namespace {
 
 constexpr int kOrientations = 48;
-// Local minima over the orientations that are refined.
+// The most local minima over the orientations that are refined.
 constexpr std::size_t kMostStarts = 5;
-// A cost so many times the least is not refined.
+// Minima whose cost is more than so many times the least are not refined.
 constexpr double kFarAbove = 4.0;
 constexpr double kOtherOrientation_rad = math::DegToRad(25.0);
 constexpr int kMostSteps = 30;
@@ -46,8 +46,8 @@ void Refine(const FitProblem& problem, const FitUnknowns& start,
   if (std::isfinite(minimum.squares)) hypotheses.push_back(minimum);
 }
 
-// The starts: orientations whose cost is no larger than that of both neighbours and not far above
-// the least, best first.
+// Returns the orientations to start from, best first: those whose cost is not larger than that of
+// either neighbour and not far above the least.
 std::vector<double> StartsOf(const FitProblem& problem) {
   std::array<double, kOrientations> costs{};
   const auto orientation = [](std::size_t i) {
@@ -78,7 +78,7 @@ std::vector<double> StartsOf(const FitProblem& problem) {
   return starts;
 }
 
-// Best first.
+// Returns the refined minima, best first.
 std::vector<FitState> HypothesesOf(const FitProblem& problem) {
   std::vector<FitState> hypotheses;
   for (const double start_rad : StartsOf(problem)) {
@@ -88,7 +88,7 @@ std::vector<FitState> HypothesesOf(const FitProblem& problem) {
   return hypotheses;
 }
 
-// The candidate moved to a place, with boxes that begin and end where the wall there does.
+// Returns the candidate moved to a place, with boxes that begin and end where the wall there does.
 RegionPair BoxedBy(const ColourPair& pair, const EyeGeometry& eyes, const CylinderPlace& place,
                    double height_m, RegionPair regions) {
   const auto fit_box = [&](const CameraModel& camera, ColourRegion& box) {
@@ -105,9 +105,9 @@ RegionPair BoxedBy(const ColourPair& pair, const EyeGeometry& eyes, const Cylind
   return regions;
 }
 
-// What orientations near the best one that are nearly as likely add to its variance, rad^2: their
-// squared distances, weighted by likelihoods. Squared residuals of `margin` are worth three
-// standard deviations here, as they are where orientations farther away are ruled out.
+// Returns what nearly as likely orientations near the best one add to its variance, rad^2: their
+// mean squared distance, weighted by likelihoods. A difference of the squared residuals by `margin`
+// counts as three standard deviations, as it does in ruling out orientations farther away.
 double SpreadOf(const std::vector<FitState>& hypotheses, double margin) {
   const double factor = std::max(margin / (kMarginSigmas * kMarginSigmas), 1.0);
   const FitState& best = hypotheses.front();
@@ -173,12 +173,13 @@ std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry
 
 namespace {
 
-// The most regions of an eye that are looked at, largest first: more are noise.
+// The most candidate regions of an eye, largest first: more are noise.
 constexpr std::size_t kMostRegions = 24;
-// Of the width over the height, by what elevation and mixed rims make of it.
+// The least and the largest width over height of a region, over that of the cylinder: elevation and
+// mixed rims change it.
 constexpr double kNarrowest = 0.5;
 constexpr double kWidest = 1.7;
-// Pixels between a region and the border that the fit needs of the background.
+// Pixels between a region and the border, from which the fit takes the background.
 constexpr int kBorder_px = 3;
 // Rows and columns with less than this share of the median's pixels are stray.
 constexpr double kStray = 0.35;
@@ -189,7 +190,7 @@ struct EyeRegions {
   int largest_px = 0;
 };
 
-// The first and last of counts that are no stray ones.
+// Returns the places of the first and the last count that is not stray.
 std::pair<int, int> WithoutStray(const std::vector<int>& counts) {
   std::vector<int> sorted = counts;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
@@ -236,9 +237,9 @@ bool IsAtBorder(const ColourRegion& region, const ClassImage& labels) {
          region.bottom >= labels.height() - kBorder_px;
 }
 
-// Whether at least two classes have a tenth of the region each. A view of the cylinder shows two or
-// three quadrants, of which the second widest has at least (1 - sin 45 deg) / 2 = 15 % of the
-// width.
+// Returns whether at least two classes have a tenth of the region each. A view of the cylinder
+// shows two or three quadrants, of which the second widest has at least (1 - sin 45 deg) / 2 = 15 %
+// of the width.
 bool HasTwoColours(const ColourRegion& region, const ClassImage& labels) {
   std::array<int, kCylinderColours + 1> counts{};
   for (int y = region.top; y <= region.bottom; ++y) {
@@ -276,7 +277,7 @@ Pixel MiddleOfBox(const ColourRegion& region) {
   return {0.5 * (region.left + region.right), 0.5 * (region.top + region.bottom)};
 }
 
-// How far two sides are apart for their size.
+// Returns whether two sides differ by no more than a share of the larger one and an error.
 bool AreLike(double a, double b, double tolerance, double error_px) {
   return std::abs(a - b) <= tolerance * std::max(a, b) + error_px;
 }
@@ -296,7 +297,7 @@ bool RowsMeet(const ColourPair& pair, const SeenPoint& point, const RegionPair& 
   return apart_px <= params.box_error_px;
 }
 
-// What became of pairs of regions, for the reason where none is left.
+// Counts why pairs of regions were refused, for the reason where none is left.
 struct PairTally {
   int behind = 0;
   std::string other_size;

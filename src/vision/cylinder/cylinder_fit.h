@@ -1,4 +1,5 @@
-// Candidates for the coloured cylinder among regions of both eyes, and its fit to pixels.
+// Candidates for the coloured cylinder among regions of both eyes, and its fit to pixels: steps 1
+// and 2 of FindCylinder (robust_finder.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -14,41 +15,33 @@
 
 namespace rockyard::vision {
 
-// One region as both eyes see it; boxes without the rows and columns that stray pixels add.
+// A region as both eyes see it: a candidate. The boxes leave out rows and columns that have few of
+// the region's pixels.
 struct RegionPair {
   ColourRegion left;
   ColourRegion right;
-  SeenPoint point;  // of the middles of both boxes
+  SeenPoint point;  // that both eyes see in the middles of the boxes
 };
 
 struct CandidateSearch {
   std::vector<RegionPair> pairs;
-  // Where there are none: why.
+  // Why there are no pairs, if there are none.
   CylinderMiss miss = CylinderMiss::kNothing;
   std::string reason;
 };
 
-// All pairs of regions with the cylinder's shape in either eye, on one another's lines of sight,
-// in front of the cameras and, at their depth, of its width and height.
+// Returns all pairs of regions that have the cylinder's shape in either eye, that lie on lines of
+// sight which meet in front of the cameras, and that have the cylinder's width and height at their
+// depth.
 CandidateSearch FindCandidates(const ColourPair& pair, const EyeGeometry& eyes,
                                const ColourCylinder& cylinder, const ClassImage& left,
                                const ClassImage& right, const CandidateParams& params);
 
-// Position and orientation of the cylinder by least squares over the pixels of both eyes.
-//
-// Unknown are the place across and along the view, theta, the roll, the blur of edges, and the
-// radius where it is free; the colours of the quadrants are solved for inside (wall_colours.h:
-// variable projection, Golub and Pereyra 1973). All orientations are tried in steps of 7.5 deg, and
-// the best local minima refined (DescendFrom): first in the candidate's boxes, then in those of
-// the wall that was found. What the quadrants' colours tell against the surfaces' (colour_model.h)
-// is part of the least squares: an edge that leaves a quadrant too narrow or too wide mixes colours
-// that none has.
-
 struct CylinderFit {
   CylinderPlace place;
-  double cost = 0.0;           // all squared residuals
+  double cost = 0.0;           // sum of all squared residuals
   double misfit = 0.0;         // mean squared residual of the pixels
-  double colour_misfit = 0.0;  // the squared residuals of the colours
+  double colour_misfit = 0.0;  // sum of the squared residuals of the colours
   // By how much the cost of the best other orientation, more than 25 deg away, is larger.
   double margin = 0.0;
   // Of the place across (m), its depth (m), theta and roll (rad), from the derivatives and the
@@ -63,7 +56,14 @@ struct CylinderFit {
   double blur_px = 0.0;   // of edges, a standard deviation
 };
 
-// Nothing where no orientation can be imaged.
+// Fits position and orientation of the cylinder by least squares over the pixels of both eyes.
+// Unknown are the place across and along the view, theta, the roll, the blur of edges, and the
+// radius where it is free; the colours of the quadrants are solved for inside (wall_colours.h:
+// variable projection, Golub and Pereyra 1973). All orientations are tried in steps of 7.5 deg, and
+// the best local minima refined (DescendFrom): first in the candidate's boxes, then in the boxes of
+// the wall that was found. The differences between the quadrants' colours and those of the surfaces
+// (colour_model.h) are part of the least squares: an edge in a wrong place mixes colours that no
+// surface has. Returns nothing where no orientation can be imaged.
 std::optional<CylinderFit> FitCylinder(const ColourPair& pair, const EyeGeometry& eyes,
                                        const ColourCylinder& cylinder, const RegionPair& candidate,
                                        const LogRatios& light, const RobustFinderParams& params);

@@ -10,15 +10,16 @@ namespace rockyard::vision {
 namespace {
 
 // Bands lie within the middle half of the wall, and within the middle four fifths of the rows that
-// show it from side to side.
+// show the wall from side to side.
 constexpr double kMiddleShare = 0.5;
 constexpr double kFullShare = 0.8;
 constexpr int kMostBands = 3;
-// Columns about the box: mixed ones, and those that tell the background.
+// Columns beside the box: mixed ones, and behind these the least number that tells the background.
 constexpr int kMixed_px = 2;
 constexpr int kLeastBackground_px = 4;
-// The middle of the box that shows its rims.
-constexpr double kRimShare = 0.2;  // kRimsAhead of fit_problem.cc follows from it
+// The share of the box's width on either side that is left out where the rims are found.
+// kRimsAhead (fit_problem.cc) must follow from it.
+constexpr double kRimShare = 0.2;
 constexpr int kBackgroundRows = 4;
 
 Eigen::Vector3d ColourAt(const ColourImage& image, int x, int y) {
@@ -27,7 +28,7 @@ Eigen::Vector3d ColourAt(const ColourImage& image, int x, int y) {
           static_cast<double>(pixel.blue)};
 }
 
-// The mean over a rectangle, ends inclusive.
+// Returns the mean over a rectangle, ends inclusive.
 Eigen::Vector3d MeanColour(const ColourImage& image, int left, int right, int top, int bottom) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int y = top; y <= bottom; ++y) {
@@ -36,7 +37,7 @@ Eigen::Vector3d MeanColour(const ColourImage& image, int left, int right, int to
   return sum / ((right - left + 1.0) * (bottom - top + 1.0));
 }
 
-// Mean and variance (of a primary, between columns) of colours first to last.
+// The mean colour of some columns and the variance of a primary between them.
 struct Background {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double variance = 0.0;
@@ -55,7 +56,7 @@ Background BackgroundOf(const std::vector<Eigen::Vector3d>& colours, int first, 
   return background;
 }
 
-// The root of (variance I + (brightness_sd c)(brightness_sd c)^T)^-1 for a colour c.
+// Returns the root of (variance I + (brightness_sd c)(brightness_sd c)^T)^-1 for a colour c.
 Eigen::Matrix3d Whitening(double variance, double brightness_sd, const Eigen::Vector3d& colour) {
   const Eigen::Vector3d along = colour.normalized();
   const double bright = brightness_sd * brightness_sd * colour.squaredNorm();
@@ -64,7 +65,8 @@ Eigen::Matrix3d Whitening(double variance, double brightness_sd, const Eigen::Ve
          std::sqrt(variance);
 }
 
-// `box_first` and `box_last` are columns of the band that lie in the box.
+// Fills in the background and the whitening. `box_first` and `box_last` are the first and the last
+// column of the band in the box.
 void AddBackground(int box_first, int box_last, double inside_variance, double brightness_sd,
                    ProfileBand& band) {
   const int last = static_cast<int>(band.colours.size()) - 1;
@@ -85,8 +87,8 @@ void AddBackground(int box_first, int box_last, double inside_variance, double b
   }
 }
 
-// Rows from `end` towards `middle` that show the wall rather than what is beyond the rim: the share
-// of the wall in each, by where its colour lies between both.
+// Returns how many rows from `end` towards `middle` show the wall. Each counts by the share at
+// which its colour lies between that beyond the rim and that of the wall.
 double RowsOfWall(const ColourImage& image, int left, int right, int end, int middle,
                   const Eigen::Vector3d& wall) {
   const int step = end < middle ? 1 : -1;
@@ -117,9 +119,10 @@ void FindRims(const ColourImage& image, const ColourRegion& box, EyeProfile& pro
   profile.lower_rim_px = middle + 0.5 + RowsOfWall(image, left, right, below, middle, wall);
 }
 
-// First and last row of the bands, of the box's; one row at least. Where the middle of a rim lies
-// `sag_px` below its ends, the wall is seen from side to side between the upper rim's middle and
-// the lower rim's ends (or, of a negative sag, the upper rim's ends and the lower rim's middle).
+// Returns the first and the last row of the bands, within the box; at least one row. Where the
+// middle of a rim lies `sag_px` below its ends, the wall is seen from side to side between the
+// upper rim's middle and the lower rim's ends; with a negative sag, between the upper rim's ends
+// and the lower rim's middle.
 std::pair<int, int> RowsOfBands(const ColourRegion& box, const EyeProfile& profile, double sag_px) {
   const double top = profile.upper_rim_px - std::min(sag_px, 0.0);
   const double bottom = profile.lower_rim_px - std::max(sag_px, 0.0);

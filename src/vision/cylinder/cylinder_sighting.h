@@ -1,4 +1,5 @@
-// What a pair of colour images tells about the coloured cylinder, or why it tells nothing.
+// What a pair of colour images tells about the coloured cylinder, or why it tells nothing: input
+// and result of both finders (published_finder.h, robust_finder.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +20,7 @@
 namespace rockyard::vision {
 
 // Both images of a pair, of the size of their cameras, which are told in one outer frame L. The
-// images have to live as long as the pair.
+// images must outlive the pair.
 struct ColourPair {
   const ColourImage& left;
   const ColourImage& right;
@@ -37,7 +38,7 @@ struct ColourRegion {
   int bottom = 0;
   int pixels = 0;
   Pixel centroid = Pixel::Zero();        // the mean of its pixels
-  std::optional<CylinderColour> colour;  // none: a mixture of the classes
+  std::optional<CylinderColour> colour;  // nothing for a mixture of classes
   RegionRole role = RegionRole::kWhole;
 
   int Width() const { return right - left + 1; }
@@ -47,24 +48,27 @@ struct ColourRegion {
 struct CylinderSighting {
   // theta: azimuth of the middle between the cameras in the cylinder's frame, in [-pi, pi].
   double orientation_rad = 0.0;
-  // The centre of the cylinder in the cameras' outer frame L, m.
+  // The centre of the cylinder in frame L, m.
   math::Vector3 p_LT_L = math::Vector3::Zero();
   // Depths of the centre before the left camera along its optical axis, by the disparity and by the
-  // width: by equations 17, 15 and 16 in the published finder, by its fit in the robust one.
+  // width. The published finder takes them from equations 17, 15 and 16, the robust one from its
+  // fit.
   double distance_by_stereo_m = 0.0;
   double distance_by_size_m = 0.0;
   // Of p_LT_L (m) and the orientation (rad), in this order.
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  // Left and right image: the whole first, then what is seen of left, middle and right.
+  // Of the left and the right image: the whole first, then the left, middle and right quadrants as
+  // far as they are seen.
   std::array<std::vector<ColourRegion>, 2> regions;
 };
 
-// Records of the experiment that counts misses have a column for each, by name and in this order.
+// Why the cylinder was not found. Must stay, names (below) and order: records of the experiment
+// that counts misses have a column for each.
 enum class CylinderMiss {
   kNone,           // it was found
   kNothing,        // no region is large enough
   kClipped,        // a region ends at the border of the image or of the area of interest
-  kTooFewRegions,  // too few quadrants are seen to tell which
+  kTooFewRegions,  // too few quadrants are seen to tell which they are
   kUnlikeOrder,    // no cylinder has these colours side by side
   kUnlikeEyes,     // left and right image show different things
   kSwappedEyes,    // the disparity is not positive
@@ -79,7 +83,7 @@ struct CylinderFinding {
   std::string reason;  // in words, with the numbers; empty where it was found
 };
 
-// A finding without a sighting.
+// Returns a finding without a sighting.
 inline CylinderFinding NotFound(CylinderMiss miss, std::string reason) {
   EXPECT(miss != CylinderMiss::kNone && !reason.empty());
   return {std::nullopt, miss, std::move(reason)};

@@ -13,37 +13,39 @@
 namespace rockyard::vision {
 namespace {
 
-// Terms of shading and levels among the residuals of an eye: kAllUnknowns of wall_colours.cc.
+// How many residuals of an eye are priors of shading and level. Must be kAllUnknowns of
+// wall_colours.cc.
 constexpr int kPriors = 27;
-// How far the rims that a profile shows lie before the axis, over the radius: the mean of
-// sqrt(1 - u^2) for |u| up to 1 - 2 kRimShare = 0.6.
+// How far the rims that a profile shows lie before the axis, over the radius. Must be the mean of
+// sqrt(1 - u^2) for |u| up to 1 - 2 kRimShare = 0.6 (cylinder_profile.cc).
 constexpr double kRimsAhead = 0.936;
 
-// How many rows the middle of the wall lies below its sides: of the radius, what the view from
-// above (or, negative, from below) shows.
+// Returns by how many rows the middle of a rim lies below its ends: positive in a view from above,
+// negative in one from below.
 double SagOf(const EyeGeometry& eyes, const ColourCylinder& cylinder, const SeenPoint& point) {
   const double down = -(point.p_L - eyes.centre_L).normalized().dot(cylinder.Axis_L());
   return 0.5 * cylinder.diameter_m * down * eyes.focal_px / point.depth_m;
 }
 
 SeenColour SeenColourOf(const QuadrantColour& quadrant) {
-  // A level below its own deviation tells only that it is not far above that.
+  // A level below its own standard deviation only tells that it is not far above this deviation.
   const Eigen::Array3d levels =
       quadrant.colour.array().max(quadrant.covariance.diagonal().array().sqrt()).max(1.0);
   SeenColour seen;
   seen.colour = kQuadrantColours.at(static_cast<std::size_t>(quadrant.quadrant));
   seen.ratios = LogRatiosOf(levels);
-  // Of a logarithm of a ratio.
+  // The derivative of the logarithms of ratios by the levels.
   Eigen::Matrix<double, 2, 3> by_level;
   by_level << 1.0 / levels[0], -1.0 / levels[1], 0.0, 0.0, -1.0 / levels[1], 1.0 / levels[2];
   seen.covariance = by_level * quadrant.covariance * by_level.transpose();
   return seen;
 }
 
-// Each quadrant of four, where an eye sees it.
+// The colours of quadrants A to D, as far as an eye sees them.
 using SeenQuadrants = std::array<std::optional<SeenColour>, 4>;
 
-// What both eyes see counts once, with the mean of both weighted by their covariances.
+// Returns the mean of both eyes' colours weighted by their covariances, so that a quadrant that
+// both see counts once.
 SeenColour MeanOf(const SeenColour& left, const SeenColour& right) {
   const Eigen::Matrix2d of_left = left.covariance.inverse();
   const Eigen::Matrix2d of_right = right.covariance.inverse();
@@ -53,15 +55,16 @@ SeenColour MeanOf(const SeenColour& left, const SeenColour& right) {
   return mean;
 }
 
-// Two of each quadrant's difference between the eyes, two of each quadrant's colour, and three of
-// the light and the saturation; zeros for what is not seen.
+// The residuals of colours: two of each quadrant's difference between the eyes, two of each
+// quadrant's colour, and three of the light and the saturation; zeros for quadrants that are not
+// seen.
 using ColourResidualsOfAll = std::array<double, 19>;
 
 ColourResidualsOfAll ResidualsOf(const std::array<SeenQuadrants, 2>& eyes, double parallax_rad,
                                  const LogRatios& light, const RobustFinderParams& params) {
   constexpr std::size_t kColours = 8;
   constexpr std::size_t kLight = 16;
-  // Light on a round wall changes with the direction that one sees it from.
+  // The eyes see a round wall from different directions, and so in different light.
   const Eigen::Matrix2d parallax = parallax_rad * parallax_rad * Eigen::Matrix2d::Identity();
   ColourResidualsOfAll residuals{};
   std::vector<SeenColour> seen;
@@ -108,15 +111,16 @@ std::array<EyeProfile, 2> ProfilesOf(const ColourPair& pair, const RegionPair& c
 constexpr double kMostDamping = 1e3;
 constexpr double kLeastDamping = 1e-6;
 constexpr double kFirstDamping = 1e-3;
-// Of the squared residuals: this, or this share of a hundredth of them.
+// A step is the last that lessens the squares by less than this, or by less than this share of a
+// hundredth of them.
 constexpr double kConverged = 1e-2;
-constexpr int kRadius = 4;  // of the unknowns
-// A radius that is the cylinder's, and one that is free, over it.
+constexpr int kRadius = 4;  // place of the radius in FitUnknowns
+// Standard deviations of the prior of a fixed and of a free radius, over the cylinder's radius.
 constexpr double kFixedRadius_sd = 1e-4;
 constexpr double kFreeRadius_sd = 1.0;
 
-// Forward derivatives of the residuals; of a radius that stays that of its prior alone, which comes
-// last. Nothing where a step leaves what can be imaged.
+// Returns forward derivatives of the residuals; a fixed radius only changes its own prior, the last
+// residual. Returns nothing where a step leads to a place that cannot be imaged.
 std::optional<Eigen::MatrixXd> Derivatives(const FitProblem& problem, const FitUnknowns& unknowns,
                                            const Eigen::VectorXd& residuals, FitRadius radius) {
   const FitUnknowns steps = problem.Steps();
@@ -135,7 +139,7 @@ std::optional<Eigen::MatrixXd> Derivatives(const FitProblem& problem, const FitU
   return derivatives;
 }
 
-// Towards the minimum of the linear problem.
+// Returns the damped step towards the minimum of the linear problem.
 FitUnknowns DampedStep(const FitInformation& information, const FitUnknowns& gradient,
                        double damping) {
   FitInformation damped = information;
@@ -184,7 +188,7 @@ void FitProblem::TakeRows() {
 CylinderPlace FitProblem::PlaceOf(const FitUnknowns& unknowns) const {
   CylinderPlace place;
   place.p_LT_L = start_L_ + unknowns[0] * eyes_.right_L;
-  // Along the line of sight, so that the rows stay.
+  // The second unknown moves along the line of sight, so that the rows stay.
   const math::Vector3 sight_m = start_L_ - eyes_.centre_L;
   place.p_LT_L += unknowns[1] / depth_m_ * sight_m;
   place.axis_L = cylinder_.Axis_L();

@@ -1,5 +1,5 @@
 // The residuals of a place of the cylinder against the profiles of both eyes, and the descent to a
-// minimum of their squares.
+// minimum of their squares, for FitCylinder (cylinder_fit.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -14,48 +14,49 @@
 
 namespace rockyard::vision {
 
-// Across the view to the right, along it (m, from the start), theta, roll (rad), the radius over
-// the cylinder's less 1, and the logarithm of the blur over edge_blur_px.
+// The unknowns, in this order: how far the place is from the start across the view to the right and
+// along the view, m; theta and roll, rad; the radius over the cylinder's, less 1; the logarithm of
+// the blur over edge_blur_px.
 using FitUnknowns = Eigen::Matrix<double, 6, 1>;
 
 class FitProblem {
  public:
-  // Starts where lines of sight to the middles of the candidate's boxes meet.
+  // Starts at the candidate's point, moved up or down to the rows of the rims.
   FitProblem(const ColourPair& pair, const EyeGeometry& eyes, const ColourCylinder& cylinder,
              const RegionPair& candidate, const LogRatios& light, const RobustFinderParams& params);
 
   CylinderPlace PlaceOf(const FitUnknowns& unknowns) const;
 
-  // The standard deviation of the blur of edges.
+  // Returns the standard deviation of the blur of edges, px.
   double BlurOf(const FitUnknowns& unknowns) const;
 
-  // What the eyes show of a place.
+  // How a place agrees with what the eyes show.
   struct Evaluation {
-    // Residuals over their standard deviations, of equal number for all places: of the pixels, of
-    // the quadrants' colours, and, the last three, of the priors of the blur, of the roll and,
-    // about 0, of the radius with sd `radius_sd`.
+    // Residuals over their standard deviations, equally many for all places: of the pixels, of the
+    // quadrants' colours, and, as the last three, of the priors of the blur, the roll and the
+    // radius (0 with sd `radius_sd`). Derivatives rely on the radius being the last.
     Eigen::VectorXd residuals;
-    // The squares of those of the colours: how unlike those of the surfaces, and each other's, what
-    // the eyes see is (colour_model.h).
+    // The sum of the squared residuals of the colours: how much the quadrants' colours differ from
+    // those of the surfaces (colour_model.h), and from one eye to the other.
     double colour_misfit = 0.0;
   };
 
-  // Nothing where the place cannot be imaged.
+  // Returns nothing where the place cannot be imaged.
   std::optional<Evaluation> Evaluate(const FitUnknowns& unknowns, double radius_sd) const;
 
-  // Steps of numerical derivatives: some hundredths of a pixel each.
+  // Returns the steps of numerical derivatives: some hundredths of a pixel each.
   FitUnknowns Steps() const;
 
-  // Samples of pixels among the residuals.
+  // Returns how many of the residuals are of pixels.
   int samples() const { return samples_; }
 
   const std::array<EyeProfile, 2>& profiles() const { return profiles_; }
 
-  // The start moved up or down to the rows of the rims, and the wall's height there.
+  // Returns the wall's height by the rows of the rims.
   double height_m() const { return height_m_; }
 
  private:
-  // Moves the start to the middle of the rims.
+  // Moves the start to the middle of the rims, and finds height_m_.
   void TakeRows();
 
   std::array<const CameraModel*, 2> cameras_;
@@ -76,20 +77,19 @@ using FitInformation = Eigen::Matrix<double, 6, 6>;
 struct FitState {
   FitUnknowns unknowns = FitUnknowns::Zero();
   double squares = std::numeric_limits<double>::infinity();  // infinite where nothing is imaged
-  // Of the unknowns, by the derivatives before the last step.
+  // The inverse covariance of the unknowns, by the derivatives before the last step.
   FitInformation information = FitInformation::Identity();
   FitProblem::Evaluation evaluation;  // at the unknowns
 };
 
-// Whether a descent may change the radius, beside the place across and along the view, theta, the
-// roll and the blur.
+// Whether a descent may change the radius; it always changes the other unknowns.
 enum class FitRadius { kFixed, kFree };
 
-// The standard deviation of the radius's prior over the cylinder's own.
+// Returns the standard deviation of the radius's prior, over the cylinder's radius.
 double RadiusDeviation(FitRadius radius);
 
-// Gauss-Newton with numerical derivatives and Levenberg's damping: at most `most_steps` steps from
-// a start, fewer where the squares no longer fall.
+// Descends by Gauss-Newton with numerical derivatives and Levenberg's damping: at most `most_steps`
+// steps from a start, fewer where the squares no longer fall.
 FitState DescendFrom(const FitProblem& problem, const FitUnknowns& start, FitRadius radius,
                      int most_steps);
 

@@ -38,7 +38,8 @@ bool TouchesBorder(const ColourRegion& region, const ClassImage& classes, int fi
          region.bottom == classes.height() - 1;
 }
 
-// The largest region of another colour than the middle one's to one side of it; -1 left, 1 right.
+// Returns the largest region that lies to one side (-1 left, 1 right) of the middle one and has
+// another colour.
 std::optional<ColourRegion> LargestBeside(const std::vector<ColourRegion>& regions,
                                           const ColourRegion& middle, int side, int least_px) {
   std::vector<ColourRegion> beside;
@@ -69,7 +70,7 @@ std::string OrderText(const ColourOrder& order) {
   return fmt::format("{}, {}, {}", name(order.left), name(order.middle), name(order.right));
 }
 
-// The quadrants in the bounding box of the whole, and the orientation by equation 14.
+// Finds the quadrants in the bounding box of the whole, and the orientation by equation 14.
 EyeResult QuadrantsIn(const ClassImage& classes, const ColourRegion& whole,
                       const PublishedFinderParams& params) {
   CylinderInEye eye;
@@ -120,7 +121,7 @@ bool AreAlike(int a, int b, int scale_px, const PublishedFinderParams& params) {
   return std::abs(a - b) <= params.box_difference_px + params.box_difference_share * scale_px;
 }
 
-// Why both eyes do not show the same; empty where they do.
+// Returns why both eyes do not show the same, or nothing where they do.
 std::string UnlikeEyes(const CylinderInEye& left, const CylinderInEye& right, bool aligned,
                        const PublishedFinderParams& params) {
   const ColourRegion& a = left.whole;
@@ -151,7 +152,8 @@ std::vector<ColourRegion> RegionsOf(const CylinderInEye& eye) {
   return regions;
 }
 
-// Of the position (m) and theta (rad): the changes by one pixel, A.2, times its error.
+// Returns the covariance of position (m) and theta (rad): the changes by one pixel (A.2) times
+// pixel_error_px.
 Eigen::Matrix4d PublishedCovariance(const EyeGeometry& eyes, const SeenPoint& point, double m_px,
                                     double pixel_error_px) {
   const math::Vector3 sight_m = point.p_L - eyes.centre_L;

@@ -1,4 +1,6 @@
-// Parameters of the published way to find the coloured cylinder (Matthies 1995, appendix A).
+// Parameters of the published way to find the coloured cylinder (Matthies 1995, appendix A). Files
+// for `rockyard cylinder` and scenarios of the experiment on sightings hold them; meaning, unit and
+// origin of each stand in Visit.
 #pragma once
 
 #include <array>
@@ -13,9 +15,9 @@ namespace rockyard::vision {
 // The primary that the two others are divided by.
 enum class PrimaryColour { kRed, kGreen, kBlue };
 
-// A class: both ratios lie within their ranges. The first ratio is that of the first of the two
-// other primaries in the order red, green, blue: green/red and blue/red over red, red/green and
-// blue/green over green, red/blue and green/blue over blue.
+// A class of colours: both ratios lie within their ranges. The ratios are green/red and blue/red
+// over red, red/green and blue/green over green, red/blue and green/blue over blue, the first one
+// named first.
 struct ColourRatioParams {
   PrimaryColour over = PrimaryColour::kRed;
   double first_low = 0.0;
@@ -29,8 +31,9 @@ struct ColourRatioParams {
 // The classes. A.3 has ratios over blue for blue and over red for red and magenta, in ranges
 // "experimentally determined" that it does not tell. The defaults are assumed about linear surface
 // colours of fluorescent cardboard in white light: blue (0.12, 0.30, 0.85), pink (0.95, 0.25,
-// 0.60), orange (1.00, 0.35, 0.10), away from ground of (0.45, 0.27, 0.16). They were fixed before
-// any evaluation, which tuning by its images would spoil.
+// 0.60), orange (1.00, 0.35, 0.10), away from ground of (0.45, 0.27, 0.16), the defaults of
+// SurfaceColourParams (robust_finder_params.h). Do not tune them by images of an evaluation: they
+// were fixed before any, so that these tell the truth.
 struct ColourClassParams {
   ColourRatioParams blue{PrimaryColour::kBlue, 0.0, 0.45, 0.0, 0.70};
   ColourRatioParams magenta{PrimaryColour::kRed, 0.0, 0.47, 0.38, 1.10};
@@ -40,13 +43,14 @@ struct ColourClassParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// A class of green surfaces (0.15, 0.80, 0.25), the colour that section 5 proposes in place of
-// orange, for `red` above.
+// Returns, for ColourClassParams::red, a class about green (0.15, 0.80, 0.25), the colour that
+// section 5 proposes in place of orange. It belongs to kGreenSurface (robust_finder_params.h): the
+// experiment on sightings sets both.
 ColourRatioParams GreenRatios();
 
-// What is seen of a quadrant, the k of equation 14.
+// How much is seen of a quadrant: the k of equation 14.
 enum class QuadrantMeasure {
-  kPixels,  // their number
+  kPixels,  // the number of pixels
   kWidth,   // the columns of the bounding box
 };
 

@@ -17,7 +17,7 @@
 namespace rockyard::vision {
 namespace {
 
-// A candidate with what became of it.
+// A candidate, its fit, and why it is no cylinder, if it is none.
 struct JudgedCandidate {
   RegionPair regions;
   std::optional<CylinderFit> fit;
@@ -25,9 +25,11 @@ struct JudgedCandidate {
   std::string reason;
 };
 
-// What a radius may differ by from the cylinder's: a share, or so many standard deviations.
+// A radius may differ from the cylinder's by so many standard deviations, or by radius_tolerance if
+// that is more. The text of radius_tolerance (robust_finder_params.cc) names this number.
 constexpr double kRadiusSigmas = 4.0;
-// How far the logarithm of a fitted blur may be above the prior's, in standard deviations of that.
+// By how many of the prior's standard deviations the logarithm of a fitted blur may be above the
+// prior.
 constexpr double kBlurSigmas = 3.0;
 
 void JudgeFit(const CylinderFit& fit, const ColourCylinder& cylinder,
@@ -74,14 +76,15 @@ void JudgeFit(const CylinderFit& fit, const ColourCylinder& cylinder,
   }
 }
 
-// How far boundaries may be off beyond what residuals tell: more where the pixels fit worse than
-// they usually do, and by what the wall is too wide or too narrow for its known radius.
+// Returns the error of boundaries, px, beyond what residuals tell: it grows where the pixels fit
+// worse than usual, and by what the wall is too wide or too narrow for its known radius.
 double BoundaryError(const CylinderFit& fit, double width_px, const CylinderFitParams& params) {
   const double model_px = params.model_error_px * std::max(fit.misfit / params.usual_misfit, 1.0);
   return std::hypot(model_px, 0.5 * width_px * (fit.radius_ratio - 1.0));
 }
 
-// Of p_LT_L and theta: the fit's, with the errors of its model and of the rows.
+// Returns the covariance of p_LT_L and theta: that of the fit, with the errors of its model and of
+// the rows.
 Eigen::Matrix4d CovarianceOf(const CylinderFit& fit, const EyeGeometry& eyes, double depth_m,
                              double width_px, const CylinderFitParams& params) {
   const double m_a_px = depth_m / eyes.focal_px;
@@ -102,7 +105,7 @@ Eigen::Matrix4d CovarianceOf(const CylinderFit& fit, const EyeGeometry& eyes, do
   return axes * measured * axes.transpose();
 }
 
-// The regions to draw: the box, and the quadrants that the fit sees in it.
+// Returns the regions to draw: the box, and the quadrants that the fit sees in it.
 std::vector<ColourRegion> RegionsToDraw(const CameraModel& camera, const EyeGeometry& eyes,
                                         const ColourRegion& box, const CylinderPlace& place,
                                         double height_m) {
@@ -111,7 +114,7 @@ std::vector<ColourRegion> RegionsToDraw(const CameraModel& camera, const EyeGeom
   if (!view) return regions;
   constexpr std::array<RegionRole, 3> kRoles = {RegionRole::kLeft, RegionRole::kMiddle,
                                                 RegionRole::kRight};
-  // Two quadrants are a left or a right one and the middle: the wider one.
+  // Of two quadrants the wider one is the middle.
   const auto width = [&](std::size_t i) {
     return view->lines[i + 1].column - view->lines[i].column;
   };
@@ -201,7 +204,7 @@ CylinderFinding FindCylinder(const ColourPair& pair, const ColourCylinder& cylin
   if (search.pairs.empty()) return NotFound(search.miss, search.reason);
   const std::vector<JudgedCandidate> judged =
       JudgeAll(pair, *eyes, cylinder, search.pairs, light, params);
-  // What looks like a cylinder, its orientation known or not.
+  // The candidates that look like a cylinder, whether the orientation is known or not.
   std::vector<const JudgedCandidate*> cylinders;
   for (const JudgedCandidate& candidate : judged) {
     if (candidate.miss != CylinderMiss::kNone && candidate.miss != CylinderMiss::kAmbiguous) {

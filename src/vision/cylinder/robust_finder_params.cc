@@ -147,6 +147,7 @@ void CylinderFitParams::Visit(core::FieldVisitor& v) {
          Calibrated("squared residuals by which any other orientation has to be worse",
                     "900 views of 7 to 15 m, seed 3: of 9 with less, 5 were wrong", {0.0, 1000.0},
                     {12.0, 45.0}));
+  // "Four" is kRadiusSigmas of robust_finder.cc.
   v.Real(
       "radius_tolerance", radius_tolerance,
       Assumed("how far the size at the depth by stereo may be from the cylinder's, or four of its "

@@ -1,5 +1,7 @@
-// Parameters of rockyard's own way to find the coloured cylinder. The finder was corrected on
-// rendered views of seeds 1, 3, 5 and 7: errors that are told of it come from other seeds.
+// Parameters of rockyard's own way to find the coloured cylinder. Files for `rockyard cylinder` and
+// scenarios of the experiment on sightings hold them; meaning, unit and origin of each stand in
+// Visit. The finder was corrected on rendered views of seeds 1, 3, 5 and 7: measure its errors on
+// other seeds only.
 #pragma once
 
 #include <array>
@@ -13,8 +15,9 @@ namespace rockyard::vision {
 // Red, green and blue of a surface in white light; only their ratios count.
 using SurfaceColour = std::array<double, 3>;
 
-// The surfaces of the scene. `third` is the colour of quadrant C, of the class that the published
-// algorithm calls red: orange in section 5 of Matthies 1995, or the green that it proposes.
+// The surfaces of the scene. `third` is the colour of quadrant C, of class CylinderColour::kRed:
+// orange in section 5 of Matthies 1995, or the green that it proposes. The defaults are also the
+// colours about which ColourClassParams (published_finder_params.h) were chosen.
 struct SurfaceColourParams {
   SurfaceColour blue = {0.12, 0.30, 0.85};
   SurfaceColour magenta = {0.95, 0.25, 0.60};
@@ -24,7 +27,8 @@ struct SurfaceColourParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Fluorescent green cardboard in place of the orange one.
+// Fluorescent green cardboard for `third`. The experiment on sightings sets it together with
+// GreenRatios (published_finder_params.h).
 inline constexpr SurfaceColour kGreenSurface = {0.15, 0.80, 0.25};
 
 // How light and camera change colours (colour_model.h). Logarithms are natural.
@@ -36,12 +40,12 @@ struct ColourModelParams {
   double pixel_sd = 0.3;
   double ground_sd = 0.2;
   double neutral_sd = 0.25;
-  double darkest = 12.0;
+  double darkest = 12.0;  // some five times CylinderFitParams::noise_grey
 
   void Visit(core::FieldVisitor& v);
 };
 
-// Which pairs of regions are looked at.
+// Which pairs of regions are candidates for the cylinder.
 struct CandidateParams {
   std::int64_t longest_gap_px = 2;
   std::int64_t least_whole_px = 16;
@@ -53,7 +57,8 @@ struct CandidateParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// The least squares over both eyes, and what they accept.
+// The least squares over both eyes, and the limits within which a fit is the cylinder.
+// model_error_px and usual_misfit were calibrated together, on seed 3.
 struct CylinderFitParams {
   double noise_grey = 2.5;
   double surface_noise = 0.03;

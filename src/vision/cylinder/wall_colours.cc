@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kQuadrant_rad = 0.5 * std::numbers::pi;
 
-// Where the wall's line at this direction (of length 1, off the axis) is imaged.
+// Returns the image of the wall's line in a direction from the axis (of length 1).
 std::optional<WallLine> LineAt(const CameraModel& camera, const CylinderPlace& place,
                                const math::Vector3& direction, const math::Vector3& half_axis_m) {
   const math::Vector3 middle = place.p_LT_L + place.radius_m * direction;
@@ -31,19 +31,21 @@ constexpr int kMostParts = 3;
 constexpr int kWallTerms = 3;
 constexpr int kWallUnknowns = kMostParts * kWallTerms;
 constexpr int kPrimaries = 3;
-// A quadrant's level lies about that of the whole within so many times it.
+// The standard deviation of a quadrant's level, over the level of the whole.
 constexpr double kLevelSpread = 3.0;
-// Beyond so many standard deviations an edge's blur is over.
+// The blur of an edge ends at so many standard deviations.
 constexpr double kBlurEnd = 4.0;
 
 using WallTerms = Eigen::Vector3d;
-// A row for each term of each part; as a vector, primary by primary of each.
+// A row for each term of each part. Must stay row-major, as WallVector holds the primaries of each
+// term side by side.
 using WallUnknowns = Eigen::Matrix<double, kWallUnknowns, kPrimaries, Eigen::RowMajor>;
-constexpr int kAllUnknowns = kWallUnknowns * kPrimaries;
+constexpr int kAllUnknowns = kWallUnknowns * kPrimaries;  // kPriors of fit_problem.cc
 using WallVector = Eigen::Matrix<double, kAllUnknowns, 1>;
 using WallNormal = Eigen::Matrix<double, kAllUnknowns, kAllUnknowns>;
 
-// The share of a pixel right of an edge that lies `right_px` left of its middle.
+// Returns the share of a pixel to the right of an edge that lies `right_px` left of the pixel's
+// middle.
 double ShareBeyond(double right_px, double blur_px) {
   const double x = right_px / blur_px;
   if (x <= -kBlurEnd) return 0.0;
@@ -56,10 +58,10 @@ WallTerms TermsAt(double t) {
   return {1.0, inside, std::sqrt(1.0 - inside * inside) - 0.25 * std::numbers::pi};
 }
 
-// What a column of a band holds.
+// The shares of quadrants and backgrounds in a column of a band.
 struct Mixture {
   std::array<double, kMostParts> parts{};
-  double left = 1.0;  // of the background
+  double left = 1.0;  // the background on the left
   double right = 0.0;
   WallTerms terms = WallTerms::UnitX();
 };
@@ -89,7 +91,7 @@ class BandView {
     return mixture;
   }
 
-  // The middle of a part, as t.
+  // Returns t of the middle of a part.
   double MiddleOfPart(int part) const {
     const auto i = static_cast<std::size_t>(part);
     return AcrossOf(0.5 * (columns_.at(i) + columns_.at(i + 1)));
@@ -107,13 +109,14 @@ class BandView {
   double blur_px_;
 };
 
-// Residuals of a prior per unit of a colour: 1 / along_sd along a direction, 1 / across_sd across.
+// Returns the residuals of a prior per unit of a colour: 1 / along_sd along a direction, 1 /
+// across_sd across it.
 Eigen::Matrix3d PriorRoot(const Eigen::Vector3d& direction, double along_sd, double across_sd) {
   return Eigen::Matrix3d::Identity() / across_sd +
          (1.0 / along_sd - 1.0 / across_sd) * direction * direction.transpose();
 }
 
-// A profile against a view.
+// The linear least squares of a profile for one view.
 class WallProblem {
  public:
   WallProblem(const EyeProfile& profile, const WallView& view, const QuadrantDirections& directions,
@@ -171,7 +174,7 @@ class WallProblem {
   }
 
  private:
-  // Of an unknown's prior.
+  // Returns the residuals per unit of an unknown's prior.
   Eigen::Matrix3d RootOf(int unknown) const {
     if (unknown % kWallTerms == 0) return level_root_ * Eigen::Matrix3d::Identity();
     return slope_roots_.at(static_cast<std::size_t>(unknown / kWallTerms));
@@ -185,7 +188,7 @@ class WallProblem {
            mixture.right * band.right_background;
   }
 
-  // Of a part's colour, the sum of its terms.
+  // Returns the covariance of a part's colour, the sum of its terms.
   Eigen::Matrix3d CovarianceOf(int part, const WallTerms& terms) const {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     for (int a = 0; a < kWallTerms; ++a) {
@@ -243,7 +246,7 @@ class WallProblem {
   std::vector<BandView> bands_;
   std::vector<Mixture> mixtures_;  // of all samples, band by band
   double level_root_ = 1.0;
-  // Of the slopes of each part; of parts that are not seen, of whatever weight.
+  // PriorRoot of the slopes of each part; for parts that are not seen any positive weight serves.
   std::array<Eigen::Matrix3d, kMostParts> slope_roots_ = {
       Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
   WallUnknowns unknowns_ = WallUnknowns::Zero();
@@ -255,7 +258,7 @@ class WallProblem {
 std::optional<WallView> WallSeen(const CameraModel& camera, const EyeGeometry& eyes,
                                  const CylinderPlace& place, double height_m) {
   const math::Vector3& up = place.axis_L;
-  // Azimuths are told from the direction to the middle between the eyes, which is theta in T.
+  // Azimuths count from the direction to the middle between the eyes, whose azimuth in T is theta.
   const math::Vector3 to_middle = AcrossAxis(eyes.middle_L - place.p_LT_L, up).normalized();
   const math::Vector3 to_side = up.cross(to_middle);
   const math::Vector3 to_eye = AcrossAxis(CentreOf(camera) - place.p_LT_L, up);

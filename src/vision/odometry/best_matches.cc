@@ -26,10 +26,10 @@ HWY_INLINE void Offer(hn::Vec<decltype(kDifferences)> value, hn::Vec<decltype(kD
   difference = hn::Min(value, difference);
 }
 
-// Takes the differences of window `row` of a block, padded by kNoDifference to whole vectors. Three
-// arrays `stride` apart, of differences, second differences and indices, hold the best of every
-// column; `best` becomes the same of this row. A lane holds every so many columns: of equal
-// differences that of the smallest index counts.
+// Takes in the differences of window `row` of a block, padded by kNoDifference to whole vectors.
+// `columns` are three arrays `stride` apart, of differences, second differences and indices: the
+// best of every column. `best` becomes these three numbers for the row. Must stay: of equal
+// differences the smallest index is the best, also among columns in different lanes.
 void OfferRow(const std::uint16_t* differences, std::size_t count, std::uint16_t row,
               std::size_t stride, std::uint16_t* columns, std::uint16_t* best) {
   auto difference = hn::Set(kDifferences, kNoDifference);
@@ -62,9 +62,9 @@ void OfferRow(const std::uint16_t* differences, std::size_t count, std::uint16_t
   best[2] = hn::GetLane(winner);
 }
 
-// Sets the bit of every column whose bound is not above both limits, that of the column and that of
-// the row, and clears the others, of `count` columns, which are whole words of bits. A bound that
-// is equal counts: a window that is as alike wins by a smaller index.
+// Sets the bits of those of `count` columns (whole words of bits) whose bound is at most the limit
+// of the column or that of the row, and clears the others. A bound equal to a limit must count, as
+// an equal difference wins by a smaller index.
 void MarkPossible(const std::uint16_t* bounds, const std::uint16_t* limits, std::uint16_t row_limit,
                   std::size_t count, std::uint8_t* bits) {
   const auto of_row = hn::Set(kDifferences, row_limit);
@@ -86,8 +86,9 @@ HWY_EXPORT(MarkPossible);
 
 namespace {
 
-// Windows of the first set whose differences are there at once; of the second that stay in the
-// first cache meanwhile; and of the second at most at once: all indices fit into 16 bits.
+// kBlock: windows of the first set whose differences are kept at once. kTile: windows of the second
+// set that fit into the first cache. kPanel: windows of the second set at once, so that all indices
+// fit into 16 bits.
 constexpr std::size_t kBlock = 256;
 constexpr std::size_t kTile = 128;
 constexpr std::size_t kPanel = 4096;
@@ -153,8 +154,8 @@ class BestFinder {
   AlignedBuffer<std::uint16_t> columns_;
 };
 
-// First every window with that of the least bound, which is the best one in most cases; then with
-// those whose bound is not above what was found.
+// Compares every window first with that of the least bound, which is the best one in most cases,
+// then with those whose bound is not above the least difference found.
 class LeastFinder {
  public:
   LeastFinder(const WindowSet& first, const WindowSet& second, BestWindows& best)
@@ -232,7 +233,8 @@ class LeastFinder {
     }
   }
 
-  // Of equal differences that of the smaller index counts, whatever came first.
+  // Takes a difference into the best of both windows. Must stay: of equal differences the smaller
+  // index is the best, whatever came first.
   void Offer(std::size_t i, std::size_t j, std::uint16_t difference) {
     const auto take = [difference](std::size_t index, BestWindow& best) {
       const auto other = static_cast<std::int32_t>(index);
@@ -257,7 +259,8 @@ class LeastFinder {
   std::vector<std::uint16_t> differences_;
 };
 
-// In ascending order, as Merge wants it: the sizes of parts change no result.
+// Calls `compare` for all parts in ascending order, as BestWindow::Merge needs it. Sizes of parts
+// change no result.
 template <typename Compare>
 void ForAllParts(const WindowSet& first, const WindowSet& second, Compare compare) {
   for (std::size_t j = 0; j < second.size(); j += kPanel) {

@@ -1,4 +1,5 @@
-// The most alike of many windows, in both directions, and bounds of their differences.
+// The most alike of many windows, in both directions, for MatchFeatures, and bounds of their
+// differences. Records depend on ties: of equal differences the smaller index is the best.
 #pragma once
 
 #include <algorithm>
@@ -14,16 +15,15 @@
 
 namespace rockyard::vision {
 
-// What two windows differ by at least, at an eighth of the cost of their difference (successive
-// elimination: Li and Salari 1995).
+// The means of a window's blocks of 3 x 3 pixels, a byte each; the rest of the 32 bytes is 0. From
+// them follows what two windows differ by at least, at an eighth of the cost of their difference
+// (successive elimination: Li and Salari 1995).
 //
-// Over a block of 3 x 3 pixels sum |a - b| >= |sum a - sum b|. With means m = (sum of a block) / 9,
+// Over a block sum |a - b| >= |sum a - sum b|. With means m = (sum of a block) / 9,
 // rounded down, sums differ by 9 |m_a - m_b| - 8 at least. A window of 15 x 15 pixels has 25
 // blocks:
 //
 //   difference >= 9 sum |m_a - m_b| - 200
-//
-// The means of a window's blocks, a byte each; what is left of the 32 bytes is 0.
 inline constexpr std::size_t kSignatureWords = 4;
 using WindowSignature = std::array<std::uint64_t, kSignatureWords>;
 
@@ -32,14 +32,14 @@ WindowSignature SignatureOf(const std::uint8_t* window);
 // Signatures of many windows, laid out for comparison.
 class SignatureSet {
  public:
-  // As many at a time: the bounds of so many are written at once.
+  // How many windows' bounds are written at once.
   static constexpr std::size_t kGroup = 32;
 
   explicit SignatureSet(const WindowSet& windows);
 
-  // Bounds of the differences of a window of this signature to those of the set from `first` on, a
-  // multiple of kGroup, to as many as `bounds` has: a multiple of it, too. Behind the last window
-  // they mean nothing. `bounds` is aligned.
+  // Writes the bounds of the differences between a window of the given signature and those of the
+  // set from `first` on. `first` and the size of `bounds` are multiples of kGroup. Bounds behind
+  // the last window mean nothing. `bounds` is aligned.
   void FindBounds(const WindowSignature& window, std::size_t first,
                   std::span<std::uint16_t> bounds) const;
 
@@ -48,17 +48,17 @@ class SignatureSet {
   AlignedBuffer<std::uint64_t> words_;  // the first words of all, the second words, ...
 };
 
-// Larger than any difference: there is none.
+// Larger than any difference: stands for none.
 inline constexpr std::uint16_t kNoDifference = std::numeric_limits<std::uint16_t>::max();
 
-// The best of the windows that one was compared with, and the second best difference.
+// The best of the windows that one window was compared with, and the second best difference.
 struct BestWindow {
   std::int32_t index = 0;
   std::uint16_t difference = kNoDifference;
   std::uint16_t second = kNoDifference;
 
-  // Takes what was best among windows of larger indices: of equal differences the earlier one
-  // stays.
+  // Takes in the best among further windows, which must have larger indices: of equal differences
+  // the present one stays.
   void Merge(const BestWindow& later) {
     if (later.difference < difference) {
       *this = {later.index, later.difference, std::min(difference, later.second)};
@@ -70,18 +70,19 @@ struct BestWindow {
   bool operator==(const BestWindow&) const = default;
 };
 
-// Of each window of two sets, among those of the other one.
+// For each window of two sets the best among those of the other set.
 struct BestWindows {
   std::vector<BestWindow> of_first;
   std::vector<BestWindow> of_second;
 };
 
-// Every window with every one. Cost: 2 ns a pair with 64 bytes a vector.
+// Compares every window of one set with every one of the other. Cost: 2 ns a pair with 64 bytes a
+// vector.
 BestWindows FindBestWindows(const WindowSet& first, const WindowSet& second);
 
-// The same without second differences, which stay kNoDifference: windows that differ by more than
-// the best of both, which their bounds tell, are not compared. Cost: six tenths where images are
-// smooth over three pixels.
+// Returns the same without second differences, which stay kNoDifference: pairs whose bound is above
+// the best difference of both windows are not compared. Cost: six tenths of FindBestWindows where
+// images are smooth over three pixels.
 BestWindows FindLeastDifferent(const WindowSet& first, const WindowSet& second);
 
 }  // namespace rockyard::vision

@@ -48,7 +48,8 @@ std::optional<Transform> MotionOf(const PointsSeenTwice& points, const Members& 
   return RigidMotion(first, second, weights);
 }
 
-// Columns of the right eye are those of the left one less the disparity.
+// Returns whether both eyes see a point within inlier_px of `expected`. The column in the right eye
+// is that in the left one less the disparity.
 bool IsWith(const PointSeenTwice& point, const std::optional<PairPixel>& expected,
             double inlier_px) {
   if (!expected) return false;
@@ -96,7 +97,8 @@ class Ransac {
     return sample;
   }
 
-  // Takes the motion of all members where more points are with that; whether there are.
+  // Replaces the set by that of the motion of all members if this is larger, and returns whether it
+  // was.
   bool Grow(ConsistentSet& set) const {
     const std::optional<Transform> X_FS = MotionOf(points_, set.members);
     if (!X_FS) return false;
@@ -113,7 +115,7 @@ class Ransac {
   core::RandomStream& stream_;
 };
 
-// Distance between two places and its variance along the line between them.
+// The distance between two places, with its variance.
 struct Length {
   double value_m = 0.0;
   double variance_m2 = 0.0;
@@ -149,7 +151,7 @@ std::optional<ConsistentSet> GrowRigid(const PointsSeenTwice& points,
   }
   Members order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  // Stable: of equal degrees the smaller index, whatever the library.
+  // Must be stable: of equal degrees the smaller index comes first with every library.
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return degrees[a] > degrees[b]; });
   ConsistentSet set;
@@ -193,7 +195,7 @@ std::optional<math::Transform> RigidMotion(std::span<const math::Vector3> points
   }
   if (!moments.allFinite()) return std::nullopt;
   const math::SingularValues svd = math::SingularValuesOf(moments);
-  constexpr double kFlat = 1e-12;  // of squares
+  constexpr double kFlat = 1e-12;  // 1e-6 squared, as singular values are squares of spreads
   if (!(svd.values[1] > kFlat * svd.values[0])) return std::nullopt;
   math::Vector3 sign = math::Vector3::Ones();
   if (svd.U.determinant() * svd.V.determinant() < 0.0) sign.z() = -1.0;

@@ -13,7 +13,7 @@ int PartOf(int whole, std::int64_t part, std::int64_t parts) {
   return static_cast<int>(static_cast<std::int64_t>(whole) * part / parts);
 }
 
-// Of each pixel of a side, the number of its part times `step`.
+// Returns, for each pixel of a side, the number of its part times `step`.
 std::vector<std::size_t> PartsOf(int whole, std::int64_t parts, std::int64_t step) {
   std::vector<std::size_t> numbers(static_cast<std::size_t>(whole));
   for (std::int64_t part = 0; part < parts; ++part) {
@@ -24,7 +24,8 @@ std::vector<std::size_t> PartsOf(int whole, std::int64_t parts, std::int64_t ste
   return numbers;
 }
 
-// Pixels that features may lie on: `border` away from the edges and from what is not free.
+// Returns the pixels that features may lie on: `border` away from the edges and from pixels that
+// are not free.
 Image<std::uint8_t> AllowedPixels(const ImageSize& size, int border,
                                   const Image<std::uint8_t>& free) {
   Image<std::uint8_t> allowed(size.columns, size.rows, 0);
@@ -50,8 +51,8 @@ Image<std::uint8_t> AllowedPixels(const ImageSize& size, int border,
 
 std::int32_t Whole(double threshold) { return static_cast<std::int32_t>(std::lround(threshold)); }
 
-// Of features, the `most` strongest, from the strongest on; of equal ones the earlier is the
-// stronger.
+// Keeps the `most` strongest features, from the strongest on. Must stay: of equal ones the earlier
+// in the order of rows comes first.
 void KeepStrongest(std::size_t most, Features& features) {
   const auto stronger = [](const Feature& a, const Feature& b) {
     if (a.strength != b.strength) return a.strength > b.strength;
@@ -107,7 +108,7 @@ Features FeatureDetector::CornersOf(const GradientSums& sums, const ImageArea& a
   return Corners(write, sums.area(), area, params_.threshold);
 }
 
-// All regions have one weight, hence one response.
+// Detects in the whole image at once, as all regions have one weight and so one response.
 Features FeatureDetector::DetectByThreshold(const GrayImage& image) const {
   const ImageArea all{0, size_.columns, 0, size_.rows};
   HarrisRows rows(image, all, HarrisWeight(params_.weight));
@@ -135,7 +136,8 @@ Features FeatureDetector::DetectByThreshold(const GrayImage& image) const {
 void FeatureDetector::AddByWeight(const GrayImage& image, const ImageArea& region,
                                   Features& features) const {
   constexpr int kBisections = 8;
-  // The bound of params_.weight: from 1/4 on det - k trace^2 is never positive.
+  // Must be the bound of `weight` in FeatureDetectorParams::Visit: from 1/4 on det - k trace^2 is
+  // never positive.
   constexpr double kLargestWeight = 0.24;
   const auto least = static_cast<std::size_t>(params_.min_of_region());
   const auto most = static_cast<std::size_t>(params_.max_of_region());

@@ -1,4 +1,5 @@
-// Corners of an image, evenly over its regions (Howard 2012 section 2).
+// Corners of an image, evenly over its regions (Howard 2012 section 2): the first stage of
+// VisualOdometer.
 #pragma once
 
 #include <cstddef>
@@ -16,23 +17,23 @@ namespace rockyard::vision {
 // The detector for images of one size and one mask.
 //
 // Region i of n covers the columns from i w / n, rounded down, to (i + 1) w / n, rows likewise. A
-// corner is a pixel whose response (harris.h) is larger than that of the pixels within
-// suppression_px columns and rows before it in the order of rows, and not smaller than that of
-// those behind it. Of a region's corners at least as strong as the threshold, the strongest
-// max_of_region() are features. Where there are fewer than min_of_region(), weaker ones follow down
-// to min_threshold (Adapted::kThreshold); or the weight of the trace is bisected between 0 and 0.24
-// until the number lies between both (Adapted::kWeight), eight times at most.
+// corner is a pixel that LocalMaxima (harris.h) finds within suppression_px. The strongest
+// max_of_region() corners of a region that reach the threshold are its features. Where these are
+// fewer than min_of_region(), weaker corners follow down to min_threshold (Adapted::kThreshold); or
+// the weight of the trace is bisected between 0 and 0.24, eight times at most, until the number
+// lies between both (Adapted::kWeight).
 class FeatureDetector {
  public:
-  // `free`: pixels that show the world (1) and not the carrier (0), of the images' size; empty
-  // where all do. Features keep border_px from the edges and from what is not free.
+  // `free` has the images' size, and is 1 where a pixel shows the world and 0 where it shows the
+  // rover; it is empty where all pixels show the world. Features keep border_px from the edges and
+  // from pixels that are not free.
   FeatureDetector(const FeatureDetectorParams& params, const ImageSize& size,
                   const Image<std::uint8_t>& free = {});
 
-  // The features, region by region in the order of rows, within a region from the strongest on,
-  // then in the order of rows, by which ties of matching go. Pure function; `image` has the
-  // detector's size. Cost: 0.4 ms for 512 x 384 pixels with 64 bytes a vector, eight times that
-  // where the weight is adapted.
+  // Returns the features of `image`, which has the detector's size: region by region in the order
+  // of rows, within a region from the strongest on, of equal ones in the order of rows. Records
+  // depend on this order, as matching decides ties by it. Cost: 0.4 ms for 512 x 384 pixels with
+  // 64 bytes a vector, eight times that where the weight is adapted.
   Features Detect(const GrayImage& image) const;
 
  private:
@@ -47,7 +48,7 @@ class FeatureDetector {
   FeatureDetectorParams params_;
   ImageSize size_;
   Image<std::uint8_t> allowed_;
-  // The number of the region of a pixel is the sum of its row's and its column's.
+  // The number of a pixel's region is the sum of its row's and its column's number.
   std::vector<std::size_t> of_row_;
   std::vector<std::size_t> of_column_;
 };

@@ -53,8 +53,8 @@ Eigen::Matrix3d Cross(const Vector3& v) {
 
 PairPixel Measured(const StereoMeasurement& m) { return {m.left.x(), m.left.y(), m.disparity_px}; }
 
-// Translation and rotation vector as MotionCovariance has them, as the covariance is the inverse of
-// equations for this disturbance.
+// Returns the motion changed by (e_t, e_r). Must be the error of MotionCovariance, as the
+// covariance is the inverse of the equations for this change.
 Transform Disturbed(const Transform& X_FS, const Vector6& change) {
   Transform moved = X_FS;
   moved.translation() += change.head<3>();
@@ -75,11 +75,11 @@ struct Point {
   Eigen::Matrix3d second_weight;
 };
 
-// Where points are believed to be, in F.
+// Estimated places of the points, in F.
 using Places = std::vector<Vector3>;
 
-// What a point adds to the equations: N of the motion, of the point and of both, and the right
-// sides.
+// The part of one point in the equations: N of the motion, of the point and of both together, and
+// the right sides.
 struct Terms {
   Matrix6 motion = Matrix6::Zero();
   Vector6 motion_side = Vector6::Zero();
@@ -134,7 +134,7 @@ class MotionProblem {
   struct Residuals {
     PairPixel first;
     PairPixel second;
-    double squared = 0.0;  // in units of their covariances
+    double squared = 0.0;  // sum of both, in units of their covariances
   };
 
   std::optional<Residuals> ResidualsOf(const Transform& X_SF, const Point& point,
@@ -148,7 +148,8 @@ class MotionProblem {
     return r;
   }
 
-  // Of 6 measurements less the 3 coordinates of the point: a mean of 3 where the noise is normal.
+  // The robust part of a point in the sum. `squared` comes from 6 measurements less the point's 3
+  // coordinates, so that its mean is 3 for normal noise.
   double RobustCost(double squared) const {
     const double limit = params_.robust_sigma * params_.robust_sigma * kDegreesOfPoint;
     switch (params_.weights) {
@@ -161,7 +162,7 @@ class MotionProblem {
     }
     return squared;
   }
-  // Its derivative by `squared`.
+  // Must be the derivative of RobustCost by `squared`.
   double RobustWeight(double squared) const {
     const double limit = params_.robust_sigma * params_.robust_sigma * kDegreesOfPoint;
     switch (params_.weights) {
@@ -175,7 +176,7 @@ class MotionProblem {
     return 1.0;
   }
 
-  // Infinite where a point is not in front of the cameras.
+  // Returns the sum to minimize, infinite where a point is not in front of the cameras.
   double Cost(const Transform& X_FS, const Places& places) const {
     const Transform X_SF = X_FS.inverse();
     double cost = 0.0;
@@ -216,7 +217,7 @@ class MotionProblem {
     return terms;
   }
 
-  // What the step of a point is found from once that of the motion is known.
+  // The numbers from which a point's step follows once the motion's step is known.
   struct Follower {
     Eigen::Matrix3d inverse;
     Vector3 side;
@@ -234,7 +235,8 @@ class MotionProblem {
       Terms terms = TermsOf(X_SF, points_[i], places_[i]);
       diagonal += terms.motion;
       terms.point.diagonal() *= 1.0 + damping;
-      // Whatever the motion, the point follows: terms.point dp = point_side - both' dx.
+      // For a step dx of the motion the point's step dp has
+      // terms.point dp = point_side - both' dx.
       const Eigen::Matrix3d inverse = terms.point.inverse();
       const Matrix63 both_inverse = terms.both * inverse;
       N += terms.motion - both_inverse * terms.both.transpose();
@@ -252,7 +254,7 @@ class MotionProblem {
     return step;
   }
 
-  // The equations' matrix of the motion alone, without damping.
+  // Returns the equations' matrix of the motion, with the points eliminated, without damping.
   Matrix6 Information() const {
     const Transform X_SF = X_FS_.inverse();
     Matrix6 N = Matrix6::Zero();
@@ -298,7 +300,7 @@ class MotionProblem {
     result.fit = weighted / std::max(kDegreesOfPoint * n - kMotionUnknowns, 1.0);
   }
 
-  // The largest standard deviation in any direction.
+  // Returns whether the standard deviations in every direction are within their limits.
   bool IsSure(const MotionCovariance& covariance) const {
     const double place = math::LargestEigenvalue(covariance.topLeftCorner<3, 3>());
     const double turn = math::LargestEigenvalue(covariance.bottomRightCorner<3, 3>());

@@ -41,6 +41,7 @@ void FeatureDetectorParams::Visit(core::FieldVisitor& v) {
                    "threshold of the response, or the weight of the trace in it",
                    "Howard 2012 sec. 2: the weights of the feature detector are iteratively "
                    "modified; that of the trace is Harris' only one"));
+  // The upper bound must be kLargestWeight of detect_features.cc.
   v.Real("weight", weight,
          Assumed("k of the response det - k trace^2 (Harris and Stephens 1988); where it is "
                  "adapted, what it begins with",

@@ -1,5 +1,6 @@
 // Parameters of the detector of features and of their matching between two images (Howard 2012
-// section 2).
+// section 2): two groups of OdometerParams (odometer_params.h). Meaning, unit and origin of each
+// stand in Visit. Records of drives with visual odometry depend on the defaults.
 #pragma once
 
 #include <array>
@@ -10,13 +11,14 @@
 
 namespace rockyard::vision {
 
-// What is changed in a region until it has as many features as it should.
+// What is changed in a region until its number of features is between min_features and
+// max_features.
 enum class Adapted {
   kThreshold,  // the response from which on a corner counts
   kWeight,     // the weight k of the trace in the response
 };
 
-// For what the smallest and largest number of features hold.
+// Whether min_features and max_features hold for each region or for the image.
 enum class CountedIn { kRegion, kImage };
 
 struct FeatureDetectorParams {
@@ -30,10 +32,10 @@ struct FeatureDetectorParams {
   double threshold = 1000.0;
   double min_threshold = 50.0;
   std::int64_t suppression_px = 3;
-  std::int64_t border_px = 8;  // at least half of the matcher's window_px, which has to lie inside
+  std::int64_t border_px = 8;  // at least half of FeatureMatcherParams::window_px
 
   std::int64_t regions() const { return regions_across * regions_down; }
-  // Of one region.
+  // Return the numbers for one region.
   std::int64_t min_of_region() const;
   std::int64_t max_of_region() const;
 
@@ -46,14 +48,14 @@ enum class MatchSearch {
   kPredicted,  // those near where a predicted motion puts it, if there is one
 };
 
-// What its window is before that.
+// How the windows of the first image are compared.
 enum class MatchWarp {
-  kNone,       // as the first image has it
-  kPredicted,  // as a predicted motion turns and scales it, if there is one
+  kNone,       // as they are
+  kPredicted,  // turned and scaled by a predicted motion, if there is one
 };
 
 struct FeatureMatcherParams {
-  std::int64_t window_px = 15;  // of matching; finer places have PlacementParams::window_px
+  std::int64_t window_px = 15;  // for matching; the finer search takes PlacementParams::window_px
   bool mutual = true;
   double ratio = 1.0;
   double max_difference = 30.0;

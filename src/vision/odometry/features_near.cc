@@ -19,8 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::ScalableTag<std::int32_t> kPixels;
 
-// Indices of the places with columns from limits[0] to limits[1] and rows from limits[2] to
-// limits[3]; the arrays have whole vectors.
+// Writes the indices of the places with columns from limits[0] to limits[1] and rows from limits[2]
+// to limits[3], and returns how many they are; the arrays have whole vectors.
 std::size_t FindInside(const std::int32_t* columns, const std::int32_t* rows, std::size_t count,
                        const std::int32_t* limits, std::int32_t* found) {
   const auto is_out = [](hn::Vec<decltype(kPixels)> pixels, const std::int32_t* range) HWY_ATTR {
@@ -47,11 +47,11 @@ HWY_EXPORT(FindInside);
 
 namespace {
 
-// Where no feature is.
+// Fills up the last vector: no feature is there.
 constexpr std::int32_t kNowhere = std::numeric_limits<std::int32_t>::min();
 
-// The first and the last whole pixel within `reach` of a place that is finite, as far as the 16
-// bits of a feature: none behind that.
+// Returns the first and the last whole pixel within `reach` of a finite place, clamped to what the
+// 16 bits of a feature hold, so that a place beyond has none.
 std::array<std::int32_t, 2> RangeAbout(double place, double reach) {
   constexpr double kMost = std::numeric_limits<std::int16_t>::max();
   return {static_cast<std::int32_t>(std::clamp(std::ceil(place - reach), -kMost, kMost + 1.0)),

@@ -23,7 +23,7 @@ constexpr hn::Half<decltype(kValues)> kHalf;
 using Values = hn::Vec<decltype(kValues)>;
 using Wide = hn::Vec<decltype(kWide)>;
 
-// Columns of three rows: weighed 1, 2, 1, and the last less the first.
+// Writes, for each column of three rows, their sum weighed 1, 2, 1, and the last less the first.
 void SmoothColumns(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                    std::size_t width, std::int16_t* smooth, std::int16_t* step) {
   for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
@@ -35,15 +35,15 @@ void SmoothColumns(const std::uint8_t* above, const std::uint8_t* here, const st
   }
 }
 
-// (sobel + 1) >> 1, clamped.
+// Returns (sobel + 1) >> 1, clamped.
 HWY_INLINE Values Gradient(Values sobel) {
   constexpr std::int16_t kLimit = 63;  // the largest of 6 bits: sums over 5 x 5 fit (harris.h)
   const auto half = hn::ShiftRight<1>(hn::Add(sobel, hn::Set(kValues, 1)));
   return hn::Min(hn::Max(half, hn::Set(kValues, -kLimit)), hn::Set(kValues, kLimit));
 }
 
-// Products of the gradients of a row, from the columns of SmoothColumns; one column to either side
-// is looked at.
+// Writes the products of the gradients of a row, from what SmoothColumns wrote; it reads one column
+// more to either side.
 void Products(const std::int16_t* smooth, const std::int16_t* step, std::size_t width,
               std::int16_t* xx, std::int16_t* xy, std::int16_t* yy) {
   for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
@@ -58,7 +58,8 @@ void Products(const std::int16_t* smooth, const std::int16_t* step, std::size_t 
   }
 }
 
-// Sums of five rows >> 2. Stores could change what `rows` has, as far as the compiler knows.
+// Writes the sums of five rows >> 2. `row` is a copy of `rows`, as the compiler would assume that
+// stores change `rows`.
 void SumRows(const std::int16_t* const* rows, std::size_t width, std::int16_t* sums) {
   const std::array<const std::int16_t*, 5> row{rows[0], rows[1], rows[2], rows[3], rows[4]};
   for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
@@ -69,7 +70,7 @@ void SumRows(const std::int16_t* const* rows, std::size_t width, std::int16_t* s
   }
 }
 
-// Sums of five columns: of `sums` from column x - 2 on at x.
+// Writes, at x, the sum of the five columns of `sums` from x - 2 on.
 void SumColumns(const std::int16_t* sums, std::size_t width, std::int16_t* out) {
   for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
     const auto outer = hn::Add(hn::LoadU(kValues, sums + x - 2), hn::LoadU(kValues, sums + x + 2));
@@ -78,7 +79,7 @@ void SumColumns(const std::int16_t* sums, std::size_t width, std::int16_t* out) 
   }
 }
 
-// xx yy - xy^2 - (((xx + yy) >> 1)^2 >> 8) k' of half a vector.
+// Returns xx yy - xy^2 - (((xx + yy) >> 1)^2 >> 8) k' of half a vector.
 HWY_INLINE Wide Response(Wide xx, Wide xy, Wide yy, Wide weight) {
   const auto half_trace = hn::ShiftRight<1>(hn::Add(xx, yy));
   const auto trace = hn::Mul(hn::ShiftRight<8>(hn::Mul(half_trace, half_trace)), weight);
@@ -109,10 +110,10 @@ HWY_EXPORT(Responses);
 
 namespace {
 
-// Columns of the image before an area that its sums look at, and as many behind.
+// How many columns of the image the sums of an area read before it, and as many behind.
 constexpr int kAround = kHarrisMargin_px;
 
-// Values of a row of sums, padded.
+// Returns the length of a row of sums, padded to whole vectors.
 std::size_t StrideOf(int values) {
   return WholeVectors<std::int16_t>(static_cast<std::size_t>(values));
 }
@@ -125,9 +126,9 @@ void WriteResponses(const std::int16_t* sums, std::size_t stride, std::int32_t w
 
 }  // namespace
 
-// The last rows of an area on their way to sums. A row has `stride` values, of which the first is
-// that of the column kAround before the area. Columns outside of the image are 0, and reach nothing
-// but sums within its margin.
+// The last rows of an area on their way to sums. A row has `stride_` values, and the first belongs
+// to the column kAround before the area. Columns outside of the image are 0, and enter only sums
+// within the image's margin.
 class SlidingRows {
  public:
   SlidingRows(const GrayImage& image, const ImageArea& area)
@@ -143,7 +144,8 @@ class SlidingRows {
     copied_ = next_ - 1;
   }
 
-  // The sums of a row of the area, which is no earlier than the last one and not in the margin.
+  // Writes the sums of a row of the area. The row is no earlier than that of the last call and not
+  // in the margin.
   void AddUp(int row, std::size_t width, std::int16_t* const* sums) {
     for (; next_ <= row + 2; ++next_) FindProducts(next_);
     for (std::size_t which = 0; which < 3; ++which) {
@@ -165,7 +167,7 @@ class SlidingRows {
     (smooth_.data(), step_.data(), stride_, Product(0, row), Product(1, row), Product(2, row));
   }
 
-  // Of products 0 to 2 (xx, xy, yy).
+  // Returns a row of product 0, 1 or 2 (xx, xy, yy).
   std::int16_t* Product(std::size_t which, int row) {
     return products_.data() + (5 * which + static_cast<std::size_t>(row % 5)) * stride_;
   }
@@ -181,8 +183,8 @@ class SlidingRows {
 
   const GrayImage& image_;
   int first_;
-  int next_ = 0;    // row of the products that come
-  int copied_ = 0;  // row of the bytes that come
+  int next_ = 0;    // the next row of products
+  int copied_ = 0;  // the next row of bytes
   std::size_t stride_;
   AlignedBuffer<std::uint8_t> bytes_;
   AlignedBuffer<std::int16_t> smooth_;
@@ -205,7 +207,7 @@ class AreaRows {
     EXPECT(0 <= area.top && area.top <= area.bottom && area.bottom <= image.height());
   }
 
-  // Three times `stride` sums; rows come from above.
+  // Writes three times `stride` sums. Rows must be asked for from the first to the last.
   void Write(int row, std::size_t stride, std::int16_t* sums) {
     if (left_ >= right_ || row < inside_.top || row >= inside_.bottom) {
       std::fill_n(sums, 3 * stride, std::int16_t{0});

@@ -1,5 +1,5 @@
-// How much of a corner every pixel is (Harris and Stephens 1988), in whole numbers, and which
-// pixels stick out by it.
+// How much of a corner every pixel is, its response (Harris and Stephens 1988), in whole numbers,
+// and which pixels stick out by it, for FeatureDetector (detect_features.h).
 //
 //   gx = clamp((Sobel_x + 1) >> 1)   gy = clamp((Sobel_y + 1) >> 1)      to [-63, 63]
 //   xx = sum5_x(sum5_y(gx gx) >> 2)   yy, xy likewise                     up to +-24800
@@ -7,9 +7,10 @@
 //
 // Sobel_x is the difference over two columns of rows weighed 1, 2, 1: 8 times a slope in grey
 // levels a pixel, so that slopes up to 15 count in full. sum5 is the sum of five neighbours. >> is
-// the shift that rounds down. All fits into 16 bits but the response, which fits into 32; k'
-// trace^2 of the closed form det - k trace^2 is 4 k (trace / 2)^2, hence 1024. Whole numbers give
-// the same corners on every instruction set; a plain form with divisions in the tests holds each.
+// the shift that rounds down. All numbers fit into 16 bits but the response, which fits into 32.
+// The closed form is det - k trace^2 = det - 4 k (trace / 2)^2, hence k' = 4 * 256 k. Must stay
+// whole numbers, so that every instruction set finds the same corners; they equal a plain form in
+// the tests.
 #pragma once
 
 #include <cstddef>
@@ -38,10 +39,11 @@ struct ImageArea {
   int height() const { return bottom - top; }
 };
 
-// The area and `reach` columns and rows about it, as far as an image of this size has them.
+// Returns the area with `reach` columns and rows about it, as far as an image of the given size has
+// them.
 ImageArea Widened(const ImageArea& area, int reach, int width, int height);
 
-// k' of a weight from 0 to 0.25.
+// Returns k' of a weight k from 0 to 0.25.
 std::int32_t HarrisWeight(double weight);
 
 // Sums of products of gradients over 5 x 5 pixels of an area of an image; 0 within the margin of
@@ -53,9 +55,9 @@ class GradientSums {
 
   const ImageArea& area() const { return area_; }
 
-  // Writes the response of row `row` of the image, which the area has, from its first column on.
-  // `response` is aligned and has room for whole vectors; what is written behind the area's columns
-  // means nothing.
+  // Writes the responses of row `row` of the image, which lies in the area, from the area's first
+  // column on. `response` is aligned and has room for whole vectors; values behind the area's
+  // columns mean nothing.
   void WriteResponse(int row, std::int32_t weight, std::int32_t* response) const;
 
  private:
@@ -85,26 +87,27 @@ class HarrisRows {
 
   const ImageArea& area() const { return area_; }
 
-  // As GradientSums::WriteResponse, of a row that no later one was written before.
+  // Does what GradientSums::WriteResponse does. Rows must be asked for from the first to the last.
   void WriteResponse(int row, std::int32_t* response);
 
  private:
   ImageArea area_;
   std::int32_t weight_;
   std::size_t stride_;
-  AlignedBuffer<std::int16_t> sums_;  // of the row that was written last
+  AlignedBuffer<std::int16_t> sums_;  // of the last row written
   std::unique_ptr<AreaRows> rows_;
 };
 
 // Writes the responses of one row of an area, rows in order (HarrisRows, GradientSums).
 using ResponseWriter = std::function<void(int row, std::int32_t* response)>;
 
-// Pixels of `area` whose response is at least `threshold`, larger than that of the pixels within
-// `reach` columns and rows that come before them in the order of rows, and not smaller than that of
-// those that come after; in the order of rows. Pixels that `all` lacks do not count: it has those
-// of the area, and, where the answer is to be that of the whole image, those around it, which the
-// image has. `write` writes the rows of `all`. Cost: below 1 ns a pixel with 32 bytes a vector and
-// a reach of 3.
+// Returns the pixels of `area` whose response is at least `threshold`, larger than that of the
+// pixels within `reach` columns and rows that come before in the order of rows, and not smaller
+// than that of the pixels within reach that come after; in the order of rows. Must stay: on a
+// plateau the first pixel alone is a corner. Only pixels of `all` count, of which `write` writes
+// the rows. `all` holds `area`; to get the corners of the whole image, it must also hold what the
+// image has within `reach` of the area. Cost: below 1 ns a pixel with 32 bytes a vector and a reach
+// of 3.
 Features LocalMaxima(const ResponseWriter& write, const ImageArea& all, const ImageArea& area,
                      int reach, std::int32_t threshold);
 

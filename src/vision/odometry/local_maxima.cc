@@ -1,6 +1,4 @@
-// Pixels that stick out by their response (harris.h), for every instruction set. Of equal
-// neighbours the first in the order of rows does, so that a plateau gives one corner, and always
-// the same.
+// LocalMaxima (harris.h), for every instruction set.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -24,8 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::ScalableTag<std::int32_t> kResponses;
 
-// Raises `count` rows of `largest` to the largest of 2 reach + 1 columns about each column; but the
-// first is set to it. There are `reach` more values to either side.
+// Sets the first of `count` rows of `largest` to the largest of the 2 reach + 1 values about each
+// column, and raises the other rows to at least that. `values` has `reach` more to either side.
 void RaiseToLargest(const std::int32_t* values, int reach, std::size_t width,
                     std::int32_t* const* largest, int count) {
   for (std::size_t x = 0; x < width; x += hn::Lanes(kResponses)) {
@@ -42,7 +40,7 @@ void RaiseToLargest(const std::int32_t* values, int reach, std::size_t width,
   }
 }
 
-// Whether one of `count` values from `values` on is `value`.
+// Returns whether one of `count` values from `values` on is `value`.
 HWY_INLINE bool Has(const std::int32_t* values, int count, std::int32_t value) {
   const auto wanted = hn::Set(kResponses, value);
   for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(kResponses))) {
@@ -53,10 +51,11 @@ HWY_INLINE bool Has(const std::int32_t* values, int count, std::int32_t value) {
   return false;
 }
 
-// Columns of the row `here` where the value is at least the threshold, no value is as large within
-// `reach` columns before it and in `before`, and none larger in `from` and `below`; their number.
-// These have the largest values about every column of the `reach` rows before it, of as many from
-// it on, and of as many below. `columns` has room for a whole vector more.
+// Writes the columns of the row `here` where the value is at least the threshold, larger than all
+// within `reach` columns before it and than `before`, and not smaller than `from` and `below`.
+// Returns how many they are. The three arrays hold the largest values about every column: `before`
+// of the `reach` rows above, `from` of as many rows from this one on, `below` of as many rows below
+// it. `columns` has room for a whole vector more.
 std::size_t FindPeaks(const std::int32_t* here, const std::int32_t* before,
                       const std::int32_t* from, const std::int32_t* below, int reach,
                       std::int32_t threshold, std::size_t width, std::int32_t* columns) {
@@ -90,11 +89,11 @@ HWY_EXPORT(FindPeaks);
 
 namespace {
 
-// The rows of responses about the one that is looked at, and of every one the largest values about
-// each column in it and the rows below, `reach` rows in all.
+// The rows of responses about the row whose peaks are asked for, and for every one the largest
+// values about each column over `reach` rows from that row on.
 class ResponseRows {
  public:
-  // Peaks of rows from `top` on are asked for.
+  // Peaks will be asked for rows from `top` on, in order.
   ResponseRows(const ResponseWriter& write, const ImageArea& all, int top, int reach)
       : write_(write),
         all_(all),
@@ -109,7 +108,7 @@ class ResponseRows {
         columns_(WholeVectors<std::int32_t>(width_) + kMostLanes<std::int32_t>),
         raised_(static_cast<std::size_t>(reach)) {}
 
-  // Columns of the peaks of a row, counted from the first of the responses.
+  // Returns the columns of the peaks of a row, counted from the first column of `all`.
   std::span<const std::int32_t> Peaks(int row, std::int32_t threshold) {
     for (; next_ <= row + reach_; ++next_) Add(next_);
     const std::size_t count = HWY_DYNAMIC_DISPATCH(FindPeaks)(
@@ -121,7 +120,7 @@ class ResponseRows {
   std::int32_t Value(int row, int column) { return Values(row)[column]; }
 
  private:
-  // What lies outside is smaller than any response.
+  // The value outside of `all`, smaller than any response.
   static constexpr std::int32_t kNothing = std::numeric_limits<std::int32_t>::min();
 
   void Add(int row) {
@@ -137,8 +136,8 @@ class ResponseRows {
     HWY_DYNAMIC_DISPATCH(RaiseToLargest)(values, reach_, width_, raised_.data(), reach_);
   }
 
-  // Of `height` rows of a buffer, which later ones write over; `first_` - reach_ is the first that
-  // anything is written to.
+  // Returns where a row begins in a buffer of `height` rows, in which later rows replace earlier
+  // ones; first_ - reach_ is the first row that is written.
   std::size_t Offset(int row, int height) const {
     return static_cast<std::size_t>((row - first_ + reach_) % height) * stride_ + pad_;
   }
@@ -148,12 +147,12 @@ class ResponseRows {
   const ResponseWriter& write_;
   ImageArea all_;
   int reach_;
-  int first_;  // first row that a peak looks at
-  int next_;   // row that comes
+  int first_;  // first row that a peak is compared with
+  int next_;   // next row to add
   std::size_t width_;
   std::size_t pad_;
   std::size_t stride_;
-  AlignedBuffer<std::int32_t> values_;  // of the row that is looked at and those below
+  AlignedBuffer<std::int32_t> values_;  // of the row whose peaks are asked for and those below
   AlignedBuffer<std::int32_t> largest_;
   AlignedBuffer<std::int32_t> columns_;
   std::vector<std::int32_t*> raised_;  // rows of largest_

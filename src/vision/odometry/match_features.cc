@@ -35,7 +35,7 @@ WindowSet SecondWindows(const GrayImage& image, const Features& features, int si
   return windows;
 }
 
-// Of each window of the first image only the features near where it is predicted.
+// Compares each window of the first image with the features near its predicted place alone.
 BestWindows CompareNear(const WindowSet& first, const WindowSet& second,
                         const Features& second_features, const FeatureMatcherParams& params,
                         const PredictedFeatures& predicted) {
@@ -68,7 +68,7 @@ FeatureMatches MatchFeatures(const GrayImage& first, const Features& first_featu
   const WindowSet first_windows = FirstWindows(first, first_features, params, predicted);
   const WindowSet second_windows = SecondWindows(second, second_features, side);
   const bool near = params.search == MatchSearch::kPredicted && !predicted.empty();
-  // Only the ratio asks for second differences, for which all windows have to be compared.
+  // Only the ratio needs second differences, for which all windows have to be compared.
   const BestWindows best =
       near ? CompareNear(first_windows, second_windows, second_features, params, predicted)
       : params.ratio < 1.0 ? FindBestWindows(first_windows, second_windows)

@@ -14,15 +14,15 @@ namespace {
 
 using math::Transform;
 
-// A keyframe's feature is where it is by definition: what is off is the place of its match. The
-// rest keeps the equations regular.
+// Standard deviation of a feature's place in the keyframe. The place is exact by definition, and
+// the error is in the place of its match; this number keeps the equations regular.
 constexpr double kFeature_px = 0.01;
 
 bool IsFew(std::int64_t count, const OdometerParams& params) {
   return count < params.selection.min_consistent;
 }
 
-// Whether windows that were turned and scaled by one of two motions look as the other has them.
+// Returns whether two motions are so near that windows turned and scaled by either look alike.
 bool IsNear(const Transform& a, const Transform& b, const OdometerParams& params) {
   const Transform difference = a.inverse() * b;
   return difference.translation().norm() < params.round_way_m &&
@@ -164,7 +164,7 @@ VisualOdometer::Comparison VisualOdometer::CompareOnce(const AlignedImages& imag
   return comparison;
 }
 
-// What is predicted out of view is compared with nothing: it is put far away.
+// Predicts the keyframe's features. Those out of view are put far away, so that no feature is near.
 PredictedFeatures VisualOdometer::Predict(const Transform& X_FS) const {
   constexpr double kNowhere_px = -1e6;
   const PlaneView see_again(cameras_, X_FS.inverse());
@@ -200,7 +200,7 @@ PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Fe
     points.push_back({place, *second});
     in_time.push_back(refined->residual);
   }
-  // Unless windows are seen as they should look, what is left of them in time says little of edges.
+  // Unless windows were turned and scaled, their residuals in time say little about edges.
   if (!warp) in_time.clear();
   return KeepClean(points, in_time, params_.placement);
 }

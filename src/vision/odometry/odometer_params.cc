@@ -70,6 +70,7 @@ void PlacementParams::Visit(core::FieldVisitor& v) {
                  "level ground under hazard cameras has 0.25; 0.1 and 1 changed no error on three "
                  "sequences (results/visual_odometry.md)",
                  {0.01, 10.0}, {0.1, 1.0}));
+  // The bound must be kMostSlope of plane_view.cc.
   v.Real("max_slope", max_slope,
          Assumed("largest such slope", "steeper surfaces are seen from their edge", {0.0, 0.75},
                  {0.3, 0.75}));
@@ -88,7 +89,8 @@ void PlacementParams::Visit(core::FieldVisitor& v) {
          Assumed("share of another disparity's difference up to which the best one is believed",
                  "repeated texture; the consistent set follows anyway", {0.0, 1.0}, {0.7, 1.0}));
   v.Group("map", map, "the disparity map, where places are taken from it");
-  constexpr double kMapReach_px = 479.0;  // CorrelatorParams, less one for the peak filter
+  // The bound of CorrelatorParams (stereo_params.cc), less one disparity for the peak filter.
+  constexpr double kMapReach_px = 479.0;
   v.Require("max_disparity_px",
             source != PlaceSource::kDisparityMap || max_disparity_px <= kMapReach_px,
             "is above 479 px, which dense stereo does not reach",

@@ -1,7 +1,8 @@
-// Parameters of visual odometry, stage by stage (Howard 2012 section 2; Matthies 1989). Drives and
-// `rockyard vo` share the defaults: another one changes records. EstimationParams::max_fit and, of
-// PlacementParams, max_residual_ratio and noise_px were chosen with KITTI's excerpt known: it is no
-// test of these.
+// Parameters of visual odometry, stage by stage (Howard 2012 section 2; Matthies 1989), for
+// VisualOdometer. Meaning, unit and origin of each stand in Visit. Records of drives depend on the
+// defaults, which `rockyard vo` shares. EstimationParams::max_fit, PlacementParams::noise_px and
+// PlacementParams::max_residual_ratio were chosen with KITTI's excerpt known: do not take the
+// results on it for a test of these.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@
 
 namespace rockyard::vision {
 
-// How the map is made (vision/stereo), and what its disparities are worth.
+// How the disparity map is made (vision/stereo), and how well its disparities are known.
 struct DisparityMapParams {
   DogParams dog;
   std::int64_t window_side_px = 7;
@@ -32,7 +33,7 @@ enum class PlaceSource {
   kDisparityMap,  // dense stereo of both images, interpolated at the feature
 };
 
-// Where the right eye sees a feature of the left one.
+// How a feature's place is found.
 struct PlacementParams {
   PlaceSource source = PlaceSource::kRightEye;
   double min_disparity_px = 1.0;
@@ -57,7 +58,7 @@ enum class SelectionMethod {
   kRigidity,  // distances between points that did not change
 };
 
-// The largest set of points that moved as one.
+// How the largest set of points that moved as one is found.
 struct SelectionParams {
   SelectionMethod method = SelectionMethod::kRansac;
   double inlier_px = 1.5;
@@ -76,7 +77,7 @@ enum class RobustWeights {
   kCauchy,  // 1 / (1 + (r / robust_sigma)^2)
 };
 
-// Least squares, and when its end is no motion.
+// Least squares, and which of its results are no motion.
 struct EstimationParams {
   RobustWeights weights = RobustWeights::kHuber;
   double robust_sigma = 2.0;

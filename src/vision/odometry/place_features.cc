@@ -14,7 +14,8 @@
 namespace rockyard::vision {
 namespace {
 
-// Whole disparities of the range, and one more on either side for the peak filter.
+// Returns the parameters of stereo, for the whole disparities of the range and one more on either
+// side, which the peak filter needs.
 StereoPipelineParams PipelineOf(const PlacementParams& params) {
   StereoPipelineParams pipeline;
   pipeline.dog = params.map.dog;
@@ -38,7 +39,7 @@ double LowerQuartile(std::vector<double> residuals) {
   return std::max(*quartile, kLeast);
 }
 
-// Raises each share to that of the residual in its kind's lower quartile.
+// Raises each share to at least the residual over the lower quartile of the residuals.
 void RaiseShares(const std::vector<double>& residuals, std::vector<double>& shares) {
   const double quartile = LowerQuartile(residuals);
   for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -64,9 +65,9 @@ std::optional<double> FeaturePlacer::WholeColumn(const Pixel& left_pixel) const 
   RowDifferences(left_, right_, column, row, first, differences);
   const auto best = std::min_element(differences.begin(), differences.end());
   const auto at = static_cast<int>(best - differences.begin());
-  // At an end the best is not enclosed; behind this `best - 1` and `best + 2` exist.
+  // The best must not be at an end; then `best - 1` and `best + 2` below exist.
   if (at == 0 || at == last - first) return std::nullopt;
-  // As good as the best, within the ambiguity: of all but the best and its neighbours, none.
+  // No disparity but the best and its neighbours may be as good, within the ambiguity.
   const double limit = *best / params_.ambiguity;
   const auto is_as_good = [limit](std::uint16_t difference) { return difference < limit; };
   if (std::any_of(differences.begin(), best - 1, is_as_good) ||
@@ -113,8 +114,8 @@ std::optional<StereoMeasurement> FeaturePlacer::PlaceOn(
 std::optional<StereoMeasurement> FeaturePlacer::Measured(const Pixel& left_pixel,
                                                          const Eigen::Matrix2d& covariance_px2,
                                                          const SlantedPlace& right) const {
-  // The right eye's window is compared with the left one's about the very place, so that an error
-  // of the place moves both and leaves the disparity.
+  // The right eye's window is compared with the left one about `left_pixel` itself, so that an
+  // error of `left_pixel` moves both windows and leaves the disparity.
   auto measured = MeasureStereo(cameras_, left_pixel, covariance_px2, left_pixel.x() - right.column,
                                 right.variance_px2);
   if (!measured) return std::nullopt;
@@ -140,7 +141,7 @@ std::optional<double> DisparityAt(const DisparityImage& map, const Pixel& place,
     for (const int across : {0, 1}) {
       const double weight = (across == 1 ? fraction.x() : 1.0 - fraction.x()) *
                             (down == 1 ? fraction.y() : 1.0 - fraction.y());
-      if (weight == 0.0) continue;  // whether this neighbour has a disparity or is there at all
+      if (weight == 0.0) continue;  // this neighbour need not have a disparity, nor exist
       const int column = static_cast<int>(corner.x()) + across;
       const int row = static_cast<int>(corner.y()) + down;
       if (!IsInside(map, column, row) || !IsValid(map.At(column, row))) return std::nullopt;

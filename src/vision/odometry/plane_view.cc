@@ -12,8 +12,8 @@ PlaneView::PlaneView(const RectifiedPair& pair, const math::Transform& X_SF) {
 }
 
 std::optional<PredictedFeature> PlaneView::operator()(const StereoMeasurement& measured) const {
-  constexpr double kLeastShare = 1e-6;  // of the first depth
-  constexpr double kMostSlope = 0.75;   // the bound of PlacementParams::max_slope
+  constexpr double kLeastShare = 1e-6;  // the second depth over the first
+  constexpr double kMostSlope = 0.75;   // must be the bound of PlacementParams::max_slope
   constexpr double kMostChange = 8.0;
   const Pixel& p = measured.left;
   Eigen::Vector3d plane;
@@ -28,7 +28,7 @@ std::optional<PredictedFeature> PlaneView::operator()(const StereoMeasurement& m
   seen.view.by_distance = G.row(2).head<2>().transpose() / scale;
   seen.view.by_offset = G.topLeftCorner<2, 2>() / scale - p * seen.view.by_distance.transpose();
   seen.slope = (G.transpose() * plane).head<2>();
-  // Numbers that are not finite fail as well.
+  // The comparisons are written so that numbers that are not finite fail.
   if (!(seen.slope.cwiseAbs().maxCoeff() <= kMostSlope)) return std::nullopt;
   if (!(seen.view.by_offset.cwiseAbs().maxCoeff() <= kMostChange)) return std::nullopt;
   return seen;

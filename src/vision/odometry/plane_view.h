@@ -1,4 +1,5 @@
-// How a small surface looks from where a pair of cameras has moved to.
+// How a small surface looks from where a pair of cameras has moved to: VisualOdometer predicts
+// features and their windows by it.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,17 +18,19 @@ namespace rockyard::vision {
 //
 //   H = M R M^-1 + M s l' / k    s = R C + t - C    k = H . b, depth times disparity
 //
-// M has the rows H, V, A of the left camera. Its inverse G brings the second image back to the
-// first, and the plane's disparities there are l_S = G' l. With G (q, 1) scaled to (p, 1), its
-// first two columns B scaled alike, and b their last row, the offset o from q is (B_xy - p b') o /
-// (1 + b . o) from p.
+// M has the rows H, V, A of the left camera, C is its centre, b the baseline. G = H^-1 takes the
+// second image back to the first, and in the second image the plane's disparities are l_S = G' l.
+// Scale G so that it takes (q, 1) to (p, 1); let B_xy be the first two rows of its first two
+// columns and g their last row. Then the offset o from q is the offset
+// (B_xy - p g') o / (1 + g . o) from p.
 class PlaneView {
  public:
   PlaneView(const RectifiedPair& pair, const math::Transform& X_SF);
 
-  // Of the surface about a point of the first pair, which has the measurement's slope. Nothing
-  // where it is not in front of the cameras at both moments, where it is seen from its edge at the
-  // second (a slope of more than 0.75), and where it becomes more than eight times smaller.
+  // Returns the view of the surface about a point of the first pair, with the measurement's slope.
+  // Returns nothing where the point is not in front of the cameras at the second moment, where the
+  // surface is then seen from its edge (a slope of more than 0.75), or where it becomes more than
+  // eight times smaller.
   std::optional<PredictedFeature> operator()(const StereoMeasurement& measured) const;
 
  private:

@@ -11,8 +11,8 @@
 namespace rockyard::vision {
 namespace {
 
-// The sum of the lanes, two by two, in one order for every instruction set; those from `side` on do
-// not count.
+// Returns the sum of the lanes before `side`. Must stay: lanes are added two by two in one order,
+// for the same bits on every instruction set.
 float SumOf(WindowSamples::Lanes lanes, std::size_t side) {
   std::fill(lanes.begin() + static_cast<std::ptrdiff_t>(side), lanes.end(), 0.0F);
   for (std::size_t half = lanes.size() / 2; half > 0; half /= 2) {
@@ -21,7 +21,7 @@ float SumOf(WindowSamples::Lanes lanes, std::size_t side) {
   return lanes[0];
 }
 
-// Sum of lane^power times the lanes, lanes counted from the middle of the window.
+// Returns the sum of lanes[i] o^power, o the column of lane i counted from the window's middle.
 double Moment(const WindowSamples::Lanes& lanes, std::size_t side, int power) {
   const auto reach = static_cast<int>(side / 2);
   double sum = 0.0;
@@ -33,7 +33,7 @@ double Moment(const WindowSamples::Lanes& lanes, std::size_t side, int power) {
   return sum;
 }
 
-// What one step of least squares needs, for the parameters shift, slope by column and by row.
+// The equations of one step of FindSlanted, for shift, slope by column and slope by row.
 struct Equations {
   Eigen::Matrix3d normal;  // sum j j' of j = g (1, o_x, o_y), less their mean
   Eigen::Vector3d right;   // sum j r
@@ -106,12 +106,12 @@ WindowTemplate::Sums WindowTemplate::SumsAt(const GrayImage& second, const Pixel
           SumOf(lanes.squares, side_)};
 }
 
-// With r = d - mean of d: sum g r = sum g d - mean sum g, sum r^2 = sum d^2 - n mean^2.
+// Below, r = d - mean of d: sum g r = sum g d - mean sum g, sum r^2 = sum d^2 - n mean^2.
 std::optional<RefinedPlace> WindowTemplate::Find(const GrayImage& second, const Pixel& start,
                                                  const RefineLimits& limits) const {
   constexpr int kIterations = 10;
   constexpr double kStep_px = 0.01;
-  constexpr double kFlat = 1e-6;  // of the normal matrix' determinant, over its squared trace
+  constexpr double kFlat = 1e-6;  // the normal matrix' determinant over its squared trace
   const bool flat = limits.along_row
                         ? normal_(0, 0) <= 0.0
                         : normal_.determinant() <= kFlat * normal_.trace() * normal_.trace();
@@ -172,7 +172,7 @@ std::optional<SlantedPlace> FindSlanted(const GrayImage& left, const GrayImage& 
     const Eigen::Matrix3d covariance = normal.inverse();
     Eigen::Vector3d pull = equations.right;
     pull.tail<2>() -= prior * place.slope;
-    // The left window lies where right(column + o) is left(o - e): r = -g e.
+    // Where the column is off by e, right(column + o) = left(o - e), so that r = -g e.
     const Eigen::Vector3d change = covariance * pull;
     place.column -= change.x();
     place.slope =

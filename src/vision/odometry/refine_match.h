@@ -1,4 +1,5 @@
-// Where a window of one image lies in another one, finer than a pixel.
+// Where a window of one image lies in another one, finer than a pixel: VisualOdometer finds matches
+// in time by it, FeaturePlacer (place_features.h) features in the right eye.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,43 +12,43 @@
 
 namespace rockyard::vision {
 
-// Where a window is looked for. Visual odometry takes max_shift_px and max_residual from here, and
-// the others from PlacementParams.
+// Limits of a search. Records depend on these max_shift_px and max_residual, which visual odometry
+// does not set; the other numbers come from PlacementParams (odometer_params.h).
 struct RefineLimits {
-  bool along_row = false;      // columns only: rows are epipolar lines
+  bool along_row = false;      // searches columns only, as rows are epipolar lines
   double max_shift_px = 2.0;   // from where the search begins
-  double max_residual = 20.0;  // root mean square of what is left, grey levels
-  double noise_px = 0.05;      // of a place beyond that of the pixels' noise, standard deviation
-  double slope_sd = 0.3;       // of small planes (FindSlanted), before images say more
-  double max_slope = 0.5;      // at which they end
+  double max_residual = 20.0;  // grey levels
+  double noise_px = 0.05;      // standard deviation of a place beyond what pixels' noise makes
+  double slope_sd = 0.3;       // FindSlanted: standard deviation of slopes, before images say more
+  double max_slope = 0.5;      // FindSlanted: slopes are cut there
 };
 
 struct RefinedPlace {
   Pixel pixel = Pixel::Zero();                               // in the second image
-  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // of it; along_row: of columns only
-  double residual = 0.0;  // root mean square of what is left over the window, grey levels
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // along_row: of the column only
+  double residual = 0.0;  // root mean square of the difference over the window, grey levels
 };
 
 // A window of up to 15 x 15 pixels about a place of the first image, as it looks in the second one.
 class WindowTemplate {
  public:
-  // What the second image shows at the offset o from the middle the first has where `view` puts
-  // it from `middle` (window_samples.h). The side is odd.
+  // Samples the window of the first image about `middle` as the second image shows it: `view` takes
+  // offsets in the second image to offsets in the first (SampleWindow). The side is odd.
   WindowTemplate(const GrayImage& image, const Pixel& middle, const ViewChange& view = {},
                  std::size_t side = kTemplateRows);
 
   // Finds the shift s of the least sum of (second(start + s + o) - first(o))^2 over the window,
   // each less its mean (Lucas and Kanade 1981; inverse compositional, Baker and Matthews 2004):
   //   s <- s - N^-1 sum g r,   N = sum g g',   g the template's gradient, r the residual
-  // until |ds| < 0.01 px, ten times at most. Covariance: sigma^2 N^-1 + noise_px^2 I, with sigma^2
-  // = sum r^2 / (n - 3). Nothing where it does not end within the limits, where the window has no
-  // texture or reaches out of the image (with two columns more to the right and a row below).
+  // until |ds| < 0.01 px, ten times at most. The covariance is sigma^2 N^-1 + noise_px^2 I, with
+  // sigma^2 = sum r^2 / (n - 3) for n pixels. Returns nothing where the search does not end within
+  // the limits, where the window has no texture, or where HasTemplate does not hold.
   std::optional<RefinedPlace> Find(const GrayImage& second, const Pixel& start,
                                    const RefineLimits& limits) const;
 
  private:
-  // Sums over the window, d = second(start + s + o) - mean - (first(o) - mean), mean the
-  // template's.
+  // Sums over the window of d = second(start + s + o) - mean - (first(o) - mean), where both means
+  // are that of the first image's window.
   struct Sums {
     float d = 0.0F;
     float across_d = 0.0F;
@@ -66,30 +67,31 @@ class WindowTemplate {
   Eigen::Matrix2d normal_ = Eigen::Matrix2d::Zero();
 };
 
-// A plane has a disparity that is linear in column and row (1 / Z is). By how much it grows with
-// each, px/px.
+// By how much the disparity of a plane grows with column and row, px/px: it is linear in both, as
+// 1 / Z is.
 using DisparitySlope = Eigen::Vector2d;
 
-// How the left eye sees what the right one sees of a surface of this slope: at the offset
-// ((o_x + slope_y o_y) / (1 - slope_x), o_y) where the right one has it at o.
+// Returns how the left eye sees what the right eye sees of a surface of this slope: at the offset
+// ((o_x + slope_y o_y) / (1 - slope_x), o_y) what the right eye has at o.
 ViewChange LeftViewOf(const DisparitySlope& slope);
 
 struct SlantedPlace {
   double column = 0.0;  // in the right image
   DisparitySlope slope = DisparitySlope::Zero();
   double variance_px2 = 0.0;  // of the column
-  double residual = 0.0;      // root mean square of what is left over the window, grey levels
+  double residual = 0.0;      // root mean square of the difference over the window, grey levels
 };
 
 // Finds where the right eye sees a small surface that need not face the cameras (least squares
-// matching: Lucas and Kanade 1981, Gruen 1985): column and slope of the least sum of (right(column
-// + o_x, row + o_y) - left(view o))^2 over side x side pixels o, each less its mean: Gauss-Newton
-// steps for shift and slope with g (1, o_x, o_y), g the gradient along the row of the left window
-// as the right eye would see it, until both change by less than 0.02 px and 0.01, four times at
-// most. Slopes have a standard deviation (slope_sd) before the images say more, and end at
-// max_slope. The variance is that of WindowTemplate::Find with n - 5 pixels. Nothing where the
-// search leaves its limits (along_row is meant) or the window the image. Cost: 2 us with 64 bytes a
-// vector.
+// matching: Lucas and Kanade 1981, Gruen 1985): the column and the slope of the least sum of
+// (right(column + o_x, row + o_y) - left(view o))^2 over side x side pixels o, each less its mean.
+// Takes Gauss-Newton steps for shift and slope with g (1, o_x, o_y), g the gradient along the row
+// of the left window as the right eye would see it, until both change by less than 0.02 px and
+// 0.01, at most four; the last counts either way. Slopes have the standard deviation slope_sd
+// before the images say more, and are cut at max_slope. The variance is sigma^2 times the shift's
+// part of the inverse normal matrix, plus noise_px^2, with sigma^2 = sum r^2 / (n - 5), at least 1.
+// Returns nothing where the search leaves its limits (rows are never searched) or the window the
+// image. Cost: 2 us with 64 bytes a vector.
 std::optional<SlantedPlace> FindSlanted(const GrayImage& left, const GrayImage& right,
                                         const Pixel& left_pixel, double column,
                                         const RefineLimits& limits,

@@ -1,4 +1,4 @@
-// Sums of absolute differences along a row (place_features.h): the same on every instruction set.
+// RowDifferences (place_features.h), for every instruction set.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@ constexpr hn::ScalableTag<std::uint16_t> kRowSums;
 constexpr hn::Rebind<std::uint8_t, decltype(kRowSums)> kRowPixels;
 using RowSums = hn::Vec<decltype(kRowSums)>;
 
-// Adds the absolute differences of the pixel `wanted` to those from `seen` on.
+// Adds the absolute differences between the pixel `wanted` and those from `seen` on.
 HWY_INLINE RowSums AddPixel(RowSums sum, std::uint8_t wanted, const std::uint8_t* seen) {
   const auto a = hn::Set(kRowSums, wanted);
   const auto b = hn::PromoteTo(kRowSums, hn::LoadU(kRowPixels, seen));
@@ -30,11 +30,11 @@ HWY_INLINE RowSums AddPixel(RowSums sum, std::uint8_t wanted, const std::uint8_t
   return hn::Add(sum, hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)));
 }
 
-// Where x86 has an instruction for it, which this version of Highway does not know, four pixels at
-// once: sums of four absolute differences for eight offsets in each block of 16 bytes. Blocks are
-// to begin 8 bytes apart.
+// x86 has an instruction, which this version of Highway does not know, that takes four pixels at
+// once: it sums four absolute differences for eight offsets in each block of 16 bytes. Blocks must
+// begin 8 bytes apart.
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-// Words of 4 bytes of a block are to be (0, 1) and (1, 2).
+// kWords makes the instruction take the 4-byte words (0, 1) and (1, 2) of a block.
 HWY_INLINE RowSums SumsOfFour(std::int32_t wanted, const std::uint8_t* seen) {
   const __m512i blocks = _mm512_set_epi64(4, 3, 3, 2, 2, 1, 1, 0);
   const __m512i bytes = _mm512_permutexvar_epi64(blocks, _mm512_loadu_si512(seen));
@@ -73,9 +73,9 @@ HWY_INLINE RowSums AddPixels(RowSums sum, const std::uint8_t* wanted, const std:
 }
 #endif
 
-// `left` is the upper left pixel of the window; `rows` are the rows of the other eye, `rows_stride`
-// apart, from the upper left pixel of the window of the last disparity on. Writes sums from the
-// last disparity to the first; `count` is of whole vectors.
+// Writes the sums from the last disparity to the first; `count` makes whole vectors. `left` is the
+// upper left pixel of the window; `rows` are the rows of the right eye, `rows_stride` apart, from
+// the upper left pixel of the window of the last disparity on.
 void AlongRow(const std::uint8_t* left, std::size_t left_stride, const std::uint8_t* rows,
               std::size_t rows_stride, std::size_t count, std::uint16_t* sums) {
   constexpr std::size_t kTogether = kRowSide / kAtOnce * kAtOnce;
@@ -108,7 +108,7 @@ void RowDifferences(const GrayImage& left, const GrayImage& right, int column, i
   EXPECT(row >= kRowReach && row + kRowReach < left.height() && left.height() == right.height());
   EXPECT(column >= kRowReach && column + kRowReach < left.width());
   EXPECT(last >= kRowReach && first + kRowReach < right.width());
-  // Whole vectors are read from behind the last window: the rows are copied to where they may.
+  // Whole vectors reach behind the last window, so that the rows are copied to where there is room.
   const std::size_t whole = WholeVectors<std::uint16_t>(count);
   const std::size_t used = count + kRowSide - 1;
   const std::size_t stride = whole + kMostLanes<std::uint16_t>;

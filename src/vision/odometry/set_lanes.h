@@ -1,5 +1,6 @@
-// Which lanes of a mask are set. Compiled once for every instruction set, hence its
-// guard, in .cc files that have included Highway, which stays there.
+// Which lanes of a mask are set, for the search for corners and for features near a place. Highway
+// compiles this file once for every instruction set, hence the guard. Only .cc files that have
+// included Highway include it.
 #if defined(ROCKYARD_VISION_SET_LANES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROCKYARD_VISION_SET_LANES_H
 #undef ROCKYARD_VISION_SET_LANES_H
@@ -14,10 +15,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 
-// Writes the numbers of the lanes that are set, counted from `first` on, where there is room for a
-// whole vector; returns how many. CompressStore of Highway 1.0 is slower: for AVX-512 it compresses
-// into memory, for AVX2 GCC copies its table of 1 KiB each time. So is its Iota of what is no
-// constant, which is written lane by lane.
+// Writes the numbers of the lanes that are set, counted from `first` on, and returns how many they
+// are. `numbers` has room for a whole vector. CompressStore of Highway 1.0 is slower: for AVX-512
+// it compresses into memory, for AVX2 GCC copies its table of 1 KiB each time. Its Iota from a
+// variable start is slow, too, as it writes lane by lane.
 template <class D>
 HWY_INLINE std::size_t WriteSetLanes(D lanes, hwy::HWY_NAMESPACE::Mask<D> mask, std::int32_t first,
                                      std::int32_t* numbers) {

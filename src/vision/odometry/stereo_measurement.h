@@ -1,4 +1,5 @@
-// What a pair of aligned cameras takes, and what it measures of one point.
+// The images that a pair of aligned cameras takes, and what it measures of one point: the stages of
+// visual odometry hand these on. Drives and `rockyard vo` give it images.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,13 +18,13 @@ namespace rockyard::vision {
 struct AlignedImages {
   GrayImage left;
   GrayImage right;
-  // Of the left image's pixels, where stereo has matched these images already; else empty, and made
-  // where places are taken from it (PlacementParams::source).
+  // Disparities of the left image, if stereo has matched these images already. Otherwise empty, and
+  // the odometer makes them if PlacementParams::source needs them.
   DisparityImage disparities = {};
 };
 
-// A point in both eyes, and where it lies (Triangulate; Matthies and Shafer 1987). Its covariances
-// are taken at their word: weights, fit and covariance of a motion rest on them.
+// A point in both eyes, and where it lies (Triangulate; Matthies and Shafer 1987). Weights, fit and
+// covariance of a motion rest on the covariances, which nothing checks.
 struct StereoMeasurement {
   Pixel left = Pixel::Zero();  // column and row in the left image
   double disparity_px = 0.0;   // column_left - column_right, > 0
@@ -31,16 +32,16 @@ struct StereoMeasurement {
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Identity();
   math::Vector3 p_A = math::Vector3::Zero();                // m, in the outer frame of the cameras
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  // of p_A
-  // By how much the disparity grows with column and row, where the surface was looked at: a plane's
-  // is linear in both. 0: it faces the cameras.
+  // DisparitySlope (refine_match.h) of the surface. 0: it faces the cameras, or nothing is known.
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-  // What the two eyes' windows differ by, root mean square, grey levels.
+  // Root mean square of the difference between the two eyes' windows, grey levels.
   double residual = 0.0;
 };
 
-// Returns what a pair measures of a point at `left_pixel`, whose covariance is `pixel_px2`, with
-// the disparity and its variance, independent of that: P = J S J' with S = diag(pixel_px2,
-// disparity_px2) and J of Triangulate. Nothing where the point is at or beyond infinity.
+// Returns the measurement of a point at `left_pixel`, whose covariance is `pixel_px2`, from its
+// disparity, whose variance is `disparity_px2`, both independent: covariance_m2 = J S J' with
+// S = diag(pixel_px2, disparity_px2) and J of Triangulate. Returns nothing where the point is at or
+// beyond infinity.
 std::optional<StereoMeasurement> MeasureStereo(const RectifiedPair& cameras,
                                                const Pixel& left_pixel,
                                                const Eigen::Matrix2d& pixel_px2,
@@ -55,15 +56,14 @@ struct PointSeenTwice {
 
 using PointsSeenTwice = std::vector<PointSeenTwice>;
 
-// What an aligned pair measures of a point: column, row and disparity, with their derivative.
-//
-//   column = H . d / A . d    row = V . d / A . d    disparity = H . b / A . d
-//
-// with d = p - C_left and b = C_right - C_left (cahv.h, Triangulate, whose inverse it is).
-
 // Column and row in the left image and disparity, px.
 using PairPixel = Eigen::Vector3d;
 
+// Predicts what an aligned pair measures of a point: the inverse of Triangulate.
+//
+//   column = H . d / A . d    row = V . d / A . d    disparity = H . b / A . d
+//
+// with d = p - C_left and b = C_right - C_left (cameras/cahv.h).
 class PairProjection {
  public:
   explicit PairProjection(const RectifiedPair& pair)
@@ -73,8 +73,8 @@ class PairProjection {
         V_(pair.left.V),
         depth_disparity_(pair.left.H.dot(pair.right.C - pair.left.C)) {}
 
-  // Nothing where p_A (m, in the cameras' outer frame) is not in front of them. Into `jacobian`,
-  // where there is one, the derivative by p_A, px/m.
+  // Returns nothing where p_A (m, in the cameras' outer frame) is not in front of the cameras.
+  // Writes the derivative by p_A, px/m, to `jacobian`, if given.
   std::optional<PairPixel> operator()(const math::Vector3& p_A,
                                       Eigen::Matrix3d* jacobian = nullptr) const {
     constexpr double kNearest_m = 1e-6;
@@ -90,7 +90,7 @@ class PairProjection {
     return pixel;
   }
 
-  // Of a point along the cameras' axis, m.
+  // Returns the depth of a point along the cameras' axis, m.
   double Depth(const math::Vector3& p_A) const { return A_.dot(p_A - C_); }
 
  private:

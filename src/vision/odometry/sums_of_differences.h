@@ -1,5 +1,6 @@
-// Sums of eight absolute differences of bytes. Compiled once for every instruction set, hence its
-// guard, in .cc files that have included Highway, which stays there.
+// Sums of eight absolute differences of bytes, for windows and bounds of their differences. Highway
+// compiles this file once for every instruction set, hence the guard. Only .cc files that have
+// included Highway include it.
 #if defined(ROCKYARD_VISION_SUMS_OF_DIFFERENCES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROCKYARD_VISION_SUMS_OF_DIFFERENCES_H
 #undef ROCKYARD_VISION_SUMS_OF_DIFFERENCES_H
@@ -12,8 +13,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 
-// Of each eight bytes of whole vectors, in a word of 64 bits. x86 has an instruction for it, which
-// this version of Highway does not know; other instruction sets come to the same sums below.
+// Returns the sum of each eight bytes of whole vectors in a word of 64 bits. x86 has an instruction
+// for it, which this version of Highway does not know; the form for other instruction sets must
+// give the same sums.
 template <class Bytes>
 HWY_INLINE auto SumsOf8Differences(Bytes a, Bytes b) {
   namespace hn = hwy::HWY_NAMESPACE;

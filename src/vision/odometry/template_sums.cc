@@ -1,4 +1,4 @@
-// Sums over a window of pixels between pixels, for every instruction set.
+// SumTemplate (window_samples.h), for every instruction set.
 #include <cstddef>
 #include <cstdint>
 
@@ -21,8 +21,8 @@ HWY_INLINE auto LaneGreys(const std::uint8_t* pixels) {
   return hn::ConvertTo(kLanes, hn::PromoteTo(kLaneInts, hn::LoadU(kLaneGreys, pixels)));
 }
 
-// Lanes from `first` on. Products and sums apart, never MulAdd: some instruction sets would round
-// once where others round twice.
+// Sums the lanes from `first` on. Must not use MulAdd: some instruction sets would round once where
+// others round twice.
 HWY_INLINE void SumLanes(const TemplateRows& rows, const TemplatePlace& place, std::size_t first,
                          TemplateSums& sums) {
   const auto w00 = hn::Set(kLanes, (1.0F - place.u) * (1.0F - place.v));
@@ -72,7 +72,8 @@ bool HasTemplate(const GrayImage& image, const Pixel& middle, std::size_t side) 
   const bool inside = middle.x() >= reach && middle.x() < image.width() - reach - 2 &&
                       middle.y() >= reach && middle.y() < image.height() - reach - 1;
   if (!inside) return false;
-  // The last row that is read may end in the next one, but not behind the last one.
+  // Lanes behind the side are read as well: from the next row, or, in the last row of the image,
+  // from columns that it must have.
   const int last_row = static_cast<int>(middle.y()) + reach + 1;
   const int last_column = static_cast<int>(middle.x()) - reach + static_cast<int>(kTemplateLanes);
   return last_row + 1 < image.height() || last_column < image.width();

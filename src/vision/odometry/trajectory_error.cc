@@ -17,7 +17,7 @@ const Transform& PoseAt(const Trajectory& path, std::int64_t index) {
   return path[static_cast<std::size_t>(index)];
 }
 
-// The motion from one pose of a path to another, told in the first body frame.
+// Returns the motion from one pose of a path to another, told in the body frame of the first.
 Transform Between(const Trajectory& path, std::int64_t first, std::int64_t last) {
   return PoseAt(path, first).inverse() * PoseAt(path, last);
 }
@@ -28,8 +28,8 @@ Vector3 MeanPosition(const Trajectory& path) {
   return sum / static_cast<double>(path.size());
 }
 
-// With the cross-covariance S = sum (t - mean t) (e - mean e)^T = U D V^T the best rotation is
-// U diag(1, 1, det(U) det(V)) V^T (Umeyama 1991, equations 40 to 43).
+// Returns Alignment::kRigid: with the cross-covariance S = sum (t - mean t) (e - mean e)^T =
+// U D V^T the best rotation is U diag(1, 1, det(U) det(V)) V^T (Umeyama 1991, equations 40 to 43).
 Transform RigidAlignment(const Trajectory& truth, const Trajectory& estimate) {
   const Vector3 mean_truth = MeanPosition(truth);
   const Vector3 mean_estimate = MeanPosition(estimate);
@@ -50,7 +50,8 @@ Transform RigidAlignment(const Trajectory& truth, const Trajectory& estimate) {
 }  // namespace
 
 double AngleOf(const Eigen::Matrix3d& rotation) {
-  // Exact near 0 and near pi, where the arc cosine of the trace loses half of the digits.
+  // AngleAxis is exact near 0 and near pi, where the arc cosine of the trace loses half of the
+  // digits.
   return Eigen::AngleAxisd(rotation).angle();
 }
 

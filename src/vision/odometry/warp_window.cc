@@ -1,4 +1,4 @@
-// Windows as another view has them (window.h).
+// WarpWindow (window.h), for every instruction set.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,12 +16,12 @@ HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most a window's row at once.
+// Vectors hold at most a window's row.
 constexpr hn::CappedTag<std::int32_t, kWindowStride> kPlaces;
 constexpr hn::Rebind<std::uint8_t, decltype(kPlaces)> kWarpedBytes;
 using Places = hn::Vec<decltype(kPlaces)>;
 
-// g (256 - t) + h t, where g and h are the two lowest bytes of each lane.
+// Returns g (256 - t) + h t, where g and h are the two lowest bytes of each lane.
 HWY_INLINE Places BetweenColumns(Places words, Places t) {
   const auto byte = hn::Set(kPlaces, 255);
   const auto left = hn::And(words, byte);
@@ -29,8 +29,9 @@ HWY_INLINE Places BetweenColumns(Places words, Places t) {
   return hn::Add(hn::ShiftLeft<8>(left), hn::Mul(hn::Sub(right, left), t));
 }
 
-// All places, and three pixels to their right, lie inside, as words of 4 bytes are read. `middle`
-// is the feature's pixel, rows are `stride` apart.
+// Warps a window whose places, and three pixels to their right, lie inside the image, as words of 4
+// bytes are read. `middle` is the feature's pixel, rows are `stride` apart. WarpAnywhere must give
+// the same bits.
 void WarpInside(const std::uint8_t* middle, std::int32_t stride, const Warp& warp, int side,
                 std::uint8_t* window) {
   const auto* const words = reinterpret_cast<const std::int32_t*>(middle);
@@ -82,7 +83,7 @@ std::int32_t Fixed(double value) {
       std::floor(std::clamp(value, -Warp::kMost, Warp::kMost) * Warp::kOne + 0.5));
 }
 
-// Whole pixels, relative to the feature, of the upper left of the four that are interpolated.
+// The range, relative to the feature, of the upper left pixels of the four that are interpolated.
 struct WarpedBox {
   int left, right, top, bottom;
 };
@@ -97,7 +98,8 @@ WarpedBox BoxOf(const Warp& warp, int reach) {
   return {whole(-x), whole(x), whole(-y), whole(y)};
 }
 
-// One place, whose pixels need not lie inside: to the same whole numbers as WarpInside.
+// Returns the grey level at one place, whose pixels need not lie inside, to the same whole number
+// as WarpInside.
 std::uint8_t GreyAt(const GrayImage& image, int x, int y) {
   const auto at = [&](int column, int row) {
     return static_cast<int>(

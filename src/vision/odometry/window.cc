@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kSide = 15;
 
-// 15 bytes as two words that overlap, since a 16th may lie behind the image; in `to` it is 0.
+// Copies 15 bytes as two words that overlap, since a 16th may lie behind the image, and writes 0 as
+// the 16th.
 void CopyFifteen(const std::uint8_t* from, std::uint8_t* to) {
   std::memcpy(to, from, 8);
   std::memcpy(to + 7, from + 7, 8);

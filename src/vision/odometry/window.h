@@ -1,4 +1,5 @@
-// Windows of images, laid out for comparison.
+// Windows of images, laid out for comparison by MatchFeatures. Sums of differences are the same on
+// every instruction set.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,12 +13,12 @@
 
 namespace rockyard::vision {
 
-// 16 rows of 16 bytes; what a window leaves free is 0 and adds nothing to a difference. Windows of
-// up to 15 x 15 pixels differ by 57375 at most, which 16 bits hold.
+// A window takes 16 rows of 16 bytes; bytes beyond its side are 0 and add nothing to a difference.
+// Windows of up to 15 x 15 pixels differ by 57375 at most, which 16 bits hold.
 inline constexpr std::size_t kWindowStride = 16;
 inline constexpr std::size_t kWindowBytes = kWindowStride * kWindowStride;
 
-// Of many windows, one behind the other; any bytes at first.
+// Memory for many windows, one behind the other; any bytes at first.
 class WindowSet {
  public:
   explicit WindowSet(std::size_t count)
@@ -32,36 +33,36 @@ class WindowSet {
   std::size_t count_;
 };
 
-// The window of `side` <= 15 pixels, odd, about a feature; it lies inside the image.
+// Writes the window of `side` <= 15 pixels, odd, about a feature; it lies inside the image.
 void CopyWindow(const GrayImage& image, const Feature& feature, int side, std::uint8_t* window);
 
-// The window that a change of view makes of it: its pixel at the offset o from the middle is
-// interpolated between four at the feature + by_offset o, in whole numbers. With B = by_offset in
-// 1/4096, rounded, and clamped to 64 px a pixel:
+// Writes the window about a feature as a change of view makes it: the pixel at the offset o from
+// the middle is interpolated between four pixels at the feature + by_offset o, in whole numbers.
+// With B = by_offset in 1/4096, rounded, and clamped to 64 px a pixel:
 //
 //   q = (B o + 8) >> 4,  place = q >> 8,  (u, v) = q & 255
 //   grey = ((256 - v) ((256 - u) g00 + u g10) + v ((256 - u) g01 + u g11) + 2^15) >> 16
 //
-// What lies outside of the image repeats its edge. Numbers of by_offset are finite. Cost: 0.2 us
-// with 64 bytes a vector, more at the edge of the image.
+// Outside of the image its edge repeats. Numbers of by_offset are finite. Cost: 0.2 us with 64
+// bytes a vector, more at the edge of the image.
 void WarpWindow(const GrayImage& image, const Feature& feature, const Eigen::Matrix2d& by_offset,
                 int side, std::uint8_t* window);
 
-// Sums of absolute differences of `window` to those of `others` from `first` on, to as many as
-// `differences` has.
+// Writes the sums of absolute differences between `window` and the windows of `others` from `first`
+// on, as many as `differences` has.
 void WindowDifferences(const std::uint8_t* window, const WindowSet& others, std::size_t first,
                        std::span<std::uint16_t> differences);
 
-// Sums of absolute differences of `window` to the `chosen` ones of `others`.
+// Writes the sums of absolute differences between `window` and the `chosen` windows of `others`.
 void ChosenDifferences(const std::uint8_t* window, const WindowSet& others,
                        std::span<const std::int32_t> chosen, std::span<std::uint16_t> differences);
 
-// The change of view of WarpWindow in whole numbers: how many 1/4096 px a place of the first image
-// moves with a column and a row of the window.
+// The B of WarpWindow: by how many 1/4096 px the place in the image moves with a column and a row
+// of the window.
 struct Warp {
   static constexpr double kOne = 4096.0;
   static constexpr double kMost = 64.0;  // pixels a pixel
-  // From there to 1/256 px, rounded.
+  // From 1/4096 to 1/256 px, rounded.
   static constexpr int kShift = 4;
   static constexpr std::int32_t kHalf = 1 << (kShift - 1);
 

@@ -1,4 +1,4 @@
-// Bounds of differences of windows, for every instruction set.
+// SignatureSet (best_matches.h), for every instruction set.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -17,13 +17,14 @@ HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most the words of a quarter of a group at once.
+// Vectors hold at most the words of a quarter of a group.
 constexpr hn::CappedTag<std::uint64_t, 8> kWords;
 constexpr hn::Repartition<std::uint8_t, decltype(kWords)> kMeans;
 constexpr hn::Repartition<std::uint16_t, decltype(kWords)> kBounds;
 using Words = hn::Vec<decltype(kWords)>;
 
-// Lane by lane, the sum of |m_a - m_b| of the windows whose first words begin at `words`.
+// Returns, lane by lane, the sum of |m_a - m_b| between `window` and the windows whose first words
+// begin at `words`.
 HWY_INLINE Words SignatureDifferences(const std::uint64_t* window, const std::uint64_t* words,
                                       std::size_t stride) {
   auto sum = hn::Zero(kWords);
@@ -35,7 +36,8 @@ HWY_INLINE Words SignatureDifferences(const std::uint64_t* window, const std::ui
   return sum;
 }
 
-// Of some groups. Four windows that follow each other share one lane, 16 bits each.
+// Writes the bounds of some groups. Four neighbouring windows share one lane, 16 bits each; PlaceOf
+// lays signatures out for that.
 void Bounds(const std::uint64_t* window, const std::uint64_t* words, std::size_t stride,
             std::size_t groups, std::uint16_t* bounds) {
   static_assert(std::endian::native == std::endian::little);
@@ -72,7 +74,8 @@ namespace {
 constexpr std::size_t kSide = 3;
 constexpr std::size_t kBlocks = 5;  // of a row, and rows of blocks
 
-// Where a group has the window: every fourth window lies in the next lane.
+// Returns the place of a window's words. Windows i, i + 4, ... of a group lie side by side, as
+// Bounds reads them.
 std::size_t PlaceOf(std::size_t window) {
   const std::size_t in_group = window % SignatureSet::kGroup;
   return window - in_group + in_group % 4 * (SignatureSet::kGroup / 4) + in_group / 4;
@@ -80,7 +83,7 @@ std::size_t PlaceOf(std::size_t window) {
 
 }  // namespace
 
-// Sums of three columns are at most 2295, for which x / 9 is (7282 x) >> 16.
+// Sums of a block of 3 x 3 pixels are at most 2295, up to which x / 9 is (7282 x) >> 16.
 WindowSignature SignatureOf(const std::uint8_t* window) {
   constexpr std::size_t kColumns = kBlocks * kSide;
   std::array<std::uint8_t, sizeof(WindowSignature)> means{};

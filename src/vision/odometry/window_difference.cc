@@ -1,4 +1,4 @@
-// Sums of absolute differences of windows, for every instruction set.
+// WindowDifferences and ChosenDifferences (window.h), for every instruction set.
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -17,12 +17,12 @@ HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most a window's bytes at once.
+// Vectors hold at most a window.
 constexpr hn::CappedTag<std::uint8_t, kWindowBytes> kBytes;
 constexpr hn::Repartition<std::uint64_t, decltype(kBytes)> kSums;
 using Sums = hn::Vec<decltype(kSums)>;
 
-// Sums of the differences of two windows that add up to all of them.
+// Returns partial sums of the differences of two windows, whose total is the sum.
 HWY_INLINE Sums PartialDifferences(const std::uint8_t* a, const std::uint8_t* b) {
   auto sum = SumsOf8Differences(hn::Load(kBytes, a), hn::Load(kBytes, b));
   for (std::size_t i = hn::Lanes(kBytes); i < kWindowBytes; i += hn::Lanes(kBytes)) {
@@ -31,7 +31,7 @@ HWY_INLINE Sums PartialDifferences(const std::uint8_t* a, const std::uint8_t* b)
   return sum;
 }
 
-// The sum of all lanes, by halves.
+// Returns the sum of all lanes, by halves.
 template <class D>
 HWY_INLINE std::uint64_t Total(D lanes, hn::Vec<D> sums) {
   if constexpr (hn::MaxLanes(lanes) == 1) {
@@ -42,8 +42,8 @@ HWY_INLINE std::uint64_t Total(D lanes, hn::Vec<D> sums) {
   }
 }
 
-// The differences of `window` to four others, which share one word of 64 bits a lane: what they add
-// up to takes 16 bits each.
+// Writes the differences of `window` to four others, which share one word of 64 bits a lane, as
+// each total takes 16 bits.
 HWY_INLINE void DifferencesOfFour(const std::uint8_t* window, const std::uint8_t* const* others,
                                   std::uint16_t* differences) {
   static_assert(std::endian::native == std::endian::little);

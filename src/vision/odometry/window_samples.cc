@@ -1,4 +1,4 @@
-// Windows between pixels, for every instruction set.
+// SampleWindow (window_samples.h), for every instruction set.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,19 +17,20 @@ HWY_BEFORE_NAMESPACE();
 namespace rockyard::vision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most a window's row at once.
+// Vectors hold at most a window's row.
 constexpr hn::CappedTag<float, kTemplateLanes> kFloats;
 constexpr hn::Rebind<std::int32_t, decltype(kFloats)> kInts;
 constexpr hn::Rebind<std::uint8_t, decltype(kFloats)> kGreys;
 using Floats = hn::Vec<decltype(kFloats)>;
 using Ints = hn::Vec<decltype(kInts)>;
 
-// Not MulAdd, which rounds once on some instruction sets and twice on others.
+// Interpolates. Must not use MulAdd, which rounds once on some instruction sets and twice on
+// others.
 HWY_INLINE Floats Between(Floats from, Floats to, Floats share) {
   return hn::Add(from, hn::Mul(share, hn::Sub(to, from)));
 }
 
-// Byte `which` of every lane.
+// Returns byte kWhich of every lane.
 template <int kWhich>
 HWY_INLINE Floats Byte(Ints words) {
   return hn::ConvertTo(kFloats, hn::And(hn::ShiftRight<8 * kWhich>(words), hn::Set(kInts, 255)));
@@ -39,7 +40,7 @@ HWY_INLINE Floats Greys(const std::uint8_t* pixels) {
   return hn::ConvertTo(kFloats, hn::PromoteTo(kInts, hn::LoadU(kGreys, pixels)));
 }
 
-// Without a change of view: `first` is the upper left pixel; 18 columns and rows are read.
+// Samples without a change of view: `first` is the upper left pixel; 18 columns and rows are read.
 void SampleShifted(const std::uint8_t* first, std::size_t stride, float u, float v, float* wide) {
   const auto across = hn::Set(kFloats, u);
   const auto down = hn::Set(kFloats, v);
@@ -57,8 +58,9 @@ void SampleShifted(const std::uint8_t* first, std::size_t stride, float u, float
   }
 }
 
-// All places, and three pixels to their right, lie inside. `middle` is the pixel that view.x and
-// view.y are counted from.
+// Samples with a change of view, where all places, and three pixels to their right, lie inside.
+// `middle` is the pixel that view.x and view.y are counted from. SampleAnywhere must give the same
+// bits.
 void SampleMapped(const std::uint8_t* middle, std::int32_t stride, const WindowView& view,
                   float* wide) {
   const auto* const words = reinterpret_cast<const std::int32_t*>(middle);
@@ -142,7 +144,8 @@ HWY_EXPORT(FindGradients);
 
 namespace {
 
-// Whether an image has all pixels from the first to the last place and so many more to the right.
+// Returns whether an image has all pixels from the first to the last place, `more` to the right of
+// it and one below.
 bool HasAll(const GrayImage& image, const Pixel& first, const Pixel& last, int more) {
   return first.minCoeff() >= 0.0 && last.x() + more < image.width() &&
          last.y() + 1 < image.height();
@@ -155,8 +158,8 @@ WindowView ViewOf(const Pixel& middle, const Pixel& pixel, const ViewChange& vie
           of(view.by_distance.x()),   of(view.by_distance.y())};
 }
 
-// A box that holds all places: by_offset o of the corners, and what they are divided by. Rounding
-// to 32 bits moves them by less than the margin.
+// Returns the half sides of a box that holds all places: by_offset o of the corners over the least
+// divisor. Rounding to 32 bits moves places by less than the margin.
 Pixel ReachOf(const ViewChange& view) {
   const Pixel corner(kWideReach, kWideReach);
   const double nearest = std::max(0.5, 1.0 - view.by_distance.cwiseAbs().dot(corner));
@@ -164,7 +167,7 @@ Pixel ReachOf(const ViewChange& view) {
   return view.by_offset.cwiseAbs() * corner / nearest + Pixel(kMargin_px, kMargin_px);
 }
 
-// Places that need not lie inside.
+// Samples places that need not lie inside, to the same bits as SampleMapped.
 void SampleAnywhere(const GrayImage& image, int column, int row, const WindowView& view,
                     float* wide) {
   const auto grey = [&](float x, float y) {

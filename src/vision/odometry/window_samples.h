@@ -1,5 +1,7 @@
-// What an image shows between its pixels over a window, its gradients there, and the sums of
-// refine_match.h over it, lane by lane.
+// Windows between pixels, for the searches of refine_match.h: what an image shows there
+// (SampleWindow), and sums of differences to another window (SumTemplate). Records depend on every
+// bit: both give the same on every instruction set, as they use numbers of 32 bits, no lane depends
+// on another, and nothing is fused.
 #pragma once
 
 #include <array>
@@ -12,11 +14,12 @@
 
 namespace rockyard::vision {
 
-// Windows have an odd side of up to 15 pixels: as many rows of 16 values, of which those behind the
-// side are not of the window.
+// Windows have an odd side of up to 15 pixels, and as many rows of 16 values each; values behind
+// the side do not belong to the window.
 inline constexpr std::size_t kTemplateRows = 15;
 inline constexpr std::size_t kTemplateLanes = 16;
 
+// The window that is searched for.
 struct TemplateRows {
   const float* values;  // less their mean
   const float* across;  // gradients, 0 behind the side
@@ -25,8 +28,8 @@ struct TemplateRows {
   std::size_t side;
 };
 
-// Where the window lies: its upper left pixel, and what is left of a pixel, 0 <= u, v < 1. 17
-// columns and side + 1 rows are read.
+// Where in the other image the window is compared: its upper left pixel, and the fractions of a
+// pixel 0 <= u, v < 1. 17 columns and side + 1 rows are read.
 struct TemplatePlace {
   const std::uint8_t* pixels;
   std::size_t stride;
@@ -34,8 +37,8 @@ struct TemplatePlace {
   float v;
 };
 
-// By lane, down the rows, d = what is seen there less the mean and the value. Behind the side d and
-// its squares say nothing.
+// Sums of each lane (column of the window) over its rows, with d = the grey level at the place less
+// mean and value of the TemplateRows. Behind the side d and its squares mean nothing.
 struct TemplateSums {
   std::array<float, kTemplateLanes> d{};
   std::array<float, kTemplateLanes> across_d{};
@@ -43,23 +46,23 @@ struct TemplateSums {
   std::array<float, kTemplateLanes> squares{};
 };
 
-// Whether an image has a window about `middle`, with two columns more to the right and a row below,
-// which are interpolated, and whatever SumTemplate reads behind a small one.
+// Returns whether SumTemplate may be called: the image has the window about `middle`, two columns
+// to its right and a row below, between which it interpolates, and what else it reads.
 bool HasTemplate(const GrayImage& image, const Pixel& middle, std::size_t side);
 
-// The same bits on every instruction set: no lane depends on another, and nothing is fused.
+// Fills `sums`. Requires HasTemplate.
 void SumTemplate(const TemplateRows& rows, const TemplatePlace& place, TemplateSums& sums);
 
-// Which gradients of a window are found: half the difference of its neighbours.
+// Which gradients SampleWindow finds. A gradient is half the difference of a pixel's neighbours.
 enum class WindowGradients {
   kBoth,
-  kAlongRow,  // in place of that down the rows the one along them times the row, from the middle
+  kAlongRow,  // `down` becomes the gradient along the row times the row, counted from the middle
 };
 
 // A window of up to 15 x 15 pixels and its gradients; rows and lanes behind its side are 0.
 struct WindowSamples {
   using Rows = std::array<float, kTemplateRows * kTemplateLanes>;
-  // Of every lane, down the rows.
+  // Sums of every lane over its rows.
   using Lanes = std::array<float, kTemplateLanes>;
 
   Rows values;
@@ -73,24 +76,22 @@ struct WindowSamples {
   Lanes down_down;
 };
 
-// Interpolates between four pixels at `middle` + by_offset o / (1 + by_distance . o) for the
-// offsets o of the window and of one pixel about it; what lies outside of the image repeats its
-// edge. The middle lies inside the image; 1 + by_distance . o >= 1/2 there, else it counts as 1/2.
-// The side is odd.
-// The same bits on every instruction set: numbers of 32 bits, no lane depends on another, and
-// nothing is fused. Cost: 0.5 us with 64 bytes a vector, 0.2 us where the view does not change,
-// more at the edge of the image.
+// Samples a window as another view has it: interpolates between four pixels at
+// `middle` + by_offset o / (1 + by_distance . o) for the offsets o of the window and of one pixel
+// about it. Outside of the image its edge repeats. `middle` lies inside the image;
+// 1 + by_distance . o counts as 1/2 where it is smaller. The side is odd. Cost: 0.5 us with 64
+// bytes a vector, 0.2 us where the view does not change, more at the edge of the image.
 WindowSamples SampleWindow(const GrayImage& image, const Pixel& middle, const ViewChange& view,
                            std::size_t side = kTemplateRows,
                            WindowGradients gradients = WindowGradients::kBoth);
 
-// Places of a window's pixels in another view, in numbers of 32 bits: the window and a pixel about
-// it, row by row.
+// A wide window is a window of 15 x 15 pixels with one pixel about it, row by row.
 inline constexpr int kWideReach = 8;
 inline constexpr std::size_t kWideSide = 2 * kWideReach + 1;
-// Whole vectors of up to 16 lanes: what comes behind the last pixel repeats the middle.
+// Whole vectors of up to 16 lanes; behind the last pixel they repeat the middle.
 inline constexpr std::size_t kWidePixels = (kWideSide * kWideSide + 15) / 16 * 16;
 
+// The offsets o of the pixels of a wide window.
 struct WideOffsets {
   std::array<float, kWidePixels> across{};
   std::array<float, kWidePixels> down{};
@@ -106,7 +107,8 @@ inline constexpr WideOffsets kWideOffsets = [] {
   return offsets;
 }();
 
-// ViewChange about a pixel: (x, y) + (by_column across + by_row down) / (1 + near).
+// A ViewChange about a pixel: the place of the offset (across, down) is (x, y) +
+// (by_column across + by_row down) / (1 + near_by_column across + near_by_row down).
 struct WindowView {
   float x;
   float y;

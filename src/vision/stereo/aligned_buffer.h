@@ -1,6 +1,7 @@
-// Memory that begins at a cache line, zero at first unless asked otherwise, with a cache line to
-// spare at both ends: loops may load vectors that begin one value before the first (gradients,
-// neighbouring segments of a row) or end behind the last.
+// Memory for the loops in vectors of this folder and of visual odometry. It begins at a cache line,
+// is zero at first unless asked otherwise, and has a cache line to spare at both ends: loops may
+// load vectors that begin one value before the first (gradients, neighbouring segments of a row) or
+// end behind the last.
 #pragma once
 
 #include <algorithm>
@@ -42,11 +43,11 @@ class AlignedBuffer {
   std::size_t size_ = 0;
 };
 
-// Most lanes of Value that any vector has.
+// No vector of an instruction set in use has more lanes of Value.
 template <typename Value>
 constexpr std::size_t kMostLanes = 128 / sizeof(Value);
 
-// So many values and those that fill up the last vector, whatever its length.
+// Returns `count` rounded up to whole vectors, whatever their length.
 template <typename Value>
 constexpr std::size_t WholeVectors(std::size_t count) {
   return (count + kMostLanes<Value> - 1) / kMostLanes<Value> * kMostLanes<Value>;

@@ -12,12 +12,12 @@
 namespace rockyard::vision {
 namespace {
 
-// Connected pixels of one row, [begin, end).
+// Linked pixels of one row, [begin, end).
 struct Run {
   std::int32_t begin;
   std::int32_t end;
-  std::int32_t parent;  // a run of the same region, itself at the root
-  std::int32_t pixels;  // of the region, at the root
+  std::int32_t parent;  // a run of the same region; the root is its own parent
+  std::int32_t pixels;  // of the whole region, at the root
 };
 
 // Runs of the rows seen so far, joined to regions.
@@ -45,7 +45,7 @@ class Regions {
   std::int32_t Pixels(std::size_t run) { return runs_[Root(run)].pixels; }
 
  private:
-  // Halves the path on its way.
+  // Returns the root of a run, and halves the path to it.
   std::size_t Root(std::size_t run) {
     while (static_cast<std::size_t>(runs_[run].parent) != run) {
       runs_[run].parent = runs_[static_cast<std::size_t>(runs_[run].parent)].parent;
@@ -64,7 +64,7 @@ void ForEachBit(std::uint64_t bits, std::size_t word, const Action& action) {
   }
 }
 
-// The runs of one row, and which of them a pixel is in.
+// The runs of one row, and in which run a pixel is.
 class RowRuns {
  public:
   explicit RowRuns(std::size_t width)
@@ -87,7 +87,7 @@ class RowRuns {
     }
   }
 
-  // The run that valid pixel x is in: the last one that begins at x or before.
+  // Returns the run of pixel x, which is valid: the last run that begins at x or before.
   std::size_t RunAt(std::size_t x) const {
     const std::uint64_t upto = ~std::uint64_t{0} >> (63 - x % 64);
     return before_[x / 64] + static_cast<std::size_t>(std::popcount(starts_[x / 64] & upto)) - 1;
@@ -100,7 +100,7 @@ class RowRuns {
   std::vector<std::size_t> before_;  // runs of all rows that begin before the word
 };
 
-// Joins the runs of two rows. A link beside another one between the same two runs says nothing new.
+// Joins the runs of two rows. Of neighbouring links between the same two runs the first is enough.
 void JoinRows(const RowRuns& row, const RowRuns& above, Regions& regions) {
   std::uint64_t last_link = 0;
   for (std::size_t word = 0; word < row.links.valid.size(); ++word) {

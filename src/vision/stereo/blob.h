@@ -1,8 +1,9 @@
-// The blob filter (Goldberg 2002 section 2 stage 6): small isolated regions are thrown out.
+// The blob filter (Goldberg 2002 section 2 stage 6), the last stage of MatchStereo: small isolated
+// regions are dropped.
 //
-// Two pixels side by side or one above the other are of one region where both have a disparity and
-// the two differ by no more than a parameter; a region is all that hangs together that way. Those
-// of fewer pixels than a parameter are dropped.
+// Two pixels side by side or one above the other are linked where both have a disparity and the
+// disparities differ by blob_max_step_px or less. A region is a set of pixels that hang together by
+// links; regions of fewer than blob_min_px pixels are dropped.
 #pragma once
 
 #include "vision/stereo/disparity.h"
@@ -10,8 +11,7 @@
 
 namespace rockyard::vision {
 
-// Drops small regions of `disparities`. The cost is that of a few looks at each pixel and of
-// joining runs of connected pixels of a row, in memory 16 bytes a run.
+// Drops small regions of `disparities`. Memory: 16 bytes for each run of linked pixels of a row.
 void FilterBlobs(const StereoFilterParams& filters, DisparityImage& disparities);
 
 }  // namespace rockyard::vision

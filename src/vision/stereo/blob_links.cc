@@ -16,9 +16,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::ScalableTag<std::int16_t> kDisparities;
 
-// A row and the row above, as PaddedRow; bits as in RowLinks. The larger of both differences, which
-// saturate, is the absolute one; what is invalid is far from all that is not, but not from its
-// like.
+// Fills the bits of RowLinks from a row and the row above, both as PaddedRow lays them out. The
+// absolute difference is the larger of the two saturated ones. Both pixels must be valid, as
+// invalid ones differ by little from each other.
 void FindLinks(const std::int16_t* row, const std::int16_t* above, std::size_t width,
                std::int16_t max_step, std::uint8_t* valid_bits, std::uint8_t* left_bits,
                std::uint8_t* above_bits) {

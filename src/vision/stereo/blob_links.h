@@ -1,4 +1,5 @@
-// Which neighbours in an image of disparities hang together, 64 pixels a word.
+// Which neighbours in an image of disparities are linked (blob.h), for FilterBlobs, 64 pixels a
+// word.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +19,8 @@ struct RowLinks {
   std::vector<std::uint64_t> to_above;  // of one region with pixel x of the row above
 };
 
-// A row with what the vectors need around it: an invalid pixel before it, and behind it invalid
-// ones up to a multiple of 64.
+// A row as FindLinks loads it: with an invalid pixel before it and at least one behind it, up to a
+// multiple of 64.
 struct PaddedRow {
   explicit PaddedRow(std::size_t width);
   void Assign(std::span<const std::int16_t> row);
@@ -28,8 +29,8 @@ struct PaddedRow {
   std::vector<std::int16_t> values;
 };
 
-// Fills the links of a row of `width` pixels. Pixels hang together where both have a disparity and
-// they differ by max_step (in 1/32 px) or less.
+// Fills the links of a row of `width` pixels. Pixels are linked where both have a disparity and the
+// disparities differ by max_step (in 1/32 px) or less.
 void FindLinks(const PaddedRow& row, const PaddedRow& above, std::size_t width,
                std::int16_t max_step, RowLinks& links);
 

@@ -34,7 +34,7 @@ void CorrelateRows(const GrayImage& left, const GrayImage& right,
   const int slots = state.slots();
   for (int y = first - layout.before; first < end && y < end + layout.after; ++y) {
     LoadRow(left.Row(y), right.Row(y), y % slots, state);
-    // What was never there does not go: zeros do, until the window is full.
+    // Until the window is full no row leaves it, and the slot of zeros is taken off.
     const int oldest = y - slots + 1;
     const int out_slot = oldest < first - layout.before ? state.zero_slot() : oldest % slots;
     const int centre = y - layout.after;

@@ -1,4 +1,5 @@
-// Pixels into lanes, the best of right pixels out of them, and what the filters make of a row.
+// The rows of CorrelateRows (correlator.h): lays pixels into lanes, brings together the best of
+// right pixels, and applies the filters to a row.
 #include <algorithm>
 #include <cstddef>
 
@@ -23,7 +24,7 @@ constexpr hn::RebindToSigned<decltype(kQuads)> kQuadInts;
 using Pixels = hn::Vec<decltype(kPixels)>;
 using Ints = hn::Vec<decltype(kInts)>;
 
-// Vectors j < 0 and j >= segment, for the pixels of the neighbouring lane; `row` is vector 0.
+// Fills vectors j < 0 and j >= segment with the pixels of the neighbouring lane; `row` is vector 0.
 void ExtendRow(const LaneLayout& layout, std::uint16_t* row) {
   const std::ptrdiff_t lanes = layout.lanes;
   const std::ptrdiff_t segment = lanes * layout.segment;
@@ -36,7 +37,7 @@ void ExtendRow(const LaneLayout& layout, std::uint16_t* row) {
 }
 
 // Lays a row of pixels into the lanes: pixel i * segment + j, times four, into lane i of vector j.
-// Four pixels of a segment are a word of 32 bits, of even and of odd lanes apart.
+// Loads four pixels of a segment as a word of 32 bits, first for even lanes, then for odd ones.
 void ToLanes(const std::uint8_t* pixels, const LaneLayout& layout, std::uint16_t* row) {
   const auto* const words = reinterpret_cast<const std::int32_t*>(pixels);
   const auto even = hn::Mul(hn::Iota(kInts, 0), hn::Set(kInts, layout.segment / 2));
@@ -59,8 +60,8 @@ void ToLanes(const std::uint8_t* pixels, const LaneLayout& layout, std::uint16_t
   }
 }
 
-// The reverse of ToLanes: four vectors hold four pixels of each segment, a word of 64 bits, for
-// each of the four lanes of a quad.
+// Does the reverse of ToLanes: takes four vectors, which hold four neighbouring values of each
+// segment, and stores those of each segment as a word of 64 bits.
 void FromLanes(const std::int16_t* lanes_of_row, const LaneLayout& layout, std::int16_t* row) {
   auto* const words = reinterpret_cast<std::int64_t*>(row);
   const std::ptrdiff_t lanes = layout.lanes;
@@ -91,7 +92,7 @@ void FromLanes(const std::int16_t* lanes_of_row, const LaneLayout& layout, std::
   }
 }
 
-// The best of right pixels, key and group, `at` vector j; the arrays begin at j = 0.
+// The best of right pixels, key and group, at one vector.
 struct RightBest {
   Pixels key;
   Pixels group;
@@ -102,9 +103,9 @@ HWY_INLINE RightBest LoadBest(const std::uint16_t* keys, const std::uint16_t* gr
   return {hn::LoadU(kPixels, keys + at), hn::LoadU(kPixels, groups + at)};
 }
 
-// What pixels found outside of their own segment, from the farthest vector inwards. Vectors before
-// the segment hold larger disparities than where they go, and lose ties; those behind it smaller
-// ones, and win ties.
+// Merges what pixels found outside of their own segment into it, from the farthest vector inwards.
+// Must stay, for the smallest disparity of equal scores: vectors before the segment, which hold
+// larger disparities, lose ties; vectors behind it, which hold smaller ones, win ties.
 void MergeBest(const LaneLayout& layout, std::uint16_t* keys, std::uint16_t* groups) {
   const std::ptrdiff_t lanes = layout.lanes;
   const std::ptrdiff_t segment = lanes * layout.segment;
@@ -136,7 +137,7 @@ void MergeBest(const LaneLayout& layout, std::uint16_t* keys, std::uint16_t* gro
   }
 }
 
-// Disparity, counted from the smallest one, that a key and its group stand for.
+// Returns the disparity that a key and its group stand for, less the smallest of the range.
 HWY_INLINE Pixels DisparityIndex(Pixels key, Pixels group) {
   return hn::Add(hn::ShiftLeft<kKeyShift>(group), hn::And(key, hn::Set(kPixels, kGroup - 1)));
 }
@@ -156,7 +157,7 @@ void GatherRightBest(CorrelatorState& state) {
   ExtendRow(layout, index);
 }
 
-// One of the two lanes of each pair, as a number.
+// Return one of the two lanes of each pair, as a number of 32 bits.
 struct EvenLanes {
   Ints operator()(Ints pairs) const { return hn::And(pairs, hn::Set(kInts, 0xFFFF)); }
 };
@@ -178,9 +179,10 @@ HWY_INLINE Ints Replace(hn::Mask<decltype(kInts)> dropped, Drop reason, Ints val
   return hn::IfThenElse(dropped, hn::Set(kInts, Dropped(reason)), value);
 }
 
-// floor((32 (below - above) + 33 m) / (2 m)) - 16. Numerator and denominator are whole numbers
-// below 2^24, exact as floats, and their ratio is below 64; where it is no whole number it stays 1
-// / 65532 or more away from the next, twice the spacing of floats there: rounding cannot reach it.
+// Returns floor((32 (below - above) + 33 m) / (2 m)) - 16 as SubPixel (correlator.h) does, to the
+// bit. Numerator and denominator are whole numbers below 2^24, exact as floats, and their ratio is
+// below 64. A ratio that is not whole is 1 / 65532 or more below the next whole number, which is
+// twice the spacing of floats there, so that rounding cannot reach that number.
 HWY_INLINE Ints SubPixelOf(Ints below, Ints above, Ints steepness) {
   const auto numerator = hn::Add(hn::Mul(hn::Sub(below, above), hn::Set(kInts, kDisparityOne)),
                                  hn::Mul(steepness, hn::Set(kInts, kDisparityOne + 1)));
@@ -190,7 +192,8 @@ HWY_INLINE Ints SubPixelOf(Ints below, Ints above, Ints steepness) {
   return hn::Sub(hn::ConvertTo(kInts, ratio), hn::Set(kInts, kDisparityOne / 2));
 }
 
-// `x` is the right pixel at the smallest disparity.
+// Returns the disparity or the drop of one half of the lanes, the even or the odd ones. `x` is the
+// right pixel at the smallest disparity.
 template <typename Half>
 HWY_INLINE Ints Decide(Ints keys, Ints indices, Ints x, const PairTables& tables,
                        const LaneLayout& layout, const PeakLimits& limits) {
@@ -220,7 +223,7 @@ HWY_INLINE Ints Decide(Ints keys, Ints indices, Ints x, const PairTables& tables
       hn::Lt(hn::ShiftLeft<8>(curvature), hn::Mul(best, hn::Set(kInts, limits.ratio_256)));
   const auto peak = hn::AndNot(hn::Lt(curvature, hn::Set(kInts, limits.curvature)),
                                hn::Gt(hn::Min(below, above), best));
-  // The match, at which the window is inside, is the first or last candidate.
+  // range_end: the match is the first or last candidate of the pixel.
   const auto right = hn::Sub(x, index);
   const auto first = hn::Or(hn::Eq(index, hn::Zero(kInts)),
                             hn::Eq(right, hn::Set(kInts, layout.width - 1 - layout.after)));
@@ -229,7 +232,7 @@ HWY_INLINE Ints Decide(Ints keys, Ints indices, Ints x, const PairTables& tables
   const auto range_end = hn::Or(first, last);
   const auto line_of_sight =
       hn::Gt(hn::Abs(hn::Sub(back, index)), hn::Set(kInts, limits.line_of_sight));
-  // The first filter that a pixel fails names the drop: it is put last.
+  // The first filter that a pixel fails must name the drop, and so is written last.
   value = Replace(contrast, Drop::kContrast, value);
   value = Replace(hn::Not(peak), Drop::kPeak, value);
   value = Replace(range_end, Drop::kRangeEnd, value);
@@ -264,7 +267,7 @@ void DecideRow(const PeakLimits& limits, CorrelatorState& state) {
   FromLanes(state.result.data(), layout, state.row.data());
 }
 
-// Lays a row of the right image with the pixels that disparities reach.
+// Lays a row of the right image into lanes, as far as disparities reach.
 void ToWideLanes(const std::uint8_t* pixels, const LaneLayout& layout, std::uint16_t* row) {
   ToLanes(pixels, layout, row);
   ExtendRow(layout, row);

@@ -1,4 +1,5 @@
-// Sums of absolute differences by sliding sums, and the best of left and right in one pass.
+// The scores of CorrelateRows (correlator.h): sums of absolute differences by sliding sums, and the
+// best match of left and right pixels in one pass.
 #include <algorithm>
 #include <cstddef>
 
@@ -21,13 +22,13 @@ const char* TargetName() { return hwy::TargetName(HWY_TARGET); }
 
 int Lanes() { return static_cast<int>(hn::Lanes(kWords)); }
 
-// |left - right| of two vectors of pixels.
+// Returns |left - right| of two vectors of pixels.
 HWY_INLINE Words AbsoluteDifference(Words left, const std::uint16_t* right) {
   const auto difference = hn::Sub(left, hn::Load(kWords, right));
   return hn::BitCast(kWords, hn::Abs(hn::BitCast(kSignedWords, difference)));
 }
 
-// The rows that come and go, at vector j = 0.
+// The rows that enter and leave the window, at vector j = 0.
 struct RowPair {
   const std::uint16_t* left_in;
   const std::uint16_t* left_out;
@@ -41,8 +42,8 @@ RowPair RowsOf(int slot_in, int slot_out, CorrelatorState& state) {
           state.Right(slot_out) + zero};
 }
 
-// What the window sums of a group gain and lose in each column:
-// E(x, d) = |l - r| of the row that comes - |l - r| of the row that goes.
+// Writes how the sums of each column of the window change, for the disparities of a group:
+// E(x, d) = |l - r| of the row that enters - |l - r| of the row that leaves.
 void FindChanges(const RowPair& rows, int group, CorrelatorState& state) {
   const std::ptrdiff_t lanes = Lanes();
   const std::ptrdiff_t d = lanes * (state.layout.min_disparity + kGroup * group);
@@ -60,7 +61,7 @@ void FindChanges(const RowPair& rows, int group, CorrelatorState& state) {
   }
 }
 
-// Columns before and after the segment, from the neighbouring lane.
+// Fills the columns before and after the segment from the neighbouring lane.
 void FillHalo(const LaneLayout& layout, std::uint16_t* changes) {
   const std::ptrdiff_t lanes = Lanes();
   const std::ptrdiff_t segment = lanes * layout.segment;
@@ -72,8 +73,8 @@ void FillHalo(const LaneLayout& layout, std::uint16_t* changes) {
   }
 }
 
-// Takes `key` of `group` into the best so far where its score is smaller: of equal scores the
-// smaller disparity stays, which came earlier.
+// Takes `key` of `group` into the best so far where its score is smaller. Must stay: of equal
+// scores the smaller disparity, which came earlier, is kept.
 HWY_INLINE void Improve(Words key, Words group, std::uint16_t* best_key,
                         std::uint16_t* best_group) {
   const auto old = hn::Load(kWords, best_key);
@@ -111,7 +112,7 @@ GroupArrays ArraysOf(int group, CorrelatorState& state) {
           state.right_group.data() + right};
 }
 
-// The window's change at the first pixel but for its last column.
+// Returns the window's change at the first pixel, without its last column.
 HWY_INLINE Words FirstChange(const GroupArrays& arrays, const LaneLayout& layout,
                              std::ptrdiff_t k) {
   auto change = hn::Zero(kWords);
@@ -122,8 +123,8 @@ HWY_INLINE Words FirstChange(const GroupArrays& arrays, const LaneLayout& layout
   return change;
 }
 
-// Scores of one disparity along the row, sliding in both directions: the window's change slides
-// along the row, G(x + 1) = G(x) + E(x + after + 1) - E(x - before), and the score down the image,
+// The scores of one disparity along the row. The window's change slides along the row,
+// G(x + 1) = G(x) + E(x + after + 1) - E(x - before), and the score down the image,
 // S(x, y + 1) = S(x, y) + G(x).
 struct SlidingScore {
   HWY_INLINE Words At(std::ptrdiff_t j) {
@@ -147,7 +148,7 @@ HWY_INLINE SlidingScore ScoreOf(const GroupArrays& arrays, const LaneLayout& lay
           changes - Lanes() * layout.before, arrays.scores + k * arrays.score_stride};
 }
 
-// The scores of a group, and nothing else.
+// Updates the scores of a group without looking for the best.
 void SlideGroup(const LaneLayout& layout, const GroupArrays& arrays) {
   for (std::ptrdiff_t k = 0; k < kGroup; ++k) {
     SlidingScore score = ScoreOf(arrays, layout, k);
@@ -155,9 +156,10 @@ void SlideGroup(const LaneLayout& layout, const GroupArrays& arrays) {
   }
 }
 
-// The scores of a group, and the best of left and right. The left pixel of vector j compares its
-// own four; the right one of vector j - d gets them one after the other, at j, j + 1, j + 2 and j +
-// 3, so that its partial minima wait in registers. Disparities from the kInRange-th on are masked.
+// Updates the scores of a group and the best of left and right pixels. A left pixel of vector j has
+// its four keys at j. A right pixel of vector j - d gets its four keys at j, j + 1, j + 2 and
+// j + 3, so that its partial minima wait in registers. Disparities from the kInRange-th on are
+// masked.
 template <std::ptrdiff_t kInRange>
 void ScoreGroup(const LaneLayout& layout, int group, const GroupArrays& arrays) {
   const std::ptrdiff_t lanes = Lanes();
@@ -189,7 +191,7 @@ void ScoreGroup(const LaneLayout& layout, int group, const GroupArrays& arrays) 
   }
 }
 
-// As many disparities of the group as are in the range.
+// Scores the disparities of the group that are in the range, `in_range` or all four.
 void ScoreGroup(int in_range, const LaneLayout& layout, int group, const GroupArrays& arrays) {
   switch (in_range) {
     case 1:

@@ -9,7 +9,8 @@
 namespace rockyard::vision {
 namespace {
 
-// Pixels outside in the rectangle above and to the left of (x, y), which is not part of it.
+// Returns, for each (x, y), how many pixels are 0 in the rectangle of columns below x and rows
+// below y.
 Image<std::int32_t> SumOutside(const Image<std::uint8_t>& inside) {
   Image<std::int32_t> sums(inside.width() + 1, inside.height() + 1);
   for (int y = 0; y < inside.height(); ++y) {
@@ -27,7 +28,8 @@ class Windows {
   Windows(const Image<std::uint8_t>& inside, int side_px)
       : sums_(SumOutside(inside)), before_px_(side_px / 2), behind_px_(side_px - side_px / 2) {}
 
-  // Of the window at (x, y), the part within the image.
+  // Returns whether the window at (x, y) has a pixel that is 0. Its part beyond the image counts
+  // as inside.
   bool HasOutside(int x, int y) const {
     const auto end = [](int value, int size) { return std::clamp(value, 0, size - 1); };
     const int left = end(x - before_px_, sums_.width());

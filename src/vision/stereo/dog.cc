@@ -21,8 +21,8 @@ constexpr hn::RebindToSigned<decltype(kWideSums)> kProducts;
 constexpr hn::RebindToSigned<decltype(kSums)> kValues;
 constexpr hn::Rebind<std::uint8_t, decltype(kSums)> kBytes;
 
-// Sums over the columns of a square: the row that comes is added, the one that goes is taken off.
-// The arrays have room for whole vectors behind `width`.
+// Slides the sums over a square's columns down by a row: adds the row `in`, takes off the row
+// `out`. The arrays have room for whole vectors behind `width`.
 void SlideSums(const std::uint8_t* in, const std::uint8_t* out, std::size_t width,
                std::uint16_t* sums) {
   const std::size_t lanes = hn::Lanes(kSums);
@@ -35,7 +35,8 @@ void SlideSums(const std::uint8_t* in, const std::uint8_t* out, std::size_t widt
   for (; x < width; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + in[x] - out[x]);
 }
 
-// Sums of three rows that count 1, 2 and 1. `sums` has room for whole vectors behind `width`.
+// Writes the sums of three rows that count 1, 2 and 1. `sums` has room for whole vectors behind
+// `width`.
 void WeighColumns(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                   std::size_t width, std::uint16_t* sums) {
   const std::size_t lanes = hn::Lanes(kSums);
@@ -49,14 +50,14 @@ void WeighColumns(const std::uint8_t* above, const std::uint8_t* here, const std
   for (; x < width; ++x) sums[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
 }
 
-// Sum of `side` neighbours from `sums` on.
+// Returns the sum of `side` neighbours from `sums` on.
 HWY_INLINE hn::Vec<decltype(kSums)> RowSum(const std::uint16_t* sums, int side) {
   auto sum = hn::LoadU(kSums, sums);
   for (int i = 1; i < side; ++i) sum = hn::Add(sum, hn::LoadU(kSums, sums + i));
   return sum;
 }
 
-// (s a - w b + 2^19) >> 20 of half a vector.
+// Returns (s a - w b + 2^19) >> 20 of half a vector.
 HWY_INLINE hn::Vec<decltype(kProducts)> Weigh(hn::Vec<decltype(kWideSums)> first,
                                               hn::Vec<decltype(kWideSums)> second,
                                               const DogWeights& weights) {
@@ -67,8 +68,9 @@ HWY_INLINE hn::Vec<decltype(kProducts)> Weigh(hn::Vec<decltype(kWideSums)> first
   return hn::ShiftRight<kDogShift>(hn::Add(difference, hn::Set(kProducts, 1 << (kDogShift - 1))));
 }
 
-// A row of values from the column sums: of the pixel at x from `side` columns from x on of each
-// array. Both arrays and `row` have room for whole vectors.
+// Writes a row of values. The pixel at x comes from `first_side` columns of `first` and
+// `second_side` columns of `second`, both from x on. Both arrays and `row` have room for whole
+// vectors.
 void WeighRow(const std::uint16_t* first, int first_side, const std::uint16_t* second,
               int second_side, const DogWeights& weights, int limit, std::size_t width,
               std::uint8_t* row) {
@@ -101,10 +103,11 @@ HWY_EXPORT(WeighRow);
 
 namespace {
 
-// Column sums of one square along a row, with the columns of its edge repeated on either side.
+// Column sums of one square along a row of an image, with its outermost columns repeated on either
+// side.
 class ColumnSums {
  public:
-  // Sums around row y - 1 of an image, so that Slide(y) gives those around y.
+  // Makes the sums around row y - 1 of an image, so that Slide(y) gives those around y.
   ColumnSums(const GrayImage& image, int side, int y)
       : image_(&image),
         half_(side / 2),
@@ -137,7 +140,8 @@ class ColumnSums {
   AlignedBuffer<std::uint8_t> nothing_;
 };
 
-// Column sums of a row gradient along a row, with the columns of its edge repeated on either side.
+// Column sums of a row gradient along a row of an image, with its outermost columns repeated on
+// either side.
 class BinomialSums {
  public:
   explicit BinomialSums(const GrayImage& image)
@@ -154,7 +158,7 @@ class BinomialSums {
     inside[width] = inside[width - 1];
   }
 
-  // The sums of the columns before pixel 0 and on, and behind it and on.
+  // The sums of the columns from the one before pixel 0 on, and from the one behind pixel 0 on.
   const std::uint16_t* left() const { return sums_.data(); }
   const std::uint16_t* right() const { return sums_.data() + 2; }
 
@@ -163,7 +167,7 @@ class BinomialSums {
   AlignedBuffer<std::uint16_t> sums_;
 };
 
-// Rows of either kind: as many columns of `first` and `second` as WeighRow asks for.
+// Writes rows of the filtered image, for both kinds of filters.
 class RowWriter {
  public:
   RowWriter(const DogParams& params, GrayImage& out)

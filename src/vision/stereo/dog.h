@@ -1,22 +1,23 @@
 // Difference of Gaussians (Goldberg 2002 section 2 stage 3), so that neither the brightness of an
-// image nor its slow change matters to what is compared.
+// image nor its slow change matters to what the correlator compares. Row matches and the command's
+// search for texture filter by it, too.
 //
-// Each Gaussian is a mean over few pixels; pixels outside of the image are those of its edge.
+// Each Gaussian is a mean over few pixels; outside of the image the pixels of its edge repeat.
 //   laplacian     means over a square of side n and over one of side m around the pixel, by sliding
 //                 sums as in section 3, s and w:    difference = s / n^2 - w / m^2
-//   row_gradient  means over the columns to the right and to the left, of three pixels that count
-//                 1, 2 and 1, s and w:              difference = (s - w) / 4
+//   row_gradient  means of three pixels that count 1, 2 and 1, down the column to the right and the
+//                 one to the left, s and w:         difference = (s - w) / 4
 //   value = clamp(round(gain difference), -limit, limit) + limit,
 // an image of 8 bits with the offset `limit`. In whole numbers, halves rounded upwards:
 //   round(...) = (s a - w b + 2^19) >> 20,  a = q m^2, b = q n^2, q = round(2^20 gain / (n m)^2),
-// or a = b = round(2^20 gain / 4); it is 0 exactly where the image is flat, whatever a and b were
-// rounded to.
+// or a = b = round(2^20 gain / 4) for the row gradient. The difference is exactly 0 where the image
+// is flat, however a and b are rounded.
 //
-// What lies along the row alone tells disparities; beside a depth edge a Laplacian carries the step
-// of brightness, which is the nearer surface's, as far as its wide square reaches. The row gradient
-// reaches one pixel. A gain above 1 with a low limit lets its sign speak, as Nishihara 1984
-// ("Practical real-time imaging stereo matcher") matches the sign of a Laplacian: strong edges then
-// count no more than fine texture.
+// Only changes along the row tell disparities. Beside a depth edge a Laplacian carries the step of
+// brightness, which belongs to the nearer surface, as far as its wide square reaches; the row
+// gradient reaches one pixel. A gain above 1 with a low limit makes the sign of the difference
+// count, as Nishihara 1984 ("Practical real-time imaging stereo matcher") matches the sign of a
+// Laplacian: strong edges then count no more than fine texture.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +27,13 @@
 
 namespace rockyard::vision {
 
-// Within the bounds of DogParams sums of a square, up to 255 * 15^2, fit 16 bits, and products,
-// some 255 * 4 * 2^20 at most, fit 32.
+// Must fit the bounds in DogParams::Visit: sums of a square, up to 255 * 15^2, fit 16 bits, and
+// products, some 255 * 4 * 2^20 at most, fit 32.
 constexpr int kDogShift = 20;
 
-// Goldberg 2002's Laplacian, with the sides and the limit that were chosen for it on synthetic
-// pairs: a step a grey level, and rows as well as columns. Row matches and the search for texture
-// of `rockyard stereo` take it, whatever filter a pair is matched with.
+// The Laplacian of Goldberg 2002, with the sides and the limit that were chosen on synthetic pairs:
+// one step a grey level, by changes across rows as well as along them. Row matches and the search
+// for texture of `rockyard stereo` take it, whatever filter a pair is matched with.
 inline constexpr DogParams kLaplacianDog{
     .kind = DogKind::kLaplacian, .narrow_side_px = 1, .wide_side_px = 11, .gain = 1.0, .limit = 36};
 
@@ -44,8 +45,8 @@ struct DogWeights {
 
 DogWeights MakeDogWeights(const DogParams& params);
 
-// Writes rows first_row ... end_row - 1 of the filtered image; bands of rows may be written at the
-// same time. `out` is of the image's size, and another image.
+// Writes rows first_row ... end_row - 1 of the filtered image; threads may write bands of rows at
+// the same time. `out` has the size of `image` and is not `image`.
 void DifferenceOfGaussiansRows(const GrayImage& image, const DogParams& params, int first_row,
                                int end_row, GrayImage& out);
 

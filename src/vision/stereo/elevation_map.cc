@@ -14,10 +14,10 @@
 namespace rockyard::vision {
 namespace {
 
-// Stray points, of wrong matches, must not make the grid endless.
+// The share of points left out at either end, so that wrong matches do not make the grid endless.
 constexpr double kLeftOut = 0.01;
 
-// The range that the middle of the coordinates along an axis takes.
+// Returns the range of the coordinates along an axis, without the outermost at either end.
 std::pair<double, double> MiddleRange(std::span<const Eigen::Vector3d> points,
                                       const Eigen::Vector3d& axis) {
   std::vector<double> along;
@@ -32,7 +32,7 @@ std::pair<double, double> MiddleRange(std::span<const Eigen::Vector3d> points,
   return {least, *high};
 }
 
-// The whole multiple of `cell` at or below.
+// Returns the largest multiple of `cell` up to `value`.
 double Down(double value, double cell) { return std::floor(value / cell) * cell; }
 
 int CellsOver(double from, double to, double cell) {
@@ -52,7 +52,7 @@ ElevationGrid GridOver(std::span<const Eigen::Vector3d> points, const Eigen::Vec
   if (points.empty()) return grid;
   const auto [left_m, right_m] = MiddleRange(points, grid.right);
   const auto [near_m, far_m] = MiddleRange(points, grid.away);
-  // One cell less than may be, as the first one begins at a multiple of its size.
+  // One cell less than allowed, as the first cell begins at a multiple of its size.
   const double longest_m = std::max(right_m - left_m, far_m - near_m);
   grid.cell_m = std::max(cell_m, longest_m / std::max(1, max_cells - 1));
   grid.right_from_m = Down(left_m, grid.cell_m);

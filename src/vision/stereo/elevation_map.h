@@ -1,5 +1,6 @@
 // Points seen from above: the mean height over the cells of a grid (Goldberg 2002 section 2 stage
-// 7 and figure 1d). For pictures and files that people look at: no navigator reads it.
+// 7 and figure 1d). For the pictures of looks and the files of `rockyard stereo`, which people look
+// at; no navigator reads it.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +10,7 @@
 
 namespace rockyard::vision {
 
-// A grid in the plane of two axes of the points' frame, seen against `up`.
+// A grid in the plane of `right` and `away`, two directions in the points' frame, seen from above.
 struct ElevationGrid {
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();  // along the columns, unit
   Eigen::Vector3d away = Eigen::Vector3d::UnitY();   // against the rows: the last row is nearest
@@ -21,13 +22,14 @@ struct ElevationGrid {
   int rows = 0;
 };
 
-// The grid over the middle 98 % of points in either direction, with `right` = `away` x `up`. The
-// cells become larger than cell_m where there would be more than `max_cells` along a side. `away`
-// and `up` are square to each other and of unit length. No points, no cells.
+// Returns the grid over the middle 98 % of points in either direction, with `right` =
+// `away` x `up`. The cells become larger than cell_m where there would be more than `max_cells`
+// along a side. `away` and `up` are square to each other and of unit length. Without points the
+// grid has no cells.
 ElevationGrid GridOver(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& away,
                        const Eigen::Vector3d& up, double cell_m, int max_cells = 1000);
 
-// Mean height, m, of the points over each cell; NaN where there is none.
+// Returns the mean height, m, of the points over each cell; NaN over cells without points.
 Image<float> ElevationMap(std::span<const Eigen::Vector3d> points, const ElevationGrid& grid);
 
 }  // namespace rockyard::vision

@@ -16,7 +16,7 @@ struct Coordinate {
   std::uint16_t fraction;
 };
 
-// The position lies between 0 and size - 1.
+// Splits a position from 0 to size - 1.
 Coordinate Split(double position_px, int size) {
   const auto steps = std::llround(position_px * kPositionSteps);
   const auto whole = static_cast<std::int32_t>(
@@ -24,7 +24,7 @@ Coordinate Split(double position_px, int size) {
   return {whole, static_cast<std::uint16_t>(steps - std::int64_t{256} * whole)};
 }
 
-// False for what is no number.
+// Returns whether a position is inside; false where it is no number.
 bool InSource(double position_px, int size) {
   return position_px >= 0.0 && position_px <= size - 1;
 }

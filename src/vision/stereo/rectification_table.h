@@ -1,14 +1,15 @@
 // Rectification by a table (Goldberg 2002 section 2 stage 2): images are resampled so that what
-// lies in a row of the left image lies in the same row of the right one.
+// lies in a row of the left image lies in the same row of the right image. The eyes of a rover and
+// the commands that match pairs build tables from camera models (SourceOf, cameras/rectification.h)
+// or from a correction of rows (row_alignment.h).
 //
 // The table goes from output to input ("random in, linear out"): for each output pixel the place of
-// four input pixels and the share of each. Where it points comes from a camera model; in here it is
-// a source position per output pixel. Positions are kept to 1/256 px: with the fractions
+// four input pixels and the share of each. Positions are kept to 1/256 px: with the fractions
 // fx, fy in 0 ... 256 (of 256)
 //   value = floor((top (256 - fy) + bottom fy + 2^15) / 2^16),
 //   top = p00 (256 - fx) + p10 fx,  bottom = p01 (256 - fx) + p11 fx,
-// the bilinear mean rounded to the nearest, halves upwards. The four shares add up to 2^16: what is
-// 255 in all four pixels stays so, by which masks are resampled as well.
+// the bilinear mean rounded to the nearest, halves upwards. The four shares add up to 2^16, so that
+// a pixel is 255 where all four of its input pixels are: masks of 0 and 255 are resampled by that.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +39,8 @@ struct RectificationEntry {
 
 class RectificationTable {
  public:
-  // Source images are of this size, at least 2 x 2. An output pixel whose position is not within
-  // the centres of the source's outermost pixels, or is no number, is outside.
+  // Source images have the given size, at least 2 x 2. An output pixel is outside where its
+  // position is beyond the centres of the source's outermost pixels, or is no number.
   RectificationTable(const Image<SourcePosition>& positions, int source_width, int source_height);
 
   int source_width() const { return source_width_; }
@@ -51,7 +52,7 @@ class RectificationTable {
   GrayImage Rectify(const GrayImage& source) const;
   void RectifyRows(const GrayImage& source, int first_row, int end_row, GrayImage& out) const;
 
-  // 1 where the source reaches, 0 elsewhere.
+  // Returns a mask for DropOutside (disparity.h): 1 where the source reaches, 0 elsewhere.
   Image<std::uint8_t> Inside() const;
 
  private:

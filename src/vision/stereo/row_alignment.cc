@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kTriples = 512;  // with half of the matches wrong, 64 have three right ones
 constexpr int kRounds = 20;
 constexpr double kTukey = 4.685;     // 95 % of the efficiency of least squares
-constexpr double kToSigma = 1.4826;  // of normal residuals, from the median of their sizes
+constexpr double kToSigma = 1.4826;  // sigma of normal residuals over the median of their sizes
 constexpr double kLeastScale_px = 0.05;
 constexpr double kLeastArea = 0.2;  // of a triple's parallelogram; the whole image has 4
 
@@ -52,8 +52,8 @@ int CountAgreeing(const std::vector<Equation>& equations, const Eigen::Vector3d&
   }));
 }
 
-// The plane through three equations with which most others agree; none where every triple lies
-// along a line.
+// Returns the plane through three equations with which most others agree, or nothing where every
+// triple lies along a line.
 std::optional<Eigen::Vector3d> PlaneOfMost(const std::vector<Equation>& equations,
                                            double agree_px) {
   std::optional<Eigen::Vector3d> best;
@@ -78,6 +78,7 @@ std::optional<Eigen::Vector3d> PlaneOfMost(const std::vector<Equation>& equation
   return best;
 }
 
+// Returns the s of the header.
 double Scale(const std::vector<Equation>& equations, const Eigen::Vector3d& plane,
              double agree_px) {
   std::vector<double> sizes;
@@ -91,7 +92,7 @@ double Scale(const std::vector<Equation>& equations, const Eigen::Vector3d& plan
   return std::max(kLeastScale_px, kToSigma * *middle);
 }
 
-// Least squares with the weights that the last plane gives.
+// Iterates least squares, each round with the weights that the last plane gives.
 Eigen::Vector3d Refine(const std::vector<Equation>& equations, Eigen::Vector3d plane,
                        double agree_px) {
   for (int round = 0; round < kRounds; ++round) {

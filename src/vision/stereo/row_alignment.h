@@ -1,13 +1,14 @@
-// How the rows of the right image lie beside those of the left one, from matches: what makes a pair
-// without calibration fit for a correlator that searches along rows.
+// How the rows of the right image lie beside those of the left one, from matches of points.
+// `rockyard stereo` aligns pairs without cameras by it, as the correlator searches along rows.
 //
 // Small errors of the right camera's pointing, roll and focal length, and of the place of its axis
 // in the image, move its rows to first order by (its own column x, the left image's row y)
 //   y_right - y = offset_px + per_column (x - (width - 1) / 2) + per_row (y - (height - 1) / 2).
-// The three numbers are those of the plane through three matches with which most matches agree
-// (Fischler and Bolles 1981, triples from a Sobol sequence), then of iterated least squares with
-// the weights (1 - (r / c)^2)^2 of residuals r below c = 4.685 s (Beaton and Tukey 1974), with s
-// = 1.4826 times the median of |r| of the matches that agree, at least 0.05 px.
+// The three numbers start from the plane through three matches with which most matches agree
+// (Fischler and Bolles 1981, triples from a Sobol sequence, so that nothing is random). Iterated
+// least squares refines them with the weights (1 - (r / c)^2)^2 of residuals r below c = 4.685 s
+// (Beaton and Tukey 1974), s being 1.4826 times the median of |r| of the matches that agree, at
+// least 0.05 px.
 #pragma once
 
 #include "core/result.h"
@@ -22,8 +23,8 @@ struct RowCorrection {
   double per_column = 0.0;  // of the right image, px a px
   double per_row = 0.0;
 
-  // Returns the row of the right image, of this size, that shows what stands in row `y` of the left
-  // image and in column `x` of the right one.
+  // Returns the row of the right image, of the given size, that shows in its column `x` what stands
+  // in row `y` of the left image.
   double RightRow(double x, double y, int width, int height) const;
 };
 
@@ -37,21 +38,20 @@ struct RowAlignmentOptions {
 struct RowAlignment {
   RowCorrection correction;
   int matches = 0;
-  int agreeing = 0;     // of these
+  int agreeing = 0;     // matches within agree_px of the correction
   double rms_px = 0.0;  // of the agreeing ones, from the correction
 };
 
 // Returns the correction of `right`, or the problem: images of different sizes, too few matches
-// that agree (or too small a share), or matches along a line, which leave a slope open. Nothing is
-// random. Limits: rows further apart than search.max_rows_px are not found; a roll moves columns
-// too, of which rows tell nothing, so that disparities keep an error of about
-// per_column (y - middle); what bends rows (distortion, strong convergence) remains, and rms_px
-// tells of it.
+// that agree (or too small a share), or matches along a line, which leave a slope open. Limits:
+// rows further apart than search.max_rows_px are not found. A roll moves columns too, which rows
+// cannot tell, so that disparities keep an error of about per_column (y - middle). Bent rows
+// (distortion, strong convergence) stay bent, and rms_px shows it.
 core::Result<RowAlignment> FindRowAlignment(const GrayImage& left, const GrayImage& right,
                                             const RowAlignmentOptions& options = {});
 
-// Returns the table that makes of the right image, of this size, at least 2 x 2, one whose rows are
-// those of the left image. Columns stay as they are.
+// Returns the table that resamples the right image (of the given size, at least 2 x 2) to the rows
+// of the left image. Columns stay as they are.
 RectificationTable MakeRowTable(const RowCorrection& correction, int width, int height);
 
 }  // namespace rockyard::vision

@@ -12,7 +12,7 @@
 namespace rockyard::vision {
 namespace {
 
-// Rows are found by what changes across them, which a gradient along the row does not see.
+// The Laplacian, as a gradient along the row does not see the changes across rows.
 constexpr DogParams kFilter = kLaplacianDog;
 
 constexpr int kNeighbourhood_px = 3;  // places this near to the best one are the same peak
@@ -34,7 +34,7 @@ struct Places {
   }
 };
 
-// Pixels whose window lies in the image.
+// Returns the pixels whose window lies in the image.
 Places WithWindows(const GrayImage& image, int half_px) {
   return {{half_px, half_px}, {image.width() - 1 - half_px, image.height() - 1 - half_px}};
 }
@@ -44,8 +44,8 @@ Places Common(const Places& a, const Places& b) {
           {std::min(a.last.x, b.last.x), std::min(a.last.y, b.last.y)}};
 }
 
-// Sums of differences to the neighbours in rectangles, from sums over all that is above and to the
-// left of a pixel.
+// The texture T of windows. Sums of differences over a rectangle come from the sums over the
+// rectangles between the image's upper left corner and a pixel.
 class TextureSums {
  public:
   explicit TextureSums(const GrayImage& image)
@@ -62,7 +62,7 @@ class TextureSums {
     }
   }
 
-  // T of the differences within the window.
+  // Returns T of the window around p.
   std::int64_t Around(GridPoint p, int half_px) const {
     return std::min(Sum(across_, p, half_px), Sum(down_, p, half_px));
   }
@@ -121,7 +121,8 @@ class Search {
         places_(WithWindows(to, half_)),
         max_ratio_(options.max_ratio) {}
 
-  // The best of the places that have their window in the image; none if it is at the end of them.
+  // Returns the best of the places whose window lies in the image, or nothing where it is at their
+  // end.
   std::optional<Peak> Best(GridPoint what, const Places& range) {
     const Places places = Common(places_, range);
     if (places.Empty()) return std::nullopt;
@@ -130,7 +131,7 @@ class Search {
     GridPoint best = places.first;
     for (int y = places.first.y; y <= places.last.y; ++y) {
       for (int x = places.first.x; x <= places.last.x; ++x) {
-        // What is above `enough` is neither the best nor near enough to it to be its rival.
+        // A score above `enough` is neither the best nor near enough to the best to be its rival.
         const double enough = least / max_ratio_;
         scores_.push_back(Score(what, {x, y}, enough));
         if (scores_.back() >= least) continue;
@@ -142,7 +143,7 @@ class Search {
     return Peak{best, least < max_ratio_ * LeastBeside(best, places)};
   }
 
-  // S, or a part of it that is above `enough`.
+  // Returns S, or the part of it at which it rose above `enough`.
   std::int32_t Score(GridPoint a, GridPoint b, double enough) const {
     std::int32_t sum = 0;
     const int side = 2 * half_ + 1;
@@ -155,7 +156,7 @@ class Search {
   }
 
  private:
-  // The least of the scores that are not of the peak at `best`.
+  // Returns the least of the scores that do not belong to the peak at `best`.
   double LeastBeside(GridPoint best, const Places& places) const {
     std::int32_t least = std::numeric_limits<std::int32_t>::max();
     auto score = scores_.begin();
@@ -176,7 +177,7 @@ class Search {
   std::vector<std::int32_t> scores_;  // of the places of the last search, row by row
 };
 
-// `place` less the row of the lowest point, of which S below it and above it tell.
+// Returns the row of the lowest point less that of `place`, from S in the rows above, at and below.
 double RowFraction(const Search& search, GridPoint what, GridPoint place) {
   const auto score = [&](int rows) {
     return static_cast<double>(

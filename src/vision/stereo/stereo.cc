@@ -18,8 +18,8 @@ std::string SizeOf(const GrayImage& image) {
   return std::to_string(image.width()) + " x " + std::to_string(image.height());
 }
 
-// Calls work(first row, end row) for `count` bands of nearly equal height, each by its own thread
-// but for the first; waits for all, also where one fails.
+// Calls work(first row, end row) for `count` bands of nearly equal height, the first by this thread
+// and each other by its own; waits for all, also where one fails.
 template <typename Work>
 void ForEachBand(int rows, int count, const Work& work) {
   std::vector<std::future<void>> others;
@@ -33,7 +33,7 @@ void ForEachBand(int rows, int count, const Work& work) {
   for (std::future<void>& other : others) other.get();
 }
 
-// An image of this size, the old one where it fits; its values are whatever they were.
+// Makes `image` the size of `like`; where it has this size already, its values stay.
 template <typename Value>
 void Fit(const GrayImage& like, Image<Value>& image) {
   if (image.width() != like.width() || image.height() != like.height()) {
@@ -57,12 +57,12 @@ void MatchStereo(const GrayImage& left, const GrayImage& right, const StereoPipe
     DifferenceOfGaussiansRows(left, params.dog, first, end, products.left_filtered);
     DifferenceOfGaussiansRows(right, params.dog, first, end, products.right_filtered);
   });
-  // Windows reach into the rows of other bands, so that all of them are filtered by now.
+  // All bands must be filtered before this, as windows reach into the rows of other bands.
   ForEachBand(left.height(), threads, [&](int first, int end) {
     CorrelateRows(products.left_filtered, products.right_filtered, params, first, end,
                   products.disparities);
   });
-  // Not by bands: a region may cross their borders.
+  // The last stage works on all rows at once, as a region may cross the borders of bands.
   FilterBlobs(params.filters, products.disparities);
 }
 

@@ -16,7 +16,8 @@ constexpr std::string_view kSynthetic =
     "Goldberg 2002 sec. 2 names the filter and no number; chosen on synthetic pairs alone "
     "(src/vision/README.md, \"Why these defaults\")";
 
-// Bounds of CorrelatorParams: the largest disparity, 480 + 511 px, in 1/32 px fits 16 bits.
+// Must be the bounds in CorrelatorParams::Visit. The largest disparity, 480 + 511 px, in 1/32 px
+// fits 16 bits, and all disparities lie above kLowestValid (disparity.h).
 constexpr double kMostDisparities = 512.0;
 constexpr double kLargest_px = 480.0;
 
@@ -52,6 +53,7 @@ void CorrelatorParams::Visit(core::FieldVisitor& v) {
   v.Integer("window_side_px", window_side_px,
             Published("side of the window that is compared; the pixel is at side / 2, rounded down",
                       "Goldberg 2002 sec. 2 stage 4: 7 x 7; sec. 3 times 8 x 8", {1, 21}));
+  // The bounds must be kLargest_px and kMostDisparities; odometer_params.cc has its own 479 px.
   v.Integer("min_disparity_px", min_disparity_px,
             Setting("smallest disparity that is tried; may be negative", {-480, 480}));
   v.Integer("disparities", disparities,

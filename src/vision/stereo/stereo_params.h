@@ -1,11 +1,12 @@
 // Parameters of the stereo pipeline (Goldberg 2002 section 2): from a pair of images to
-// disparities.
+// disparities. Scenarios with stereo or visual odometry and the commands that match pairs have
+// them; meaning, unit and origin of each stand in Visit.
 //
 // The paper names the stages, the window of 7 x 7, images reduced from 1024 to 256 pixels, 32
 // disparities. What it leaves open (sizes of the filters, thresholds) is a parameter here. The
-// defaults were chosen on synthetic pairs alone and fixed before real ones were run with them:
-// tuned to the real ones, they would make the comparison with OpenCV there worthless. Drives with
-// stereo match with them, so that another default changes records; bounds only refuse files.
+// defaults were chosen on synthetic pairs alone and fixed before real pairs were run with them:
+// tuned to real pairs, they would make the comparison with OpenCV on these worthless. Records of
+// drives with stereo depend on the defaults; the ranges in Visit only refuse files.
 #pragma once
 
 #include <array>
@@ -16,20 +17,21 @@
 
 namespace rockyard::vision {
 
-// What is laid through the scores at the best disparity and its two neighbours.
+// The curve through the scores at the best disparity and its two neighbours, whose lowest point is
+// the sub-pixel disparity.
 enum class Interpolation {
   kQuadratic,    // a parabola
   kEquiangular,  // two lines of opposite slope, the steeper of the two through the neighbours
 };
 
-// How the two Gaussians lie of which an image becomes the difference (dog.h).
+// How the two Gaussians of the difference lie (dog.h).
 enum class DogKind {
-  kLaplacian,    // a narrow one on a wide one: Goldberg 2002's
+  kLaplacian,    // a narrow one on a wide one, as Goldberg 2002 has it
   kRowGradient,  // two alike, side by side along the row
 };
 
-// Difference of Gaussians, each approximated by a mean over few pixels. The sides are those of the
-// Laplacian's squares; the row gradient has none.
+// Difference of Gaussians, each approximated by a mean over few pixels. The sides belong to the
+// squares of the Laplacian; the row gradient ignores them.
 struct DogParams {
   DogKind kind = DogKind::kRowGradient;
   std::int64_t narrow_side_px = 1;
@@ -40,7 +42,7 @@ struct DogParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// The correlator: what is compared, and how far it searches.
+// The correlator: the window that is compared, and the range of disparities that is searched.
 struct CorrelatorParams {
   std::int64_t window_side_px = 7;
   std::int64_t min_disparity_px = 0;
@@ -49,7 +51,7 @@ struct CorrelatorParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// The checks that follow.
+// The checks after the correlation, and the sub-pixel interpolation.
 struct StereoFilterParams {
   Interpolation interpolation = Interpolation::kEquiangular;
   double line_of_sight_px = 1.0;
@@ -83,12 +85,12 @@ struct StereoGeometry {
 };
 
 // Returns `correlator` with the range that depths ask for (Goldberg 2002 section 2 stage 4:
-// "derived geometrically from the input range of depth values"), in which a point from nearest_m to
-// farthest_m before the cameras (along their axes; farthest_m may be infinite) has its disparity
-//   d = focal baseline / depth + offset,
-// rounded outwards, and one disparity more on either side, which the peak filter needs. 0 <
-// nearest_m <= farthest_m. Throws core::UserError where that is more than 512 disparities or
-// reaches beyond 480 px.
+// "derived geometrically from the input range of depth values"): the disparities
+//   d = focal baseline / depth + offset
+// of points from nearest_m to farthest_m before the cameras (along their axes; farthest_m may be
+// infinite), rounded outwards, and one disparity more on either side, which the peak filter needs.
+// 0 < nearest_m <= farthest_m. Throws core::UserError where the range has more than 512 disparities
+// or begins more than 480 px from 0.
 CorrelatorParams SearchDepths(const StereoGeometry& pair, double nearest_m, double farthest_m,
                               CorrelatorParams correlator);
 

@@ -1,5 +1,6 @@
-// A pair of cameras as it was calibrated: what software on board is given. The right camera that
-// takes the images may have drifted since (rig_drift.h).
+// A pair of cameras as it was calibrated. The stereo imager makes it, and the rover's stereo and
+// visual odometry read images by it. The right camera that takes the images may have drifted since
+// (cameras/rig_drift.h).
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,8 @@
 
 namespace rockyard::vision {
 
-// Both cameras are told in one outer frame. A pixel is free (1) unless it shows the carrier itself
-// (0): a mask that is part of a rig's calibration.
+// Both cameras are told in one outer frame. The masks are part of the calibration: a pixel is 0
+// where it shows the rover itself, 1 elsewhere.
 struct StereoRig {
   CameraModel left;
   CameraModel right;
