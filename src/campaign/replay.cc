@@ -261,7 +261,7 @@ class MomentReplayer {
       };
     }
     const scenario::Scenario& scenario = source_.scenario;
-    if (request_.step && scenario.experiment.kind == experiments::ExperimentKind::kDrive) {
+    if (request_.step && scenario.experiment.chosen().name() == "drive") {
       RunTraced(experiments::DriveExperiment(scenario.drive, watchers));
     } else {
       RunPlain(*experiments::MakeExperiment(scenario.experiment, scenario.drive, watchers));

@@ -235,7 +235,7 @@ void CheckRule(const CampaignRequest& request, const CampaignPlan& plan,
                         "leave out --shard, or say how many trials to run with --trials"});
   }
   for (const CampaignCell& cell : plan.cells) {
-    if (cell.scenario.experiment.kind != experiments::ExperimentKind::kDrive) {
+    if (cell.scenario.experiment.chosen().name() != "drive") {
       problems.push_back({"--until-half-width",
                           fmt::format("needs drives, and {} measures", cell.Label()),
                           "say how many trials to run with --trials"});
@@ -264,7 +264,7 @@ void CheckTraces(const CampaignRequest& request, const CampaignPlan& plan,
                         "leave it out, merge the shards, and ask for it there with --resume"});
   }
   for (const CampaignCell& cell : plan.cells) {
-    if (cell.scenario.experiment.kind == experiments::ExperimentKind::kDrive) continue;
+    if (cell.scenario.experiment.chosen().name() == "drive") continue;
     problems.push_back(
         {"--traces", fmt::format("needs drives, and {} measures", cell.Label()), "leave it out"});
   }

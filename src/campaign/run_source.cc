@@ -48,7 +48,7 @@ std::string Words(Enum value) {
 // Returns two lines: rover, gravity, soil and fidelity; by what the rover looks, drives and
 // localizes. An experiment that does not drive has none.
 std::vector<std::string> SetupInWords(const scenario::Scenario& scenario) {
-  if (scenario.experiment.kind != experiments::ExperimentKind::kDrive) return {};
+  if (scenario.experiment.chosen().name() != "drive") return {};
   const trial::DriveParams& drive = scenario.drive;
   const rover::RoverParams& rover = drive.rover;
   return {fmt::format("rover {:g} m long, {:g} kg, wheels of {:g} cm; {:g} m/s2, {}; {} physics",

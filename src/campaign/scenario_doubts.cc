@@ -201,7 +201,7 @@ std::string WhatOf(const Problem& doubt) { return fmt::format("{}: {}", doubt.pa
 
 std::vector<Problem> DoubtsWith(const scenario::Scenario& scenario, LevelScales& scales) {
   std::vector<Problem> doubts;
-  if (scenario.experiment.kind == experiments::ExperimentKind::kDrive) {
+  if (scenario.experiment.chosen().name() == "drive") {
     DoubtLimits(scenario.drive, doubts);
     DoubtMass(scenario.drive, doubts);
     DoubtSizes(scenario.drive, doubts);

@@ -201,7 +201,7 @@ class Recorder {
 
 DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t seed,
                            std::uint64_t trial) {
-  if (scenario.experiment.kind != experiments::ExperimentKind::kDrive) {
+  if (scenario.experiment.chosen().name() != "drive") {
     throw core::UserError(scenario.name, "is no drive, and only drives have a course",
                           "use rockyard replay --list, which lists the scans of any trial");
   }

@@ -130,7 +130,12 @@ class KindSet {
   /// Lists the choice, then a group for each kind with parameters, in the group that is being
   /// visited.
   void Visit(FieldVisitor& v) {
-    v.ChoiceOf(words_.key, chosen_, names_, words_.choice);
+    VisitChoice(v);
+    VisitGroups(v);
+  }
+  /// The two apart, where others stand between them.
+  void VisitChoice(FieldVisitor& v) { v.ChoiceOf(words_.key, chosen_, names_, words_.choice); }
+  void VisitGroups(FieldVisitor& v) {
     for (const auto& kind : kinds_) {
       if (kind->has_params()) v.Group(kind->name(), *kind, kind->doc());
     }

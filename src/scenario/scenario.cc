@@ -12,12 +12,12 @@ void Scenario::Visit(core::FieldVisitor& v) {
   v.Text("description", description, Setting("what it stands for"));
   v.Text("accepted", accepted,
          Setting("doubts of `rockyard validate` that are meant so, in its words up to the advice"));
-  experiment.VisitKind(v);
+  experiment.VisitChoice(v);
   v.Integer("trials", trials, Setting("number of runs", {1, 1e9}));
   v.Integer("seed", seed, Setting("seed of every random stream", {0, 9e18}));
   drive.Visit(v);
   experiment.VisitGroups(v);
-  experiment.RequireConsistency(drive, v);
+  experiment.chosen().Require(drive, v);
 }
 
 }  // namespace rockyard::scenario

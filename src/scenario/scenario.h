@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/fields.h"
-#include "experiments/experiment_params.h"
+#include "experiments/experiment_set_params.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::scenario {
@@ -16,7 +16,7 @@ struct Scenario {
   std::string name = "unnamed";
   std::string description;
   std::string accepted;  // doubts (campaign/scenario_doubts.h) that are meant so, by their words
-  experiments::ExperimentParams experiment;
+  experiments::ExperimentSet experiment = experiments::StandardExperiments();
   std::int64_t trials = 300;
   std::int64_t seed = 1;
   trial::DriveParams drive;

@@ -63,10 +63,8 @@ void CheckScope(std::string_view path, std::vector<Problem>& problems) {
 
 // Refuses experiments that no sweep can be of.
 void CheckExperiment(const Scenario& scenario, std::vector<Problem>& problems) {
-  if (scenario.experiment.kind == experiments::ExperimentKind::kDrive) return;
-  const std::string_view name =
-      core::EnumNames<experiments::ExperimentKind>::kNames[static_cast<std::size_t>(
-          scenario.experiment.kind)];
+  const std::string_view name = scenario.experiment.chosen().name();
+  if (name == "drive") return;
   problems.push_back({"experiment",
                       fmt::format("is {}, whose studies have factors of their own", name),
                       "use rockyard run, or sweep drives"});

@@ -73,7 +73,8 @@ TEST(WithRolesTest, GivesAStoredSchemaTheRolesOfItsExperiment) {
 
 // A new experiment whose columns were left out would lose its rates when a run is resumed.
 TEST(WithRolesTest, KnowsTheColumnsOfEveryExperiment) {
-  for (const std::string_view name : core::EnumNames<ExperimentKind>::kNames) {
+  const ExperimentSet experiments = StandardExperiments();
+  for (const std::string_view name : experiments.names()) {
     core::JsonValue document = core::JsonValue::Object();
     core::SetPath(document, "name", core::JsonValue(name));
     core::SetPath(document, "experiment", core::JsonValue(name));

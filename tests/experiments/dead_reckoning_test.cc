@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/refusals.h"
+#include "experiments/dead_reckoning/dead_reckoning_walk_params.h"
 #include "experiments/hazard_scenarios.h"
 #include "scenario/load.h"
 #include "statistics/closed_forms.h"
@@ -58,14 +59,15 @@ TEST(DeadReckoningParamsTest, ShippedTablesHaveWholeRounds) {
   for (const auto& file : std::filesystem::directory_iterator(kFolder)) {
     if (file.path().extension() != ".json") continue;
     const scenario::Scenario scenario = scenario::LoadScenario(file.path().string());
-    if (scenario.experiment.kind != ExperimentKind::kDeadReckoning) continue;
+    if (scenario.experiment.chosen().name() != "dead_reckoning") continue;
     ++files;
-    const auto cells = static_cast<std::int64_t>(scenario.experiment.dead_reckoning.Cells());
+    const auto cells =
+        static_cast<std::int64_t>(scenario.experiment.params<DeadReckoningWalkParams>().Cells());
     EXPECT_EQ(scenario.trials % cells, 0) << file.path() << ": every cell gets as many runs";
     // The printed equations.
     EXPECT_EQ(scenario.drive.perception.dead_reckoning.step_heading,
               localization::StepHeading::kStart);
-    EXPECT_EQ(scenario.experiment.dead_reckoning.step_m, 0.067);
+    EXPECT_EQ(scenario.experiment.params<DeadReckoningWalkParams>().step_m, 0.067);
   }
   EXPECT_GE(files, 3U);
 }

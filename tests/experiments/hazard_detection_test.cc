@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/refusals.h"
+#include "experiments/hazard_detection/hazard_detection_params.h"
 #include "experiments/hazard_scenarios.h"
 #include "trial/watchers.h"
 #include "truth/measurement_record.h"
@@ -114,7 +115,8 @@ TEST(HazardDetectionTest, ShippedTablesHaveAtMost500CellsAndWholeRounds) {
        {"detection", "approach", "height_factor", "false_alarm", "persistence", "missed",
         "precision", "detection_image", "false_alarm_image", "false_alarm_image_earth"}) {
     const scenario::Scenario scenario = HazardScenario(name);
-    const auto cells = static_cast<std::int64_t>(scenario.experiment.hazard_detection.Cells());
+    const auto cells =
+        static_cast<std::int64_t>(scenario.experiment.params<HazardDetectionParams>().Cells());
     EXPECT_LE(cells, 500) << name;
     EXPECT_EQ(scenario.trials % cells, 0) << name << ": every cell gets as many runs";
   }
@@ -207,7 +209,7 @@ TEST(HazardDriveTest, ScansThroughAFieldAreNumberedOneAfterTheOther) {
   const scenario::Scenario scenario = HazardScenario(
       "missed",
       {"hazard_detection.scenes_per_run=20", "sensors.light_stripe.outlier_persistence=0.5"});
-  const double interval_m = scenario.experiment.hazard_detection.scan_interval_m;
+  const double interval_m = scenario.experiment.params<HazardDetectionParams>().scan_interval_m;
   const auto poses_in = [&](double way_m) { return std::llround(way_m / interval_m); };
   int scanned_next = 0;
   int skipped = 0;

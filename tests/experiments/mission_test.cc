@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "experiments/mission/mission_experiment.h"
+#include "experiments/mission/mission_params.h"
 #include "experiments/mission/sol.h"
 #include "experiments/scenario_experiment.h"
 #include "math/angles.h"
@@ -29,7 +30,7 @@ scenario::Scenario Load(const std::string& name, const Overrides& overrides) {
 }
 
 MissionCourse RunMission(const scenario::Scenario& scenario, core::TrialKey key = kKey) {
-  return Mission(scenario.experiment.mission, scenario.drive, key).Run();
+  return Mission(scenario.experiment.params<MissionParams>(), scenario.drive, key).Run();
 }
 
 // Empty hard ground, sensors without errors, goals told as they are, nobody who looks.
@@ -160,8 +161,8 @@ TEST(MissionTest, EnergyClosesEverySol) {
   int sols = 0;
   for (std::uint32_t mission = 0; mission < 3; ++mission) {
     const scenario::Scenario scenario = Load("tour", {"mission.sols=8"});
-    const MissionDayParams& day = scenario.experiment.mission.day;
-    const MissionPowerParams& power = scenario.experiment.mission.power;
+    const MissionDayParams& day = scenario.experiment.params<MissionParams>().day;
+    const MissionPowerParams& power = scenario.experiment.params<MissionParams>().power;
     double battery_wh = power.battery_wh;
     for (const Sol& sol : RunMission(scenario, {5, mission}).sols) {
       ++sols;

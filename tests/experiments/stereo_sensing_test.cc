@@ -59,8 +59,9 @@ TEST(StereoSensingParamsTest, ShippedTablesHaveWholeRounds) {
     if (file.path().extension() != ".json") continue;
     ++files;
     const scenario::Scenario scenario = StereoScenario(file.path().stem().string());
-    EXPECT_EQ(scenario.experiment.kind, ExperimentKind::kStereoSensing) << file.path();
-    const auto cells = static_cast<std::int64_t>(scenario.experiment.stereo_sensing.Cells());
+    EXPECT_EQ(scenario.experiment.chosen().name(), "stereo_sensing") << file.path();
+    const auto cells =
+        static_cast<std::int64_t>(scenario.experiment.params<StereoSensingParams>().Cells());
     EXPECT_LE(cells, 100) << file.path();
     EXPECT_EQ(scenario.trials % cells, 0) << file.path() << ": every cell gets as many runs";
     EXPECT_EQ(scenario.drive.sensors.stereo.fidelity, sensing::StereoFidelity::kImage);

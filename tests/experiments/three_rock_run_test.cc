@@ -124,7 +124,8 @@ TEST(ThreeRockReferenceTest, RowsAndScenarioAgree) {
       }
     }
     if (id == "three_rocks.length") {
-      EXPECT_EQ(row.Find("value")->number(), scenario.experiment.three_rock_run.told.length_m);
+      EXPECT_EQ(row.Find("value")->number(),
+                scenario.experiment.params<ThreeRockRunParams>().told.length_m);
     }
   }
   EXPECT_EQ(rows, 10);

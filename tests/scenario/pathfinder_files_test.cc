@@ -66,11 +66,10 @@ TEST(PathfinderFilesTest, NamesAreFileNames) {
   const std::map<std::string, Scenario> scenarios = LoadAll();
   ASSERT_GE(scenarios.size(), 9u);
   for (const auto& [stem, scenario] : scenarios) {
-    using experiments::ExperimentKind;
     std::string prefix;
-    if (scenario.experiment.kind == ExperimentKind::kHazardDetection) prefix = "hazard_";
-    if (scenario.experiment.kind == ExperimentKind::kStereoSensing) prefix = "stereo_";
-    if (scenario.experiment.kind == ExperimentKind::kCylinderSighting) prefix = "cylinder_";
+    if (scenario.experiment.chosen().name() == "hazard_detection") prefix = "hazard_";
+    if (scenario.experiment.chosen().name() == "stereo_sensing") prefix = "stereo_";
+    if (scenario.experiment.chosen().name() == "cylinder_sighting") prefix = "cylinder_";
     EXPECT_EQ(scenario.name, prefix + stem);
     EXPECT_FALSE(scenario.description.empty()) << stem;
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "campaign/doubts/setting_doubts.h"
+#include "experiments/hazard_detection/hazard_detection_params.h"
 #include "math/angles.h"
 #include "terrain/soil_params.h"
 
@@ -161,7 +162,8 @@ void DoubtStereo(Values& s) {
 }  // namespace
 
 void DoubtScenes(Values& s) {
-  const experiments::HazardDetectionParams& scenes = s.whole.experiment.hazard_detection;
+  const experiments::HazardDetectionParams& scenes =
+      s.whole.experiment.params<experiments::HazardDetectionParams>();
   if (scenes.study != experiments::HazardStudy::kDetection || scenes.distances_m.empty()) return;
   const double end_m = s.zone().x_high_m - s.front_m();
   s.Doubt(

@@ -22,19 +22,14 @@ std::vector<core::Problem> DoubtsOfSettings(const scenario::Scenario& scenario) 
     for (const auto rule : rules) rule(s);
   };
   // DoubtUnusual must come last: units are doubted only of what no rule has doubted before.
-  switch (scenario.experiment.kind) {
-    case experiments::ExperimentKind::kDrive:
-      ask({DoubtTask, DoubtRover, DoubtSensing, DoubtGestalt, DoubtBelief, DoubtUnusual});
-      break;
+  const std::string_view experiment = scenario.experiment.chosen().name();
+  if (experiment == "drive") {
+    ask({DoubtTask, DoubtRover, DoubtSensing, DoubtGestalt, DoubtBelief, DoubtUnusual});
+  } else if (experiment == "mission") {
     // Sols of a mission have courses of their own, and aids that come when operators look.
-    case experiments::ExperimentKind::kMission:
-      ask({DoubtMission, DoubtRover, DoubtSensing, DoubtGestalt, DoubtUnusual});
-      break;
-    case experiments::ExperimentKind::kHazardDetection:
-      ask({DoubtScenes, DoubtUnusual});
-      break;
-    default:  // without rules of their own
-      break;
+    ask({DoubtMission, DoubtRover, DoubtSensing, DoubtGestalt, DoubtUnusual});
+  } else if (experiment == "hazard_detection") {
+    ask({DoubtScenes, DoubtUnusual});
   }
   return std::move(s.doubts);
 }

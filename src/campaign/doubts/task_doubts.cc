@@ -256,7 +256,8 @@ double Farthest_m(const experiments::MissionParams& mission) {
 }  // namespace
 
 void DoubtMission(Values& s) {
-  const experiments::MissionParams& mission = s.whole.experiment.mission;
+  const experiments::MissionParams& mission =
+      s.whole.experiment.params<experiments::MissionParams>();
   const double far_m = Farthest_m(mission);
   const std::string goals = fmt::format("goals up to {:.3g} m from the lander", far_m);
   s.AtLeast("mission.radio_range_m", far_m, goals, "let the rover hear its commands there");

@@ -26,7 +26,7 @@ bool IsUsed(const Values& s, const std::string& path) {
                                     "navigation.", "course.",       "referee.",
                                     "clock.",      "localization.", "mission."};
   if (std::none_of(std::begin(parts), std::end(parts), begins)) return false;
-  const bool scenes = s.whole.experiment.kind == experiments::ExperimentKind::kHazardDetection;
+  const bool scenes = s.whole.experiment.chosen().name() == "hazard_detection";
   if (scenes && !begins("sensors.") && !begins("perception.")) return false;
   const bool stripes = s.Looks() && s.SeesBy("light_stripe");
   const bool stereo = s.Looks() && s.SeesBy("stereo");
@@ -46,7 +46,7 @@ bool IsUsed(const Values& s, const std::string& path) {
       {"clock.compute.stereo_time_factor", false},
       {"terrain.ground.soil.", !s.Is("terrain.ground.soil.preset", "hard_ground")},
       {"terrain.rocks.", s.HasRocks()},
-      {"mission.", s.whole.experiment.kind == experiments::ExperimentKind::kMission},
+      {"mission.", s.whole.experiment.chosen().name() == "mission"},
       {"navigation.pathfinder.", s.Uses("pathfinder")},
       {"navigation.gestalt.", s.Uses("gestalt")},
       {"navigation.gestalt.continuous.", continuous},
@@ -178,7 +178,7 @@ void DoubtUnits(Values& s) {
 void DoubtUnusual(Values& s) {
   for (const Usual& usual : kUsual) {
     const std::string path(usual.path);
-    const bool drives = s.whole.experiment.kind != experiments::ExperimentKind::kHazardDetection;
+    const bool drives = s.whole.experiment.chosen().name() != "hazard_detection";
     if (!(drives && path.starts_with("rover.")) && !IsUsed(s, path)) continue;
     s.Within(path, usual.low, usual.high, usual.what, "check the unit, and what it means");
   }

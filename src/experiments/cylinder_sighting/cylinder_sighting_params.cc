@@ -79,7 +79,8 @@ void CylinderSightingParams::Visit(core::FieldVisitor& v) {
 }
 
 // The cylinder's far edge lies half a baseline, a radius and d tan(bearing) off a camera's axis.
-void RequireSightable(const CylinderSightingParams& study, core::FieldVisitor& v) {
+void RequireSightable(const CylinderSightingParams& study, const trial::DriveParams& /*drive*/,
+                      core::FieldVisitor& v) {
   const rendering::CylinderPictureParams& picture = study.picture;
   const double half_view = std::tan(0.5 * picture.cameras.field_of_view_rad);
   const auto holds = [&](double distance_m) {

@@ -9,6 +9,7 @@
 #include "core/fields.h"
 #include "experiments/cell_factor_params.h"
 #include "rendering/cylinder/cylinder_params.h"
+#include "trial/drive_params.h"
 #include "vision/cylinder/published_finder_params.h"
 #include "vision/cylinder/robust_finder_params.h"
 
@@ -38,6 +39,7 @@ struct CylinderSightingParams {
 
 // Requires that the whole cylinder lies in both images at every distance and bearing. A failure
 // names the parameter, what is wrong and a remedy.
-void RequireSightable(const CylinderSightingParams& study, core::FieldVisitor& v);
+void RequireSightable(const CylinderSightingParams& study, const trial::DriveParams& drive,
+                      core::FieldVisitor& v);
 
 }  // namespace rockyard::experiments

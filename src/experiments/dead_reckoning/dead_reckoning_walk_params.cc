@@ -63,7 +63,8 @@ void DeadReckoningWalkParams::Visit(core::FieldVisitor& v) {
             "shorten the lists");
 }
 
-void RequireDeadReckoning(const trial::DriveParams& drive, core::FieldVisitor& v) {
+void RequireDeadReckoning(const DeadReckoningWalkParams& /*study*/, const trial::DriveParams& drive,
+                          core::FieldVisitor& v) {
   v.Require(
       "localization.estimator", drive.localization.estimators.chosen().name() == "dead_reckoning",
       "is not dead_reckoning, which the experiment dead_reckoning measures", "use dead_reckoning");

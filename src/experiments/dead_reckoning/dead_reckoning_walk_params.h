@@ -34,6 +34,7 @@ struct DeadReckoningWalkParams {
 
 // Requires that the drive's estimator is the dead reckoning that is measured. A failure names the
 // parameter, what is wrong and a remedy.
-void RequireDeadReckoning(const trial::DriveParams& drive, core::FieldVisitor& v);
+void RequireDeadReckoning(const DeadReckoningWalkParams& study, const trial::DriveParams& drive,
+                          core::FieldVisitor& v);
 
 }  // namespace rockyard::experiments

@@ -163,11 +163,11 @@ LanderCameras CamerasOf(const DesignationStudyParams& study,
 }
 
 DesignationExperiment::DesignationExperiment(const DesignationStudyParams& params,
-                                             const trial::CourseParams& course)
+                                             const trial::DriveParams& drive)
     : CellExperiment(params.Factors(), DesignationColumns()),
       params_(params),
-      course_(course),
-      cameras_(CamerasOf(params, course.designation)) {}
+      course_(drive.course),
+      cameras_(CamerasOf(params, drive.course.designation)) {}
 
 trial::CourseParams DesignationExperiment::CourseOf(double range_m) const {
   trial::CourseParams course = course_;

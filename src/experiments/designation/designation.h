@@ -108,10 +108,10 @@ const truth::RecordSchema& DesignationColumns();
 
 class DesignationExperiment final : public CellExperiment {
  public:
-  // `course` holds the errors (course.designation). Cost: below 1 us a designation. Randomness:
+  // `drive` holds the errors (course.designation). Cost: below 1 us a designation. Randomness:
   // kExperiment, and kGoalDesignation for the errors that course.designation draws, under a key of
   // each designation.
-  DesignationExperiment(const DesignationStudyParams& params, const trial::CourseParams& course);
+  DesignationExperiment(const DesignationStudyParams& params, const trial::DriveParams& drive);
 
  private:
   // Returns the course with its start under the mast and its goal at that range.

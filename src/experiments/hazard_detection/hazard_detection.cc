@@ -54,18 +54,18 @@ const truth::RecordSchema& HazardColumns() {
 
 std::unique_ptr<Experiment> MakeHazardDetection(const HazardDetectionParams& params,
                                                 const trial::DriveParams& drive,
-                                                const trial::ScanWatcher& watcher) {
+                                                const trial::Watchers& watchers) {
   switch (params.study) {
     case HazardStudy::kDetection:
-      return MakeDetectionStudy(params, drive, watcher);
+      return MakeDetectionStudy(params, drive, watchers.scan);
     case HazardStudy::kApproach:
-      return MakeApproachStudy(params, drive, watcher);
+      return MakeApproachStudy(params, drive, watchers.scan);
     case HazardStudy::kFalseAlarm:
-      return MakeAlarmStudy(params, drive, watcher);
+      return MakeAlarmStudy(params, drive, watchers.scan);
     case HazardStudy::kMissed:
-      return MakeMissedStudy(params, drive, watcher);
+      return MakeMissedStudy(params, drive, watchers.scan);
     case HazardStudy::kPrecision:
-      return MakePrecisionStudy(params, drive, watcher);
+      return MakePrecisionStudy(params, drive, watchers.scan);
   }
   throw std::logic_error("unknown study");
 }

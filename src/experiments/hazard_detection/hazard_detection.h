@@ -30,7 +30,7 @@ const truth::RecordSchema& HazardColumns();
 // with. Scan numbers begin at 0 in every scene and count on from pose to pose.
 std::unique_ptr<Experiment> MakeHazardDetection(const HazardDetectionParams& params,
                                                 const trial::DriveParams& drive,
-                                                const trial::ScanWatcher& watcher = {});
+                                                const trial::Watchers& watchers);
 
 // Make its studies. rock_studies.cc: one rock, seen from where the rover stands, or while it drives
 // on to the rock.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/sun_position.h"
+#include "trial/drive_checks_params.h"
 
 namespace rockyard::experiments {
 
@@ -218,6 +219,7 @@ void RequireNoonListener(const MissionParams& mission, const trial::DriveParams&
 
 void RequireMission(const MissionParams& mission, const trial::DriveParams& drive,
                     core::FieldVisitor& v) {
+  trial::RequireSoundDrive(drive, v);
   RequireField(mission, drive, v);
   RequireOneGoal(drive, v);
   RequireClock(mission, drive, v);

@@ -89,9 +89,9 @@ struct MissionParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Requires fixed rocks in an open arena that holds every goal, drives to one goal each, one
-// activity at a time, a day that the evening fits into, and a sun that rises. Each failure names
-// the parameter, what is wrong and a remedy.
+// Requires what a drive does, and fixed rocks in an open arena that holds every goal, drives to one
+// goal each, one activity at a time, a day that the evening fits into, and a sun that rises. Each
+// failure names the parameter, what is wrong and a remedy.
 void RequireMission(const MissionParams& mission, const trial::DriveParams& drive,
                     core::FieldVisitor& v);
 
