@@ -14,8 +14,8 @@
 #include "sensing/stripe_imager.h"
 #include "terrain/rock.h"
 #include "trial/drive_params.h"
-#include "trial/eyes/onboard_calibration.h"
 #include "trial/eyes/terrain_sensor_set_params.h"
+#include "trial/sight/onboard_calibration.h"
 
 namespace rockyard::campaign {
 namespace {

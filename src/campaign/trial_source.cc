@@ -22,7 +22,7 @@
 #include "terrain/field.h"
 #include "terrain/field_export.h"
 #include "trial/course/layout.h"
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -2,7 +2,7 @@
 /// What the rover believes of its own geometry. Odometry, the wheel driver, the finder of light
 /// stripes and triangulation go by it; the simulated hardware has a geometry of its own, so that a
 /// scenario can make a calibration wrong on purpose. Must stay: every on-board copy is made in one
-/// place (trial/eyes/onboard_calibration.h), from the truth and the errors that the scenario
+/// place (trial/sight/onboard_calibration.h), from the truth and the errors that the scenario
 /// states, so that all parts of one rover believe the same. The words row, scanline, stripe and
 /// point are those of stripe_array.h.
 #pragma once

@@ -1,7 +1,7 @@
 // How wrong the rover is about its own geometry (scenario group perception.calibration). All zero
 // by default: on-board code then works with the truth. Every error is what the rover believes less
 // what is true, except steering_offset_rad. A trial joins truth and errors in one place
-// (trial/eyes/onboard_calibration.h), from which all on-board code must take its geometry; sensors
+// (trial/sight/onboard_calibration.h), from which all on-board code must take its geometry; sensors
 // and physics keep the true geometry.
 #pragma once
 

@@ -32,7 +32,7 @@ struct RoverGeometry {
 RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params);
 
 // Returns the true drive geometry. On-board code gets a copy of it that may be wrong, and only from
-// trial/eyes/onboard_calibration.h.
+// trial/sight/onboard_calibration.h.
 messages::DriveCalibration MakeDriveCalibration(const RoverParams& params);
 
 // Returns the sinkage up to which the law of the rut holds, m: a sixth of the wheel's diameter

@@ -99,9 +99,9 @@ class CheatingSources(unittest.TestCase):
 class SidesOfADrive(unittest.TestCase):
     """World, rover and referee of src/trial: what stands in the world knows no belief, what runs on board no truth."""
 
-    ON_BOARD = [path for name in ("drive/onboard", "drive/vehicle_guard", "eyes/stripe_reader", "eyes/stereo_reader",
-                                  "eyes/visual_reader", "eyes/terrain_sensing", "aids/aid_suite", "aids/visual_aid")
-                for path in (name + ".h", name + ".cc")] + ["eyes/look.h", "aids/slip_alarms.h"]
+    ON_BOARD = [path for name in ("drive/onboard", "drive/vehicle_guard", "sight/stripe_reader", "sight/stereo_reader",
+                                  "sight/visual_reader", "sight/terrain_sensing", "aids/aid_suite", "aids/visual_aid")
+                for path in (name + ".h", name + ".cc")] + ["sight/look.h", "aids/slip_alarms.h"]
     WORLD = [path for name in ("drive/world", "drive/aid_sensors", "eyes/stripe_eyes", "eyes/stereo_eyes",
                                "eyes/visual_eyes", "eyes/rover_cameras")
              for path in (name + ".h", name + ".cc")] + ["eyes/terrain_sensor.h"]

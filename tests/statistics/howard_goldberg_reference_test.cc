@@ -14,8 +14,8 @@
 #include "core/json_file.h"
 #include "report/comparison_reference.h"
 #include "statistics/published_comparison.h"
-#include "trial/eyes/compute_profile.h"
-#include "trial/eyes/compute_tables.h"
+#include "trial/clock/compute_profile.h"
+#include "trial/clock/compute_tables.h"
 #include "vision/odometry/feature_params.h"
 
 namespace rockyard::report {

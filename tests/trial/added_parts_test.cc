@@ -7,7 +7,7 @@
 #include "localization/toy_estimator.h"
 #include "navigation/navigator.h"
 #include "scenario/shipped.h"
-#include "trial/eyes/compute_profile.h"
+#include "trial/clock/compute_profile.h"
 #include "trial/shipped_trials.h"
 #include "trial/toy_terrain_sensor.h"
 

@@ -1,7 +1,7 @@
 // The timing tables of Goldberg 2002 against what the paper prints of them, and what is made of
 // them for other grids against closed forms.
 
-#include "trial/eyes/compute_profile.h"
+#include "trial/clock/compute_profile.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "core/json_file.h"
-#include "trial/eyes/compute_tables.h"
+#include "trial/clock/compute_tables.h"
 
 namespace rockyard::trial {
 namespace {

@@ -5,8 +5,8 @@
 #include <iostream>
 
 #include "core/fields.h"
-#include "trial/eyes/compute_profile.h"
-#include "trial/eyes/compute_tables.h"
+#include "trial/clock/compute_profile.h"
+#include "trial/clock/compute_tables.h"
 
 namespace rockyard::trial {
 namespace {

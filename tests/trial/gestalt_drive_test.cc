@@ -7,8 +7,8 @@
 
 #include "math/angles.h"
 #include "navigation/gestalt/gestalt_params.h"
-#include "trial/eyes/compute_profile.h"
-#include "trial/eyes/compute_tables.h"
+#include "trial/clock/compute_profile.h"
+#include "trial/clock/compute_tables.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

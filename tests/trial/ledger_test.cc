@@ -6,8 +6,8 @@
 
 #include "math/angles.h"
 #include "math/sun_position.h"
+#include "trial/clock/compute_profile.h"
 #include "trial/clock/power.h"
-#include "trial/eyes/compute_profile.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

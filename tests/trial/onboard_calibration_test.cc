@@ -1,7 +1,7 @@
 // What wrong calibrations do to a rover that is true to its description, and what a wrong mount of
 // stereo cameras makes of the points that they see.
 
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include "sensing/light_stripe.h"
 #include "sensing/stereo_sensor.h"
 #include "sensing/stripe_layout_params.h"
-#include "trial/eyes/terrain_sensing.h"
 #include "trial/shipped_trials.h"
+#include "trial/sight/terrain_sensing.h"
 
 namespace rockyard::trial {
 namespace {

@@ -12,8 +12,8 @@
 #include "messages/point_cloud.h"
 #include "navigation/navigator.h"
 #include "scenario/shipped.h"
-#include "trial/eyes/onboard_calibration.h"
 #include "trial/shipped_trials.h"
+#include "trial/sight/onboard_calibration.h"
 #include "trial/toy_terrain_sensor.h"
 
 namespace rockyard::trial {

@@ -9,8 +9,8 @@
 #include "core/error.h"
 #include "core/refusals.h"
 #include "sensing/stereo_view.h"
-#include "trial/eyes/stereo_reader.h"
 #include "trial/shipped_trials.h"
+#include "trial/sight/stereo_reader.h"
 #include "vision/cameras/rectification.h"
 
 namespace rockyard::trial {

@@ -7,9 +7,9 @@
 #include "core/json_file.h"
 #include "core/refusals.h"
 #include "scenario/load.h"
+#include "trial/clock/compute_profile.h"
+#include "trial/clock/compute_tables.h"
 #include "trial/clock/power.h"
-#include "trial/eyes/compute_profile.h"
-#include "trial/eyes/compute_tables.h"
 #include "trial/shipped_trials.h"
 
 namespace rockyard::trial {

@@ -12,7 +12,7 @@
 #include "perception/triangulation.h"
 #include "scenario/load.h"
 #include "statistics/proportions.h"
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 #include "vision/lens.h"
 
 namespace rockyard::trial {

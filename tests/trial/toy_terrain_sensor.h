@@ -5,8 +5,8 @@
 #include "core/fields.h"
 #include "math/pose.h"
 #include "scenario/load.h"
+#include "trial/clock/compute_profile.h"
 #include "trial/counters/hazard_watch.h"
-#include "trial/eyes/compute_profile.h"
 #include "trial/eyes/terrain_sensor.h"
 #include "trial/eyes/terrain_sensor_set_params.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/refusals.h"
-#include "trial/eyes/compute_profile.h"
+#include "trial/clock/compute_profile.h"
 #include "trial/eyes/visual_eyes.h"
 #include "trial/referee/slip_onset.h"
 #include "trial/shipped_trials.h"

@@ -115,7 +115,7 @@ class Range:
 
 @dataclass(frozen=True)
 class Computer:
-    """A profile of the program (src/trial/eyes/compute_profile.h), and how well its times are known, as factors."""
+    """A profile of the program (src/trial/clock/compute_profile.h), and how well its times are known, as factors."""
     profile: str
     name: str
     width_px: int

@@ -12,7 +12,7 @@
 #include "experiments/mission/sol.h"
 #include "math/angles.h"
 #include "messages/estimates.h"
-#include "trial/eyes/compute_profile.h"
+#include "trial/clock/compute_profile.h"
 
 namespace rockyard::campaign {
 namespace {

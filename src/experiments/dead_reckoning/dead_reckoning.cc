@@ -9,7 +9,7 @@
 #include "localization/dead_reckoning.h"
 #include "math/angles.h"
 #include "messages/measurements.h"
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 
 namespace rockyard::experiments {
 namespace {

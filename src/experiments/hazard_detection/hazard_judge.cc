@@ -9,7 +9,7 @@
 #include "perception/hazard_detector.h"
 #include "sensing/stripe_layout_params.h"
 #include "terrain/rock.h"
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 
 namespace rockyard::experiments {
 

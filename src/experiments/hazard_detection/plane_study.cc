@@ -13,7 +13,7 @@
 #include "sensing/stripe_layout_params.h"
 #include "terrain/terrain.h"
 #include "trial/eyes/hazard_scanner.h"
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 #include "vision/lens.h"
 
 namespace rockyard::experiments {

@@ -11,7 +11,7 @@
 #include "sensing/stereo_ground_truth.h"
 #include "sensing/stereo_sensor.h"
 #include "trial/eyes/stereo_eyes.h"
-#include "trial/eyes/stereo_reader.h"
+#include "trial/sight/stereo_reader.h"
 
 namespace rockyard::experiments {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/check.h"
 #include "math/angles.h"
 #include "perception/visual_motion.h"
-#include "trial/eyes/compute_profile.h"
+#include "trial/clock/compute_profile.h"
 
 namespace rockyard::trial {
 namespace {

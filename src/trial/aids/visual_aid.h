@@ -1,5 +1,5 @@
 // Visual odometry of one drive, on board: when it takes images, when a motion is ready, and what
-// becomes of the motion. Onboard keeps it beside the reader of its images (eyes/visual_reader.h).
+// becomes of the motion. Onboard keeps it beside the reader of its images (sight/visual_reader.h).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include "perception/visual_motion.h"
 #include "trial/aids/aid_suite.h"
 #include "trial/drive_params.h"
-#include "trial/eyes/visual_reader.h"
+#include "trial/sight/visual_reader.h"
 
 namespace rockyard::trial {
 

@@ -1,5 +1,5 @@
 // The computer of the simulated clock: whose times of imaging, stereo and navigation a look takes
-// (eyes/compute_profile.h).
+// (clock/compute_profile.h).
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace rockyard::trial {
 
-// Computers whose times stand in eyes/compute_tables.h: the four of Goldberg 2002, section 5 (one
+// Computers whose times stand in clock/compute_tables.h: the four of Goldberg 2002, section 5 (one
 // of table 2, three of table 3), and others whose stereo goes with the width of the images. Must
 // stay: the names in scenarios (EnumNames<Computer>) have this order.
 enum class Computer {

@@ -9,10 +9,10 @@
 
 #include "navigation/stuck_reaction.h"
 #include "terrain/arena.h"
+#include "trial/clock/compute_profile.h"
 #include "trial/course/goal_designation.h"
 #include "trial/drive/make_estimator.h"
 #include "trial/drive/tick_guard.h"
-#include "trial/eyes/compute_profile.h"
 
 namespace rockyard::trial {
 namespace {

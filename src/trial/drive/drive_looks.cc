@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "trial/clock/compute_profile.h"
 #include "trial/drive/drive.h"
-#include "trial/eyes/compute_profile.h"
 
 namespace rockyard::trial {
 

@@ -13,7 +13,7 @@
 #include "trial/clock/power.h"
 #include "trial/drive/onboard.h"
 #include "trial/drive/world.h"
-#include "trial/eyes/terrain_sensing.h"
+#include "trial/sight/terrain_sensing.h"
 #include "truth/trace.h"
 
 namespace rockyard::trial {

@@ -9,7 +9,7 @@
 #include "localization/visual_odometry_estimator.h"
 #include "sensing/tracker.h"
 #include "trial/drive_params.h"
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 
 namespace rockyard::trial {
 

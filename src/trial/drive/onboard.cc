@@ -1,7 +1,7 @@
 #include "trial/drive/onboard.h"
 
 #include "perception/tracked_feature.h"
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 
 namespace rockyard::trial {
 namespace {

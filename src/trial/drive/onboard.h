@@ -24,8 +24,8 @@
 #include "trial/drive/timeline.h"
 #include "trial/drive/vehicle_guard.h"
 #include "trial/drive_params.h"
-#include "trial/eyes/terrain_sensing.h"
-#include "trial/eyes/visual_reader.h"
+#include "trial/sight/terrain_sensing.h"
+#include "trial/sight/visual_reader.h"
 
 namespace rockyard::trial {
 

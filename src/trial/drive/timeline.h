@@ -9,7 +9,7 @@
 #include "messages/point_cloud.h"
 #include "trial/clock/clock_params.h"
 #include "trial/clock/ledger.h"
-#include "trial/eyes/terrain_sensing.h"
+#include "trial/sight/terrain_sensing.h"
 
 namespace rockyard::trial {
 

@@ -11,7 +11,7 @@
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
 #include "trial/eyes/stripe_eyes.h"
-#include "trial/eyes/stripe_reader.h"
+#include "trial/sight/stripe_reader.h"
 #include "trial/watchers.h"
 
 namespace rockyard::trial {

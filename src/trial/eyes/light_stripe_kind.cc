@@ -3,12 +3,12 @@
 
 #include "rover/rover_layout_params.h"
 #include "sensing/stripe_layout_params.h"
+#include "trial/clock/compute_profile.h"
 #include "trial/counters/hazard_watch.h"
 #include "trial/drive_params.h"
-#include "trial/eyes/compute_profile.h"
 #include "trial/eyes/stripe_eyes.h"
-#include "trial/eyes/stripe_reader.h"
 #include "trial/eyes/terrain_sensor_kinds.h"
+#include "trial/sight/stripe_reader.h"
 
 namespace rockyard::trial {
 namespace {

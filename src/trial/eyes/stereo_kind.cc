@@ -6,12 +6,12 @@
 #include <numbers>
 #include <string_view>
 
+#include "trial/clock/compute_profile.h"
 #include "trial/counters/hazard_watch.h"
 #include "trial/drive_checks_params.h"
-#include "trial/eyes/compute_profile.h"
 #include "trial/eyes/stereo_eyes.h"
-#include "trial/eyes/stereo_reader.h"
 #include "trial/eyes/terrain_sensor_kinds.h"
+#include "trial/sight/stereo_reader.h"
 
 namespace rockyard::trial {
 namespace {

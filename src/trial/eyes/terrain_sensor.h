@@ -6,7 +6,7 @@
 
 #include "math/pose.h"
 #include "terrain/terrain.h"
-#include "trial/eyes/look.h"
+#include "trial/sight/look.h"
 
 namespace rockyard::trial {
 

@@ -12,7 +12,7 @@
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
 #include "trial/eyes/rover_cameras.h"
-#include "trial/eyes/visual_reader.h"
+#include "trial/sight/visual_reader.h"
 #include "truth/rover_state.h"
 
 namespace rockyard::trial {

@@ -21,7 +21,7 @@
 #include "navigation/gestalt/reference.h"
 #include "navigation/gestalt/splines.h"
 #include "navigation/gestalt/votes.h"
-#include "trial/eyes/compute_tables.h"
+#include "trial/clock/compute_tables.h"
 
 namespace rockyard::navigation {
 namespace {

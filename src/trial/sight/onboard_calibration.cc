@@ -1,4 +1,4 @@
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 
 #include <numbers>
 

@@ -1,9 +1,9 @@
-#include "trial/eyes/stripe_reader.h"
+#include "trial/sight/stripe_reader.h"
 
 #include <utility>
 #include <variant>
 
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 
 namespace rockyard::trial {
 

@@ -1,4 +1,4 @@
-#include "trial/eyes/stereo_reader.h"
+#include "trial/sight/stereo_reader.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "sensing/stereo_rig.h"
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 #include "vision/cameras/cahv.h"
 #include "vision/stereo/disparity.h"
 

@@ -12,7 +12,7 @@
 #include "perception/stereo_points.h"
 #include "sensing/stereo_view.h"
 #include "trial/drive_params.h"
-#include "trial/eyes/look.h"
+#include "trial/sight/look.h"
 
 namespace rockyard::trial {
 

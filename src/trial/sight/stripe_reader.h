@@ -9,7 +9,7 @@
 #include "perception/stripe_finder.h"
 #include "perception/triangulation.h"
 #include "trial/drive_params.h"
-#include "trial/eyes/look.h"
+#include "trial/sight/look.h"
 
 namespace rockyard::trial {
 

@@ -1,4 +1,4 @@
-#include "trial/eyes/terrain_sensing.h"
+#include "trial/sight/terrain_sensing.h"
 
 #include <variant>
 

@@ -1,8 +1,8 @@
-#include "trial/eyes/visual_reader.h"
+#include "trial/sight/visual_reader.h"
 
 #include <variant>
 
-#include "trial/eyes/onboard_calibration.h"
+#include "trial/sight/onboard_calibration.h"
 #include "vision/cameras/cahv.h"
 
 namespace rockyard::trial {

@@ -9,10 +9,9 @@
 #include "messages/estimates.h"
 #include "messages/point_cloud.h"
 #include "perception/hazard_detector.h"
+#include "trial/clock/compute_profile.h"
 #include "trial/drive_params.h"
-#include "trial/eyes/compute_profile.h"
-#include "trial/eyes/look.h"
-#include "trial/eyes/terrain_sensor_set_params.h"
+#include "trial/sight/look.h"
 
 namespace rockyard::trial {
 

@@ -1,4 +1,4 @@
-#include "trial/eyes/compute_profile.h"
+#include "trial/clock/compute_profile.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,7 @@
 #include <variant>
 
 #include "core/check.h"
-#include "trial/eyes/compute_tables.h"
-#include "trial/eyes/terrain_sensor_set_params.h"
+#include "trial/clock/compute_tables.h"
 
 namespace rockyard::trial {
 namespace {
