@@ -1,4 +1,4 @@
-// rockyard baseline
+// The command `rockyard baseline`: keeps what runs gave in a file, for `rockyard check --against`.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -29,7 +29,8 @@ struct BaselineOptions {
   std::string out;
 };
 
-// Of the file, else of the folder of the first run.
+// Returns the name of the baseline: --name, else that of the file, else that of the folder of the
+// first run.
 std::string NameOf(const BaselineOptions& options) {
   if (!options.name.empty()) return options.name;
   if (!options.out.empty()) return fs::path(options.out).stem().string();

@@ -1,4 +1,4 @@
-// rockyard calibrate
+// The command `rockyard calibrate`: estimates cameras from images of a chessboard.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -24,7 +24,7 @@ struct CalibrateOptions {
   bool json = false;
 };
 
-// The outliers that the terminal shows; the report names all.
+// How many outliers the text names; the files of results name all.
 constexpr std::size_t kShownOutliers = 10;
 
 std::string CalibratedCameraText(const campaign::CalibrateResult& result, std::size_t camera) {

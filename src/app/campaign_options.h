@@ -1,4 +1,5 @@
-// The options that `rockyard run` and `rockyard sweep` share.
+// The options that the commands `run` and `sweep` share, and the request of a campaign that they
+// make.
 #pragma once
 
 #include <string>
@@ -12,8 +13,11 @@ class App;
 
 namespace rockyard::app {
 
+// What standard output gets of a campaign: text for people, summary.json, or nothing.
 enum class Output { kText, kJson, kQuiet };
 
+// What the parser fills. `request` holds the options that a request takes as they are; Request()
+// adds the others.
 struct CampaignOptions {
   campaign::CampaignRequest request = {
       .containment = {.supervisor = true, .trial_cpu_limit_s = 600.0, .threads = 0}};
@@ -28,19 +32,19 @@ struct CampaignOptions {
   double until_half_width = 0.0;  // 0: no stopping rule
   std::string allocate = "uniform";
   std::string interval = "wilson";
-  batch::StoppingRule rule;    // where until_half_width is given; its half-width is that one
-  std::string resume_command;  // as ResumeText gives it
+  batch::StoppingRule rule;    // where until_half_width is above 0; Request() sets its half-width
+  std::string resume_command;  // ResumeText of the command that was parsed
 
   Output output() const;
-  // What all of them ask for.
+  // Returns the request that all options together make.
   campaign::CampaignRequest Request() const;
 };
 
-// Adds them to a command, --dry-run included, which the command itself must obey. `options` must
-// outlive it.
+// Adds the options to a command, all but --interval. The command itself must obey --dry-run.
+// `options` must outlive the command.
 void AddCampaignOptions(CLI::App& command, CampaignOptions& options);
 
-// Adds --interval, which comes after the command's own options.
+// Adds --interval. It is apart, so that help shows it after the command's own options.
 void AddIntervalOption(CLI::App& command, CampaignOptions& options);
 
 }  // namespace rockyard::app

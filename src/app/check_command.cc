@@ -1,4 +1,4 @@
-// rockyard check
+// The command `rockyard check`: holds runs against published values or a baseline.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
@@ -23,13 +23,13 @@ struct CheckOptions {
   bool allow_scenario_change = false;
   bool same_records = false;
   bool all_rows = false;
-  bool json = false;  // for programs; else text
+  bool json = false;
   std::string reference;
   std::string junit;
   std::string csv;
 };
 
-// Of the options for a baseline.
+// Adds the options that hold for a baseline alone.
 void AddRegressionOptions(CLI::App& command, CheckOptions& options) {
   command.add_flag("--allow-scenario-change", options.allow_scenario_change,
                    "baseline: compare although settings differ");

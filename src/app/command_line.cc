@@ -29,31 +29,33 @@
 namespace rockyard::app {
 namespace {
 
-// For reading alone: what is written to it fails, as it would have without. open() takes the lowest
-// number that is free, which is this one, as those below are open by then.
+// Opens a standard stream that is closed. It is opened for reading alone, so that writing to it
+// still fails. open() takes the lowest free number, which is `descriptor`, as the standard streams
+// below it are open: they must be opened in ascending order.
 void OpenIfClosed(int descriptor) {
   if (fcntl(descriptor, F_GETFD) >= 0) return;
   [[maybe_unused]] const int opened = open("/dev/null", O_RDONLY);
 }
 
-// To be called first of all. A stream that the caller has closed is opened, so that no file of a
-// run gets its number and what is printed: reading finds its end, writing fails (console.h).
-// Writing into a pipe without a reader, or beyond a limit on the size of files, becomes an error
-// instead of a signal that would end the program before what it was asked for is stored.
+// Must be called first of all. A standard stream that the caller has closed is opened, or a file of
+// a run would get its number, and with it what is printed: reading then finds the end, and writing
+// fails (console.h). Writing into a pipe without a reader, or beyond a limit on the size of files,
+// becomes an error instead of a signal, which would end the program before its results are stored.
 void PrepareStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) OpenIfClosed(stream);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-// What `action` returns. An exception out of it is told on the terminal: kBadInput for
-// core::UserError, kFailed for anything else.
+// Returns what `action` returns. An exception out of it is told on standard error, and gives
+// kBadInput for core::UserError, kFailed for anything else.
 ExitCode Guarded(const std::function<ExitCode()>& action) {
   const campaign::Observer console = MessagesToConsole(Output::kText);
   campaign::Journal journal(console);
   return campaign::Guarded(journal, action);
 }
 
+// Must agree: these numbers and those of campaign::Outcome.
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 a comparison differs, 2 bad input (nothing written), 3 too many\n"
     "simulator faults, 4 inconclusive, 5 failed while running, 130 interrupted.";
@@ -64,14 +66,14 @@ std::string VersionText() {
                      p.host, p.cpu_model, p.cpu_level, p.cpu_threads);
 }
 
-// The last of the subcommands that were named: `plan claim` of `rockyard plan claim`.
+// Returns the innermost subcommand that was named: `plan claim` of `rockyard plan claim`.
 const CLI::App& Chosen(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
   return chosen.empty() ? app : Chosen(*chosen.front());
 }
 
-// "--trails" of "The following arguments were not expected: 5 --trails"; empty for other errors,
-// and where no option is among them.
+// Returns "--trails" of "The following arguments were not expected: 5 --trails"; empty for other
+// errors, and where no option is among the arguments.
 std::string UnknownOption(const CLI::ParseError& error) {
   const std::string text = error.what();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return "";
@@ -81,7 +83,7 @@ std::string UnknownOption(const CLI::ParseError& error) {
   return word.substr(0, word.find_first_of(" ="));
 }
 
-// The option of the subcommand that was meant; empty where none is near.
+// Returns the option of the subcommand that is nearest to the word; empty where none is near.
 std::string NearestOption(const CLI::App& command, std::string_view word) {
   if (!word.starts_with("--")) return "";
   std::vector<std::string> names;
@@ -107,7 +109,8 @@ core::Problem ExplainOption(const CLI::App& command, const std::string& unknown,
           fmt::format("did you mean \"{}\"? see {}", meant, HelpOf(command))};
 }
 
-// The parser alone would say that a subcommand is missing, not that the one given is unknown.
+// Returns the problem of a command line that the parser refused. `first` is its first word: the
+// parser would say that a subcommand is missing, not that the one given is unknown.
 core::Problem Explain(const CLI::App& app, const CLI::ParseError& error, std::string_view first) {
   const CLI::App& command = Chosen(app);
   if (&command != &app) return ExplainOption(command, UnknownOption(error), error);
@@ -121,24 +124,26 @@ core::Problem Explain(const CLI::App& app, const CLI::ParseError& error, std::st
           core::Suggest(first, candidates)};
 }
 
-// Every rank that mpirun started reads the same command line; one message is enough.
+// Prints on rank 0 alone: every rank that mpirun started reads the same command line.
 void PrintOnce(const std::vector<core::Problem>& problems) {
   if (campaign::IsFirstRank()) PrintProblems(problems);
 }
 
-// mpirun ends every rank as soon as one has left with an error: the first, which alone tells what
-// is wrong with the input, is waited for. Where its input is good, this machine's is not, and all
-// end.
+// Lets rank 0 tell first what is wrong with the input: mpirun ends every rank as soon as one has
+// left with an error. Where only the input of this rank is bad (a file that its machine lacks), its
+// leaving ends all ranks.
 void LeaveFirstRankTime(ExitCode outcome) {
   constexpr std::chrono::seconds kFirstRank{10};
   if (outcome != ExitCode::kBadInput || campaign::IsFirstRank()) return;
   std::this_thread::sleep_for(kFirstRank);
 }
 
-// Ranks share the trials of a campaign; anything else is done once.
+// Returns whether every rank of mpirun takes part: ranks share the trials of a campaign, and rank 0
+// alone does anything else.
 bool IsForAllRanks(std::string_view command) { return command == "run" || command == "sweep"; }
 
-// Names of it go into stores, pages and files of JSON, none of which could be read again.
+// Throws core::UserError for a word that is no UTF-8: words go into stores, pages and files of
+// JSON, which could not be read again.
 void CheckText(std::string_view word) {
   if (core::Utf8Bytes(word) == word.size()) return;
   throw core::UserError(std::string(word), "is no text of UTF-8",
@@ -171,7 +176,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   app.require_subcommand(1);
   app.footer(kFooter);
   app.set_version_flag("--version", VersionText);
-  // In the order of help and documentation.
+  // Help, docs/commands and completion have the commands in this order.
   AddRunCommand(app, exit_code);
   AddSweepCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
@@ -197,7 +202,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddMetricsCommand(app);
   AddHelpCommand(app);
   AddCompletionCommand(app);
-  // These go over all options that are there.
+  // Must come last: these go over all options that have been added.
   AddExamples(app);
   CheckEveryValue(app);
   KeepEveryInput(app);

@@ -1,11 +1,11 @@
-// The rockyard command.
+// The rockyard command, from its arguments to its exit code. main calls it, and tests in their own
+// process.
 #pragma once
 
 namespace rockyard::app {
 
-// Parses the arguments, runs the subcommand, reports every failure on standard error as
-// "error: PATH: reason" and "  try: suggestion", and returns the exit code (console.h). Throws
-// nothing.
+// Parses the arguments, runs the subcommand, tells every failure on standard error (PrintProblems),
+// and returns an ExitCode (console.h). Throws nothing.
 int RunCommandLine(int argc, const char* const* argv);
 
 }  // namespace rockyard::app

@@ -15,13 +15,15 @@ namespace rockyard::app {
 namespace {
 
 constexpr std::string_view kResume = "--resume";
-// What holds for the first of a command's sessions alone.
+// Options that hold for one session of a campaign, and are left out of the command that goes on
+// with it (which has its own --resume).
 constexpr std::array<std::string_view, 3> kOnce = {kResume, "--force", "--retry-faults"};
 
 bool IsFlag(const CLI::Option& option) { return option.get_items_expected_min() == 0; }
 
-// Positional arguments first, so that none of them is taken for the value of an option. All of them
-// are files or folders.
+// Returns the command line, with --resume in place of kOnce where `resume`. Positional arguments
+// come first, so that none is taken for the value of an option. Must hold: every positional
+// argument of these commands is a file or folder, as ShellPath takes them.
 std::string Text(const CLI::App& command, bool resume) {
   std::string words;
   std::string options;

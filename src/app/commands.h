@@ -1,8 +1,11 @@
-// The subcommands, most in a file each. Add...() describes one to the parser; when the user names
-// it, its callback runs, and throws core::UserError for what is wrong with the input. The callback
-// runs after Add...() has returned: it owns the options that the parser fills.
+// The subcommands, most in a file each. RunCommandLine adds them to its parser.
 //
-// docs/commands is made from these descriptions, and a test compares: after a change
+// Add...() describes a subcommand to the parser. When the user names the subcommand, its callback
+// runs, and throws core::UserError for what is wrong with the input. The callback runs after
+// Add...() has returned: it owns the options that the parser fills. A callback that can end
+// otherwise than kDone sets `exit_code`, which must outlive the parsing.
+//
+// Must agree: docs/commands is made from the descriptions, and a test compares. After a change call
 // `rockyard help --format markdown --out docs/commands`.
 #pragma once
 
@@ -42,11 +45,11 @@ void AddMetricsCommand(CLI::App& app);
 void AddHelpCommand(CLI::App& app);
 void AddCompletionCommand(CLI::App& app);  // after all others, which it completes
 
-// All of them, with their examples and with what no option may be given.
+// Adds all of them, their examples, and the checks that hold for every option (option_checks.h).
 void AddCommands(CLI::App& app, ExitCode& exit_code);
 
-// What the program is, three commands to begin with, where the documentation is, and every
-// subcommand of the parser with a line.
+// Returns what `rockyard` alone says: what the program is, three commands to begin with, where the
+// documentation is, and a line for every subcommand.
 std::string StartText(const CLI::App& app);
 
 }  // namespace rockyard::app

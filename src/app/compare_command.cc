@@ -1,4 +1,4 @@
-// rockyard compare
+// The command `rockyard compare`: two runs, trial by trial or cell by cell.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -37,7 +37,7 @@ void WriteCsv(const CompareOptions& options, const std::string& csv) {
   if (!options.csv.empty()) WriteNamedFile("table", options.csv, csv);
 }
 
-// The settings in which two runs differ, one per line.
+// Returns the settings in which two runs differ, one a line.
 std::string SettingsText(const std::vector<batch::ScenarioDifference>& differences) {
   constexpr std::size_t kShown = 12;
   if (differences.empty()) return "no setting differs\n\n";

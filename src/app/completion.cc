@@ -22,8 +22,8 @@
 namespace rockyard::app {
 namespace {
 
-// "wilson" and "clopper-pearson" of "TEXT:{wilson,clopper-pearson}", as the parser shows it; words
-// that stand for numbers are shown as "word->number".
+// Returns "wilson" and "clopper-pearson" of "TEXT:{wilson,clopper-pearson}", the parser's name of a
+// type; the parser writes a word that stands for a number as "word->number".
 std::vector<std::string> WrittenChoices(const std::string& type) {
   const std::size_t open = type.find('{');
   const std::size_t close = type.find('}', open);
@@ -33,7 +33,7 @@ std::vector<std::string> WrittenChoices(const std::string& type) {
   return words;
 }
 
-// Of "worst:N" what can be offered.
+// Returns the same words as they are offered: "worst:" of "worst:N".
 std::vector<std::string> Choices(const std::string& type) {
   auto words = WrittenChoices(type);
   for (std::string& word : words) {
@@ -59,7 +59,9 @@ std::string FirstLine(std::string text) {
   return text;
 }
 
-// The kinds that fit what a command takes by the name "SCENARIO_OR_RUN".
+// Returns the kinds of LookUp that fit a positional argument, by its name: scenarios and runs for
+// "SCENARIO_OR_RUN". Must agree: the names of the arguments in the commands, and the kinds in
+// WordsOf.
 std::vector<std::string> LookupKinds(std::string_view positional) {
   std::vector<std::string> kinds;
   for (const auto& [part, kind] :
@@ -129,7 +131,7 @@ std::vector<std::string> Runs() {
   return words;
 }
 
-// The shortest ones, or paths for somebody who types one.
+// Returns the shortest names, or paths where a path is being typed.
 std::vector<std::string> Names(Wanted wanted, std::string_view typed) {
   return typed.find('/') == std::string_view::npos ? ScenarioNames(wanted) : ScenarioPaths(wanted);
 }
@@ -169,7 +171,7 @@ std::vector<std::string> LookUp(std::string_view asked) {
 
 namespace {
 
-// Text in single quotes of fish, where only these two are special.
+// Returns text in single quotes of fish, inside which only ' and \ are special.
 std::string FishQuoted(std::string_view text) {
   std::string quoted = "'";
   for (const char c : text) {
@@ -179,7 +181,8 @@ std::string FishQuoted(std::string_view text) {
   return quoted + "'";
 }
 
-// Words that the program looks up for what has been typed of the current one.
+// Returns the part of a `complete` line that has the program look up words (LookUp) for what has
+// been typed of the current one.
 std::string FishLookup(std::string_view kind, std::string_view before) {
   return fmt::format(
       "{} -a '(rockyard completion --offer {}:(commandline -ct | string collect --allow-empty) "
@@ -202,7 +205,7 @@ std::string FishOption(const CommandOffer& command, const Offer& option) {
   return line + fmt::format(" -d {}\n", FishQuoted(option.about));
 }
 
-// The script (CompletionScript) for these subcommands.
+// Returns the CompletionScript for fish; Bash and Zsh return those for their shells.
 std::string FishCompletion(const std::vector<CommandOffer>& commands) {
   std::string text =
       "# Completion of rockyard for fish:\n"
@@ -239,14 +242,15 @@ std::string CommandNames(const std::vector<CommandOffer>& commands, std::string_
   return fmt::format("{}", fmt::join(names, between));
 }
 
-// Text in single quotes of a shell.
+// Returns text in single quotes of a POSIX shell or zsh.
 std::string Quoted(std::string_view text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
 }
 
-// The line of a `case` of bash that completes what an option takes; empty where that is a file.
+// Returns the branch of bash's `case` that completes what an option takes; empty where it takes
+// nothing, or a file.
 std::string BashValue(const CommandOffer& command, const Offer& option) {
   if (option.takes == Takes::kNothing || option.takes == Takes::kText) return "";
   std::string patterns;
@@ -261,7 +265,7 @@ std::string BashValue(const CommandOffer& command, const Offer& option) {
                      patterns, fmt::join(option.choices, " "));
 }
 
-// What may stand where no option is being typed.
+// Returns the branch of bash's `case` that completes what may stand where no option is being typed.
 std::string BashWords(const CommandOffer& command) {
   std::string find;
   if (!command.words.empty()) {
@@ -330,7 +334,7 @@ complete -o filenames -F _rockyard rockyard
                      CommandNames(commands, " | "), values, words, CommandNames(commands, " "));
 }
 
-// Of a description inside [...] or before a colon.
+// Returns a description as zsh reads it inside [...] or before a colon.
 std::string ZshText(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -355,7 +359,7 @@ std::string ZshOption(const Offer& option) {
   return text;
 }
 
-// The end of the case of a command: what stands where no option does.
+// Returns the end of a command's branch: what may stand where no option does.
 std::string ZshFiles(const CommandOffer& command) {
   if (!command.takes_files) return "            ;;\n";
   if (command.lookups.empty()) return "            '*:file:_files' ;;\n";
@@ -424,7 +428,7 @@ std::string CompletionScript(const CLI::App& app, Shell shell) {
   return {};
 }
 
-// rockyard completion
+// The command `rockyard completion`.
 
 namespace {
 

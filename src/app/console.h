@@ -1,4 +1,4 @@
-// What people see: streams, colours, errors.
+// What people see: streams, colours, errors. Every command prints through it.
 #pragma once
 
 #include <cstdio>
@@ -13,49 +13,50 @@
 
 namespace rockyard::app {
 
-// What the command tells the shell: 0 done, 1 a comparison differs, 2 bad input, 3 too many
-// simulator faults, 4 inconclusive, 5 failed while running, 130 interrupted.
+// What the command tells the shell. Must stay: the numbers, on which scripts rely; kFooter of
+// command_line.cc tells them to people.
 using ExitCode = campaign::Outcome;
 
-// False in a process of mpirun, which gives a terminal of its own making to rank 0 wherever its own
-// output goes.
+// Returns whether the stream is a terminal. Returns false in a process of mpirun, which gives rank
+// 0 a terminal of its own making, wherever the output of mpirun goes.
 bool IsTerminal(std::FILE* stream);
 
-// Columns of the terminal on `stream`; 100 where it is none or does not tell.
+// Returns the columns of the terminal on `stream`; 100 where it is none or does not tell.
 int TerminalWidth(std::FILE* stream);
 
-// Colours on a terminal that is not "dumb", or anywhere where CLICOLOR_FORCE is set to something
-// else than 0; none where NO_COLOR is set (no-color.org), whatever else is.
+// Returns the style of text on `stream`. It has colours on a terminal that is not "dumb", and
+// anywhere where CLICOLOR_FORCE is set to something else than 0. NO_COLOR (no-color.org) forbids
+// them in any case.
 report::TextStyle StyleFor(std::FILE* stream);
 
-// What follows goes to standard output. Where that cannot be written, PrintProblems says so once,
-// the rest is dropped and OutputFailed() from then on; the caller goes on, as what it writes
-// elsewhere is of use all the same. A pipe whose reader has gone is no failure: who asked for `|
-// head` has it.
+// Print, PrintJson and PrintExact write to standard output. Where that cannot be written,
+// PrintProblems says so once, later text is dropped, and OutputFailed() returns true. The caller
+// goes on, as what it writes elsewhere is of use all the same. A pipe whose reader has gone (of
+// `| head`) is no failure.
 
-// Text for people: what a terminal would obey or hide is shown as '?' (report::PrintableLines), who
-// ever named it.
+// Prints text for people: what a terminal would obey or hide is shown as '?'
+// (report::PrintableLines).
 void Print(std::string_view text);
 
-// JSON, in which it is escaped.
+// Prints JSON, with such characters escaped.
 void PrintJson(std::string_view json);
 
-// CSV and scripts, which are files that happen to go to standard output: every byte as it is.
+// Prints CSV or a script, every byte as it is.
 void PrintExact(std::string_view text);
 
-// That some of the above was lost.
+// Returns whether some of what was printed to standard output is lost.
 bool OutputFailed();
 
-// How work ended of which nobody could read what it said: kFailed, except where its input was bad
-// or somebody ended it, which say more.
+// Returns the exit code of work whose output is lost: kFailed, but kBadInput and kInterrupted stay,
+// as they say more.
 ExitCode AfterFailedOutput(ExitCode outcome);
 
-// To standard error, all at once: "error: PATH: reason" and "  try: suggestion". Control characters
-// in what the user typed are shown as '?'.
+// Prints problems to standard error, all in one write: "error: PATH: reason", and
+// "  try: suggestion" where there is one. What a terminal would obey or hide is shown as '?'.
 void PrintProblems(const std::vector<core::Problem>& problems);
 
-// To standard error, in lines of at most 100 columns as far as its words allow, the first of them
-// not indented. Control characters as above.
+// Prints a sentence to standard error, wrapped (Wrapped), in which what a terminal would obey or
+// hide is shown as '?'.
 void PrintNote(std::string_view text);
 
 using report::Wrapped;

@@ -1,4 +1,4 @@
-// rockyard cylinder
+// The command `rockyard cylinder`: finds the coloured cylinder of a rover in two images.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

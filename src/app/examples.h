@@ -1,4 +1,5 @@
-// What people type: the examples that `rockyard COMMAND --help` shows.
+// The examples of commands: `rockyard COMMAND --help` and the pages of commands (manual.h) show
+// them.
 #pragma once
 
 #include <span>
@@ -12,19 +13,20 @@ class App;
 namespace rockyard::app {
 
 struct CommandExample {
-  std::string_view command;  // of a subcommand
+  std::string_view command;  // its subcommand
   std::string_view line;     // as typed in the folder of the project
-  std::string_view what;     // it does, in a few words
+  std::string_view what;     // what it does, in a few words
 };
 
-// One to three for every subcommand. A test parses each.
+// Returns one to three examples for every subcommand. A test parses each.
 std::span<const CommandExample> Examples();
 
-// Those of a command as its help shows them, with the empty line that parts them from what follows;
-// empty where there are none.
+// Returns the examples of a command as its help shows them, with the empty line that parts them
+// from what follows; empty where there are none.
 std::string ExampleText(std::string_view command);
 
-// Shows them below the options of the subcommands, before what else stands there.
+// Puts the ExampleText of every subcommand first in its footer. Must stay: the place, as ManualOf
+// cuts the text off the beginning of the footer.
 void AddExamples(CLI::App& app);
 
 }  // namespace rockyard::app

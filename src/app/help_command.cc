@@ -1,4 +1,5 @@
-// rockyard help, and rockyard alone
+// The command `rockyard help`, what `rockyard` alone prints, and the files of docs/commands and
+// man.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -42,7 +43,8 @@ std::string FirstSentence(const CLI::App& command) {
   return text.substr(0, text.find_first_of(";:"));
 }
 
-// The subcommand of that name, which stands below "rockyard" or below another: "plan claim".
+// Returns the subcommand of that name right below `command`. Throws core::UserError where there is
+// none.
 const CLI::App* Below(const CLI::App& command, const std::string& name) {
   std::vector<std::string> names;
   for (const CLI::App* inner : command.get_subcommands({})) {
@@ -67,7 +69,8 @@ std::string PageOf(const CLI::App& command, const std::string& before, const std
                          : AsMarkdown(page);
 }
 
-// "run.md", "rockyard-run.1"; of rockyard itself "README.md", "rockyard.1".
+// Returns "run.md" or "rockyard-run.1"; for rockyard itself, whose `command` is empty, "README.md"
+// or "rockyard.1".
 std::string PageFile(const std::string& command, const std::string& format) {
   if (format == "man")
     return command.empty() ? "rockyard.1" : fmt::format("rockyard-{}.1", command);

@@ -1,4 +1,5 @@
-// rockyard list
+// The command `rockyard list`: the scenario and sweep files of a folder, each with what it is; or,
+// with --ablations, the causes of failure that `run --ablate` and sweeps can take away.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -28,7 +29,7 @@ using core::JsonValue;
 constexpr std::size_t kMinWidth = 40;
 
 struct ListOptions {
-  std::string folder;  // empty: where scenarios are found by name
+  std::string folder;  // empty: ScenarioFolder()
   bool all = false;
   bool ablations = false;
   bool json = false;
@@ -43,7 +44,8 @@ std::size_t LineWidth() {
   return std::max(static_cast<std::size_t>(std::max(TerminalWidth(stdout), 0)), kMinWidth);
 }
 
-// The files of one folder below its name, so that there is room for what they are.
+// Prints the name of a subfolder on a line of its own, and below it its files, each with what it
+// is. On a terminal lines are cut to its width.
 void PrintGroup(const std::string& folder, std::span<const ListedFile> files) {
   std::size_t widest = 0;
   for (const ListedFile& file : files) {
@@ -58,6 +60,7 @@ void PrintGroup(const std::string& folder, std::span<const ListedFile> files) {
   }
 }
 
+// Files of one group must stand next to each other, as ListScenarios sorts them.
 void PrintEntries(const std::string& folder, const std::vector<ListedFile>& files, bool all) {
   std::vector<ListedFile> shown;
   std::copy_if(files.begin(), files.end(), std::back_inserter(shown),

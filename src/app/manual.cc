@@ -14,7 +14,7 @@
 namespace rockyard::app {
 namespace {
 
-// "1 to 4096" of the parser's "INT in [1 - 4096]".
+// Returns "1 to 4096" of the parser's "INT in [1 - 4096]".
 std::string RangeIn(const std::string& type) {
   const std::size_t open = type.find('[');
   const std::size_t close = type.find(']', open);
@@ -25,7 +25,8 @@ std::string RangeIn(const std::string& type) {
   return range;
 }
 
-// "INT", "INT, 1 to 4096", "uniform | adaptive", "FLOAT, 2 to 1e+06 | 0".
+// Returns what an option takes: "INT", "INT, 1 to 4096", "uniform | adaptive", "FLOAT, 2 to 1e+06 |
+// 0".
 std::string ValueOf(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return "";
   const std::string type = option.get_type_name();
@@ -38,7 +39,8 @@ std::string ValueOf(const CLI::Option& option) {
   return range.empty() ? words : fmt::format("{} | {}", value, words);
 }
 
-// In order of their names: the parser keeps them in order of their places in memory.
+// Returns the names in alphabetical order. The parser keeps options in the order of their places in
+// memory, which would change pages from run to run.
 std::string NamesOf(const std::set<CLI::Option*>& options) {
   std::set<std::string> names;
   for (const CLI::Option* option : options) names.insert(option->get_name());
@@ -74,7 +76,7 @@ ManualOption OptionOf(const CLI::Option& option) {
   return {AllNames(option), ValueOf(option), option.get_default_str(), TextOf(option)};
 }
 
-// "[FILE]...", as synopses write what may be left out and what may be repeated.
+// Returns the argument as a synopsis writes it: "[FILE]..." may be left out and repeated.
 std::string Placeholder(const CLI::Option& option) {
   const std::string name =
       option.get_required() ? option.get_name() : "[" + option.get_name() + "]";
@@ -100,7 +102,8 @@ std::vector<std::string> Paragraphs(const std::string& text) {
   return paragraphs;
 }
 
-// The examples stand first in it (AddExamples).
+// Adds the examples, which AddExamples put first in the footer, and the rest of the footer as
+// notes.
 void AddFooter(const CLI::App& command, ManualPage& page) {
   std::string footer = command.get_footer();
   const std::string shown = ExampleText(command.get_name());

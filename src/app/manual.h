@@ -1,4 +1,5 @@
 // What the parser knows of a command, as a page to read: Markdown for docs/commands, roff for man.
+// `rockyard help` writes the pages; a test compares docs/commands with them.
 #pragma once
 
 #include <string>
@@ -11,6 +12,7 @@ class App;
 
 namespace rockyard::app {
 
+// An option or an argument.
 struct ManualOption {
   std::string names;  // "--trials", "-h, --help", "SCENARIO"
   std::string value;  // "INT, 1 to 4096", "uniform | adaptive"; empty for a switch
@@ -20,9 +22,10 @@ struct ManualOption {
 
 struct ManualExample {
   std::string line;  // as typed
-  std::string what;  // it does
+  std::string what;  // what it does
 };
 
+// The page of a command, with the commands below it.
 struct ManualPage {
   std::string name;  // "rockyard run", "rockyard plan claim"
   std::string summary;
@@ -34,16 +37,16 @@ struct ManualPage {
   std::vector<ManualPage> commands;
 };
 
-// Of a command and of those below it; `parent` is what stands before its name. Options that are
-// kept from people (an empty group) are left out.
+// Returns the page of a command. `parent` is what stands before its name: "rockyard". Options
+// without a group, which only scripts use, are left out.
 ManualPage ManualOf(const CLI::App& command, std::string_view parent = "");
 
-// Ends with a line break. Commands below it are sections of the page; those of rockyard itself,
-// which have pages of their own, are a list of links.
+// Returns the page as Markdown, ending in a line break. Commands below it are sections; on the page
+// of rockyard itself they are links to their own pages.
 std::string AsMarkdown(const ManualPage& page);
 
-// A page for section 1 of the manual (man(7)), without a date, so that equal programs give equal
-// pages. `version` stands in its foot.
+// Returns the page in the macros of man(7), for section 1. It has no date, so that equal programs
+// give equal pages. `version` stands in its foot.
 std::string AsMan(const ManualPage& page, std::string_view version);
 
 }  // namespace rockyard::app

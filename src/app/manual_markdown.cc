@@ -1,4 +1,4 @@
-// Pages of commands as Markdown.
+// Pages of commands as Markdown (AsMarkdown), for docs/commands.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ std::string Capital(std::string text) {
   return text;
 }
 
-// In a cell of a table '|' would end it, and '<' begin markup.
+// Returns text for a cell of a table, which '|' would end and in which '<' would begin markup.
 std::string Cell(const std::string& text) {
   std::string cell;
   for (const char c : text) {
@@ -31,7 +31,7 @@ std::string Cell(const std::string& text) {
 
 std::string Code(const std::string& text) { return text.empty() ? "" : fmt::format("`{}`", text); }
 
-// Inside of `code` a '|' still has to be kept from the table, but '<' stands for itself.
+// Returns `code` for a cell: there '|' would still end the cell, but '<' stands for itself.
 std::string CodeCell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) {
     text.replace(at, 1, "\\|");
@@ -59,7 +59,7 @@ std::string ExampleList(const ManualPage& page) {
   return text;
 }
 
-// "run" of "rockyard run".
+// Returns "run" of "rockyard run".
 std::string LastWord(const std::string& name) { return name.substr(name.rfind(' ') + 1); }
 
 std::string Links(const ManualPage& page) {

@@ -1,4 +1,4 @@
-// Pages of commands for man(1), in the macros of man(7).
+// Pages of commands for man(1), in the macros of man(7) (AsMan).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace rockyard::app {
 namespace {
 
-// As it stands: '-' would become a hyphen, '\' begins an escape, and a line that begins with '.' or
-// '\'' is a request.
+// Returns text that roff shows as it stands: '-' would become a hyphen, '\' begins an escape, and a
+// line that begins with '.' or '\'' is a request.
 std::string Plain(std::string_view text) {
   std::string plain;
   for (const char c : text) {
@@ -55,7 +55,7 @@ std::string Section(const char* name, const std::string& body) {
   return body.empty() ? "" : fmt::format(".SH {}\n{}", name, body);
 }
 
-// One line each, in a font that shows it is typed.
+// Returns each example as a command in bold and what it does.
 std::string RoffExamples(const ManualPage& page) {
   std::string text;
   for (const ManualExample& example : page.examples) {

@@ -1,4 +1,4 @@
-// rockyard merge
+// The command `rockyard merge`: puts the shards of a campaign together.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>

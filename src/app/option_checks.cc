@@ -32,7 +32,8 @@ std::string EmptyProblem(const std::string& text) {
   return text.empty() ? "is empty: give a value, or leave the option out" : "";
 }
 
-// Text that is no number at all is refused by the parser, in its own words.
+// Returns what is wrong with a real number; nothing for text that is no number at all, which the
+// parser refuses in its own words.
 std::string FiniteProblem(const std::string& text) {
   double number = 0.0;
   if (!CLI::detail::lexical_cast(text, number)) return "";
@@ -40,8 +41,8 @@ std::string FiniteProblem(const std::string& text) {
   return std::isfinite(number) ? "" : text + " is no finite number";
 }
 
-// Without a plus and leading zeros, for which the parser would take a number as octal: scripts pad
-// numbers so ("007").
+// Returns a whole number without plus and leading zeros: scripts pad numbers so ("007"), and the
+// parser would take them as octal. Returns other text as it is.
 std::string WithoutPadding(std::string text) {
   const bool negative = text.starts_with('-');
   const std::size_t sign = negative || text.starts_with('+') ? 1 : 0;
@@ -52,8 +53,8 @@ std::string WithoutPadding(std::string text) {
   return (negative ? "-" : "") + text.substr(digit);
 }
 
-// The parser would take the largest number that fits, wrap a negative one around, and read other
-// bases.
+// Returns what is wrong with a whole number. The parser would replace one that is too large by the
+// largest that fits, wrap a negative one around, and read other bases.
 template <typename Integer>
 std::string WholeProblem(const std::string& text) {
   Integer number = 0;
@@ -64,8 +65,8 @@ std::string WholeProblem(const std::string& text) {
   return result.ec == std::errc() && result.ptr == end ? "" : text + " is no whole decimal number";
 }
 
-// Options that name a file to be written. One that is missing here counts as one whose file is
-// read.
+// The options that name a file or folder to be written. Must be complete: an option that is missing
+// here counts as one that names files to be read.
 constexpr std::array<std::string_view, 6> kOutputs = {"--out", "--csv",  "--svg",
                                                       "--npz", "--data", "--junit"};
 
@@ -73,7 +74,8 @@ bool IsOutput(const CLI::Option& option) {
   return std::find(kOutputs.begin(), kOutputs.end(), option.get_name()) != kOutputs.end();
 }
 
-// The path that a word of the command line means, a scenario by its name too.
+// Returns the path that a word of the command line means, which may be the name of a scenario or
+// rover.
 fs::path MeantBy(const CLI::Option& option, const std::string& word) {
   if (!option.get_positional() || fs::exists(word)) return word;
   try {
@@ -83,7 +85,7 @@ fs::path MeantBy(const CLI::Option& option, const std::string& word) {
   }
 }
 
-// What is read for it: a scenario extends others.
+// Returns all files that are read for an input: a scenario and those that it extends.
 std::vector<fs::path> ReadFor(const fs::path& input) {
   std::error_code error;
   if (!fs::is_regular_file(input, error)) return {input};
@@ -123,8 +125,8 @@ const CLI::Option* OptionNamed(const CLI::App& command, const std::string& name)
   return command.get_option_no_throw(name);
 }
 
-// "wald" of "wald not in {wilson,clopper-pearson}", and of what a transformation says: "Check wald
-// value in {...} FAILED".
+// Returns "wald" of the parser's "wald not in {wilson,clopper-pearson}", or "Check wald value in
+// {...} FAILED", as a transformation words it; empty for other reasons.
 std::string GivenWord(const std::string& reason) {
   const std::size_t end = reason.find(" not in {");
   if (end != std::string::npos) return reason.substr(0, end);

@@ -1,5 +1,6 @@
-// What no command may be given, what the parser says of a value that an option may not have, and
-// the options that name a trial.
+// Checks that hold for the options of every command (AddCommands calls them last), the message for
+// a value that an option refuses, and the options by which the commands `trace` and `replay` name a
+// trial.
 #pragma once
 
 #include <optional>
@@ -14,35 +15,35 @@ class ParseError;
 
 namespace rockyard::app {
 
-// Lets every option of the command and of its subcommands refuse, on top of its own checks, an
-// empty value, which the parser would take for none, where it takes a real number "nan" and "inf"
-// (a range lets NaN pass, since NaN lies neither below nor above it), and numbers that are not
-// decimal; leading zeros mean nothing. Called when all options have been added.
+// Adds checks to every option of the command and of its subcommands, on top of its own. An empty
+// value is refused, which the parser would take for none. Numbers must be finite, as a range of the
+// parser lets NaN pass, and decimal; leading zeros mean nothing. Call it when all options have been
+// added.
 void CheckEveryValue(CLI::App& app);
 
-// Lets every subcommand refuse, before it does anything, an output file that is one of the files
-// that it is given to read, by whatever name. More is refused by campaign/output_folder.h.
+// Makes every subcommand refuse, before it does anything, an output file that is one of the files
+// that it reads, by whatever name. campaign/output_folder.h refuses other files that cannot be
+// meant.
 void KeepEveryInput(CLI::App& app);
 
-// What tells of a command: "rockyard plan claim --help".
+// Returns the command that shows the help of `command`: "rockyard plan claim --help".
 std::string HelpOf(const CLI::App& command);
 
-// The option, what is wrong with its value, and what would be right: the words that it takes where
-// it takes one of a few, with the nearest of them first. Nothing for other errors of the parser.
+// Returns the problem of an option whose value was refused: the option, what is wrong, and what
+// would be right (of an option that takes one of a few words, those words, the nearest first).
+// Returns nothing for other errors of the parser.
 std::optional<core::Problem> RefusedValue(const CLI::App& command, const CLI::ParseError& error);
 
-// What `rockyard trace` and `rockyard replay` share: which trial, and whether it repeats its
-// record.
-
-// Adds SCENARIO_OR_RUN, --trial, --cell, --seed and --set to a command. `request` must outlive it.
+// Adds SCENARIO_OR_RUN, --trial, --cell, --seed and --set to `trace` or `replay`. `request` must
+// outlive the command.
 void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request);
 
-// Makes of the name of a scenario its file. Throws core::UserError where it is neither that nor one
-// run.
+// Replaces the name of a scenario in the request by its file. Throws core::UserError where the
+// source is no scenario, and where it is a folder that holds runs but is none itself.
 void FindSource(campaign::TrialRequest& request);
 
-// Says that a trial repeats its stored record, where it does, and of one of a run (`source` is its
-// folder) that has none yet that it is compared with nothing.
+// Prints that a trial repeats its stored record, where it does; or, where `repeats_stored` is
+// absent and `source` is the folder of a run, that the trial is pending and compared with nothing.
 void PrintRepetition(std::optional<bool> repeats_stored, const std::string& source);
 
 }  // namespace rockyard::app

@@ -1,4 +1,5 @@
-// rockyard plan
+// The command `rockyard plan`: how many trials a question needs, with a subcommand for each
+// question.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -23,11 +24,12 @@ namespace {
 
 using statistics::IntervalMethod;
 
+// A question and its answers.
 class PlanReport {
  public:
   explicit PlanReport(std::string question) : question_(std::move(question)) {}
 
-  // `key` for programs, `what` for people.
+  // Adds an answer: `key` names it for programs, `what` for people.
   void Add(std::string key, std::string what, std::int64_t trials);
   void Add(std::string key, std::string what, double probability);
 
@@ -45,7 +47,7 @@ class PlanReport {
   std::vector<Line> lines_;
 };
 
-// Whether a number of trials is where the search for it ended, and no answer.
+// Returns whether a number of trials is where the search for it ended, and so no answer.
 bool IsCutOff(std::int64_t trials) { return trials >= statistics::kMaxTrials; }
 
 void PlanReport::Add(std::string key, std::string what, std::int64_t trials) {
@@ -69,7 +71,8 @@ std::string PlanText(const PlanReport& report) {
   return text;
 }
 
-// {"question", and a number for each key}, and KEY_or_more: true where its search was cut off.
+// Returns {"question", and a number for each key}, with "KEY_or_more": true beside a number whose
+// search was cut off.
 std::string PlanJson(const PlanReport& report) {
   core::JsonValue json = core::JsonValue::Object();
   json.Set("question", core::JsonValue(report.question()));
@@ -80,7 +83,7 @@ std::string PlanJson(const PlanReport& report) {
   return core::DumpJson(json);
 }
 
-// What all questions have.
+// The options that questions share; each takes those that it needs.
 struct PlanOptions {
   double confidence = 0.95;
   double alpha = 0.05;
@@ -119,7 +122,7 @@ struct HalfWidthQuestion {
   PlanOptions options;
   double rate = 0.5;
   double half_width = 0.0;
-  std::int64_t block = batch::StoppingRule{}.block;  // as of a run
+  std::int64_t block = batch::StoppingRule{}.block;  // the default of run --block
 };
 
 void PlanHalfWidth(const HalfWidthQuestion& q) {
@@ -200,10 +203,11 @@ struct DifferenceQuestion {
   PlanOptions options;
   double first = 0.0;
   double second = 0.0;
-  double discordant = -1.0;  // not given
+  double discordant = -1.0;  // below 0: not given
 };
 
-// Shares of pairs in which only the first, only the second succeeds.
+// Returns the shares of pairs in which only the first succeeds, and only the second. Throws
+// core::UserError where no pairs with these rates have so many discordant ones.
 statistics::RatePair DiscordantRates(const DifferenceQuestion& q) {
   const double difference = q.second - q.first;
   const double least = std::abs(difference);

@@ -19,6 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Between two lines elsewhere than on a terminal; Tell waits as long.
 constexpr double kPlainInterval_s = 5.0;
 
 std::string Duration(double seconds) {
@@ -37,12 +38,13 @@ std::string Pace(const batch::Progress& progress) {
   return fmt::format(", {:.3g}/s, ETA {}", rate, Duration(static_cast<double>(left) / rate));
 }
 
-// A rule may end cells before their maximum.
+// Returns "<=" where a stopping rule may end cells before the planned number of trials.
 std::string_view AtMost(const batch::Progress& progress) {
   const bool open = progress.target_half_width > 0.0 && progress.finished < progress.planned;
   return open ? "<=" : "";
 }
 
+// The thread of a BusyLine.
 void Tell(const std::stop_token& stop, const std::string& what) {
   const bool terminal = IsTerminal(stderr);
   const std::chrono::seconds interval(terminal ? 1 : 5);

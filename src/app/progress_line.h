@@ -1,4 +1,5 @@
-// The progress of a run while it runs; a sign of life of work that cannot tell how far it is.
+// Progress on a terminal or in a log: of campaigns and of sequences of images, which tell how far
+// they are (ProgressLine), and a sign of life of other work (BusyLine).
 #pragma once
 
 #include <cstdio>
@@ -9,22 +10,24 @@
 
 namespace rockyard::app {
 
-// "  120/300 done, 4.1/s, ETA 0:44, declared success 91.7 % (95 %: 84.9 .. 95.6 of 118), faults 0".
-// Of several cells how many have ended; with a stopping rule the widest half-width at the last
-// look, and the one that is wanted. Success is over the contiguous prefix of finished trials,
-// without simulator faults.
+// Returns the line of a campaign: "  120/300 done, 4.1/s, ETA 0:44, declared success 91.7 % (95 %:
+// 84.9 .. 95.6 of 118), faults 0". The rate of success is that of the contiguous prefix of finished
+// trials, without simulator faults. Where there are several cells, the line tells how many have
+// ended; with a stopping rule also the widest half-width at the last look, and the wanted one.
 std::string ProgressText(const batch::Progress& progress);
 
-// One line that is rewritten on a terminal, and plain lines every few seconds elsewhere.
+// Shows progress on `stream`: on a terminal as one line that is rewritten, elsewhere as a line
+// every five seconds.
 class ProgressLine {
  public:
   explicit ProgressLine(std::FILE* stream);
 
   void Show(const batch::Progress& progress);
-  // Shows the end, whatever the time, and ends the line.
+  // Shows the end, however soon after the last line, and ends the line.
   void Finish(const batch::Progress& progress);
 
-  // The same for progress of another kind, as text; on a terminal alone but for the end.
+  // Show and end progress that the caller words. Elsewhere than on a terminal only the end is
+  // shown.
   void ShowText(std::string text);
   void FinishText(std::string text);
 
@@ -36,9 +39,9 @@ class ProgressLine {
   double next_at_s_ = 0.0;  // when the next plain line is due
 };
 
-// While it lives and once the work takes long, standard error is told what is done and for how many
-// seconds: on a terminal one line that is rewritten every second, elsewhere a line every five.
-// Short work stays silent.
+// While it lives, tells on standard error `what` is done and for how many seconds: on a terminal in
+// one line that is rewritten every second, elsewhere in a line every five. Work that ends before
+// the first line is due stays silent.
 class BusyLine {
  public:
   explicit BusyLine(std::string what);
@@ -47,7 +50,7 @@ class BusyLine {
   BusyLine& operator=(const BusyLine&) = delete;
 
  private:
-  std::jthread teller_;  // its end is waited for
+  std::jthread teller_;  // the destructor stops it and waits for its end
 };
 
 }  // namespace rockyard::app

@@ -1,4 +1,5 @@
-// rockyard defaults
+// The commands that print what a scenario may hold and what is measured: `rockyard defaults`,
+// `schema`, `metrics` and `parameters`.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -24,15 +25,11 @@ void AddDefaultsCommand(CLI::App& app) {
       ->callback([] { PrintJson(scenario::DefaultsJson()); });
 }
 
-// rockyard schema
-
 void AddSchemaCommand(CLI::App& app) {
   app.add_subcommand("schema", "Prints the JSON Schema of scenario files")->callback([] {
     PrintJson(scenario::SchemaJson());
   });
 }
-
-// rockyard metrics
 
 void AddMetricsCommand(CLI::App& app) {
   auto markdown = std::make_shared<bool>(false);
@@ -44,15 +41,13 @@ void AddMetricsCommand(CLI::App& app) {
   });
 }
 
-// rockyard parameters
-
 namespace {
 
 struct ParametersOptions {
   std::string scenario;
   std::vector<std::string> overrides;
   std::optional<core::Origin> origin;
-  std::string word;  // that is searched for
+  std::string word;  // of --search; empty: all
   bool csv = false;
 };
 
@@ -63,7 +58,7 @@ bool Contains(const std::string& text, const std::string& word) {
   return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
 }
 
-// Those with the word in their path, meaning or source.
+// Returns the parameters with the word in their path, meaning or source.
 std::vector<core::ParameterInfo> Containing(const std::string& word,
                                             std::vector<core::ParameterInfo> parameters) {
   std::erase_if(parameters, [&](const core::ParameterInfo& each) {

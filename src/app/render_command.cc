@@ -1,4 +1,4 @@
-// rockyard render
+// The command `rockyard render`: pictures of a scenario's stereo cameras, one pair or a sequence.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -29,7 +29,7 @@ struct RenderOptions {
   std::optional<double> heading_deg;
   bool behind = false;
 
-  // Of a sequence.
+  // For a sequence of pairs, which `pairs` asks for.
   std::optional<std::int64_t> pairs;
   double step_m = 0.25;
   std::optional<double> turn_deg;
@@ -38,7 +38,9 @@ struct RenderOptions {
   bool route = false;
 };
 
-// Of MER's drives by visual odometry, Maimone, Cheng and Matthies 2007.
+// The largest turn on the spot between two pairs of a route, where --turn-deg is absent; as in
+// MER's drives by visual odometry (Maimone, Cheng and Matthies 2007). The help of --turn-deg names
+// it.
 constexpr double kRouteTurn_deg = 18.0;
 
 std::string ResultText(const campaign::RenderRequest& request,

@@ -1,4 +1,5 @@
-// rockyard replay
+// The command `rockyard replay`: one trial again as a page, or its scans and steps
+// (replay_views.h).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

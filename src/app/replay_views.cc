@@ -45,7 +45,7 @@ std::string Counted(const campaign::MomentsResult& result) {
   return text;
 }
 
-// What stereo cameras saw.
+// Prints the files of what stereo cameras saw of the step.
 void PrintLooks(const campaign::MomentsResult& result) {
   if (!result.no_images.empty()) Print(fmt::format("  no images: {}\n", result.no_images));
   for (const campaign::LookFile& file : result.look_files) {

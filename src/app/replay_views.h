@@ -1,4 +1,5 @@
-// What `rockyard replay` is asked for; scans and steps of a trial, listed or drawn.
+// The options of the command `replay`, and what it does with --list, --scan and --step: lists or
+// draws scans of the light stripe and steps of a map-based navigator.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,10 @@
 
 namespace rockyard::app {
 
+// What the parser fills.
 struct ReplayOptions {
   campaign::TrialRequest request;
-  std::string with;  // what the second trial is of; empty: the same
+  std::string with;  // scenario or run of the second trial; empty: that of the first
   std::optional<std::uint32_t> with_trial;
   std::optional<std::int64_t> scan;
   std::optional<std::int64_t> step;
@@ -23,8 +25,9 @@ struct ReplayOptions {
 
   bool draws() const { return scan || step; }
 
-  // The trial beside the first, where one is asked for: the same trial of another run, another one
-  // of the same, or another one of another run. Settings of --set are those of the first.
+  // Returns the second trial of the page, where one is asked for: of `with`, else of the source of
+  // the first; with the index with_trial, else that of the first. The settings of --set hold for it
+  // only where its source is that of the first.
   std::optional<campaign::TrialRequest> Beside() const {
     if (with.empty() && !with_trial) return std::nullopt;
     campaign::TrialRequest beside = request;
@@ -36,8 +39,8 @@ struct ReplayOptions {
   }
 };
 
-// Runs the trial again. Draws the scan or step that the options name into a folder, or else lists
-// all of them. kDiffers where the record is not the stored one. Throws core::UserError.
+// Runs the trial again, and draws the scan or step that the options name into a folder, or lists
+// all where they name none. Returns the outcome of campaign::ReplayMoments.
 ExitCode ShowViews(const ReplayOptions& options);
 
 }  // namespace rockyard::app

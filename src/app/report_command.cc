@@ -1,4 +1,4 @@
-// rockyard report
+// The command `rockyard report`: a page for a browser about runs and sweeps.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -40,7 +40,8 @@ void ShowReplayProgress(const campaign::ReplayProgress& progress, campaign::Mome
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-// One line, whose end stays; where it cannot be written over, the end alone.
+// Shows one line that is rewritten, and whose end stays; elsewhere than on a terminal the end
+// alone.
 void ShowTrackProgress(const campaign::TrackProgress& progress, campaign::Moment moment) {
   const bool ends = moment == campaign::Moment::kEnd;
   const std::string text = report::Printable(

@@ -1,4 +1,4 @@
-// rockyard rover
+// The command `rockyard rover`: describes a rover, or writes it as a URDF file.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -92,7 +92,8 @@ std::string Loads(const rover::RoverParams& params) {
               fmt::format("on level ground at {:g} m/s2, by levers", params.physics.gravity_m_s2));
 }
 
-// A rover file is the group `rover` of a scenario that is otherwise the default one.
+// Returns the scenario whose rover is described. A rover file is read as the group `rover` of a
+// scenario that is otherwise the default one.
 scenario::Scenario ScenarioOfRover(const RoverOptions& options) {
   const fs::path file = ScenarioFile(options.scenario, Wanted::kRover);
   std::error_code error;

@@ -1,4 +1,4 @@
-// rockyard run
+// The command `rockyard run`: the trials of one scenario.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -20,22 +20,24 @@
 namespace rockyard::app {
 namespace {
 
-// While this lives, the first SIGINT, SIGTERM, SIGHUP or SIGUSR1 sets the flag. One at
-// a time; at the end the default action of these signals comes back, except where the caller
-// ignored them.
+// While it lives, a signal of kPolite sets `requested`. With SecondWish::kEnds the first one also
+// restores the default action, so that the second ends the process. At the end the default actions
+// come back. A signal that the caller ignores stays ignored. Only one guard may live at a time, as
+// the handlers know one flag.
 class InterruptGuard {
  public:
-  // `requested` must outlive this; it may be shared with others who may ask for an end.
+  // `requested` must outlive the guard; others may set it, too.
   InterruptGuard(std::atomic<bool>& requested, campaign::SecondWish second);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 };
 
-// SIGUSR1: mpirun passes it on to every rank, where it would make an end of SIGTERM by itself.
+// Signals that ask for an end. SIGUSR1 is one as mpirun passes it on to every rank, whereas on
+// SIGTERM it ends the ranks itself.
 constexpr std::array kPolite = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
-// A signal handler can reach nothing but static storage.
+// Where the handlers find the flag: a signal handler can reach nothing but static storage.
 std::atomic<std::atomic<bool>*> requested_flag = nullptr;
 static_assert(std::atomic<bool>::is_always_lock_free, "the signal handler writes it");
 static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free, "and reads where it is");

@@ -1,4 +1,6 @@
-// What people see of a campaign while it runs, and how they end it.
+// What people see of a campaign while it runs (commands `run` and `sweep`), messages of work on the
+// console, and Ctrl-C as a wish to stop (every command whose work is observed or may be ended
+// early).
 #pragma once
 
 #include <atomic>
@@ -11,8 +13,9 @@
 
 namespace rockyard::app {
 
-// Lies in memory that a fork shares, so that the supervisor of a campaign learns what its workers
-// set, however they end. The constructor throws core::UserError where there is no memory.
+// A flag in memory that forked processes share: the supervisor of a campaign learns what its
+// workers set, however they end. Must be made before the campaign forks. The constructor throws
+// core::UserError where there is no memory.
 class SharedFlag {
  public:
   SharedFlag();
@@ -27,18 +30,21 @@ class SharedFlag {
   std::atomic<bool>* set_;
 };
 
-// Warnings and problems to standard error, remarks too but for kQuiet.
+// Returns an observer that prints problems and warnings to standard error, and remarks too unless
+// `output` is kQuiet.
 campaign::Observer MessagesToConsole(Output output);
 
-// Beside these messages: progress on standard error, the report on standard output, and the line
-// that names the next command, at the end of all. Sets `output_failed` where some of that could not
-// be written, in whichever process. `options` and `output_failed` must outlive it.
+// Returns an observer of a campaign that prints its messages (MessagesToConsole), its progress on
+// standard error, its report on standard output, and at the end of all the line that names the next
+// command. It sets `output_failed` where standard output could not be written; under a supervisor
+// that happens in a worker process. `options` and `output_failed` must outlive the observer.
 campaign::RunObserver ShowRun(const CampaignOptions& options, SharedFlag& output_failed);
 
-// How a campaign ended that was shown like that.
+// Returns the exit code of a campaign that ShowRun showed: its outcome, or AfterFailedOutput where
+// `output_failed` is set.
 ExitCode ShownOutcome(ExitCode outcome, const SharedFlag& output_failed);
 
-// Ctrl-C and the other polite signals.
+// Returns a Stop that takes SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGUSR1 for wishes to stop.
 campaign::Stop StopBySignal();
 
 }  // namespace rockyard::app

@@ -33,7 +33,7 @@ bool HoldsRun(const fs::path& folder) {
   return fs::is_regular_file(batch::StorePath(folder), error);
 }
 
-// "first (nominal, 300 trials, 2026-03-01)".
+// Returns "first (nominal, 300 trials, 2026-03-01)".
 std::string About(const fs::path& folder) {
   const auto written = std::chrono::file_clock::to_sys(WrittenAt(folder));
   const std::string date =

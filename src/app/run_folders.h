@@ -1,4 +1,6 @@
-// Folders of runs, where one run is asked for; what commands that read stores say of them first.
+// Folders of runs: commands that ask for a run refuse a folder of runs by it, and name the runs in
+// it; completion offers them. Commands that read stores first note which of these have no
+// checksums.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +10,14 @@
 
 namespace rockyard::app {
 
-// The folders in `folder` that hold a run or sweep, the latest first.
+// Returns the folders in `folder` that hold a run or sweep, the latest first.
 std::vector<std::filesystem::path> RunFolders(const std::filesystem::path& folder);
 
-// Throws core::UserError where a path is a folder that holds no run itself but folders of runs:
-// with the ten latest of them, each with its scenario, trials and date.
+// Throws core::UserError where a path is a folder that holds no run itself but folders of runs. The
+// error names the ten latest, each with its scenario, trials and date.
 void RequireRuns(std::span<const std::string> paths);
 
-// To standard error, a line for each store in those folders that has no checksums.
+// Prints a note to standard error for each store in these folders that has no checksums.
 void NoteStores(std::span<const std::string> paths);
 
 }  // namespace rockyard::app

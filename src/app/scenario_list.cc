@@ -36,8 +36,8 @@ std::vector<fs::path> JsonFiles(const fs::path& folder) {
   return files;
 }
 
-// Whether the file is one that scenarios extend: in a group, such as a rover, none of whose keys is
-// a scenario's, or as a whole, such as a sensor profile, which has no name.
+// Returns whether the file is one that scenarios extend: a group, such as a rover (IsGroup), or a
+// part of a whole scenario, such as a sensor profile, which has no name.
 bool IsPart(const JsonValue& document) {
   if (!document.Is(JsonValue::Type::kObject) || document.members().empty()) return false;
   return document.Find("name") == nullptr || IsGroup(document);

@@ -1,4 +1,5 @@
-// The scenario files of a folder.
+// The scenario files of a folder, and what kind a file is. `rockyard list` shows them; names of
+// scenarios (scenario_names.h) and the command `rover` ask for the kind.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +11,11 @@
 
 namespace rockyard::app {
 
+// What a .json file is.
 enum class ListedKind {
   kScenario,
   kSweep,
-  kPart,    // what scenarios extend: a rover, a sensor
+  kPart,    // a file that scenarios extend: a rover, a sensor
   kInvalid  // none of these
 };
 
@@ -25,28 +27,31 @@ struct ListedFile {
   std::string description;  // as the file says, or why it is not valid
   std::size_t cells = 0;    // of a sweep
 
-  // Of one line, however long.
+  // Returns what the list tells of the file: one line, however long, for people.
   std::string About() const;
-  // The path without its group.
+  // Returns the path without its group.
   std::string name_in_group() const;
 };
 
-// Whether none of the members is a scenario's: the file of a group, such as a rover.
+// Returns whether the document is one group of a scenario, such as a rover: an object none of whose
+// members is a scenario's.
 bool IsGroup(const core::JsonValue& document);
 
-// Of a file; kInvalid where it cannot be read. A scenario or sweep of that kind may have mistakes
-// of its own.
+// Returns the kind of a file by its members alone, and kInvalid where it cannot be read. What is a
+// scenario or sweep by its members may still be invalid, and ListScenarios then lists it as
+// kInvalid.
 ListedKind KindOf(const std::filesystem::path& path);
 
-// Parts only where everything is asked for.
+// Returns whether `rockyard list` shows the file: all but parts, and with `all` (--all) parts too.
 bool IsShown(const ListedFile& file, bool all);
 
-// Every .json file of the folder and those below, group by group, by path in each; groups in order
-// of their names. Throws core::UserError where the folder cannot be read or holds none.
+// Returns every .json file in and below the folder, sorted by group and then by path. `rockyard
+// list` needs the files of a group next to each other. Throws core::UserError where the folder
+// cannot be read or holds none.
 std::vector<ListedFile> ListScenarios(const std::filesystem::path& folder);
 
-// {"file", "kind": scenario, sweep, part or invalid, "name", "description", and "cells" of a
-// sweep}.
+// Returns {"file", "kind": scenario, sweep, part or invalid, "name", "description", and "cells" of
+// a sweep}. Must stay: keys and kinds, which src/report/README.md promises to programs.
 core::JsonValue Json(const ListedFile& file);
 
 }  // namespace rockyard::app

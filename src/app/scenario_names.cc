@@ -31,14 +31,14 @@ fs::path FolderOfProgram() {
   return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
-// "pathfinder/nominal" of "<folder>/pathfinder/nominal.json".
+// Returns "pathfinder/nominal" of "<folder>/pathfinder/nominal.json".
 std::string NameIn(const fs::path& folder, const fs::path& file) {
   std::string name = file.lexically_relative(folder).generic_string();
   name.resize(name.size() - kEnding.size());
   return name;
 }
 
-// Whole parts of the path, not "nal" of "nominal".
+// Returns whether `end` is the last parts of the path, each whole: not "nal" of "nominal".
 bool EndsIn(std::string_view path, std::string_view end) {
   if (!path.ends_with(end)) return false;
   return path.size() == end.size() || path[path.size() - end.size() - 1] == '/';
@@ -58,7 +58,8 @@ bool Fits(ListedKind kind, Wanted wanted) {
   return false;
 }
 
-// Files of the folder, in order of their names; none where it cannot be read.
+// Returns the .json files in and below the folder, sorted by path; those found until then where it
+// cannot be read.
 std::vector<fs::path> FilesIn(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
@@ -75,7 +76,8 @@ std::string_view Stem(std::string_view word) {
   return word;
 }
 
-// The word may begin with the name of the folder: "scenarios/pathfinder/nominal".
+// Returns the files whose paths end in the word, or the one whose whole path it is. A whole path
+// may begin with the name of the folder: "scenarios/pathfinder/nominal".
 std::vector<fs::path> Meant(std::string_view word, const fs::path& folder,
                             const std::vector<fs::path>& files) {
   std::vector<fs::path> meant;
@@ -109,7 +111,8 @@ std::string NearestOf(std::string_view word, const std::vector<std::string>& nam
   return std::string(core::Nearest(word, candidates));
 }
 
-// The file of its folder, where that is there, that is nearest by its own name.
+// Returns the .json file in the folder of `path` whose name is nearest to that of `path`; empty
+// where none is near.
 std::string NearestFile(const fs::path& path) {
   std::error_code error;
   std::vector<std::string> names;
@@ -122,7 +125,8 @@ std::string NearestFile(const fs::path& path) {
   return (path.parent_path() / (nearest + std::string(kEnding))).string();
 }
 
-// A file beside the one that is named, else a name like the word, else one like its last part.
+// Returns the file or name to suggest: a file beside the one that is named, else a name like the
+// word, else one like its last part.
 std::string NearestScenario(const std::string& word, Wanted wanted) {
   std::string file = NearestFile(word);
   if (!file.empty()) return file;

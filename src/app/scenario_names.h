@@ -1,4 +1,5 @@
-// Scenarios and sweeps by name.
+// Scenarios, sweeps and rovers by name. Every command that takes such a file takes its name too;
+// completion offers the names.
 #pragma once
 
 #include <filesystem>
@@ -7,26 +8,28 @@
 
 namespace rockyard::app {
 
-// Where scenarios are looked for, the first that is there: the folder that the environment variable
-// ROCKYARD_SCENARIOS names, which is taken whether or not it is there; `scenarios` in the working
-// directory; `../share/rockyard/scenarios` beside the folder of the program; and, for a program in
-// the build folder of its source tree, the `scenarios` of that tree. "scenarios" where none is
-// there.
+// Returns the folder where scenarios are looked for: the one that the environment variable
+// ROCKYARD_SCENARIOS names, whether or not it is there; else the first that is there of `scenarios`
+// in the working directory, `../share/rockyard/scenarios` from the folder of the program, and
+// `scenarios` of the source tree whose build folder the program is in; else "scenarios".
 std::filesystem::path ScenarioFolder();
 
 // What a command takes where it asks for a file.
 enum class Wanted { kScenario, kSweep, kEither, kRover };
 
-// The file that a word means. What exists is meant as it stands. Else the word is the end of the
-// path of a file in ScenarioFolder(), without its ".json": "nominal", "gestalt/abundance". Only
-// files of the wanted kind count; for kRover scenarios and rovers. A path from the folder itself,
-// "pathfinder/nominal", goes before longer ones that end like it. Throws core::UserError where
-// several files are meant, with all of them, and where none is, with the nearest name.
+// Returns the file that a word means. What exists is meant as it stands. Else the word is the end
+// of the path of a file in ScenarioFolder(), with or without its ".json": "nominal",
+// "gestalt/abundance". Only files of the wanted kind count; for kRover scenarios and parts. A word
+// that is a whole path from that folder, "pathfinder/nominal", means this file alone, though longer
+// paths end like it. Throws core::UserError where several files are meant, with all of them, and
+// where none is, with the nearest name.
 std::string ScenarioFile(const std::string& word, Wanted wanted = Wanted::kScenario);
 
-// The shortest names by which ScenarioFile finds each file of the kind, in alphabetical order.
+// Returns the shortest name by which ScenarioFile finds each file of the kind, in alphabetical
+// order.
 std::vector<std::string> ScenarioNames(Wanted wanted);
-// Their paths from the folder: "gestalt/abundance".
+// Returns the path of each file of the kind from ScenarioFolder(), without ".json":
+// "gestalt/abundance".
 std::vector<std::string> ScenarioPaths(Wanted wanted);
 
 }  // namespace rockyard::app

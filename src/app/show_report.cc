@@ -23,7 +23,7 @@ using campaign::RunReport;
 using campaign::SweepReport;
 using campaign::SweepShardReport;
 
-// A report as text and as JSON, made where it is asked for: each costs some.
+// Make the text or the JSON of a report only where it is asked for, as either takes time.
 struct TextOf {
   std::string operator()(const RunReport& run) const {
     const report::RunDescription& description = run.description;
@@ -70,13 +70,14 @@ struct FinishedOf {
   Finished operator()(const SweepShardReport&) const { return Finished::kShard; }
 };
 
+// Numbers of threads for which the preview of a sweep tells the cost.
 constexpr std::array<int, 4> kThreadCounts{1, 2, 4, 16};
 
 std::string CostText(const campaign::DryRun& told, std::string_view at_most) {
   const batch::PilotCost& pilot = told.pilot;
   const double count = static_cast<double>(told.pending);
   const double total_s = count * pilot.mean_s;
-  // What three pilots leave open of the mean, and the scatter of the trials to come.
+  // What the pilots leave open of the mean, and the scatter of the trials to come.
   const double error_s =
       std::sqrt(pilot.variance_s2 * count * (1.0 + count / static_cast<double>(pilot.trials)));
   return fmt::format(
@@ -86,7 +87,8 @@ std::string CostText(const campaign::DryRun& told, std::string_view at_most) {
       at_most, total_s, error_s, pilot.mean_s, pilot.trials, total_s / told.threads, told.threads);
 }
 
-// Empty where none are asked for. Which trials fail is not known before.
+// Returns the line about traces; empty where none are asked for. It names rules, as which trials
+// fail is not known before the run.
 std::string TracesText(const campaign::DryRun& told) {
   if (!told.traces.any()) return "";
   return fmt::format("  traces of {} (of at most {} trials), which are driven twice\n",

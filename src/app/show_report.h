@@ -1,5 +1,5 @@
-// Prints the results in the folder of a campaign to standard output, and the preview that
-// `--dry-run` gives.
+// What people read of a campaign: its results, which the commands `run`, `sweep` and `merge` print,
+// and the preview of --dry-run.
 #pragma once
 
 #include <string>
@@ -14,16 +14,17 @@ namespace rockyard::app {
 struct ShowOptions {
   Output output = Output::kText;
   std::string resume;  // the command that goes on with a campaign that stopped; empty: none did
-  bool next = true;    // false: more is told after the report, and then the next command
+  bool next = true;    // false: traces follow, and ShowRun prints the next command after them
 };
 
-// A table and the next command, or summary.json, or nothing.
+// Prints to standard output: the table and the next command, or summary.json, or nothing, as
+// `options.output` says.
 void ShowReport(const campaign::FolderReport& report, const ShowOptions& options);
 
-// What a run would do and cost.
+// Returns what a run would do and cost.
 std::string RehearsalText(const campaign::DryRun& told);
 
-// What a sweep would run and cost, and where its plan is.
+// Returns what a sweep would run and cost, and where its plan is.
 std::string RehearsalText(const campaign::SweepRehearsal& told);
 
 }  // namespace rockyard::app

@@ -1,4 +1,4 @@
-// rockyard stereo
+// The command `rockyard stereo`: matches the two images of a stereo pair.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -38,7 +38,7 @@ std::string RangeText(const campaign::StereoResult& result) {
   const vision::CorrelatorParams& range = result.params.correlator;
   const std::int64_t most_px = range.min_disparity_px + range.disparities - 1;
   std::string text = fmt::format("disparities {} to {} px", range.min_disparity_px, most_px);
-  // The best match must have a neighbour on either side.
+  // The largest disparity gives no match: the best match must have a neighbour on either side.
   if (result.cameras && most_px > 1) {
     text += fmt::format(
         ", {:.2f} m and farther",

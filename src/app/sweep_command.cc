@@ -1,4 +1,4 @@
-// rockyard sweep
+// The command `rockyard sweep`: the cells of a sweep file as one campaign.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
@@ -21,7 +21,7 @@ struct SweepOptions {
   int pilots = 3;
 };
 
-// On rank 0 alone.
+// Serves --dry-run, on rank 0 alone.
 ExitCode RehearseSweep(const campaign::SweepRequest& request, const SweepOptions& options) {
   if (!campaign::IsFirstRank()) return ExitCode::kDone;
   const campaign::Observer messages = MessagesToConsole(options.campaign.output());

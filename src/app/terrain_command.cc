@@ -1,4 +1,5 @@
-// rockyard terrain
+// The command `rockyard terrain`: a field of rocks as a file, or tables that check fields of a
+// scenario against the laws of terrain/blind_swath.h and terrain/field.h.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -38,8 +39,8 @@ using terrain::CorridorClass;
 using terrain::LineRule;
 using terrain::OverlapRule;
 
-// Of each field, ascending. Fields are independent, also where trials of the scenario share
-// layouts.
+// Returns how far the swath gets in each field, ascending. Fields are independent, also where
+// trials of the scenario share layouts.
 std::vector<double> Distances(const scenario::Scenario& scenario, std::uint64_t seed,
                               std::int64_t fields, const terrain::BlindSwath& swath,
                               double first_x_m) {
@@ -58,7 +59,8 @@ std::vector<double> Distances(const scenario::Scenario& scenario, std::uint64_t 
   return distances;
 }
 
-// The rover's width, and rocks of mean shape that reach its belly.
+// Returns the default swath: as wide as the rover, with the rocks that, at mean shape and burial,
+// reach its belly.
 terrain::BlindSwath SwathOf(const scenario::Scenario& scenario) {
   const terrain::RockFieldParams& rocks = scenario.drive.terrain.rocks;
   const double height_ratio = 0.5 * (rocks.min_height_ratio + rocks.max_height_ratio);
@@ -66,10 +68,10 @@ terrain::BlindSwath SwathOf(const scenario::Scenario& scenario) {
                                                      (height_ratio * (1.0 - rocks.burial_mean))};
 }
 
-// A table of the share of swaths that are clear to some distances: by terrain/blind_swath.h and in
-// `fields` fields of the scenario, with Wilson intervals (95 %). Swaths run along +x from the
-// start, behind its clear zone, as far as the zone before the goal. The field's own overlap rule
-// holds, and so the difference from the closed form shows what that rule does.
+// Returns a table of the share of swaths that are clear to some distances: by terrain/blind_swath.h
+// and in `fields` fields of the scenario, with Wilson intervals (95 %). Swaths run along +x from
+// the end of the start's clear zone to the beginning of the goal's. Fields follow their own overlap
+// rule, and so their difference from the closed form shows what that rule does.
 std::string BlindSwathText(const scenario::Scenario& scenario, std::uint64_t seed,
                            std::int64_t fields, const terrain::BlindSwath& swath) {
   const trial::CourseParams& course = scenario.drive.course;
@@ -116,8 +118,9 @@ struct Rules {
   OverlapRule overlap;
 };
 
-// Every pair that differs: rocks that may overlap may cross a line under either rule, exact counts
-// leave no rock out, and without mirror lines their rule says nothing.
+// Returns every pair of rules that gives fields of its own: rocks that may overlap may cross a line
+// under either line rule, fields of an exact count leave no rock out, and without mirror lines the
+// line rule says nothing.
 std::vector<Rules> RulesOf(const terrain::TerrainParams& params) {
   std::vector<LineRule> lines{LineRule::kMerge};
   if (params.arena.IsVirtual()) lines.push_back(LineRule::kKeepOff);
@@ -139,7 +142,8 @@ std::vector<CorridorClass> Counted(const terrain::TerrainParams& params,
   for (std::int64_t i = 0; i < fields; ++i) {
     const terrain::Field field =
         terrain::BuildField(params, {seed, static_cast<std::uint32_t>(i)}, course);
-    // Images lie beyond the lines, and the corridor between them.
+    // Mirror images of rocks are not counted: they lie beyond the lines, and the corridor between
+    // them.
     terrain::CountInCorridor(field.terrain.rocks(), course, classes);
   }
   return classes;
@@ -161,11 +165,11 @@ std::string Rows(const terrain::TerrainParams& params, const terrain::Course& co
   return text;
 }
 
-// A table by placement rule and size class: centres in the corridor of `fields` fields of the
-// scenario, what terrain/field.h lets expect, their ratio, and its exact 95 % interval (Poisson;
-// conservative for exact counts). Every placement rule is shown, not only the scenario's: keep_off
-// is the negative control, which the table must show as off. Throws core::UserError where the
-// corridor has no expectation.
+// Returns a table by placement rule and size class: how many rock centres lie in the corridor in
+// `fields` fields of the scenario, how many terrain/field.h lets expect, their ratio, and its exact
+// 95 % interval (Poisson; conservative for fields of an exact count). Every placement rule is
+// shown, not only the scenario's: keep_off is the negative control, which the table must show as
+// off. Throws core::UserError where the corridor has no expectation.
 std::string CorridorDensityText(const scenario::Scenario& scenario, std::uint64_t seed,
                                 std::int64_t fields) {
   terrain::TerrainParams params = scenario.drive.terrain;
@@ -201,6 +205,7 @@ struct TerrainOptions {
   std::int64_t fields = 1000;
 };
 
+// Must agree: this order and that of kExtensions in FormatOf.
 enum class Format { kJson, kCsv, kObj, kSvg };
 
 Format FormatOf(const std::string& path) {

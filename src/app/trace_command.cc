@@ -1,4 +1,4 @@
-// rockyard trace
+// The command `rockyard trace`: what happened in one trial, and whether it repeats its record.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -32,7 +32,7 @@ struct StoryOptions {
   bool all = false;
 };
 
-// Found before the drive rather than after it.
+// Refuses files that cannot be written before the drive rather than after it.
 void CheckOutputs(const StoryOptions& options) {
   const std::array<campaign::NamedFile, 3> files{
       {{"--csv", options.csv}, {"--svg", options.svg}, {"--npz", options.npz}}};
@@ -52,7 +52,7 @@ void WriteOutputs(const StoryOptions& options, const campaign::TrialSource& sour
     Print(fmt::format("  plan view in {}\n", report::Printable(options.svg)));
   }
   if (!options.npz.empty()) {
-    // The bytes that `run --traces` writes of the same trial.
+    // Must agree: the bytes that `run --traces` writes of the same trial.
     report::WriteFileAtomically(
         options.npz,
         campaign::TraceBytes(source.scenario, source.cell, recording, campaign::TraceFormat::kNpz));
@@ -81,8 +81,8 @@ ExitCode Trace(const StoryOptions& options) {
   try {
     WriteOutputs(options, source, recording);
   } catch (const core::UserError& failure) {
-    // Thrown on, it would end as bad input. It outweighs a record that differs, which has been
-    // told.
+    // Thrown on, the failure would end as bad input. Its exit code outweighs that of a record that
+    // differs, which has been told.
     PrintProblems(failure.problems());
     return ExitCode::kFailed;
   }

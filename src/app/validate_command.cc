@@ -1,4 +1,4 @@
-// rockyard validate
+// The command `rockyard validate`: whether scenario and sweep files can be run, and their doubts.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -38,7 +38,7 @@ scenario::Sweep LoadSweep(const std::string& path, const std::vector<std::string
   return scenario::LoadSweep(path, {.overrides = overrides, .trials = {}, .seed = {}});
 }
 
-// What is to be said of a valid file.
+// Returns what is said of a valid file. Throws core::UserError for any other.
 std::string Check(const std::string& path, const std::vector<std::string>& overrides) {
   if (IsSweepFile(path)) {
     return fmt::format("a sweep of {} cells", LoadSweep(path, overrides).cells.size());
@@ -56,7 +56,7 @@ void PrintDoubts(const std::string& path, const std::vector<std::string>& overri
   }
 }
 
-// Every problem of every file, not of the first alone.
+// Tells every problem of every file, not those of the first alone.
 void Validate(const ValidateOptions& options) {
   std::vector<core::Problem> problems;
   for (const std::string& word : options.scenarios) {

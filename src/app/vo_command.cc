@@ -1,4 +1,4 @@
-// rockyard vo
+// The command `rockyard vo`: the path of the cameras of a sequence of stereo pairs.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -20,11 +20,11 @@
 namespace rockyard::image_files {
 namespace {
 
-// The product of two of them does not overflow.
+// The product of two sides does not overflow.
 constexpr std::int64_t kMostOfSide = 1'000'000'000;
 constexpr std::size_t kBytesAValue = 4;
 
-// Negative: little-endian.
+// Returns the scale of the header; a negative one means little-endian.
 double ReadScale(HeaderText& text, const std::string& name) {
   const std::string_view word = text.Word();
   double scale = 0.0;

@@ -40,14 +40,15 @@ struct Gdal {
   decltype(&::GDALRegister_VICAR) register_vicar = nullptr;
 };
 
-// Whether the library has it.
+// Whether the library has the function, whose address is then set.
 template <typename Function>
 bool Find(void* library, const char* name, Function& function) {
   function = reinterpret_cast<Function>(dlsym(library, name));
   return function != nullptr;
 }
 
-// Makes no other driver of GDAL known: a label can name further files, and what reads them.
+// Loads the library and makes no drivers known but those of planetary images: a label can name
+// further files, and what reads them.
 std::optional<Gdal> LoadGdal() {
   void* library = dlopen(ROCKYARD_GDAL, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return std::nullopt;
@@ -80,7 +81,7 @@ const std::optional<Gdal>& Library() {
   return gdal;
 }
 
-// While it lives, GDAL prints nothing in this thread; its first failure is kept.
+// While an object lives, GDAL prints nothing in this thread; its first failure is kept.
 class KeptErrors {
  public:
   explicit KeptErrors(const Gdal& gdal) : gdal_(gdal) { gdal_.push_errors(Keep, this); }

@@ -1,4 +1,4 @@
-// Samples of planetary images (GDAL, an optional part of the build).
+// Samples of planetary images (GDAL, an optional part of the build), for ReadPlanetary.
 //
 // GDAL is loaded when the first planetary image is read, not linked: it brings a hundred libraries,
 // which would add some 40 ms and 30 MB to every start of the program, and the Debian package works
@@ -30,7 +30,7 @@ struct RasterSupport {
   std::string remedy;             // what would bring one, in one sentence
 };
 
-// What there is of GDAL: nothing in a program that was built without, or on a machine on which the
+// Returns the reader, or none in a program that was built without GDAL or on a machine on which the
 // library is missing. Cost: the first call loads the library.
 RasterSupport FindGdal();
 

@@ -1,4 +1,5 @@
-// The words and numbers of a file that begins as text (PGM, PPM and PFM), and numbers as bytes.
+// The words and numbers of a file that begins as text (PGM, PPM and PFM), and numbers as bytes, for
+// the readers and writers of this folder.
 #pragma once
 
 #include <bit>
@@ -11,25 +12,25 @@ namespace rockyard::image_files {
 
 class HeaderText {
  public:
-  // Of the file `name`. What is read is taken from the front of `bytes`. Both must outlive this,
-  // and `bytes` the words that it gives back.
+  // Reads a text of the file `name`. What is read is taken from the front of `bytes`. `bytes` and
+  // `name` must outlive this object, and `bytes` also the words that it gives back.
   HeaderText(std::string_view bytes, const std::string& name) : rest_(bytes), name_(name) {}
 
-  // The next run of characters without white space. Comments, from # to the end of the line, count
-  // as white space. Throws core::UserError where there is none.
+  // Returns the next run of characters without white space. Comments, from # to the end of the
+  // line, count as white space. Throws core::UserError where there is none.
   std::string_view Word();
 
-  // The next word as a whole number from 0 to `most`. Throws core::UserError, which calls it
-  // `what`.
+  // Returns the next word as a whole number from 0 to `most`. Throws core::UserError, which calls
+  // the number `what`.
   std::int64_t Number(std::string_view what, std::int64_t most);
 
-  // The one character of white space that stands between a header and bytes. Throws
-  // core::UserError.
+  // Reads the one character of white space that stands between a header and bytes. Throws
+  // core::UserError where it is missing.
   void EndOfHeader();
 
   // What has not been read.
   std::string_view rest() const { return rest_; }
-  // The same without white space and comments in front.
+  // What has not been read, without white space and comments in front.
   std::string_view RestWithoutBlanks();
 
  private:
@@ -37,7 +38,7 @@ class HeaderText {
   const std::string& name_;
 };
 
-// Least significant byte first, on any machine.
+// Appends the bytes of a value, least significant first, on any machine.
 inline void AppendLittleEndian(float value, std::string& bytes) {
   const auto word = std::bit_cast<std::uint32_t>(value);
   for (unsigned shift = 0; shift < 32; shift += 8) {

@@ -1,3 +1,5 @@
+// DecodeJpeg (read_image.h), by libjpeg: what would be a guess is an error, and what is too large
+// is refused before memory is taken.
 #include <array>
 #include <csetjmp>
 #include <cstddef>

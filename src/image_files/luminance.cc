@@ -1,3 +1,4 @@
+// What raw_image.h declares: the conversion to grey, the refusals and the check of sizes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kUnit = 1000;  // the weights of BT.601 are thousandths
 
-// Of a pixel, in thousandths of a sample.
+// Returns the luminance of a pixel, in thousandths of a sample.
 std::int64_t Luminance(const RawImage& image, int x, int y) {
   if (!image.is_colour()) return kUnit * image.planes[0].At(x, y);
   return std::int64_t{299} * image.planes[0].At(x, y) +

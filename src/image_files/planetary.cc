@@ -14,7 +14,7 @@
 namespace rockyard::image_files {
 namespace {
 
-// Bytes that tell the kinds apart; of XML eight times as many.
+// Bytes at the front of a file that tell the kinds apart; XML takes eight times as many.
 constexpr std::size_t kFront = 1024;
 // Labels of rover images have some 50 kB.
 constexpr std::size_t kLargestLabel = std::size_t{1} << 20;
@@ -27,7 +27,7 @@ bool Holds(std::string_view text, std::string_view word) {
   return text.find(word) != std::string_view::npos;
 }
 
-// Without regard to upper and lower case.
+// Returns what follows `word`, which is found in upper and lower case.
 std::string_view After(std::string_view text, std::string_view word) {
   const auto found = std::search(
       text.begin(), text.end(), word.begin(), word.end(),
@@ -36,7 +36,7 @@ std::string_view After(std::string_view text, std::string_view word) {
   return text.substr(static_cast<std::size_t>(found - text.begin()) + word.size());
 }
 
-// A number at the front of `text`, taken from it.
+// Takes a number from the front of `text`.
 std::optional<int> TakeNumber(std::string_view& text, int base) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);

@@ -1,3 +1,5 @@
+// DecodePng (png_file.h), by libpng: how errors come back, and what is refused before memory is
+// taken.
 #include <fmt/format.h>
 #include <png.h>
 

@@ -1,3 +1,4 @@
+// EncodePng (png_file.h), by libpng.
 #include <png.h>
 
 #include <stdexcept>

@@ -1,3 +1,4 @@
+// DecodePnm (read_image.h).
 #include <fmt/format.h>
 
 #include <bit>

@@ -1,5 +1,6 @@
-// What an image file holds before anything is made of it, what is said of one that cannot be read,
-// and its samples as 8 bits of grey.
+// What an image file holds before anything is made of it; how one that cannot be read is refused;
+// and its samples as 8 bits of grey, which stereo, calibration and visual odometry take. Every
+// reader of this folder makes a RawImage.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +21,8 @@ struct ImageLimits {
   std::int64_t max_pixels = std::int64_t{1} << 26;  // 67 million: 400 MB of three colours
 };
 
-// No image within the limits needs more: P3 with 16 bits has up to 6 characters a sample.
+// The largest file that is read. No image within ImageLimits as they stand needs more: P3 with 16
+// bits has up to 6 characters a sample.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 31;
 
 using Rgb = vision::Rgb;
@@ -46,23 +48,22 @@ struct RawImage {
   bool is_colour() const { return planes.size() == 3; }
 };
 
-// Each throws core::UserError about the file `name`.
-
-// Its pixels cannot be trusted. `reason` continues "is damaged: ".
+// Throws core::UserError: the pixels of the file `name` cannot be trusted. `reason` continues "is
+// damaged: ".
 [[noreturn]] void FailDamaged(const std::string& name, std::string_view reason);
 
-// Some of it is missing.
+// Throws core::UserError: some of the file `name` is missing.
 [[noreturn]] void FailTruncated(const std::string& name);
 
-// A file in order that this program does not read. `reason` is a predicate: "is in CMYK".
+// Throws core::UserError: the file `name` is in order, but this program does not read it. `reason`
+// is a predicate: "is in CMYK".
 [[noreturn]] void FailUnsupported(const std::string& name, const std::string& reason,
                                   const std::string& suggestion);
 
-// Where a side is below 1, or the image is beyond the limits.
+// Throws core::UserError where a side is below 1, or the image of the file `name` is beyond the
+// limits.
 void CheckSize(const std::string& name, std::int64_t width, std::int64_t height,
                const ImageLimits& limits);
-
-// From the samples of a file to 8 bits of grey, which is what stereo takes.
 
 struct GrayOptions {
   // The sample that becomes 255: 1 to 65535. Without it the full scale of the file.
@@ -74,15 +75,17 @@ struct GrayConversion {
   int white = 255;            // the sample that became 255
   std::int64_t clipped = 0;   // pixels of a luminance above white, which became 255 too
   std::string what_was_done;  // in words: "luminance of colour (ITU-R BT.601); ..."
-  // Of samples of more than 8 bits that all lie in the lowest eighth of the file's full scale, of
-  // which 8 bits keep little: in words, the white that would keep more. Else empty.
+  // What an image of more than 8 bits gets if no white was asked for and all its samples lie in the
+  // lowest eighth of the full scale, so that 8 bits keep little of them: in words, the white that
+  // would keep more. Else empty.
   std::string advice;
 };
 
-// grey = round(255 min(Y, white) / white), halves up, with Y the grey sample itself, or of colour
+// Returns the image in grey = round(255 min(Y, white) / white), halves up, with Y the grey sample
+// itself, or of colour
 //   Y = 0.299 R + 0.587 G + 0.114 B     (ITU-R BT.601-7, section 2.5.1)
-// computed exactly, so that 8-bit grey at full scale stays as it is. Red, green and blue are taken
-// as they are coded, as BT.601 and the Y of JPEG files are defined; no gamma is undone.
+// Must stay exact, in integers: 8-bit grey at full scale stays as it is. Red, green and blue are
+// taken as they are coded, as BT.601 and the Y of JPEG files are defined; no gamma is undone.
 GrayConversion ToGray(const RawImage& image, const GrayOptions& options = {});
 
 }  // namespace rockyard::image_files

@@ -1,4 +1,8 @@
-// All that the replay page shows of one trial. SI units; W is the world, R the rover.
+// All that is known of one recorded drive, and its JSON text for the replay page. `campaign` fills
+// it; the command `replay` and pages of reports write it, and trace files (trace_npz.h) hold parts
+// of it. SI units; W is the world, R the rover. A moment is the rover at one time of its motion; a
+// scan is what the light stripe takes, a step one decision of a map-based navigator, a look what
+// stereo cameras take.
 #pragma once
 
 #include <cstddef>
@@ -16,23 +20,27 @@
 
 namespace rockyard::replay {
 
+// A vertical plane that bounds the arena: the points p with normal_W . p = offset_m. The normal
+// points out of the arena.
 struct ReplayWall {
-  math::Vector3 normal_W = math::Vector3::UnitY();  // horizontal
+  math::Vector3 normal_W = math::Vector3::UnitY();
   double offset_m = 0.0;
 };
 
+// Where the drive leads.
 struct ReplayCourse {
   math::Pose2 start;
   messages::Goal goal;
   double goal_radius_m = 0.0;
-  messages::Goal told_goal;
+  messages::Goal told_goal;               // as operators designated it
   std::vector<messages::Goal> waypoints;  // true, in the order of driving
-  double x_min_m = 0.0;                   // of the area that holds terrain
+  double x_min_m = 0.0;                   // bounds of the area that holds terrain
   double x_max_m = 0.0;
   double y_min_m = 0.0;
   double y_max_m = 0.0;
   std::vector<ReplayWall> walls;
-  // y of the lines at which operators reflect the rover (Matthies 1995 sec. 7); none elsewhere.
+  // y of the lines at which operators reflect the rover (Matthies 1995 sec. 7); empty where they do
+  // not.
   std::vector<double> mirror_lines_m;
 };
 
@@ -40,7 +48,7 @@ struct ReplayCourse {
 struct ReplayWorld {
   double gravity_m_s2 = 0.0;
   double sun_elevation_rad = 0.0;  // above the horizon (sensors.sun)
-  double sun_azimuth_rad = 0.0;    // of the direction towards the sun, from x to the left
+  double sun_azimuth_rad = 0.0;    // towards the sun, from x to the left
   std::string arena;               // its kind, as a scenario names it
   double x_min_m = 0.0;            // of the arena itself, without margins
   double x_max_m = 0.0;
@@ -49,7 +57,7 @@ struct ReplayWorld {
   double mirror_line_m = 0.0;  // of virtual arenas: the layout is mirrored at y = +- this
 };
 
-// Heights on a grid, row-major, x fastest.
+// Heights of the ground without rocks on a grid, row-major, x fastest.
 struct ReplayGround {
   double x0_m = 0.0;
   double y0_m = 0.0;
@@ -59,17 +67,19 @@ struct ReplayGround {
   std::vector<double> z_m;
 };
 
+// Where a rock lies at the start, and its shape (terrain/rock.h).
 struct ReplayRock {
   math::Vector3 center_W = math::Vector3::Zero();
   math::Vector3 semi_axes_m = math::Vector3::Ones();
   double yaw_rad = 0.0;
-  double height_m = 0.0;
+  double height_m = 0.0;    // of its top above the ground
   double cap_growth = 0.0;  // as in terrain/rock.h
 };
 
+// Must agree: this order and that of the names in ShapeText (data_json.cc).
 enum class ShapeKind { kBox, kWheel, kCapsule, kSphere };
 
-// In the frame of its link.
+// A shape of a link, in the frame of the link.
 struct ReplayShape {
   ShapeKind kind = ShapeKind::kBox;
   std::string part;                           // "belly", "rocker", "hub", "panel", "wheel"
@@ -79,6 +89,9 @@ struct ReplayShape {
   double width_m = 0.0;  // of a wheel, along y
 };
 
+// A link of the rover, which turns about `axis` through `pivot_P`, both in the frame of its parent.
+// Link 0 is the chassis, which has no parent and whose frame is R; link i turns by
+// ReplayPose::joint_rad[i - 1].
 struct ReplayLink {
   std::string name;
   int parent = -1;
@@ -87,7 +100,8 @@ struct ReplayLink {
   std::vector<ReplayShape> shapes;
 };
 
-// The light plane of one emitter, in R: the directions within half_fan of the axis.
+// The light plane of one emitter, in R: the directions normal to normal_R within half_fan_rad of
+// axis_R.
 struct ReplayLaser {
   math::Vector3 emitter_R = math::Vector3::Zero();
   math::Vector3 normal_R = math::Vector3::UnitY();
@@ -104,7 +118,7 @@ struct ReplayCamera {
 
 // The terrain sensor that the drive goes by.
 struct ReplaySensor {
-  std::string name;      // as a scenario names it
+  std::string name;      // as a scenario names it: "light_stripe"
   double reach_m = 0.0;  // farthest range that it gives
   std::vector<ReplayLaser> lasers;
   std::vector<ReplayCamera> cameras;
@@ -114,29 +128,32 @@ struct ReplaySensor {
 struct ReplayPose {
   truth::TraceSample sample;
   std::vector<double> joint_rad;  // of each link but the chassis
-  bool set_back = false;          // by operators: the path breaks before
+  bool set_back = false;          // operators set the rover back: the path breaks before
 };
 
+// A point that the light stripe gave.
 struct StripePoint {
-  math::Vector3 p_W = math::Vector3::Zero();
+  math::Vector3 p_W = math::Vector3::Zero();  // through the true pose
   std::size_t stripe = 0;
   double height_m = 0.0;  // as the rover believes
 };
 
+// A scan of the light stripe.
 struct ReplayScan {
   double time_s = 0.0;
   math::Pose2 pose;  // true
   std::vector<StripePoint> points;
-  messages::PerStripe<bool> hazards;
+  messages::PerStripe<bool> hazards;  // of this scan alone
 };
 
+// A decision of a map-based navigator.
 struct ReplayStep {
   double time_s = 0.0;
-  double look_time_s = 0.0;   // when its points were taken
-  math::Pose2 pose;           // true, then
-  math::Pose2 look_believed;  // as the rover believed, then
+  double look_time_s = 0.0;   // when its points were taken, at most time_s
+  math::Pose2 pose;           // true, at look_time_s
+  math::Pose2 look_believed;  // as the rover believed at look_time_s
   messages::NavigationView view;
-  std::vector<math::Vector3> points_W;
+  std::vector<math::Vector3> points_W;  // through the true pose
 };
 
 // A look of stereo cameras that has images.
@@ -144,22 +161,23 @@ struct ReplayLook {
   double time_s = 0.0;
   std::int64_t number = 0;  // counts every look of the trial from 0
   bool behind = false;
-  std::int64_t points = 0;          // that it handed on
-  double least_disparity_px = 0.0;  // at the violet end of the colours, and at the yellow one
-  double most_disparity_px = 0.0;
+  std::int64_t points = 0;          // how many it handed on
+  double least_disparity_px = 0.0;  // violet in disparity_png
+  double most_disparity_px = 0.0;   // yellow in it
   // Pictures of one size, PNG files in base64: the left image, and its disparities in colours.
   std::string left_png;
   std::string disparity_png;
 };
 
+// One drive as its page shows it.
 struct ReplayData {
   std::string title;
   std::string scenario;
   std::string cell;
   std::uint64_t seed = 1;
-  std::optional<bool> repeats_stored;
+  std::optional<bool> repeats_stored;  // whether `record` is the stored one; absent: none is stored
   std::string record_hash;
-  std::string command;
+  std::string command;  // that replays the trial
   core::Provenance provenance;
   truth::RecordSchema schema;
   truth::Record record;
@@ -177,17 +195,19 @@ struct ReplayData {
   std::vector<truth::TraceEvent> events;
 };
 
-// Most steps with heights of the map and range points; where there are more, only every second has
-// them, or every third, ..., so that a page stays small.
+// The most steps that have heights of the map, range points and all splines. Where there are more
+// steps, only every second has them, or every third, ..., so that a page stays small. payload.ts
+// names the number, too.
 inline constexpr std::size_t kMaxDetailedSteps = 240;
 
-// What the pictures of looks may take on a page, in bytes of base64; where they take more, only
-// every second look of the cameras at either end is there, or every third, ...
+// How many bytes of base64 the pictures of looks may take on a page. Where they would take more,
+// only every second look ahead and every second look behind is there, or every third, ...
 inline constexpr std::size_t kMaxLookBytes = 1'500'000;
 
-// On one line, as src/web/replay/payload.ts says, by which the page and the converter to MCAP
-// (src/web/mcap) read it: a member changes there too. Moments of little change are left out (see
-// motion.h), lengths have 0.1 mm, but the last moment has every digit of its pose.
+// Returns the drive as JSON on one line; `beside` is a second drive on the same page. Must agree:
+// src/web/replay/payload.ts, by which the page and the converter to MCAP (src/web/mcap) read it; a
+// member that changes here changes there, too. Moments of little change are left out (motion.h),
+// and lengths are rounded to 0.1 mm, but the last moment has every digit of its pose.
 std::string ReplayJson(const ReplayData& data, const ReplayData* beside = nullptr);
 
 }  // namespace rockyard::replay

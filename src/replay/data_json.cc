@@ -1,4 +1,5 @@
-// The JSON text of src/web/replay/payload.ts.
+// The JSON text of a replay page (ReplayJson), as src/web/replay/payload.ts says; world, terrain
+// sensor, and the pieces that payload_text.h declares.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +18,8 @@ namespace {
 using core::JsonList;
 using core::JsonObject;
 
-// Pages read numbers as doubles, to which larger integers lose digits.
+// Pages read numbers as doubles, in which larger integers lose digits: such a seed is written as
+// text.
 constexpr std::uint64_t kMaxExactInteger = std::uint64_t{1} << 53;
 
 std::string RecordText(const ReplayData& data) {
@@ -180,8 +182,6 @@ std::string ReplayJson(const ReplayData& data, const ReplayData* beside) {
       .Add("beside", beside == nullptr ? "null" : ReplayJson(*beside));
   return object.Text();
 }
-
-// Where a replayed drive takes place and what its terrain sensor sees, as JSON.
 
 namespace {
 

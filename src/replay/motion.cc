@@ -17,7 +17,7 @@ namespace rockyard::replay {
 namespace {
 
 constexpr double kGrowth = 1.5;
-constexpr double kLoosest = 1000.0;  // growth beyond which nothing more can be gained
+constexpr double kLoosest = 1000.0;  // largest growth after which the tolerance grows once more
 
 double Lerp(double a, double b, double share) { return a + share * (b - a); }
 
@@ -25,13 +25,13 @@ double ShareOfTime(double from_s, double to_s, double at_s) {
   return to_s > from_s ? (at_s - from_s) / (to_s - from_s) : 1.0;
 }
 
-// A moment that must be kept whatever the tolerance.
+// Returns whether a moment must be kept whatever the tolerance.
 bool IsMark(std::span<const ReplayPose> poses, std::size_t i) {
   if (i == 0 || i + 1 == poses.size() || poses[i].set_back || poses[i + 1].set_back) return true;
   return poses[i].sample.activity != poses[i + 1].sample.activity;
 }
 
-// The part between two kept moments, ends included.
+// The moments between two that are kept, both included.
 using Part = std::pair<std::size_t, std::size_t>;
 
 void KeepBetween(std::span<const ReplayPose> poses, const MotionTolerance& tolerance, Part whole,
@@ -118,23 +118,22 @@ ThinnedMotion ThinMotion(std::span<const ReplayPose> poses, std::size_t most) {
   }
 }
 
-// The motion of a replay as JSON.
-
 namespace {
 
 using core::JsonList;
 using core::JsonNumber;
 using core::JsonObject;
 
-// In the order of the indices that a page holds: all that trial/drive/drive_tracer.cc names. One
-// that is missing here would be shown as the activity before it.
+// The activities in the order of the indices that a page holds. Must agree: the names of
+// trial/drive/drive_tracer.cc. An activity that is missing here would be shown as the one before
+// it.
 constexpr std::array<std::string_view, 8> kActivities{"drive", "turn",  "steer",   "scan",
                                                       "stall", "image", "compute", "overhead"};
 
-// More than a rounded time is off, s.
+// How near to the last time, s, times have every digit; more than rounding moves a time.
 constexpr double kNearEnd_s = 1e-3;
 
-// Unit quaternions of which none is the negative of what the one before leads to.
+// Returns the attitudes as unit quaternions, each with the sign that is nearer to the one before.
 std::vector<Eigen::Quaterniond> Attitudes(std::span<const ReplayPose> poses,
                                           std::span<const std::size_t> kept) {
   std::vector<Eigen::Quaterniond> attitudes;
@@ -147,7 +146,8 @@ std::vector<Eigen::Quaterniond> Attitudes(std::span<const ReplayPose> poses,
   return attitudes;
 }
 
-// A moment without an activity of its own belongs to what went before; the start to what follows.
+// Returns the index of each moment's activity. A moment without an activity gets that of the moment
+// before; the start, which has none before it, gets the first of kActivities.
 std::string ActivityText(std::span<const ReplayPose> poses, std::span<const std::size_t> kept) {
   std::size_t now = 0;
   return JsonList(kept, [&](std::size_t i) {
@@ -165,13 +165,13 @@ std::string BreaksText(std::span<const ReplayPose> poses, std::span<const std::s
   return JsonList(breaks, [](std::size_t k) { return std::to_string(k); });
 }
 
-// One list of numbers over the kept moments; the last one has every digit.
+// Writes lists of one number for each kept moment; the last number has every digit.
 class Channels {
  public:
   Channels(std::span<const ReplayPose> poses, std::span<const std::size_t> kept)
       : poses_(poses), kept_(kept) {}
 
-  // Time of the last moment, s; 0 where a fault came before the first one.
+  // Returns the time of the last moment, s; 0 where a fault came before the first one.
   double last_s() const { return kept_.empty() ? 0.0 : poses_[kept_.back()].sample.time_s; }
 
   template <typename Value, typename Text>
@@ -202,7 +202,7 @@ void AddTruePose(const Channels& channels, JsonObject& object) {
     return channels.Of(
         [axis](const ReplayPose& p) { return p.sample.posture.X_WR.translation()[axis]; }, Length);
   };
-  // A rounded time never lies beyond the last one, which has every digit: near it all have.
+  // The last time has every digit. Times near it have, too, or rounding could move one beyond it.
   const double last_s = channels.last_s();
   const auto time = [last_s](double time_s) {
     return time_s > last_s - kNearEnd_s ? JsonNumber(time_s) : Length(time_s);

@@ -1,4 +1,5 @@
-// Which moments of a drive the page of a replay needs. Trace files (trace_npz.h) keep all of them.
+// Which moments of a drive the page of a replay needs (ReplayJson). Trace files (trace_npz.h) keep
+// all of them.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +10,9 @@
 
 namespace rockyard::replay {
 
-// How far what is shown between two moments that are kept may be from the truth, where positions
-// and angles are interpolated linearly in time and attitudes along the shortest turn (slerp).
+// How far the motion that a page shows between two kept moments may be from the recorded one. Must
+// agree: the page interpolates as ShownError does (positions and angles linearly in time, attitudes
+// by slerp), and payload.ts says that joints have twice the tolerance of angles.
 struct MotionTolerance {
   double position_m = 0.002;               // true and believed
   double angle_rad = math::DegToRad(0.5);  // attitude and believed heading
@@ -22,22 +24,23 @@ struct MotionTolerance {
 
 struct ThinnedMotion {
   std::vector<std::size_t> kept;  // indices of poses, ascending
-  MotionTolerance tolerance;      // that they keep
+  MotionTolerance tolerance;      // which the kept moments hold
 };
 
-// Most moments of a motion that a page holds.
+// The most moments of a motion that a page holds.
 inline constexpr std::size_t kMaxMoments = 8000;
 
-// Keeps first and last moment, those at both sides of a setting back, the last one of every stretch
-// of one activity, and between them as many as the tolerance asks for (Ramer 1972, Douglas and
-// Peucker 1973: the moment that is furthest off is kept, then both parts are looked at). Where that
-// is more than `most`, the tolerance grows by half until it is not, or until nothing more can be
-// left out. Poses are in the order of time. Cost: some n log n of n poses.
+// Chooses the moments to keep. First and last moment, those at both sides of a setting back, and
+// the last one of every stretch of one activity are kept in any case; between them as many as the
+// tolerance asks for (Ramer 1972, Douglas and Peucker 1973: the moment that is furthest off is
+// kept, then both parts are looked at). Where these are more than `most`, the tolerance grows by
+// half, again and again, until they are not, or it is more than a thousand times the first. Poses
+// must be in the order of time. Cost: some n log n of n poses.
 ThinnedMotion ThinMotion(std::span<const ReplayPose> poses, std::size_t most = kMaxMoments);
 
-// How far the pose is from what is shown at its time between two others, as a share of the
-// tolerance: at most 1 where it may be left out. The largest of position, attitude, believed pose
-// and joints.
+// Returns how far a pose is from what is shown at its time between two others, as a share of the
+// tolerance: at most 1 where it may be left out. It is the largest share of position, attitude,
+// believed pose and joints.
 double ShownError(const ReplayPose& before, const ReplayPose& after, const ReplayPose& pose,
                   const MotionTolerance& tolerance);
 

@@ -20,14 +20,15 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie");
 
-// numpy.lib.format, version 1.0: magic, version, length of the header, a Python dictionary that is
-// padded so that the data begin at a multiple of 64 bytes.
+// The head of a .npy file (numpy.lib.format, version 1.0): magic, version, length of the
+// dictionary, and a Python dictionary that is padded so that the data begin at a multiple of 64
+// bytes.
 constexpr std::string_view kMagic{"\x93NUMPY\x01\x00", 8};
 constexpr std::size_t kAlignment = 64;
 
-// Of every member: 1980-01-01, 0 h, in the words of MS-DOS that zip keeps. Zip knows no earlier
-// time, the present one would make equal files differ, and libzip writes a std::time_t in the time
-// zone of the machine.
+// The time of every member is 1980-01-01, 0 h, the earliest that zip knows, as the present time
+// would make equal files differ. It is given in the words of MS-DOS that zip keeps, as libzip
+// writes a std::time_t in the time zone of the machine.
 constexpr zip_uint16_t kNoTime = 0;
 constexpr zip_uint16_t kNoDate = (1 << 5) | 1;  // years since 1980, month, day
 
@@ -76,9 +77,9 @@ Source NewBuffer() {
   return buffer;
 }
 
-// Archives are opened one at a time: libzip before 1.9 looks up in unguarded static variables,
-// which the first call fills, whether it may write (github.com/nih-at/libzip/issues/289), and a
-// second thread could be told "Read-only archive".
+// Opens archives one at a time, whichever threads ask: libzip before 1.9 looks up in unguarded
+// static variables, which the first call fills, whether it may write
+// (github.com/nih-at/libzip/issues/289), and a second thread could be told "Read-only archive".
 Archive OpenToWrite(zip_source_t& buffer, zip_error_t& error) {
   static std::mutex opening;
   const std::lock_guard lock(opening);
@@ -163,7 +164,7 @@ std::string NpzFile::Bytes() const {
   const Source buffer = NewBuffer();
   zip_error_t error;
   zip_error_init(&error);
-  // The archive frees a source of its own at its end: keep ours beyond that.
+  // The archive releases the buffer when it is closed: hold it until it has been read.
   zip_source_keep(buffer.get());
   Archive archive = OpenToWrite(*buffer, error);
   if (!archive) {

@@ -1,4 +1,5 @@
-// Arrays of numbers and texts as a NumPy file (.npz): a zip archive of one .npy for each.
+// Arrays of numbers and texts as a NumPy file (.npz): a zip archive of one .npy for each. Trace
+// files (trace_npz.h) are such files.
 #pragma once
 
 #include <cstddef>
@@ -11,22 +12,22 @@
 namespace rockyard::replay {
 
 // Collects arrays, and writes them in the order in which they came. numpy.load reads them without
-// pickle. Row-major, little endian: float64 (<f8), int64 (<i8), bool (|b1), texts (<U: UTF-32 of
-// equal length, as NumPy keeps them; what is no UTF-8 becomes U+FFFD).
+// pickle. Arrays are row-major and little endian, of float64 (<f8), int64 (<i8), bool (|b1) or
+// texts (<U: UTF-32, all padded to the longest; what is no UTF-8 becomes U+FFFD).
 class NpzFile {
  public:
   using Shape = std::vector<std::size_t>;
 
-  // The product of the shape must be the number of values, and each name new.
+  // Each adds an array. The product of the shape must be the number of values, and the name new.
   void AddReals(std::string_view name, std::span<const double> values, const Shape& shape);
   void AddIntegers(std::string_view name, std::span<const std::int64_t> values, const Shape& shape);
   void AddFlags(std::string_view name, std::span<const std::uint8_t> values, const Shape& shape);
   void AddTexts(std::string_view name, std::span<const std::string> texts);
-  // An array without dimensions.
+  // Adds a text as an array without dimensions.
   void AddText(std::string_view name, const std::string& text);
 
-  // The file: the same bytes for the same arrays, whenever and wherever it is made. Throws
-  // std::runtime_error where memory ends.
+  // Returns the file. Must stay: the same arrays give the same bytes, whenever and wherever they
+  // are written. Throws std::runtime_error where memory ends.
   std::string Bytes() const;
 
  private:

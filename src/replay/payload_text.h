@@ -1,4 +1,5 @@
-// Pieces of the JSON text of a replay page.
+// Pieces of the JSON text of a replay page (ReplayJson), whose parts several files here write;
+// trace files take the provenance.
 #pragma once
 
 #include <span>
@@ -10,22 +11,22 @@
 
 namespace rockyard::replay {
 
-// The multiple of 1 / digits that is nearest; no "-0".
+// Returns the nearest multiple of 1 / digits, never "-0"; null where the value is not finite.
 std::string Rounded(double value, double digits);
-// To 0.1 mm or 0.1 ms.
+// Returns a length to 0.1 mm; also a time to 0.1 ms, or a curvature to 1e-4 per metre.
 std::string Length(double value_m);
-// To 1e-5, also for parts of unit vectors and unit quaternions.
+// Returns an angle, or a part of a unit vector or unit quaternion, to 1e-5.
 std::string Angle(double value_rad);
-// [x, y, z] to 0.1 mm.
+// Returns [x, y, z] to 0.1 mm.
 std::string Point(const math::Vector3& p);
-// Members x, y and heading.
+// Adds the members x, y and heading; PoseText returns an object of these three.
 core::JsonObject& AddPose(core::JsonObject& object, const math::Pose2& pose);
 std::string PoseText(const math::Pose2& pose);
 
-// Of the program that made it, and the machine.
+// Returns the program that made a page or file, and the machine.
 std::string ProvenanceText(const core::Provenance& provenance);
 
-// As payload.ts names them.
+// Return members of the page's data. Must agree: src/web/replay/payload.ts.
 std::string WorldJson(const ReplayWorld& world);
 std::string SensorJson(const ReplaySensor& sensor);
 std::string MotionJson(std::span<const ReplayLink> links, std::span<const ReplayPose> poses);

@@ -1,4 +1,5 @@
-// What a rover sees and chooses in a replay, and what happens to it, as JSON.
+// What a rover sees and chooses, and what happens to it, as members of the JSON of a replay page
+// (payload_text.h declares the functions).
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -34,7 +35,7 @@ std::string StripePointText(const StripePoint& point) {
       .Text();
 }
 
-// Without heights all of them are null, which takes next to no room.
+// Returns a map. Without `heights` all elevations are null, which takes next to no room.
 std::string MapText(const messages::MapView& map, bool heights) {
   const auto byte = [&](std::uint8_t MapCellView::*member) {
     return JsonList(map.cells, [member](const MapCellView& cell) {
@@ -86,7 +87,8 @@ std::string RangePointText(const math::Vector3& p) {
                              Rounded(p.z(), kCoarseDigits)});
 }
 
-// One list a member, as there may be hundreds; "chosen" is the place in them, or -1.
+// Returns splines as one list for each member, as there may be hundreds of splines; "chosen" is the
+// index of the chosen one in the lists, or -1.
 std::string SplineColumnsText(std::span<const SplineVote> votes) {
   const auto column = [&](const auto& text) { return JsonList(votes, text); };
   const auto curvature = [&](double messages::Spline::*member) {
@@ -113,7 +115,7 @@ std::string SplineColumnsText(std::span<const SplineVote> votes) {
       .Text();
 }
 
-// Without details the chosen one alone.
+// Returns all splines of a step; the chosen one alone where the step has no details.
 std::string SplinesText(const std::vector<SplineVote>& votes, bool detailed) {
   if (votes.empty()) return "null";
   if (detailed) return SplineColumnsText(votes);

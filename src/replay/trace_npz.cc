@@ -12,7 +12,7 @@
 namespace rockyard::replay {
 namespace {
 
-// Rows of equally many numbers.
+// A two-dimensional array of numbers, filled row by row.
 class NpzTable {
  public:
   explicit NpzTable(std::size_t columns) : columns_(columns) {}
@@ -32,7 +32,7 @@ class NpzTable {
   std::vector<double> numbers_;
 };
 
-// One number for each item.
+// Adds an array with one number for each item.
 template <typename Items, typename Value>
 void AddColumn(std::string_view name, const Items& items, const Value& value, NpzFile& file) {
   std::vector<double> numbers;
@@ -47,7 +47,8 @@ using messages::MapCellView;
 using messages::MotionVote;
 using messages::SplineVote;
 
-// Of the arrays that README.md of this folder lists, which programs of others read by name.
+// The version of the arrays, as README.md of this folder lists them; other programs read them by
+// name.
 constexpr int kFormatVersion = 1;
 constexpr std::int64_t kUnknownCell = -1;
 
@@ -135,7 +136,7 @@ void AddScans(std::span<const ReplayScan> scans, NpzFile& file) {
   points.Write("scan_points", file);
 }
 
-// Every candidate motion of every step.
+// The arrays of every candidate motion of every step.
 class Votes {
  public:
   void Add(std::size_t step, const messages::NavigationView& view) {
@@ -166,7 +167,7 @@ class Votes {
   std::vector<std::uint8_t> chosen_;
 };
 
-// Every spline of every step, of navigators that steer while they drive.
+// The arrays of every spline of every step, for navigators that steer while they drive.
 class Splines {
  public:
   void Add(std::size_t step, const messages::NavigationView& view) {
@@ -218,7 +219,7 @@ void AddMaps(std::span<const ReplayStep> steps, NpzFile& file) {
       certainty.push_back(cell.known ? std::int64_t{cell.certainty} : kUnknownCell);
     }
   }
-  // The maps of a trial have one size, or they would be no array.
+  // Must hold: the maps of a trial have one size, or they would be no array.
   NpzFile::Shape shape{steps.size(), 0, 0};
   if (!steps.empty()) {
     shape[1] = static_cast<std::size_t>(steps.front().view.map.ny);

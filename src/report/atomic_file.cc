@@ -12,7 +12,7 @@
 namespace rockyard::report {
 namespace {
 
-// Errno of the first failure, or 0.
+// Returns errno of the first failure, or 0.
 int WriteAll(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = write(descriptor, text.data(), text.size());

@@ -1,4 +1,5 @@
-// Files that are there whole or not at all.
+// Files that are there whole or not at all. Every command and campaign writes its result files by
+// it.
 #pragma once
 
 #include <filesystem>
@@ -26,10 +27,10 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   void Write(std::string_view text);
-  // Once, after the last Write: brings it to the disk, so that Commit, which does so too, has only
-  // to rename.
+  // Brings the text to the disk, so that Commit, which does so too, has only to rename. Once, after
+  // the last Write.
   void Sync();
-  // Once, after the last Write.
+  // Brings the text to the disk and renames the temporary file. Once, after the last Write.
   void Commit();
   const std::filesystem::path& path() const { return path_; }
 

@@ -170,7 +170,7 @@ std::string Table(const SweepAttribution& attribution, std::size_t kind) {
   }
   if (result.trials == 0) return text;
   text += Failures(result) + Shares(result);
-  // The other definition of success gets the short table.
+  // Declared success gets the short table.
   if (kind == static_cast<std::size_t>(SuccessKind::kDeclared)) return text;
   return text + Effects(result) + Combinations(result);
 }

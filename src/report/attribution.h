@@ -1,5 +1,6 @@
-// How much of a sweep's failures each of its ablations accounts for: sweeps whose axes are
-// ablations are factorial experiments.
+// How much of a sweep's failures each of its ablations accounts for: a sweep whose axes are
+// ablations is a factorial experiment. The table, summary.json and attribution.csv of such sweeps
+// tell it.
 #pragma once
 
 #include <array>
@@ -15,17 +16,19 @@
 
 namespace rockyard::report {
 
-// What failed: trials without declared success, and those without true success, by SuccessKind.
+// The attributions at one setting of the other axes: of trials without declared success, and of
+// those without true success, by SuccessKind.
 struct SweepAttribution {
   std::string at;  // levels of the axes that are no ablations; empty where there are none
   std::array<statistics::Attribution, 2> by_success;
   std::int64_t left_out = 0;  // trials with a simulator fault in some cell, left out of all
 };
 
-// One attribution for each setting of the axes that are no ablations. Nothing for sweeps that are
-// no grid, have no axis of ablations or more than statistics::kMaxFunctions, or no common random
-// numbers: trials are compared in pairs. Uses the trials that every cell of a setting has.
-// `outcomes` of each cell, by trial from 0 on. Intervals allow for trials that share layouts.
+// Returns one attribution for each setting of the axes that are no ablations, and none for sweeps
+// that are no grid, have no axis of ablations or more than statistics::kMaxFunctions, or no common
+// random numbers: trials are compared in pairs. Uses the trials that every cell of a setting has.
+// `outcomes` are those of each cell, by trial from 0 on. Intervals allow for trials that share
+// layouts.
 std::vector<SweepAttribution> AttributeSweep(const scenario::Sweep& sweep,
                                              std::span<const CellOutcomes> outcomes);
 
@@ -36,7 +39,8 @@ std::string AttributionText(std::span<const SweepAttribution> attributions);
 // remainder, effect), functions, value, low, high.
 std::string AttributionCsv(std::span<const SweepAttribution> attributions);
 
-// A JSON list with the same.
+// A JSON list: the rows of AttributionCsv by setting and success, with trials, left_out and
+// sum_of_alone.
 core::JsonValue AttributionJson(std::span<const SweepAttribution> attributions);
 
 }  // namespace rockyard::report

@@ -86,8 +86,6 @@ std::string BaselineJson(const Baseline& baseline) {
   return core::SpreadJson(json, kSpreadLevels) + "\n";
 }
 
-// Reading baselines.
-
 namespace {
 
 using Type = JsonValue::Type;
@@ -196,7 +194,7 @@ class Reader {
     }
   }
 
-  // What MetricValues says of records with these outcomes.
+  // Returns what MetricValues says of records with these outcomes.
   static std::vector<double> OutcomeValues(const Metric& metric, const BaselineCell& cell) {
     std::vector<truth::Record> records(cell.outcomes.size());
     for (std::size_t i = 0; i < records.size(); ++i) records[i].outcome = cell.outcomes[i];

@@ -1,6 +1,7 @@
 // Baselines: what a campaign gave, kept in the repository so that later builds can be held against
-// it (`rockyard check`). Later builds read what earlier ones wrote: letters of outcomes and names
-// of metrics keep their meaning, and a new outcome gets a letter of its own.
+// it. `rockyard baseline` writes them, `rockyard check` reads them. Must stay, as later builds read
+// what earlier ones wrote: letters of outcomes and names of metrics. A new outcome gets a letter of
+// its own.
 #pragma once
 
 #include <cstdint>
@@ -48,17 +49,17 @@ void FillBaselineCell(const truth::RecordSchema& schema, std::span<const truth::
 
 // JSON: {"kind": "rockyard_baseline", "schema_version": 1, "name", "reason", "build", "cells":
 // [...]}. A cell has name, scenario, fingerprint, seed (decimal text), trial_hash, outcomes (a
-// letter for each trial: G goal_reached, F false_goal, T tip_over, H high_centred, J jammed, N
-// no_path, E energy_depleted, L time_limit, A left_arena, X simulator_fault, S excessive_slip),
-// margins (by metric), metrics (by metric a list with a number or null for each trial; rates of
-// outcomes follow from outcomes), resolved. Some 250 bytes for each trial.
+// letter for each trial, kOutcomeLetters: G goal_reached, F false_goal, T tip_over, H high_centred,
+// J jammed, N no_path, E energy_depleted, L time_limit, A left_arena, X simulator_fault, S
+// excessive_slip), margins (by metric), metrics (by metric a list with a number or null for each
+// trial; rates of outcomes follow from outcomes), resolved. Some 250 bytes for each trial.
 std::string BaselineJson(const Baseline& baseline);
 
 // Whether a JSON document says that it is a baseline.
 bool IsBaseline(const core::JsonValue& json);
 
-// Throws core::UserError with every problem and its JSON path. Metrics that this program does not
-// know are left out: `unknown` gets their names.
+// Reads a baseline. Throws core::UserError with every problem and its JSON path. Metrics that this
+// program does not know are left out: `unknown` gets their names.
 Baseline ParseBaseline(const core::JsonValue& json, std::vector<std::string>* unknown = nullptr);
 
 }  // namespace rockyard::report

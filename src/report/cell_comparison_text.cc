@@ -1,3 +1,4 @@
+// Two measurements, cell by cell, as text and CSV (paired_comparison.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +16,8 @@ using statistics::CellComparison;
 using statistics::ComparedCell;
 using statistics::RateDifference;
 
-// More cells than this are shown by their smallest p-values.
+// Most cells of a rate that are shown: of more, those with the smallest p-values.
+// CellComparisonText's comment states the number.
 constexpr std::size_t kMaxLines = 40;
 
 std::string Head(const ComparedRun& first, const ComparedRun& second,
@@ -41,7 +43,7 @@ std::string Head(const ComparedRun& first, const ComparedRun& second,
              comparison.tests, comparison.tests);
 }
 
-// Of each rate the cell with the smallest p-value.
+// Returns a line for each rate: its cell with the smallest p-value, and how many cells differ.
 std::string RateLines(const CellComparison& comparison) {
   std::string text =
       fmt::format("  {:<20} {:>7} {:>6} {:>7} {:>15} {:>7} {:>5} {:>11}\n", "least likely cell of",

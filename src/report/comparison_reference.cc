@@ -80,7 +80,7 @@ class Parser {
     }
   }
 
-  // Elements of a list member; none where it is missing.
+  // Returns the elements of a list member; none where it is missing.
   std::vector<Item> Items(const JsonValue& json, std::string_view key, const std::string& path) {
     const JsonValue* list = json.Find(key);
     if (list == nullptr) return {};

@@ -1,4 +1,4 @@
-// Published values from a JSON file.
+// Published values from a JSON file, for `rockyard check` and the report page.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace rockyard::report {
 // ids, numbers out of range.
 statistics::PublishedReference ParseReference(const core::JsonValue& json);
 
-// Same from a file; what is wrong with the file itself is a core::UserError as well.
+// Reads a reference from a file; what is wrong with the file itself is a core::UserError as well.
 statistics::PublishedReference LoadReference(const std::filesystem::path& path);
 
 }  // namespace rockyard::report

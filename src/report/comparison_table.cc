@@ -99,7 +99,8 @@ std::string Row(const ComparedValue& value) {
          Details(value);
 }
 
-// What a reader must not miss: it stands between the name of a scenario and its rows.
+// Says where the run is not the published case, which a reader must not miss: it stands between the
+// name of a scenario and its rows.
 std::string Changed(const ComparisonResult& result, std::string_view scenario) {
   const statistics::OtherSettings* changed = result.FindChanged(scenario);
   if (changed == nullptr) return "";
@@ -110,7 +111,8 @@ std::string Changed(const ComparisonResult& result, std::string_view scenario) {
 
 std::string Footnotes(const ComparisonResult& result) {
   std::vector<std::string> notes = ComparisonNotes(result);
-  // Behind what columns and verdicts mean, which ComparisonNotes says in its first three.
+  // kMarks stands behind what columns and verdicts mean, which ComparisonNotes says in its first
+  // three.
   notes.insert(notes.begin() + 3, kMarks);
   std::string text;
   for (const std::string& note : notes) text += Wrap(note, 0);
@@ -126,7 +128,8 @@ std::vector<std::string> Scenarios(const ComparisonResult& result) {
   return names;
 }
 
-// Arithmetic that agrees with a publication says nothing about the simulation.
+// Says how many values are computed: arithmetic that agrees with a publication says nothing about
+// the simulation.
 std::string ComputedAmongThem(const ComparisonResult& result) {
   const auto computed =
       std::count_if(result.values.begin(), result.values.end(), [](const ComparedValue& value) {
@@ -298,7 +301,7 @@ std::size_t CountOf(const ComparisonResult& result, Verdict verdict) {
 
 namespace {
 
-// With what must not be missed where rows are read one by one.
+// Returns the remark of a value, with what must not be missed where rows are read one by one.
 std::string Remark(const ComparisonResult& result, const ComparedValue& value) {
   if (result.FindChanged(value.published.scenario) == nullptr) return value.remark;
   return fmt::format("{}{}{}", kNotPublishedCase, value.remark.empty() ? "" : "; ", value.remark);
@@ -350,7 +353,7 @@ std::string ComparisonCsv(const ComparisonResult& result) {
 }
 
 std::string ComparisonJUnit(const PublishedReference& reference, const ComparisonResult& result) {
-  // In the order of Verdict.
+  // Must stay in the order of Verdict.
   constexpr std::string_view kElements[] = {"", "", "failure", "skipped", "skipped"};
   std::vector<JUnitCase> cases;
   for (const ComparedValue& value : result.values) {

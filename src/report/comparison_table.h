@@ -1,4 +1,6 @@
-// The comparison with published values for people and for machines.
+// The comparison with published values as text, CSV and JUnit, for `rockyard check`; and how its
+// numbers are written, in JSON and on the report page too. All that follows ComparisonJUnit is for
+// comparison_table.cc, page_sweep.cc and result_json.cc only.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +14,9 @@
 
 namespace rockyard::report {
 
-// What its columns mean (2), what its verdicts mean (1), and how it was made.
+// Returns notes: two on what the columns mean, one on what the verdicts mean, then how the
+// comparison was made. Must stay in this order: ComparisonText inserts a note of its own after the
+// third.
 std::vector<std::string> ComparisonNotes(const statistics::ComparisonResult& result);
 
 // Aligned plain text, at most 100 columns, grouped by scenario, with footnotes on what the columns
@@ -27,9 +31,6 @@ std::string ComparisonCsv(const statistics::ComparisonResult& result);
 // skipped.
 std::string ComparisonJUnit(const statistics::PublishedReference& reference,
                             const statistics::ComparisonResult& result);
-
-// How numbers of the comparison are written. For comparison_*.cc, page_sweep.cc and
-// result_json.cc only.
 
 inline constexpr std::string_view kNotPublishedCase =
     "NOT the published case: run with other settings than the scenario that the reference is about";
@@ -50,18 +51,18 @@ std::string Published(const statistics::PublishedValue& value);
 // "median (low .. high)".
 std::string Prediction(double median, const statistics::Interval& interval, bool count);
 
-// The same for a compared value, in the digits of its kind.
+// The prediction of a compared value, in the digits of its kind.
 std::string Prediction(const statistics::ComparedValue& value);
 
-// The same for a statistic that is shown beside it.
+// The prediction of a statistic that is shown beside a value.
 std::string Prediction(const statistics::ComparedValue& value,
                        const statistics::SideStatistic& beside);
 
 // What else is to be said of a value: kinds of failure, one layout for all runs, a remark.
 std::vector<std::string> Remarks(const statistics::ComparedValue& value);
 
-// kFull: the other readings of a value follow it, and its remark says what must not be missed where
-// rows are read one by one.
+// With kFull the other readings of a value follow it, and its remark says what must not be missed
+// where rows are read one by one.
 enum class ComparisonDetail { kValues, kFull };
 ResultTable ComparisonRows(const statistics::ComparisonResult& result, ComparisonDetail detail);
 

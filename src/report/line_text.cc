@@ -65,7 +65,7 @@ bool BeginsColour(std::string_view text) {
                      [text](std::string_view colour) { return text.starts_with(colour); });
 }
 
-// As UTF-16, of which JSON's escapes are made.
+// Returns the escape of a code point as UTF-16, of which JSON's escapes are made.
 std::string JsonEscape(char32_t code) {
   const auto unit = [](char32_t value) {
     return fmt::format("\\u{:04x}", static_cast<std::uint32_t>(value));

@@ -1,3 +1,4 @@
+// The cells of a measurement for people and as CSV (summary_text.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace {
 using statistics::Cell;
 using statistics::MeasurementSummary;
 
-// More cells than this are pooled.
+// More cells than this are pooled (MeasurementText).
 constexpr std::size_t kMaxUnpooled = 40;
 // Columns of numbers that fit into 100 characters.
 constexpr std::size_t kMaxColumns = 7;

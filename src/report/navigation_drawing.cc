@@ -242,8 +242,6 @@ std::string NavigationSvg(const NavigationPicture& picture) {
   return svg + "</svg>\n";
 }
 
-// The numbers behind a decision of a map-based navigator.
-
 namespace {
 
 std::string VoteRows(std::string_view kind, const std::vector<MotionVote>& votes) {

@@ -1,5 +1,5 @@
 // One decision of a map-based navigator as picture and data, in the manner of the diagnostic image
-// of Goldberg 2002, figure 3.
+// of Goldberg 2002, figure 3. `rockyard replay` writes and tells it.
 #pragma once
 
 #include <string>
@@ -16,9 +16,9 @@ struct NavigationPicture {
   StepScene scene;
 };
 
-// An SVG file: the course with the path so far (CoursePanel), the view of the front camera with
-// the grid (CameraPanel), maps of elevation, goodness (with the candidate arcs) and certainty, x
-// to the right and y up in the estimated world frame, and the votes of every candidate in three
+// Returns an SVG file: the course with the path so far (CoursePanel), the view of the front camera
+// with the grid (CameraPanel), maps of elevation, goodness (with the candidate arcs) and certainty,
+// x to the right and y up in the estimated world frame, and the votes of every candidate in three
 // rows (waypoint, hazard, merged). Candidates run from the leftmost to the rightmost turn; those
 // with the best vote are underlined, the chosen one is framed.
 std::string NavigationSvg(const NavigationPicture& picture);
@@ -34,7 +34,7 @@ std::string VotesCsv(const messages::NavigationView& view);
 // Points of a cloud: x_m, y_m, z_m in R.
 std::string CloudCsv(const messages::PointCloud& cloud);
 
-// What was decided, in a line: "forward 0.55 /m (vote 213)".
+// Returns what was decided, in a line: "forward 0.55 /m (vote 213)".
 std::string ChosenText(const messages::NavigationView& view);
 
 }  // namespace rockyard::report

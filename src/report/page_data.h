@@ -1,5 +1,6 @@
-// The data of the report page, in the shape of src/web/report/payload.ts: numbers of runs, sweeps
-// and comparisons that are there already, put together as JSON.
+// The data of the report page, which `rockyard report` writes: numbers of runs, sweeps and
+// comparisons that are there already, put together as JSON. Must keep the shape of
+// src/web/report/payload.ts.
 //
 // What is undefined is null. Texts may be anything: what is no UTF-8 is replaced. Nothing here
 // draws random numbers but the bootstrap of the comparisons that it is given. Cost: linear in the
@@ -33,10 +34,8 @@
 
 namespace rockyard::report {
 
-// Where the drives of a run went, as the report page draws them from above: world frame, whole
+// What all drives of a run share, as the report page draws them from above: world frame, whole
 // centimetres in the page's data.
-
-// What all drives of a run share.
 struct PageCourse {
   std::string rover;  // its name; "" where its shape is that of no rover that is known
   math::Pose2 start;
@@ -116,16 +115,16 @@ std::string PageTrialsJson(const truth::RecordSchema& schema,
                            std::span<const truth::Record> records,
                            std::span<const std::size_t> places);
 
-// Members of distance_cdf.csv by column, of at most kMaxPageSteps steps: all of them, or the
-// first, the last, and each at which the distribution function has grown by more than 1/998 since
-// the one before. What is kept is exact. Drawn as steps from it, the function is nowhere above that
-// of all steps and nowhere below it by more than 1/998, however many trials share a distance. null
-// where there are no steps.
+// Members of distance_cdf.csv by column, of at most kMaxPageSteps steps: all of them, or the first,
+// the last, and each at which the distribution function has grown by more than 1/998 (kMaxPageSteps
+// less both ends) since the one before. What is kept is exact. Drawn as steps from it, the function
+// is nowhere above that of all steps and nowhere below it by more than 1/998, however many trials
+// share a distance. null where there are no steps.
 std::string PageCdfJson(std::span<const DistanceStep> steps);
 
-// Those of a run that another one has not: other in value. All of them where the two are not of the
-// same parameters in the same order. Cells of a sweep differ in few, and all cells of a large one
-// would fill a page with the rest.
+// Returns the parameters of a run whose values differ from those of another run; all parameters
+// where the two have not the same ones in the same order. Cells of a sweep differ in few, and all
+// parameters of all cells of a large one would fill a page.
 std::vector<core::ParameterInfo> OtherParameters(std::span<const core::ParameterInfo> parameters,
                                                  std::span<const core::ParameterInfo> of);
 
@@ -136,7 +135,7 @@ std::string PageParametersJson(std::span<const core::ParameterInfo> parameters);
 std::string PublishedJson(const statistics::PublishedReference& reference,
                           const statistics::ComparisonResult& result, std::string_view scenario);
 
-// `Sweep`: SweepJson, and its curves as points and fitted lines of 61 points.
+// `Sweep`: SweepJson, and its curves as points and fitted lines (FittedLine).
 std::string PageSweepJson(std::string_view label, std::string_view folder,
                           const scenario::Sweep& sweep, const SweepSummary& summary,
                           const SweepDescription& description);
@@ -157,7 +156,7 @@ struct PageComparison {
 };
 
 // Adjusts the p-values of all successes together by Holm, where there is more than one pair of
-// runs. Those that are not known stay so and are no members of the family.
+// runs. P-values that are not known stay so and are no members of the family.
 void AdjustSuccesses(std::span<PageComparison> comparisons);
 
 // `Comparison`. `adjusted`: whether AdjustSuccesses has been over its p-values.

@@ -1,3 +1,4 @@
+// Runs and their trials on the report page (page_data.h).
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -43,8 +44,9 @@ std::vector<std::string> Factors(const truth::RecordSchema& schema) {
   return names;
 }
 
-// All where they are few enough. Else both ends, and every step at which the function has grown by
-// more than kMin since the one kept before: those growths sum up to no more than 1.
+// Returns the places of the steps that the page keeps: all where they are few enough; else both
+// ends, and every step at which the function has grown by more than kMin since the one kept before.
+// These growths sum up to no more than 1.
 std::vector<std::size_t> KeptSteps(std::span<const DistanceStep> steps) {
   constexpr double kMin = 1.0 / static_cast<double>(kMaxPageSteps - 2);
   std::vector<std::size_t> kept;

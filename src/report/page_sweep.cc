@@ -1,3 +1,5 @@
+// Sweeps, comparisons, published values and drives on the report page, and the page as a whole
+// (page_data.h).
 #include <fmt/format.h>
 
 #include <array>
@@ -43,7 +45,7 @@ std::string Line(const LogisticFit& fit) {
   });
 }
 
-// In the order of statistics::FitStatus.
+// Must stay in the order of statistics::FitStatus.
 constexpr std::array<std::string_view, 4> kStatusTexts{
     "fitted", "fewer than two settings have finished trials", "every trial ended alike",
     "successes and failures do not overlap: no curve is the likeliest"};
@@ -146,12 +148,12 @@ namespace {
 using statistics::ComparedValue;
 using statistics::PublishedValue;
 
-// As a share of its runs for a count, so that it can be drawn beside a rate.
+// Returns a count as a share of its runs, so that it can be drawn beside a rate.
 double Share(double value, const PublishedValue& published) {
   return IsCount(published) ? value / static_cast<double>(published.sample_size) : value;
 }
 
-// With the other readings that the terminal's table shows below a row.
+// Returns the remarks, with the other readings that the terminal's table shows below a row.
 std::vector<std::string> AllRemarks(const ComparedValue& value) {
   std::vector<std::string> remarks = Remarks(value);
   for (const statistics::SideStatistic& side : value.beside) {
@@ -210,7 +212,7 @@ std::string PlaceJson(const messages::Goal& place) {
   return JsonList(std::vector{JsonNumber(place.x_m), JsonNumber(place.y_m)});
 }
 
-// Points that round to the one before are left out.
+// Returns a piece of a path. Points that round to the one before are left out.
 std::string Piece(const PathPiece& piece) {
   std::vector<std::string> numbers;
   for (const math::Pose2& pose : piece) {

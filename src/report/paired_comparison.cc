@@ -154,7 +154,7 @@ void ComparePairedColumn(const std::vector<Pair>& pairs, std::size_t in_first,
           .interval;
 }
 
-// Of every trial that counts; NaN of the others.
+// Returns the values of every trial that counts; NaN of the others.
 std::vector<double> ValuesOf(const ComparedRun& run, std::size_t column, bool arrived) {
   std::vector<double> values;
   values.reserve(run.records.size());
@@ -287,7 +287,7 @@ std::string SuccessLines(const SuccessComparison& success, bool paired) {
   return text;
 }
 
-// Of two samples the smaller one.
+// Returns the size of the smaller of two samples.
 std::int64_t Least(const ColumnComparison& column) {
   return std::min(column.count, column.second_count);
 }

@@ -1,4 +1,6 @@
 // Two runs against each other: trial by trial where they share the seed, as two samples otherwise.
+// `rockyard compare` and the report page show it, and sweeps compare their cells by it. Two
+// measurements, cell by cell, as text and CSV.
 #pragma once
 
 #include <cstdint>
@@ -54,37 +56,40 @@ struct RunComparison {
   bool same_terrain = true;  // equal seed and index mean equal rocks, start and goal
   std::vector<SuccessComparison> successes;  // none where nothing drives
   std::vector<ColumnComparison> columns;     // of both schemas, all trials
-  // The same where the drive was a declared success: paired, in both runs. A distance to the goal
-  // exists there only, but these are the easier fields: the columns of all trials belong beside it.
+  // The columns over drives that ended in declared success: paired, in both runs. A distance to the
+  // goal exists there only, but these are the easier fields: `columns` belongs beside it.
   std::vector<ColumnComparison> arrived_columns;
 };
 
-// Equal seed and index mean equal rocks and equal noise, so that differences have far less variance
-// than two samples. Paired intervals: success by the score (Tango 1998), of shared layouts by
-// Agresti and Min (2005) of effective numbers; columns as any mean, of the differences. Not paired:
-// success by Newcombe (1998), method 10, from the Wilson intervals; columns in the same way from
-// the intervals of both means. A mean difference has no interval where a mean of as many values has
-// none (statistics/sample_statistics.h). No correction for the number of columns: they describe.
+// Compares two runs. Equal seed and index mean equal rocks and equal noise, so that differences
+// have far less variance than two samples. Paired intervals: success by the score (Tango 1998), of
+// shared layouts by Agresti and Min (2005) of effective numbers; columns by the interval of the
+// mean of the differences. Not paired: success by Newcombe (1998), method 10, from the Wilson
+// intervals; columns in the same way from the intervals of both means. A mean difference has no
+// interval where a mean of as many values has none (statistics/sample_statistics.h). No correction
+// for the number of columns: they describe.
 RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second);
 
-// What differs between the runs, `settings` (lines), success, and the columns that metrics are made
-// of (statistics/metrics.h), with a value; `every_column`: all of them. At most 100 columns wide.
+// Returns text of at most 100 columns: what differs between the runs, `settings` (lines), success,
+// and the columns that metrics are made of (statistics/metrics.h), with a value; with
+// `every_column` all of them.
 std::string RunComparisonText(const ComparedRun& first, const ComparedRun& second,
                               const RunComparison& comparison, std::string_view settings = "",
                               bool every_column = false);
 
-// Both tables: trials (all, arrived), column, unit, how many values (least of both runs, n,
-// n_second: none where paired), first and second mean, their difference and its interval (low,
-// high).
+// Returns `columns` and `arrived_columns` as one table: trials (all, arrived), column, unit, how
+// many values (least of both runs, n, n_second: none where paired), first and second mean, their
+// difference and its interval (low, high).
 ResultTable ColumnsOf(const RunComparison& comparison);
 
-// Every column of both tables: trials (all, arrived), column, unit, n, both means, their difference
-// and its interval.
+// Returns ColumnsOf as CSV: trials (all, arrived), column, unit, n (least), both means, their
+// difference and its interval.
 std::string RunComparisonCsv(const RunComparison& comparison);
 
-// Two measurements, cell by cell. What was compared; the verdict; a line for each rate; then, where
-// there are tests, the cells: all of the main rate and of every other rate those that differ, of
-// each at most the forty with the smallest p-values. At most 100 columns.
+// Returns the comparison of two measurements as text of at most 100 columns: what was compared, the
+// verdict, and a line for each rate; then, where there are tests, the cells: all of the main rate,
+// and of every other rate those that differ, of each rate at most the forty with the smallest
+// p-values.
 std::string CellComparisonText(const ComparedRun& first, const ComparedRun& second,
                                const statistics::CellComparison& comparison);
 

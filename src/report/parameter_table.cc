@@ -19,7 +19,7 @@ using statistics::Metric;
 using statistics::MetricSource;
 using statistics::MetricTrials;
 
-// In the order of FieldKind.
+// Must stay in the order of FieldKind.
 constexpr std::array<std::string_view, 8> kKindNames{"real", "angle", "integer",  "boolean",
                                                      "text", "reals", "integers", "choice"};
 

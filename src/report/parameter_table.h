@@ -1,5 +1,6 @@
 // Tables of a scenario's parameters: what each value is, where it comes from, how far it may be
-// off; of the metrics of statistics/metrics.h.
+// off; and the table of the metrics of statistics/metrics.h. Commands that list parameters or
+// metrics print them, and the report page has the values.
 #pragma once
 
 #include <optional>
@@ -12,11 +13,11 @@
 
 namespace rockyard::report {
 
-// The parameters of one origin, or all.
+// Returns the parameters of one origin, or all.
 std::vector<core::ParameterInfo> SelectParameters(std::span<const core::ParameterInfo> parameters,
                                                   std::optional<core::Origin> origin);
 
-// Its value: a number with six digits, "[1, 2]" for a list.
+// Returns the value of a parameter: a number with six digits, "[1, 2]" for a list.
 std::string ParameterValue(const core::ParameterInfo& parameter);
 
 // "lo to hi" where it has a study range, the choices, or "held".
@@ -35,6 +36,6 @@ std::string ParametersCsv(std::span<const core::ParameterInfo> parameters);
 
 // Name, unit, trials that count, definition, record columns, default margin.
 std::string MetricTableText();      // at most 100 columns
-std::string MetricTableMarkdown();  // for README.md
+std::string MetricTableMarkdown();  // for src/statistics/README.md
 
 }  // namespace rockyard::report

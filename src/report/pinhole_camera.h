@@ -1,6 +1,6 @@
 // What a pinhole camera sees of points, surfaces and convex bodies; the map of a navigator as a
-// surface, as its rover believes to stand before it. For drawings alone: what a rover sees comes
-// from other cameras (vision/cameras).
+// surface, as its rover believes to stand before it. For drawings of decisions and looks alone:
+// what a rover sees comes from other cameras (vision/cameras).
 #pragma once
 
 #include <array>
@@ -38,15 +38,16 @@ inline constexpr double kNearestDepth_m = 0.05;
 // Returns where a point is imaged, beyond the image's edge too; nothing behind the camera.
 std::optional<ImagePoint> Project(const PinholeCamera& camera, const math::Vector3& point);
 
-// These return convex polygons within the image, empty where there is nothing to see.
-//
-// The image of a flat convex polygon, cut where it comes too near.
+// Returns the image of a flat convex polygon, cut where it comes nearer than kNearestDepth_m.
+// ImageOfPolygon, Silhouette and BelowHorizon return convex polygons within the image, empty where
+// there is nothing to see.
 std::vector<ImagePoint> ImageOfPolygon(const PinholeCamera& camera,
                                        std::span<const math::Vector3> corners);
-// The outline of a convex body through these points. Those that are too near are left out.
+// Returns the outline of a convex body through these points. Points nearer than kNearestDepth_m are
+// left out.
 std::vector<ImagePoint> Silhouette(const PinholeCamera& camera,
                                    std::span<const math::Vector3> points);
-// What of the image looks below the horizon, for the unit vector that points up.
+// Returns the part of the image that looks below the horizon, for the unit vector that points up.
 std::vector<ImagePoint> BelowHorizon(const PinholeCamera& camera, const math::Vector3& up);
 
 // The believed elevations of the map as quadrilaterals in R, by the pose and the attitude that the
@@ -55,12 +56,12 @@ class GridSurface {
  public:
   explicit GridSurface(const messages::NavigationView& view);
 
-  // Of a cell that holds points: once around it, each corner as high as the cells with points that
-  // meet there, on average.
+  // Returns the corners of a cell that holds points, once around it, each as high as the cells with
+  // points that meet there, on average.
   std::array<math::Vector3, 4> Corners(int ix, int iy) const;
 
  private:
-  // At the lower corner of cell (ix, iy).
+  // Returns the point of the surface at the lower corner of cell (ix, iy).
   math::Vector3 Corner(int ix, int iy) const;
 
   const messages::MapView& map_;

@@ -1,5 +1,5 @@
-// Members of a reference file as fields, and what they must say together. For
-// comparison_reference.cc only.
+// Members of a reference file as fields, and what they must say together, for
+// comparison_reference.cc; comparison_table.cc takes the names of roles from here.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 #include "core/fields.h"
 #include "statistics/published_values.h"
 
-// In the order of the enums. Files in results/reference spell these names and the keys below.
+// Must stay in the order of the enums (statistics/published_values.h). The names, and the keys
+// below, must stay as well: files in results/reference spell them.
 template <>
 struct rockyard::core::EnumNames<rockyard::statistics::StatisticKind> {
   static constexpr std::array<std::string_view, 15> kNames{
@@ -129,8 +130,8 @@ struct HeadFields {
   }
 };
 
-// Of a value that is judged by a tolerance; any other must not have members of one. `path` ends
-// with a dot.
+// Returns what is wrong with the tolerance of a value: a value that is judged by a tolerance must
+// have its members, any other must not. `path` ends with a dot.
 std::vector<core::Problem> ToleranceProblems(const statistics::PublishedValue& value,
                                              const std::string& path);
 

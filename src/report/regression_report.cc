@@ -17,7 +17,7 @@ using statistics::RegressionRow;
 using statistics::RegressionVerdict;
 
 std::string_view Name(RegressionVerdict verdict) {
-  // In the order of RegressionVerdict.
+  // Must stay in the order of RegressionVerdict.
   constexpr std::array<std::string_view, 4> kNames{"changed", "equivalent", "none_seen",
                                                    "inconclusive"};
   return kNames[static_cast<std::size_t>(verdict)];
@@ -93,7 +93,7 @@ RecordFinding FindingOfRecords(const RegressionReport& report) {
 }
 
 std::string_view Name(RecordFinding finding) {
-  // In the order of RecordFinding.
+  // Must stay in the order of RecordFinding.
   constexpr std::array<std::string_view, 3> kNames{"same", "changed", "not_comparable"};
   return kNames[static_cast<std::size_t>(finding)];
 }
@@ -132,7 +132,7 @@ std::string RegressionCsv(const RegressionReport& report) { return RegressionTab
 
 std::string RegressionJUnit(const RegressionReport& report) {
   const auto named = [&](const std::string& cell) { return cell.empty() ? report.baseline : cell; };
-  // In the order of RegressionVerdict.
+  // Must stay in the order of RegressionVerdict.
   constexpr std::string_view kElements[] = {"failure", "", "", "skipped"};
   std::vector<JUnitCase> cases;
   for (const CheckedCell& cell : report.cells) {
@@ -167,7 +167,7 @@ std::string CellLine(const CheckedCell& cell) {
   return fmt::format("  {:<30} {}\n", NameOf(cell), how);
 }
 
-// The first finding: bits.
+// The finding on records.
 std::string Records(const RegressionReport& report) {
   const RecordFinding finding = FindingOfRecords(report);
   if (finding == RecordFinding::kSame) {
@@ -199,7 +199,7 @@ std::string Counted(const statistics::RegressionResult& result, bool primary) {
                      count(RegressionVerdict::kNoneSeen), count(RegressionVerdict::kInconclusive));
 }
 
-// The second finding: what the trials say.
+// The finding on distributions.
 std::string Distribution(const statistics::RegressionResult& result) {
   return fmt::format(
       "\ndistribution: {}\n"
@@ -220,7 +220,8 @@ std::string RegressionLine(const RegressionRow& row) {
                      FourDigits(row.seen_80));
 }
 
-// What is undecided in the secondary family decides nothing, and is counted only.
+// Whether kThatMatter shows the row: what is undecided in the secondary family decides nothing, and
+// is counted only.
 bool Matters(const RegressionRow& row) {
   return row.primary ? row.verdict != RegressionVerdict::kEquivalent
                      : row.verdict == RegressionVerdict::kChanged;

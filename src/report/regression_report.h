@@ -1,4 +1,6 @@
-// What a check against a baseline found, for people and for programs.
+// What a check against a baseline found (`rockyard check`), for people and for programs. All that
+// follows RegressionJUnit says how its numbers are written and is for regression_report.cc and
+// result_json.cc only.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +13,8 @@
 
 namespace rockyard::report {
 
-// Whether the records themselves are other ones: a question of bits, which no metric answers. It
-// can be asked of pairs only.
+// Whether the records themselves are other ones: a question of bits, which no metric answers, and
+// which can be asked of pairs only.
 struct RecordChanges {
   // A metric, or "outcome", and in how many pairs it differs.
   struct Column {
@@ -54,11 +56,12 @@ struct RegressionReport {
   statistics::RegressionResult result;
 };
 
-// In any cell: itself a difference, whatever the metrics say.
+// Whether any cell is not deterministic, which is itself a difference, whatever the metrics say.
 bool BrokenDeterminism(const RegressionReport& report);
 
-// The two findings, of all cells together. Neither stands for the other: a rewritten sum changes
-// every record and no distribution, and with other seeds a changed distribution shows in no record.
+// The finding on records, of all cells together. A check has a second one, on distributions
+// (DistributionName). Neither stands for the other: a rewritten sum changes every record and no
+// distribution, and with other seeds a changed distribution shows in no record.
 enum class RecordFinding {
   kSame,           // every bit; of fewer trials, outcomes and the values that the baseline keeps
   kChanged,        // of at least one cell
@@ -68,9 +71,9 @@ RecordFinding FindingOfRecords(const RegressionReport& report);
 
 // kThatMatter: primary metrics that are not equivalent, and secondary ones that changed.
 enum class ReportedRows { kThatMatter, kAll };
-// At most 100 columns: how each cell was compared, a table of metrics, what moved and by how much,
-// what could not be told and how many trials would tell it, both findings, the declared error
-// rates.
+// Returns text of at most 100 columns: how each cell was compared, a table of metrics, what moved
+// and by how much, what could not be told and how many trials would tell it, both findings, the
+// declared error rates.
 std::string RegressionText(const RegressionReport& report,
                            ReportedRows rows = ReportedRows::kThatMatter);
 
@@ -80,9 +83,6 @@ std::string RegressionCsv(const RegressionReport& report);
 // A test case per metric and cell: failed where changed, skipped where inconclusive, else passed;
 // and a failed one per cell that is not deterministic.
 std::string RegressionJUnit(const RegressionReport& report);
-
-// How numbers of a check against a baseline are written. For regression_*.cc and
-// result_json.cc only.
 
 // One row per metric and cell.
 ResultTable RegressionTable(const RegressionReport& report);
@@ -95,11 +95,11 @@ std::string Label(const statistics::RegressionRow& row);  // "cell: metric"
 // "outcome 34, scans 31, ...": the columns that differ in most trials.
 std::string Columns(const RecordChanges& changes);
 
-// Both findings in a word each.
+// Both findings, on records and on distributions, in a word each.
 std::string_view Name(RecordFinding finding);
 std::string_view DistributionName(const statistics::RegressionResult& result);
 
-// That the build of the baseline gave this cell other records.
+// A sentence: the build of the baseline itself gave this cell other records.
 std::string NotDeterministic(const CheckedCell& cell);
 
 // Which metric moved, by how much, and whether the run was large enough to know.

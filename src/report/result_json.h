@@ -1,6 +1,6 @@
 // What `rockyard check --json` and `rockyard compare --json` print: one object each, whose shape is
-// described in README.md of this folder. What is undefined is null. Programs of others read them:
-// members are only ever added.
+// described in README.md of this folder. What is undefined is null. Programs of others read the
+// objects: members must only ever be added.
 #pragma once
 
 #include <span>

@@ -1,4 +1,6 @@
-// One result as rows under named columns, written as CSV, JSON and Markdown.
+// One result as rows under named columns, written as CSV, JSON and Markdown; single lines of CSV
+// (RFC 4180, with line feeds alone); and objects of JSON in one call. Reports and commands write
+// their tables and JSON by it.
 #pragma once
 
 #include <concepts>
@@ -13,8 +15,6 @@
 #include "statistics/proportions.h"
 
 namespace rockyard::report {
-
-// Comma-separated values (RFC 4180, with line feeds alone).
 
 // The shortest decimal that reads back to the same bits; empty where it is not finite.
 std::string CsvNumber(double value);
@@ -78,8 +78,6 @@ std::string CsvLine(const Values&... values) {
   return CsvRow(values...).Line();
 }
 
-// Objects of JSON in one call: each member's name, then its value, as tree or as text.
-
 // [low, high], null where there is none.
 inline core::JsonValue EndsOf(const statistics::Interval& interval) {
   return core::JsonValue(
@@ -107,6 +105,7 @@ void SetMembers(core::JsonValue& json, std::string_view name, Value&& value, Res
   SetMembers(json, std::forward<Rest>(rest)...);
 }
 
+// An object of JSON as tree: each member's name, then its value.
 template <typename... Members>
 core::JsonValue ObjectTree(Members&&... members) {
   core::JsonValue json = core::JsonValue::Object();
@@ -140,7 +139,8 @@ void AddMembers(core::JsonObject& json, std::string_view name, const Value& valu
   AddMembers(json, rest...);
 }
 
-// Numbers as core::JsonNumber has them; a list is one of texts.
+// An object of JSON as text: each member's name, then its value. Numbers are as core::JsonNumber
+// has them; a list is one of texts.
 template <typename... Members>
 std::string ObjectText(const Members&... members) {
   core::JsonObject json;
@@ -148,8 +148,8 @@ std::string ObjectText(const Members&... members) {
   return json.Text();
 }
 
-// Columns are texts such as "id,p_value,verdict". Where a renderer is given some, it writes these,
-// in their order; "low as ci95_low" gives one another name.
+// A table. Its columns are named in one text, "id,p_value,verdict". A renderer that is given such a
+// text writes these columns, in their order; "low as ci95_low" gives one another name.
 class ResultTable {
  public:
   explicit ResultTable(std::string_view columns);
@@ -178,7 +178,7 @@ class ResultTable {
     std::string text;  // as it was given
   };
 
-  // Those columns, by place, with the names to write.
+  // The columns to write, by place, with the names to write.
   struct Choice {
     std::vector<std::size_t> places;
     std::vector<std::string> names;

@@ -1,4 +1,5 @@
-// What a report says of a run besides its records.
+// What a report says of a run besides its records: settings, builds, and what has become of the
+// planned trials. Summaries, the terminal and the report page tell it.
 #pragma once
 
 #include <cstdint>
@@ -62,30 +63,29 @@ struct RunDescription {
   int shard_count = 1;
 };
 
-// What has become of the planned trials, and why there are no more.
-
 // {"accounting": {planned, completed, faulted, pending, infrastructure_faults}} and, where the run
 // has them, "stopping" (the rule, where it ended, the interval there) and "shard".
 core::JsonValue AccountingJson(const RunDescription& run);
 
-// The same of a cell.
+// The members "accounting" and "stopping" of a cell.
 core::JsonValue AccountingJson(const Accounting& accounting,
                                const std::optional<StoppingReport>& stopping);
 
 // A line for the terminal that adds up, and one for failures of the machine.
 std::string AccountingText(const Accounting& accounting);
 
-// The same, and lines for the rule.
+// The lines of a run's accounting, and lines for the rule.
 std::string AccountingText(const RunDescription& run);
 
 // A line that keeps a changed scenario from being taken for that of its name; empty where nothing
 // was changed, or that is not known.
 std::string SettingsText(const RunDescription& run);
 
-// Cells of a campaign together.
+// Returns the accounting of two cells of a campaign together.
 Accounting Sum(const Accounting& first, const Accounting& second);
 
-// Where the rule ended a cell, in some words: "precise enough after 40 trials, 1.0 .. 12.3 %".
+// Returns where the rule ended a cell, in some words: "precise enough after 40 trials, 1.0 .. 12.3
+// %".
 std::string StoppingPhrase(const StoppingReport& stopping);
 
 // What a shard of a campaign of cells has.
@@ -99,7 +99,7 @@ std::string ShardCampaignJson(const std::string& name, int index, int count,
 // summary.json of a shard: no rates, since its trials are no contiguous prefix.
 std::string ShardJson(const RunDescription& run);
 
-// The same for the terminal, with what to do next.
+// The shard for the terminal, with what to do next.
 std::string ShardText(const RunDescription& run);
 
 }  // namespace rockyard::report

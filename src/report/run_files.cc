@@ -69,7 +69,7 @@ std::vector<DistanceStep> DistanceSteps(const truth::RecordSchema& schema,
   if (!column) return distances;
   const std::vector<double> values = statistics::ColumnValues(records, *column);
   const auto durations = statistics::GoalDurations(records, *column);
-  // Of trials that share layouts each layout says as much as one trial, whatever their dependence.
+  // Where trials share layouts each layout says as much as one trial, whatever their dependence.
   const std::vector<std::size_t> groups = statistics::DependentGroups(schema, records);
   const auto layouts =
       groups.empty() ? static_cast<double>(records.size())

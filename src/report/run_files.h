@@ -1,6 +1,6 @@
-// The files of a run folder that are derived from its store; the records of a run as tables.
-// The name of a new file belongs into the list of campaign/open_run.cc too, by which --force sets
-// the files of a run aside.
+// The files of a run folder that are derived from its store, which campaigns write when they end;
+// the records of a run as tables, for the report page too. Must agree: every file written here
+// stands in kDerivedFiles of campaign/open_run.cc, by which --force sets the files of a run aside.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ statistics::DriveSummary WriteRunFiles(const std::filesystem::path& folder,
                                        std::span<const truth::Record> prefix,
                                        statistics::IntervalMethod method);
 
-// The same for an experiment that measures: summary.json, trials.csv, cells.csv, cells.svg (where
-// there is a curve to draw) and scenario.resolved.json.
+// Writes the files of an experiment that measures: summary.json, trials.csv, cells.csv, cells.svg
+// (where there is a curve to draw) and scenario.resolved.json, as WriteRunFiles does.
 statistics::MeasurementSummary WriteMeasurementFiles(const std::filesystem::path& folder,
                                                      const RunDescription& run,
                                                      const truth::RecordSchema& schema,
@@ -47,7 +47,7 @@ statistics::MeasurementSummary WriteMeasurementFiles(const std::filesystem::path
 void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,
                const TextSink& out);
 
-// At one distinct true distance.
+// What distance_cdf.csv says at one distinct true distance.
 struct DistanceStep {
   statistics::EcdfPoint all;       // of the distance of all runs, however they ended
   statistics::IncidenceStep goal;  // declared arrival, failures competing
@@ -55,12 +55,12 @@ struct DistanceStep {
   std::size_t at_risk = 0;         // just before
 };
 
-// Over all trials without a simulator fault, ascending; none where the records have no
-// true_distance_m. Cost: n log n.
+// Returns the steps over all trials without a simulator fault, ascending; none where the records
+// have no true_distance_m. Cost: n log n.
 std::vector<DistanceStep> DistanceSteps(const truth::RecordSchema& schema,
                                         std::span<const truth::Record> records);
 
-// The columns of distance_cdf.csv, and a step in them.
+// The columns of distance_cdf.csv, and the numbers of a step in their order.
 inline constexpr std::array<std::string_view, 10> kDistanceColumns{
     "distance_m", "ecdf",      "ecdf_low", "ecdf_high", "goal",
     "goal_low",   "goal_high", "failure",  "at_risk",   "limit"};

@@ -68,7 +68,7 @@ std::string Line(const math::Vector3& from_R, const math::Vector3& to_R, std::st
   return SvgLine(At(from_R.x(), from_R.y()), At(to_R.x(), to_R.y()), style);
 }
 
-// White, from its upper left corner.
+// A white rectangle, from its upper left corner.
 std::string Rectangle(const SvgPoint& corner, double width_m, double height_m) {
   return SvgBox(corner.x, corner.y, kUnits * width_m, kUnits * height_m, "fill=\"#fff\"");
 }

@@ -1,5 +1,7 @@
-// One scan of the light stripe sensor, as far as it can be shown: its elevation array, seen from
-// above, and as text; its images, for people.
+// One scan of the light stripe sensor, as far as it can be shown: its elevation array as a drawing
+// seen from above, as text and as CSV; its images, for people. `rockyard replay` writes and tells
+// it. A point of the array is where one stripe (the light plane of a laser) and one row meet; the
+// row is one scanline of the image, on which the point is looked for in a range of columns.
 #pragma once
 
 #include <span>
@@ -38,27 +40,28 @@ struct ScanView {
   std::vector<GroundOutline> rocks;
 };
 
-// SVG: the rover's outline and the rocks, light planes as lines, found points as circles coloured
-// by their elevation (blue below, white at, red above the datum plane) with its value in mm,
-// missing points as crosses where level ground would show them, and the stripes with a hazard in
-// red. Forward is up.
+// Returns an SVG file: the rover's outline and the rocks, light planes as lines, found points as
+// circles coloured by their elevation (blue below, white at, red above the datum plane) with its
+// value in mm, missing points as crosses where level ground would show them, and the stripes with a
+// hazard in red. Forward is up.
 std::string ScanSvg(const ScanView& scan);
 
-// Elevations in mm, farthest row first, '-' where nothing was found, and the hazards of each
-// stripe, as the rover sees them: left to right.
+// Returns the elevations in mm, farthest row first, '-' where nothing was found, and the hazards of
+// each stripe. Left is left, as the rover sees it.
 std::string ScanText(const ScanView& scan);
 
 // One line per point: stripe, row, detected, column_px, elevation_m, x_m, y_m, hazard.
 std::string ScanCsv(const ScanView& scan);
 
-// Grey values in proportion to the square root of the counts, so that dark parts show; the
-// brightest thousandth is white. The band must hold whole lines.
+// Returns a picture of grey values in proportion to the square root of the counts, so that dark
+// parts show; the brightest thousandth is white. The band must hold whole lines.
 image_files::Picture FramePicture(const messages::ImageBand& band);
 
-// Averaged differences of two images, one value per pixel of `exposure.lit.front()`, row-major, in
-// the same grey scale, negative ones black. Drawn over it for the lasers of the exposure's group
-// and camera: blue dots above the columns in which each point is looked for, and a cross where it
-// was found, green, or red on a stripe with a hazard.
+// Returns a picture of `difference`, the averaged differences of lit and dark images: one value per
+// pixel of `exposure.lit.front()`, row-major, in the grey scale of FramePicture, negative ones
+// black. Drawn over it for the lasers of the exposure's group and camera: blue dots above the
+// columns in which each point is looked for, and a cross where it was found, green, or red on a
+// stripe with a hazard.
 image_files::Picture DifferencePicture(const ScanView& scan,
                                        const messages::StripeExposure& exposure,
                                        std::span<const double> difference);

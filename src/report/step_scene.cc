@@ -96,7 +96,7 @@ class CameraImage {
     return kept;
   }
 
-  // Not as wide as kSmallestRock.
+  // Whether the outline is not as wide as kSmallestRock.
   bool IsDot(const std::vector<ImagePoint>& outline) const {
     const auto [left, right] = std::minmax_element(
         outline.begin(), outline.end(),
@@ -252,7 +252,7 @@ class Plan {
     return point.x >= 0.0 && point.x <= frame_.width && point.y >= 0.0 && point.y <= frame_.height;
   }
 
-  // Nothing for rocks beyond the frame, and for those that would be dots.
+  // Draws a rock; nothing for rocks beyond the frame, and for those that would be dots.
   std::string DrawRock(const SceneRock& rock) const {
     std::vector<SvgPoint> corners;
     corners.reserve(rock.outline_W.size());
@@ -290,7 +290,7 @@ class Plan {
     return SvgPolygon(points, style);
   }
 
-  // From the middle of the rover to its front.
+  // The line from the middle of the rover to its front.
   std::string DrawRover() const {
     const math::Pose2 pose = math::ToPose2(scene_.X_WR);
     const Place front = FromRover(pose, 0.5 * scene_.rover_length_m, 0.0);

@@ -1,5 +1,6 @@
 // Where a decision of a map-based navigator was taken: course and rocks as they truly are, the
-// paths so far, and the camera that looks ahead; drawings of both. W is the world, R the rover; m.
+// paths so far, and the camera that looks ahead; and panels that draw them, for
+// navigation_drawing.h. W is the world, R the rover; m.
 #pragma once
 
 #include <optional>
@@ -18,7 +19,7 @@ namespace rockyard::report {
 struct SceneRock {
   std::vector<math::Vector3> outline_W;  // as it is drawn from above
   std::vector<math::Vector3> surface_W;  // convex, above the ground
-  // Of its height in that of an obstacle, at most 1.
+  // The rock's height over that of an obstacle, at most 1.
   double height_share = 1.0;
 };
 
@@ -40,20 +41,20 @@ struct StepScene {
 // Height of the panel's key below the frame, px.
 inline constexpr double kCourseKeyHeight = 20.0;
 
-// The first part of figure 3 of Goldberg 2002, the course with the path so far, seen from above:
-// SVG elements, x to the right and y up: rocks to scale (darker the higher; none that would be a
-// dot), start, waypoints, goal with its radius, the true path, the path that the rover believed,
-// the outline of the rover, the window of its map where the rover believes it to be, a scale, and a
-// key below.
+// Returns SVG elements with the first part of figure 3 of Goldberg 2002, the course with the path
+// so far, seen from above, x to the right and y up: rocks to scale (darker the higher; none that
+// would be a dot), start, waypoints, goal with its radius, the true path, the path that the rover
+// believed, the outline of the rover, the window of its map where the rover believes it to be, a
+// scale, and a key below.
 std::string CoursePanel(const StepScene& scene, const messages::NavigationView& view,
                         const SvgFrame& frame);
 
-// The second part of that figure, the rover's view ahead with its grid superimposed: SVG
-// elements: what the camera looks at as a line drawing, ground below the horizon, silhouettes of
-// rocks (none that would be a dot), and the cells of the map that hold points, at their
-// elevations, filled with the colour of their goodness (RampColour) where they have one. What is
-// nearer covers what is farther. Rocks stand where they truly are; the grid lies where the rover
-// believes it, from its own pose and attitude. Says so where the rover has no camera.
+// Returns SVG elements with the second part of figure 3 of Goldberg 2002, the rover's view ahead
+// with its grid superimposed: what the camera looks at as a line drawing, ground below the horizon,
+// silhouettes of rocks (none that would be a dot), and the cells of the map that hold points, at
+// their elevations, filled with the colour of their goodness (RampColour) where they have one. What
+// is nearer covers what is farther. Rocks stand where they truly are; the grid lies where the rover
+// believes it, from its own pose and attitude. The panel says so where the rover has no camera.
 std::string CameraPanel(const StepScene& scene, const messages::NavigationView& view,
                         const SvgFrame& frame);
 

@@ -37,7 +37,7 @@ JsonValue Outcomes(const DriveSummary& summary) {
   return outcomes;
 }
 
-// Those that happened.
+// The causes that happened.
 JsonValue Causes(const DriveSummary& summary) {
   JsonValue causes = JsonValue::Object();
   for (std::size_t i = 0; i < truth::kEndCauses.size(); ++i) {

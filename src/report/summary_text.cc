@@ -29,7 +29,8 @@ std::string Coloured(TextStyle style, std::string_view colour, const std::string
   return style == TextStyle::kPlain ? text : fmt::format("\x1b[{}m{}\x1b[0m", colour, text);
 }
 
-// Two are told elsewhere: localization in the line above, and designation is perfect by default.
+// Returns the line of the ablations in force. Two are told elsewhere: localization in the line
+// above, and designation is perfect by default.
 std::string AblationLine(const RunDescription& run) {
   std::string names;
   for (const std::string& name : run.ablations) {
@@ -39,7 +40,7 @@ std::string AblationLine(const RunDescription& run) {
   return names.empty() ? "" : fmt::format("  ablations: {}\n", Cut(names, kTextWidth - 13));
 }
 
-// Beside the name, or below it where both are long.
+// Returns the localization, which stands beside the name, or below it where both are long.
 std::string LocalizationText(const RunDescription& run, const DriveSummary& summary) {
   const std::size_t beside = fmt::formatted_size("{}{}{}{}", Cut(run.scenario, 40), run.seed,
                                                  summary.completed, run.planned);
@@ -99,12 +100,13 @@ std::int64_t Count(const DriveSummary& summary, TrialOutcome outcome) {
   return summary.outcomes[static_cast<std::size_t>(outcome)];
 }
 
-// What the outcome's own name says.
+// Whether the cause is what the outcome's own name says.
 bool IsPlain(truth::EndCause cause) {
   return cause == truth::EndCause::kArrived || cause == truth::EndCause::kBelievedOnly;
 }
 
-// Below an outcome that has several: how often each, and the setting that decided.
+// Returns the lines below an outcome that has several causes: how often each, and the setting that
+// decided.
 std::string CauseLines(const DriveSummary& summary, TrialOutcome outcome) {
   if (!truth::HasSeveralCauses(outcome)) return "";
   std::string text;
@@ -183,7 +185,8 @@ std::string ColumnTable(const DriveSummary& summary, TextStyle style) {
          "summary.json)\n";
 }
 
-// Below the line of a metric, where its mean has no interval or most trials have the same value.
+// Returns the line below that of a metric, where its mean has no interval or most trials have the
+// same value.
 std::string ApartLine(const statistics::MetricSummary& metric) {
   const statistics::MeanEstimate& estimate = metric.estimate;
   std::string text = ReasonOf(estimate);

@@ -1,4 +1,5 @@
-// A run in numbers, for people.
+// A run in numbers, for people: what the terminal shows when a campaign ends. The cells of a
+// measurement also as CSV and as curves.
 #pragma once
 
 #include <cstddef>
@@ -17,20 +18,19 @@ enum class TextStyle { kPlain, kColour };
 std::string SummaryText(const RunDescription& run, const statistics::DriveSummary& summary,
                         TextStyle style = TextStyle::kPlain);
 
-// The cells of a measurement for people, as a table and as curves.
-
-// Of the factors of a cell, so many are shown beside its numbers.
+// How many factors of a cell are shown beside its numbers.
 inline constexpr std::size_t kMaxFactors = 4;
 
-// Runs and cells: of one alone every rate, with its interval, and every mean; otherwise the widest
-// interval of the main rate, and first columns of every cell, or where they are many that rate
-// pooled over all factors but the first two. At most 100 columns.
+// Returns text of at most 100 columns on the runs and cells of a measurement. A cell alone has
+// every rate, with its interval, and every mean. Otherwise the text has the widest interval of the
+// main rate, and the first columns of every cell or, where they are many, that rate pooled over all
+// factors but the first two.
 std::string MeasurementText(const RunDescription& run,
                             const statistics::MeasurementSummary& summary,
                             TextStyle style = TextStyle::kPlain);
 
-// The first of `rates` that the experiment calls its main one, which text and drawing show where
-// there is room for one; rates.size() where there is none.
+// Returns the place of the first of `rates` that the experiment calls its main one, which text and
+// drawing show where there is room for one; rates.size() where there is none.
 std::size_t MainRate(const truth::RecordSchema& rates);
 
 // cells.csv: one line per cell: cell, runs, factors, bases; for each rate <name>, <name>_low and

@@ -46,7 +46,7 @@ std::string CellCsvLine(std::size_t index, const Sweep& sweep, const SweepCellSu
   return row.Add(cell.ended_by_limit.count).Line();
 }
 
-// In the order of statistics::FitStatus.
+// Must stay in the order of statistics::FitStatus.
 constexpr std::array<std::string_view, 4> kStatusNames{"fitted", "too_few_points", "no_contrast",
                                                        "separated"};
 

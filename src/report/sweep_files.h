@@ -1,4 +1,5 @@
-// A sweep for people and for programs.
+// A sweep for people and for programs: the files that its campaign writes when it ends, and its
+// table on the terminal.
 #pragma once
 
 #include <filesystem>
@@ -32,8 +33,8 @@ std::string SweepCellsCsv(const scenario::Sweep& sweep, const SweepSummary& summ
 // mean (the rate, of a rate) with its 95 % interval, median with its own. Empty where undefined.
 std::string SweepCurvesCsv(const scenario::Sweep& sweep, const SweepSummary& summary);
 
-// fit.csv: the fitted curves with their pointwise 95 % bands at 61 numbers over the settings:
-// curve, success (declared or true), x, rate, low, high.
+// fit.csv: the fitted curves with their pointwise 95 % bands at the numbers of FittedLine: curve,
+// success (declared or true), x, rate, low, high.
 std::string SweepFitCsv(const SweepSummary& summary);
 
 // fits.csv: one line per curve and success: status, scale, coefficients, covariance, deviance with
@@ -65,8 +66,8 @@ std::string SweepJson(const scenario::Sweep& sweep, const SweepSummary& summary,
 
 // Writes sweep.json, summary.json, all files above and, where there is one, attribution.csv
 // (attribution.h), each whole or not at all. Throws core::UserError where one cannot be written.
-// The name of a new file belongs into the list of campaign/open_run.cc too, by which --force sets
-// the files of a run aside.
+// Must agree: every file written here stands in kDerivedFiles of campaign/open_run.cc, by which
+// --force sets the files of a run aside.
 void WriteSweepFiles(const std::filesystem::path& folder, const scenario::Sweep& sweep,
                      const SweepSummary& summary, const SweepDescription& description);
 

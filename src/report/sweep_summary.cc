@@ -27,12 +27,12 @@ using statistics::FitScale;
 using statistics::FitStatus;
 using statistics::LogisticFit;
 
-// In the order of the columns x90 and x50 of fits.csv, and of the text's.
+// Must stay in the order of the columns x90 and x50 of fits.csv, and of those of the text.
 constexpr std::array<double, 2> kCrossingRates{0.9, 0.5};
 constexpr int kFitPoints = 61;
 
-// The levels of a cell but for one axis: what has to be equal for two cells to be compared along
-// it.
+// Returns the levels of a cell but for one axis, which have to be equal for two cells to be
+// compared along it.
 std::string Others(const Sweep& sweep, const SweepCell& cell, std::size_t axis) {
   std::string text;
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
@@ -158,8 +158,9 @@ using statistics::kConfidence;
 using statistics::Proportion;
 using truth::Record;
 
-// With a stopping rule the number of trials depends on what they say, which its interval allows
-// for; trials on one layout are no independent ones.
+// Returns the interval of a rate: exact, or one that allows for the stopping rule, by which the
+// number of trials depends on what they say, or for trials on one layout, which are no independent
+// ones.
 Interval IntervalOf(const SweepCellTrials& trials, const CellOutcomes& outcomes, SuccessKind kind,
                     const Proportion& rate, double confidence) {
   if (trials.stopping) {
@@ -266,8 +267,8 @@ class Comparer {
   std::vector<SweepDifference> differences_;
 };
 
-// With common random numbers, cells whose trials are equal to the last bit differ by a setting that
-// does nothing.
+// Names cells whose trials are equal to the last bit with common random numbers: they differ by a
+// setting that does nothing.
 std::vector<std::string> EqualCells(const Sweep& sweep,
                                     const std::vector<SweepCellSummary>& cells) {
   std::vector<std::string> notes;

@@ -1,4 +1,4 @@
-// What the cells of a sweep say, in numbers.
+// What the cells of a sweep say, in numbers, for its files, its table and the report page.
 #pragma once
 
 #include <array>
@@ -33,13 +33,13 @@ struct SweepCellTrials {
   std::optional<StoppingReport> stopping = {};  // where the rule ended the cell, if there is one
 };
 
-// Loads a cell by its index in the sweep. Called once per cell, in order, so that the records of
-// one cell are in memory at a time; of the others one byte per trial is kept.
+// Loads a cell by its index in the sweep. It is called once per cell, in order, so that the records
+// of one cell are in memory at a time; of the other cells one byte per trial is kept.
 using SweepCellLoader = std::function<SweepCellTrials(std::size_t)>;
 
 // A rate with its own 95 % interval, and one that holds for all cells of the sweep at once with 95
-// % (Bonferroni, by Clopper and Pearson, as for the cells of a measurement). Both
-// allow for the rule where one ended the cell (statistics::IntervalMethod::kStopped), and are by
+// % (Bonferroni, by Clopper and Pearson, as for the cells of a measurement). Both intervals allow
+// for the stopping rule where one ended the cell (statistics::IntervalMethod::kStopped), and are by
 // layouts (statistics/clustered_rate.h) where trials share them.
 struct SweepRate {
   statistics::Proportion rate;
@@ -94,25 +94,23 @@ struct SweepSummary {
 // Counts of trials of all cells together.
 SweepCellSummary TotalTrials(const SweepSummary& summary);
 
-// Of all cells.
+// The accounting of all cells together.
 Accounting TotalAccounting(const SweepSummary& summary);
 
-// Rates cover the contiguous prefix of each cell, without simulator faults.
+// Summarizes a sweep. Rates cover the contiguous prefix of each cell, without simulator faults.
 //
-// Curves: report::FitCurves. Differences: report::CompareRuns, in pairs where cells share their
-// seed; where trials share layouts, with intervals that allow for it and no p-value. Cost: linear
-// in the trials, and at most some milliseconds per curve. Memory: the records of one cell, and one
-// byte for each trial of the sweep.
+// Curves: FitCurves (sweep_summary.cc). Differences: report::CompareRuns, in pairs where cells
+// share their seed; where trials share layouts, with intervals that allow for it and no p-value.
+// Cost: linear in the trials, and at most some milliseconds per curve. Memory: the records of one
+// cell, and one byte for each trial of the sweep.
 SweepSummary SummarizeSweep(const scenario::Sweep& sweep, const SweepCellLoader& load,
                             statistics::IntervalMethod method);
-
-// Success along the numeric axis of a sweep.
 
 // Goodness of fit below which a curve is said not to follow its settings.
 inline constexpr double kMisfit = 0.01;
 
-// Whether it is: by statistics::LogisticFit::p_value, with its limits. False where that is not
-// known.
+// Whether a curve is said not to follow its settings: whether statistics::LogisticFit::p_value,
+// with its limits, is below kMisfit. False where it is not known.
 bool Misfits(const statistics::LogisticFit& fit);
 
 // A point of a fitted curve.
@@ -122,8 +120,8 @@ struct FitPoint {
   statistics::Interval band;  // pointwise, 95 %
 };
 
-// 61 of them from the lowest setting to the highest, in equal steps of the fit's scale; none where
-// nothing is fitted.
+// Returns 61 points (kFitPoints) from the lowest setting to the highest, in equal steps of the
+// fit's scale; none where nothing is fitted.
 std::vector<FitPoint> FittedLine(const statistics::LogisticFit& fit);
 
 }  // namespace rockyard::report

@@ -1,3 +1,4 @@
+// The table of a sweep on the terminal, and its drawing (sweep_files.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,14 +42,14 @@ std::string Mean(const SweepCellSummary& cell, std::string_view metric) {
   return fmt::format("{:.{}f}", found->mean, std::fabs(found->mean) < 100.0 ? 2 : 0);
 }
 
-// In five columns; cells.csv has every digit.
+// Returns a number in five columns; cells.csv has every digit.
 std::string Count(std::int64_t trials) {
   if (trials < 100'000) return fmt::format("{}", trials);
   return trials < 10'000'000 ? fmt::format("{}k", trials / 1000)
                              : fmt::format("{}M", trials / 1'000'000);
 }
 
-// In the order of scenario::DesignKind.
+// Must stay in the order of scenario::DesignKind.
 constexpr std::array<std::string_view, 4> kDesignNames{"grid", "list", "Latin hypercube",
                                                        "Sobol points"};
 
@@ -85,7 +86,8 @@ std::string AxisNames(const Sweep& sweep) {
   return names;
 }
 
-// Below the table: how much of the rates hangs on how long drives were allowed to go on.
+// Returns the line below the table: how much of the rates hangs on how long drives were allowed to
+// go on.
 std::string LimitLine(const Sweep& sweep, const SweepSummary& summary) {
   std::size_t most = 0;
   std::size_t cells = 0;
@@ -127,7 +129,7 @@ std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle
          LimitLine(sweep, summary);
 }
 
-// Where the rule ended each cell.
+// Tells where the rule ended each cell.
 std::string Stops(const Sweep& sweep, const SweepSummary& summary) {
   if (summary.cells.empty() || !summary.cells.front().stopping) return "";
   const StoppingReport& rule = *summary.cells.front().stopping;
@@ -156,7 +158,7 @@ std::string FitLine(const SweepCurve& curve, std::size_t kind) {
   const statistics::LogisticFit& fit = curve.fits[kind];
   const std::string_view name = kSuccessNames[kind];
   std::string text = fmt::format("    {:<9} ", name.substr(0, name.find(' ')));
-  // In the order of FitStatus.
+  // Must stay in the order of FitStatus.
   constexpr std::array<std::string_view, 4> kLacks{
       "", "fewer than two cells with trials", "nothing but successes, or nothing but failures",
       "successes and failures do not overlap; put cells between them"};

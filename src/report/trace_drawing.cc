@@ -1,3 +1,4 @@
+// The drawing of a trial's course, and paths of a trace (trace_view.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -188,7 +189,7 @@ PathPiece ThinnedPiece(const PathPiece& piece, double spacing_m) {
   return kept;
 }
 
-// From the point to the piece of a line between two others.
+// Returns the distance from the point to the piece of a line between two others.
 double OffLine_m(const math::Pose2& point, const math::Pose2& from, const math::Pose2& to) {
   const double dx_m = to.x_m - from.x_m;
   const double dy_m = to.y_m - from.y_m;
@@ -199,7 +200,7 @@ double OffLine_m(const math::Pose2& point, const math::Pose2& from, const math::
   return std::hypot(point.x_m - from.x_m - share * dx_m, point.y_m - from.y_m - share * dy_m);
 }
 
-// Of each stretch between two kept points the one that is furthest off is kept too, until none is
+// Keeps of each stretch between two kept points the one that is furthest off too, until none is
 // further off than the tolerance.
 PathPiece SimplifiedPiece(const PathPiece& piece, double tolerance_m) {
   if (piece.size() < 3) return piece;

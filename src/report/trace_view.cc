@@ -103,8 +103,8 @@ using truth::Trace;
 using truth::TraceEvent;
 using truth::TraceSample;
 
-// Path length counts chords of this size: jitter is no travel. Records have the same size
-// (trial/counters/drive_monitor.h), so that the lines of a story add up to about its distance.
+// Path length counts chords of this size: jitter is no travel. Must agree with that of records
+// (DriveMonitor::kChord_m), so that the lines of a story add up to about its distance.
 constexpr double kChord_m = 0.01;
 constexpr double kToldTurn_deg = 1.0;
 constexpr double kToldDrive_m = 0.05;

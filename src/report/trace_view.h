@@ -1,5 +1,6 @@
-// What story, CSV and drawing of a trial look up in its trace, and in what way two records differ;
-// the course of a trial as a table and to read.
+// The course of one trial: to read, as a table, drawn on a plan of its terrain, and as paths; and
+// in what way two records differ. `rockyard trace`, traces of campaigns, replays and the report
+// page take it from here.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +14,12 @@
 
 namespace rockyard::report {
 
-// The last sample at or before `time_s`: what the rover believed when an event happened. Null where
-// there is none. Samples are in the order of time.
+// Returns the last sample at or before `time_s`: what the rover believed when an event happened.
+// Null where there is none. Samples are in the order of time.
 const truth::TraceSample* SampleAt(std::span<const truth::TraceSample> samples, double time_s);
 
-// The columns that differ, as "name: stored 1.5, now 1.25"; empty where outcome, detail and the
-// bits of every value are equal (undefined values count as equal).
+// Returns the columns that differ, as "name: stored 1.5, now 1.25"; none where outcome, detail and
+// the bits of every value are equal (undefined values count as equal).
 std::vector<std::string> RecordDifferences(const truth::RecordSchema& schema,
                                            const truth::Record& stored, const truth::Record& now);
 
@@ -52,8 +53,6 @@ inline constexpr int kMaxStoryLines = 60;
 // the drive is the shortest one that keeps the limit. Lines have up to some 170 columns.
 std::string TraceStory(const truth::TracedTrial& trial, StoryLength length);
 
-// The course of one trial as SVG elements to draw on a plan of its terrain.
-
 // World coordinates, m.
 struct DrawnArea {
   double x_min_m = 0.0;
@@ -64,21 +63,20 @@ struct DrawnArea {
 
 struct TraceDrawing {
   std::string elements;  // x as in the world, y downwards (minus world y), 1 unit = 1 m
-  DrawnArea area;        // what they and the plan take
+  DrawnArea area;        // what the elements and the plan take
 };
 
 // Most points of one drawn path.
 inline constexpr std::size_t kMaxDrawnPoints = 2000;
 
-// In the manner of Matthies 1995 fig. 16: true path solid, dead-reckoned path dotted, filled
-// circles on both where hazards were believed; beyond it orange crosses at scrapes, arrow heads at
-// both ends of the drive, and below the plan (`plan`) a scale, a key and a title. Paths are
-// interrupted where operators reflected the rover. Marks within 2 cm of the one before are left
+// Draws a trial in the manner of Matthies 1995 fig. 16: true path solid, dead-reckoned path dotted,
+// filled circles on both where hazards were believed; beyond it orange crosses at scrapes, arrow
+// heads at both ends of the drive, and below the plan (`plan`) a scale, a key and a title. Paths
+// are interrupted where operators reflected the rover. Marks within 2 cm of the one before are left
 // out, and paths are thinned to kMaxDrawnPoints.
 TraceDrawing DrawTrace(const truth::TracedTrial& trial, const DrawnArea& plan);
 
-// The paths of a trace as lines to draw. World frame, m.
-
+// Paths of a trace as lines to draw, in the world frame, m.
 using PathPiece = std::vector<math::Pose2>;  // of a path, without interruption
 using TracePath = std::vector<PathPiece>;    // interrupted where operators reflected the rover
 
@@ -91,12 +89,13 @@ TracePath BelievedPath(const truth::Trace& trace);
 // Returns the distance between the two places.
 double Apart_m(const math::Pose2& a, const math::Pose2& b);
 
-// Leaves out points that are nearer to the one before than 5 mm, or than what leaves at most that
-// many points (with 10 m, what then is left); both ends of every piece stay.
+// Leaves out points that are nearer than a spacing to the last one kept: the least of 5 mm and its
+// multiples by 1.5 that leaves at most that many points, and not much more than 10 m, whatever is
+// then left. Both ends of every piece stay.
 TracePath Thinned(const TracePath& path, std::size_t most_points);
 
-// Leaves out points as long as no left one is further than the tolerance from the line that is
-// drawn without it (Douglas and Peucker 1973); both ends of every piece stay.
+// Leaves out points as long as none that is left out is further than the tolerance from the line
+// that is drawn without it (Douglas and Peucker 1973); both ends of every piece stay.
 TracePath Simplified(const TracePath& path, double tolerance_m);
 
 }  // namespace rockyard::report

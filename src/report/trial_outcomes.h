@@ -1,4 +1,6 @@
-// How the trials of a sweep's cells ended: all that comparing cells needs.
+// How the trials of a sweep's cells ended, which is all that comparing cells needs. Which trials of
+// a run to look at first, and one that stands for each way in which they ended: campaigns keep
+// traces of these, and the report page replays them.
 #pragma once
 
 #include <array>
@@ -53,27 +55,25 @@ class CellOutcomes {
   std::size_t per_layout_ = 1;
 };
 
-// Which trials of a run to look at first, and one that stands for each way in which they ended.
-
-// Trials that ended other than goal_reached, simulator faults left out: the failures of the rover.
-// By trial number.
+// Returns the trials that ended other than goal_reached, simulator faults and measurements left
+// out: the failures of the rover. By trial number.
 std::vector<std::uint64_t> FailedTrials(std::span<const truth::Record> records);
 
-// true_goal_distance_m of the record, whose schema has it in that column; infinity where it is not
-// finite or not there: unknown is as far as can be.
+// Returns true_goal_distance_m of the record, whose schema has it in that column; infinity where it
+// is not finite or not there: unknown is as far as can be.
 double GoalDistanceOrInfinity(const truth::Record& record, std::optional<std::size_t> column);
 
-// At most `most` failed trials, those that ended furthest from the goal (true_goal_distance_m)
-// first (where that is unknown, before all others), ties by trial number. By trial number alone
-// where the schema has no such column. Equal records give equal trials, so that a run that is gone
-// on with writes the traces that are missing.
+// Returns at most `most` failed trials, those that ended furthest from the goal
+// (true_goal_distance_m) first (where that is unknown, before all others), ties by trial number; by
+// trial number alone where the schema has no such column. Must stay a function of the records
+// alone, so that a run that is gone on with writes the traces that are missing.
 std::vector<std::uint64_t> WorstTrials(const truth::RecordSchema& schema,
                                        std::span<const truth::Record> records, std::size_t most);
 
-// Of each outcome that occurs, but for simulator faults and measurements, the trial whose true
-// distance is the median of that outcome's (the lower of two, and of equals the one with the lowest
-// number): neither the best of them nor the worst. Commonest outcome first. Without a column of
-// distances, the trial in the middle of their numbers. Cost: n log n.
+// Returns a trial for each outcome that occurs, but for simulator faults and measurements: the one
+// whose true_distance_m is the median of that outcome's (the lower of two, and of equals the one
+// with the lowest number), neither the best of them nor the worst. Commonest outcome first. Without
+// that column it is the trial in the middle of their numbers. Cost: n log n.
 std::vector<std::uint64_t> ExampleTrials(const truth::RecordSchema& schema,
                                          std::span<const truth::Record> records);
 

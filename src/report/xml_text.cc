@@ -98,7 +98,7 @@ std::string SvgFill(const image_files::Rgb& colour) {
 namespace {
 
 // Support colours of ramps of this kind (dark violet, blue, blue-green, green, yellow), evenly
-// spaced. src/web/replay/palette.ts has the same, so that pages and drawings agree.
+// spaced. Must agree with src/web/replay/palette.ts: pages and drawings show the same.
 constexpr std::array<image_files::Rgb, 5> kSupport{
     {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
 

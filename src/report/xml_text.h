@@ -1,5 +1,6 @@
-// Reports in JUnit's form; elements of SVG drawings, whose lengths
-// are in px, x to the right and y down.
+// Reports in JUnit's form, for checks; elements of SVG drawings, whose lengths are in px, x to the
+// right and y down, for the drawings of trials, sweeps and measurements; and colours of maps and of
+// curves.
 #pragma once
 
 #include <array>
@@ -66,20 +67,19 @@ std::string SvgPart(const SvgFrame& frame, std::string_view elements);
 // The attribute that fills with a colour.
 std::string SvgFill(const image_files::Rgb& colour);
 
-// A sequential colour ramp that keeps its order for colour-blind readers and in grey print, and
-// colours of curves that stay apart for colour-blind readers (Okabe and Ito 2008).
-
-// Dark violet at 0, green-blue in the middle, yellow at 1; shares beyond are clamped. Luminance
-// grows all the way.
+// A sequential colour ramp that keeps its order for colour-blind readers and in grey print: dark
+// violet at 0, green-blue in the middle, yellow at 1; shares beyond are clamped. Luminance grows
+// all the way.
 image_files::Rgb RampColour(double share);
 
 // The colour of a goodness or certainty: 0 to 255.
 image_files::Rgb ByteColour(std::uint8_t value);
 
+// Colours of curves that stay apart for colour-blind readers (Okabe and Ito 2008).
 inline constexpr std::array<std::string_view, 7> kCurveColours{
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
 
-// The same colours again after the last.
+// The colour of a curve; after the last they come again.
 constexpr std::string_view CurveColour(std::size_t curve) {
   return kCurveColours[curve % kCurveColours.size()];
 }

@@ -1,5 +1,6 @@
-// How much of the failure probability each of several functions accounts for: a full factorial of
-// paired trials in which every function is either as flown or perfect.
+// How much of the failure probability each of several functions accounts for, by a full factorial
+// of paired trials in which every function is either as flown or perfect. Reports of sweeps along
+// ablations take it from here.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@
 
 namespace rockyard::statistics {
 
-// A sweep along more ablations gets no attribution.
+// The most functions that can be attributed to: a sweep along more ablations gets no attribution.
 inline constexpr std::size_t kMaxFunctions = 8;
 
 // A set of functions: bit i says that function i is perfect. 0 is the rover as flown.
@@ -41,11 +42,10 @@ struct Contrast {
   std::vector<double> weights;  // by combination
 };
 
-// v(S) = P(fail as flown) - P(fail with the functions of S perfect): the failures that S removes.
-//
-// Share of function i (Shapley 1953): the mean over all k! orders in which functions are made
-// perfect one after the other of what i removes when its turn comes,
-//   sum over S without i of |S|! (k - |S| - 1)! / k! (v(S + i) - v(S)).
+// Returns the share of function i (Shapley 1953). With v(S) = P(fail as flown) - P(fail with the
+// functions of S perfect), the failures that S removes, it is the mean over all k! orders in which
+// functions are made perfect one after the other of what i removes when its turn comes,
+//  sum over S without i of |S|! (k - |S| - 1)! / k! (v(S + i) - v(S)).
 // The shares sum to v(all).
 Contrast ShapleyShare(std::size_t functions, std::size_t i);
 
@@ -57,15 +57,15 @@ Contrast ShapleyShare(std::size_t functions, std::size_t i);
 // functions do not interact.
 Contrast FactorialEffect(std::size_t functions, Combination set);
 
-// Returns what making `set` perfect removes by itself: v(set).
+// Returns what making `set` perfect removes by itself: v(set) of ShapleyShare.
 Contrast Removed(std::size_t functions, Combination set);
 
 // Returns the mean over trials of the contrast, with an interval. All contrasts here are linear in
 // the failures, so that each trial has a value of its own between -1 and +1 and pairs are kept as
-// pairs. The interval is Agresti and Min's (statistics/proportions.h): near nominal, and no point
-// where all trials agree. A bootstrap over trials estimates the same, and has no width there. Where
-// trials share clusters, it is that of as many independent values as say as much (ClusteredValues).
-// Without trials it is NaN.
+// pairs. The interval is AgrestiMinInterval: near nominal, and no point where all trials agree, as
+// a bootstrap over trials would be. Where trials share clusters, it is the interval of as many
+// independent values as say as much (ClusteredValues). Without trials the value is NaN and the
+// interval [-1, 1].
 Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast,
                    double confidence = kConfidence);
 
@@ -93,8 +93,8 @@ struct Attribution {
   std::vector<EffectOfSet> effects;   // main effects first, then by size of the set
 };
 
-// Returns everything above. Intervals are pointwise. Cost: 4^k + 2^k k trials additions; a few ms
-// for k = 4 and 1000 trials. Nothing is random.
+// Returns the attribution of these failures. Intervals are pointwise. Cost: 4^k + 2^k k trials
+// additions; a few ms for k = 4 and 1000 trials. Nothing is random.
 Attribution Attribute(const FactorialFailures& failures, double confidence = kConfidence);
 
 // Returns the names of a set, "designation x localization"; "as flown" for none.

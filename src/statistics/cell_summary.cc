@@ -58,7 +58,7 @@ std::map<std::int64_t, Sums> Pool(std::span<const truth::Record> records,
   return cells;
 }
 
-// The column that it is a count or a sum of.
+// Returns the base of a column that is a count or a sum.
 const KnownColumn& BaseOf(const std::vector<KnownColumn>& columns, const ValueInfo& of_column) {
   const auto found = std::find_if(columns.begin(), columns.end(), [&](const KnownColumn& column) {
     return column.what->name == of_column.of;
@@ -79,8 +79,8 @@ CellRate MakeRate(std::span<const CountOfRun> runs, bool independent, const Inte
           RateOfRuns(runs, independent, level, IntervalMethod::kClopperPearson).interval};
 }
 
-// Cells of the whole run, or more: no cell takes a second turn before each had its first, so until
-// then every run that is still to come may belong to a new one.
+// Returns the number of cells of the whole run, or a larger one: no cell takes a second turn before
+// each had its first, so until then every run that is still to come may belong to a new one.
 std::int64_t PlannedCells(const MeasurementSummary& summary,
                           const std::map<std::int64_t, Sums>& pooled) {
   const auto seen = static_cast<std::int64_t>(pooled.size());
@@ -235,7 +235,7 @@ RateDifference Compare(const Proportion& first, const Proportion& second) {
   return result;
 }
 
-// What depends on the whole family.
+// Fills what depends on the whole family: adjusted p-values and simultaneous intervals.
 void Adjust(CellComparison& comparison) {
   std::vector<RateDifference*> tests;
   std::vector<double> p_values;

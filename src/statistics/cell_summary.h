@@ -1,4 +1,6 @@
-// Records of measurements (truth/measurement_record.h) pooled by cell, each column by its role.
+// Records of measurements (truth/measurement_record.h) pooled by cell, each column by its role; and
+// two measurements compared cell by cell. The files, the terminal and the report page of
+// experiments that measure take their numbers from here, and so does `rockyard compare`.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +15,7 @@
 
 namespace rockyard::statistics {
 
-// A count of a cell against its base.
+// The rate of one count of a cell over its base.
 struct CellRate {
   Proportion rate;        // with its own 95 % interval
   Interval simultaneous;  // all of this column hold together with 95 % (Bonferroni)
@@ -32,8 +34,9 @@ struct MeasurementSummary {
   std::int64_t planned = 0;
   std::int64_t completed = 0;  // records given, faults included
   std::int64_t faults = 0;     // in no number
-  // Cells whose intervals hold at once: those of the whole run. While no cell has had two runs,
-  // every run to come is counted as one, so that it is too large rather than too small.
+  // The number of cells whose simultaneous intervals hold at once: the cells of the whole run.
+  // While no cell has had two runs, every run still to come counts as a cell of its own, so that
+  // the number is too large rather than too small.
   std::int64_t planned_cells = 0;
   truth::RecordSchema factors;
   truth::RecordSchema bases;
@@ -48,18 +51,17 @@ struct MeasurementSummary {
 };
 
 // Pools records by cell. `records` must be a contiguous prefix of finished runs, of a schema that
-// IsMeasurement; columns without a role in a cell (kValue) are left out. `planned` is
-// the number of runs of the whole plan, 0 for those given. Runs of a cell are independent. Counts
-// of independent trials (truth::ColumnRole::kTrials) add up to binomial counts; of what happens
-// several times in a run (hazards of a field, goals of a mission) intervals are by runs
-// (RateOfRuns). `method` is that of a cell alone. Simultaneous intervals are at the level 1 - 0.05
-// / planned_cells, of independent trials Clopper and Pearson's: Wilson's keep their level on
-// average over rates only, and far out in the tails not even that. Cost: linear.
+// IsMeasurement; columns without a role in a cell (kValue) are left out. `planned` is the number of
+// runs of the whole plan; 0 stands for as many as are given. Runs of a cell are taken as
+// independent. Counts of independent trials (truth::ColumnRole::kTrials) add up to binomial counts;
+// the rate of what happens several times in a run (hazards of a field, goals of a mission) has an
+// interval by runs (RateOfRuns). `method` is that of the interval of one cell alone. Simultaneous
+// intervals have the level 1 - 0.05 / planned_cells. For independent trials they are Clopper and
+// Pearson's: Wilson's keep their level on average over rates only, and far out in the tails not
+// even so. Cost: linear.
 MeasurementSummary SummarizeCells(const truth::RecordSchema& schema,
                                   std::span<const truth::Record> records, std::int64_t planned = 0,
                                   IntervalMethod method = IntervalMethod::kWilson);
-
-// Two measurements of the same cells: whether their rates differ.
 
 // One rate of one cell in both measurements.
 struct RateDifference {
@@ -102,8 +104,8 @@ struct CellComparison {
 // scenes are closer than that, which makes p-values too large. Where the base of a count is not
 // made of independent trials (hazards share fields, points share scenes) p-values are somewhat too
 // small. The tests are exact; Newcombe's intervals keep their level on average over rates only, and
-// the simultaneous ones, far out in the tails, not always that. Without a shared cell, or with
-// other factors, there are no cells. Cost: linear in the cells and in the counts.
+// the simultaneous ones, far out in the tails, not always even so. The result has no cells where
+// none is shared or the factors differ. Cost: linear in the cells and in the counts.
 CellComparison CompareCells(const MeasurementSummary& first, const MeasurementSummary& second,
                             double alpha = 0.05);
 

@@ -1,4 +1,6 @@
-// Arithmetic that a publication does in its text, so that it can be done again.
+// Arithmetic that a publication does in its text, so that it can be done again: chances, rates,
+// power laws, and how far dead reckoning along a straight line goes wrong. Comparisons with
+// published values compute by it the values of StatisticKind::kComputed.
 #pragma once
 
 #include <span>
@@ -7,21 +9,19 @@
 
 namespace rockyard::statistics {
 
-// How far dead reckoning along a straight line goes wrong, in closed forms.
-//
-// The state equations of Matthies 1995, section 5: steps of length s, each wrong by N(0, r s), and
-// after each a turn wrong by N(0, q s), with the variances r of the distance and q of the heading a
-// metre. Beside them a scale error N(0, c^2) that a run keeps. All are independent.
-
+// A straight drive by dead reckoning, after the state equations of Matthies 1995, section 5: steps
+// of length s, each wrong by N(0, r s), and after each a turn wrong by N(0, q s), with the
+// variances r of the distance and q of the heading a metre. Beside them stands a scale error N(0,
+// c^2) that a run keeps. All errors are independent.
 struct StraightDrift {
-  double step_m = 0.0;      // of the exact moments; a continuous walk has none
-  double distance_m = 0.0;  // of the exact moments whole steps: the nearest number of them
+  double step_m = 0.0;      // length of a step
+  double distance_m = 0.0;  // taken as the nearest number of whole steps
   double distance_variance_m2_per_m = 0.0;
   double heading_variance_deg2_per_m = 0.0;
   double scale_deviation = 0.0;
 };
 
-// Of the end of a drive, believed less true; the means of the two that are missing are 0.
+// Errors at the end of a drive, believed less true. The means of across and heading are 0.
 struct DriftMoments {
   double along_bias_m = 0.0;
   double along_m = 0.0;  // standard deviations
@@ -30,8 +30,8 @@ struct DriftMoments {
 };
 
 // Returns the exact moments of the walk in steps, to every order in the heading: it may turn right
-// round. heading_deg is that of the sum of all turns, which does not wrap. Cost: the number of
-// steps. Needs step_m > 0 and at least one step.
+// round. DriftMoments::heading_deg is the deviation of the sum of all turns, which does not wrap.
+// Cost: the number of steps. Needs step_m > 0 and at least one step.
 DriftMoments ExactMoments(const StraightDrift& drift);
 
 // Returns the chance that at least one of n independent events of chance p happens: 1 - (1 - p)^n.

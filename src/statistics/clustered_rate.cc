@@ -28,15 +28,16 @@ CountOfRun SumOf(std::span<const CountOfRun> runs) {
   return sum;
 }
 
-// Runs with events, and with what is none, that can show how far these hang together.
+// The fewest runs with events, and with trials without one, that can show how far events hang
+// together. ClusteredRateInterval's comment states this number and kManyRuns.
 constexpr double kFewRuns = 5.0;
 // With more runs, their scatter shows it although a run of nothing but events may be missing.
 constexpr std::size_t kManyRuns = 30;
 
-// Variance of the ratio R = sum x / sum y over the one of independent trials: m var(x - R y) /
-// scatter, m runs, at least 1. `scatter` is the sum of squared deviations of single values from the
-// mean of all, n R (1 - R) for a rate. `seen`: whether the runs can show how far
-// events hang together.
+// Returns the variance of the ratio R = sum x / sum y over that of independent trials: m var(x - R
+// y) / scatter, m runs, at least 1. `scatter` is the sum of squared deviations of single values
+// from the mean of all, n R (1 - R) for a rate. `seen` tells whether the runs can show how far
+// events hang together; where they cannot, each run counts as one trial at most.
 double DesignEffect(std::span<const CountOfRun> runs, const CountOfRun& sum, double scatter,
                     bool seen) {
   const double one_per_run = std::max(1.0, sum.base / static_cast<double>(runs.size()));
@@ -48,8 +49,8 @@ double DesignEffect(std::span<const CountOfRun> runs, const CountOfRun& sum, dou
   return std::max(seen ? 1.0 : one_per_run, effect);
 }
 
-// Whether runs can show how far events hang together, of which `rarer` is the share of those, or of
-// the others.
+// Whether runs can show how far events hang together. `rarer` is the rate of events, or that of
+// trials without one where this is smaller.
 bool ShowDependence(std::span<const CountOfRun> runs, double rarer) {
   const auto with = std::count_if(runs.begin(), runs.end(),
                                   [](const CountOfRun& run) { return run.count > 0.0; });
@@ -123,7 +124,8 @@ std::vector<std::size_t> DependentGroups(const truth::RecordSchema& schema,
 
 namespace {
 
-// Sums by group of the values that are finite; each is its own group where `groups` is empty.
+// Returns the sums by group of the values that are finite; each value is its own group where
+// `groups` is empty.
 std::vector<CountOfRun> SumsByGroup(std::span<const double> values,
                                     std::span<const std::size_t> groups) {
   EXPECT(groups.empty() || groups.size() == values.size());

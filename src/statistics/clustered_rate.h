@@ -1,4 +1,6 @@
-// Rates and means of trials that hang together, and of runs that all met the same rocks.
+// Rates and means of trials that hang together, as those on one layout of rocks do, and success
+// counts of runs that all met the same rocks. Summaries, sweeps, comparisons of runs and
+// comparisons with published values ask here.
 #pragma once
 
 #include <cstddef>
@@ -19,40 +21,45 @@ struct CountOfRun {
   double base = 0.0;
 };
 
-// Returns the interval of the ratio of both sums, where runs are independent and what happens
-// within one is not (several hazards of one drive, trials on one layout). It is Clopper and
-// Pearson's of effective numbers (Korn and Graubard 1998, Survey Methodology 24, pp. 193-201):
-// counts and base are divided by the design effect, which is
+// Returns the interval of the ratio of the sum of counts to the sum of bases, where runs are
+// independent and what happens within one is not (several hazards of one drive, trials on one
+// layout). It is Clopper and Pearson's of effective numbers (Korn and Graubard 1998, Survey
+// Methodology 24, pp. 193-201): counts and base are divided by the design effect, which is
 //   max(1, runs Var(x - R y) / (n R (1 - R))),  x and y of the runs, R and n of all,
 // and by the square of Student's over the normal quantile, for the few runs behind it. Fractions
-// are rounded outwards. Fewer than five runs with an event, or with what is none, cannot show how
-// far these hang together, nor can up to thirty runs that would show fewer than five if each were
-// one trial, as a run of nothing but events may well be missing: each run then says as much as one
-// trial. So it holds the rate in 93 % of samples and more (8 to 60 runs of 5 to 50 trials, rates of
-// 3 to 90 %; tests/statistics/clustered_test.cc).
+// are rounded outwards. Fewer than five runs with an event, or with a trial without one, cannot
+// show how far events hang together. Nor can up to thirty runs of which fewer than five would have
+// (or lack) an event if each were one trial, as a run of nothing but events may well be missing.
+// Each run then says as much as one trial. So the interval holds the rate in 93 % of samples and
+// more (8 to 60 runs of 5 to 50 trials, rates of 3 to 90 %; tests/statistics/clustered_test.cc).
 // Limits: one run, or no base, says nothing: [0, 1]. 0 <= count <= base. Cost: linear.
 Interval ClusteredRateInterval(std::span<const CountOfRun> runs, double confidence);
 
-// The rate with its interval: that of independent trials, by RateMethod, where no run has more than
-// one (or all are, as `independent` says), else the one above.
+// Returns the rate with its interval: that of independent trials, by RateMethod, where no run has
+// more than one trial or `independent` says that all are; else ClusteredRateInterval.
 Proportion RateOfRuns(std::span<const CountOfRun> runs, bool independent = false,
                       double confidence = kConfidence,
                       IntervalMethod method = IntervalMethod::kWilson);
 
-// One number for each group of trials that hang together, from 0: those on one layout of rocks (the
-// column "layout"; course.trials_per_layout). Empty where all trials are independent: no two share
-// a layout, or no column tells. Every rate, mean and comparison of drives asks here. Cost: n log n.
+// Returns for each trial the number of its group, from 0. Trials of one group hang together, as
+// they share a layout of rocks (the column "layout"; course.trials_per_layout). The list is empty
+// where all trials are independent: no two share a layout, or no column tells. Every rate, mean and
+// comparison of drives must ask here. Cost: n log n.
 std::vector<std::size_t> DependentGroups(const truth::RecordSchema& schema,
                                          std::span<const truth::Record> records);
 
-// The rate of `values` 0 and 1, NaN where a trial does not count, and the mean of any values: of
-// groups as above, or of independent ones where `groups` is empty. The mean's interval is that of
-// EstimateMean, by groups of what each adds to the mean, R + (x - R y) / mean y, sums x of y
-// values, where values alone have one.
+// Returns 1 for each record for which the condition holds, 0 for each other, NaN for simulator
+// faults.
 std::vector<double> OnesWhere(std::span<const truth::Record> records,
                               bool (*succeeded)(truth::TrialOutcome));
 std::vector<double> OnesWhere(std::span<const truth::Record> records,
                               const std::function<bool(const truth::Record&)>& holds);
+
+// RateOfTrials returns the rate of `values` 0 and 1, MeanOfTrials the mean of any values; NaN
+// stands for a trial that does not count. `groups` are those of DependentGroups; trials are
+// independent where it is empty. The interval of the mean is that of EstimateMean. With groups it
+// is taken from what each adds to the mean, R + (x - R y) / mean y, where x is the sum of the y
+// values of a group and R the mean; there is none where the values alone would have none.
 Proportion RateOfTrials(std::span<const double> values, std::span<const std::size_t> groups,
                         double confidence = kConfidence,
                         IntervalMethod method = IntervalMethod::kWilson);
@@ -66,8 +73,8 @@ class ClusteredValues {
   void Add(std::size_t cluster, double value);
 
   // Returns as many independent values of the same mean and scatter as say as much about the mean:
-  // by the design effect and quantiles above, and one for each cluster where all values are equal.
-  // There are none with fewer than two clusters.
+  // by the design effect and quantiles of ClusteredRateInterval, and one for each cluster where all
+  // values are equal. There are none with fewer than two clusters.
   SignedValues Effective(double confidence) const;
 
  private:
@@ -75,13 +82,10 @@ class ClusteredValues {
   double squares_ = 0.0;
 };
 
-// Success counts when all runs of a set meet the same rock layout.
-//
-// Matthies 1995 (sec. 7) does not say whether the rocks were laid out anew for each run. With one
-// layout per set the runs share the layout's own success rate, so that counts scatter more than a
-// binomial. How much more needs repeated trials on one layout; without them it can only be bounded.
-
-// Trials on one layout.
+// Trials on one layout of rocks. Matthies 1995 (sec. 7) does not say whether the rocks were laid
+// out anew for each run. If all runs of a set met one layout, they share its success rate, so that
+// counts scatter more than a binomial. How much more needs repeated trials on one layout; without
+// them it can only be bounded.
 struct LayoutCount {
   std::int64_t successes = 0;
   std::int64_t trials = 0;

@@ -63,8 +63,8 @@ std::vector<LayoutCount> Layouts(const PublishedValue& published, const Scenario
   return counts;
 }
 
-// If all runs of the set met one layout: by repeated trials on layouts where there are some, else
-// bounds over all that is possible.
+// Compares the count as if all runs of the set met one layout: by repeated trials on layouts where
+// there are some, else by bounds over all that is possible.
 OneLayout CompareOnOneLayout(const PublishedValue& published, const ScenarioRun& run,
                              const PoolCount& simulated, std::uint64_t seed) {
   const std::int64_t n = published.sample_size;

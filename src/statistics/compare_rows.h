@@ -1,4 +1,5 @@
-// One row of the comparison, before Holm's procedure. For published_comparison.cc only.
+// The rows of the comparison with published values, by statistic, before Holm's procedure. Only
+// published_comparison.cc asks for them; the compare_*.cc make them.
 #pragma once
 
 #include <functional>
@@ -39,10 +40,11 @@ Row CompareLowerBound(const PublishedValue& published, const ScenarioRun& run,
 Row CompareMedianOffset(const PublishedValue& published, const ScenarioRun& run,
                         const ScenarioRun& other, const ComparisonOptions& options);
 
-// Sets of which exactly PublishedValue::arrived runs arrived and the others did not, as the
-// simulation predicts them: the statistic of each (none of them), and the law of the count of
-// negative values (no law), where the publication does not say how many arrived, or where fewer
-// than two simulated runs ended that way. compare_arrivals.cc
+// The next two are about sets of which exactly PublishedValue::arrived runs arrived and the others
+// did not, as the simulation predicts them. StatisticsByArrival returns the statistic of each set,
+// NegativesByArrival the law of the count of negative values. Both return nothing where the
+// publication does not say how many arrived, or where fewer than two simulated runs ended in a way
+// in which runs of the set did. compare_arrivals.cc
 std::vector<double> StatisticsByArrival(const PublishedValue& published, const ScenarioRun& run,
                                         const SampleStatistic& statistic, std::size_t replicates,
                                         core::TrialKey key);

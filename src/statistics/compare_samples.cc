@@ -100,8 +100,8 @@ std::string ModeRemark(std::span<const double> pool) {
       pool.size(), range.low, range.high);
 }
 
-// The same statistic of sets of which the published number of runs arrived, ascending; none where
-// StatisticsByArrival has none.
+// Returns the statistic of sets of which the published number of runs arrived, ascending; none
+// where StatisticsByArrival has none.
 std::vector<double> ByArrival(const PublishedValue& published, const ScenarioRun& run,
                               const SampleStatistic& statistic, const ComparisonOptions& options) {
   std::vector<double> drawn =

@@ -57,7 +57,8 @@ std::string MissingColumn(const PublishedValue& published, const ScenarioRun& ru
   return "";
 }
 
-// Of every record that counts. A statistic without a base has the base 1.
+// Returns the values of a term for every record that counts. A statistic without a base has the
+// base 1.
 std::vector<Values> ValuesOf(const PublishedValue& published, const RatioTerm& term,
                              const ScenarioRun& run) {
   std::vector<std::size_t> columns;
@@ -76,7 +77,7 @@ std::vector<Values> ValuesOf(const PublishedValue& published, const RatioTerm& t
   return values;
 }
 
-// By term.
+// Returns the values of every term.
 std::vector<std::vector<Values>> TermValues(const PublishedValue& published,
                                             const ScenarioRun& run) {
   std::vector<std::vector<Values>> terms;
@@ -102,14 +103,14 @@ bool Defined(const std::vector<std::vector<Values>>& terms) {
   });
 }
 
-// Whether the base is one of independent trials (truth::ColumnRole::kTrials); no other promises
+// Whether the base counts independent trials (truth::ColumnRole::kTrials); no other role promises
 // that.
 bool Independent(const PublishedValue& published, const ScenarioRun& run) {
   const truth::ValueInfo* base = truth::FindColumn(run.schema, published.of);
   return base != nullptr && base->role == truth::ColumnRole::kTrials;
 }
 
-// The exact interval keeps its promise for rare events too.
+// The exact interval, as it keeps its confidence for rare events too.
 Interval RateInterval(const std::vector<Values>& values, bool independent, double confidence) {
   std::vector<CountOfRun> runs;
   runs.reserve(values.size());
@@ -139,8 +140,9 @@ void SetRate(bool independent, const std::vector<Values>& values, Row& row) {
   };
 }
 
-// Ratios of two sums over independent runs, added up, by linearization: a run's residual is the sum
-// of (x - R y) over the mean of y. So terms that go together in a run are taken as such.
+// Sets ratios of two sums over independent runs, added up, by linearization: a run's residual is
+// the sum over terms of (x - R y) over the mean of y. So terms that vary together in a run are
+// taken as such.
 void SetRatios(const PublishedValue& published, const std::vector<std::vector<Values>>& terms,
                Row& row) {
   double total = 0.0;
@@ -219,14 +221,15 @@ void SetMean(const PublishedValue& published, const std::vector<Values>& values,
   };
 }
 
-// Of the interval of a reading beside a row, by itself.
+// Confidence of the interval of a reading beside a row.
 constexpr double kSideConfidence = 0.95;
 
 bool IsRatio(StatisticKind kind) {
   return kind == StatisticKind::kRatio || kind == StatisticKind::kRatioSum;
 }
 
-// The same ratio or mean over the simulated runs that arrived, where some did and some did not.
+// Returns the ratio or mean of the row over the simulated runs that arrived, where some did and
+// some did not.
 std::optional<SideStatistic> ArrivalsAlone(const PublishedValue& published,
                                            const ScenarioRun& run) {
   std::vector<truth::Record> arrivals;

@@ -51,7 +51,7 @@ class IncidenceVariance {
   double cF_ = 0.0;
 };
 
-// Clopper and Pearson's, of a share of both numbers, which is rounded outwards.
+// Returns Clopper and Pearson's interval of `share` times both numbers, rounded outwards.
 Interval ExactBand(std::int64_t events, std::int64_t all, double share, double confidence) {
   const double whole = std::ceil(share * static_cast<double>(all));
   const double count = whole * static_cast<double>(events) / static_cast<double>(all);
@@ -62,8 +62,9 @@ Interval ExactBand(std::int64_t events, std::int64_t all, double share, double c
   return {exact(std::floor(count)).low, exact(std::ceil(count)).high};
 }
 
-// Where none or all of those that were not censored have had the event there is no variance to go
-// by, but a count: its interval by Clopper and Pearson.
+// Returns the band of a step after something was censored. Where none or all of the others have had
+// the event there is no variance to go by, and the band is Clopper and Pearson's interval of their
+// count.
 Interval CensoredBand(const IncidenceStep& step, std::int64_t followed, double share,
                       double confidence) {
   constexpr double kRounding = 1e-9;  // of sums of shares
@@ -81,7 +82,7 @@ struct Ends {
   std::size_t all = 0;  // censored ones included
 };
 
-// All that ends at one distance, by kind.
+// Counts what ends at one distance, by kind.
 Ends EndsAt(std::span<const Duration> sorted, std::size_t first) {
   Ends ends;
   for (std::size_t i = first; i < sorted.size() && sorted[i].at == sorted[first].at; ++i) {
@@ -100,8 +101,8 @@ struct EndCounts {
   std::int64_t censored = 0;
 };
 
-// Without censoring so far both incidences are shares of all, and what sums of shares lose by
-// rounding is put right.
+// Completes a step. Without censoring so far both incidences are shares of all, which replace the
+// sums of shares and their rounding.
 void CompleteStep(const EndCounts& counts, double share, double confidence, IncidenceStep& step) {
   if (counts.censored > 0) {
     step.band = CensoredBand(step, counts.all - counts.censored, share, confidence);

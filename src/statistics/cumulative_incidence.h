@@ -1,4 +1,5 @@
-// Cumulative incidence with competing risks (Aalen and Johansen 1978).
+// Cumulative incidence with competing risks (Aalen and Johansen 1978): the share of drives that
+// have reached the goal by a distance. distance_cdf.csv and the report page show it.
 #pragma once
 
 #include <cstdint>
@@ -28,26 +29,29 @@ struct IncidenceStep {
   double event = 0.0;           // probability to have had the event
   double competing = 0.0;       // probability to have had the competing one
   double standard_error = 0.0;  // of `event`
-  // Pointwise. As long as nothing was censored the incidence is a rate, and this its exact interval
-  // (Clopper and Pearson 1934); beyond on the log(-log) scale, at 0 and 1 exact.
+  // The pointwise band of `event`. As long as nothing was censored the incidence is a rate, and the
+  // band its exact interval (Clopper and Pearson 1934). Later it is on the log(-log) scale, and
+  // exact again where the incidence is 0 or 1.
   Interval band;
   std::int64_t at_risk = 0;  // just before `at`
 };
 
 // Returns the Aalen-Johansen estimate, one step per distinct distance with an event or a competing
-// event. The variance is by the delta method (Marubini and Valsecchi 1995, eq. 10.12). As long
-// as nothing was censored the incidences are the counts over all trials, to the last bit, and the
-// variance is the binomial one. Entries whose distance is not finite are left out. Where they hang
-// together, bands are those of `share` times as many. Cost: n log n.
+// event. The variance is by the delta method (Marubini and Valsecchi 1995, eq. 10.12). As long as
+// nothing was censored the incidences are the counts over all trials, to the last bit, and the
+// variance is the binomial one. Entries whose distance is not finite are left out. Where entries
+// hang together, `share` is below 1: bands and standard errors are those of `share` times as many
+// entries. Cost: n log n.
 std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> durations,
                                                double confidence = kConfidence, double share = 1.0);
 
-// How a trial's end counts when the event is reaching the goal: believed arrival is the event (or
-// true arrival only), a simulator fault is no observation, all else competes. A time limit competes
-// too: it is a condition of the scenario, what it ends has not arrived, and it ends the slow and
-// the lost, so that to leave them out of those at risk would be to assume that they would arrive as
-// the others do. So the curve ends at the success rate.
+// Which arrival is the event: every believed one, or the true one only.
 enum class Success { kDeclared, kTrue };
+
+// Returns the ends of trials where the event is reaching the goal; `column` has the distance
+// driven. A simulator fault is no observation, all else competes. A time limit competes too: it is
+// a condition of the scenario, and it ends the slow and the lost, so that to censor them would be
+// to assume that they would arrive as the others do. So the curve ends at the success rate.
 std::vector<Duration> GoalDurations(std::span<const truth::Record> records, std::size_t column,
                                     Success success = Success::kDeclared);
 

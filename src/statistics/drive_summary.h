@@ -56,8 +56,9 @@ struct DriveSummary {
   std::int64_t outcome(truth::TrialOutcome kind) const {
     return outcomes[static_cast<std::size_t>(kind)];
   }
-  // Of declared success of these trials, whatever those that a limit ended would have come to: none
-  // of them would have arrived, or all, and all that found no path of which no cause is told.
+  // Returns the bounds of the rate of declared success that these trials would have without limits:
+  // none of those that a limit ended would have arrived, or all of them, and with them all that
+  // found no path and tell no cause.
   Interval SuccessWithoutLimits() const;
   std::int64_t cause(truth::EndCause kind) const { return causes[static_cast<std::size_t>(kind)]; }
   const ColumnSummary* Find(std::string_view name) const;  // nullptr where there is none

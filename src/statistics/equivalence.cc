@@ -23,7 +23,7 @@ double UpperTail(double z) {
   return boost::math::cdf(boost::math::complement(boost::math::normal(), z));
 }
 
-// P(T >= t); without scatter, the chance of that.
+// Returns P(T >= t); without scatter, the chance of values that agree so well by accident.
 double StudentUpperTail(double distance, const MeanDifference& means) {
   if (means.standard_error == 0.0) return distance > 0.0 ? 0.5 * means.accident : 1.0;
   const boost::math::students_t law(means.degrees_of_freedom);

@@ -1,4 +1,5 @@
 // Differences of means and of rates: are they there, and are they small enough not to matter?
+// Checks against baselines and comparisons of two runs ask here.
 //
 // "Not significant" is not "equal". Equivalence is shown by two one-sided tests (TOST; Schuirmann
 // 1987, Journal of Pharmacokinetics and Biopharmaceutics 15, pp. 657-680): the difference is not at
@@ -28,15 +29,16 @@ struct MeanDifference {
 // finite.
 MeanDifference PairedMeans(std::span<const double> differences);
 
-// Returns that of two independent samples (Welch 1947, Biometrika 34, pp. 28-35). Values must be
-// finite.
+// Returns the mean difference of two independent samples (Welch 1947, Biometrika 34, pp. 28-35).
+// Values must be finite.
 MeanDifference WelchMeans(std::span<const double> first, std::span<const double> second);
 
-// Limits of all of these: the means must be near normal, which some dozens of values without a
-// heavy tail make them. Welch's test with groups of unlike size and skewed values does not keep a
-// small level: give it groups of one size. Where nothing is known p = 1 and the interval is
-// unbounded. Where nothing scatters the law is not Student's, and what is left is a sign test: all
-// n pairs of one sign have p = 2^(1 - n), two groups of n that are apart 2 / C(2 n, n).
+// These return the interval of the difference, the p-value of no difference and that of
+// equivalence. Limits: the means must be near normal, which some dozens of values without a heavy
+// tail make them. Welch's test with groups of unlike size and skewed values does not keep a small
+// level: give it groups of one size. Where nothing is known p = 1 and the interval is unbounded.
+// Where nothing scatters the law is not Student's, and what is left is a sign test: all n pairs of
+// one sign have p = 2^(1 - n), two groups of n that are apart 2 / C(2 n, n).
 Interval DifferenceInterval(const MeanDifference& means, double confidence = kConfidence);
 double ChangePValue(const MeanDifference& means);  // two-sided, of no difference
 double EquivalencePValue(const MeanDifference& means, double margin);  // TOST, margin > 0
@@ -53,17 +55,17 @@ double SparseEquivalencePValue(std::int64_t pairs, std::int64_t differing, doubl
 // Statistics in Medicine 17, pp. 891-908): asymptotic, exact coverage is near nominal from some
 // dozens of pairs on, also where hardly any pair is discordant. The p-value is of TOST by the same
 // score with a continuity correction of half a pair, by which its exact size stays at or below 0.05
-// (tested for 10 to 100 pairs and margins of 0.05 to 0.3). Without pairs they are [-1, 1] and 1.
-// The test of no difference that goes with them is McNemarExactPValue.
+// (tested for 10 to 100 pairs and margins of 0.05 to 0.3). Without pairs the interval is [-1, 1]
+// and p is 1. McNemarExactPValue is the test of no difference that goes with both.
 Interval DifferenceInterval(const PairedCounts& counts, double confidence = kConfidence);
 double EquivalencePValue(const PairedCounts& counts, double margin);
 
 // Returns the score interval, and TOST, of two independent rates, success_2 less success_1
 // (Farrington and Manning 1990, Statistics in Medicine 9, pp. 1447-1454; the interval is that of
-// Miettinen and Nurminen 1985 without their factor n / (n - 1)). The test is corrected as above, by
-// half a trial of each group: exact size at or below 0.05, tested for groups of 10 to 100. Where a
-// group is empty they are [-1, 1] and 1. The test of no difference that goes with them is
-// FisherExactPValue.
+// Miettinen and Nurminen 1985 without their factor n / (n - 1)). The test has a continuity
+// correction, too, of half a trial of each group: exact size at or below 0.05, tested for groups of
+// 10 to 100. Where a group is empty the interval is [-1, 1] and p is 1. FisherExactPValue is the
+// test of no difference that goes with both.
 Interval DifferenceInterval(const ContingencyTable& table, double confidence = kConfidence);
 double EquivalencePValue(const ContingencyTable& table, double margin);
 

@@ -1,4 +1,5 @@
-// Kolmogorov-Smirnov tests, and Lilliefors' test of exponential tails.
+// Kolmogorov-Smirnov tests, and Lilliefors' test of exponential tails, for statistics of one column
+// in the comparison with published values.
 #pragma once
 
 #include <cstddef>

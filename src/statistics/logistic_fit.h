@@ -1,5 +1,5 @@
 // Success against one number: the logistic curve through counts, its band, and where it crosses a
-// rate.
+// rate. Sweeps along a numeric axis are fitted by it.
 #pragma once
 
 #include <array>
@@ -39,11 +39,12 @@ struct LogisticFit {
   std::array<double, 3> model_covariance{};
   std::int64_t clusters = 0;    // 0: trials are independent, and both covariances are equal
   double log_likelihood = 0.0;  // without the binomial coefficients
-  // Against the model with a rate of its own for every setting, as chi-square with so many degrees
-  // of freedom (settings less two). p is NaN where none is left; it is only near where settings
-  // expect fewer than about five successes or failures. Knows nothing of clusters: settings that
-  // share their random numbers scatter less about the curve than it expects, so that it is then too
-  // large rather than too small; NaN where trials within a setting share a cluster.
+  // The deviance from the model with a rate of its own for every setting, held against chi-square
+  // with so many degrees of freedom (settings less two). The p-value is NaN where none is left; it
+  // is only near where settings expect fewer than about five successes or failures. It knows
+  // nothing of clusters: settings that share their random numbers scatter less about the curve than
+  // it expects, so that it is then too large rather than too small. It is NaN where trials within a
+  // setting share a cluster.
   double deviance = 0.0;
   int degrees_of_freedom = 0;
   double p_value = 1.0;
@@ -53,18 +54,18 @@ struct LogisticFit {
   double highest_x = 0.0;
 
   double Rate(double x) const;
-  // Pointwise: Wald's interval of the logit, turned back into a rate; by Student's law with a
-  // degree of freedom less than clusters, where there are some. Coverage is near nominal where the
-  // settings around x have some dozens of trials.
+  // Returns the pointwise band: Wald's interval of the logit, turned back into a rate; with
+  // clusters by Student's law with one degree of freedom less than clusters. Coverage is near
+  // nominal where the settings around x have some dozens of trials.
   Interval Band(double x, double confidence = kConfidence) const;
 };
 
 // Fits by iteratively reweighted least squares (McCullagh and Nelder 1989, section 4.4), which is
 // Newton's method on a concave function, halving steps that go too far. Trials are taken as
 // independent, within and between settings. The likelihood has a maximum only where outcomes
-// overlap (Silvapulle 1981); where they do not, this says so instead of shrinking to a finite curve
-// (Firth 1993): the steepness would then come from the penalty and not from the runs. Settings with
-// equal x are pooled. Cost: linear in the points, about ten passes.
+// overlap (Silvapulle 1981); where they do not, the status says so. A curve shrunk to a finite one
+// (Firth 1993) would have its steepness from the penalty and not from the runs. Settings with equal
+// x are pooled. Cost: linear in the points, about ten passes.
 LogisticFit FitLogistic(std::span<const DosePoint> points, FitScale scale);
 
 // The gradient of the log-likelihood and the Fisher information in two parameters of the line.
@@ -76,8 +77,9 @@ struct LikelihoodSlopes {
   double bb = 0.0;
 };
 
-// Trials that hang together: those of one index in cells with common random numbers, those on one
-// layout of rocks. Trials of different clusters are independent.
+// The covariance of a fit whose trials hang together in clusters: those of one index in cells with
+// common random numbers, those on one layout of rocks. Trials of different clusters are
+// independent.
 //
 // Keeps for each cluster the slope s and the information A of its log-likelihood: 40 bytes. The
 // covariance of the fit is then (Liang and Zeger 1986, Biometrika 73, pp. 13-22, with independence
@@ -86,7 +88,7 @@ struct LikelihoodSlopes {
 //   V (sum over clusters of y y^T) V,   y = (I - A V)^-1 s,   V the covariance of the model.
 class ClusterScores {
  public:
-  // `fit` of all these trials, fitted.
+  // `fit` must be kFitted, of all trials that are added, and must outlive this.
   explicit ClusterScores(const LogisticFit& fit) : fit_(fit) {}
 
   void Add(std::size_t cluster, double x, bool success);
@@ -119,9 +121,8 @@ struct FitCrossing {
 FitCrossing FindCrossing(const LogisticFit& fit, std::span<const DosePoint> points, double rate,
                          double confidence = kConfidence);
 
-// The likelihood of a logistic curve and its maximum. Internal to the fits of this folder.
-
-// A setting on the scale of the fit.
+// A setting on the scale of the fit. From here on: the likelihood of a logistic curve and its
+// maximum, for logistic_fit.cc only.
 struct Dose {
   double u = 0.0;
   double count = 0.0;

@@ -47,7 +47,7 @@ constexpr Metric Arrived(std::string_view name, std::string_view unit, std::stri
           .relative_margin = relative_margin};
 }
 
-// Of the column of that name.
+// A metric over all trials, of the column of its own name.
 constexpr Metric All(std::string_view name, std::string_view unit, double margin,
                      double relative_margin, std::string_view definition) {
   Metric metric = Arrived(name, unit, name, margin, relative_margin, definition);
@@ -74,17 +74,17 @@ constexpr Metric ShareWith(std::string_view name, std::string_view column,
           .margin = kRateMargin};
 }
 
-// The least of 30, 40, 100 and 300 values from which on the interval of the mean held in both pools
-// of scripts/studies/coverage/coverage.py, where it is not the first; never for a quotient whose
-// denominator may be nearly 0.
+// Sets the values from which on the mean gets an interval, where that is not 30: the least of 40,
+// 100 and 300 from which on it held in both pools of scripts/studies/coverage/coverage.py, or
+// kNeverForMean, for a quotient whose denominator may be nearly 0.
 constexpr Metric Needing(std::int64_t values, Metric metric) {
   metric.fewest_for_mean = values;
   return metric;
 }
 
-// In the order of reports. Baselines keep names and margins: one that has a metric whose name is
-// gone no longer passes `rockyard check`, and a new margin holds for new baselines alone. README.md
-// has this table, and a test compares.
+// Must stay: names, as a baseline with a metric whose name is gone no longer passes `rockyard
+// check`. Baselines keep margins too: a new margin holds for new baselines alone. The order is that
+// of reports. README.md has this table, and a test compares both.
 constexpr std::array kMetrics = {
     OutcomeRate("declared_success", Bit(TrialOutcome::kGoalReached) | Bit(TrialOutcome::kFalseGoal),
                 "share of trials in which the rover believes that it arrived"),

@@ -1,4 +1,6 @@
-// The numbers that people ask of drives, each defined here and nowhere else.
+// The numbers that people ask of drives, each defined here (the table: metric_table.cc) and nowhere
+// else. Summaries, sweeps, comparisons of runs, baselines and `rockyard metrics` take them from
+// here.
 #pragma once
 
 #include <array>
@@ -42,7 +44,7 @@ struct Metric {
   MetricSource source = MetricSource::kColumn;
   std::array<std::string_view, 2> columns{};  // of the record
   std::uint32_t outcomes = 0;                 // one bit for each, kOutcome only
-  std::uint32_t causes = 0;                   // the same of kCause
+  std::uint32_t causes = 0;                   // one bit for each, kCause only
   // Differences below max(margin, relative_margin |mean|) do not matter, unless a user says
   // otherwise: default of the equivalence tests, a convention and no result.
   double margin = 0.0;
@@ -60,8 +62,8 @@ const Metric* FindMetric(std::string_view name);  // nullptr where there is none
 // difference matters.
 double DefaultMargin(const Metric& metric, double mean);
 
-// Returns the values of a column of records from which on their mean, or a mean difference of it,
-// gets an interval: the most that a metric of this column needs, kNeverForMean if one has it.
+// Returns how many values a mean of this column of records, or a mean difference, needs for an
+// interval: the most that a metric of the column needs, kNeverForMean if one never has an interval.
 std::int64_t FewestForMean(std::string_view column);
 
 // Returns one value for each record, in their order; NaN where the trial does not count or has no
@@ -86,8 +88,9 @@ struct MetricSummary {
   double max = 0.0;
 };
 
-// `groups`: which values hang together (DependentGroups), none where it is empty. The interval of
-// the median knows independent values only: there is none of others.
+// Summarizes one metric. `groups` tells which values hang together (DependentGroups); all are
+// independent where it is empty. Dependent values have no interval of the median, which knows
+// independent ones only.
 MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> values,
                               double confidence = kConfidence,
                               IntervalMethod method = IntervalMethod::kWilson,

@@ -1,5 +1,6 @@
 // New samples of a published size, as a simulated pool predicts them, the pool's own uncertainty
-// included, without assuming a distribution family.
+// included, without assuming a distribution family. The comparison with published values judges
+// statistics of one column by them.
 //
 // The N + 1 gaps between the ordered values of a pool of N have probabilities that are
 // Dirichlet(1, ..., 1) whatever the continuous law (spacings of uniform order statistics), so the
@@ -62,8 +63,8 @@ struct SamplePart {
   std::size_t n = 0;
 };
 
-// The same for samples that are put together from parts of fixed sizes, e.g. of runs that arrived
-// and of runs that did not. The statistic sees all parts together, in ascending order.
+// Returns the same for samples that are put together from parts of fixed sizes, e.g. of runs that
+// arrived and of runs that did not. The statistic sees all parts together, in ascending order.
 std::vector<double> PredictiveStatistics(std::span<const SamplePart> parts,
                                          const SampleStatistic& statistic, std::size_t replicates,
                                          core::TrialKey key);
@@ -75,12 +76,13 @@ std::vector<double> PredictiveStatistics(std::span<const SamplePart> parts,
 double PredictivePValue(std::span<const double> ascending, double value, double rounding);
 
 // Returns the chance that a published sample from the pool's law shifted by +shift or by -shift,
-// whichever is harder to see, is rejected at `level` by the test above, for a statistic that moves
-// with its sample.
+// whichever is harder to see, is rejected at `level` by PredictivePValue, for a statistic that
+// moves with its sample.
 double ShiftPower(std::span<const double> ascending, double shift, double level);
 
-// The same for a sample whose distances from `limit`, a limit of the support, are multiplied or
-// divided by `factor`, whichever is harder to see, for a statistic that moves with them.
+// Returns the same chance for a sample whose distances from `limit`, a limit of the support, are
+// multiplied or divided by `factor`, whichever is harder to see, for a statistic that moves with
+// them.
 double ScalePower(std::span<const double> ascending, double limit, double factor, double level);
 
 }  // namespace rockyard::statistics

@@ -31,9 +31,10 @@ Interval Wilson(double count, double trials, double confidence) {
           count == trials ? 1.0 : std::min(1.0, centre + half)};
 }
 
-// Of the chance to miss, where the half-width ends the trials (proportions.h). Campaigns stop by
-// this interval, and a later session decides again from the stored trials (batch/work_plan.h):
-// another share would end the cells of stored campaigns elsewhere.
+// Share of the chance to miss at which the interval is taken where the half-width ends the trials
+// (ProportionInterval, whose comment states it). Must stay: campaigns stop by this interval, and a
+// later session decides again from the stored trials (batch/work_plan.h), so that another share
+// would end the cells of stored campaigns elsewhere.
 constexpr double kStoppedShare = 0.8;
 
 // Clopper and Pearson 1934: ends at which a tail of the binomial law is (1 - confidence)/2, as
@@ -57,8 +58,9 @@ struct HypergeometricWeights {
   double At(std::int64_t x) const { return weights[static_cast<std::size_t>(x - lowest)]; }
 };
 
-// By the ratio of neighbours outwards from the mode, where nothing can overflow; what underflows is
-// too small to matter. A closed form of each would cost a factorization of the factorials.
+// Makes the weights by the ratio of neighbours outwards from the mode, where nothing can overflow;
+// what underflows is too small to matter. A closed form of each would cost a factorization of the
+// factorials.
 HypergeometricWeights MakeWeights(std::int64_t group_1, std::int64_t group_2,
                                   std::int64_t successes) {
   HypergeometricWeights law;
@@ -104,7 +106,7 @@ Interval ProportionInterval(std::int64_t count, std::int64_t trials, double conf
 }
 
 std::string_view MethodName(IntervalMethod method) {
-  // In the order of IntervalMethod.
+  // Must stay in the order of IntervalMethod.
   constexpr std::array<std::string_view, 4> kNames{"wilson", "clopper_pearson",
                                                    "clopper_pearson_stopped", "clustered"};
   return kNames[static_cast<std::size_t>(method)];

@@ -1,4 +1,6 @@
-// Rates and counts of independent trials: intervals, exact tests, predictions.
+// Rates and counts of independent trials: intervals, exact tests, predictions. Every rate that the
+// program reports has its interval from here; rates of trials that hang together come by
+// clustered_rate.h.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +9,8 @@
 
 namespace rockyard::statistics {
 
-// The confidence of every interval, unless a caller asks for another. Reports write "95 %" and
-// "ci95" for it without asking.
+// The confidence of every interval, unless a caller asks for another. Must stay: reports write "95
+// %" and "ci95" for it without asking.
 inline constexpr double kConfidence = 0.95;
 
 // Two ends of an interval, low <= high.
@@ -24,14 +26,14 @@ enum class IntervalMethod {
   kClustered,  // of trials that hang together (clustered_rate.h); none of plain counts
 };
 
-// As in summary.json: "wilson", "clopper_pearson", "clopper_pearson_stopped",
+// Returns the name in summary.json: "wilson", "clopper_pearson", "clopper_pearson_stopped",
 // "clustered".
 std::string_view MethodName(IntervalMethod method);
 
-// Returns how the interval of a rate is made that is asked for by `method`: in Wilson's place
-// exactly where there are fewer than five trials of either kind. Wilson's covers rare events in as
-// few as 84 % of samples, whatever the number of trials, and so mended in no fewer than 92 % (exact
-// sums at 20 to 1000 trials; tests/statistics/proportions_test.cc).
+// Returns the method of a rate's interval where `method` is asked for: Clopper and Pearson's in
+// place of Wilson's where there are fewer than five trials of either kind. Wilson's covers rare
+// events in as few as 84 % of samples, whatever the number of trials, and so mended in no fewer
+// than 92 % (exact sums at 20 to 1000 trials; tests/statistics/proportions_test.cc).
 IntervalMethod RateMethod(std::int64_t count, std::int64_t trials, IntervalMethod method);
 
 // A rate with its interval. With no trials the rate is NaN and the interval [0, 1].
@@ -49,22 +51,22 @@ struct Proportion {
 //
 // kStopped: where trials go on until the interval has some half-width, their number depends on what
 // they say, and Clopper and Pearson's interval misses a little more often than stated. It is taken
-// at 0.8 of the chance to miss, which costs a tenth more trials: by enumeration of all paths its
-// coverage is at least 0.945 for 0.95 (half-widths 0.03 to 0.15, looks at each to each 100th trial,
-// rates 0.01 to 0.99; without the factor 0.940). That is for a stop at a half-width or at a largest
-// number of trials, not for whoever stops because the rate pleases.
+// at 0.8 of the chance to miss (kStoppedShare), which costs a tenth more trials: by enumeration of
+// all paths its coverage is at least 0.945 for 0.95 (half-widths 0.03 to 0.15, looks at each to
+// each 100th trial, rates 0.01 to 0.99; without the factor 0.940). That is for a stop at a
+// half-width or at a largest number of trials, not for whoever stops because the rate pleases.
 Interval ProportionInterval(std::int64_t count, std::int64_t trials,
                             double confidence = kConfidence,
                             IntervalMethod method = IntervalMethod::kWilson);
 
-// The same with the rate, by RateMethod.
+// Returns the rate with its interval, by RateMethod.
 Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confidence = kConfidence,
                           IntervalMethod method = IntervalMethod::kWilson);
 
 // Returns the interval of the difference second less first of two independent rates: the distances
 // of the Wilson ends from the rates, added in squares (Newcombe 1998, Statistics in Medicine 17,
-// pp. 873-890, method 10); of clustered trials the ends that the rates have (Zou and Donner 2008).
-// It is near nominal on average; [-1, 1] where either has no trials. Cost: constant.
+// pp. 873-890, method 10); for clustered trials by the ends of their own intervals (Zou and Donner
+// 2008). It is near nominal on average; [-1, 1] where either has no trials. Cost: constant.
 Interval DifferenceInterval(const Proportion& first, const Proportion& second,
                             double confidence = kConfidence);
 
@@ -111,14 +113,6 @@ struct SignedValues {
 // must be independent. Without values it is [-1, 1].
 Interval AgrestiMinInterval(const SignedValues& values, double confidence = kConfidence);
 
-// What one count says of its mean, and what a simulated pool predicts for a count in a small set of
-// real runs.
-//
-// If simulation and reality follow one law, then n new runs beside a pool with K of N show k with
-// probability BetaBinomial(k; n, K + 1/2, N - K + 1/2): the posterior predictive under Jeffreys'
-// prior, the exact limit of drawing many samples of n from many resampled pools. It carries the
-// simulation's own uncertainty and tends to Binomial(n, K/N) as the pool grows.
-
 // Returns the exact two-sided interval of the mean of a Poisson number of which `count` >= 0 was
 // seen (Garwood 1936, Biometrika 28): its ends are the means at which that many or more, or that
 // many or fewer, have the probability (1 - confidence) / 2. Cost: constant.
@@ -132,8 +126,11 @@ CountLaw BinomialLaw(std::int64_t trials, double rate);
 // Returns the law of a count whose rate has the beta law of a, b > 0.
 CountLaw BetaBinomialLaw(std::int64_t trials, double a, double b);
 
-// Returns the predictive law described above, for `count` of `pool` simulated runs and `trials` new
-// ones.
+// Returns the predictive law of the count of `trials` new runs beside `count` of `pool` simulated
+// ones. If simulation and reality follow one law, then n new runs beside a pool with K of N show k
+// with probability BetaBinomial(k; n, K + 1/2, N - K + 1/2): the posterior predictive under
+// Jeffreys' prior, the exact limit of drawing many samples of n from many resampled pools. It
+// carries the simulation's own uncertainty and tends to Binomial(n, K/N) as the pool grows.
 CountLaw PredictiveCountLaw(std::int64_t trials, std::int64_t count, std::int64_t pool);
 
 // Returns the smallest count whose cumulative probability reaches `probability`.

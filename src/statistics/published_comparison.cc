@@ -54,7 +54,7 @@ Row CompareOne(const PublishedValue& published, std::span<const ScenarioRun> run
   return NotJudged(published, "unknown statistic");
 }
 
-// Fills in what depends on the whole family.
+// Fills in what depends on the whole family of Holm's procedure.
 void Judge(std::vector<Row>& rows, double alpha) {
   std::vector<Row*> family;
   std::vector<double> p_values;
@@ -76,7 +76,8 @@ void Judge(std::vector<Row>& rows, double alpha) {
   }
 }
 
-// A rate cannot leave [0, 1].
+// The verdict inside of the tolerance: kHolds where nothing lies outside of it, as a rate cannot
+// leave [0, 1].
 Verdict InsideVerdict(const PublishedValue& published) {
   const bool rate = published.statistic == StatisticKind::kRate;
   const bool all = published.low <= (rate ? 0.0 : -core::kInfinity) &&
@@ -84,7 +85,8 @@ Verdict InsideVerdict(const PublishedValue& published) {
   return all ? Verdict::kHolds : Verdict::kAgrees;
 }
 
-// Bonferroni: all intervals hold together with 1 - alpha, whatever their dependence.
+// Judges rows with a tolerance. Bonferroni: all intervals hold together with 1 - alpha, whatever
+// their dependence.
 void JudgeTolerances(std::vector<Row>& rows, double alpha) {
   const auto family = std::count_if(rows.begin(), rows.end(),
                                     [](const Row& row) { return row.interval != nullptr; });
@@ -113,7 +115,7 @@ Row NotJudged(const PublishedValue& published, std::string remark) {
 }
 
 const char* Name(Verdict verdict) {
-  // In the order of Verdict.
+  // Must stay in the order of Verdict.
   constexpr const char* kNames[] = {"agrees", "holds", "differs", "underpowered", "not judged"};
   return kNames[static_cast<std::size_t>(verdict)];
 }

@@ -1,4 +1,5 @@
-// Simulated trials against published numbers: predictive intervals, p-values, verdicts.
+// Simulated trials against published numbers: predictive intervals, p-values, verdicts. `rockyard
+// check` and the report page hold runs against publications by it.
 //
 // Null hypothesis of each row: the published runs and the simulated trials follow one law. Its
 // p-value is two-sided and contains the simulation's own uncertainty (proportions.h,
@@ -27,18 +28,20 @@
 
 namespace rockyard::statistics {
 
-// These are the alternatives that power is computed against, fixed before any run. For counts: a
-// rate 0.20 lower for success; 0.20 nearer to one half for any other count; for kinds of failure, a
-// share of the commonest simulated kind 0.20 lower, spread evenly over the other kinds.
+// kAlternativeRateShift and kAlternativeShiftDeviations are the alternatives that power is computed
+// against, fixed before any run. For counts: a rate 0.20 lower for success; 0.20 nearer to one half
+// for any other count; for kinds of failure, a share of the commonest simulated kind 0.20 lower,
+// spread evenly over the other kinds.
 inline constexpr double kAlternativeRateShift = 0.20;
-// For minimum and maximum: the published runs shifted by half a standard deviation of the
-// simulated trials, up or down. Where the column has a lower limit (absolute errors, distances)
-// also moved by scale, so that the mean moves by as much: distances from the limit times
+// The alternative for minimum and maximum: the published runs shifted by half a standard deviation
+// of the simulated trials, up or down. Where the column has a lower limit (absolute errors,
+// distances) also moved by scale, so that the mean moves by as much: distances from the limit times
 // 1 + 0.5 deviation / mean, or divided by it. Of all these the one that is hardest to see counts. A
 // shift alone would move a minimum near its limit by many times what it scatters, so that it could
 // never be called underpowered, although no change of the law's spread could be seen in it.
 inline constexpr double kAlternativeShiftDeviations = 0.5;
-// Below this power a value that is not rejected counts as untested.
+// Below this power a value that is not rejected counts as untested. regression.h asks for as much
+// (kNeededPower), and for a shift as large (kShiftThatMatters).
 inline constexpr double kRequiredPower = 0.8;
 // Level at which a set of runs is called consistent with an exponential law.
 inline constexpr double kExponentialLevel = 0.05;
@@ -63,7 +66,7 @@ struct ComparisonOptions {
 };
 
 enum class Verdict {
-  kAgrees,        // not rejected, and the alternative would have been with power 0.8 or more
+  kAgrees,        // not rejected, and the alternative would have been with kRequiredPower or more
   kHolds,         // a bound or arithmetic: true, but of any simulation, so that it tells none apart
   kDiffers,       // rejected after Holm
   kUnderpowered,  // not rejected, but the published runs are too few to tell
@@ -130,7 +133,7 @@ struct ComparisonResult {
   // Verdicts on these are as computed, and hold other settings against the published numbers.
   std::vector<OtherSettings> changed = {};
 
-  // Returns those of a scenario; null where it is the published case.
+  // Returns the other settings of a scenario; null where it is the published case.
   const OtherSettings* FindChanged(std::string_view scenario) const;
 };
 
@@ -140,9 +143,9 @@ struct ComparisonResult {
 ComparisonResult Compare(const PublishedReference& reference, std::span<const ScenarioRun> runs,
                          const ComparisonOptions& options = {});
 
-// The numbers are those of campaign::Outcome, into which callers cast them. Returns 0 where all
-// judged rows agree or hold, 1 where something differs, and 4 where nothing differs, but something
-// is underpowered or nothing could be judged.
+// Returns the exit code: 0 where all judged rows agree or hold, 1 where something differs, and 4
+// where nothing differs, but something is underpowered or nothing could be judged. Must stay the
+// numbers of campaign::Outcome, into which callers cast them.
 int ExitCode(const ComparisonResult& result);
 
 }  // namespace rockyard::statistics

@@ -1,4 +1,6 @@
 // Numbers that a publication gives, in the form in which simulated trials can be held against them.
+// report/comparison_reference.h reads them from reference files, published_comparison.h judges by
+// them.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +12,9 @@
 
 namespace rockyard::statistics {
 
-// What a published number says about its set of runs. The order decides HasTolerance and
-// SplitsByArrival, and here and in the two enums below the names in reference files
-// (report/reference_fields.h).
+// What a published number says about its set of runs. Must stay in this order, which decides
+// HasTolerance and SplitsByArrival. Names in reference files stand in the order of this enum, of
+// Formula and of ValueRole (report/reference_fields.h).
 enum class StatisticKind {
   kOutcomeCount,     // runs with one of `outcomes`
   kFailureKinds,     // how the failures divide into `kinds` and all others, given their number
@@ -26,8 +28,8 @@ enum class StatisticKind {
   // Numbers without a sample: held against the simulation's own value by a tolerance.
   kRate,      // `column` over `of`, both added up: a binomial rate of independent scenes, or one of
               // events that depend on one another within a run
-  kRatio,     // the same, times `factor`, for sums that count no independent events
-  kRatioSum,  // such ratios added up: `terms`, times `factor`
+  kRatio,     // `column` over `of`, times `factor`, for sums that count no independent events
+  kRatioSum,  // ratios of sums added up: `terms`, times `factor`
   kMean,      // of `column` over the runs, times `factor`
   kCrossing,  // where the rate of `column` over `of` first passes `level` along `along`, times
               // `factor`
@@ -86,8 +88,8 @@ struct FailureKind {
 };
 
 struct PublishedValue {
-  // Unique, e.g. "nominal.distance.mode". It keys the draws of the row: another id gives other
-  // digits.
+  // Unique, e.g. "nominal.distance.mode". Must stay: it keys the draws of the row, so that another
+  // id gives other digits.
   std::string id;
   std::string what;      // for people
   std::string place;     // in the publication

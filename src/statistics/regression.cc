@@ -20,13 +20,14 @@ namespace {
 
 using core::kInfinity;
 
-// "distance" and "time" of every trial, arrived or not. A metric that joins or leaves changes the
-// levels that Holm's procedure grants all others, and so verdicts against stored baselines.
+// The metrics of the primary family; "distance" and "time" are of every trial, arrived or not. Must
+// stay: a metric that joins or leaves changes the levels that Holm's procedure grants all others,
+// and so verdicts against stored baselines.
 constexpr std::array<std::string_view, 7> kPrimary = {
     "declared_success",       "true_success",      "true_distance_m", "active_time_s",
     "distance_error_percent", "heading_error_deg", "position_error_m"};
 
-// Where nothing can be compared the row says what each side has on its own.
+// Fills what each side has on its own, which the row says where nothing can be compared.
 void Describe(const RegressionSamples& samples, std::span<const double> baseline,
               std::span<const double> run, RegressionRow& row) {
   const bool common = !samples.empty();
@@ -40,7 +41,7 @@ void Describe(const RegressionSamples& samples, std::span<const double> baseline
   row.interval = {-kInfinity, kInfinity};
 }
 
-// The same trials to the last bit: nothing is left to estimate.
+// Whether trials and values are the same to the last bit: nothing is left to estimate.
 bool Identical(const RegressionCell& cell, const RegressionSamples& samples) {
   return cell.identical && !samples.empty() && samples.baseline == samples.run;
 }

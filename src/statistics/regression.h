@@ -1,4 +1,5 @@
-// Has a build changed what a campaign says? Its trials against a stored baseline, metric by metric.
+// Has a build changed what a campaign says? Its trials against a stored baseline, metric by metric,
+// for `rockyard check`.
 //
 // Each metric of each cell is tested for a change (no difference as the null hypothesis) and for
 // equivalence (a difference of its margin or more as the null hypothesis):
@@ -45,9 +46,10 @@ inline constexpr std::int64_t kMinDiffering = 30;
 
 struct RegressionCell {
   std::string name;
-  // Whether both have the same rocks, noise and index: trial i of both may be compared with itself.
+  // Whether baseline and run have the same rocks, noise and index: trial i of both may be compared
+  // with itself.
   bool paired = false;
-  // Whether its records are the baseline's to the last bit: metrics with equal values are
+  // Whether the run's records are the baseline's to the last bit: metrics with equal values are
   // equivalent.
   bool identical = false;
   std::span<const BaselineMetric> baseline;
@@ -55,10 +57,11 @@ struct RegressionCell {
   std::vector<std::vector<double>> run;
 };
 
-// Power with which a shift that matters must be seen, for its absence to say something.
+// Power with which a shift that matters must be seen, for its absence to say something: as
+// kRequiredPower of published_comparison.h.
 inline constexpr double kNeededPower = 0.8;
 // A shift of a mean that matters, in standard deviations between trials, where its margin is
-// smaller: as in the comparison with published values.
+// smaller: as kAlternativeShiftDeviations of published_comparison.h.
 inline constexpr double kShiftThatMatters = 0.5;
 
 // Whether the metric belongs to the primary family.
@@ -120,7 +123,7 @@ struct RegressionResult {
   std::vector<RegressionRow> rows;  // metrics of which either side has values
 
   std::int64_t Count(RegressionVerdict verdict) const;
-  // Of one family.
+  // Returns the number of such rows of one family.
   std::int64_t Count(RegressionVerdict verdict, bool primary) const;
 };
 
@@ -130,13 +133,13 @@ struct RegressionResult {
 RegressionResult CheckRegression(std::span<const RegressionCell> cells,
                                  const RegressionOptions& options = {});
 
-// The numbers are those of campaign::Outcome, into which callers cast them. Returns 1 where
-// something changed, of either family; else 4 where something of the primary family is
-// inconclusive, a metric has values on one side only, or there is nothing; else 0.
+// Returns the exit code: 1 where something changed, of either family; else 4 where something of the
+// primary family is inconclusive, a metric has values on one side only, or there is nothing; else
+// 0. Must stay the numbers of campaign::Outcome, into which callers cast them.
 int ExitCode(const RegressionResult& result);
 
-// Returns the value with five significant digits, as it enters a baseline and the comparison with
-// it.
+// Returns the value with five significant digits. Must be used for both sides: baselines hold
+// values so rounded, and the run's are compared with them.
 double RoundForBaseline(double value);
 
 }  // namespace rockyard::statistics

@@ -21,7 +21,7 @@ std::vector<double> Finite(std::span<const double> values) {
   return finite;
 }
 
-// Each pair of tests: a change (exact), and equivalence within the margin (score).
+// Tests a rate for a change (exact) and for equivalence within the margin (score).
 void TestRate(const RegressionSamples& samples, RegressionRow& row) {
   if (row.paired) {
     const PairedCounts counts = CountPairs(samples);
@@ -36,8 +36,8 @@ void TestRate(const RegressionSamples& samples, RegressionRow& row) {
   }
 }
 
-// TOST by Student's law; where few pairs differ the standard error says too little, and their
-// number decides.
+// Returns the p-value of TOST by Student's law; where few pairs differ the standard error says too
+// little, and their number decides.
 double MeanEquivalence(const RegressionSamples& samples, const MeanDifference& means,
                        const RegressionRow& row) {
   if (row.paired) {
@@ -76,7 +76,8 @@ double SmallestShift(double most, double power, const PowerOf& power_of) {
   return high;
 }
 
-// Of all pairs, those in which both sides differ one way; as many the other way.
+// Returns the share of pairs in which one given side alone succeeded, taken as equal for both
+// sides.
 double Background(const RegressionSamples& samples) {
   const PairedCounts counts = CountPairs(samples);
   return 0.5 * static_cast<double>(counts.only_first + counts.only_second) /
@@ -116,7 +117,8 @@ std::int64_t TrialsForRate(const RegressionSamples& samples, const RegressionRow
   return TrialsForMcNemar({background, background + row.margin}, row.level, kNeededPower);
 }
 
-// Also those without which pairs that hardly differ show nothing.
+// Returns the trials with which a shift of the margin would be seen; at least as many as Welch's
+// test needs, or as pairs that hardly differ need to show equivalence.
 std::int64_t TrialsForMean(const RegressionSamples& samples, const RegressionRow& row,
                            double equivalence_alpha) {
   const double ratio =
@@ -229,7 +231,8 @@ void TestSamples(const RegressionSamples& samples, RegressionRow& row) {
   }
 }
 
-// The same for two groups by Fisher's test; large groups by its normal formula.
+// Returns the smallest shift of the rates of two groups that Fisher's test would have seen; large
+// groups by its normal formula.
 double RegressionPower::SeenGroupShift(const RegressionSamples& samples, double level,
                                        double power) {
   if (samples.count() > kMaxExactFisher) {

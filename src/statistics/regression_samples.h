@@ -1,5 +1,5 @@
 // One metric of a regression check: what both sides say of it, tested, and what the check would
-// have seen. For regression*.cc only.
+// have seen. For regression.cc only.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ struct RegressionSamples {
   std::int64_t count() const { return static_cast<std::int64_t>(run.size()); }
 };
 
-// Returns, of the trials that both sides have, those with a value: on both sides where paired; else
-// the first of each side, as many as the other has.
+// Returns the values to compare, from the trials that both sides have: where paired those of the
+// trials with a value on both sides; else the first values of each side, as many as the other has.
 RegressionSamples TakeSamples(bool paired, std::span<const double> baseline,
                               std::span<const double> run);
 

@@ -18,8 +18,9 @@ inline constexpr std::int64_t kMaxTrials = 1'000'000'000;
 std::int64_t TrialsForHalfWidth(double rate, double half_width, double confidence,
                                 IntervalMethod method);
 
-// Returns the same where the half-width ends the trials (IntervalMethod::kStopped), looked at every
-// `block` of them: a block end. Single campaigns stop some blocks sooner or later.
+// Returns the number of trials for this half-width where it ends the trials
+// (IntervalMethod::kStopped), looked at every `block` of them: a block end. Single campaigns stop
+// some blocks sooner or later.
 std::int64_t TrialsForStopping(double rate, double half_width, double confidence,
                                std::int64_t block);
 
@@ -30,8 +31,7 @@ std::int64_t TrialsForStopping(double rate, double half_width, double confidence
 // pp. 1743-1745).
 std::int64_t TrialsForClaim(double bound, double confidence, std::int64_t failures);
 
-// Returns the chance that such a run, of n trials, sees no more than `failures` where the rate is
-// `rate`.
+// Returns the chance that n trials see no more than `failures` failures where the rate is `rate`.
 double ClaimChance(std::int64_t trials, double rate, std::int64_t failures);
 
 // Two rates, of two groups of n trials or of n pairs.
@@ -60,15 +60,15 @@ class FisherTest {
 
 double FisherPower(std::int64_t n, const RatePair& rates, double alpha);
 
-// Returns the trials of each group for that test by the normal formula with continuity correction
-// (Casagrande, Pike and Smith 1978, Biometrics 34, pp. 483-486). Its exact power is near the one
-// asked for where both rates are far from 0 and 1, and above it (up to 0.18 for power 0.8) where
-// they are not. The rates must differ. Cost: constant.
+// Returns the trials of each group for Fisher's test by the normal formula with continuity
+// correction (Casagrande, Pike and Smith 1978, Biometrics 34, pp. 483-486). Its exact power is near
+// the one asked for where both rates are far from 0 and 1, and above it (up to 0.18 for power 0.8)
+// where they are not. The rates must differ. Cost: constant.
 std::int64_t TrialsForFisherFormula(const RatePair& rates, double alpha, double power);
 
-// TrialsForFisher returns the same by exact power, which is reached and is not with one trial less
-// (exact powers saw: some smaller number may reach it as well), where the formula gives up to
-// kMaxExactFisher trials; else it returns the formula's. Cost: up to a second.
+// TrialsForFisher returns that number by exact power, which is reached and is not with one trial
+// less (exact power rises and falls with n: some smaller number may reach it as well), where the
+// formula gives up to kMaxExactFisher trials; else it returns the formula's. Cost: up to a second.
 inline constexpr std::int64_t kMaxExactFisher = 3000;
 std::int64_t TrialsForFisher(const RatePair& rates, double alpha, double power);
 
@@ -76,8 +76,9 @@ std::int64_t TrialsForFisher(const RatePair& rates, double alpha, double power);
 // which only the first, and only the second, succeeds; their sum is at most 1. Cost: linear.
 double McNemarPower(std::int64_t n, const RatePair& discordant, double alpha);
 
-// Returns the number of pairs for that power; it is not reached with one pair less. (Exact powers
-// saw: some smaller number may reach it as well.) The rates must differ.
+// Returns the number of pairs for this power of McNemar's test; it is not reached with one pair
+// less. (Exact power rises and falls with n: some smaller number may reach it as well.) The rates
+// must differ.
 std::int64_t TrialsForMcNemar(const RatePair& discordant, double alpha, double power);
 
 // Returns the power of TOST on means if the true difference is 0 and standard_error that of the

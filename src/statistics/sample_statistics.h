@@ -1,4 +1,5 @@
 // One sample: moments, quantiles, distribution function, modes, and the interval of its mean.
+// Summaries, comparisons and checks describe columns and metrics by it.
 #pragma once
 
 #include <cstdint>
@@ -71,13 +72,12 @@ std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence = 
                             BandMethod method = BandMethod::kSimultaneous,
                             std::optional<double> independent = {});
 
-// Estimates of the mode of a sample. Matthies 1995 quotes modes without saying how they were found;
-// the half-sample mode is the one that the comparison uses, the others are shown beside it.
-
 // Returns the half-sample mode (Robertson and Cryer 1974; Bickel and Fruehwirth 2006): it takes the
 // shortest interval that holds half of the points, again and again, until three or fewer are left.
-// It needs no bin and no bandwidth. `sorted` is ascending and finite; the mode is NaN when it is
-// empty. Of equally short halves the lowest is taken. Cost: linear.
+// It needs no bin and no bandwidth. Matthies 1995 quotes modes without saying how they were found;
+// the comparison with published values uses this one and shows HistogramMode and KernelMode beside
+// it. `sorted` is ascending and finite; the mode is NaN when it is empty. Of equally short halves
+// the lowest is taken. Cost: linear.
 double HalfSampleMode(std::span<const double> sorted);
 
 // Returns how far the half-sample mode of the law may lie from that of the sample, by subsampling
@@ -98,14 +98,13 @@ double HistogramMode(std::span<const double> sorted);
 // maximum and refined by a parabola. Cost: 256 n.
 double KernelMode(std::span<const double> sorted);
 
-// The interval of a mean of skewed values, and when there is none.
-
 // No interval of a mean holds for every law (Bahadur and Savage 1956): values that a sample happens
-// to miss may be as large as they like. These are the fewest for which the intervals below held the
-// true mean in at least 93 % of samples of the project's own trials (results/studies/coverage.md).
+// to miss may be as large as they like. kFewestForMean values, kFewestApart of them apart, are the
+// fewest for which EstimateMean's intervals held the true mean in at least 93 % of samples of the
+// project's own trials (results/studies/coverage.md).
 inline constexpr std::int64_t kFewestForMean = 30;
 inline constexpr std::int64_t kFewestApart = 10;  // values that differ from the commonest one
-inline constexpr std::int64_t kNeverForMean = 0;
+inline constexpr std::int64_t kNeverForMean = 0;  // no number is enough
 
 // Why a mean has no interval.
 enum class MeanLack {
@@ -121,8 +120,8 @@ struct MeanEstimate {
   MeanLack lack = MeanLack::kNone;
   std::int64_t needs = 0;  // of values, or values apart, of which there are too few
   double usual = 0.0;      // the commonest value, of equally common ones the lowest; NaN of nothing
-  // The values that differ from it, with the exact interval of their share, which holds for any
-  // law.
+  // The values that differ from `usual`, with the exact interval of their share, which holds for
+  // any law.
   Proportion apart{};
 };
 
@@ -132,7 +131,7 @@ struct MeanEstimate {
 // skewed values nearly always on the side of the long tail, Hall's somewhat on the other; the
 // further of both misses on neither. The skewness of a sample is smaller than that of its law, more
 // so the longer the tail: it is taken twice as large, which the study of coverage chose. Where the
-// skewness is small for the number of values both are one. Cost: linear.
+// skewness is small for the number of values both ends are one. Cost: linear.
 //
 // With fewer values than `fewest` (kNeverForMean: with any number), or fewer than kFewestApart that
 // differ from the commonest one, there is no interval: of rare events the share of `apart` says
@@ -146,7 +145,7 @@ Interval SkewedMeanInterval(std::span<const double> values, double confidence = 
 
 // Returns the interval of the mean of the second less that of the first, independent, from the
 // intervals of both: distances of the ends from the means, added in squares (Zou and Donner 2008,
-// Statistics in Medicine 27, pp. 1693-1702). Unknown where either is.
+// Statistics in Medicine 27, pp. 1693-1702). NaN where either interval is NaN.
 Interval MeanDifferenceInterval(double first, const Interval& of_first, double second,
                                 const Interval& of_second);
 
