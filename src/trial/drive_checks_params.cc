@@ -285,6 +285,14 @@ void RequireListener(const DriveParams& drive, core::FieldVisitor& v) {
 
 }  // namespace
 
+void RequireTwoEyes(const DriveParams& drive, core::FieldVisitor& v) {
+  v.Require("sensors.visual_odometry.fidelity",
+            drive.sensors.visual_odometry.fidelity != sensing::VisualFidelity::kImage ||
+                drive.sensors.stereo.fidelity != sensing::StereoFidelity::kIdeal,
+            "is image where sensors.stereo.fidelity is ideal, whose two eyes stand in one place",
+            "use sensors.stereo.fidelity error_model or image");
+}
+
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   drive.sensors.terrain_sensors.chosen().RequireDrive(drive, v);
   RequireOwnSize(drive, v);
@@ -297,6 +305,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   RequireSoundRouteMap(drive, v);
   RequireTargetBetweenLines(drive, v);
   RequireListener(drive, v);
+  if (drive.sensors.visual_odometry.enabled) RequireTwoEyes(drive, v);
   RequireOverlap(drive, v);
   RequireFeasibleCurves(drive, v);
   RequireSlipReaction(drive, v);

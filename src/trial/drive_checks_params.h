@@ -45,9 +45,14 @@ inline constexpr double kSame_m = 1e-9;
 // - GESTALT takes its vehicle for at most twice and at least half as long and wide as it is;
 // - a stuck rover that runs on has batteries that can be empty;
 // - aids, visual odometry and the check of slip have somebody who listens and answers;
+// - visual odometry by images has two eyes that stand apart;
 // - a navigator that looks or steers on the move has the sensor, overlap and steering rate for it;
 // - a rock at the goal can be found by what the navigator reads.
 // Each failure names the parameter, what is wrong and a remedy.
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v);
+
+// Refuses images for visual odometry of a pair without a baseline. Drives that use them and the
+// study of visual odometry require it.
+void RequireTwoEyes(const DriveParams& drive, core::FieldVisitor& v);
 
 }  // namespace rockyard::trial

@@ -285,6 +285,15 @@ TEST_F(ImageAidTest, FindsTheMotionThatWheelsAndGyroPredict) {
               math::DegToRad(0.5));
 }
 
+TEST(VisualParams, ImagesOfTwoEyesInOnePlaceAreRefused) {
+  const Overrides images{"sensors.visual_odometry.fidelity=image"};
+  const Overrides ideal{"sensors.stereo.fidelity=ideal"};
+  EXPECT_NO_THROW(Seeing(images));
+  EXPECT_NO_THROW(Seeing(ideal));
+  EXPECT_THAT(core::RefusalOf([&] { Seeing(images + ideal); }),
+              HasSubstr("sensors.visual_odometry.fidelity"));
+}
+
 // Windows that are compared as they are find no such turn.
 TEST_F(ImageAidTest, FindsNoneWhereTheyPredictAnother) {
   EXPECT_EQ(MotionsWhereItBelieves(0.0, kTurn_rad), 0U);

@@ -1,5 +1,7 @@
 #include "experiments/visual_motion/visual_motion_study_params.h"
 
+#include "trial/drive_checks_params.h"
+
 namespace rockyard::experiments {
 
 using core::Assumed;
@@ -54,6 +56,7 @@ void RequireVisualMotion(const VisualMotionStudyParams& /*study*/, const trial::
             "or roughness_rms_m is not 0, or there are ditches or pits, where the experiment puts "
             "the rover on level ground",
             "leave the ground flat");
+  trial::RequireTwoEyes(drive, v);
 }
 
 }  // namespace rockyard::experiments
