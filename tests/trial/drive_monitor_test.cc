@@ -133,9 +133,9 @@ class DriveObserverTest : public testing::Test {
   truth::DriveRecord Report() const { return observer_.Report(false, {}, referee_); }
 
   const DriveParams drive_ = Pathfinder("nominal", kRockAhead);
-  World world_{drive_, {1, 0}, {}};
+  World world_{drive_, {1, 0}};
   const std::vector<messages::Goal> told_ = drive_.course.Goals();
-  Onboard onboard_{drive_, told_,
+  Onboard onboard_{drive_, world_.key(), told_,
                    drive_.navigation.navigators.chosen().Make({.goal = told_.front()}),
                    world_.ramp_s()};
   Ledger ledger_{MakePowerBudget(drive_), drive_.energy.battery_wh};

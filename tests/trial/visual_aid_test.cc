@@ -160,7 +160,7 @@ TEST_F(VisualAidTest, KeepsTheMomentOfTheKeyframeAndForgetsTheOthers) {
 TEST_F(VisualAidTest, BeginsAnewWhereTheRoverWasMoved) {
   Look(At(0.0, 0.0), 0.0, 0.0);
   Look(At(0.7, 0.0), 1.0, 5.0);
-  eyes_->Renew();
+  eyes_.Renew();
   aid_.OnPlaced();
   EXPECT_FALSE(aid_.Tick(6.0, listener_));
   EXPECT_TRUE(aid_.IsDue(listener_.believed, 6.0));
@@ -204,7 +204,7 @@ TEST_F(SlippingAidTest, CountsTheWayOfAnAlarmOnce) {
   const auto drive = [this](bool anew) {
     SlipAt(0.0, 0.0, 0.0);
     EXPECT_TRUE(SlipAt(0.1, 0.4, 1.0)->seen.exceeded);
-    if (anew) eyes_->Renew();
+    if (anew) eyes_.Renew();
     if (anew) aid_.BeginAnew(listener_);
     EXPECT_EQ(aid_.IsDue(listener_.believed, 1.0), anew);
     EXPECT_FALSE(anew && SlipAt(0.1, 0.4, 2.0));
