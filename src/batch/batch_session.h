@@ -55,7 +55,7 @@ struct PilotCost {
 
 // Runs trials 0 .. trials-1 on this thread and keeps nothing of them but their cost and their hash.
 // The costs are measured times, which differ from run to run. A trial that throws ends there, as a
-// simulator fault (RunTrial).
+// simulator fault, but for failures of the machine, which go on to the caller (RunTrial).
 PilotCost RunPilots(const experiments::Experiment& experiment, std::uint64_t seed, int trials);
 
 }  // namespace rockyard::batch

@@ -29,13 +29,13 @@ struct ReportInput {
 
 // Returns the inputs in run folders, sweep folders, and folders of such folders. `cell`: name or
 // number of the cell that is taken of every one of them; "" for all cells. Throws core::UserError
-// with everything that is wrong: no run, a damaged one, a shard, no such cell, one folder named
-// twice.
+// with what is wrong first in each of the paths: no run, a damaged one, a shard, no such cell, one
+// folder named twice.
 std::vector<ReportInput> FindReportInputs(const std::vector<std::string>& paths,
                                           const std::string& cell);
 
-// Returns a label for each list of candidates, which go from short to long: the shortest that no
-// other list shares; where every one is shared, the last with a number.
+// Returns a label for each list of candidates, which go from short to long: the first that tells it
+// from all other labels; where none does, the last with a number.
 std::vector<std::string> UniqueLabels(const std::vector<std::vector<std::string>>& candidates);
 
 // Returns the scenario of a run; nothing where it is of another version of the program.
@@ -55,8 +55,8 @@ std::vector<std::uint64_t> ExamplesOf(const StoredRun& run);
 // Returns the command that writes a replay of any trial, with {trial} for the number.
 std::string ReplayCommand(const StoredRun& run);
 
-// Returns the sweep that a store was made of. Throws core::UserError where this program reads it
-// differently.
+// Returns the sweep that a store was made of. Throws core::UserError where this program cannot
+// read it, or finds another number of cells in it.
 scenario::Sweep SweepOf(const batch::ResultStore& store, const std::filesystem::path& folder);
 
 }  // namespace rockyard::campaign

@@ -62,7 +62,7 @@ struct MergeRequest {
 };
 
 struct MergeObserver : Observer {
-  // Called when the files of the new folder are written.
+  // Called once the files of the merged folder have been written.
   std::function<void(const FolderReport& report)> reported = {};
 };
 

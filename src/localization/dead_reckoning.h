@@ -107,7 +107,8 @@ class DeadReckoningEstimator final : public Estimator {
   const messages::LocalizationEstimate& estimate() const override { return estimate_; }
 
  private:
-  // Takes over the pose into both frames of the estimate, which are one as nothing corrects it.
+  // Takes over the pose as estimate_.pose and as estimate_.odometry: they are equal, as nothing
+  // corrects the pose.
   void TakePose();
 
   DeadReckoning dead_reckoning_;

@@ -1,5 +1,5 @@
-// Integrals of smooth functions: audits of rock fields and blind swaths expect numbers by them. No
-// rock is drawn by them.
+// Integrals of smooth functions: numbers of rocks that are expected in a corridor and on a blind
+// swath are found by them. No rock is drawn by them.
 #pragma once
 
 namespace rockyard::math {

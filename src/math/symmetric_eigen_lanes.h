@@ -136,11 +136,12 @@ SymmetricEigenLanes<Number> NormalizedEigen(const SymmetricMatrix<Number>& m) {
 }  // namespace internal
 
 // Returns the eigenvalues, each to about 4e-15 of the largest magnitude among the elements, and the
-// axis of the smallest. Elements must be finite and below 1e300; matrices below 1e-300 count as
-// zero. Where the smallest eigenvalue is not simple the axis is one of many: z for a multiple of
-// the identity. With kValues the axis is undefined. Swapping x and y swaps the result bit for bit,
-// except where two directions are equally good. Cost: about 150 flops and three roots a matrix,
-// about 200 flops and five roots where the largest eigenvalue is the one apart.
+// axis of the smallest. Magnitudes of elements must be below 1e300; where all are below
+// 1e-300 the matrix counts as zero. Where the smallest eigenvalue is not simple the axis is one of
+// many: z for a multiple of the identity. With kValues the axis is undefined. Swapping x and y
+// swaps the result bit for bit, except where two directions are equally good. Cost: about 150 flops
+// and three roots a matrix, about 200 flops and five roots where the largest eigenvalue is the one
+// apart.
 template <EigenParts kParts = EigenParts::kValuesAndAxis, typename Number>
 SymmetricEigenLanes<Number> EigenOf(const SymmetricMatrix<Number>& m) {
   const Number scale =

@@ -1,7 +1,9 @@
 /// @file
 /// What the rest of a trial has to know of a navigator beside its decisions. Conditions on
-/// scenarios, the time that a decision takes and the use of a look depend on these traits and on no
-/// navigator's name, so that a navigator that a program adds works in the same way.
+/// scenarios (trial/drive_checks_params.h), the time that a decision takes (trial/clock) and the
+/// use of a look (trial/sight) depend on these traits and on no navigator's name, so that a
+/// navigator that a program adds works in the same way; only messages name navigators that would
+/// help.
 #pragma once
 
 #include <cstddef>

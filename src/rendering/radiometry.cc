@@ -28,7 +28,8 @@ SunLight MakeSunLight(const SunParams& sun, double filter_width_m) {
   // distance.
   const double above_w_m2 =
       sun.irradiance_w_m2_nm * filter_width_m * kNanometres / (sun.distance_au * sun.distance_au);
-  // Beer-Lambert over the air mass 1 / sin h, good to some degrees above the horizon.
+  // Beer-Lambert over the air mass 1 / sin h, good down to a sun some degrees above
+  // the horizon.
   light.direct_w_m2 = above_w_m2 * std::exp(-sun.optical_depth / sine);
   light.sky_w_m2 = sun.diffuse_share * (above_w_m2 - light.direct_w_m2) * sine;
   return light;

@@ -164,8 +164,8 @@ void RowRenderer::LightPoints(const ViewRow& view, Job& job) {
   }
 }
 
-// Renders a pixel in which a surface ends as kParts smaller ones, each with rays, shadows and lamps
-// of its own.
+// Renders a pixel that holds the edge of a surface: as kParts smaller pixels, each with rays,
+// shadows and lamps of its own.
 void RowRenderer::SplitPixel(const Job& job, const ViewRow& view, std::span<const int> seen,
                              int pixel, RenderedRow& row) const {
   const auto edge = static_cast<std::size_t>(pixel);

@@ -34,7 +34,8 @@ std::vector<SoilAnswer> MakeNodes(const WheelSoil& soil, double max_N, double du
   std::vector<SoilAnswer> nodes;
   nodes.reserve(kIntervals + 1);
   for (int i = 0; i <= kIntervals; ++i) {
-    // The first node stands a little above zero, where the stiffness can be infinite.
+    // Stiffness can be infinite at load zero: that of the first node is taken at a load a little
+    // above it.
     const double root = std::max(i, 1) / static_cast<double>(kIntervals);
     const double load_N = root * root * max_N;
     const Rut rut = soil.RutUnder(load_N, dug_slip);

@@ -180,7 +180,7 @@ void VisitErrors(LightStripeParams& p, core::FieldVisitor& v) {
                    "level only)",
                    kMatthiesSection6, {0.0, 1.0}));
   v.Choice("wrong_place", p.wrong_place,
-           Assumed("where such a point appears (geometric level only)",
+           Assumed("where a point appears that is found in a wrong place (geometric level only)",
                    "a wrong peak is found where a peak is looked for"));
   v.Real("missed_probability", p.missed_probability,
          Assumed("chance that a visible point is not detected (geometric level only)",

@@ -1,6 +1,6 @@
 // The stereo cameras at the rover's front and rear down to digital images of a true scene. Drives
-// with stereo or visual odometry at the image fidelity take their images here, and the commands
-// that render pairs and sequences.
+// with stereo or visual odometry at the image fidelity and studies of these sensors take their
+// images here (trial/eyes/rover_cameras.h), and the commands that render pairs and sequences.
 //
 // Image formation, in the order in which a look runs through it (equations beside the code):
 //   scene      terrain, sun and shadows, the rover's own parts   rendering/picture/picture_scene.h
@@ -38,8 +38,8 @@ namespace rockyard::sensing {
 // A pair may have drifted since its calibration (images.drift): its right images are those of the
 // drifted camera. CalibratedRig, by which on-board code reads them, does not know of the drift.
 //
-// Limits: no lens distorts; wheels and arms stay where they are on level ground; both eyes expose
-// at once, for no time at all as far as motion goes.
+// Limits: no lens distorts; wheels stay where they are on level ground, arms are not seen; both
+// eyes expose at once, for no time at all as far as motion goes.
 class StereoImager {
  public:
   // The cameras of a trial: faults of pixels belong to (key, camera), drift to (key, pair). Making

@@ -28,8 +28,8 @@ void FeatureTrackerParams::Visit(core::FieldVisitor& v) {
               "stereo over a few metres, to a few centimetres a metre", {0.0, 0.5}, {0.005, 0.1}));
   v.Real("period_s", period_s,
          Assumed("simulated time from one measurement to the next",
-                 "one that always returns the feature's position (Goldberg 2002 sec. 4) is quicker "
-                 "than looks and moves",
+                 "a tracker that always returns the feature's position (Goldberg 2002 sec. 4) "
+                 "measures more often than the rover looks or moves",
                  {0.01, 3600.0}, {0.1, 30.0}));
 }
 

@@ -131,7 +131,7 @@ void GestaltMap::AddPoint(const math::Vector3& p_WP_W) {
 void GestaltMap::Add(const messages::PointCloud& cloud, const math::Transform& X_WR) {
   const double z_R = X_WR.translation().z();
   for (const math::Vector3& p_RP_R : cloud.points_R) {
-    // The believed pose takes points from R into the map's frame, the world as estimated.
+    // The believed pose takes points from R into the map's frame (map.h).
     const math::Vector3 p_WP_W = X_WR * p_RP_R;
     // Written so that coordinates that are not numbers fail. Heights are bounded so that the exact
     // sums of a cell cannot run over.

@@ -17,8 +17,9 @@
 
 namespace rockyard::navigation {
 
-// A grid with a fixed memory that wraps around the vehicle (Howard 2012, section 2). Frame: the
-// world as estimated on board; the map stays where it was put when the estimate jumps.
+// A grid with a fixed memory that wraps around the vehicle (Howard 2012, section 2). Frame:
+// that of the odometry (O of gestalt.h), which a correction of the estimate does not move, so that
+// the map stays where it was put; it is the world as estimated until the first correction.
 //
 // Deviations from the paper. The ten floats of a cell are whole numbers of micrometres here, so
 // that what a map holds does not depend on the order of its points, on the window or on the

@@ -285,7 +285,8 @@ bool SplineVoter::TurnedEnough(double turned_rad) const {
 double SplineVoter::Knot_m() const { return 0.5 * params_.splines.length_m; }
 
 const SplineVote* ChooseSpline(std::span<const SplineVote> votes, const GestaltParams& params) {
-  // Counts in whole steps of kEqual: "closer than kEqual" would be no order.
+  // Values are compared in whole steps of kEqual: to call two equal that lie closer than kEqual
+  // would be no order, as it is not transitive.
   const auto worth = [](const SplineVote& vote) {
     return std::make_tuple(vote.merged, -std::round(Steering(vote.spline) / kEqual),
                            -std::round(std::abs(vote.waypoint_error_rad) / kEqual));

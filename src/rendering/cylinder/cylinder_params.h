@@ -1,6 +1,6 @@
 // What stands before the lander's colour cameras: the cylinder of Matthies 1995, section 5, its
-// light, its surroundings, and the cameras themselves. The study of cylinder finders holds these
-// parameters.
+// light, its surroundings, and the cameras themselves. The parameters of the study of
+// cylinder finders contain these.
 //
 // Colours, light, response and surroundings are assumed, each with its range of studies: they were
 // written down before any finder was run on an image. Drives render none of these images. The

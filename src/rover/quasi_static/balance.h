@@ -36,7 +36,8 @@ enum class Freedom { kAll, kSettling };
 // Where a motor's stall force S is less than F_c . a_c, the rate omega of its wheel falls until
 // F_c . a_c = S; what S leaves of T_c acts across the wheel.
 //
-// D is 0.03 % of weight over speed: it says how fast a rover falls that nothing holds.
+// D is 0.03 % of the rover's weight over its full speed: it says how fast a rover falls that
+// nothing holds.
 class QuasiStaticBalance {
  public:
   // `soil` is under all wheels; the table of its answers is made here, up to the rover's weight.

@@ -31,7 +31,7 @@ struct Ring {
 constexpr std::array kRings{Ring{0.2, 12}, Ring{0.4, 12},  Ring{0.6, 24},
                             Ring{0.8, 24}, Ring{0.92, 24}, Ring{0.999, 72}};
 // Ends of rays are shortened by this, so that a point is not hidden by the surface that it lies on.
-// The sensors of the rover have a margin of their own (rendering/occlusion.h).
+// The sensors of the rover share another margin (rendering/occlusion.h).
 constexpr double kMargin_m = 0.002;
 
 // Returns the points of a rock that a camera might show: its top and rings of its surface, none

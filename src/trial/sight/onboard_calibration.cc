@@ -50,7 +50,8 @@ messages::StripeCalibration OnboardStripeCalibration(
   Misplace(errors.right_camera, calibration.cameras[1].X_RC);
   const std::size_t last = calibration.lasers.size() - 1;
   for (std::size_t stripe = 0; stripe <= last; ++stripe) {
-    // In a denser array a laser has the error of the published laser that stands nearest.
+    // A denser array has the published lasers and one midway between each two, which has the error
+    // of its neighbour on the right.
     const std::size_t published = (stripe * (messages::kStripes - 1) + last / 2) / last;
     const Eigen::Matrix3d turned =
         Eigen::AngleAxisd(errors.lasers.angle_rad[published], Vector3::UnitZ()).toRotationMatrix();

@@ -1,7 +1,7 @@
 // What the rover of a trial believes of its own geometry: the truth plus the errors of the scenario
-// (perception.calibration). Must stay: the one place where on-board geometry is made. Estimators,
-// wheel driver, detectors and readers of all sensors take it from here, studies without a drive
-// too.
+// (perception.calibration). Must stay: the one place where truth and these errors meet. Estimators,
+// wheel driver, detectors and readers of all sensors take the errors from here, studies without a
+// drive too. Stereo cameras without their errors are sensing::CalibratedRig and MakeStereoView.
 #pragma once
 
 #include <optional>

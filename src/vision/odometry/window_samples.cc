@@ -58,9 +58,10 @@ void SampleShifted(const std::uint8_t* first, std::size_t stride, float u, float
   }
 }
 
-// Samples with a change of view, where all places, and three pixels to their right, lie inside.
-// `middle` is the pixel that view.x and view.y are counted from. SampleAnywhere must give the same
-// bits.
+// Samples with a change of view, where all places, three pixels to their right and a row below lie
+// inside: a word of four pixels is read at each place, the first in its lowest bits (little
+// endian). `middle` is the pixel that view.x and view.y are counted from. SampleAnywhere must give
+// the same bits.
 void SampleMapped(const std::uint8_t* middle, std::int32_t stride, const WindowView& view,
                   float* wide) {
   const auto* const words = reinterpret_cast<const std::int32_t*>(middle);

@@ -68,8 +68,8 @@ HWY_INLINE hn::Vec<decltype(kProducts)> Weigh(hn::Vec<decltype(kWideSums)> first
   return hn::ShiftRight<kDogShift>(hn::Add(difference, hn::Set(kProducts, 1 << (kDogShift - 1))));
 }
 
-// Writes a row of values. The pixel at x comes from `first_side` columns of `first` and
-// `second_side` columns of `second`, both from x on. Both arrays and `row` have room for whole
+// Writes a row of values. Value x comes from entries x to x + first_side - 1 of `first`
+// and x to x + second_side - 1 of `second`. Both arrays and `row` have room for whole
 // vectors.
 void WeighRow(const std::uint16_t* first, int first_side, const std::uint16_t* second,
               int second_side, const DogWeights& weights, int limit, std::size_t width,
