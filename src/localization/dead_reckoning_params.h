@@ -40,9 +40,10 @@ struct AttitudeParams {
            core::Assumed("time constant of the low pass on the specific force; 0: none",
                          "longer than a jolt, shorter than the drive over half a wheel diameter",
                          {0.0, 100.0}, {0.0, 2.0}));
-    v.Choice("height", height,
-             core::Assumed("what the height above the start comes from",
-                           "odometry along the slope is what a rover without visual odometry has"));
+    v.Choice(
+        "height", height,
+        core::Assumed("what the height above the start comes from",
+                      "a rover without visual odometry has nothing but way and climb to add up"));
   }
 };
 

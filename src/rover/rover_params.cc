@@ -105,8 +105,9 @@ void RoverDriveParams::Visit(core::FieldVisitor& v) {
                  {0.0, 10.0}, {0.0, 0.2}));
   v.Real("stall_torque_Nm", stall_torque_Nm,
          Assumed("largest torque of a drive motor at the wheel",
-                 "enough to climb the published 1.5 wheel diameters by friction", {0.01, 1000.0},
-                 {2.0, 8.0}));
+                 "enough that friction, not the motor, limits a climb of the published 1.5 wheel "
+                 "diameters",
+                 {0.01, 1000.0}, {2.0, 8.0}));
   v.Angle("steer_rate_deg_s", steer_rate_rad_s,
           Assumed("rate of the steering motors", "a turn in place begins within a second",
                   {1.0, 1000.0}, {20.0, 90.0}));

@@ -92,7 +92,7 @@ void FromLanes(const std::int16_t* lanes_of_row, const LaneLayout& layout, std::
   }
 }
 
-// The best of right pixels, key and group, at one vector.
+// For each right pixel of one vector: the best match so far, as its key and group of disparities.
 struct RightBest {
   Pixels key;
   Pixels group;
