@@ -1,6 +1,7 @@
 /// @file
 /// What the command does with whole campaigns, for other programs: run, sweep, check, compare. Only
-/// programs that link rockyard use it. One trial again is campaign/replay.h.
+/// programs that link rockyard use it. One trial again is campaign/replay.h. Must stay, for
+/// programs that are written: names, order of members (which initializers follow), and defaults.
 #pragma once
 
 #include <cstdint>

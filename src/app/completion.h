@@ -51,6 +51,7 @@ std::vector<CommandOffer> Offers(const CLI::App& app);
 //   each value of an enumeration or a boolean
 //   scenarios, sweeps, rovers: names (scenario_names.h)
 //   runs: folders in results/runs
+// Must stay: the kinds, by which scripts of earlier programs ask, too.
 // Cost: 30 ms for the scenarios of the project.
 std::vector<std::string> LookUp(std::string_view asked);
 

@@ -1,5 +1,6 @@
 // Scenarios, sweeps and rovers by name. Every command that takes such a file takes its name too;
-// completion offers the names.
+// completion offers the names. Must stay: which file a word means, as scripts hold such words; no
+// record depends on how a file was found.
 #pragma once
 
 #include <filesystem>

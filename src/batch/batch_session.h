@@ -17,6 +17,9 @@ namespace rockyard::batch {
 
 // Holds the plan of a store, the thread that writes the store, and the source that hands out the
 // trials that are left. Make a session, run trials from source() in any way, then Close.
+//
+// Must stay: which trials run follows from store and rule alone (StoredPlan, supervisor.h), never
+// from threads, times or who finishes first, so that every session decides as the first did.
 class BatchSession {
  public:
   // Reads which trials are stored. `store` and `stop` must outlive the session.
@@ -25,8 +28,9 @@ class BatchSession {
 
   LocalWorkSource& source() { return source_; }
 
-  // Writes what remains and reports once more. Throws StoreError, with the number of finished
-  // trials that the store lacks, where the store cannot be written.
+  // Ends the writing thread, which has the store until then, writes what remains and reports once
+  // more. Throws StoreError, with the number of finished trials that the store lacks, where the
+  // store cannot be written. Without Close such an error is lost.
   BatchResult Close();
 
  private:
@@ -41,7 +45,7 @@ class BatchSession {
   WorkPlan plan_;
   std::int64_t finished_before_;
   LocalWorkSource source_;
-  RecordWriter writer_;  // after the source, which its thread reads
+  RecordWriter writer_;  // last: its thread, joined first, reads all members above
 };
 
 // What a trial costs. `trials` is 0 where no pilot was run.
@@ -50,7 +54,7 @@ struct PilotCost {
   double mean_s = 0.0;       // CPU time of a trial
   double variance_s2 = 0.0;  // unbiased; 0 below two trials
   double slowest_s = 0.0;
-  std::string hash;  // of the records
+  std::string hash;  // of the records; by it dry runs find cells that do not differ
 };
 
 // Runs trials 0 .. trials-1 on this thread and keeps nothing of them but their cost and their hash.

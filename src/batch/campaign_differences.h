@@ -1,5 +1,6 @@
 // Whether the trials of two campaigns belong together, and where two resolved scenarios differ. A
-// store that goes on or is merged asks it, and so do comparisons of runs, reports and baselines.
+// store that goes on or is merged asks it, and so do comparisons of runs, reports and baselines. No
+// record depends on it, but one more difference refuses stores that went on before.
 #pragma once
 
 #include <string>

@@ -30,7 +30,8 @@ class RecordWriter {
   // `after_tick` is called by the writing thread after each interval, never by two threads at once.
   RecordWriter(ResultStore& store, std::chrono::milliseconds interval,
                std::function<void()> after_tick);
-  // Starts the thread. Call it once; without it, Close writes everything.
+  // Starts the thread. Call it once, when all that `after_tick` reads is there; without it, Close
+  // writes everything.
   void Start();
   // Writes what remains if it can, and swallows errors: call Close to know.
   ~RecordWriter();
@@ -143,7 +144,8 @@ struct CellWork {
 struct BatchOptions {
   int threads = 0;  // 0: as many as the machine runs at once
   Order order = Order::kNatural;
-  double max_fault_fraction = 0.01;  // of the finished trials, of all and of each cell
+  double max_fault_fraction = 0.01;  // of the finished trials, of all and of each cell; above it
+                                     // the exit code is 3
   // The time between two commits and between two reports; with the time of a commit below one
   // second. WatchdogOptions::grace must be longer.
   std::chrono::milliseconds interval{500};

@@ -1,3 +1,6 @@
+// The communicator over MPI, what stands for it in a build without MPI, and FindLaunch (declared in
+// communicator.h). No record depends on it.
+
 #include <algorithm>
 #include <array>
 #include <charconv>

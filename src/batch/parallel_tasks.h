@@ -1,4 +1,5 @@
 // Independent pieces of work on several threads: traces, and the replays and tracks of a report.
+// Trials of a campaign do not run by it, and no record depends on it.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,7 @@
 // The folder of one run: who may work in it, and what lies in it. Whoever opens a campaign claims
 // its folder here, and commands that take folders of runs find them here. Folders that other
-// commands fill (campaign/output_folder.h) are claimed alike.
+// commands fill (campaign/output_folder.h) are claimed alike. Must stay: the name kStoreFile, by
+// which every command knows a run; no record depends on anything here.
 #pragma once
 
 #include <filesystem>

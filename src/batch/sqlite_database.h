@@ -45,7 +45,8 @@ class StoreError : public core::UserError {
   StoreProblem problem_;
 };
 
-// Returns whether the machine failed, not the request: then the same command may succeed later.
+// Returns whether the machine failed, not the request: then the same command may succeed later, and
+// the exit code is 5 in place of 2 (campaign::Guarded).
 bool IsOfTheMachine(StoreProblem problem);
 
 // Returns what an errno means for a file or folder that is to be made, opened or written.

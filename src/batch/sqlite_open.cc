@@ -1,3 +1,7 @@
+// How a store is opened to be read, and the connections of SqliteDatabase (declared in
+// sqlite_database.h). No record depends on it. Must stay: whoever reads a store leaves no file
+// there and needs no right to write.
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sqlite3.h>

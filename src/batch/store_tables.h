@@ -1,6 +1,7 @@
 // The tables of a result store: how they are made, written and read. result_store.cc alone uses it.
-// Functions that read throw StoreError kDamaged where they meet what no version of this program
-// writes.
+// Must stay: tables, columns and keys of `meta` (result_store.h), and the order of columns, in
+// which the checksum of a row takes them. Functions that read throw StoreError kDamaged where they
+// meet what no version of this program writes.
 #pragma once
 
 #include <charconv>

@@ -205,7 +205,7 @@ class HeededWork {
  private:
   std::mutex mutex_;
   MachineFailed machine_failed_;
-  std::deque<StoppedExperiment> stopped_;
+  std::deque<StoppedExperiment> stopped_;  // deques: logged_ and work_ point into them
   std::deque<batch::LoggedExperiment> logged_;
   std::vector<batch::CellWork> work_;
 };

@@ -1,4 +1,5 @@
-// Runs against published values or against a baseline. The command `check` and programs ask it.
+// Runs against published values or against a baseline. The command `check` and programs ask it. No
+// record depends on it; outcomes are exit codes. Its resampling has a seed of its own.
 #pragma once
 
 #include <filesystem>

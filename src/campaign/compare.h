@@ -1,4 +1,5 @@
-// Two runs, compared, for the command `compare` and for programs.
+// Two runs, compared, for the command `compare` and for programs. No record depends on it; the
+// outcome is an exit code.
 #pragma once
 
 #include <filesystem>

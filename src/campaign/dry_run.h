@@ -1,5 +1,5 @@
 // What a run or a sweep would do and cost, for --dry-run of the commands `run` and `sweep`. Costs
-// are known from a few trials, the pilots.
+// are known from a few trials, the pilots. No record or store depends on it: pilots are forgotten.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // What the folder of a campaign says once its trials have been run, and the files that say it.
-// Runs, sweeps and merges write it; their commands show it.
+// Runs, sweeps and merges write it; their commands show it. No record depends on it: all follows
+// from the store, and is written anew by every session.
 #pragma once
 
 #include <filesystem>

@@ -61,6 +61,7 @@ struct OpenedRun {
 };
 
 // Returns results/runs/<name>-seed<seed>, with '_' for what has no place in the name of a file.
+// Must stay: --resume without --out finds the run there.
 std::filesystem::path DefaultFolder(const std::string& name, std::int64_t seed);
 
 // Returns what the store of a plan says of itself. `schema`: of the experiment of every cell.

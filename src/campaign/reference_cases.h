@@ -41,7 +41,8 @@ struct BaselineScenario {
   bool same_fields = true;  // those that decide rocks, start and goal are the same
 };
 
-// Compares two resolved scenarios, both JSON texts. Throws core::UserError where one is none.
+// Compares two resolved scenarios, both JSON texts. By it `check` takes a run for the
+// baseline's case or refuses it. Throws core::UserError where one is none.
 BaselineScenario CompareWithBaseline(const std::string& baseline, const std::string& run);
 
 // Returns a problem of `label` where course.trials_per_layout is above 1: trials that share rocks

@@ -1,5 +1,5 @@
 // The 3-D replay of one trial as a page for a browser, and its plan view. `rockyard replay` writes
-// one; reports write one of each trial that they choose.
+// one; reports write one of each trial that they choose. No record depends on it.
 #pragma once
 
 #include <cstdint>

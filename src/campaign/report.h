@@ -1,5 +1,5 @@
 // Writes a page for a browser: what runs and sweeps say, and replays of failures. The command
-// `report` calls it.
+// `report` calls it. No record depends on it: stores are only read.
 #pragma once
 
 #include <cstddef>

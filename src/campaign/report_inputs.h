@@ -1,5 +1,8 @@
 // What a report is about: the folders that were named, what each run goes by, and what is told of
-// it beside its trials. BuildReport asks it, the replays of a report too.
+// it beside its trials. BuildReport asks it, the replays of a report too. No record depends on it.
+// Readers of a page and of messages know a run by its label alone, so that no two may be equal;
+// wording is free. Must stay: members of PageCourse as web/report/payload.ts has them, and
+// "{trial}".
 #pragma once
 
 #include <cstdint>
@@ -34,8 +37,9 @@ struct ReportInput {
 std::vector<ReportInput> FindReportInputs(const std::vector<std::string>& paths,
                                           const std::string& cell);
 
-// Returns a label for each list of candidates, which go from short to long: the first that tells it
-// from all other labels; where none does, the last with a number.
+// Returns a label for each list of candidates, which go from short to long (a cell of a sweep goes
+// by its name first). Labels that are used twice grow, all of them, until none is or no longer name
+// is there; then all but the first get a number.
 std::vector<std::string> UniqueLabels(const std::vector<std::vector<std::string>>& candidates);
 
 // Returns the scenario of a run; nothing where it is of another version of the program.

@@ -40,6 +40,7 @@ void AddChosen(const StoredRun& run, std::span<const std::uint64_t> trials,
                std::vector<ChosenTrial>& chosen);
 
 // Returns the worst of several cells together: furthest from the goal first, at most `most`.
+// Equally far ones keep their order.
 std::vector<ChosenTrial> Worst(std::vector<ChosenTrial> trials, std::size_t most);
 
 struct ReportReplays {

@@ -1,6 +1,6 @@
 // Everything that can be shown of one scan, taken at the moment when it happens, and where a
 // decision of a map-based navigator was taken, for its drawing. `replay --scan` and `--step` draw
-// them; recordings of drives take the hazards of each scan.
+// them; recordings of drives take the hazards of each scan. No record depends on it.
 #pragma once
 
 #include <vector>

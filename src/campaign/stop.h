@@ -42,7 +42,7 @@ class StopWish {
  private:
   const Stop& stop_;
   std::atomic<bool> flag_ = false;
-  std::shared_ptr<void> watch_;
+  std::shared_ptr<void> watch_;  // last: released before flag_ goes, which it sets
 };
 
 }  // namespace rockyard::campaign

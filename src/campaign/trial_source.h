@@ -1,6 +1,6 @@
 // One trial to run again: of a scenario, or of a finished run whose record it must repeat; and
 // drives that are recorded. Replays, traces and the replays of reports find and drive their trials
-// here.
+// here. No record depends on what is recorded, or none would repeat the stored one.
 #pragma once
 
 #include <cstdint>

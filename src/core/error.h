@@ -45,7 +45,8 @@ class MachineError : public UserError {
 
 /// Returns whether `error` says that memory, files, processes or disk are short or broken: a
 /// MachineError, std::bad_alloc, or a std::system_error with such a code. A size that is no size
-/// (std::bad_array_new_length, std::length_error) is a defect of the program.
+/// (std::bad_array_new_length, std::length_error) is a defect of the program. Stores depend on it:
+/// a trial that fails so is left undone, any other failure is recorded as a simulator fault.
 bool IsMachineFailure(const std::exception& error);
 
 /// Throws for a file or folder that cannot be made, written or renamed: MachineError where the

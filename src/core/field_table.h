@@ -1,5 +1,7 @@
 // Lists the parameters of a struct with all that is known of them. JSON schemas, tables of
-// parameters, completion on command lines, sweeps and warnings on odd settings are made of it.
+// parameters, completion on command lines, sweeps and warnings on odd settings are made of it. No
+// fingerprint depends on it, but cells of sweeps do: an axis without a range takes the study range
+// (scenario/sweep_axes.cc), also when a stored sweep is merged.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 // Files of others, which are read whole; and files and folders of our own, which take their names
 // when they are whole. Readers of JSON, images, cameras and paths use the first, stores of results
-// and writers of output the others.
+// and writers of output the others. No record depends on these; the names of temporary files must
+// stay, as a later build removes by them what an earlier one has left.
 #pragma once
 
 #include <sys/types.h>

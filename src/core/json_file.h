@@ -1,5 +1,6 @@
 // JSON files that build on each other, and overrides from the command line. Scenarios, sweeps and
-// the parameter files of tools are read so.
+// the parameter files of tools are read so. What lies over what decides the values of a scenario;
+// fingerprints are of these values, never of the files that they came from.
 #pragma once
 
 #include <filesystem>

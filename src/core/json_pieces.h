@@ -1,6 +1,6 @@
 // JSON text written piece by piece, on one line, for pages of reports and replays: a page of ten
 // thousand trials holds a million numbers, for which a tree of JsonValue would be many times the
-// text.
+// text. Answers to --json hold such text, too; no record, store or fingerprint does.
 #pragma once
 
 #include <cstdint>

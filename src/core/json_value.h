@@ -1,4 +1,5 @@
-// A JSON value in memory, of which files are read and results and answers are written.
+// A JSON value in memory, of which files are read and results and answers are written. Fingerprints
+// and result files depend on the order of members: one that Set or Merge replaces keeps its place.
 #pragma once
 
 #include <concepts>

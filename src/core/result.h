@@ -42,7 +42,9 @@ class Result {
   std::vector<Problem> problems_;
 };
 
-// Returns what `action` returns, or the problems of the UserError that it throws.
+// Returns what `action` returns, or the problems of the UserError that it throws. That it was a
+// MachineError is lost: OrThrow then throws a UserError, which the command line turns into exit
+// code 2 instead of 5.
 template <typename Action>
 auto Attempt(Action&& action) -> Result<std::invoke_result_t<Action>> {
   try {

@@ -1,4 +1,5 @@
-// Where published values come from, in the words that parameters give as their source.
+// Where published values come from, in the words that parameters give as their source. Schemas,
+// tables and pages show them; no record and no fingerprint depends on one.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,7 @@
 // Points that fill the unit cube evenly: designs of sweeps, and the triples that the alignment of
-// stereo rows tries.
+// stereo rows tries. Must stay: draws and their order (of a dimension all slices of a Latin
+// hypercube, then the places in them). Stores keep a sweep as text, and `rockyard merge` makes its
+// cells anew.
 #pragma once
 
 #include <cstddef>

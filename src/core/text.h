@@ -1,5 +1,6 @@
 // Texts that people wrote: did you mean ...?, UTF-8, XML. Messages of readers and commands, result
-// files, drawings and pages use them.
+// files, drawings and pages use them. No record depends on them; Utf8Bytes also decides which files
+// of text are refused.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,6 @@
 // Units from names, for messages and tables of parameters, and degrees that read back exactly.
+// Fingerprints depend on the digits of ExactDegrees (field_archive.h); no record or fingerprint on
+// UnitOf.
 #pragma once
 
 #include <string>

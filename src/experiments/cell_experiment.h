@@ -12,8 +12,9 @@
 // visit(column, value) for every column in the order of the records, `column` being a
 // truth::ValueInfo. It is one list for the schema (ColumnsOf) and for the values (ValuesOf).
 //
-// Must stay: names and order of the columns, which are part of a stored run. Where one is renamed,
-// moved or added, the run cannot be resumed, and it has another hash.
+// Must stay: which cell a run belongs to, SceneKey's number, under which every scene draws, and
+// names and order of the columns, which are part of a stored run. Where one is renamed, moved or
+// added, the run cannot be resumed; where one is moved or added, it has another hash.
 #pragma once
 
 #include <cstddef>

@@ -24,7 +24,8 @@ terrain::Terrain SceneTerrainOf(const trial::DriveParams& drive, core::TrialKey 
 // Returns a pose of the rover on level ground, uniform over the part of the arena where courses may
 // go, with any heading, such that no rock of `hazard_height_m` or more reaches within half the
 // rover's length of its middle; lower rocks may lie under it. Pure function of its arguments; draws
-// from (key, kExperiment), substream 0, which its callers must leave to it. Throws
+// from (key, kExperiment), substream 0, which its callers must leave to it. Must stay: x, y and
+// heading are drawn for each try, in this order, as records depend on the place. Throws
 // std::runtime_error where 1000 draws find no such place.
 math::Transform RandomPlace(const trial::DriveParams& drive, const terrain::Terrain& terrain,
                             double hazard_height_m, core::TrialKey key);

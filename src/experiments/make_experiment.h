@@ -10,9 +10,9 @@
 
 namespace rockyard::experiments {
 
-// Makes the experiment that is chosen, on `drive`. `watchers` are shown what
-// runs see and decide, without any influence on the records; they must stand calls from several
-// threads where Run is called from several.
+// Makes the experiment that is chosen, on `drive`. `watchers` are shown what runs see and decide,
+// without any influence on the records; they must stand calls from several threads where Run is
+// called from several.
 inline std::unique_ptr<Experiment> MakeExperiment(const ExperimentSet& experiment,
                                                   const trial::DriveParams& drive,
                                                   const trial::Watchers& watchers = {}) {

@@ -1,3 +1,7 @@
+// The list of experiments (experiment_set_params.h). Must stay: names, and the order, in which
+// resolved scenarios have the groups of parameters; every fingerprint depends on it, and changes
+// where one with parameters is added. The first one is chosen by default.
+
 #include "experiments/cylinder_sighting/cylinder_sighting.h"
 #include "experiments/dead_reckoning/dead_reckoning.h"
 #include "experiments/designation/designation.h"

@@ -1,5 +1,6 @@
 // Files of real numbers: PFM, one a pixel; PLY, points; and known disparities, from PFM or from
 // images of whole numbers. Commands on pairs of images write and read them, replays write clouds.
+// No record depends on them: the formats must stay what other programs read.
 #pragma once
 
 #include <Eigen/Core>

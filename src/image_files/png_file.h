@@ -1,4 +1,5 @@
-// PNG files (libpng). Commands and replays write their pictures by it, ReadImage reads by it.
+// PNG files (libpng). Commands and replays write their pictures by it, ReadImage reads by it. No
+// record or store holds one: compression is free, pixels are exact.
 #pragma once
 
 #include <string>

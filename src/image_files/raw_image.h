@@ -1,6 +1,6 @@
 // What an image file holds before anything is made of it; how one that cannot be read is refused;
 // and its samples as 8 bits of grey, which stereo, calibration and visual odometry take. Every
-// reader of this folder makes a RawImage.
+// reader of this folder makes a RawImage. No record depends on it.
 #pragma once
 
 #include <cstddef>

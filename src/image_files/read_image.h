@@ -1,5 +1,7 @@
 // Image files of others: recognized by what they hold, not by their names. Every command that is
-// given images reads them here, so that limits and refusals are the same for all.
+// given images reads them here, so that limits and refusals are the same for all. No record depends
+// on them, as drives and studies make their own images; results of commands do, and which files
+// they refuse (UserError).
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // Fixes by aids of localization: what they say of the pose, and whether they are believed. The
 // error-state filter gates its measurements by Gate, and the aids of a drive make their fixes of
-// what was measured by PlaceFromBeacon and HeadingFromSun.
+// what was measured by PlaceFromBeacon and HeadingFromSun. Records depend on it where the estimator
+// takes fixes: on counts of fixes, and on all that a corrected pose decides.
 //
 // A measurement of m values with the residual r of covariance S is let in where r' S^-1 r is at
 // most the chi-squared quantile of 1 - chance with m degrees of freedom: a filter that knows its

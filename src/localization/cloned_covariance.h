@@ -13,6 +13,9 @@
 //
 // With n coordinates and c clones the matrix has n (1 + c) rows; a propagation costs O(n^3 (1 +
 // c)), an update of m values O((n (1 + c))^2 m).
+//
+// Records depend on its operations, their order included, where localization.estimator is
+// error_state; no others do.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,7 @@
 // Error-state extended Kalman filter: dead reckoning as flown carries the pose on, the filter keeps
 // account of the pose's error, and aids correct pose and sensors by what they tell of that error.
-// Of rockyard's own estimators it alone takes fixes.
+// Of rockyard's own estimators it alone takes fixes. Records depend on it, and on where stretches
+// end, only in scenarios with localization.estimator error_state.
 //
 // Believed are position, attitude, gyro bias and scale, and wheel scale; their errors
 // (error_state.h) grow as error_stretch.h says. The covariance is carried on every `stretch_m` of

@@ -1,5 +1,6 @@
 // How the error of dead reckoning grows over a stretch of some ticks: the error-state filter
-// gathers it tick by tick and hands it to its covariance at the end of the stretch.
+// gathers it tick by tick and hands it to its covariance at the end of the stretch. Records
+// depend on these sums only where that filter is the estimator.
 //
 // The believed increments are dr = dr_wheels (1 + w) and dh = (turn - b dt) / k, with gyro bias b,
 // gyro scale k and wheel scale 1 + w; the step is driven along a = h + share dh (share 1/2: middle

@@ -5,7 +5,8 @@
 //
 // where pose (+) motion goes by x and y along the heading and adds the turn. Roll, pitch and height
 // are those of accelerometers and wheels. It keeps no account of its error, weighs no measurement
-// against another, and takes no fixes.
+// against another, and takes no fixes. Records of scenarios that name another estimator do not
+// depend on it.
 #pragma once
 
 #include <map>

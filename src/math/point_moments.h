@@ -1,5 +1,6 @@
-// Sums over points from which planes are fitted: the ten moments of Goldberg 2002, section 4,
-// step 2. The cells of GESTALT's maps hold them.
+// Sums over points from which planes are fitted: the ten moments of Goldberg 2002, section 4, step
+// 2. The cells of GESTALT's maps hold them. Records of drives with such a map depend on the bits of
+// Spread and Merged, but not on the order in which points are added.
 #pragma once
 
 #include <array>

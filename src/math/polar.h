@@ -1,4 +1,5 @@
-// Covariances of places that are seen from a point: the lander's fixes of the rover.
+// Covariances of places that are seen from a point: the lander's fixes of the rover. Records of
+// drives with such fixes (sensing/aids.cc) depend on its bits, as estimators weigh fixes by it.
 #pragma once
 
 #include <Eigen/Geometry>

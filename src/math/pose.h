@@ -1,7 +1,8 @@
 /// @file
 /// Rigid transforms in monogram notation, for all modules: X_AB is the pose of frame B in frame A,
 /// so that p_A = X_AB * p_B. World W: x along the course, y left, z up. Rover R: x forward, y left,
-/// z up, origin on the ground under the chassis centre.
+/// z up, origin on the ground under the chassis centre. Must stay: axes, signs and the order of
+/// operations, as the bits of all records depend on them.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,12 +1,13 @@
-// Integrals of smooth functions: numbers of rocks that are expected in a corridor and on a blind
-// swath are found by them. No rock is drawn by them.
+// Integrals of smooth functions. Only terrain uses them, for tables of `rockyard terrain`: rocks in
+// a corridor (field.h, good to 1e-5) and the extent of ellipses (blind_swath.h, to 1e-10). No draw
+// and no record depends on them: while these accuracies hold, the rule is free.
 #pragma once
 
 namespace rockyard::math {
 
 // Returns the integral of f from low to high by Simpson's composite rule with 64 intervals:
-// h/3 (f_0 + 4 f_1 + 2 f_2 + ... + 4 f_63 + f_64). Its error is (high - low) h^4 / 180 times a
-// fourth derivative of f between low and high.
+// h/3 (f_0 + 4 f_1 + 2 f_2 + ... + 4 f_63 + f_64), h their width; their number must be even. Its
+// error is (high - low) h^4 / 180 times a fourth derivative of f somewhere between low and high.
 template <class Function>
 double Simpson(double low, double high, const Function& f) {
   constexpr int kIntervals = 64;

@@ -9,7 +9,8 @@
 // from north over east. The declination follows from the areocentric longitude Ls of the sun,
 // sin(delta) = sin(obliquity) sin(Ls), with an obliquity of 25.19 deg (Allison and McEwen 2000).
 // Limits: true solar time runs evenly, at 24 hours a sol; within a sol the season stands still, and
-// refraction (0.01 deg at most on Mars) is left out.
+// refraction (0.01 deg at most on Mars) is left out. Records of drives with aids that need the sun,
+// or with solar power, depend on its bits.
 #pragma once
 
 #include <cmath>

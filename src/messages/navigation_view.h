@@ -1,7 +1,9 @@
 /// @file
 /// What a map-based navigator shows of a decision: the diagnostic image of Goldberg 2002, figure 3,
 /// as data. Figures, replays and traces show it. Nothing on board decides by a NavigationView;
-/// GESTALT chooses among its own splines and votes in these structs.
+/// GESTALT chooses among its own splines and votes in these structs. Of a drive's record one column
+/// depends on whether a navigator has a view (height_error_m), none on what it shows; the study
+/// stereo_sensing judges the cells of its map.
 #pragma once
 
 #include <cstddef>

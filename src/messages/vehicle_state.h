@@ -51,8 +51,10 @@ struct VehicleState {
   std::optional<ContactSwitches> contact;
 };
 
-/// What the rover feels and has to get away from. kSlip comes from no sensor of VehicleState but
-/// from visual odometry: the wheels roll farther than the cameras see the rover move.
+/// What the rover feels and has to get away from. Records depend on the order: of hazards felt at
+/// once, navigators are told the first (perception/vehicle_hazards.h). kSlip comes from no sensor
+/// of VehicleState but from visual odometry: the wheels roll farther than the cameras see the rover
+/// move.
 enum class VehicleHazardKind { kContact, kTilt, kArticulation, kMotorCurrent, kSlip };
 /// How many kinds there are.
 inline constexpr std::size_t kVehicleHazardKindCount = 5;

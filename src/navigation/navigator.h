@@ -5,6 +5,9 @@
 ///
 /// Wrappers (waypoints, the reaction to being stuck) are navigators around another one: each of
 /// them must pass on what is added to the interface.
+///
+/// Records depend on every decision, to the last bit of a motion, and on the tick at which it is
+/// made.
 #pragma once
 
 #include <cstdint>
@@ -120,7 +123,7 @@ class Navigator {
   virtual void SetGoal(const messages::Goal& goal, GoalChange change) = 0;
 
   /// Returns what the last answered look led to, for traces and pages; null where a navigator keeps
-  /// no map, and before the first look.
+  /// no map, and before the first look. Drives record height_error_m only where it is not null.
   virtual const messages::NavigationView* view() const { return nullptr; }
 
   /// Returns what became of plans on the move so far.

@@ -4,6 +4,10 @@
 /// use of a look (trial/sight) depend on these traits and on no navigator's name, so that a
 /// navigator that a program adds works in the same way; only messages name navigators that would
 /// help.
+///
+/// Must stay: values that own navigators state. `reads` and `cost` change records; most of the rest
+/// decides which scenarios are refused (drive_checks_params.cc, drive_consistency_params.cc of
+/// trial). No fingerprint holds a trait. Programs state traits, too: a new one is optional.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +50,7 @@ struct GoalTolerance {
 struct StripeNames {
   std::string_view path;   ///< of a parameter that names some
   std::string_view names;  ///< "names with ...": begins the message on a wrong number
-  std::size_t count = 0;   ///< of names
+  std::size_t count = 0;   ///< of names: as many as the sensor's array has stripes
 };
 
 /// How large the navigator takes the rover for.

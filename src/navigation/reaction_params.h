@@ -1,6 +1,7 @@
 // Parameters of what a rover does that notices that it is stuck, or whose check of slip raises an
 // alarm. StuckReaction and the on-board side of a drive (trial/aids/slip_alarms.h) read them. The
-// defaults add no manoeuvre to those of the papers.
+// defaults add no manoeuvre to those of the papers. They decide records of scenarios that leave
+// them out; a bound only refuses files. Scenario files hold the names of the responses.
 #pragma once
 
 #include <array>

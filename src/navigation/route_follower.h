@@ -1,5 +1,6 @@
 // MotionFollower, from a motion command to the motion of each tick, for every navigator; and
-// RouteFollower, the navigator `route`, which drives along a route that it was given.
+// RouteFollower, the navigator `route`, which drives along a route that it was given. Every record
+// of a drive depends on the bits of MotionFollower; on RouteFollower those of `route` alone.
 #pragma once
 
 #include <cstddef>

@@ -7,6 +7,8 @@
 // Limits: backing off is blind, and by wheel odometry: wheels that spin back end it as well. A
 // touch at the end that leads ends it, where the rover has contact switches (as Touches of
 // gestalt/manoeuvre.h says).
+//
+// No record of a drive without the reaction depends on it, as such a drive does not make one.
 #pragma once
 
 #include <memory>

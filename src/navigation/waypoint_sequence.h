@@ -1,7 +1,8 @@
 // A navigator around any other one, which is driven from waypoint to waypoint: where it says that
 // it is at one, it is given the next. The last waypoint is the goal of the drive. Everything else
 // that the navigator says passes through. It is the outermost navigator of every drive, also of a
-// drive with a single goal. Draws no random numbers.
+// drive with a single goal. Draws no random numbers. Records depend on the tick at which a waypoint
+// is done with; in a drive with a single goal it changes nothing.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,7 @@
 // From motion commands to wheels: Ackermann steering of a six-wheel rover with four steered
-// corners. The on-board side of every drive turns its motions into wheel commands by it.
+// corners. The on-board side of every drive turns its motions into wheel commands by it. Records of
+// all drives depend on its set points to the last bit, and on the ticks at which the rover stands
+// to steer.
 #pragma once
 
 #include "messages/calibration.h"

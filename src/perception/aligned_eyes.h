@@ -1,5 +1,6 @@
 // The images of a camera pair as its calibration has them: reduced, with rows that are epipolar
-// lines. Stereo and visual odometry see through it, in drives and in recorded pairs.
+// lines. Stereo and visual odometry see through it, in drives and in recorded pairs. Records of
+// drives by images depend on its bits, and on images of aligned cameras not being resampled.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // Between range points and light stripes: what lets either navigator work with either sensor. The
-// readers of stereo and of light stripes use it.
+// readers of stereo and of light stripes use it. Records of drives depend on the bits of
+// elevations, but not on the order of points: each elevation is the height of one point.
 #pragma once
 
 #include "messages/estimates.h"

@@ -1,5 +1,6 @@
 // On-board stereo: from the images of a pair to points in R (Goldberg 2002 section 2). Drives at
 // the image fidelity of the stereo sensor see by it; what watches drives shows its disparities.
+// Records of those drives depend on its bits, and on which pixels are dropped.
 #pragma once
 
 #include <vector>

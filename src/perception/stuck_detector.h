@@ -1,7 +1,7 @@
 // Whether the rover gets on, from what its wheels are told and what it measures. The on-board side
-// of a drive asks every tick and reacts as navigation.on_board_stuck says. Wheel odometry cannot
-// tell: wheels that spin measure a drive. Two signs are looked for, each over window_s of commanded
-// motion:
+// of a drive asks every tick and reacts as navigation.on_board_stuck says; no other record depends
+// on it. Ticks at rest neither count nor end a window. Wheel odometry cannot tell: wheels that spin
+// measure a drive. Two signs are looked for, each over window_s of commanded motion:
 //
 //   no turn: the wheels were told to turn the rover by min_told_turn or more, and the gyro has
 //            measured less than min_turn_share of that, the way it was told;

@@ -1,5 +1,6 @@
 // Where a feature lies that the rover tracks, in the frame in which the rover believes its pose:
-// the on-board side of a drive moves its goal there with every sighting.
+// the on-board side of a drive moves its goal there with every sighting, and its record depends on
+// the bits.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,7 @@
 // Light stripe triangulation: from image columns of points to elevations and places. Drives,
 // studies of the sensor and replays turn scans into elevations here; stripe_finder.h works out by
-// it where a stripe is looked for.
+// it where a stripe is looked for. Records depend on the bits of both forms: elevations are judged
+// by Elevation, maps of stripes and pages take Point.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // On-board visual odometry: from the images of a pair to the motion of R. Drives whose visual
-// odometry has the image fidelity read their images by it.
+// odometry has the image fidelity read their images by it. Records of those drives depend on its
+// bits and draws (kRansac, by vision::VisualOdometer).
 #pragma once
 
 #include <optional>
@@ -34,7 +35,7 @@ class VisualOdometry {
   const vision::RectifiedPair& pair() const { return eyes_.pair(); }
 
  private:
-  AlignedEyes eyes_;
+  AlignedEyes eyes_;  // must come first: the odometer is made of it
   vision::VisualOdometer odometer_;
 };
 

@@ -1,6 +1,7 @@
 // From expected photoelectrons to the numbers that an imager delivers, with noise drawn by place in
 // the image: for stripe images and pictures of the terrain. PixelNoise serves more: textures, the
-// cylinder's images and the stereo error model draw from it.
+// cylinder's images and the stereo error model draw from it. Records of drives by images depend on
+// all bits of the read-out.
 #pragma once
 
 #include <array>

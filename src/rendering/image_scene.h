@@ -1,6 +1,6 @@
 // What a viewing ray meets, what shades it, and what a lamp reaches: for images line by line, which
 // the light stripe sensor takes. Pictures of the terrain have picture/picture_scene.h, with the
-// same SurfacePoint.
+// same SurfacePoint. Records of drives by such images depend on its bits.
 #pragma once
 
 #include <span>

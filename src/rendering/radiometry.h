@@ -1,6 +1,7 @@
 // From light to electrons: the sun in the passband, the camera equation, and the exposure time.
 // Stripe images and pictures of the terrain share all of them, colour images of the cylinder the
-// sun.
+// sun. Records of drives by images depend on the bits of all; of error models only the shade of
+// stereo does, on toward_sun_W (sensing/sun_shade.h).
 #pragma once
 
 #include <vector>

@@ -1,5 +1,7 @@
-// The rover's own parts as its cameras see them: what hides a view or casts a shadow. Images,
-// masks of images and the sun's shade ask it; sensing/rover_parts.h makes the one of a rover.
+// The rover's own parts as its cameras see them: what hides a view or casts a shadow. Images, masks
+// of images and the sun's shade ask it; sensing/rover_parts.h makes the one of a rover. Records of
+// drives by images depend on its bits, and those of the stereo error model where shade drops
+// points.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,7 @@
 // One image line as a camera sees it: what does not depend on the scene, and the light on it. The
-// light stripe sensor renders its images by it, with its lasers as lamps.
+// light stripe sensor renders its images by it, with its lasers as lamps. Records of drives by its
+// images depend on kParts, on the order of sums and on all other bits, but not on segments, which
+// only sift rocks.
 #pragma once
 
 #include <span>

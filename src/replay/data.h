@@ -1,8 +1,8 @@
 // All that is known of one recorded drive, and its JSON text for the replay page. `campaign` fills
 // it; the command `replay` and pages of reports write it, and trace files (trace_npz.h) hold parts
-// of it. SI units; W is the world, R the rover. A moment is the rover at one time of its motion; a
-// scan is what the light stripe takes, a step one decision of a map-based navigator, a look what
-// stereo cameras take.
+// of it. No record, hash or store depends on it, but pages and traces do. SI units; W is the world,
+// R the rover. A moment is the rover at one time of its motion; a scan is what the light stripe
+// takes, a step one decision of a map-based navigator, a look what stereo cameras take.
 #pragma once
 
 #include <cstddef>

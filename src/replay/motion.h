@@ -1,5 +1,6 @@
 // Which moments of a drive the page of a replay needs (ReplayJson). Trace files (trace_npz.h) keep
-// all of them.
+// all of them. No record depends on it: another choice is as good where it keeps what
+// ThinMotion promises.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Files that are there whole or not at all. Every command and campaign writes its result files by
-// it.
+// it. No record depends on it.
 #pragma once
 
 #include <filesystem>

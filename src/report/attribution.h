@@ -1,6 +1,6 @@
 // How much of a sweep's failures each of its ablations accounts for: a sweep whose axes are
 // ablations is a factorial experiment. The table, summary.json and attribution.csv of such sweeps
-// tell it.
+// tell it. No exit code depends on it; programs of others read the columns of the CSV.
 #pragma once
 
 #include <array>

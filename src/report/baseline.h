@@ -1,7 +1,7 @@
 // Baselines: what a campaign gave, kept in the repository so that later builds can be held against
 // it. `rockyard baseline` writes them, `rockyard check` reads them. Must stay, as later builds read
 // what earlier ones wrote: letters of outcomes and names of metrics. A new outcome gets a letter of
-// its own.
+// its own. Values are rounded when they are written, as the check rounds those of the run.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Published values from a JSON file, for `rockyard check` and the report page.
+// Published values from a JSON file, for `rockyard check` and the report page. Files in
+// results/reference must stay readable: their members are in reference_fields.h.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // The comparison with published values as text, CSV and JUnit, for `rockyard check`; and how its
 // numbers are written, in JSON and on the report page too. All that follows ComparisonJUnit is for
-// comparison_table.cc, page_sweep.cc and result_json.cc only.
+// comparison_table.cc, page_sweep.cc and result_json.cc only. Verdicts come from statistics, and
+// none of these texts decides an exit code.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // One decision of a map-based navigator as picture and data, in the manner of the diagnostic image
-// of Goldberg 2002, figure 3. `rockyard replay` writes and tells it.
+// of Goldberg 2002, figure 3. `rockyard replay` writes and tells it. No record depends on it: the
+// drawing may change, columns of its CSV are for programs of others.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 // Two runs against each other: trial by trial where they share the seed, as two samples otherwise.
 // `rockyard compare` and the report page show it, and sweeps compare their cells by it. Two
-// measurements, cell by cell, as text and CSV.
+// measurements, cell by cell, as text and CSV. Differences of drives describe and decide no exit
+// code (`compare` gives 0); those of cells are judged in statistics/cell_summary.h.
 #pragma once
 
 #include <cstdint>

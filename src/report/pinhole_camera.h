@@ -1,6 +1,6 @@
 // What a pinhole camera sees of points, surfaces and convex bodies; the map of a navigator as a
 // surface, as its rover believes to stand before it. For drawings of decisions and looks alone:
-// what a rover sees comes from other cameras (vision/cameras).
+// what a rover sees comes from other cameras (vision/cameras). No record depends on it.
 #pragma once
 
 #include <array>

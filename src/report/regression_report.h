@@ -1,6 +1,7 @@
 // What a check against a baseline found (`rockyard check`), for people and for programs. All that
 // follows RegressionJUnit says how its numbers are written and is for regression_report.cc and
-// result_json.cc only.
+// result_json.cc only. FindingOfRecords and BrokenDeterminism also decide exit codes
+// (campaign/check.cc); all else is free wording but for names and columns.
 #pragma once
 
 #include <cstdint>

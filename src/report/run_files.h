@@ -1,6 +1,7 @@
 // The files of a run folder that are derived from its store, which campaigns write when they end;
 // the records of a run as tables, for the report page too. Must agree: every file written here
 // stands in kDerivedFiles of campaign/open_run.cc, by which --force sets the files of a run aside.
+// No store depends on them; scripts of studies read columns of trials.csv by name.
 #pragma once
 
 #include <array>

@@ -1,7 +1,9 @@
 // One scan of the light stripe sensor, as far as it can be shown: its elevation array as a drawing
 // seen from above, as text and as CSV; its images, for people. `rockyard replay` writes and tells
 // it. A point of the array is where one stripe (the light plane of a laser) and one row meet; the
-// row is one scanline of the image, on which the point is looked for in a range of columns.
+// row is one scanline of the image, on which the point is looked for in a range of columns. No
+// record depends on it: drawing and text may change, the columns of the CSV are for programs of
+// others.
 #pragma once
 
 #include <span>

@@ -1,6 +1,7 @@
 // Where a decision of a map-based navigator was taken: course and rocks as they truly are, the
 // paths so far, and the camera that looks ahead; and panels that draw them, for
-// navigation_drawing.h. W is the world, R the rover; m.
+// navigation_drawing.h. W is the world, R the rover; m. No record depends on what is drawn, which
+// may change.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // A run in numbers, for people: what the terminal shows when a campaign ends. The cells of a
-// measurement also as CSV and as curves.
+// measurement also as CSV and as curves. Wording and layout are free; columns of cells.csv are for
+// programs of others.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // A sweep for people and for programs: the files that its campaign writes when it ends, and its
-// table on the terminal.
+// table on the terminal. No store depends on them: a merge makes them anew.
 #pragma once
 
 #include <filesystem>

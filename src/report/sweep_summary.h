@@ -1,4 +1,5 @@
-// What the cells of a sweep say, in numbers, for its files, its table and the report page.
+// What the cells of a sweep say, in numbers, for its files, its table and the report page. None of
+// them decides an exit code, and no record depends on one.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // The course of one trial: to read, as a table, drawn on a plan of its terrain, and as paths; and
 // in what way two records differ. `rockyard trace`, traces of campaigns, replays and the report
-// page take it from here.
+// page take it from here. RecordDifferences must compare bits: a drive that does not repeat its
+// stored record gets no trace (campaign_traces.cc).
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Reports in JUnit's form, for checks; elements of SVG drawings, whose lengths are in px, x to the
 // right and y down, for the drawings of trials, sweeps and measurements; and colours of maps and of
-// curves.
+// curves. No record depends on them; pictures of looks, stereo and odometry take RampColour.
 #pragma once
 
 #include <array>

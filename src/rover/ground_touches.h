@@ -1,5 +1,6 @@
 // Where a wheel touches ground that may bend more sharply than its rim. The contact finders of both
-// fidelities take the touches of their wheels from it.
+// fidelities take the touches of their wheels from it. Records depend on which places it takes: on
+// kPlaces, kStep_rad, kApartCosine, and which of equal heights counts.
 #pragma once
 
 #include <algorithm>

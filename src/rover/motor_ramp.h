@@ -1,5 +1,6 @@
 // How the drive motors come from one set point to the next: both fidelities drive their wheels by
-// it.
+// it. Records depend on the order of its sums. Advance goes on from its last call, and is called
+// once for each step, or each part into which the multibody divides one.
 #pragma once
 
 #include "messages/wheels.h"

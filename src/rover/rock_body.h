@@ -1,5 +1,7 @@
 // A rock prepared for contact: the nearest point of its surface, in closed form up to one scalar
-// root. The contact finders of both fidelities ask it.
+// root. The contact finders of both fidelities ask it. Records depend on the bits of Nearest. The
+// multibody asks it for all parts, the quasi-static rover for the body alone, as its wheels go by
+// quasi_static/wheel_rock_gap.h.
 #pragma once
 
 #include "math/pose.h"

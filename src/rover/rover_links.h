@@ -1,5 +1,5 @@
 // The rover as a tree of links: what turns about what, and which parts each link carries. Replays
-// draw it and URDF files describe it; both show the names.
+// draw it and URDF files describe it; both show the names. No record depends on it.
 #pragma once
 
 #include <cstddef>

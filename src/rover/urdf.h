@@ -1,5 +1,5 @@
 // The rover as a URDF file, for viewers and simulators of other people; the command `rover` writes
-// it.
+// it. No record depends on it.
 #pragma once
 
 #include <string>

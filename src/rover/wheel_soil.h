@@ -1,6 +1,7 @@
 // A rigid wheel on soil: its rut and traction at a slip, as functions of its load, and how far it
 // digs in by slipping. The multibody takes WheelSoil, the quasi-static rover WheelSoilTable; both
-// take SlipSinkage and ShareTable.
+// take SlipSinkage and ShareTable. Records depend on the tables with their errors: another number
+// of nodes is a change of results.
 //
 // Sinkage, resistance and largest traction T_max are those of wheel_rut_params.h, with its limits.
 // Slip (Janosi and Hanamoto 1961, uniform pressure along the contact length l): T = tau T_max with

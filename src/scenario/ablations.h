@@ -1,6 +1,7 @@
 // Named changes of a scenario that take one cause of failure away: what is left says how much that
 // cause accounts for. `run --ablate` and axes of sweeps apply them, `list --ablations` tells them.
-// Must stay: the names, as sweep files and command lines hold them.
+// Must stay: the names, as sweep files and command lines hold them. The settings decide the records
+// of ablated runs, and which ablations count as in force in runs that are stored.
 #pragma once
 
 #include <span>

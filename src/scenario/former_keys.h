@@ -1,7 +1,8 @@
 // Keys that had another name in earlier versions. Whoever reads or changes a scenario's document
 // renames them, so that files and settings with the former names go on working, and stored
-// scenarios are compared by the names of today. Who renames a key of a group of the top level adds
-// it here.
+// scenarios are compared by the names of today. An entry must stay as long as such files and stores
+// are read; no fingerprint of a stored scenario changes by it. Who renames a key of a group of the
+// top level adds it here.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // What a scenario file holds: which experiment, how often, from which seed, on what drive.
-// Campaigns, commands and sweeps hold scenarios as this struct; `api` hides it.
+// Campaigns, commands and sweeps hold scenarios as this struct; `api` hides it. A default decides
+// the records of files that leave it out, and the order in Visit every fingerprint (scenario.cc).
 #pragma once
 
 #include <cstdint>

@@ -84,6 +84,9 @@ bool IsSweep(const core::JsonValue& document);
 // compared in pairs. Else it is a hash of the campaign's seed and the name of the cell (its axes
 // and levels, or what the file calls it), so that cells keep their trials when a design grows.
 //
+// Must stay: the order of settings, the seeds, and names and places of cells, by which stores,
+// baselines and traces know them.
+//
 // Every value that was asked for is read back from the resolved scenario and must be there.
 // Throws core::UserError with everything that is wrong: unknown keys, cells that are no valid
 // scenarios, settings that are not there in the end (another one lies over them), cells that are

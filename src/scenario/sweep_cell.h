@@ -1,4 +1,5 @@
-// From the levels of a cell to its scenario. Only LoadSweep uses it.
+// From the levels of a cell to its scenario. Only LoadSweep uses it. Fingerprint and records of a
+// cell depend on which setting lies over which.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,6 @@
 // Pieces of sweep files that are read alike wherever they stand. Only the reader of axes and of
-// whole sweep files uses them.
+// whole sweep files uses them. They change no cell: names and settings pass as they stand, or are
+// refused.
 #pragma once
 
 #include <filesystem>

@@ -55,7 +55,9 @@ SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& f
 void CheckDesign(const SweepSpec& spec, std::vector<core::Problem>& problems);
 
 // Returns which levels each cell has, one per axis, in the order of the design: a grid with its
-// last axis fastest. Throws core::UserError where there are more than kMaxSweepCells.
+// last axis fastest. Must stay: that order, as stores know cells by number, and the points that
+// core/space_filling.h draws, as each is a cell. Throws core::UserError where there are more than
+// kMaxSweepCells.
 std::vector<std::vector<LevelSpec>> DesignCells(const SweepSpec& spec);
 
 }  // namespace rockyard::scenario

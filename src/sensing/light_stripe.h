@@ -1,6 +1,7 @@
 // The light stripe sensor without images (fidelity geometric): where light planes and scanlines
 // meet the terrain, and the measured errors of detection. Drives and studies of hazard detection
-// look by it.
+// look by it. Records depend on its bits and draws; within a step points draw in turn, row by row,
+// whether found or not.
 //
 // Words of all files of this sensor, here and on board. The array has a point for each scanline and
 // laser, indexed [row][stripe] (messages/stripe_array.h): a row is the points of one scanline, 0

@@ -1,5 +1,7 @@
 // What dead reckoning lives on: gyro, encoders, and scrapes that shake the gyro. The world of a
-// drive measures with them once an on-board tick; results count the scrapes.
+// drive measures with them once an on-board tick; results count the scrapes. Records of drives
+// depend on the numbers that name draws: tick, stretch, episode. Observe must see every step of a
+// tick before Measure ends it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // What of a rover its own cameras see: the one shape that images, masks and shadows of all sensors
-// take.
+// take. Records of drives by images depend on it, and those of the stereo error model where shade
+// drops points.
 #pragma once
 
 #include "rendering/rover_body.h"

@@ -1,6 +1,8 @@
 // What the left camera of a stereo pair meets, and what of that the right camera does not see. The
 // stereo sensor makes its range points of it; the ground truth of stereo studies uses the same
-// scene and the same jumps, so that rates counted there fit the error model.
+// scene and the same jumps, so that rates counted there fit the error model. Records of drives by
+// stereo without images depend on its bits, which are not those of Terrain::CastRay: closed forms
+// cost a fraction of its rays.
 #pragma once
 
 #include <Eigen/Core>

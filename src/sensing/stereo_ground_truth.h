@@ -1,5 +1,5 @@
 // What a stereo pair could show of the terrain at best, pixel by pixel. Studies of stereo sort
-// errors and dropouts by it.
+// errors and dropouts by it. No drive asks it: only records of that study depend on it.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,6 @@
 // What the stereo cameras of a rover deliver, and what is known of them on board. The imager makes
-// these images; on-board stereo and visual odometry read them by the calibrated rig.
+// these images; on-board stereo and visual odometry read them by the calibrated rig. Records of
+// drives by these images depend on the bits of cameras and masks.
 #pragma once
 
 #include <utility>

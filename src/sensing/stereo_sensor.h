@@ -1,5 +1,6 @@
 // Range points from the stereo cameras at the rover's front and rear, without images: the sensor at
 // the fidelities ideal and error_model. Drives see terrain by it, and studies of stereo measure it.
+// Records depend on its draws and on the order of steps in Match.
 #pragma once
 
 #include <array>

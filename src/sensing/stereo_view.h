@@ -1,6 +1,7 @@
 // One rectified pinhole pair, as a rover carries it, and which of its points are handed on. Range
 // points, rendered images, the ground truth and the pictures of replays all look along these rays:
-// one pixel must mean one direction at every fidelity.
+// one pixel must mean one direction at every fidelity. Records of all drives by stereo depend on
+// the bits of rays.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,8 @@
 // The layout of the light stripe sensor: what parameters describe, and whether its cameras see what
 // the layout asks of them. Parameters are checked by it; both fidelities of the sensor, what the
-// rover believes of it, and pages about it take their geometry from TrueCalibration.
+// rover believes of it, and pages about it take their geometry from TrueCalibration. Records depend
+// on TrueCalibration, LaserGroups and SightOf, with thin beams on StripePoint, too; the checks only
+// refuse.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,6 +1,7 @@
 // The light of a stripe: where a scanline meets its plane, for the geometric sensor, and how bright
 // it is there, for the sensor's images. The lasers are lamps of a rendered image: the cross section
-// of a beam, the fan of one emitter, the stripes of all emitters.
+// of a beam, the fan of one emitter, the stripes of all emitters. Records depend on the bits of
+// ScanCurve where lenses bend rows, on all others where drives take images.
 #pragma once
 
 #include <cmath>

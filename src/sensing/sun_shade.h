@@ -1,6 +1,7 @@
 // Which points of the terrain the sun does not reach. The stereo error model drops points in shade,
 // at rates that studies of stereo count by the same shade in images (stereo_ground_truth.h): both
-// must use this class.
+// must use this class. Records of drives depend on its bits only where shadow_dropout_probability
+// is above zero.
 #pragma once
 
 #include "math/pose.h"

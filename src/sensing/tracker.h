@@ -1,7 +1,8 @@
 // Trackers: the overhead cameras that measured the "true" pose in the test arena (Matthies 1995,
 // section 3), and the tracker on the rover that follows what it is to drive to. Results of drives
 // report errors by the first; the world of a drive measures with the second. The estimator
-// `perfect` takes the true pose from here. Ranges are horizontal.
+// `perfect` takes the true pose from here. Ranges are horizontal. Records depend on the order of
+// draws: systematic radius, direction, heading; of each sample x, y, heading.
 #pragma once
 
 #include <cmath>

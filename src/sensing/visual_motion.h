@@ -22,7 +22,8 @@ class VisualMotion {
       : params_(params), key_(key) {}
 
   // Returns the measured motion. `X_FS` is the pose of R at the second moment in R at the first.
-  // `number` counts measurements from 0 and is the substream of kVisualMotion.
+  // `number` counts measurements from 0 and is the substream of kVisualMotion. Records depend on
+  // the order of its draws: failure, then errors along, across, up, two of tilt, heading.
   vision::MotionResult Measure(const math::Transform& X_FS, std::int64_t number) const;
 
  private:

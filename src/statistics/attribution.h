@@ -1,6 +1,6 @@
 // How much of the failure probability each of several functions accounts for, by a full factorial
 // of paired trials in which every function is either as flown or perfect. Reports of sweeps along
-// ablations take it from here.
+// ablations take it from here. No record, verdict or exit code depends on it.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // Arithmetic that a publication does in its text, so that it can be done again: chances, rates,
 // power laws, and how far dead reckoning along a straight line goes wrong. Comparisons with
-// published values compute by it the values of StatisticKind::kComputed.
+// published values compute by it the values of StatisticKind::kComputed. No record depends on it,
+// but whether such a value `holds` or `differs`, and so the exit code of a check, does.
 #pragma once
 
 #include <span>

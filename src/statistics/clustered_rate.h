@@ -1,6 +1,7 @@
 // Rates and means of trials that hang together, as those on one layout of rocks do, and success
 // counts of runs that all met the same rocks. Summaries, sweeps, comparisons of runs and
-// comparisons with published values ask here.
+// comparisons with published values ask here. No record depends on them, but verdicts and exit
+// codes of checks with a tolerance do; OneLayoutLaw, which alone draws, is shown and not judged.
 #pragma once
 
 #include <cstddef>

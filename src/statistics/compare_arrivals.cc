@@ -1,5 +1,5 @@
 // Published sets of which a known number of runs arrived, beside rows that are judged over all
-// runs.
+// runs: no verdict depends on them.
 #include <fmt/format.h>
 
 #include <algorithm>

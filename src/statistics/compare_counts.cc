@@ -1,4 +1,5 @@
-// Rows of the comparison that are counts: exact predictive laws, no resampling.
+// Rows of the comparison that are counts: exact predictive laws, on which verdicts depend; only the
+// law of one layout, which is shown beside, resamples.
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>

@@ -1,5 +1,7 @@
 // The rows of the comparison with published values, by statistic, before Holm's procedure. Only
-// published_comparison.cc asks for them; the compare_*.cc make them.
+// published_comparison.cc asks for them; the compare_*.cc make them. Rows that resample one
+// column draw by a key made of their id, so that a row that is added moves no other's p-value but
+// Holm's.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
 // Cumulative incidence with competing risks (Aalen and Johansen 1978): the share of drives that
-// have reached the goal by a distance. distance_cdf.csv and the report page show it.
+// have reached the goal by a distance. distance_cdf.csv and the report page show it. No record,
+// verdict or exit code depends on it.
 #pragma once
 
 #include <cstdint>

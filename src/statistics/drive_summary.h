@@ -1,5 +1,6 @@
 // What a set of drive trials says, in numbers. summary.json, the terminal, the cells of a sweep and
-// the report page all take theirs from here, so that they agree.
+// the report page all take theirs from here, so that they agree. No record depends on it;
+// comparisons with published values take columns by ColumnIndex and ColumnValues.
 #pragma once
 
 #include <array>

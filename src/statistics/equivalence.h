@@ -5,6 +5,8 @@
 // 1987, Journal of Pharmacokinetics and Biopharmaceutics 15, pp. 657-680): the difference is not at
 // or below -margin, and not at or above +margin. Its p-value is the larger one of both; at or below
 // alpha it says the same as that the interval of confidence 1 - 2 alpha lies between the margins.
+//
+// No record depends on it, but verdicts and exit codes of checks against baselines do.
 #pragma once
 
 #include <cstdint>

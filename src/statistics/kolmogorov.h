@@ -1,5 +1,7 @@
 // Kolmogorov-Smirnov tests, and Lilliefors' test of exponential tails, for statistics of one column
-// in the comparison with published values.
+// in the comparison with published values. No record depends on them, but the verdict on an
+// exponential tail, and so an exit code, depends on ExponentialNullLaw and its draws; the others
+// are shown and not judged.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // Success against one number: the logistic curve through counts, its band, and where it crosses a
-// rate. Sweeps along a numeric axis are fitted by it.
+// rate. Sweeps along a numeric axis are fitted by it. No record, verdict or exit code depends on
+// the fit: it may be rewritten within the coverage that is stated.
 #pragma once
 
 #include <array>

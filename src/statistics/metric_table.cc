@@ -1,4 +1,5 @@
-// The table of metrics.
+// The table of metrics. Name, trials and columns decide what stored baselines are compared with; a
+// margin only baselines that are written from now on, as each keeps its own.
 #include <algorithm>
 
 #include "statistics/metrics.h"

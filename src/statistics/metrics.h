@@ -1,6 +1,8 @@
 // The numbers that people ask of drives, each defined here (the table: metric_table.cc) and nowhere
 // else. Summaries, sweeps, comparisons of runs, baselines and `rockyard metrics` take them from
-// here.
+// here. Baselines hold the names, and values as MetricValues gives them: a check leaves out a name
+// that it does not know (its exit code is then 4 at best), and takes another definition for a
+// change of the build.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Holm's step-down procedure (Holm 1979): keeps the chance of any false rejection in a family of
 // tests at or below alpha, whatever the dependence between them. Checks, comparisons and sweeps
-// adjust their p-values by it.
+// adjust their p-values by it. Their verdicts and exit codes, not records, depend on it.
 #pragma once
 
 #include <cstddef>

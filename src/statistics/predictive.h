@@ -13,6 +13,9 @@
 // the eleventh, S in sum: P(excess > e) = (1 + e / S)^-10, cut off at a limit of the support where
 // there is one. Conservative at sharp edges, a little optimistic for tails heavier than
 // exponential.
+//
+// Verdicts and exit codes depend on the draws, no record does: of each new value first its gap,
+// then its place in it; of a replicate part after part.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,8 @@
 // Rates and counts of independent trials: intervals, exact tests, predictions. Every rate that the
 // program reports has its interval from here; rates of trials that hang together come by
-// clustered_rate.h.
+// clustered_rate.h. Stores depend on one thing here: the interval kStopped decides how many trials
+// a campaign with a stopping rule runs (batch/work_plan.cc). All else decides numbers of reports
+// and verdicts.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // Simulated trials against published numbers: predictive intervals, p-values, verdicts. `rockyard
-// check` and the report page hold runs against publications by it.
+// check` and the report page hold runs against publications by it. No record depends on it;
+// exit codes of checks do.
 //
 // Null hypothesis of each row: the published runs and the simulated trials follow one law. Its
 // p-value is two-sided and contains the simulation's own uncertainty (proportions.h,

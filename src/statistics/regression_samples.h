@@ -1,5 +1,5 @@
 // One metric of a regression check: what both sides say of it, tested, and what the check would
-// have seen. For regression.cc only.
+// have seen. For regression.cc only. Verdicts and exit codes of checks depend on it, no record.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // How many trials a question needs: for `rockyard plan`, and for what a check against a baseline
-// would have seen (regression_samples.h).
+// would have seen (regression_samples.h). No record depends on it, but in a check powers part
+// kNoneSeen from kInconclusive, and so exit code 0 from 4
+// (primary metrics).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // One sample: moments, quantiles, distribution function, modes, and the interval of its mean.
-// Summaries, comparisons and checks describe columns and metrics by it.
+// Summaries, comparisons and checks describe columns and metrics by it. No record depends on them;
+// verdicts of comparisons and checks do.
 #pragma once
 
 #include <cstdint>

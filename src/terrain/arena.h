@@ -1,6 +1,7 @@
 // The areas that an arena consists of, its walls and its mirror images. Fields are laid out by
 // them. Drives end where a rover leaves them; the route planner, drawings and replays are bounded
-// by them.
+// by them. Records depend on bounds and walls, and on the order of images, from the rightmost strip
+// to the leftmost: it is the order of rocks.
 #pragma once
 
 #include <vector>

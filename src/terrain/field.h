@@ -1,6 +1,7 @@
 // One random terrain of a family: rocks, ground and arena, with an audit against the law. Each
 // trial builds its field here. Replays, plots and the command `terrain`, which also counts rocks
-// along the course, build the same field anew.
+// along the course, build the same field anew. Of the audit only outline_cover is in records; the
+// rest is for `rockyard terrain`, figures of studies and tests.
 #pragma once
 
 #include <span>

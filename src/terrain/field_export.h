@@ -1,5 +1,6 @@
 // A field as text for other tools and for people: the command `terrain` writes it, and plots of
-// trials draw on its plan view. Lengths in m, angles in degrees, world frame.
+// trials draw on its plan view. Lengths in m, angles in degrees, world frame. No record or store
+// holds these texts.
 #pragma once
 
 #include <string>

@@ -1,5 +1,7 @@
 // What the ground has beside its plane, fractal roughness, ditches and pits, and where a ray
 // crosses it. Ground puts them together; roughness_spline.h tells the same roughness for images.
+// Records of drives on such ground depend on the bits of samples and of bounds, as rays step by
+// both.
 #pragma once
 
 #include <array>

@@ -1,7 +1,9 @@
 // The one rock geometry that physics, sensors and plots share: an ellipsoid with two horizontal
 // axes turned by yaw and one vertical axis, partly below the ground, or a cap that stands on the
 // ground (ShapeRock). Beside it: points of rocks for drawings, and what holds a loose rock in the
-// soil, which the multibody rover pushes against.
+// soil, which the multibody rover pushes against. Records depend on the bits of ShapeRock,
+// RockShape, RockMass and HoldingForce. OnRock, ParallelRadius, PlanOutline and PointsAbove serve
+// drawings and captures of scans alone.
 #pragma once
 
 #include <cmath>
@@ -65,9 +67,8 @@ std::vector<math::Vector3> PointsAbove(const Rock& rock, double ground_m);
 
 // A rock prepared for queries: the linear map that turns its ellipsoid into the unit sphere, or its
 // cap into a cap of radius and height 1. The map is q = diag(1/a, 1/b, 1/c) Rz(-yaw) (p - centre).
-// The surface of an ellipsoid is |q| = 1, that of a cap q.x^2 + q.y^2 = A s + (1 - A) s^2 with s =
-// 1
-// - q.z, from 0 to 1.
+// The surface of an ellipsoid is |q| = 1, that of a cap q.x^2 + q.y^2 = A s + (1 - A) s^2 with
+// s = 1 - q.z, from 0 to 1.
 class RockShape {
  public:
   static constexpr double kNoHit = std::numeric_limits<double>::infinity();

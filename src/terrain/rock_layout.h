@@ -1,5 +1,6 @@
 // The random layout of rocks on the layout area, before mirroring: what BuildField makes its field
-// of.
+// of. Records of all drives depend on its draws: streams and substreams (field.h), the order of
+// draws of one rock, and which tries draw again.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // Distributions of rock diameters. Layouts draw by them; audits of fields and the blind swath
-// expect what their closed forms say.
+// expect what their closed forms say. Records depend on the bits of Diameter alone.
 #pragma once
 
 #include <memory>

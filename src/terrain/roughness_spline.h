@@ -1,4 +1,5 @@
-// The roughness of the ground for the many rays of pictures (RayWay::kSpline in ground.h).
+// The roughness of the ground for the many rays of pictures (RayWay::kSpline in ground.h). Records
+// depend on its bits only where a drive takes pictures: stereo or visual odometry by images.
 #pragma once
 
 #include <array>

@@ -4,6 +4,8 @@
 // Physics, sensors, pictures and the experimenter's counts must ask this one geometry, so that the
 // rover meets what it sees. Code that works out a query in another way, as the stereo sensor does,
 // is held to CastRay by a test. A rock's index names it all through a trial, in contacts, too.
+// Records of all drives depend on the bits of queries and on ties: the ground goes before a wall,
+// either before a rock, of rocks the one that is asked first.
 #pragma once
 
 #include <algorithm>

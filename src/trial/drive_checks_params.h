@@ -1,6 +1,7 @@
 // Conditions across modules of a drive: conditions without which no trial can be built or would
 // mean anything (RequireConsistency), and combinations that every module accepts and that mislead
-// (RequireSoundDrive). Experiments require them when a scenario is read.
+// (RequireSoundDrive). Experiments require them when a scenario is read. They decide which
+// scenarios are refused; no record depends on them.
 #pragma once
 
 #include "core/fields.h"

@@ -1,5 +1,6 @@
 // The true state of the rover. Both fidelities of the rover fill all of it; sensors measure from
-// it, referee and counters judge by it. On-board code never includes this file.
+// it, referee and counters judge by it. On-board code never includes this file. No file holds it:
+// members may be added, and both fidelities then have to fill them.
 #pragma once
 
 #include <vector>

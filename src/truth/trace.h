@@ -1,6 +1,7 @@
 // The course of one trial over time, recorded on request; a trial is the same with a trace and
-// without. The tracer of a drive writes it; replays, drawings and files of traces read it. Must
-// stay: the texts of activities and kinds of events, by which readers tell them apart.
+// without, and no store or hash holds one. The tracer of a drive writes it; replays, drawings and
+// files of traces read it. Must stay: the texts of activities and kinds of events, by which readers
+// tell them apart.
 #pragma once
 
 #include <algorithm>

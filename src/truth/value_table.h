@@ -1,6 +1,7 @@
 /// @file
 /// The values of one record: its own, or a row of a table that many records share. Stores that are
-/// read put their records into one table, which takes less memory than a vector for each record.
+/// read put their records into one table, which takes less memory than a vector for each record. It
+/// lies in memory alone: no file has its form, which may change as long as no bit of a value does.
 #pragma once
 
 #include <algorithm>

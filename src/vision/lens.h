@@ -1,9 +1,10 @@
 // The lenses of a messages::Camera, the camera of the light stripe: pixels to rays and back. The
 // simulated stripe sensor images through these functions, and the triangulation on board goes back
 // through them: what differs between both is the calibration, never the lens. Must stay: Project
-// and PixelRay are each other's inverse, or ranges are wrong without any noise. The replay page
-// and the study of hazard detection draw and sample by the same rays. Cameras of stereo pairs have
-// lenses of their own (cameras/camera_model.h).
+// and PixelRay are each other's inverse, or ranges are wrong without any noise. Records of drives
+// with a light stripe and of the study of hazard detection depend on every bit of both; the replay
+// page draws by the same rays. Cameras of stereo pairs have lenses of their own
+// (cameras/camera_model.h).
 //
 // Camera frame C: x along the optical axis, y left, z up. Columns and rows count from the pixel on
 // the axis, columns to the right (-y), rows downwards (-z); a = column * column_pitch_rad and

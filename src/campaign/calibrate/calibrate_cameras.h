@@ -1,5 +1,7 @@
 // What `rockyard calibrate` does, for that command: images of a chessboard to a camera, or to the
-// two of a pair (Goldberg 2002 section 2, Gennery 2001).
+// two of a pair (Goldberg 2002 section 2, Gennery 2001). No drive calibrates, so that no record
+// depends on it. Must stay: calibration.json, and camera files that vision/cameras/camera_file.h
+// reads, for `stereo`, `vo` and `cylinder`.
 #pragma once
 
 #include <filesystem>
@@ -46,10 +48,10 @@ std::string CameraName(const CalibrateResult& result, std::size_t camera);
 const std::filesystem::path& ImageOf(const CalibrateRequest& request,
                                      const vision::CornerResidual& corner);
 
-// Reads the images, finds the board, estimates and writes into the folder, which is made:
-// camera.json and camera.txt (cameras.json and cameras.txt of a pair), calibration.json. Throws
-// core::UserError, before anything is written, for whatever is wrong with the input: everything
-// that can be told at once, such as all images without a board.
+// Reads the images, finds the board, estimates and writes into the folder (OutputFolder), which is
+// claimed first and filled last: camera.json and camera.txt (cameras.json and cameras.txt of a
+// pair), calibration.json. Throws core::UserError, before anything is written, for whatever is
+// wrong with the input: everything that can be told at once, such as all images without a board.
 CalibrateResult CalibrateCameras(const CalibrateRequest& request);
 
 // Returns what came out of a calibration as the file calibration.json, described in

@@ -1,5 +1,6 @@
 // What `rockyard cylinder` does, for that command: two colour images to the place and the
-// orientation of the coloured cylinder (Matthies 1995, section 5 and appendix A).
+// orientation of the coloured cylinder (Matthies 1995, section 5 and appendix A). No record depends
+// on it: the experiment cylinder_sighting calls the finders itself.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // What a look of stereo cameras saw, as pictures, points and files, in the manner of figures 1 and
 // 3 of Goldberg 2002. `replay --step` and replay pages show it; other commands draw lines and
-// enlarge pictures by it.
+// enlarge pictures by it. No record depends on it.
 #pragma once
 
 #include <cstdint>

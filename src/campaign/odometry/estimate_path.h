@@ -1,6 +1,7 @@
 // What `rockyard vo` does, for that command: a sequence of image pairs to the path of its cameras
 // (Matthies 1989; Howard 2012). Its steps are in the other files of this folder, but for
-// render_sequence.h.
+// render_sequence.h. No record of a trial depends on it; but the same request must give the same
+// path to the bit, so that --resume ends as if nothing had been cut off.
 #pragma once
 
 #include <array>

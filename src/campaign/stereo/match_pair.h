@@ -1,5 +1,6 @@
 // What `rockyard stereo` does, for that command: a pair of image files to disparities, points and
-// pictures (Goldberg 2002 section 2). `render` and pictures of looks share its colours.
+// pictures (Goldberg 2002 section 2). `render` and pictures of looks share its colours. No record
+// depends on it.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,7 @@
 // What `rockyard render` does, for that command: what the stereo cameras of a scenario's rover see,
 // as files that `rockyard stereo` reads. The stage that the rover stands on, of terrain, rover and
-// cameras of a trial, serves sequences (odometry/render_sequence.h), too.
+// cameras of a trial, serves sequences (odometry/render_sequence.h), too. No record depends on it.
+// A pair has the noise of look 0 of its trial.
 #pragma once
 
 #include <cstdint>

@@ -131,7 +131,7 @@ class CylinderSightingExperiment final : public CellExperiment {
  public:
   // Cost of a run: 50 to 110 ms a view, 15 ms a measurement and what the finders take. Randomness:
   // kExperiment for what a view draws, and the streams of rendering/cylinder, under a key of each
-  // view.
+  // view; measurement j reads its two images out with the noise of numbers 2 j and 2 j + 1.
   explicit CylinderSightingExperiment(const CylinderSightingParams& params);
 
   // Returns the view of that key in a cell: orientation, sun, bearing and distance as the

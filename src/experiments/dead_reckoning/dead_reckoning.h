@@ -108,8 +108,9 @@ struct WalkingRover {
   localization::DeadReckoningParams dead_reckoning;
 };
 
-// Returns the error at the end of a walk. The noise comes from stream kExperiment of `key`. Cost:
-// 0.15 us a step.
+// Returns the error at the end of a walk. The noise comes from stream kExperiment of `key`. Records
+// depend on the order of the draws: the scale, then of each step the distance, the turn and, where
+// the rover rests, the turn at rest. Cost: 0.15 us a step.
 WalkError WalkStraight(const WalkingRover& rover, const WalkPlan& plan, core::TrialKey key);
 
 // Returns every column but the number of the cell: first the factors that name a cell, then those

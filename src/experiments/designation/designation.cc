@@ -100,6 +100,8 @@ struct PickErrors {
   double pan_rad = 0.0;
 };
 
+// Records depend on the order of the draws; that of the pan axis is made where its error is fixed,
+// too.
 PickErrors Draw(const trial::DesignationParams& errors, core::TrialKey key) {
   core::RandomStream stream(key, core::Purpose::kExperiment);
   PickErrors drawn;

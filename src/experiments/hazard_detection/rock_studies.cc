@@ -46,6 +46,7 @@ class RockStudy : public CellExperiment {
   // Returns the last factor of the cell.
   double LastOf(std::size_t cell) const { return table().Values(cell).back(); }
 
+  // Records depend on the order of the draws: side, lateral place, distance, heading.
   RockScene DrawScene(const RockCell& cell, core::TrialKey key) const {
     RandomStream placement(key, Purpose::kScenePlacement);
     const double side = core::SampleBernoulli(placement, 0.5) ? 1.0 : -1.0;

@@ -90,6 +90,7 @@ class Mission {
   // Returns why the mission ends after this sol; nothing where it goes on.
   std::optional<MissionEnd> EndAfter(const Sol& sol);
 
+  // In this order: the field keeps clear of goals_, and the lander may share pan_error_rad_.
   const MissionParams& params_;
   const trial::DriveParams& drive_;
   core::TrialKey key_;

@@ -24,7 +24,9 @@ const truth::RecordSchema& StereoColumns();
 
 class StereoSensingExperiment final : public CellExperiment {
  public:
-  // Cost of a run: that of the looks, 30 ms more for the truth of each look, and 0.1 s for cameras
+  // Randomness: terrain and place (RandomPlace) are drawn under the key of each look; faults of the
+  // cameras and noise of the looks, by their numbers, under that of the run. Cost of a run: that of
+  // the looks, 30 ms more for the truth of each look, and 0.1 s for cameras
   // that take images.
   StereoSensingExperiment(const StereoSensingParams& params, const trial::DriveParams& drive);
   ~StereoSensingExperiment() override;

@@ -1,6 +1,7 @@
 // What the experiment "stereo_sensing" counts and adds up of the looks of one cell: pixels against
 // their truth, and rocks and cells of the navigator's map of a look against its map with perfect
-// matches. Range, depth and bins: stereo_sensing.h.
+// matches. Range, depth and bins: stereo_sensing.h. The sums are records: the order in which pixels
+// are added is part of their bits.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // What happened on a drive among a few rocks, read from its trace; whether it went as the published
 // run is told, and what its heading error was at each stage. The experiment "three_rock_run" judges
-// its drives by it. It sees the truth: rocks are told apart by where they truly are.
+// its drives by it, so that its records depend on every condition and length here. It sees the
+// truth: rocks are told apart by where they truly are.
 #pragma once
 
 #include <cstddef>

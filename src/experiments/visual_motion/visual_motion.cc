@@ -29,7 +29,8 @@ Transform Arc(double way_m, double turn_rad) {
 }
 
 // Returns a step from the level pose `level`. Draws from (key, kExperiment), substream 1: substream
-// 0 is RandomPlace's.
+// 0 is RandomPlace's. Records depend on the order: side, two tilts, errors of way and turn. Which
+// number of a tilt is its roll is up to the compiler, which may evaluate arguments in any order.
 StudiedStep DrawStep(const VisualMotionStudyParams& params, const Transform& level, double way_m,
                      double turn_rad, core::TrialKey key) {
   core::RandomStream stream(key, core::Purpose::kExperiment, 1);

@@ -69,8 +69,9 @@ const truth::RecordSchema& VisualMotionColumns();
 
 class VisualMotionExperiment final : public CellExperiment {
  public:
-  // Cost of a run: that of four rendered images a motion, 0.5 s; some microseconds by the error
-  // model.
+  // Randomness, all under the key of each motion: the terrain, the place (RandomPlace), the step
+  // (DrawStep), and the cameras' faults and noise. Cost of a run: that of four rendered images a
+  // motion, 0.5 s; some microseconds by the error model.
   VisualMotionExperiment(const VisualMotionStudyParams& params, const trial::DriveParams& drive);
 
  private:

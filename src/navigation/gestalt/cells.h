@@ -1,5 +1,6 @@
 // What the map of GESTALT holds of each cell, in memory that wraps around. The map writes it;
-// planes and steps of patches read it.
+// planes and steps of patches read it. No record depends on where a cell lies in memory, which
+// wraps so that a window that moves copies nothing.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // Clothoids, paths whose curvature is linear in the distance driven; splines of them, and the law
 // of curvature between their knots. The votes judge the paths of splines by it, the manoeuvre
-// steers and predicts by it.
+// steers and predicts by it. Records of drives that plan on the move depend on the last bits:
+// another quadrature changes them, even within the errors that are stated.
 #pragma once
 
 #include <array>

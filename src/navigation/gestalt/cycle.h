@@ -18,6 +18,9 @@
 // With continuous.cycle csod or csad forward drives are replaced on the move (continuous_drive.cc,
 // Howard 2012, section 2). The rover comes back to the cycle at rest where it feels a hazard, where
 // no plan on the move is safe, and where none is ready in time.
+//
+// Records depend on the order within a tick: goal, time, then the stage's own questions, of which,
+// in drives and turns, a felt hazard comes before the end of the motion.
 #pragma once
 
 #include "navigation/gestalt/evaluation.h"

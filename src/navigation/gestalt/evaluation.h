@@ -1,5 +1,6 @@
 // What GESTALT makes of its looks: the map, the votes on every motion, and the choice among
-// splines. The cycle owns one.
+// splines. The cycle owns one. Records depend on votes and choice, but of the view only on its
+// being there (navigator.h).
 #pragma once
 
 #include <optional>
@@ -37,7 +38,8 @@ class Evaluation {
   // Chooses the best spline and marks it as chosen; null where none is safe.
   const messages::Spline* TakeSafeSpline();
 
-  // Makes view() of the last votes, for traces and pages.
+  // Makes view() of the last votes, for traces and pages. It copies them: a choice has to be marked
+  // before.
   void Show(const PlanOrigin& origin, const messages::AttitudeEstimate& attitude,
             const messages::Goal& goal);
   const messages::NavigationView* view() const { return view_ ? &*view_ : nullptr; }

@@ -1,5 +1,6 @@
 // What GESTALT remembers of the hazards that it felt on its way. The cycle tells it of them, and
-// asks it when it votes.
+// asks it when it votes. Records depend on where marks lie and which arcs are vetoed, not on the
+// order in which they were felt.
 #pragma once
 
 #include <vector>

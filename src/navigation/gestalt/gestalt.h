@@ -10,6 +10,9 @@
 //
 // Frames: W is the world as estimated, O moves with its corrections so that the rover's path is
 // smooth (GestaltNavigator), D is that of odometry, R the rover's.
+//
+// Records of its drives depend on the bits of all that this folder computes but the view
+// (tests/determinism pins a scenario of each cycle); others on Touches alone (StuckReaction).
 #pragma once
 
 #include "math/pose.h"

@@ -1,6 +1,7 @@
 // The seam between the map and the votes of GESTALT: goodness and certainty of every cell around
 // the rover (Goldberg 2002, section 4). The map writes the grid; the votes on arcs and splines read
-// it.
+// it. Goodness and certainty have 8 bits: votes, and so records, depend on the rounding
+// (traversability.cc).
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // The motion that GESTALT drives or turns: an arc, a spline or a turn in place. The cycle begins,
-// follows and ends it.
+// follows and ends it. Records depend on the tick at which a motion ends: the first at which it has
+// gone as far as it was told, or longer than it may.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // The local map of GESTALT: range points in, goodness and certainty out (Goldberg 2002, section 4,
-// steps 1 to 3). Evaluation keeps one; felt hazards mark it.
+// steps 1 to 3). Evaluation keeps one; felt hazards mark it. Records depend on every goodness;
+// map_differential_test.cc holds it to a plain reference.
 #pragma once
 
 #include <cstddef>

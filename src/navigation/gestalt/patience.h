@@ -1,5 +1,6 @@
 // How long GESTALT goes on: progress towards its goal, and the search for a way. The cycle gives up
-// by both.
+// by both. Records depend on both: they decide when a drive has given up, and when felt places are
+// forgotten.
 #pragma once
 
 #include <cstdint>

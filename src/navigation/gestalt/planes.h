@@ -1,5 +1,7 @@
 // Planes through vehicle-sized patches of the map (Goldberg 2002, section 4, step 3). The map fits
-// them; roughness, pitch and, where steps count from planes, steps are judged by them.
+// them; roughness, pitch and, where steps count from planes, steps are judged by them. Records
+// depend on the bits of residuals, slopes and rises; sums of whole numbers may be made in any
+// order.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // Differences of elevation within vehicle-sized patches of the map, and the goodness of cells from
 // what their patches hold (Goldberg 2002, section 4, step 3). The map calls both when it is
-// evaluated.
+// evaluated. Records depend on the rounding to 8 bits and, of equally bad hazards, on the first
+// (step, roughness, pitch): its pair gives the certainty.
 #pragma once
 
 #include <cstdint>

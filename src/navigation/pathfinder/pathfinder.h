@@ -10,7 +10,8 @@
 // Scans are taken at rest: before the first move, after every scan_interval_m of measured driving,
 // and after every turn_increment of measured turning. A hazard that the rover feels interrupts
 // whatever is under way (vehicle_reaction.h); afterwards the rover scans and goes on. What the
-// paper leaves open is in PathfinderParams.
+// paper leaves open is in PathfinderParams. Records of its drives depend on all of it: sides of
+// turns, and the ticks at which legs end.
 #pragma once
 
 #include <limits>

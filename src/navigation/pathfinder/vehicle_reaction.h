@@ -7,7 +7,8 @@
 // after a tick without a touch, and with a hazard of another kind after a tick without any hazard.
 // Tilts, joint angles and currents of the kind that started it do not start it again: one near its
 // threshold would do so with every noisy sample. What still holds when the turn has ended starts
-// the next reaction. Draws no random numbers.
+// the next reaction. Draws no random numbers. Only Pathfinder reacts so: records of its drives that
+// feel a hazard depend on it, no others.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,5 @@
 // Ground, hills and sky behind everything in the images of the coloured cylinder, line by line.
+// Only the study of cylinder finders depends on its draws and bits; drives do not.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // Images of the coloured cylinder in three channels: the light of sun, sky and ground on a surface,
 // and the counts of a colour camera of one chip. The renderer of the cylinder lights its bodies by
-// it; the study of cylinder finders reads the images out.
+// it; the study of cylinder finders reads the images out. No drive depends on its bits, only the
+// records of that study.
 #pragma once
 
 #include <Eigen/Core>

@@ -4,7 +4,8 @@
 //
 // Frame L: origin on the ground below the cameras' centre of rotation, from which distances count;
 // x along the cameras' line of sight over the ground, y left, z up. Frame T: the cylinder, its
-// origin in the middle of its axis, x forward, z up.
+// origin in the middle of its axis, x forward, z up. Only records of that study depend on its
+// draws: kCylinderScene, all numbers of a body in turn, also of one that is left out.
 #pragma once
 
 #include <array>

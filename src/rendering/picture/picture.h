@@ -1,6 +1,7 @@
 // An image of the terrain before the camera's own faults, with the truth about every pixel, and
 // what the other eye of a pair sees of it. PictureRenderer fills pictures, PictureReadout reads
-// them out; the stereo cameras' images and true disparities come from here.
+// them out; the stereo cameras' images and true disparities come from here. No record depends on
+// StereoTruth, only the true disparities of rendered pairs do.
 #pragma once
 
 #include <Eigen/Core>

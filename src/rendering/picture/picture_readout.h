@@ -1,5 +1,6 @@
 // From the light of a picture to the numbers that a camera delivers: the last step of the stereo
-// cameras' images.
+// cameras' images. Records of drives by these images depend on its bits and draws; stuck pixels
+// come from (kPixelDefect, camera): their number, then column, row and count of each.
 #pragma once
 
 #include <cstdint>

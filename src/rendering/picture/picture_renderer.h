@@ -1,4 +1,5 @@
-// Images of the terrain through any camera: the stereo cameras' images are rendered here.
+// Images of the terrain through any camera: the stereo cameras' images are rendered here. Records
+// of drives by these images depend on all bits of the radiance; tiles and blocks only sift rocks.
 #pragma once
 
 #include <vector>

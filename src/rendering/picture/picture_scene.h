@@ -1,5 +1,6 @@
 // The terrain, the sunlight and the rover as any camera meets them at one moment: what the pictures
-// of the stereo cameras, and their true disparities, ask.
+// of the stereo cameras, and their true disparities, ask. Records of drives by these pictures
+// depend on the bits of Meet and Radiance; no drive asks Hides.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // The viewing rays of a camera, worked out once: pictures are rendered and read out by them, and
-// the masks of the rover's own parts are held against them.
+// the masks of the rover's own parts are held against them. Records of drives by pictures depend on
+// the bits of rays and derivatives.
 #pragma once
 
 #include <vector>

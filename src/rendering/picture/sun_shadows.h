@@ -1,5 +1,6 @@
 // How much of the sun a point sees, for pictures of the terrain. The error model of stereo has a
-// simpler shade of its own (sensing/sun_shade.h), stripe images theirs in ImageScene.
+// simpler shade of its own (sensing/sun_shade.h), stripe images theirs in ImageScene. Records of
+// drives by pictures depend on its bits, not on its grid.
 #pragma once
 
 #include <span>

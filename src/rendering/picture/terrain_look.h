@@ -1,4 +1,5 @@
-// Albedo and fine relief of the terrain, as a pixel of a picture sees them.
+// Albedo and fine relief of the terrain, as a pixel of a picture sees them. Records of drives by
+// pictures depend on its draws: for each rock its albedo, then u and v of its piece.
 #pragma once
 
 #include <vector>

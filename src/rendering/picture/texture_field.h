@@ -1,5 +1,6 @@
 // Band-limited noise over a plane, filtered to what a pixel sees of it: the textures of soil and
-// rocks in pictures of the terrain.
+// rocks in pictures of the terrain. Records of drives by pictures depend on its bits; numbers are
+// drawn by node, so that neither the order of queries nor Trim changes one.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,8 @@
 // Velocity constraints of one step of RockerBogie: differential, joint stops, motors, contacts with
 // friction, slip and motion resistance. They are solved by projected Gauss-Seidel, started from the
-// impulses of the last step.
+// impulses of the last step. Records depend on the order of the rows in a sweep (differential,
+// stops, motors of wheels without a contact, contact by contact) and on the impulses that it starts
+// from, as the number of sweeps is bounded.
 #pragma once
 
 #include <array>

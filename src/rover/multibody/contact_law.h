@@ -1,5 +1,6 @@
 // What a contact of the multibody resists with: spring, damper, friction, slip and motion
-// resistance. The constraint solver takes the laws of every contact in every step.
+// resistance. The constraint solver takes the laws of every contact in every step. Records depend
+// on every operation, also on the s that FrictionBlock keeps from its last call.
 #pragma once
 
 #include <Eigen/Core>

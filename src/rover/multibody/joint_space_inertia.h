@@ -1,5 +1,6 @@
 // The joint-space mass matrix of the articulated body and its inverse, by which RockerBogie lets
-// the constraint solver turn impulses into velocities.
+// the constraint solver turn impulses into velocities. Records depend on the bits of both, as the
+// inverse is made of M.
 #pragma once
 
 #include "rover/multibody/multibody.h"

@@ -1,5 +1,6 @@
 // Rocks that slide when the rover pushes them harder than the soil holds them: the part of the
 // multibody's constraint solver that knows rocks as bodies (terrain.rocks.mobility movable).
+// Records of other scenarios do not depend on it.
 #pragma once
 
 #include <vector>

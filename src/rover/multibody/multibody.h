@@ -1,6 +1,8 @@
 // The rover's articulated body: chassis, two rockers, two bogies, six wheels. Its dynamics are
 // those of Bullet's btMultiBody (Featherstone's articulated-body algorithm), in double precision.
 // RockerBogie moves it; both fidelities, parts and links number bodies by the constants below.
+// Records depend on Bullet's arithmetic: another version of Bullet may be a change of results.
+// Poses and Jacobians are those of the last UpdatePoses, which callers owe after each change.
 #pragma once
 
 #include <Eigen/Core>

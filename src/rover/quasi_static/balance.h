@@ -1,5 +1,7 @@
 // Balance of forces of a rover that moves without inertia; QuasiStaticRover solves one for each
-// stretch of its way, and while it settles and stands.
+// stretch of its way, and while it settles and stands. Records depend on the rates and loads that a
+// solution starts from, as iterations end within a tolerance: a better start is a change of
+// results, too.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // Rocker-bogie linkage of the quasi-static rover: nine coordinates, poses of its bodies, velocities
 // of its points, and what gravity does. Contacts are found on it, and the balance of forces is
-// solved in its rates.
+// solved in its rates. Its weights must agree with MakeRoverMasses (rover_layout_params.h), by
+// which the multibody moves.
 #pragma once
 
 #include <Eigen/Core>

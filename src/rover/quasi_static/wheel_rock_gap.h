@@ -1,5 +1,6 @@
 // Signed distance of a wheel from a rock, exactly and without sampling; the contacts of the
-// quasi-static rover are found by it.
+// quasi-static rover are found by it. Records of that rover depend on the normal from which each
+// search starts, as it ends within micrometres.
 #pragma once
 
 #include <Eigen/Core>

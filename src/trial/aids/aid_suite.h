@@ -1,6 +1,8 @@
 // Aids of localization in a drive, on board: when they are asked, when their data arrive, and what
 // becomes of them. Onboard keeps it; Drive hands its requests to the sensors of the world
-// (drive/aid_sensors.h) and their answers back.
+// (drive/aid_sensors.h) and their answers back. Records depend on the numbers of measurements, by
+// which noise is drawn, and on the order in which moments are captured (lander, sun, beacon) and
+// ready fixes are handed in (as captured).
 #pragma once
 
 #include <cmath>

@@ -17,7 +17,9 @@ struct ToldSlip {
   bool as_stuck = false;                          // where the rover takes itself for stuck
 };
 
-// An alarm is raised by what was seen; at the next decision it ends the drive or is told.
+// An alarm is raised by what was seen; at the next decision it ends the drive or is told. EndsDrive
+// has to be asked before Take, which takes the alarm back. Records depend on max_alarms: the alarm
+// after so many ends the drive.
 class SlipAlarms {
  public:
   explicit SlipAlarms(const navigation::SlipReactionParams& params) : params_(params) {}

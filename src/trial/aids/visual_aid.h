@@ -1,5 +1,7 @@
 // Visual odometry of one drive, on board: when it takes images, when a motion is ready, and what
 // becomes of the motion. Onboard keeps it beside the reader of its images (sight/visual_reader.h).
+// Records depend on it where visual odometry is enabled: on when images are due, and on when the
+// computer (clock.compute) has a motion ready.
 #pragma once
 
 #include <cstdint>

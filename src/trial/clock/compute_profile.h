@@ -1,7 +1,7 @@
 // How long a look at the terrain takes, and what of it the computer of the scenario takes (Goldberg
 // 2002 sections 5 and 6, Howard 2012 section 3, Matthies 1995 section 8). Drives spend these times,
 // visual odometry is ready by them, and doubts about scenarios reckon with them. The printed times
-// stand in compute_tables.h.
+// stand in compute_tables.h. Records of drives depend on the last bit of these times.
 #pragma once
 
 #include "sensing/stripe_layout_params.h"

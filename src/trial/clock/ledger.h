@@ -1,5 +1,6 @@
 // The simulated clock and the batteries: what every activity takes. Drive spends on it, the referee
-// reads it. It is the one clock of a trial: times, rates and energies of the record come from it.
+// reads it. It is the one clock of a trial: times, rates and energies of the record come from it,
+// and they depend on its sums stretch by stretch: two stretches spent as one have other last bits.
 #pragma once
 
 #include <array>

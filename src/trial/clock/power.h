@@ -20,7 +20,9 @@ enum class Activity {
   kComputing,  // stereo, map and votes
   kOverhead,   // at rest about a move
 };
-inline constexpr std::size_t kActivityCount = 8;  // arrays by activity have the order above
+// Must stay: the order above, in which arrays by activity, and the columns of energy in records of
+// missions (experiments/mission/mission_experiment.h), are listed.
+inline constexpr std::size_t kActivityCount = 8;
 
 // Returns how many light emitters are on in the same image, at most: the lasers of the largest
 // group, which are fewer than lasers_per_image where groups share the lasers out evenly (four an

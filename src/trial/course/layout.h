@@ -1,5 +1,6 @@
 // Which terrain a trial drives on. Drives, studies, replays and the command `terrain` all build it
-// by these two functions, so that they see the same terrain.
+// by these two functions, so that they see the same terrain. Records depend on it: rocks and relief
+// are drawn by LayoutKey, whose trial is the column `layout`.
 #pragma once
 
 #include <cstdint>

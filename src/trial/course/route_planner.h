@@ -1,6 +1,7 @@
 // The best way to a goal among rocks that somebody knows: an oracle, or operators with a map; never
 // on-board code. Told routes are planned by it (goal_designation.h), and the path of rendered
-// sequences for visual odometry.
+// sequences for visual odometry. Records of drives with a told route depend on its cells, ties and
+// demands; it draws no random numbers, and the order of rocks does not matter.
 #pragma once
 
 #include <cstddef>

@@ -35,6 +35,9 @@ Stretch WholeSteps(double asked_s, double step_s);
 // One drive from the start to its end. Every control tick what runs on board decides from what the
 // world measures; the world holds the wheel commands for a few physics steps; observer and referee,
 // who see both sides, say when the drive is over. Looks may be under way meanwhile (timeline.h).
+// Records depend on the order of the calls in Step and Move: aids measure, operators act and
+// the referee judges after the estimator has taken the tick. world_ stands before what is made of
+// it.
 // Must stay: the drive hands measurements, commands and verdicts from one to another, and knows
 // neither where the rover is nor where the rover believes to be.
 class Drive {

@@ -1,5 +1,6 @@
 // What a drive tells of its course where somebody asks for a trace: Drive calls the tracer at every
 // tick, rest and event. Must stay: the texts of activities and events, which truth/trace.h lists.
+// No record depends on it.
 #pragma once
 
 #include <cstddef>

@@ -66,7 +66,9 @@ struct AidNews {
   std::optional<SlipReading> slip = {};
 };
 
-// The on-board side of one drive.
+// The on-board side of one drive. Records depend on the order in which the estimator is fed: at a
+// tick wheels and gyro, what was felt, fixes of aids, a motion seen. Parts keep the address of
+// captures_, so that an Onboard cannot be moved.
 class Onboard {
  public:
   // `drive` outlives it. `goals`: what the rover is told to drive to, in the order of driving;

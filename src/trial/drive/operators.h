@@ -1,6 +1,7 @@
 // The "virtual" arena as operators ran it (Matthies 1995 sec. 7): whenever the rover's position
 // reaches a mirror line, operators turn the rover in place to the mirror-image heading and reflect
-// its own estimate about the line. Drive asks them after every tick of an arc.
+// its own estimate about the line. Drive asks them after every tick of an arc. Records of such an
+// arena depend on it; it draws no random numbers, and operators make no error.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // The parts of one side of a drive: world and on-board code keep theirs in a PartSet, which tells
-// all of them when operators put the rover down.
+// all of them when operators put the rover down. No record depends on the order in which parts are
+// told, as each changes itself alone.
 #pragma once
 
 #include <tuple>

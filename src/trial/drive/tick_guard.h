@@ -1,4 +1,5 @@
-// Ends a drive that has no end of its own; RunTrial asks it before each decision.
+// Ends a drive that has no end of its own; RunTrial asks it before each decision. Its limits decide
+// which trials are faults; no other record depends on them.
 #pragma once
 
 #include <cstdint>

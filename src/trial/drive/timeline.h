@@ -1,5 +1,6 @@
 // What goes on at one time in a drive, and when looks are ready: Drive passes all time of the rover
-// as a whole through it.
+// as a whole through it. Records depend on it: the navigator gets a look at the first decision
+// after it is ready, looks in the order in which they were taken.
 #pragma once
 
 #include <deque>

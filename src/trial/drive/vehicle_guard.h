@@ -55,7 +55,7 @@ class VehicleGuard {
   std::int64_t stops_ = 0;
 };
 
-// Returns "contact left" and so on, for traces.
+// Returns "contact left" and so on, for traces: no record holds these texts.
 std::string Describe(const messages::VehicleHazard& hazard);
 
 }  // namespace rockyard::trial

@@ -5,6 +5,7 @@
 namespace rockyard::trial {
 namespace {
 
+// Rocks that can move are moved in the terrain itself, where sensors see them.
 std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::Terrain& terrain) {
   const terrain::RockFieldParams& rocks = drive.terrain.rocks;
   if (rocks.mobility == terrain::RockMobility::kFixed) {
@@ -48,6 +49,8 @@ messages::VehicleState MotionPart::Feel(const truth::RoverState& state,
   return vehicle_.Measure(state, command, duration_s);
 }
 
+// A given field is copied, so that rocks that are pushed move in this drive alone. What keeps
+// references to field_ is declared after it.
 World::World(const DriveParams& drive, core::TrialKey key, const terrain::Field* given)
     : params_(drive),
       key_(key),
@@ -66,6 +69,7 @@ World::World(const DriveParams& drive, core::TrialKey key, const terrain::Field*
 void World::Begin() {
   rover_->Place(params_.course.Start());
   parts_.get<MotionPart>().Begin(params_, key_, state());
+  // After the rover has settled: errors of height count from here.
   start_z_m_ = state().X_WR.translation().z();
 }
 

@@ -1,5 +1,8 @@
 // The true side of a drive: the ground, the rover on it, and its sensors. Drive steps the world and
-// hands its measurements to the on-board side; observer, operators and tracer see its truth.
+// hands its measurements to the on-board side; observer, operators and tracer see its truth. Every
+// sensor draws by the trial's key, a purpose and a number of its own, so that none shifts another's
+// noise; the field alone is drawn by LayoutKey, as trials may share rocks. Records depend on these
+// keys and numbers, and on the order in Step: the rover, then the sensors at its new state.
 #pragma once
 
 #include <cstdint>

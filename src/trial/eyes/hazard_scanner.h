@@ -1,5 +1,7 @@
 // The light stripe sensor together with what the rover makes of its images, without a drive: a pose
-// in, a scan out. The experiment that measures hazard detection scans with it.
+// in, a scan out. The experiment that measures hazard detection scans with it. Records of that
+// study depend on key and number of each scan, which name its noise. The sensor has no trial of its
+// own here, as the study gives each scan a key.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // The interface of a terrain sensor of one trial, on the world's side: it measures, and a
-// TerrainReader on board reads what it measured. World looks with it.
+// TerrainReader on board reads what it measured. World looks with it. Records depend on the key of
+// its trial and the numbers of looks: equal ones have equal noise.
 #pragma once
 
 #include <cstdint>

@@ -19,6 +19,7 @@ namespace rockyard::trial {
 
 // One interface for both fidelities (sensors.visual_odometry.fidelity). The error model stands for
 // cameras and odometry together, keyframes included, as it has to know the true motion.
+// Records depend on the numbers of looks, which name the noise, and on when keyframes begin.
 class VisualEyes {
  public:
   // `drive`, `terrain` and `cameras` outlive it.
@@ -29,7 +30,8 @@ class VisualEyes {
   // two rendered images.
   MotionData Look(const math::Transform& X_WR);
 
-  // Makes the next look a keyframe, as what was seen before is of no use any more.
+  // Makes the next look a keyframe, as what was seen before is of no use any more. VisualReader and
+  // VisualAid have to begin anew with it, as all three have to name the same look as keyframe.
   void Renew() { X_WK_.reset(); }
   void OnPlaced(const truth::RoverState& /*state*/) { Renew(); }
 

@@ -1,5 +1,6 @@
 // What the slip check of a drive had to find, in truth: the observer of a drive fills columns of
-// the record by it.
+// the record by it. Nothing in the drive depends on it, and no other column than slip_onset_m and
+// false_slip_alarms. Both looks of a reading have to be told by OnLook before TrulyExceeded.
 #pragma once
 
 #include <cstdint>

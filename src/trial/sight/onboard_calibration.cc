@@ -13,6 +13,7 @@ using math::Vector3;
 
 double Factor(double percent) { return 1.0 + 0.01 * percent; }
 
+// Turns the camera about its own axes and shifts it along those of R. Records depend on the order.
 void Misplace(const perception::CameraCalibrationErrors& errors, math::Transform& X_RC) {
   const Eigen::Matrix3d turned =
       (Eigen::AngleAxisd(errors.yaw_rad, Vector3::UnitZ()).toRotationMatrix() *
@@ -39,6 +40,7 @@ messages::DriveCalibration OnboardDriveCalibration(
     calibration.wheel_x_m[wheel] *= Factor(errors.wheelbase_percent);
     calibration.wheel_y_m[wheel] *= Factor(errors.track_percent);
   }
+  // MakeDriveCalibration has no offset, so that it is set, not added.
   calibration.steering_offset_rad = errors.steering_offset_rad;
   return calibration;
 }
@@ -70,6 +72,7 @@ std::optional<math::Transform> StereoMisplacement(const sensing::StereoParams& s
       ahead ? errors.stereo_front : errors.stereo_rear;
   if (!Any(error)) return std::nullopt;
   const sensing::StereoMountParams& mount = ahead ? sensor.front : sensor.rear;
+  // The middle of the pair as MakeStereoView (sensing/stereo_view.cc) mounts it: keep both alike.
   const math::Transform X_RC =
       math::MakePose({ahead ? mount.ahead_m : -mount.ahead_m, 0.0, mount.height_m},
                      ahead ? 0.0 : std::numbers::pi, mount.pitch_rad, 0.0);

@@ -1,7 +1,9 @@
 // What the rover of a trial believes of its own geometry: the truth plus the errors of the scenario
 // (perception.calibration). Must stay: the one place where truth and these errors meet. Estimators,
 // wheel driver, detectors and readers of all sensors take the errors from here, studies without a
-// drive too. Stereo cameras without their errors are sensing::CalibratedRig and MakeStereoView.
+// drive too. Every error is what is believed less what is true, steering_offset_rad the reverse;
+// records depend on signs and axes (perception/calibration_params.h). Stereo cameras without their
+// errors are sensing::CalibratedRig and MakeStereoView.
 #pragma once
 
 #include <optional>

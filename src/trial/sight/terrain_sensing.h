@@ -1,5 +1,7 @@
 // What a rover asks of its terrain sensor, and what on-board perception makes of the answer for the
-// navigator. Onboard keeps it; Drive orders looks by it.
+// navigator. Onboard keeps it; Drive orders looks by it. Records depend on the numbers of looks,
+// which name their noise: a look in a direction in which the sensor has nothing takes no number, so
+// that the next look has it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // On-board visual odometry: from a pair of images to the motion since the keyframe. Onboard reads
 // the looks of visual odometry with it, and visual_aid.h hands the motions to the estimator.
+// Records depend on its random numbers where images are taken: the samples of consensus, drawn by
+// the trial's key and the number of the look (Purpose::kRansac).
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // calibration and the result that comes out. Calibrate (calibrate.h) solves by it; `rockyard
 // calibrate` fills the data and reports the result. Derivatives and covariances take a CAHVOR
 // camera as 18 numbers in the order of flight calibrations: C, A, H, V, O, R. A Cahv is a Cahvor
-// with O = A and R = 0.
+// with O = A and R = 0. No record depends on it, so that steps and order of sums are free.
 #pragma once
 
 #include <Eigen/Core>

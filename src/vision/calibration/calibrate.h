@@ -1,6 +1,7 @@
 // Cameras from images of targets: start in closed form, least squares, outliers left out,
-// covariance (Gennery 2001). For `rockyard calibrate`; no drive calibrates. Tests hold the errors
-// of rendered targets to the covariance, so that it has to be as large as they are.
+// covariance (Gennery 2001). For `rockyard calibrate`; no drive calibrates, so that no record
+// depends on it. Tests hold the errors of rendered targets to the covariance, so that it has to be
+// as large as they are.
 #pragma once
 
 #include "core/result.h"

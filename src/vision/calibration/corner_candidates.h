@@ -1,6 +1,6 @@
 // The first steps of FindChessboard (find_chessboard.h): a smoothed image, and where four squares
 // may meet in it, which are saddle points of brightness with two dark and two bright sectors around
-// them.
+// them. No record depends on them: tests hold how near and how complete the corners are.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // A chessboard in an image: where each of its corners is. `rockyard calibrate` searches each image
-// by it.
+// by it. No record depends on it; its order of corners is that of all of calibration.
 #pragma once
 
 #include <vector>

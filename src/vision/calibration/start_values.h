@@ -1,5 +1,6 @@
 // Where Calibrate (calibrate.h) starts: cameras without distortion and poses of targets, in closed
-// form.
+// form. No record depends on it: any start serves from which least squares converge. What it
+// refuses, Calibrate refuses.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,7 @@
 // A pinhole with radial-tangential distortion (Brown 1966, "Decentering distortion of lenses";
 // Conrady 1919), in the convention that OpenCV and the Middlebury calibrations use. For pairs of
-// cameras from files (camera_file.h); no rover of rockyard's own has one.
+// cameras from files (camera_file.h); no rover of rockyard's own has one, so that no record depends
+// on it. The convention must stay, as people's files hold its numbers.
 //
 // Camera frame C: z along the optical axis, x along the rows to the right, y down the columns.
 //

@@ -1,7 +1,9 @@
 // The cameras of NASA's rovers: the linear CAHV, CAHVOR with radial distortion, and CAHVORE up to
 // fisheyes. Calibration estimates the first two; rectified pairs, the pictures of looks, the
 // backdrop of the cylinder's scene and the designation of goals use Cahv by itself; everything else
-// takes all three through CameraModel (camera_model.h).
+// takes all three through CameraModel (camera_model.h). Of these, rovers and studies have Cahv
+// alone: records depend on every bit of its functions, and on none of Cahvor's and Cahvore's, which
+// cameras from files have and tests hold to flight cameras.
 #pragma once
 
 #include <optional>

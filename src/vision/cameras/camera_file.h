@@ -1,6 +1,7 @@
 // Files of one camera or of a stereo pair, as JSON (camera_fields.h) or as the text of flight
 // calibrations (camera_text.h). The commands for stereo, odometry and cylinders from files read
-// pairs; `rockyard calibrate` and the commands that render images write them.
+// pairs; `rockyard calibrate` and the commands that render images write them. No scenario names
+// such a file, so that no record depends on it; people keep these files.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,8 @@
 // One camera of whatever model, with the size of its image. Rendering makes images through it;
 // stereo, visual odometry, calibration and the finders of the cylinder read them through it. Both
-// sides use the same functions and differ in the numbers of the camera, true or calibrated.
+// sides use the same functions and differ in the numbers of the camera, true or calibrated. Records
+// of drives with stereo or visual odometry and of the studies with colour cameras depend on its
+// bits for a Cahv, the only lens that these have.
 #pragma once
 
 #include <optional>

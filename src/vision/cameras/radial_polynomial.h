@@ -1,6 +1,7 @@
 // Radial distortion r' = r (c0 + c1 r^2 + c2 r^4 + c3 r^6), for CAHVOR, CAHVORE and the pinhole
 // with distortion. It holds on the growing part, from the centre outwards as far as r' grows with
-// r: beyond, a lens would show two directions at one radius, and calibrations say nothing there.
+// r: beyond, a lens would show two directions at one radius, and calibrations say nothing there. No
+// record depends on it, as rovers' lenses are linear.
 #pragma once
 
 #include <array>

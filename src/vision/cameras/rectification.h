@@ -12,7 +12,9 @@
 // so that a point at depth Z has the same row in both and the disparity
 // column_left - column_right = f |b| / Z >= 0. a_left and a_right are the directions of the middles
 // of the images. A rover aligns by its calibration: where the true cameras differ from it, rows do
-// not meet and ranges are wrong.
+// not meet and ranges are wrong. The calibrated eyes of rockyard's rovers are aligned as they
+// stand: records depend on AlignedPair and Triangulate, on Rectify and SourceOf results of commands
+// alone.
 #pragma once
 
 #include <limits>

@@ -9,7 +9,8 @@
 // `light` is that of an illuminant that scales each primary (von Kries 1902); `saturation` comes
 // from crosstalk between the channels, which draws all colours towards grey. Both are unknown but
 // for their priors, and the same for all surfaces of an image. Most of an image must be ground, as
-// its median tells the light.
+// its median tells the light. Records of the experiment on sightings depend on it, on the cells
+// that ratios are counted in, too; no drive does.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,8 @@
 // Which pixels have the colour of which quadrant, by ratios of their primary colours, and
 // four-connected regions of these classes (Matthies 1995, A.3, by "local blob coloring", Ballard
 // and Brown 1982). The published finder classifies by it; both finders take gaps and regions from
-// it.
+// it. Records of the experiment on sightings depend on the regions, their order and ties of their
+// sizes; no drive does.
 #pragma once
 
 #include <cstdint>

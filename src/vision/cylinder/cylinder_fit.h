@@ -1,5 +1,7 @@
 // Candidates for the coloured cylinder among regions of both eyes, and its fit to pixels: steps 1
-// and 2 of FindCylinder (robust_finder.h).
+// and 2 of FindCylinder (robust_finder.h). Records of the experiment on sightings depend on the
+// order of candidates and starts, which decides ties, and on where descents end; no drive depends
+// on it.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,6 @@
 // What FitProblem (fit_problem.h) takes from an eye: the wall of a candidate in bands of rows, each
 // averaged to one line of colours, with the background on either side, and the rows of the rims.
+// Records of the experiment on sightings depend on which rows and columns are taken.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,6 @@
 // The residuals of a place of the cylinder against the profiles of both eyes, and the descent to a
-// minimum of their squares, for FitCylinder (cylinder_fit.h).
+// minimum of their squares, for FitCylinder (cylinder_fit.h). Records of the experiment on
+// sightings depend on the steps of derivatives and of the descent.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,6 @@
 // The coloured cylinder in a pair of images, as published (Matthies 1995, appendix A), for
-// `rockyard cylinder` and the experiment on sightings.
+// `rockyard cylinder` and the experiment on sightings. Records of that experiment depend on it; no
+// drive runs it.
 #pragma once
 
 #include "vision/cylinder/cylinder_sighting.h"

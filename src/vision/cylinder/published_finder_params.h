@@ -1,6 +1,6 @@
 // Parameters of the published way to find the coloured cylinder (Matthies 1995, appendix A). Files
 // for `rockyard cylinder` and scenarios of the experiment on sightings hold them; meaning, unit and
-// origin of each stand in Visit.
+// origin of each stand in Visit. Records of the experiment depend on the defaults.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // rockyard's own way to find the coloured cylinder in a pair of images, with the two improvements
 // that Matthies 1995, section 5, proposes: a more robust segmentation and colours as a setting. For
-// `rockyard cylinder` and the experiment on sightings. Drives do not run it: the lander's law of
+// `rockyard cylinder` and the experiment on sightings. Records of that experiment depend on all
+// that it computes, ties and order of sums included. Drives do not run it: the lander's law of
 // fixes in drives was fitted to what finders see in rendered views.
 #pragma once
 

@@ -1,6 +1,7 @@
 // Where an eye sees the wall and its quadrants (WallSeen), and the colours of the quadrants by
 // linear least squares over the eye's profile, with the residuals (FitWallColours). For FitProblem
 // (fit_problem.h) at every place that it tries; WallSeen also for boxes and regions to draw.
+// Records of the experiment on sightings depend on every sum of it.
 //
 // A pixel mixes the parts (quadrants and backgrounds) that its column covers, blurred by a normal
 // distribution. The wall of a quadrant has the colour

@@ -1,7 +1,9 @@
 // A motion of a pair of cameras between two moments, or why there is none, and its estimation from
 // points. VisualOdometer returns these motions; drives take the rover's motion and slip from them,
 // `rockyard vo` joins them to a path, and the error model of visual odometry (sensing) draws such
-// motions without images.
+// motions without images. Records of drives with visual odometry depend on every bit of
+// EstimateMotion, the order of its sums over points included; on Compose only paths of `rockyard
+// vo`.
 #pragma once
 
 #include <Eigen/Core>

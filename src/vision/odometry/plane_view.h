@@ -1,5 +1,6 @@
 // How a small surface looks from where a pair of cameras has moved to: VisualOdometer predicts
-// features and their windows by it.
+// features and their windows by it. Records depend on every bit of it: predictions decide which
+// features are compared and how windows are warped.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // Which lanes of a mask are set, for the search for corners and for features near a place. Highway
 // compiles this file once for every instruction set, hence the guard. Only .cc files that have
-// included Highway include it.
+// included Highway include it. Both forms must write ascending numbers, by which ties are decided.
 #if defined(ROCKYARD_VISION_SET_LANES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROCKYARD_VISION_SET_LANES_H
 #undef ROCKYARD_VISION_SET_LANES_H

@@ -1,5 +1,6 @@
 // The images that a pair of aligned cameras takes, and what it measures of one point: the stages of
-// visual odometry hand these on. Drives and `rockyard vo` give it images.
+// visual odometry hand these on. Drives and `rockyard vo` give it images. Records depend on every
+// bit of MeasureStereo and PairProjection.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,6 @@
-// Windows of images, laid out for comparison by MatchFeatures. Sums of differences are the same on
-// every instruction set.
+// Windows of images, laid out for comparison by MatchFeatures. Records depend on all sums of
+// differences and on the rounding of WarpWindow, which are the same on every instruction set;
+// layout and order of comparisons are free.
 #pragma once
 
 #include <Eigen/Core>

@@ -80,7 +80,9 @@ struct WindowSamples {
 // `middle` + by_offset o / (1 + by_distance . o) for the offsets o of the window and of one pixel
 // about it. Outside of the image its edge repeats. `middle` lies inside the image;
 // 1 + by_distance . o counts as 1/2 where it is smaller. The side is odd. Cost: 0.5 us with 64
-// bytes a vector, 0.2 us where the view does not change, more at the edge of the image.
+// bytes a vector, 0.2 us where the view does not change, more at the edge of the image. Must stay:
+// which of its three loops runs (by the exact test for an unchanged view and by HasAll), as an
+// unchanged view is rounded otherwise at the edge of the image than inside.
 WindowSamples SampleWindow(const GrayImage& image, const Pixel& middle, const ViewChange& view,
                            std::size_t side = kTemplateRows,
                            WindowGradients gradients = WindowGradients::kBoth);

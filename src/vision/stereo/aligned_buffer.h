@@ -1,7 +1,8 @@
 // Memory for the loops in vectors of this folder and of visual odometry. It begins at a cache line,
 // is zero at first unless asked otherwise, and has a cache line to spare at both ends: loops may
 // load vectors that begin one value before the first (gradients, neighbouring segments of a row) or
-// end behind the last.
+// end behind the last. All three must stay: vectors are loaded aligned, and nobody writes the
+// correlator's slot of zeros.
 #pragma once
 
 #include <algorithm>

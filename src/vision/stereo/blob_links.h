@@ -1,5 +1,5 @@
 // Which neighbours in an image of disparities are linked (blob.h), for FilterBlobs, 64 pixels a
-// word.
+// word. Every instruction set must find the same links, as records depend on the regions.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,7 @@
 // The 1-D correlator with its checks (Goldberg 2002 section 2, stages 4 and 5), row by row, for
-// MatchStereo. Visual odometry compares windows with the same instruction sets.
+// MatchStereo. Visual odometry compares windows with the same instruction sets. Records depend on
+// scores, ties and the rounding of SubPixel; how rows lie in vectors and which sums slide is free,
+// as long as the plain form in the tests is equalled.
 //
 // For every pixel (x, y) of the left image and every disparity d of the range the score is the sum
 // of absolute differences over the window. A window of side n reaches from n / 2 pixels before its

@@ -1,5 +1,7 @@
 // What stereo returns: a disparity for every pixel of the left image, or why there is none. Points
 // of terrain sensing, places of visual odometry and the results of `rockyard stereo` come from it.
+// Records of drives depend on which pixels have a disparity and on its value; which filter dropped
+// a pixel, and the measures against known disparities, matter to the results of that command alone.
 //
 // Words of this folder: x counts columns to the right, y rows downwards, both whole and from 0 at
 // the upper left pixel. The left pixel (x, y) and the right pixel (x - d, y) show the same point; d

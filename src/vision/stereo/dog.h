@@ -1,6 +1,7 @@
 // Difference of Gaussians (Goldberg 2002 section 2 stage 3), so that neither the brightness of an
 // image nor its slow change matters to what the correlator compares. Row matches and the command's
-// search for texture filter by it, too.
+// search for texture filter by it, too. Records of drives with stereo depend on every rounding of
+// the filter that MatchStereo is given.
 //
 // Each Gaussian is a mean over few pixels; outside of the image the pixels of its edge repeat.
 //   laplacian     means over a square of side n and over one of side m around the pixel, by sliding
@@ -33,7 +34,8 @@ constexpr int kDogShift = 20;
 
 // The Laplacian of Goldberg 2002, with the sides and the limit that were chosen on synthetic pairs:
 // one step a grey level, by changes across rows as well as along them. Row matches and the search
-// for texture of `rockyard stereo` take it, whatever filter a pair is matched with.
+// for texture of `rockyard stereo` take it, whatever filter a pair is matched with. Records do not
+// depend on it.
 inline constexpr DogParams kLaplacianDog{
     .kind = DogKind::kLaplacian, .narrow_side_px = 1, .wide_side_px = 11, .gain = 1.0, .limit = 36};
 

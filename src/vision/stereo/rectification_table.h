@@ -1,7 +1,8 @@
 // Rectification by a table (Goldberg 2002 section 2 stage 2): images are resampled so that what
 // lies in a row of the left image lies in the same row of the right image. The eyes of a rover and
 // the commands that match pairs build tables from camera models (SourceOf, cameras/rectification.h)
-// or from a correction of rows (row_alignment.h).
+// or from a correction of rows (row_alignment.h). No record depends on it so far: the calibrated
+// eyes of rockyard's rovers are aligned as they stand (AlignedPair) and get no table.
 //
 // The table goes from output to input ("random in, linear out"): for each output pixel the place of
 // four input pixels and the share of each. Positions are kept to 1/256 px: with the fractions

@@ -1,5 +1,6 @@
 // How the rows of the right image lie beside those of the left one, from matches of points.
-// `rockyard stereo` aligns pairs without cameras by it, as the correlator searches along rows.
+// `rockyard stereo` aligns pairs without cameras by it, as the correlator searches along rows. No
+// drive does, so that no record depends on it.
 //
 // Small errors of the right camera's pointing, roll and focal length, and of the place of its axis
 // in the image, move its rows to first order by (its own column x, the left image's row y)

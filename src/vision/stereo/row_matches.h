@@ -1,5 +1,5 @@
 // A few matches of textured points, searched over rows as well as columns, from which
-// FindRowAlignment (row_alignment.h) learns how the rows of a pair lie.
+// FindRowAlignment (row_alignment.h) learns how the rows of a pair lie. No record depends on it.
 //
 // The points are, in each cell of a grid over the left image, the pixel with the most texture,
 //   T = min(sum |I(x + 1, y) - I(x, y)|, sum |I(x, y + 1) - I(x, y)|)

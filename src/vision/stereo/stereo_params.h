@@ -90,7 +90,7 @@ struct StereoGeometry {
 // of points from nearest_m to farthest_m before the cameras (along their axes; farthest_m may be
 // infinite), rounded outwards, and one disparity more on either side, which the peak filter needs.
 // 0 < nearest_m <= farthest_m. Throws core::UserError where the range has more than 512 disparities
-// or begins more than 480 px from 0.
+// or begins more than 480 px from 0. For `rockyard stereo`: rovers are given disparities.
 CorrelatorParams SearchDepths(const StereoGeometry& pair, double nearest_m, double farthest_m,
                               CorrelatorParams correlator);
 
