@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "campaign/run_source.h"
+#include "core/json_file.h"
 #include "experiments/make_experiment.h"
-#include "scenario/former_keys.h"
 #include "scenario/load.h"
 
 namespace rockyard::api {
@@ -30,7 +30,7 @@ Scenario Scenario::Parse(std::string_view text, std::span<const std::string> ove
 
 void Scenario::Set(std::string_view path_and_value) {
   core::JsonValue document = scenario::WriteScenario(*values_);
-  scenario::Override(document, path_and_value);
+  core::ApplyOverride(document, path_and_value);
   *values_ = scenario::ReadScenario(document, *values_);
 }
 

@@ -45,7 +45,6 @@ void WriteBaseline(const BaselineOptions& options) {
   const std::string out =
       options.out.empty() ? fmt::format("results/baselines/{}.json", name) : options.out;
   campaign::CheckOutputFile("--out", out);
-  NoteStores(options.runs);
   const report::Baseline baseline =
       campaign::MakeBaseline({.runs = options.runs, .name = name, .reason = options.reason})
           .OrThrow();

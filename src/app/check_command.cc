@@ -80,7 +80,6 @@ ExitCode Show(const campaign::PublishedCheck& check, const CheckOptions& options
 ExitCode Check(const CheckOptions& options) {
   campaign::CheckOutputFile("--junit", options.junit);
   campaign::CheckOutputFile("--csv", options.csv);
-  NoteStores(options.request.runs);
   campaign::CheckRequest request = options.request;
   request.reference = options.reference;
   if (options.allow_scenario_change) request.scenario_change = campaign::ScenarioChange::kAllow;

@@ -72,7 +72,6 @@ void Show(const campaign::Comparison& told, const CompareOptions& options) {
 ExitCode Compare(const CompareOptions& options) {
   campaign::CheckOutputFile("--csv", options.csv);
   RequireRuns(std::array{options.first, options.second});
-  NoteStores(std::array{options.first, options.second});
   const campaign::Comparison told = campaign::Compare({.first = options.first,
                                                        .second = options.second,
                                                        .cell = options.cell,

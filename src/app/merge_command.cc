@@ -28,7 +28,6 @@ ExitCode Merge(const MergeCommandOptions& options) {
   Output output = Output::kText;
   if (options.json) output = Output::kJson;
   if (options.quiet) output = Output::kQuiet;
-  if (output != Output::kQuiet) NoteStores(options.shards);
   campaign::MergeObserver observer;
   static_cast<campaign::Observer&>(observer) = MessagesToConsole(output);
   observer.reported = [&](const campaign::FolderReport& report) {

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <tuple>
 
@@ -100,7 +99,6 @@ void AddReplayCommand(CLI::App& app, ExitCode& exit_code) {
   AddOptions(*command, *options);
   command->callback([options, &exit_code] {
     FindSource(options->request);
-    NoteStores(std::span(&options->request.source, 1));
     exit_code = options->list || options->draws() ? ShowViews(*options) : WriteReplay(*options);
   });
 }

@@ -76,7 +76,6 @@ void PrintPage(const campaign::ReportResult& result) {
 
 ExitCode WritePage(const campaign::ReportRequest& request) {
   RequireRuns(request.runs);
-  NoteStores(request.runs);
   campaign::ReportObserver observer;
   static_cast<campaign::Observer&>(observer) = MessagesToConsole(Output::kText);
   observer.replays = ShowReplayProgress;

@@ -24,7 +24,6 @@
 #include "rover/rover_layout_params.h"
 #include "rover/rover_params.h"
 #include "rover/urdf.h"
-#include "scenario/former_keys.h"
 #include "scenario/load.h"
 
 namespace rockyard::app {
@@ -103,7 +102,7 @@ scenario::Scenario ScenarioOfRover(const RoverOptions& options) {
   core::JsonValue document = core::JsonValue::Object();
   document.Set("name", core::JsonValue(file.stem().string()));
   document.Set("rover", group);
-  for (const std::string& assignment : options.overrides) scenario::Override(document, assignment);
+  for (const std::string& assignment : options.overrides) core::ApplyOverride(document, assignment);
   return scenario::ReadScenario(document);
 }
 

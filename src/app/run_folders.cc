@@ -85,8 +85,4 @@ void RequireRuns(std::span<const std::string> paths) {
   }
 }
 
-void NoteStores(std::span<const std::string> paths) {
-  for (const std::string& note : campaign::StoreNotes(paths)) PrintNote(note);
-}
-
 }  // namespace rockyard::app

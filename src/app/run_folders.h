@@ -1,6 +1,5 @@
 // Folders of runs: commands that ask for a run refuse a folder of runs by it, and name the runs in
-// it; completion offers them. Commands that read stores first note which of these have no
-// checksums.
+// it; completion offers them.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +15,5 @@ std::vector<std::filesystem::path> RunFolders(const std::filesystem::path& folde
 // Throws core::UserError where a path is a folder that holds no run itself but folders of runs. The
 // error names the ten latest, each with its scenario, trials and date.
 void RequireRuns(std::span<const std::string> paths);
-
-// Prints a note to standard error for each store in these folders that has no checksums.
-void NoteStores(std::span<const std::string> paths);
 
 }  // namespace rockyard::app

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -62,7 +61,6 @@ void WriteOutputs(const StoryOptions& options, const campaign::TrialSource& sour
 
 ExitCode Trace(const StoryOptions& options) {
   CheckOutputs(options);
-  NoteStores(std::span(&options.request.source, 1));
   const campaign::TrialSource source = campaign::FindTrial(options.request);
   const campaign::DriveRecording recording = [&] {
     const BusyLine busy(fmt::format("driving trial {} again", options.request.trial));

@@ -8,7 +8,6 @@
 
 #include "core/hash.h"
 #include "core/json_text.h"
-#include "scenario/former_keys.h"
 #include "scenario/load.h"
 
 namespace rockyard::batch {
@@ -33,12 +32,12 @@ std::vector<Problem> CellDifferences(const CellIdentity& stored, const CellIdent
   std::vector<Problem> problems;
   if (stored.fingerprint != wanted.fingerprint) {
     problems = ScenarioDifferences(stored.resolved, wanted.resolved, kPathsShown, words);
-    // No value differs, but a key was renamed: the checksums of stored rows are computed from the
-    // fingerprint, and the fingerprint from the names of the keys.
+    // No value differs, but the order of the keys: the checksums of stored rows are computed from
+    // the fingerprint, and the fingerprint from the text.
     if (problems.empty()) {
       problems.push_back(
           {"scenario",
-           fmt::format("has keys {} that have another name {}", words.first, words.second),
+           fmt::format("has its keys in another order {} than {}", words.first, words.second),
            "go on with the version of the program that began it"});
     }
   }
@@ -166,10 +165,8 @@ class Walk {
 
 std::vector<ScenarioDifference> FindScenarioDifferences(std::string_view first,
                                                         std::string_view second) {
-  JsonValue before = core::ParseJson(first, "stored scenario");
-  JsonValue now = core::ParseJson(second, "scenario");
-  scenario::RenameFormerKeys(before);
-  scenario::RenameFormerKeys(now);
+  const JsonValue before = core::ParseJson(first, "stored scenario");
+  const JsonValue now = core::ParseJson(second, "scenario");
   Walk walk;
   walk.Compare("", &before, &now);
   return walk.Take();

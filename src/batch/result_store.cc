@@ -96,7 +96,7 @@ void CheckIdentity(const fs::path& path, const CampaignIdentity& stored,
 }  // namespace
 
 ResultStore::ResultStore(fs::path path, std::unique_ptr<SqliteDatabase> database)
-    : path_(std::move(path)), database_(std::move(database)), checksums_(Checksums::kEachRow) {}
+    : path_(std::move(path)), database_(std::move(database)) {}
 ResultStore::ResultStore(ResultStore&&) noexcept = default;
 ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 ResultStore::~ResultStore() = default;
@@ -185,29 +185,26 @@ ResultStore ResultStore::Read(const fs::path& folder) {
   store.identity_ = std::move(head.identity);
   store.planned_ = std::move(head.planned);
   store.rule_ = head.rule;
-  store.checksums_ = head.checksums;
   store.most_planned_ = std::move(head.most_planned);
   return store;
 }
 
-TrialTable ResultStore::Trials() const { return {identity_, most_planned_, checksums_}; }
-
-bool ResultStore::has_checksums() const { return checksums_ == Checksums::kEachRow; }
+TrialTable ResultStore::Trials() const { return {identity_, most_planned_}; }
 
 std::vector<std::string> ResultStore::Builds() const {
   const SqliteSnapshot snapshot(*database_);
-  return ReadBuilds(*database_, checksums_);
+  return ReadBuilds(*database_);
 }
 
 void ResultStore::AddBuild(std::string_view build) {
   SqliteTransaction transaction(*database_);
-  batch::AddBuild(*database_, checksums_, build);
+  batch::AddBuild(*database_, build);
   transaction.Commit();
 }
 
 void ResultStore::SetPlanned(int cell, std::int64_t planned) {
   SqliteTransaction transaction(*database_);
-  WritePlanned(*database_, checksums_, cell, planned);
+  WritePlanned(*database_, cell, planned);
   transaction.Commit();
   planned_.at(static_cast<std::size_t>(cell)) = planned;
   std::int64_t& most = most_planned_.at(static_cast<std::size_t>(cell));
@@ -216,7 +213,7 @@ void ResultStore::SetPlanned(int cell, std::int64_t planned) {
 
 void ResultStore::SetRule(const std::optional<StoppingRule>& rule) {
   SqliteTransaction transaction(*database_);
-  WriteRule(*database_, checksums_, rule);
+  WriteRule(*database_, rule);
   transaction.Commit();
   rule_ = rule;
 }
@@ -225,7 +222,7 @@ void ResultStore::Append(std::span<const CellRecord> records) {
   if (!records.empty()) InsertRecords(*database_, Trials(), records);
 }
 
-std::int64_t ResultStore::RetryFaults() { return SetSimulatorFaultsAside(*database_, Trials()); }
+std::int64_t ResultStore::RetryFaults() { return SetSimulatorFaultsAside(*database_); }
 
 std::vector<truth::Record> ResultStore::Load(int cell) const {
   return Load(cell, 0, planned(cell));
@@ -253,22 +250,13 @@ std::vector<FinishedTrial> ResultStore::Finished() const {
 
 void ResultStore::AddInfrastructureFault(const InfrastructureFault& fault) {
   SqliteTransaction transaction(*database_);
-  InsertFault(*database_, checksums_, fault);
+  InsertFault(*database_, fault);
   transaction.Commit();
 }
 
 std::vector<InfrastructureFault> ResultStore::InfrastructureFaults() const {
   const SqliteSnapshot snapshot(*database_);
-  return ReadFaults(*database_, checksums_, cells());
-}
-
-bool HasChecksums(const fs::path& folder) {
-  try {
-    const SqliteDatabase database(StorePath(folder), Access::kRead);
-    return ReadChecksums(database) == Checksums::kEachRow;
-  } catch (const StoreError&) {
-    return true;
-  }
+  return ReadFaults(*database_, cells());
 }
 
 std::span<const truth::Record> ContiguousPrefix(std::span<const truth::Record> records) {

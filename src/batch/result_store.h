@@ -19,7 +19,6 @@
 namespace rockyard::batch {
 
 class SqliteDatabase;
-enum class Checksums;
 struct TrialTable;
 
 // The file `results.sqlite` in a run folder. Tables, version 3:
@@ -38,7 +37,6 @@ struct TrialTable;
 // Damage: what is read is checked (store_rows.h), and so is that the rows are all there and none
 // is foreign. A store that was changed by accident is refused (kDamaged) rather than giving another
 // result. Head and rows are checked as they are read, the table of trials as a whole by Finished.
-// Stores of version 2 have no checksums: of their damage only what no trial gives is refused.
 //
 // Durability: commits are synchronous, through a write-ahead log. Records for which Append has
 // returned survive a killed process and a power cut (as far as the disk keeps its promises). The
@@ -90,9 +88,6 @@ class ResultStore {
 
   void SetPlanned(int cell, std::int64_t planned);
 
-  // False in stores of older programs: damage that leaves possible values passes unseen there.
-  bool has_checksums() const;
-
   // The rule that ended, or will end, the cells; absent: every planned trial is run.
   const std::optional<StoppingRule>& rule() const { return rule_; }
   void SetRule(const std::optional<StoppingRule>& rule);
@@ -140,13 +135,8 @@ class ResultStore {
   CampaignIdentity identity_;
   std::vector<std::int64_t> planned_;
   std::optional<StoppingRule> rule_;
-  Checksums checksums_;
   std::vector<std::int64_t> most_planned_;  // ever, by cell
 };
-
-// Returns whether the store in the folder keeps checksums, by its version alone. Returns true also
-// where there is no store that can be read: whoever reads it says so.
-bool HasChecksums(const std::filesystem::path& folder);
 
 // Returns the records 0, 1, 2, ... up to the first trial that is missing: what rates may be
 // computed from (PrefixCounter). `records` must be ordered by trial index.

@@ -14,15 +14,13 @@ namespace {
 
 constexpr TableShape kInventory{"inventory", "table_name, rows, checksums", 3};
 
-std::string SelectSql(Checksums checksums, const TableShape& table) {
-  return fmt::format("SELECT {}{} FROM {}", table.columns,
-                     checksums == Checksums::kEachRow ? ", row_checksum" : "", table.name);
+std::string SelectSql(const TableShape& table) {
+  return fmt::format("SELECT {}, row_checksum FROM {}", table.columns, table.name);
 }
 
-std::string InsertSql(Checksums checksums, const TableShape& table, OnConflict on_conflict) {
+std::string InsertSql(const TableShape& table, OnConflict on_conflict) {
   std::string values = "?";
-  const int count = table.count + (checksums == Checksums::kEachRow ? 1 : 0);
-  for (int i = 1; i < count; ++i) values += ", ?";
+  for (int i = 0; i < table.count; ++i) values += ", ?";
   return fmt::format("INSERT {}INTO {} VALUES ({})",
                      on_conflict == OnConflict::kKeepFirst ? "OR IGNORE " : "", table.name, values);
 }
@@ -52,8 +50,7 @@ void CreateInventory(SqliteDatabase& database) {
 }
 
 TableTally InventoryOf(const SqliteDatabase& database, std::string_view table) {
-  SqliteStatement select =
-      database.Prepare(SelectSql(Checksums::kEachRow, kInventory) + " WHERE table_name = ?");
+  SqliteStatement select = database.Prepare(SelectSql(kInventory) + " WHERE table_name = ?");
   if (!select.Bind(0, table).Step()) {
     FailDamaged(database.path(), fmt::format("is damaged: table inventory lacks {}", table));
   }
@@ -87,18 +84,14 @@ void CheckInventory(const SqliteDatabase& database, std::string_view table,
       fmt::format("is damaged: table {} has other rows than those that were written", table));
 }
 
-CheckedRows::CheckedRows(const SqliteDatabase& database, Checksums checksums,
-                         const TableShape& table, std::string_view order)
+CheckedRows::CheckedRows(const SqliteDatabase& database, const TableShape& table,
+                         std::string_view order)
     : database_(database),
-      checksums_(checksums),
       table_(table),
-      select_(database.Prepare(fmt::format("{} ORDER BY {}", SelectSql(checksums, table), order))) {
-}
+      select_(database.Prepare(fmt::format("{} ORDER BY {}", SelectSql(table), order))) {}
 
 bool CheckedRows::Step() {
-  const bool row = select_.Step();
-  if (checksums_ == Checksums::kNone) return row;
-  if (!row) {
+  if (!select_.Step()) {
     CheckInventory(database_, table_.name, found_);
     return false;
   }
@@ -114,14 +107,11 @@ bool CheckedRows::Step() {
   return true;
 }
 
-RowInsert::RowInsert(SqliteDatabase& database, Checksums checksums, const TableShape& table,
-                     OnConflict on_conflict)
+RowInsert::RowInsert(SqliteDatabase& database, const TableShape& table, OnConflict on_conflict)
     : database_(database),
-      checksums_(checksums),
       table_(table),
-      insert_(database.Prepare(InsertSql(checksums, table, on_conflict))) {
-  if (checksums_ == Checksums::kEachRow) tally_ = InventoryOf(database_, table_.name);
-}
+      insert_(database.Prepare(InsertSql(table, on_conflict))),
+      tally_(InventoryOf(database, table.name)) {}
 
 RowInsert& RowInsert::Add(std::int64_t value) {
   insert_.Bind(next_++, value);
@@ -137,7 +127,7 @@ RowInsert& RowInsert::Add(std::string_view value) {
 
 void RowInsert::Write() {
   const std::int64_t checksum = checksum_.value();
-  if (checksums_ == Checksums::kEachRow) insert_.Bind(next_, checksum);
+  insert_.Bind(next_, checksum);
   insert_.Step();
   insert_.Reset();
   if (database_.Changes() > 0) {
@@ -149,13 +139,11 @@ void RowInsert::Write() {
 }
 
 void RowInsert::Finish() {
-  if (checksums_ == Checksums::kEachRow && added_) SetInventory(database_, table_.name, tally_);
+  if (added_) SetInventory(database_, table_.name, tally_);
 }
 
-void SealRow(SqliteDatabase& database, Checksums checksums, const TableShape& table,
-             std::int64_t rowid) {
-  if (checksums == Checksums::kNone) return;
-  SqliteStatement select = database.Prepare(SelectSql(checksums, table) + " WHERE rowid = ?");
+void SealRow(SqliteDatabase& database, const TableShape& table, std::int64_t rowid) {
+  SqliteStatement select = database.Prepare(SelectSql(table) + " WHERE rowid = ?");
   if (!select.Bind(0, rowid).Step()) {
     FailDamaged(database.path(),
                 fmt::format("is damaged: table {} lacks row {}", table.name, rowid));

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 
@@ -45,12 +44,6 @@ class RowChecksum {
   std::string bytes_;  // not yet in the sum
 };
 
-// Whether a store can tell that it was damaged.
-enum class Checksums {
-  kNone,     // version 2
-  kEachRow,  // version 3: a column row_checksum in every table, and the table `inventory`
-};
-
 // A table as it is read and written: its columns but for row_checksum.
 struct TableShape {
   std::string_view name;
@@ -88,8 +81,7 @@ void CheckInventory(const SqliteDatabase& database, std::string_view table,
 // meanwhile.
 class CheckedRows {
  public:
-  CheckedRows(const SqliteDatabase& database, Checksums checksums, const TableShape& table,
-              std::string_view order);
+  CheckedRows(const SqliteDatabase& database, const TableShape& table, std::string_view order);
 
   // Returns whether there is a row to read. Throws kDamaged at a row that does not fit its
   // checksum, and at the end where rows are missing or foreign, or where an index does not find
@@ -99,7 +91,6 @@ class CheckedRows {
 
  private:
   const SqliteDatabase& database_;
-  Checksums checksums_;
   TableShape table_;
   SqliteStatement select_;
   RowChecksum checksum_;
@@ -112,7 +103,7 @@ enum class OnConflict { kFail, kKeepFirst };
 // columns, then Write; after the last row call Finish, which stores the tally of the table.
 class RowInsert {
  public:
-  RowInsert(SqliteDatabase& database, Checksums checksums, const TableShape& table,
+  RowInsert(SqliteDatabase& database, const TableShape& table,
             OnConflict on_conflict = OnConflict::kFail);
 
   RowInsert& Add(std::int64_t value);
@@ -122,7 +113,6 @@ class RowInsert {
 
  private:
   SqliteDatabase& database_;
-  Checksums checksums_;
   TableShape table_;
   SqliteStatement insert_;
   RowChecksum checksum_;
@@ -133,7 +123,6 @@ class RowInsert {
 
 // Brings the checksum of the row with that rowid, and the tally of its table, up to date after a
 // change. Call it in the transaction that changed the row.
-void SealRow(SqliteDatabase& database, Checksums checksums, const TableShape& table,
-             std::int64_t rowid);
+void SealRow(SqliteDatabase& database, const TableShape& table, std::int64_t rowid);
 
 }  // namespace rockyard::batch

@@ -21,21 +21,19 @@ namespace fs = std::filesystem;
 // The version of the layout of all tables. Stores outlive programs: a change of tables or columns
 // that other versions would misread must take another number, which these versions then refuse.
 constexpr std::int64_t kSchemaVersion = 3;
-constexpr std::int64_t kVersionWithoutChecksums = 2;
 
 constexpr TableShape kMeta{kMetaTable, "key, value", 2};
 
-void PutMeta(SqliteDatabase& database, Checksums checksums, std::string_view key,
-             std::string_view value) {
+void PutMeta(SqliteDatabase& database, std::string_view key, std::string_view value) {
   SqliteStatement update = database.Prepare("UPDATE meta SET value = ? WHERE key = ?");
   update.Bind(0, value).Bind(1, key).Step();
   if (database.Changes() == 0) {
-    RowInsert insert(database, checksums, kMeta);
+    RowInsert insert(database, kMeta);
     insert.Add(key).Add(value).Write();
     return insert.Finish();
   }
   SqliteStatement row = database.Prepare("SELECT rowid FROM meta WHERE key = ?");
-  if (row.Bind(0, key).Step()) SealRow(database, checksums, kMeta, row.Integer(0));
+  if (row.Bind(0, key).Step()) SealRow(database, kMeta, row.Integer(0));
 }
 
 // Reads a decimal number from 0 on.
@@ -73,7 +71,7 @@ std::int64_t ParseTrials(const fs::path& path, std::string_view key, const std::
 // Writes version, name, design, shard and settings of a new store.
 void WriteMeta(SqliteDatabase& database, const CampaignIdentity& identity) {
   const auto put = [&](std::string_view key, std::string_view value) {
-    PutMeta(database, Checksums::kEachRow, key, value);
+    PutMeta(database, key, value);
   };
   put("schema_version", std::to_string(kSchemaVersion));
   put("name", identity.name);
@@ -83,9 +81,9 @@ void WriteMeta(SqliteDatabase& database, const CampaignIdentity& identity) {
   if (identity.settings) put("settings", core::DumpJson(core::ListOf(*identity.settings)));
 }
 
-Meta ReadMeta(const SqliteDatabase& database, Checksums checksums) {
+Meta ReadMeta(const SqliteDatabase& database) {
   Meta meta;
-  CheckedRows rows(database, checksums, kMeta, "rowid");
+  CheckedRows rows(database, kMeta, "rowid");
   while (rows.Step()) meta[rows.row().Text(0)] = rows.row().Text(1);
   return meta;
 }
@@ -131,7 +129,7 @@ std::string ReadDesign(const fs::path& path, const Meta& meta) {
   FailDamaged(path, "has a design that is no object");
 }
 
-// Reads the settings; absent in the stores of older programs.
+// Reads the settings; absent where the store was begun without them.
 std::optional<std::vector<std::string>> ReadSettings(const fs::path& path, const Meta& meta) {
   const auto found = meta.find("settings");
   if (found == meta.end()) return std::nullopt;
@@ -143,21 +141,15 @@ std::optional<std::vector<std::string>> ReadSettings(const fs::path& path, const
   FailDamaged(path, "has settings that are no list of texts");
 }
 
+constexpr TableShape kCells{
+    "cells", "cell, name, scenario, fingerprint, resolved, seed, planned, most_planned", 8};
 constexpr TableShape kColumns{"columns", "position, name, unit, meaning", 4};
 constexpr TableShape kBuilds{"builds", "build", 1};
 constexpr TableShape kFaults{"infrastructure_faults", "cell, trial, kind, detail", 4};
 
-// How many columns the table of trials has besides those of the values. Must agree with
-// kFixedColumns in store_trials.cc.
-constexpr std::int64_t kTrialKeys = 4;
-constexpr std::int64_t kTrialChecksums = 2;
-
-TableShape CellsOf(Checksums checksums) {
-  if (checksums == Checksums::kNone) {
-    return {"cells", "cell, name, scenario, fingerprint, resolved, seed, planned", 7};
-  }
-  return {"cells", "cell, name, scenario, fingerprint, resolved, seed, planned, most_planned", 8};
-}
+// How many columns the table of trials has besides those of the values: the keys and the checksums.
+// Must agree with kFixedColumns in store_trials.cc.
+constexpr std::int64_t kOtherTrialColumns = 6;
 
 std::string CreateTrialsSql(const truth::RecordSchema& schema) {
   // The first column is campaign_cell, since records may have a column "cell" of their own. Must
@@ -191,14 +183,13 @@ void CreateTables(SqliteDatabase& database, const truth::RecordSchema& schema) {
   database.Execute(CreateTrialsSql(schema));
   CreateInventory(database);
   for (const std::string_view table :
-       {kMetaTable, kColumns.name, kBuilds.name, CellsOf(Checksums::kEachRow).name, kFaults.name,
-        kTrialsTable}) {
+       {kMetaTable, kColumns.name, kBuilds.name, kCells.name, kFaults.name, kTrialsTable}) {
     SetInventory(database, table, {});
   }
 }
 
 void InsertColumns(SqliteDatabase& database, const truth::RecordSchema& schema) {
-  RowInsert insert(database, Checksums::kEachRow, kColumns);
+  RowInsert insert(database, kColumns);
   for (std::size_t i = 0; i < schema.size(); ++i) {
     const truth::ValueInfo& value = schema[i];
     insert.Add(static_cast<std::int64_t>(i)).Add(value.name).Add(value.unit).Add(value.meaning);
@@ -208,7 +199,7 @@ void InsertColumns(SqliteDatabase& database, const truth::RecordSchema& schema) 
 }
 
 void InsertCells(SqliteDatabase& database, const StoreHead& head) {
-  RowInsert insert(database, Checksums::kEachRow, CellsOf(Checksums::kEachRow));
+  RowInsert insert(database, kCells);
   for (std::size_t i = 0; i < head.identity.cells.size(); ++i) {
     const CellIdentity& cell = head.identity.cells[i];
     insert.Add(static_cast<std::int64_t>(i)).Add(cell.name).Add(cell.scenario);
@@ -218,15 +209,15 @@ void InsertCells(SqliteDatabase& database, const StoreHead& head) {
   insert.Finish();
 }
 
-truth::RecordSchema ReadColumns(const SqliteDatabase& database, Checksums checksums) {
+truth::RecordSchema ReadColumns(const SqliteDatabase& database) {
   truth::RecordSchema stored;
-  CheckedRows rows(database, checksums, kColumns, "position");
+  CheckedRows rows(database, kColumns, "position");
   while (rows.Step()) {
     stored.push_back({rows.row().Text(1), rows.row().Text(2), rows.row().Text(3)});
   }
   SqliteStatement count = database.Prepare("SELECT count(*) FROM pragma_table_info('trials')");
-  const auto others = kTrialKeys + (checksums == Checksums::kEachRow ? kTrialChecksums : 0);
-  if (!count.Step() || count.Integer(0) != static_cast<std::int64_t>(stored.size()) + others) {
+  if (!count.Step() ||
+      count.Integer(0) != static_cast<std::int64_t>(stored.size()) + kOtherTrialColumns) {
     FailDamaged(database.path(), "is damaged: table columns does not list those of table trials");
   }
   return experiments::WithRoles(std::move(stored));
@@ -277,14 +268,8 @@ void RequireNewName(const SqliteDatabase& database, const std::vector<CellIdenti
   }
 }
 
-// Returns the most trials that were ever planned in a store without checksums, where the rules of
-// earlier sessions are not known.
-std::int64_t MostPlanned(const StoreHead& head, std::int64_t planned) {
-  return head.rule ? kMostTrials : planned;
-}
-
 void ReadCells(const SqliteDatabase& database, StoreHead& head) {
-  CheckedRows rows(database, head.checksums, CellsOf(head.checksums), "cell");
+  CheckedRows rows(database, kCells, "cell");
   while (rows.Step()) {
     const SqliteStatement& row = rows.row();
     if (row.Integer(0) != static_cast<std::int64_t>(head.identity.cells.size())) {
@@ -294,45 +279,50 @@ void ReadCells(const SqliteDatabase& database, StoreHead& head) {
     head.identity.cells.push_back(
         {row.Text(1), row.Text(2), row.Text(3), row.Text(4),
          ParseNumber<std::uint64_t>(database.path(), "seed", row.Text(5))});
-    const std::int64_t planned = ParseTrials(database.path(), "planned", row.Text(6));
-    head.planned.push_back(planned);
-    head.most_planned.push_back(head.checksums == Checksums::kEachRow
-                                    ? ParseTrials(database.path(), "most_planned", row.Text(7))
-                                    : MostPlanned(head, planned));
+    head.planned.push_back(ParseTrials(database.path(), "planned", row.Text(6)));
+    head.most_planned.push_back(ParseTrials(database.path(), "most_planned", row.Text(7)));
     RequireOneScenario(database, head.identity.cells.size() - 1, head.identity.cells.back());
   }
   if (head.planned.empty()) FailDamaged(database.path(), "has no cell");
 }
 
-}  // namespace
-
-void WritePlanned(SqliteDatabase& database, Checksums checksums, int cell, std::int64_t planned) {
-  const TableShape cells = CellsOf(checksums);
-  SqliteStatement update = database.Prepare(
-      checksums == Checksums::kEachRow
-          ? "UPDATE cells SET planned = ?1, most_planned = max(most_planned, ?1) WHERE cell = ?2"
-          : "UPDATE cells SET planned = ?1 WHERE cell = ?2");
-  update.Bind(0, planned).Bind(1, static_cast<std::int64_t>(cell)).Step();
-  SealRow(database, checksums, cells, cell);
+// kMismatch: another version, of which nothing else is read.
+void RequireVersion(const SqliteDatabase& database) {
+  SqliteStatement select = database.Prepare("SELECT value FROM meta WHERE key = 'schema_version'");
+  if (!select.Step())
+    FailDamaged(database.path(), "lacks the entry schema_version of a result store");
+  const auto version = ParseNumber<std::int64_t>(database.path(), "schema_version", select.Text(0));
+  if (version == kSchemaVersion) return;
+  throw StoreError(StoreProblem::kMismatch, database.path().string(),
+                   fmt::format("has version {}, not {}", version, kSchemaVersion),
+                   "use the program that made it, or another folder");
 }
 
-void AddBuild(SqliteDatabase& database, Checksums checksums, std::string_view build) {
-  RowInsert insert(database, checksums, kBuilds, OnConflict::kKeepFirst);
+}  // namespace
+
+void WritePlanned(SqliteDatabase& database, int cell, std::int64_t planned) {
+  SqliteStatement update = database.Prepare(
+      "UPDATE cells SET planned = ?1, most_planned = max(most_planned, ?1) WHERE cell = ?2");
+  update.Bind(0, planned).Bind(1, static_cast<std::int64_t>(cell)).Step();
+  SealRow(database, kCells, cell);
+}
+
+void AddBuild(SqliteDatabase& database, std::string_view build) {
+  RowInsert insert(database, kBuilds, OnConflict::kKeepFirst);
   insert.Add(build).Write();
   insert.Finish();
 }
 
-void InsertFault(SqliteDatabase& database, Checksums checksums, const InfrastructureFault& fault) {
-  RowInsert insert(database, checksums, kFaults);
+void InsertFault(SqliteDatabase& database, const InfrastructureFault& fault) {
+  RowInsert insert(database, kFaults);
   insert.Add(static_cast<std::int64_t>(fault.id.cell)).Add(fault.id.trial);
   insert.Add(fault.kind).Add(fault.detail).Write();
   insert.Finish();
 }
 
-std::vector<InfrastructureFault> ReadFaults(const SqliteDatabase& database, Checksums checksums,
-                                            int cells) {
+std::vector<InfrastructureFault> ReadFaults(const SqliteDatabase& database, int cells) {
   std::vector<InfrastructureFault> faults;
-  CheckedRows rows(database, checksums, kFaults, "rowid");
+  CheckedRows rows(database, kFaults, "rowid");
   while (rows.Step()) {
     const SqliteStatement& row = rows.row();
     if (row.Integer(0) < 0 || row.Integer(0) >= cells || row.Integer(1) < 0) {
@@ -360,8 +350,8 @@ void WriteStoreHead(SqliteDatabase& database, const StoreHead& head) {
   SqliteTransaction transaction(database);
   CreateTables(database, identity.schema);
   WriteMeta(database, identity);
-  WriteRule(database, Checksums::kEachRow, head.rule);
-  AddBuild(database, Checksums::kEachRow, identity.build);
+  WriteRule(database, head.rule);
+  AddBuild(database, identity.build);
   InsertColumns(database, identity.schema);
   InsertCells(database, head);
   transaction.Commit();
@@ -370,53 +360,30 @@ void WriteStoreHead(SqliteDatabase& database, const StoreHead& head) {
 StoreHead ReadStoreHead(const SqliteDatabase& database) {
   const SqliteSnapshot snapshot(database);
   StoreHead head;
-  head.checksums = ReadChecksums(database);
-  const Meta meta = ReadMeta(database, head.checksums);
+  RequireVersion(database);
+  const Meta meta = ReadMeta(database);
   head.identity.name = GetMeta(database.path(), meta, "name");
   head.identity.design = ReadDesign(database.path(), meta);
   head.identity.shard = ReadShard(database.path(), meta);
   head.identity.settings = ReadSettings(database.path(), meta);
-  head.identity.schema = ReadColumns(database, head.checksums);
+  head.identity.schema = ReadColumns(database);
   head.rule = ReadRule(database.path(), meta);
   ReadCells(database, head);
-  const std::vector<std::string> builds = ReadBuilds(database, head.checksums);
+  const std::vector<std::string> builds = ReadBuilds(database);
   if (!builds.empty()) head.identity.build = builds.front();
   return head;
 }
 
-std::vector<std::string> ReadBuilds(const SqliteDatabase& database, Checksums checksums) {
+std::vector<std::string> ReadBuilds(const SqliteDatabase& database) {
   std::vector<std::string> builds;
-  CheckedRows rows(database, checksums, kBuilds, "rowid");
+  CheckedRows rows(database, kBuilds, "rowid");
   while (rows.Step()) builds.push_back(rows.row().Text(0));
   return builds;
 }
 
-Checksums ReadChecksums(const SqliteDatabase& database) {
-  SqliteStatement select = database.Prepare("SELECT value FROM meta WHERE key = 'schema_version'");
-  if (!select.Step())
-    FailDamaged(database.path(), "lacks the entry schema_version of a result store");
-  const auto version = ParseNumber<std::int64_t>(database.path(), "schema_version", select.Text(0));
-  if (version != kSchemaVersion && version != kVersionWithoutChecksums) {
-    throw StoreError(StoreProblem::kMismatch, database.path().string(),
-                     fmt::format("has version {}, not {}", version, kSchemaVersion),
-                     "use the program that made it, or another folder");
-  }
-  SqliteStatement tables =
-      database.Prepare("SELECT count(*) FROM sqlite_master WHERE name = 'inventory'");
-  const bool inventory = tables.Step() && tables.Integer(0) > 0;
-  if (inventory != (version == kSchemaVersion)) {
-    FailDamaged(database.path(),
-                fmt::format("is damaged: table meta, row schema_version, column value: {} in a "
-                            "store {} checksums",
-                            version, inventory ? "with" : "without"));
-  }
-  return inventory ? Checksums::kEachRow : Checksums::kNone;
-}
-
-void WriteRule(SqliteDatabase& database, Checksums checksums,
-               const std::optional<StoppingRule>& rule) {
+void WriteRule(SqliteDatabase& database, const std::optional<StoppingRule>& rule) {
   const auto put = [&](std::string_view key, std::string_view value) {
-    PutMeta(database, checksums, key, value);
+    PutMeta(database, key, value);
   };
   if (!rule) return put("rule", "none");
   put("rule_half_width", fmt::format("{}", rule->half_width));

@@ -29,7 +29,6 @@ struct StoreHead {
   CampaignIdentity identity;          // with the first of the builds
   std::vector<std::int64_t> planned;  // trials, by cell
   std::optional<StoppingRule> rule;
-  Checksums checksums = Checksums::kEachRow;
   std::vector<std::int64_t> most_planned = {};  // ever, by cell: no trial beyond them is stored
 };
 
@@ -43,23 +42,21 @@ StoreHead ReadStoreHead(const SqliteDatabase& database);
 // Returns a name as SQL writes it, in double quotes.
 std::string QuotedName(std::string_view name);
 
-void WritePlanned(SqliteDatabase& database, Checksums checksums, int cell, std::int64_t planned);
+void WritePlanned(SqliteDatabase& database, int cell, std::int64_t planned);
 
-std::vector<std::string> ReadBuilds(const SqliteDatabase& database, Checksums checksums);
+std::vector<std::string> ReadBuilds(const SqliteDatabase& database);
 // Adds a build, unless it is there already.
-void AddBuild(SqliteDatabase& database, Checksums checksums, std::string_view build);
+void AddBuild(SqliteDatabase& database, std::string_view build);
 
-void InsertFault(SqliteDatabase& database, Checksums checksums, const InfrastructureFault& fault);
+void InsertFault(SqliteDatabase& database, const InfrastructureFault& fault);
 // Reads the infrastructure faults of a store of that many cells.
-std::vector<InfrastructureFault> ReadFaults(const SqliteDatabase& database, Checksums checksums,
-                                            int cells);
+std::vector<InfrastructureFault> ReadFaults(const SqliteDatabase& database, int cells);
 
 // What the table of trials is written by, and what its rows must fit. `identity` and `most_planned`
 // must outlive it.
 struct TrialTable {
   const CampaignIdentity& identity;
   const std::vector<std::int64_t>& most_planned;
-  Checksums checksums = Checksums::kEachRow;
 };
 
 // Adds the records in one transaction. A trial that is already there keeps its first record. No
@@ -70,7 +67,7 @@ void InsertRecords(SqliteDatabase& database, const TrialTable& table,
 // Moves the simulator faults, with what each said, from the table of trials to that of
 // infrastructure faults, in one transaction: these trials are pending again. Returns how many there
 // were.
-std::int64_t SetSimulatorFaultsAside(SqliteDatabase& database, const TrialTable& table);
+std::int64_t SetSimulatorFaultsAside(SqliteDatabase& database);
 
 // The trials from .. to-1 of a cell.
 struct TrialRange {
@@ -104,11 +101,6 @@ inline constexpr std::int64_t kMostTrials = 1'000'000'000;
 
 using Meta = std::map<std::string, std::string, std::less<>>;
 
-// Reads whether the store has checksums, by its version alone. Throws kMismatch for another
-// version, kDamaged where the version is not that of the tables.
-Checksums ReadChecksums(const SqliteDatabase& database);
-
-void WriteRule(SqliteDatabase& database, Checksums checksums,
-               const std::optional<StoppingRule>& rule);
+void WriteRule(SqliteDatabase& database, const std::optional<StoppingRule>& rule);
 
 }  // namespace rockyard::batch

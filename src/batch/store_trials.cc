@@ -33,25 +33,21 @@ std::vector<std::int64_t> RowBeginnings(const CampaignIdentity& identity) {
 }
 
 // OR IGNORE: a trial that was run twice has the same record, and the first row stays.
-std::string InsertSql(std::size_t values, Checksums checksums) {
+std::string InsertSql(std::size_t values) {
   std::string sql = "INSERT OR IGNORE INTO trials VALUES (?, ?, ?, ?";
   for (std::size_t i = 0; i < values; ++i) sql += ", ?";
-  return sql + (checksums == Checksums::kEachRow ? ", ?, ?)" : ")");
+  return sql + ", ?, ?)";
 }
 
 // Reads along the index; SelectFinished checks its order and entries.
-std::string FromSql(Checksums checksums) {
-  const std::string columns =
-      checksums == Checksums::kEachRow ? ", outcome_checksum, row_checksum" : "";
-  return columns + " FROM trials INDEXED BY sqlite_autoindex_trials_1";
-}
+constexpr std::string_view kFrom =
+    ", outcome_checksum, row_checksum FROM trials INDEXED BY sqlite_autoindex_trials_1";
 
-std::string SelectSql(Checksums checksums, std::string_view detail,
-                      const truth::RecordSchema& columns) {
+std::string SelectSql(std::string_view detail, const truth::RecordSchema& columns) {
   std::string sql = fmt::format("SELECT campaign_cell, trial, outcome, {}", detail);
   for (const truth::ValueInfo& value : columns) sql += ", " + QuotedName(value.name);
-  return sql + FromSql(checksums) +
-         " WHERE campaign_cell = ? AND trial >= ? AND trial < ? ORDER BY trial";
+  return fmt::format("{}{} WHERE campaign_cell = ? AND trial >= ? AND trial < ? ORDER BY trial",
+                     sql, kFrom);
 }
 
 // Reads rows of the table of trials and checks each.
@@ -73,11 +69,9 @@ class TrialReader {
     if (!row_.Step()) return false;
     CheckId();
     outcome_text_ = row_.Text(kOutcomeColumn);
-    if (table_.checksums == Checksums::kEachRow) {
-      checksum_.Restart(beginnings_[static_cast<std::size_t>(id_.cell)]);
-      checksum_.Integer(id_.cell).Integer(id_.trial).Text(outcome_text_);
-      RequireSum(sums, "outcome_checksum");
-    }
+    checksum_.Restart(beginnings_[static_cast<std::size_t>(id_.cell)]);
+    checksum_.Integer(id_.cell).Integer(id_.trial).Text(outcome_text_);
+    RequireSum(sums, "outcome_checksum");
     outcome_ = Outcome();
     return true;
   }
@@ -90,9 +84,7 @@ class TrialReader {
       values[i] = Value(kFixedColumns + static_cast<int>(i), schema[i]);
       checksum_.Real(values[i]);
     }
-    if (table_.checksums == Checksums::kEachRow) {
-      RequireSum(kFixedColumns + 1 + static_cast<int>(schema.size()), "row_checksum");
-    }
+    RequireSum(kFixedColumns + 1 + static_cast<int>(schema.size()), "row_checksum");
     for (std::size_t i = 0; i < schema.size(); ++i) RequireAtMostBase(schema, values, i);
   }
 
@@ -176,10 +168,9 @@ class TrialInsert {
   TrialInsert(SqliteDatabase& database, const TrialTable& table)
       : database_(database),
         table_(table),
-        insert_(database.Prepare(InsertSql(table.identity.schema.size(), table.checksums))),
-        beginnings_(RowBeginnings(table.identity)) {
-    if (sums()) tally_ = InventoryOf(database, kTrialsTable);
-  }
+        insert_(database.Prepare(InsertSql(table.identity.schema.size()))),
+        beginnings_(RowBeginnings(table.identity)),
+        tally_(InventoryOf(database, kTrialsTable)) {}
 
   void Write(const CellRecord& each) {
     const truth::Record& record = each.record;
@@ -192,20 +183,15 @@ class TrialInsert {
     const int values = static_cast<int>(table_.identity.schema.size());
     for (int i = 0; i < values; ++i) Value(kFixedColumns + i, record, static_cast<std::size_t>(i));
     const std::int64_t sum = checksum_.value();
-    if (sums())
-      insert_.Bind(kFixedColumns + values, outcome_sum).Bind(kFixedColumns + values + 1, sum);
+    insert_.Bind(kFixedColumns + values, outcome_sum).Bind(kFixedColumns + values + 1, sum);
     insert_.Step();
     insert_.Reset();
     if (database_.Changes() > 0) tally_.Add(sum);
   }
 
-  void Finish() {
-    if (sums()) SetInventory(database_, kTrialsTable, tally_);
-  }
+  void Finish() { SetInventory(database_, kTrialsTable, tally_); }
 
  private:
-  bool sums() const { return table_.checksums == Checksums::kEachRow; }
-
   void Key(int parameter, std::int64_t value) {
     insert_.Bind(parameter, value);
     checksum_.Integer(value);
@@ -255,23 +241,22 @@ void InsertRecords(SqliteDatabase& database, const TrialTable& table,
   transaction.Commit();
 }
 
-std::int64_t SetSimulatorFaultsAside(SqliteDatabase& database, const TrialTable& table) {
-  const bool sums = table.checksums == Checksums::kEachRow;
+std::int64_t SetSimulatorFaultsAside(SqliteDatabase& database) {
   const std::string fault(truth::Name(truth::TrialOutcome::kSimulatorFault));
   const std::string where = " FROM trials WHERE outcome = ?1";
   SqliteTransaction transaction(database);
-  TableTally tally = sums ? InventoryOf(database, kTrialsTable) : TableTally{};
-  SqliteStatement select = database.Prepare("SELECT campaign_cell, trial, detail" +
-                                            std::string(sums ? ", row_checksum" : "") + where);
+  TableTally tally = InventoryOf(database, kTrialsTable);
+  SqliteStatement select =
+      database.Prepare("SELECT campaign_cell, trial, detail, row_checksum" + where);
   select.Bind(0, fault);
   std::int64_t number = 0;
   for (; select.Step(); ++number) {
     const TrialId id{static_cast<int>(select.Integer(0)), select.Integer(1)};
-    InsertFault(database, table.checksums, {id, fault, select.Text(2)});
-    if (sums) tally.Remove(select.Integer(3));
+    InsertFault(database, {id, fault, select.Text(2)});
+    tally.Remove(select.Integer(3));
   }
   database.Prepare("DELETE" + where).Bind(0, fault).Step();
-  if (sums) SetInventory(database, kTrialsTable, tally);
+  SetInventory(database, kTrialsTable, tally);
   transaction.Commit();
   return number;
 }
@@ -282,7 +267,7 @@ std::vector<truth::Record> SelectRecords(const SqliteDatabase& database, const T
   std::vector<truth::Record> records;
   const auto values = std::make_shared<truth::ValueTable>(schema.size());
   std::vector<double> row(schema.size());
-  TrialReader reader(database, table, SelectSql(table.checksums, "detail", schema));
+  TrialReader reader(database, table, SelectSql("detail", schema));
   Bind(reader.row(), range);
   while (reader.Step(kFixedColumns + static_cast<int>(schema.size()))) {
     truth::Record record;
@@ -303,7 +288,7 @@ void CheckRecords(const SqliteDatabase& database, const TrialTable& table,
                   const TrialRange& range) {
   const truth::RecordSchema& schema = table.identity.schema;
   std::vector<double> row(schema.size());
-  TrialReader reader(database, table, SelectSql(table.checksums, "detail", schema));
+  TrialReader reader(database, table, SelectSql("detail", schema));
   Bind(reader.row(), range);
   while (reader.Step(kFixedColumns + static_cast<int>(schema.size()))) {
     reader.ReadRow(schema, reader.row().Text(kOutcomeColumn + 1), row);
@@ -316,7 +301,7 @@ std::vector<truth::Record> SelectColumns(const SqliteDatabase& database, const T
   std::vector<truth::Record> records;
   const auto values = std::make_shared<truth::ValueTable>(columns.size());
   std::vector<double> row(columns.size());
-  TrialReader reader(database, table, SelectSql(table.checksums, "''", columns));
+  TrialReader reader(database, table, SelectSql("''", columns));
   Bind(reader.row(), range);
   while (reader.Step(kFixedColumns + static_cast<int>(columns.size()))) {
     truth::Record record;
@@ -338,9 +323,9 @@ std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, const 
   const SqliteSnapshot snapshot(database);
   std::vector<FinishedTrial> finished;
   TableTally tally;
-  TrialReader reader(database, table,
-                     "SELECT campaign_cell, trial, outcome" + FromSql(table.checksums) +
-                         " ORDER BY campaign_cell, trial");
+  TrialReader reader(
+      database, table,
+      fmt::format("SELECT campaign_cell, trial, outcome{} ORDER BY campaign_cell, trial", kFrom));
   while (reader.Step(kOutcomeColumn + 1)) {
     const TrialId id = reader.id();
     const bool ascending =
@@ -352,11 +337,9 @@ std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, const 
                                                id.trial, id.cell));
     }
     finished.push_back({id, reader.outcome()});
-    if (table.checksums == Checksums::kEachRow) {
-      tally.Add(reader.row().Integer(kOutcomeColumn + 2));
-    }
+    tally.Add(reader.row().Integer(kOutcomeColumn + 2));
   }
-  if (table.checksums == Checksums::kEachRow) CheckInventory(database, kTrialsTable, tally);
+  CheckInventory(database, kTrialsTable, tally);
   return finished;
 }
 

@@ -153,7 +153,6 @@ class Opener {
     }
     TellItIsOwn();
     resumed_ = true;
-    if (!store.has_checksums()) notes_.push_back(NoChecksumsNote(folder_));
     return store;
   }
 

@@ -22,7 +22,6 @@
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "scenario/ablations.h"
-#include "scenario/former_keys.h"
 #include "scenario/load.h"
 #include "scenario/sweep.h"
 #include "statistics/clustered_rate.h"
@@ -114,8 +113,7 @@ core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
 
 // Returns the name of the estimator; "" where the scenario is of another version of the program.
 std::string Localization(const std::string& resolved) {
-  core::JsonValue document = core::ParseJson(resolved, "resolved scenario");
-  scenario::RenameFormerKeys(document);
+  const core::JsonValue document = core::ParseJson(resolved, "resolved scenario");
   const core::JsonValue* group = document.Find("localization");
   const core::JsonValue* found = group == nullptr ? nullptr : group->Find("estimator");
   const bool text = found != nullptr && found->Is(core::JsonValue::Type::kText);
@@ -131,20 +129,12 @@ std::optional<scenario::Scenario> TryRead(const std::string& resolved) {
   }
 }
 
-std::vector<std::filesystem::path> RunsIn(const std::string& path) {
-  try {
-    return batch::FindRuns(path);
-  } catch (const batch::StoreError&) {
-    return {};
-  }
-}
-
 }  // namespace
 
 scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::string> overrides,
                                     const std::string& cell, const scenario::Scenario& defaults) {
   core::JsonValue document = LoadDocument(path, cell);
-  for (const std::string& assignment : overrides) scenario::Override(document, assignment);
+  for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
   return scenario::ReadScenario(document, defaults);
 }
 
@@ -273,21 +263,6 @@ report::RunDescription Describe(const StoredRun& run, int threads) {
       .stopping = StoppingOf(run),
       .shard_index = run.shard.index,
       .shard_count = run.shard.count};
-}
-
-std::string NoChecksumsNote(const std::filesystem::path& folder) {
-  return batch::StorePath(folder).string() +
-         ": an older program made it, without checksums: damage may pass unseen";
-}
-
-std::vector<std::string> StoreNotes(std::span<const std::string> paths) {
-  std::vector<std::string> notes;
-  for (const std::string& path : paths) {
-    for (const std::filesystem::path& folder : RunsIn(path)) {
-      if (!batch::HasChecksums(folder)) notes.push_back(NoChecksumsNote(folder));
-    }
-  }
-  return notes;
 }
 
 namespace {

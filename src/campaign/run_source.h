@@ -103,14 +103,6 @@ std::string BuildName();
 // Returns what a report says of a run, with the provenance of this program.
 report::RunDescription Describe(const StoredRun& run, int threads);
 
-// Returns the sentence for people about a store without checksums (batch::HasChecksums).
-std::string NoChecksumsNote(const std::filesystem::path& folder);
-
-// Returns that sentence (NoChecksumsNote) for each store without checksums in these folders of
-// runs, or folders of such folders. Other paths, and stores that cannot be read, are for whoever
-// reads them to judge.
-std::vector<std::string> StoreNotes(std::span<const std::string> paths);
-
 // Returns the run for report::CompareRuns. `run` must outlive the view. Throws core::UserError
 // where no trial is finished.
 report::ComparedRun ComparedView(const StoredRun& run);

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/text.h"
-#include "scenario/former_keys.h"
 #include "scenario/load.h"
 
 namespace rockyard::scenario {
@@ -114,7 +114,7 @@ const Ablation& FindAblation(std::string_view name) {
 
 void ApplyAblation(core::JsonValue& document, std::string_view name) {
   for (const std::string_view setting : FindAblation(name).settings) {
-    Override(document, setting);
+    core::ApplyOverride(document, setting);
   }
 }
 

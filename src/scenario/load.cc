@@ -7,7 +7,6 @@
 #include "core/hash.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
-#include "scenario/former_keys.h"
 
 namespace rockyard::scenario {
 
@@ -15,7 +14,7 @@ namespace {
 
 Scenario Finish(core::JsonValue document, std::span<const std::string> overrides,
                 const Scenario& defaults) {
-  for (const std::string& assignment : overrides) Override(document, assignment);
+  for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
   return ReadScenario(document, defaults);
 }
 
@@ -50,7 +49,6 @@ Scenario ParseScenario(std::string_view text, std::span<const std::string> overr
 Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults) {
   Scenario scenario = defaults;
   core::JsonValue current = document;
-  RenameFormerKeys(current);
   // Nulls of open values are taken out before reading, which refuses null. The values are set after
   // it, as they follow what was read.
   const auto open = TakeOpenValues(current);

@@ -14,7 +14,6 @@
 #include "core/json_text.h"
 #include "core/json_value.h"
 #include "core/text.h"
-#include "scenario/former_keys.h"
 #include "scenario/load.h"
 #include "scenario/sweep_parts.h"
 #include "scenario/sweep_spec.h"
@@ -72,7 +71,7 @@ AxisSpec AxisReader::Read(JsonValue& value, const std::string& path) {
   if (!value.Is(Type::kObject)) return axis;
   axis.axis.name = params.name.empty() ? LastPart(params.path) : params.name;
   axis.axis.scale = params.scale;
-  axis.path = CurrentPath(params.path);
+  axis.path = params.path;
   ReadLevels(value, params, path, axis);
   parts_.CheckName(axis.axis.name, path + ".name");
   CheckLevels(axis, path);

@@ -9,7 +9,6 @@
 #include "core/json_text.h"
 #include "math/angles.h"
 #include "scenario/ablations.h"
-#include "scenario/former_keys.h"
 #include "scenario/load.h"
 
 namespace rockyard::scenario {
@@ -30,7 +29,7 @@ bool SameNumber(double asked, double found, std::string_view path) {
 // Compares what was asked for with what the resolved scenario holds, down to single values.
 void ReadBack(const JsonValue& asked, const JsonValue& document, const std::string& path,
               std::vector<Problem>& problems) {
-  const JsonValue* found = FindPath(document, CurrentPath(path));
+  const JsonValue* found = FindPath(document, path);
   if (found == nullptr) {
     problems.push_back(
         {path, "was set, but the resolved scenario has no such value", "check the path"});
@@ -103,11 +102,10 @@ ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& le
   ResolvedCell cell;
   const std::shared_ptr<const JsonValue> base = BaseOf(spec, levels);
   JsonValue document = base == nullptr ? JsonValue::Object() : *base;
-  RenameFormerKeys(document);
   std::vector<std::pair<std::string, JsonValue>> asked;
   const auto apply = [&](const JsonValue& settings) {
     for (const core::JsonMember& member : settings.members()) {
-      core::SetPath(document, CurrentPath(member.key), member.value);
+      core::SetPath(document, member.key, member.value);
       asked.emplace_back(member.key, member.value);
     }
   };

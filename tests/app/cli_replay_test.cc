@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/command.h"
-#include "batch/older_store.h"
+#include "batch/forged_store.h"
 
 namespace rockyard::app {
 namespace {
@@ -54,8 +54,8 @@ TEST_F(CliReplay, AStoredTrialComesOutTheSame) {
 // Another trial than the stored one, as if a program had changed.
 TEST_F(CliReplay, ATrialThatComesOutOtherwiseIsSaidOnThePageToo) {
   RunTo(0, With(QuickRun("run", 2), {"--set", "referee.time_limit_s=30", "--quiet"}));
-  batch::MakeOlder(work() / "run" / "results.sqlite",
-                   "UPDATE trials SET outcome = 'jammed' WHERE trial = 1");
+  batch::Forge(work() / "run" / "results.sqlite",
+               "UPDATE trials SET outcome = 'jammed' WHERE trial = 1");
   EXPECT_THAT(
       RunTo(1, {"replay", "run", "--trial", "1", "--out", "page.html", "--data", "page.json"}).err,
       HasSubstr("this trial is not the stored one"));

@@ -1,7 +1,7 @@
 // rockyard report: what it refuses, and what it says of runs that are not as they should be.
 
 #include "app/cli_report.h"
-#include "batch/older_store.h"
+#include "batch/forged_store.h"
 
 namespace rockyard::app {
 namespace {
@@ -121,8 +121,8 @@ TEST_F(CliReportPages, TheFirstTrialsGetTracks) {
 
 TEST_F(CliReportPages, ATrackThatDiffersIsToldAndLeftOut) {
   ASSERT_EQ(Drive("a", 2, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
-  batch::MakeOlder(work() / "a/results.sqlite",
-                   "UPDATE trials SET energy_wh = energy_wh + 1 WHERE trial = 0");
+  batch::Forge(work() / "a/results.sqlite",
+               "UPDATE trials SET energy_wh = energy_wh + 1 WHERE trial = 0");
   const CommandResult result = Report({"a"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.err, HasSubstr("a: 1 of the trials that were driven again for the map"));
@@ -133,7 +133,7 @@ TEST_F(CliReportPages, ATrackThatDiffersIsToldAndLeftOut) {
 
 TEST_F(CliReportPages, AReplayThatDiffersIsReportedAndNotLinked) {
   ASSERT_EQ(Drive("a", 1, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
-  batch::MakeOlder(work() / "a/results.sqlite", "UPDATE trials SET energy_wh = energy_wh + 1");
+  batch::Forge(work() / "a/results.sqlite", "UPDATE trials SET energy_wh = energy_wh + 1");
   const CommandResult result = Report({"a"}, 1);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("is not the stored one"));

@@ -1,7 +1,7 @@
 // rockyard report: which folders it takes, and what its page holds.
 #include "app/cli_report.h"
 
-#include "batch/older_store.h"
+#include "batch/forged_store.h"
 
 namespace rockyard::app {
 namespace {
@@ -38,7 +38,7 @@ TEST_F(CliReport, OfAScenarioWithoutANameIsTitledByItsFolder) {
 // trials that end early.
 TEST_F(CliReport, TellsWhichTrialsAreInTheRates) {
   ASSERT_EQ(Drive("a", 6, {"--set", "course.trials_per_layout=2"}).exit_code, 0);
-  batch::MakeOlder(work() / "a/results.sqlite", "DELETE FROM trials WHERE trial = 3");
+  batch::Forge(work() / "a/results.sqlite", "DELETE FROM trials WHERE trial = 3");
   ASSERT_EQ(Report({"a"}).exit_code, 0);
   const json run = Data()["runs"][0];
   EXPECT_EQ(run["prefix_trials"], 3);

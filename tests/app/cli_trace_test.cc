@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/command.h"
-#include "batch/older_store.h"
+#include "batch/forged_store.h"
 
 namespace rockyard::app {
 namespace {
@@ -47,8 +47,8 @@ TEST_F(CliTrace, ADamagedScenarioIsRefused) {
 
 TEST_F(CliTrace, AnotherRecordThanTheStoredOneIsFound) {
   MakeRun();
-  batch::MakeOlder(work() / "run" / "results.sqlite",
-                   "UPDATE trials SET sim_time_s = sim_time_s + 1.0");
+  batch::Forge(work() / "run" / "results.sqlite",
+               "UPDATE trials SET sim_time_s = sim_time_s + 1.0");
   const CommandResult result = RunTo(1, {"trace", "run", "--trial", "0"});
   EXPECT_THAT(result.err, Says("sim_time_s: stored", "this trial is not the stored one"));
 }

@@ -15,7 +15,6 @@
 #include "batch/trial_hash.h"
 #include "core/test_folder.h"
 #include "fake_experiment.h"
-#include "older_store.h"
 
 namespace rockyard::batch {
 namespace {
@@ -73,29 +72,25 @@ TEST(ResultStore, KeepsNanTextsFaultsAndOrder) {
 }
 
 TEST(ResultStore, SetsFaultsAsideAndNothingElse) {
-  for (const bool older : {false, true}) {
-    const core::TestFolder folder;
-    {
-      ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 5);
-      AppendRecords(store, {{0, TrialOutcome::kSimulatorFault, "blew up", {}},
-                            FakeRecord(1, 1),
-                            {3, TrialOutcome::kSimulatorFault, "", {}}});
-    }
-    if (older) MakeOlder(folder.path() / "results.sqlite");
-    ResultStore store = ResultStore::Resume(folder.path(), FakeIdentity());
-    EXPECT_EQ(store.RetryFaults(), 2) << older;
-    EXPECT_EQ(store.RetryFaults(), 0) << older;
-    const ResultStore read =
-        ResultStore::Resume(folder.path(), FakeIdentity());  // checks all of it
-    ASSERT_EQ(read.Finished().size(), 1U) << older;
-    EXPECT_EQ(TrialHash(read.Load()), TrialHash(std::vector{FakeRecord(1, 1)})) << older;
-    const std::vector<InfrastructureFault> faults = read.InfrastructureFaults();
-    ASSERT_EQ(faults.size(), 2U) << older;
-    EXPECT_EQ(faults[0].id, (TrialId{0, 0})) << older;
-    EXPECT_EQ(faults[0].kind, "simulator_fault") << older;
-    EXPECT_EQ(faults[0].detail, "blew up") << older;
-    EXPECT_EQ(faults[1].id, (TrialId{0, 3})) << older;
+  const core::TestFolder folder;
+  {
+    ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 5);
+    AppendRecords(store, {{0, TrialOutcome::kSimulatorFault, "blew up", {}},
+                          FakeRecord(1, 1),
+                          {3, TrialOutcome::kSimulatorFault, "", {}}});
   }
+  ResultStore store = ResultStore::Resume(folder.path(), FakeIdentity());
+  EXPECT_EQ(store.RetryFaults(), 2);
+  EXPECT_EQ(store.RetryFaults(), 0);
+  const ResultStore read = ResultStore::Resume(folder.path(), FakeIdentity());  // checks all of it
+  ASSERT_EQ(read.Finished().size(), 1U);
+  EXPECT_EQ(TrialHash(read.Load()), TrialHash(std::vector{FakeRecord(1, 1)}));
+  const std::vector<InfrastructureFault> faults = read.InfrastructureFaults();
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_EQ(faults[0].id, (TrialId{0, 0}));
+  EXPECT_EQ(faults[0].kind, "simulator_fault");
+  EXPECT_EQ(faults[0].detail, "blew up");
+  EXPECT_EQ(faults[1].id, (TrialId{0, 3}));
 }
 
 TEST(ResultStore, KeepsIdentityAndPlan) {

@@ -31,7 +31,7 @@ SOURCES = ("campaign/odometry/pair_reader.cc", "campaign/odometry/path_journal.c
            "core/json_parse.cc", "core/text.cc", "image_files/float_files.cc", "image_files/header_text.cc",
            "image_files/jpeg_reader.cc", "image_files/planetary.cc", "image_files/png_reader.cc",
            "image_files/pnm_reader.cc", "image_files/read_image.cc", "report/baseline.cc",
-           "report/comparison_reference.cc", "scenario/former_keys.cc",
+           "report/comparison_reference.cc",
            "scenario/load.cc", "scenario/sweep.cc", "scenario/sweep_axes.cc", "scenario/sweep_cell.cc",
            "scenario/sweep_keys.cc", "scenario/sweep_parts.cc", "vision/calibration/target_file.cc",
            "vision/cameras/camera_fields.cc", "vision/cameras/camera_file.cc", "vision/cameras/camera_text.cc")

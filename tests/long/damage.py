@@ -7,13 +7,9 @@ output, or exactly what the whole store gives: the same exit code, text and file
 else is a fault of the program: another result, a crash, a hang, an error without the file or in the words
 of a library. Faulty copies are kept in the folder of the study.
 
-Stores as older programs made them, without checksums (--older), cannot tell a value that was changed:
-another result from them is counted as unseen and is no fault, all the rest is.
-
 Prints a table of damages and a table of commands. Exit code: 0, or 1 with any fault.
 
-    tests/long/damage.py [--stores 500] [--seed 1] [--jobs 1] [--older 0.1] [--rockyard PROGRAM]
-                            [--out FOLDER]
+    tests/long/damage.py [--stores 500] [--seed 1] [--jobs 1] [--rockyard PROGRAM] [--out FOLDER]
 """
 
 import argparse
@@ -44,7 +40,7 @@ BAD_INPUT = 2     # src/campaign/work.h
 # What no message of rockyard's own says: exceptions and contracts as libraries word them.
 RAW = re.compile(r"std::|bad_alloc|basic_string|vector::|map::at|stoi|_M_|terminate|what\(\)|Assertion|"
                  r"violated|bad_variant")
-SAME, REFUSED, UNSEEN = "same", "refused", "unseen"
+SAME, REFUSED = "same", "refused"
 FAULTS = ("other result", "crash", "hang", "file not named", "raw message", "exit code", "half a result")
 
 
@@ -67,8 +63,8 @@ class Base:
     answers: dict = field(default_factory=dict)
 
 
-def judge(right, found, older=False):
-    """SAME, REFUSED, UNSEEN or one of FAULTS."""
+def judge(right, found):
+    """SAME, REFUSED or one of FAULTS."""
     if found.code is None:
         return "hang"
     if found.code < 0 or found.code > 127:
@@ -78,7 +74,7 @@ def judge(right, found, older=False):
     if (found.code, found.out, found.files) == (right.code, right.out, right.files):
         return SAME
     if found.code in (0, 1, 4):
-        return UNSEEN if older else "other result"
+        return "other result"
     if found.code != BAD_INPUT:
         return "exit code"
     if not NAMED.search(found.err):
@@ -93,7 +89,7 @@ def make(rockyard, folder, name, command, *settings):
     return folder / name
 
 
-def make_bases(rockyard, folder, older):
+def make_bases(rockyard, folder):
     """Tiny stores of drives, of a sweep, under a stopping rule, of a sensor and of a shard."""
     scenarios = study.ROOT / "scenarios"
     drive = ["--set", "rover.fidelity=quasi_static", "--set", "referee.time_limit_s=60"]
@@ -111,9 +107,6 @@ def make_bases(rockyard, folder, older):
     def of(name, command, others, extra=None):
         whole = make(rockyard, folder, name, command)
         foreign = [make(rockyard, folder, f"{name}-{i}", other) for i, other in enumerate(others)]
-        if older:
-            for store in [whole, *foreign]:
-                make_older(store / STORE)
         resume = [*command, "--out", "run", "--resume", "--quiet"]
         return Base(name, whole, {"resume": resume, **(extra or {})}, foreign)
 
@@ -144,17 +137,6 @@ def make_bases(rockyard, folder, older):
            {"report": report, "compare": ["compare", "run", "run"],
             "check": ["check", "run", "--against", reference, "--replicates", 100]}),
     ]
-
-
-def make_older(store):
-    """Version 2: the same without checksums."""
-    with connected(store) as data:
-        data.execute("DROP TABLE inventory")
-        data.execute("ALTER TABLE trials DROP COLUMN outcome_checksum")
-        data.execute("ALTER TABLE cells DROP COLUMN most_planned")
-        for table in tables(data):
-            data.execute(f"ALTER TABLE {table} DROP COLUMN row_checksum")
-        data.execute("UPDATE meta SET value = '2' WHERE key = 'schema_version'")
 
 
 # ---- Damages: each changes the file `store` by `rng`, and says what it did
@@ -360,19 +342,16 @@ def attempt(rockyard, base, damage, seed, folder):
         DAMAGES[damage](damaged, rng, base)
         if damaged.read_bytes() != whole:
             break
-    older = base.name.startswith("older ")
     found = answers(rockyard, base, damaged, folder / "work")
-    verdicts = {name: (judge(base.answers[name], each, older), each) for name, each in found.items()}
+    verdicts = {name: (judge(base.answers[name], each), each) for name, each in found.items()}
     shutil.rmtree(folder / "work")
     return verdicts
 
 
-def prepare(rockyard, folder, older):
+def prepare(rockyard, folder):
     folder.mkdir(parents=True)
-    bases = make_bases(rockyard, folder, older)
+    bases = make_bases(rockyard, folder)
     for base in bases:
-        if older:
-            base.name = f"older {base.name}"
         base.answers = answers(rockyard, base, base.folder / STORE, folder / "work")
         for name, each in base.answers.items():
             if each.code not in (0, 1, 4):
@@ -380,19 +359,18 @@ def prepare(rockyard, folder, older):
     return bases
 
 
-def plan(args, bases, older_bases):
+def plan(args, bases):
     """(base, damage, seed) of each store; damages take turns."""
     rng = random.Random(args.seed)
     work = []
     for number in range(args.stores):
         kind = list(DAMAGES)[number % len(DAMAGES)]
-        from_older = older_bases and rng.random() < args.older
-        work.append((rng.choice(older_bases if from_older else bases), kind, rng.getrandbits(63)))
+        work.append((rng.choice(bases), kind, rng.getrandbits(63)))
     return work
 
 
 def table(title, counts, names):
-    kinds = [kind for kind in (SAME, REFUSED, UNSEEN, *FAULTS) if any(counts[name, kind] for name in names)]
+    kinds = [kind for kind in (SAME, REFUSED, *FAULTS) if any(counts[name, kind] for name in names)]
     rows = [[title, *kinds]] + [[name, *(counts[name, kind] for kind in kinds)] for name in names]
     rows.append(["all", *(sum(counts[name, kind] for name in names) for kind in kinds)])
     widths = [max(len(str(row[i])) for row in rows) for i in range(len(rows[0]))]
@@ -403,10 +381,9 @@ def table(title, counts, names):
 
 def run_study(args, folder):
     """Counts by damage and by command, and the faults as text."""
-    bases = prepare(args.rockyard, folder / "whole", older=False)
-    older_bases = prepare(args.rockyard, folder / "older", older=True) if args.older > 0 else []
+    bases = prepare(args.rockyard, folder / "whole")
     by_damage, by_command, faults = Counter(), Counter(), []
-    work = list(enumerate(plan(args, bases, older_bases)))
+    work = list(enumerate(plan(args, bases)))
 
     def one(item):
         number, (base, damage, seed) = item
@@ -418,8 +395,7 @@ def run_study(args, folder):
             progress.at(number, len(faults))
             faulty = False
             for name, (verdict, found) in verdicts.items():
-                kind = f"{damage} (older)" if base.name.startswith("older ") else damage
-                by_damage[kind, verdict] += 1
+                by_damage[damage, verdict] += 1
                 by_command[name, verdict] += 1
                 if verdict in FAULTS:
                     faulty = True
@@ -435,7 +411,6 @@ def main(words=None):
     parser.add_argument("--stores", type=int, default=500, help="damaged stores (500)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, help="stores at a time")
-    parser.add_argument("--older", type=float, default=0.1, help="share of stores without checksums (0.1)")
     parser.add_argument("--rockyard", type=Path, default=study.ROOT / "build/release/bin/rockyard")
     parser.add_argument("--out", type=Path, help="new folder (default: a temporary one)")
     args = parser.parse_args(words)
@@ -444,8 +419,7 @@ def main(words=None):
         parser.error(f"{args.out} exists: name a new folder")
     folder = args.out.resolve() if args.out else Path(tempfile.mkdtemp(prefix="rockyard-damage-"))
     by_damage, by_command, faults = run_study(args, folder)
-    damages = [name for each in DAMAGES for name in (each, f"{each} (older)")
-               if any(kind == name for kind, _ in by_damage)]
+    damages = [name for name in DAMAGES if any(kind == name for kind, _ in by_damage)]
     print(f"{args.stores} damaged stores, seed {args.seed}; answers of commands\n")
     print(table("damage", by_damage, damages), end="\n\n")
     print(table("command", by_command, sorted({name for name, _ in by_command})))

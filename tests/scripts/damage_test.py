@@ -47,17 +47,13 @@ class Verdicts(unittest.TestCase):
                 self.assertEqual(judge(RIGHT, found), fault)
                 self.assertIn(fault, damages.FAULTS)
 
-    def test_of_older_stores_another_result_is_unseen_and_a_crash_is_a_fault(self):
-        self.assertEqual(judge(RIGHT, Answer(0, "success 100 %"), older=True), "unseen")
-        self.assertEqual(judge(RIGHT, Answer(-6), older=True), "crash")
-
 
 class Study(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.temporary.name)
-        cls.bases = damages.prepare(ROCKYARD, cls.folder / "whole", older=False)
+        cls.bases = damages.prepare(ROCKYARD, cls.folder / "whole")
 
     @classmethod
     def tearDownClass(cls):
@@ -94,7 +90,7 @@ class Study(unittest.TestCase):
     def test_the_command_prints_both_tables_and_counts_every_answer(self):
         out = io.StringIO()
         with contextlib.redirect_stdout(out), mock.patch.object(damages, "prepare", lambda *_, **__: self.bases):
-            code = damages.main(["--stores", "2", "--older", "0", "--rockyard", str(ROCKYARD)])
+            code = damages.main(["--stores", "2", "--rockyard", str(ROCKYARD)])
         self.assertEqual(code, 0, out.getvalue())
         lines = [line.split() for line in out.getvalue().splitlines()]
         totals = [line[1:] for line in lines if line[:1] == ["all"]]

@@ -21,10 +21,10 @@
 #include <vector>
 
 #include "core/archive.h"
+#include "core/json_file.h"
 #include "rendering/picture/picture.h"
 #include "rendering/picture/picture_kit.h"
 #include "rendering/picture/picture_readout.h"
-#include "scenario/former_keys.h"
 #include "scenario/load.h"
 #include "terrain/field.h"
 #include "vision/each_pixel.h"
@@ -112,7 +112,7 @@ void Run(const std::string& scenario_path, const std::string& out,
          const std::vector<std::string>& overrides) {
   PairSettings settings;
   core::JsonValue document = core::WriteParams(settings);
-  for (const std::string& assignment : overrides) scenario::Override(document, assignment);
+  for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
   core::ReadParams(document, settings);
   const auto scenario = scenario::LoadScenario(scenario_path);
   const core::TrialKey key{static_cast<std::uint64_t>(scenario.seed),
