@@ -5,6 +5,8 @@
 
 #include "campaign/check.h"
 #include "campaign/compare.h"
+#include "campaign/reference_cases.h"
+#include "campaign/report.h"
 #include "campaign/run.h"
 
 namespace rockyard::api {
@@ -16,6 +18,7 @@ campaign::CampaignRequest CampaignOf(const RunRequest& request) {
                                      .overrides = request.overrides,
                                      .folder = request.folder,
                                      .existing = request.existing,
+                                     .shard = request.shard,
                                      .max_fault_fraction = request.max_fault_fraction};
   campaign.containment.threads = request.threads;
   campaign.traces.rules = request.traces;
@@ -42,6 +45,32 @@ campaign::WorkResult Run(const RunRequest& request) {
 campaign::WorkResult Sweep(const RunRequest& request) {
   return campaign::RunSweep({.file = request.source, .campaign = CampaignOf(request)},
                             ObserverOf(request), {.wanted = request.stop});
+}
+
+campaign::WorkResult Merge(const MergeRequest& request) {
+  return campaign::Merge(
+      {.shards = request.shards, .folder = request.folder, .partial = request.partial},
+      {request.observer});
+}
+
+campaign::WorkResult Report(const ReportRequest& request) {
+  const campaign::ReportResult result =
+      campaign::WriteReport({.runs = request.runs,
+                             .cell = request.cell,
+                             .page = request.page.string(),
+                             .data = request.data.string(),
+                             .against = request.reference.string(),
+                             .title = request.title,
+                             .replays = request.replays,
+                             .tracks = request.tracks},
+                            {request.observer}, {.wanted = request.stop});
+  return static_cast<const campaign::WorkResult&>(result);
+}
+
+void WriteBaseline(const BaselineRequest& request) {
+  campaign::WriteBaseline({.runs = request.runs, .name = request.name, .reason = request.reason},
+                          request.file)
+      .OrThrow();
 }
 
 Finding Check(const CheckRequest& request, const campaign::Observer& observer) {

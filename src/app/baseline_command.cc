@@ -10,10 +10,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/run_folders.h"
-#include "campaign/output_folder.h"
 #include "campaign/reference_cases.h"
-#include "core/error.h"
-#include "report/atomic_file.h"
 #include "report/baseline.h"
 #include "report/line_text.h"
 
@@ -38,20 +35,14 @@ std::string NameOf(const BaselineOptions& options) {
 }
 
 void WriteBaseline(const BaselineOptions& options) {
-  if (options.reason.find_first_not_of(" \t\n") == std::string::npos) {
-    throw core::UserError("--reason", "is empty", "say why the numbers may be what they are");
-  }
   const std::string name = NameOf(options);
   const std::string out =
       options.out.empty() ? fmt::format("results/baselines/{}.json", name) : options.out;
-  campaign::CheckOutputFile("--out", out);
   const report::Baseline baseline =
-      campaign::MakeBaseline({.runs = options.runs, .name = name, .reason = options.reason})
+      campaign::WriteBaseline({.runs = options.runs, .name = name, .reason = options.reason}, out)
           .OrThrow();
-  const std::string text = report::BaselineJson(baseline);
-  report::WriteFileAtomically(out, text);
   Print(fmt::format("{}: {} cells, {} bytes\n", report::Printable(out), baseline.cells.size(),
-                    text.size()));
+                    fs::file_size(out)));
 }
 
 }  // namespace

@@ -13,9 +13,11 @@
 
 #include "batch/run_folder.h"
 #include "batch/trial_hash.h"
+#include "campaign/output_folder.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
 #include "core/json_text.h"
+#include "report/atomic_file.h"
 #include "report/comparison_reference.h"
 #include "report/page_data.h"
 #include "scenario/load.h"
@@ -91,6 +93,19 @@ report::Baseline GatherBaseline(const BaselineRequest& request) {
 
 core::Result<report::Baseline> MakeBaseline(const BaselineRequest& request) {
   return core::Attempt([&] { return GatherBaseline(request); });
+}
+
+core::Result<report::Baseline> WriteBaseline(const BaselineRequest& request,
+                                             const std::filesystem::path& file) {
+  return core::Attempt([&] {
+    if (request.reason.find_first_not_of(" \t\n") == std::string::npos) {
+      throw core::UserError("--reason", "is empty", "say why the numbers may be what they are");
+    }
+    CheckOutputFile("--out", file.string());
+    report::Baseline baseline = GatherBaseline(request);
+    report::WriteFileAtomically(file, report::BaselineJson(baseline));
+    return baseline;
+  });
 }
 
 namespace {

@@ -29,6 +29,11 @@ struct BaselineRequest {
 // records of one campaign.
 core::Result<report::Baseline> MakeBaseline(const BaselineRequest& request);
 
+// The same, written into a file, whole or not at all. An error also: no reason, or a file that
+// cannot be meant.
+core::Result<report::Baseline> WriteBaseline(const BaselineRequest& request,
+                                             const std::filesystem::path& file);
+
 // The scenario of a baseline's cell beside that of a run.
 struct BaselineScenario {
   // What makes the scenario of the run another one: settings that the baseline knows, and younger

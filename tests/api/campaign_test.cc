@@ -4,11 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <iterator>
 
 #include "api/scenario.h"
-#include "campaign/reference_cases.h"
 #include "core/test_folder.h"
-#include "report/atomic_file.h"
 
 namespace rockyard::api {
 namespace {
@@ -26,6 +25,11 @@ class PublicCampaign : public testing::Test {
     std::ofstream(Path("short.json")) << R"({"rover": {"fidelity": "quasi_static"},
                                              "referee": {"time_limit_s": 1}, "trials": 3})";
     return {.source = Path("short.json"), .folder = Path(folder), .threads = 1};
+  }
+
+  static std::string Text(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
   }
 
  private:
@@ -80,6 +84,44 @@ TEST_F(PublicCampaign, SweepsEveryCell) {
   EXPECT_EQ(result.trials.finished, 4);
 }
 
+TEST_F(PublicCampaign, MergesShardsToTheWholeRun) {
+  RunRequest request = Request("whole");
+  ASSERT_EQ(api::Run(request).outcome, Outcome::kDone);
+  for (const std::string number : {"1", "2"}) {
+    request.folder = Path(number);
+    request.shard = number + "/2";
+    ASSERT_EQ(api::Run(request).outcome, Outcome::kDone);
+  }
+  MergeRequest merge{.shards = {Path("1")}, .folder = Path("merged")};
+  int told = 0;
+  merge.observer.problems = [&](const std::vector<core::Problem>&) { ++told; };
+  EXPECT_EQ(Merge(merge).outcome, Outcome::kBadInput);
+  EXPECT_EQ(told, 1);
+  EXPECT_FALSE(std::filesystem::exists(merge.folder));
+  merge.shards.push_back(Path("2"));
+  const campaign::WorkResult merged = Merge(merge);
+  EXPECT_EQ(merged.outcome, Outcome::kDone);
+  EXPECT_EQ(merged.folder, merge.folder);
+  EXPECT_EQ(Text(merge.folder / "trials.csv"), Text(Path("whole") / "trials.csv"));
+  merge = {.shards = {Path("1")}, .folder = Path("part"), .partial = true};
+  EXPECT_EQ(Merge(merge).outcome, Outcome::kDone);
+  EXPECT_EQ(Text(merge.folder / "trials.csv"), Text(Path("1") / "trials.csv"));
+}
+
+TEST_F(PublicCampaign, ReportsWhatTheRequestSays) {
+  ASSERT_EQ(api::Run(Request("a")).outcome, Outcome::kDone);
+  const ReportRequest request{.runs = {Path("a").string()},
+                              .page = Path("page.html"),
+                              .data = Path("data.json"),
+                              .title = "a title",
+                              .replays = 1,
+                              .tracks = 0};
+  EXPECT_EQ(Report(request).outcome, Outcome::kDone);
+  EXPECT_THAT(Text(Path("page.html")), HasSubstr("<title>a title"));
+  EXPECT_THAT(Text(Path("data.json")), HasSubstr("page_replays/"));
+  EXPECT_EQ(Report({.runs = {Path("none").string()}}).outcome, Outcome::kBadInput);
+}
+
 TEST_F(PublicCampaign, FindingsAreTheJsonOfTheCommand) {
   ASSERT_EQ(api::Run(Request("a")).outcome, Outcome::kDone);
   RunRequest slow = Request("b");
@@ -91,10 +133,12 @@ TEST_F(PublicCampaign, FindingsAreTheJsonOfTheCommand) {
   EXPECT_THAT(same.json, Not(HasSubstr("rover.drive.speed_m_s")));
   EXPECT_THAT(other.json, HasSubstr("rover.drive.speed_m_s"));
 
-  const auto baseline =
-      campaign::MakeBaseline({.runs = {Path("a").string()}, .name = "b", .reason = "first"});
-  ASSERT_TRUE(baseline.ok());
-  report::WriteFileAtomically(Path("baseline.json"), report::BaselineJson(*baseline));
+  BaselineRequest baseline{
+      .runs = {Path("a").string()}, .file = Path("baseline.json"), .name = "b", .reason = " "};
+  EXPECT_THROW(WriteBaseline(baseline), core::UserError);
+  EXPECT_FALSE(std::filesystem::exists(baseline.file));
+  baseline.reason = "first";
+  WriteBaseline(baseline);
   const Finding check = Check({.runs = {Path("a").string()}, .reference = Path("baseline.json")});
   EXPECT_EQ(check.outcome, Outcome::kDone);
   EXPECT_EQ(check.json.front(), '{');
