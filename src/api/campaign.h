@@ -1,12 +1,8 @@
 /// @file
-<<<<<<< HEAD
-/// What the command does with whole campaigns, for other programs: run, sweep, check, compare. Only
-/// programs that link rockyard use it. One trial again is campaign/replay.h. Must stay, for
-/// programs that are written: names, order of members (which initializers follow), and defaults.
-=======
 /// What the command does with whole campaigns, for other programs: run, sweep, merge, report,
-/// check, compare, baseline. One trial again is campaign/replay.h.
->>>>>>> bd95c035 (Other programs merge shards and write reports and baselines)
+/// check, compare, baseline. Only programs that link rockyard use it. One trial again is
+/// campaign/replay.h. Must stay, for programs that are written: names, order of members (which
+/// initializers follow), and defaults.
 #pragma once
 
 #include <cstdint>
@@ -131,22 +127,15 @@ struct Finding {
 /// some seconds. The resampling has a seed of its own, so that equal runs give equal findings.
 Finding Check(const CheckRequest& request, const campaign::Observer& observer = {});
 
-<<<<<<< HEAD
-/// Compares two runs. Drives are compared trial by trial where their seeds are the same, which
-/// describes and decides nothing (kDone); measurements cell by cell, with kDiffers where a rate of
-/// a cell differs. Throws core::UserError. Memory: of drives 200 bytes a trial of each run and some
-/// columns; of measurements the records of both.
-=======
 /// Writes a baseline, which Check takes as its reference. Throws core::UserError, and leaves the
 /// file as it is: runs that are no drives, unfinished, of the same name, or with trials that share
 /// rocks; a file that cannot be written. Memory: the records of one campaign.
 void WriteBaseline(const BaselineRequest& request);
 
-/// Compares two runs: drives trial by trial where their seeds are the same, which describes and
-/// decides nothing (kDone); measurements cell by cell, kDiffers where a rate of a cell does. Throws
-/// core::UserError. Memory: of drives 200 bytes a trial of each run and some columns; of
-/// measurements the records of both.
->>>>>>> bd95c035 (Other programs merge shards and write reports and baselines)
+/// Compares two runs. Drives are compared trial by trial where their seeds are the same, which
+/// describes and decides nothing (kDone); measurements cell by cell, with kDiffers where a rate of
+/// a cell differs. Throws core::UserError. Memory: of drives 200 bytes a trial of each run and some
+/// columns; of measurements the records of both.
 Finding Compare(const CompareRequest& request);
 
 }  // namespace rockyard::api

@@ -14,7 +14,7 @@
 namespace rockyard::batch {
 namespace {
 
-// Must agree with kTrialKeys and CreateTrialsSql in store_tables.cc.
+// Must agree with kOtherTrialColumns and CreateTrialsSql in store_tables.cc.
 constexpr int kFixedColumns = 4;  // campaign_cell, trial, outcome, detail
 constexpr int kOutcomeColumn = 2;
 

@@ -11,7 +11,7 @@
 
 namespace rockyard::core {
 
-// A value, or everything that is wrong with its input.
+// A value, or everything that is wrong with its input, or with the machine.
 template <typename Value>
 class Result {
  public:
@@ -22,6 +22,10 @@ class Result {
       : problems_(std::move(problems)) {
     EXPECT(!problems_.empty());
   }
+  Result(const MachineError& error)  // NOLINT(google-explicit-constructor): see above
+      : Result(error.problems()) {
+    machine_failed_ = true;
+  }
 
   bool ok() const { return value_.has_value(); }
   // Empty where there is a value.
@@ -31,8 +35,10 @@ class Result {
   const Value& operator*() const { return value_.value(); }
   const Value* operator->() const { return &value_.value(); }
 
-  // Returns the value; throws UserError where there is none.
+  // Returns the value. Where there is none, throws MachineError if the machine failed, which the
+  // command line ends with exit code 5, else UserError.
   Value OrThrow() && {
+    if (machine_failed_) throw MachineError(std::move(problems_));
     if (!ok()) throw UserError(std::move(problems_));
     return *std::move(value_);
   }
@@ -40,15 +46,16 @@ class Result {
  private:
   std::optional<Value> value_;
   std::vector<Problem> problems_;
+  bool machine_failed_ = false;
 };
 
-// Returns what `action` returns, or the problems of the UserError that it throws. That it was a
-// MachineError is lost: OrThrow then throws a UserError, which the command line turns into exit
-// code 2 instead of 5.
+// Returns what `action` returns, or the problems of the UserError or MachineError that it throws.
 template <typename Action>
 auto Attempt(Action&& action) -> Result<std::invoke_result_t<Action>> {
   try {
     return std::forward<Action>(action)();
+  } catch (const MachineError& error) {
+    return error;
   } catch (const UserError& error) {
     return error.problems();
   }

@@ -93,6 +93,20 @@ TEST(Result, MovesWhatCannotBeCopied) {
   EXPECT_EQ(*std::move(result).OrThrow(), 3);
 }
 
+TEST(Result, KeepsThatTheMachineFailed) {
+  const auto fail = [](auto error) { return Attempt([&]() -> int { throw error; }); };
+  EXPECT_EQ(fail(MachineError("disk", "is full", "")).problems()[0].path, "disk");
+  EXPECT_THROW(fail(MachineError("disk", "is full", "")).OrThrow(), MachineError);
+  try {
+    fail(UserError("disk", "is none", "")).OrThrow();
+    FAIL();
+  } catch (const MachineError&) {
+    FAIL() << "the input was wrong, not the machine";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.problems()[0].path, "disk");
+  }
+}
+
 // What is no user's error is nobody's value.
 TEST(Result, LetsOtherExceptionsPass) { EXPECT_THROW(Parse("seven"), std::invalid_argument); }
 

@@ -29,15 +29,16 @@ Transform Arc(double way_m, double turn_rad) {
 }
 
 // Returns a step from the level pose `level`. Draws from (key, kExperiment), substream 1: substream
-// 0 is RandomPlace's. Records depend on the order: side, two tilts, errors of way and turn. Which
-// number of a tilt is its roll is up to the compiler, which may evaluate arguments in any order.
+// 0 is RandomPlace's. Records depend on the order: side, two tilts (roll, then
+// pitch), errors of way and turn.
 StudiedStep DrawStep(const VisualMotionStudyParams& params, const Transform& level, double way_m,
                      double turn_rad, core::TrialKey key) {
   core::RandomStream stream(key, core::Purpose::kExperiment, 1);
   const auto normal = [&] { return core::SampleNormal(stream, 0.0, 1.0); };
   const auto tilted = [&] {
-    return math::MakePose(math::Vector3::Zero(), 0.0, params.tilt_sd_rad * normal(),
-                          params.tilt_sd_rad * normal());
+    const double roll_rad = params.tilt_sd_rad * normal();
+    const double pitch_rad = params.tilt_sd_rad * normal();
+    return math::MakePose(math::Vector3::Zero(), 0.0, pitch_rad, roll_rad);
   };
   const double side = core::SampleBernoulli(stream, 0.5) ? 1.0 : -1.0;
   const Transform first = tilted();
