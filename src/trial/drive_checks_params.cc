@@ -153,8 +153,7 @@ void RequireSoundRouteMap(const DriveParams& drive, core::FieldVisitor& v) {
       fmt::format("is waypoints where navigation.navigator is {}, which follows the whole "
                   "route itself",
                   navigator.name()),
-      "use course.route_map.use navigator, or navigation.navigator pathfinder or gestalt, which "
-      "look for hazards");
+      "use navigator, or navigation.navigator pathfinder or gestalt, which look for hazards");
   v.Require("course.route_map.use", !waypoints || course.waypoints.x_m.empty(),
             "is waypoints where course.waypoints names others",
             "use a course without waypoints, or navigator");

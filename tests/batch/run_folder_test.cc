@@ -162,17 +162,6 @@ TEST(ScenarioDifferences, LeavesOutWhatNoRecordDependsOn) {
               ElementsAre("rock.name"));
 }
 
-// Of an earlier version of the program.
-TEST(ScenarioDifferences, TakesFormerKeysForThoseOfToday) {
-  const char* former = R"({"sensors": {"localization": "oracle", "gyro": 1}})";
-  EXPECT_THAT(Paths(former, R"({"sensors": {"gyro": 1}, "localization": {"estimator": "oracle"}})"),
-              IsEmpty());
-  EXPECT_THAT(Paths(R"({"sensors": {"gyro": 1}, "localization": {"estimator": "oracle"}})", former),
-              IsEmpty());
-  EXPECT_THAT(Paths(former, R"({"sensors": {"gyro": 1}, "localization": {"estimator": "x"}})"),
-              ElementsAre("localization.estimator"));
-}
-
 TEST(ScenarioDifferences, SeesTheLastBitAndEndsAtTheLimit) {
   EXPECT_THAT(Paths(R"({"a": 0.1})", R"({"a": 0.10000000000000002})"), ElementsAre("a"));
   const auto few = ScenarioDifferences(R"({"a": 1, "b": 1, "c": 1})", R"({})", 2);

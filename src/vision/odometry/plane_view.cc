@@ -12,15 +12,15 @@ PlaneView::PlaneView(const RectifiedPair& pair, const math::Transform& X_SF) {
 }
 
 std::optional<PredictedFeature> PlaneView::operator()(const StereoMeasurement& measured) const {
-  constexpr double kLeastShare = 1e-6;  // the second depth over the first
-  constexpr double kMostSlope = 0.75;   // must be the bound of PlacementParams::max_slope
+  constexpr double kLeastDepthShare = 1e-6;  // the second depth over the first
+  constexpr double kMostSlope = 0.75;        // must be the bound of PlacementParams::max_slope
   constexpr double kMostChange = 8.0;
   const Pixel& p = measured.left;
   Eigen::Vector3d plane;
   plane << measured.slope, measured.disparity_px - measured.slope.dot(p);
   const Eigen::Matrix3d H = turn_ + shift_ * plane.transpose();
   const Eigen::Vector3d second = H * p.homogeneous();
-  if (!(second.z() > kLeastShare)) return std::nullopt;
+  if (!(second.z() > kLeastDepthShare)) return std::nullopt;
   const Eigen::Matrix3d G = H.inverse();
   PredictedFeature seen;
   seen.pixel = second.hnormalized();
