@@ -148,12 +148,11 @@ void RequireSoundRouteMap(const DriveParams& drive, core::FieldVisitor& v) {
   const CourseParams& course = drive.course;
   const bool waypoints = course.route_map.use == RouteUse::kWaypoints;
   const bool lander = course.route_map.source == RouteMap::kLander;
-  v.Require(
-      "course.route_map.use", !waypoints || !follows,
-      fmt::format("is waypoints where navigation.navigator is {}, which follows the whole "
-                  "route itself",
-                  navigator.name()),
-      "use navigator, or navigation.navigator pathfinder or gestalt, which look for hazards");
+  v.Require("course.route_map.use", !waypoints || !follows,
+            fmt::format("is waypoints where navigation.navigator is {}, which follows the whole "
+                        "route itself",
+                        navigator.name()),
+            "use navigator, or navigation.navigator pathfinder or gestalt, which look for hazards");
   v.Require("course.route_map.use", !waypoints || course.waypoints.x_m.empty(),
             "is waypoints where course.waypoints names others",
             "use a course without waypoints, or navigator");

@@ -1551,7 +1551,7 @@ PARAMETERS = [
     (NOMINAL, {"navigation.navigator": "route", "course.tracking.enabled": True},
      "use navigator pathfinder or gestalt, or no tracking", {"course.tracking.enabled": False}),
     (NOMINAL, {"navigation.navigator": "route", "course.route_map.use": "waypoints"},
-     "use navigator, or navigator pathfinder or gestalt, which", {"course.route_map.use": "navigator"}),
+     "use navigator, or navigation.navigator pathfinder or gestalt, which", {"course.route_map.use": "navigator"}),
     (NOMINAL, {"course.route_map.use": "waypoints", "course.waypoints.x_m": [3], "course.waypoints.y_m": [0]},
      "use a course without waypoints, or navigator", {"course.route_map.use": "navigator"}),
     (NOMINAL, {"course.route_map.use": "waypoints", "course.tracking.enabled": True},
