@@ -1,6 +1,7 @@
 // Errors as values: what campaign and vision return where an input can be wrong.
 #pragma once
 
+#include <exception>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -22,10 +23,10 @@ class Result {
       : problems_(std::move(problems)) {
     EXPECT(!problems_.empty());
   }
-  Result(const MachineError& error)  // NOLINT(google-explicit-constructor): see above
-      : Result(error.problems()) {
-    machine_failed_ = true;
-  }
+  // The problems of an error that OrThrow throws again as it was, whatever it derives from
+  // UserError: the command line tells by its type who failed, the input or the machine.
+  Result(const UserError& error, std::exception_ptr thrown)
+      : problems_(error.problems()), thrown_(std::move(thrown)) {}
 
   bool ok() const { return value_.has_value(); }
   // Empty where there is a value.
@@ -35,10 +36,9 @@ class Result {
   const Value& operator*() const { return value_.value(); }
   const Value* operator->() const { return &value_.value(); }
 
-  // Returns the value. Where there is none, throws MachineError if the machine failed, which the
-  // command line ends with exit code 5, else UserError.
+  // Returns the value; where there is none, throws the error that Attempt caught, or UserError.
   Value OrThrow() && {
-    if (machine_failed_) throw MachineError(std::move(problems_));
+    if (thrown_) std::rethrow_exception(thrown_);
     if (!ok()) throw UserError(std::move(problems_));
     return *std::move(value_);
   }
@@ -46,18 +46,16 @@ class Result {
  private:
   std::optional<Value> value_;
   std::vector<Problem> problems_;
-  bool machine_failed_ = false;
+  std::exception_ptr thrown_;
 };
 
-// Returns what `action` returns, or the problems of the UserError or MachineError that it throws.
+// Returns what `action` returns, or the problems of the UserError that it throws.
 template <typename Action>
 auto Attempt(Action&& action) -> Result<std::invoke_result_t<Action>> {
   try {
     return std::forward<Action>(action)();
-  } catch (const MachineError& error) {
-    return error;
   } catch (const UserError& error) {
-    return error.problems();
+    return {error, std::current_exception()};
   }
 }
 

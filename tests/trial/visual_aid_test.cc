@@ -285,6 +285,28 @@ TEST_F(ImageAidTest, FindsTheMotionThatWheelsAndGyroPredict) {
               math::DegToRad(0.5));
 }
 
+TEST_F(ImageAidTest, BeginsAnewWithAKeyframe) {
+  const math::Transform nowhere = math::Transform::Identity();
+  EXPECT_TRUE(odometry_.Read(eyes_.Look(At(0.0, 0.0)), nowhere).keyframe);
+  EXPECT_TRUE(odometry_.Read(eyes_.Look(At(0.0, 0.0)), nowhere).result.motion);
+  odometry_.Renew();
+  const VisualStep anew = odometry_.Read(eyes_.Look(At(0.0, 0.0)), nowhere);
+  EXPECT_TRUE(anew.keyframe);
+  EXPECT_FALSE(anew.result.motion);
+}
+
+// Terrain sensing and visual odometry count their looks apart and share no noise of pixels; the
+// scene is one.
+TEST_F(ImageAidTest, NoTwoUsesOfTheCamerasShareTheirNoise) {
+  const auto take = [this](CameraUse use, std::int64_t number) {
+    return cameras_.Expose(use, terrain_, At(0.0, 0.0), messages::LookDirection::kAhead, number)
+        .left;
+  };
+  EXPECT_EQ(take(CameraUse::kMotion, 0), take(CameraUse::kMotion, 0));
+  EXPECT_NE(take(CameraUse::kMotion, 0), take(CameraUse::kTerrain, 0));
+  EXPECT_NE(take(CameraUse::kMotion, 0), take(CameraUse::kMotion, 1));
+}
+
 TEST(VisualParams, ImagesOfTwoEyesInOnePlaceAreRefused) {
   const Overrides images{"sensors.visual_odometry.fidelity=image"};
   const Overrides ideal{"sensors.stereo.fidelity=ideal"};
