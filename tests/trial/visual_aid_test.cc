@@ -316,6 +316,13 @@ TEST(VisualParams, ImagesOfTwoEyesInOnePlaceAreRefused) {
               HasSubstr("sensors.visual_odometry.fidelity"));
 }
 
+// Windows of 15 px reach 7 px from their feature.
+TEST(VisualParams, WindowsThatReachBeyondTheImageAreRefused) {
+  const std::string border = "perception.visual_odometry.detector.border_px";
+  EXPECT_NO_THROW(Seeing({border + "=7"}));
+  EXPECT_THAT(core::RefusalOf([&] { Seeing({border + "=6"}); }), HasSubstr(border));
+}
+
 // Windows that are compared as they are find no such turn.
 TEST_F(ImageAidTest, FindsNoneWhereTheyPredictAnother) {
   EXPECT_EQ(MotionsWhereItBelieves(0.0, kTurn_rad), 0U);
