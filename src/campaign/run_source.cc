@@ -134,6 +134,8 @@ std::optional<scenario::Scenario> TryRead(const std::string& resolved) {
 scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::string> overrides,
                                     const std::string& cell, const scenario::Scenario& defaults) {
   core::JsonValue document = LoadDocument(path, cell);
+  // A run's own document has absolute paths.
+  scenario::AnchorPlugins(document, path.parent_path());
   for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
   return scenario::ReadScenario(document, defaults);
 }

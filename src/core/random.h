@@ -71,6 +71,8 @@ enum class Purpose : std::uint32_t {
   kCylinderScene = 55,
   kCylinderGround = 56,
   kCylinderNoise = 57,
+  kNavigator = 58,  // the seed of a navigator's own generator (NavigatorSetup::random_seed)
+  kSiteMap = 59,    // the error of the map of the site
 };
 
 // Returns the raw Philox 4x32-10 bijection of one counter under one key.

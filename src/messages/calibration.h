@@ -31,6 +31,19 @@ struct DriveCalibration {
   double max_wheel_speed_m_s = 0.15;  ///< rim speed of the fastest wheel
 };
 
+/// What the rover believes of its body, beside its wheels. Lengths are those of the design; a
+/// scenario states no errors of them.
+struct RoverBelief {
+  DriveCalibration drive;
+  double length_m = 0.0;           ///< of the outline, along x of R
+  double width_m = 0.0;            ///< along y of R, over the wheels
+  double belly_clearance_m = 0.0;  ///< of the belly above level ground
+  double wheel_width_m = 0.0;
+  double max_rocker_rad = 0.0;  ///< stops of the passive joints, either way
+  double max_bogie_rad = 0.0;
+  double max_tilt_rad = 0.0;  ///< above it the rover feels a hazard (perception.vehicle_hazard)
+};
+
 /// One laser fan: the directions from the emitter within half_fan of axis_R, in the light plane
 /// n . (p - e) = 0 with the normal n and the emitter e.
 struct StripeLaser {

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "messages/commands.h"
@@ -96,6 +97,37 @@ struct NavigationView {
   /// knot; empty where the rover chooses among the motions above.
   std::vector<SplineVote> splines;
   PoseEstimate spline_start;  ///< where all splines begin
+};
+
+/// A way or an outline that a navigator shows on the map of a replay.
+struct OverlayLine {
+  std::string name;          ///< what it stands for: "path", "wall followed"; lines may share one
+  std::vector<Goal> points;  ///< in the frame in which goals are told
+};
+
+/// A map that a navigator shows: values on a grid, row-major, x ascending fastest.
+struct OverlayGrid {
+  std::string name;   ///< what the values are: "cost"
+  double x0_m = 0.0;  ///< lower corner of the first cell, in the frame in which goals are told
+  double y0_m = 0.0;
+  double step_m = 0.0;  ///< side of a cell, above 0
+  int nx = 0;           ///< cells along x
+  int ny = 0;
+  std::vector<double> values;  ///< nx * ny; 0 (free) to 1 (blocked), NaN where nothing is known
+};
+
+/// What a navigator of any kind shows of a decision, beside or in place of a NavigationView.
+struct Overlay {
+  std::vector<OverlayLine> lines;
+  std::vector<OverlayGrid> grids;
+};
+
+/// A number that a navigator counts or measures for itself, as it declares it once. It is a column
+/// of every record of a drive with that navigator.
+struct OwnValue {
+  std::string name;     ///< lower case, digits, underscores: "replans"
+  std::string unit;     ///< "1" for counts
+  std::string meaning;  ///< one sentence
 };
 
 }  // namespace rockyard::messages

@@ -1,18 +1,22 @@
 /// @file
-/// The interface of every path selection algorithm. The on-board side of a drive asks a navigator
-/// at each control tick, and the experiment on stereo takes the map of its first look. A navigator
-/// sees measurements and estimates only.
+/// The interface of every path selection algorithm, rockyard's own, plugins and processes alike.
+/// The on-board side of a drive asks a navigator at events (Event) and at ticks that the navigator
+/// names (Until); the experiment on stereo takes the map of its first look. A navigator sees
+/// measurements and estimates only.
 ///
-/// Wrappers (waypoints, the reaction to being stuck) are navigators around another one: each of
-/// them must pass on what is added to the interface.
+/// Wrappers (the gate of events, waypoints, the reaction to being stuck) are navigators around
+/// another one: each of them must pass on what is added to the interface.
 ///
 /// Records depend on every decision, to the last bit of a motion, and on the tick at which it is
 /// made.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <span>
 
+#include "messages/calibration.h"
 #include "messages/commands.h"
 #include "messages/estimates.h"
 #include "messages/navigation_view.h"
@@ -35,9 +39,58 @@ enum class GoalChange {
   kMoved,  ///< the same goal, seen elsewhere than it was believed to be: progress counts on
 };
 
+/// Why a navigator is asked; several can come together. Values are bits, which the interfaces of
+/// plugins and processes pass on: append only.
+enum class Event : std::uint32_t {
+  kTick = 1u << 0,          ///< no other than that the navigator asked for this tick
+  kStart = 1u << 1,         ///< the first question of a drive
+  kLook = 1u << 2,          ///< the answer to a look is here
+  kManoeuvre = 1u << 3,     ///< Until::distance_m or turn_rad is reached
+  kPeriod = 1u << 4,        ///< Until::period_s is over
+  kNearGoal = 1u << 5,      ///< the goal came within Until::near_goal_m
+  kEndOfPlan = 1u << 6,     ///< the rover has come to rest at MotionCommand::end_m
+  kPoseUpdate = 1u << 7,    ///< operators moved the rover since the last question
+  kCorrection = 1u << 8,    ///< an outside measurement has corrected the estimate since
+  kGoal = 1u << 9,          ///< the goal is another one since
+  kHazard = 1u << 10,       ///< a felt hazard appeared, changed or went
+  kTouchBehind = 1u << 11,  ///< what touches behind appeared or went
+  kStuck = 1u << 12,        ///< the rover notices that it is stuck
+};
+
+/// A set of events.
+class Events {
+ public:
+  constexpr Events() = default;
+  /// Takes the bits of a set.
+  constexpr explicit Events(std::uint32_t bits) : bits_(bits) {}
+
+  constexpr void Add(Event event) { bits_ |= static_cast<std::uint32_t>(event); }
+  constexpr bool Has(Event event) const { return (bits_ & static_cast<std::uint32_t>(event)) != 0; }
+  constexpr bool empty() const { return bits_ == 0; }
+  constexpr std::uint32_t bits() const { return bits_; }
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+/// When a navigator is asked again although nothing happens: by default at the next tick. All is
+/// measured on board, since the decision.
+struct Until {
+  double period_s = 0.0;  ///< at the first tick at which so much time has passed; 0: the next one
+  double distance_m = std::numeric_limits<double>::infinity();  ///< odometer, whatever direction
+  double turn_rad = std::numeric_limits<double>::infinity();    ///< heading, either way
+  /// Believed distance to the goal: at the first tick at which it is no larger.
+  double near_goal_m = 0.0;
+};
+
+/// Returns the rule of a navigator that is asked at events alone. Distances, turns and periods are
+/// added to it.
+constexpr Until AtEvents() { return {.period_s = std::numeric_limits<double>::infinity()}; }
+
 /// What the navigator knows when it decides.
 struct NavigatorInput {
   double time_s = 0.0;                       ///< on-board clock since the start
+  Events events = {};                        ///< why it is asked
   messages::PoseEstimate estimate = {};      ///< in the frame in which goals are told
   messages::AttitudeEstimate attitude = {};  ///< of the rover as it stands
   /// The pose in the frame of odometry, in which LookMoment::odometry of `look` is told too.
@@ -55,6 +108,11 @@ struct NavigatorInput {
   bool touches_behind = false;  ///< at this tick, whatever else the rover feels
   /// At this tick, by the stuck detector, or by an alarm of the slip check that counts as stuck.
   bool notices_stuck = false;
+  /// Covariance of `estimate` and `attitude`; null where the rover keeps no account of its error.
+  const messages::PoseCovariance* covariance = nullptr;
+  /// What vehicle sensors measured over the last tick, joint angles among it; null before the
+  /// first. Sensors that the rover lacks are empty.
+  const messages::VehicleState* felt = nullptr;
 };
 
 /// What the navigator asks for until its next decision.
@@ -69,19 +127,29 @@ struct NavigatorDecision {
   /// between (operators, a reaction to being stuck). No look is taken while the cameras are at work
   /// on one: a navigator goes on asking.
   bool looks_on_the_move = false;
+  /// When it is asked again; the next tick unless it says otherwise.
+  Until until = {};
+  /// What the decision cost on the rover's computer beyond the traits' cost, in operations:
+  /// clock.compute.operations_per_s makes seconds of them, which the rover spends at rest.
+  double work_ops = 0.0;
 
   /// Returns whether the navigator asks for a look, and whether the rover stops for it.
   bool looks() const { return look.has_value(); }
   bool stops_to_look() const { return looks() && !looks_on_the_move; }
 };
 
-/// Returns the decision to drive `motion`.
-inline NavigatorDecision Move(const messages::MotionCommand& motion) {
-  return {NavigatorStatus::kDriving, {}, motion};
+/// Returns the decision to drive `motion`, and to ask again at the next tick, or by `until`.
+inline NavigatorDecision Move(const messages::MotionCommand& motion, const Until& until = {}) {
+  return {.status = NavigatorStatus::kDriving, .motion = motion, .until = until};
+}
+
+/// Returns the decision to stop and look.
+inline NavigatorDecision LookAt(messages::LookDirection direction) {
+  return {.status = NavigatorStatus::kDriving, .look = direction};
 }
 
 /// Returns the decision to end the drive with `status`.
-inline NavigatorDecision Finish(NavigatorStatus status) { return {status, {}, {}}; }
+inline NavigatorDecision Finish(NavigatorStatus status) { return {.status = status}; }
 
 /// What became of plans that were made on the move; the drive's record holds them.
 struct PlanCounts {
@@ -101,7 +169,8 @@ class Navigator {
  public:
   virtual ~Navigator() = default;
 
-  /// Is called at every control tick, in order of time. Must end every manoeuvre by what `input`
+  /// Is called at every event and as the last decision says by `until`, in order of time; between
+  /// two calls the motion of the last decision goes on. Must end every manoeuvre by what `input`
   /// says was measured on board.
   virtual NavigatorDecision Decide(const NavigatorInput& input) = 0;
 
@@ -128,6 +197,14 @@ class Navigator {
 
   /// Returns what became of plans on the move so far.
   virtual PlanCounts plan_counts() const { return {}; }
+
+  /// Returns what the navigator shows on the map of a replay since its last decision, or null. Is
+  /// asked for traces and pages alone: no decision may depend on the call.
+  virtual const messages::Overlay* overlay() const { return nullptr; }
+
+  /// Returns its own values so far, as many and in the order as NavigatorDescription declares them.
+  /// Valid until the next call of the navigator.
+  virtual std::span<const double> own_values() const { return {}; }
 };
 
 }  // namespace rockyard::navigation

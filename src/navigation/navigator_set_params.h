@@ -3,19 +3,36 @@
 /// made. Scenarios list them, drives make the chosen one, and a program adds its own.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/fields.h"
 #include "core/kind_set.h"
+#include "messages/calibration.h"
 #include "messages/estimates.h"
+#include "messages/navigation_view.h"
+#include "messages/site_map.h"
 #include "navigation/navigator_traits_params.h"
 
 namespace rockyard::navigation {
 
 class Navigator;
+
+/// What a navigator that is no part of the program, a plugin or a process, may use. What exceeds
+/// one of these twice in a trial ends the drive (navigator_fault).
+struct LimitParams {
+  double decision_cpu_s = 60.0;  ///< of one answer
+  double drive_cpu_s = 600.0;    ///< of all answers of a drive
+  double memory_mb = 4096.0;     ///< of a process, in 2^20 bytes
+  double answer_s = 60.0;        ///< of the clock on the wall, while a process uses no CPU time
+
+  void Visit(core::FieldVisitor& v);
+};
 
 /// What a navigator gets at the start of a drive, beside its parameters.
 struct NavigatorSetup {
@@ -24,6 +41,20 @@ struct NavigatorSetup {
   /// Of the fastest rim. The default is Athena's (Howard 2012 sec. 3), as in gestalt/gestalt.h.
   double full_speed_m_s = 0.07;
   messages::Route route = {};  ///< to the goal, for traits().follows_route; else empty
+  /// All that the rover is told to drive to, in the order of driving; the first of them is `goal`.
+  std::vector<messages::Goal> places = {};
+  messages::RoverBelief rover = {};  ///< what it believes of its body
+  /// What is known of the site before the drive; null where the scenario has no such map
+  /// (course.site_map). Lives as long as the navigator.
+  std::shared_ptr<const messages::SiteMap> site_map = {};
+  /// For a random generator of the navigator's own: another one in each trial, the same whenever a
+  /// trial is run again. It shifts no other noise.
+  std::uint64_t random_seed = 0;
+  /// Operations a second of the modelled computer (clock.compute.operations_per_s); 0: own
+  /// operations take no time.
+  double operations_per_s = 0.0;
+  double control_period_s = 0.05;  ///< between two ticks
+  LimitParams limits = {};         ///< for whoever asks a plugin or process
 };
 
 /// All that is needed to add a navigator. `Params` has `void Visit(core::FieldVisitor&)`.
@@ -35,6 +66,8 @@ struct NavigatorDescription {
   /// What a trial has to know of the navigator, and how one is made for a drive.
   NavigatorTraits (*traits)(const Params&) = nullptr;
   std::unique_ptr<Navigator> (*make)(const Params&, const NavigatorSetup&) = nullptr;
+  /// What Navigator::own_values() returns: columns of records, in this order.
+  std::vector<messages::OwnValue> own_values = {};
 };
 
 /// A navigator of a set, whatever its parameters.
@@ -49,6 +82,10 @@ class NavigatorKind : public core::Kind {
 
   /// Returns what a trial has to know of the navigator, by the parameters of this kind.
   virtual NavigatorTraits traits() const = 0;
+  /// Returns what it counts for itself.
+  virtual std::span<const messages::OwnValue> own_values() const = 0;
+  /// Returns whether it is a plugin or a process, which the program does not answer for.
+  virtual bool foreign() const { return false; }
   /// Makes one for a drive.
   virtual std::unique_ptr<Navigator> Make(const NavigatorSetup& setup) const = 0;
   /// Returns a copy with parameters of its own.
@@ -67,6 +104,8 @@ class NavigatorSet : public core::KindSet<NavigatorKind> {
   void Add(const NavigatorDescription<Params>& description, Params params = {}) {
     AddKind(std::make_unique<KindOf<Params>>(description, std::move(params)));
   }
+  /// Adds a kind; throws as above.
+  void Add(std::unique_ptr<NavigatorKind> kind) { AddKind(std::move(kind)); }
 
  private:
   template <typename Params>
@@ -76,6 +115,9 @@ class NavigatorSet : public core::KindSet<NavigatorKind> {
           description(of) {}
 
     NavigatorTraits traits() const override { return description.traits(this->params); }
+    std::span<const messages::OwnValue> own_values() const override {
+      return description.own_values;
+    }
     std::unique_ptr<Navigator> Make(const NavigatorSetup& setup) const override {
       return description.make(this->params, setup);
     }

@@ -23,7 +23,14 @@ NavigatorDecision StuckReaction::Decide(const NavigatorInput& input) {
   if (stage_ == Stage::kBackingOff) {
     if (!HasBackedOff(input)) return {NavigatorStatus::kDriving, {}, back_off_};
     stage_ = Stage::kBackedOff;
+    NavigatorInput after = input;
+    after.events.Add(Event::kStuck);
+    return Ask(after);
   }
+  return Ask(input);
+}
+
+NavigatorDecision StuckReaction::Ask(const NavigatorInput& input) {
   NavigatorDecision decision = navigator_->Decide(input);
   // A turn in place cannot be driven back: the arc before it can.
   if (decision.motion.kind == messages::MotionKind::kArc) last_arc_ = decision.motion;

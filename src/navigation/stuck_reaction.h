@@ -12,6 +12,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "navigation/navigator.h"
 #include "navigation/reaction_params.h"
@@ -33,10 +34,13 @@ class StuckReaction final : public Navigator {
   }
   const messages::NavigationView* view() const override { return navigator_->view(); }
   PlanCounts plan_counts() const override { return navigator_->plan_counts(); }
+  const messages::Overlay* overlay() const override { return navigator_->overlay(); }
+  std::span<const double> own_values() const override { return navigator_->own_values(); }
 
  private:
   enum class Stage { kNavigating, kBackingOff, kBackedOff };
 
+  NavigatorDecision Ask(const NavigatorInput& input);
   void BeginBackOff(const messages::PoseEstimate& estimate);
   // Returns whether the back-off is over after this tick.
   bool HasBackedOff(const NavigatorInput& input) const;

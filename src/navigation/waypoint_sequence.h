@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "messages/estimates.h"
@@ -46,6 +47,8 @@ class WaypointSequence final : public Navigator {
   void DriveTo(const messages::Goal& goal);
   const messages::NavigationView* view() const override { return navigator_->view(); }
   PlanCounts plan_counts() const override { return navigator_->plan_counts(); }
+  const messages::Overlay* overlay() const override { return navigator_->overlay(); }
+  std::span<const double> own_values() const override { return navigator_->own_values(); }
 
   // Returns at how many waypoints the navigator said that it had arrived, or that were passed; the
   // last goal is none of them.

@@ -20,7 +20,7 @@ namespace rockyard::report {
 inline constexpr std::string_view kBaselineKind = "rockyard_baseline";
 
 // A letter for each outcome, in the order of truth::TrialOutcome.
-inline constexpr std::string_view kOutcomeLetters = "GFTHJNELAXMS";
+inline constexpr std::string_view kOutcomeLetters = "GFTHJNELAXMSV";
 static_assert(kOutcomeLetters.size() == truth::kTrialOutcomeNames.size());
 
 // One cell of a campaign.

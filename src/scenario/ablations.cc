@@ -77,7 +77,7 @@ bool IsInForce(const Scenario& scenario, const Ablation& ablation) {
   core::JsonValue document = WriteScenario(scenario);
   ApplyAblation(document, ablation.name);
   try {
-    return Fingerprint(ReadScenario(document)) == Fingerprint(scenario);
+    return Fingerprint(ReadScenario(document, scenario)) == Fingerprint(scenario);
   } catch (const core::UserError&) {
     return false;
   }
@@ -127,7 +127,7 @@ AblatedScenario WithAblations(const Scenario& scenario, std::span<const std::str
     if (IsInForce(scenario, FindAblation(name))) ablated.idle.push_back(name);
     core::JsonValue document = WriteScenario(ablated.scenario);
     ApplyAblation(document, name);
-    ablated.scenario = ReadScenario(document);
+    ablated.scenario = ReadScenario(document, ablated.scenario);
   }
   for (const std::string& name : names) {
     if (IsInForce(ablated.scenario, FindAblation(name))) continue;

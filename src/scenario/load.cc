@@ -37,18 +37,31 @@ void AllowExtends(core::JsonValue& schema) {
 
 Scenario LoadScenario(const std::filesystem::path& path, std::span<const std::string> overrides,
                       const Scenario& defaults) {
-  return Finish(core::LoadJsonFile(path), overrides, defaults);
+  core::JsonValue document = core::LoadJsonFile(path);
+  AnchorPlugins(document, path.parent_path());
+  return Finish(std::move(document), overrides, defaults);
 }
 
 Scenario ParseScenario(std::string_view text, std::span<const std::string> overrides,
                        const std::filesystem::path& folder, const Scenario& defaults) {
-  return Finish(core::ResolveExtends(core::ParseJson(text, "scenario"), folder), overrides,
-                defaults);
+  core::JsonValue document = core::ResolveExtends(core::ParseJson(text, "scenario"), folder);
+  AnchorPlugins(document, folder);
+  return Finish(std::move(document), overrides, defaults);
+}
+
+void AnchorPlugins(core::JsonValue& document, const std::filesystem::path& folder) {
+  core::JsonValue* list = document.Find(plugin::kPluginsKey);
+  if (list != nullptr) *list = plugin::Anchored(*list, folder);
 }
 
 Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults) {
   Scenario scenario = defaults;
   core::JsonValue current = document;
+  if (const core::JsonValue* list = document.Find(plugin::kPluginsKey)) {
+    scenario.plugins = plugin::OpenPlugins(*list, ".", defaults.plugins);
+    plugin::AddNavigators(scenario.plugins, scenario.drive.navigation.navigators);
+    current.Erase(plugin::kPluginsKey);
+  }
   // Nulls of open values are taken out before reading, which refuses null. The values are set after
   // it, as they follow what was read.
   const auto open = TakeOpenValues(current);
@@ -57,7 +70,14 @@ Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults)
   return scenario;
 }
 
-core::JsonValue WriteScenario(const Scenario& scenario) { return core::WriteParams(scenario); }
+core::JsonValue WriteScenario(const Scenario& scenario) {
+  core::JsonValue document = core::WriteParams(scenario);
+  // Only where there are some, so that all other scenarios keep their fingerprints.
+  if (!scenario.plugins.empty()) {
+    document.Set(plugin::kPluginsKey, plugin::ToJson(scenario.plugins));
+  }
+  return document;
+}
 
 std::string ResolvedJson(const Scenario& scenario) {
   return core::DumpJson(WriteScenario(scenario));
@@ -69,12 +89,14 @@ std::uint64_t Fingerprint(const Scenario& scenario) {
 
 std::uint64_t ResolvedFingerprint(core::JsonValue resolved) {
   for (const std::string_view key : kNoInfluence) resolved.Erase(key);
+  if (core::JsonValue* list = resolved.Find(plugin::kPluginsKey)) *list = plugin::IdentityOf(*list);
   return core::Hasher().Text(core::DumpJson(resolved)).value();
 }
 
-std::string SchemaJson() {
-  core::JsonValue schema = core::SchemaOf<Scenario>("rockyard scenario");
+std::string SchemaJson(const Scenario& scenario) {
+  core::JsonValue schema = core::MakeSchema(core::ListParams(scenario), "rockyard scenario");
   AllowOpenValues(schema);
+  schema.Find("properties")->Set(plugin::kPluginsKey, plugin::SchemaOfPlugins());
   AllowExtends(schema);
   return core::DumpJson(schema);
 }

@@ -28,8 +28,12 @@ Scenario LoadScenario(const std::filesystem::path& path,
 Scenario ParseScenario(std::string_view text, std::span<const std::string> overrides = {},
                        const std::filesystem::path& folder = ".", const Scenario& defaults = {});
 
+// Makes the paths of plugins in a document absolute, as they are relative to `folder`.
+void AnchorPlugins(core::JsonValue& document, const std::filesystem::path& folder);
+
 // Returns the same from a document whose "extends" are resolved, for designs and sweeps that change
-// members by core::SetPath.
+// members by core::SetPath. Plugins that the document names are opened; those of `defaults` are not
+// opened again.
 Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults = {});
 
 // Return every effective value, as a scenario file that reads back to the same scenario, bit for
@@ -42,7 +46,8 @@ std::string ResolvedJson(const Scenario& scenario);
 inline constexpr std::array<std::string_view, 4> kNoInfluence = {"name", "description", "accepted",
                                                                  "trials"};
 
-// Returns a hash of all members but kNoInfluence, as ResolvedJson writes them. Stored runs go on
+// Returns a hash of all members but kNoInfluence, as ResolvedJson writes them; plugins enter by
+// their hashes alone, wherever their files lie. Stored runs go on
 // only where it is the same: a key that is added, renamed or moved changes it for every scenario,
 // also where no record changes.
 std::uint64_t Fingerprint(const Scenario& scenario);
@@ -52,7 +57,7 @@ std::uint64_t Fingerprint(const Scenario& scenario);
 std::uint64_t ResolvedFingerprint(core::JsonValue resolved);
 
 // Returns the JSON Schema (draft 2020-12) of scenario files, with "extends" in every group.
-std::string SchemaJson();
+std::string SchemaJson(const Scenario& scenario = {});
 
 // Returns ResolvedJson of a default scenario.
 std::string DefaultsJson();

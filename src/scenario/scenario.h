@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/fields.h"
 #include "experiments/experiment_set_params.h"
+#include "plugin/plugin_use.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::scenario {
@@ -21,6 +23,8 @@ struct Scenario {
   std::int64_t trials = 300;
   std::int64_t seed = 1;
   trial::DriveParams drive;
+  // Whose navigators are among those of `drive`. No field of Visit: load.cc reads and writes it.
+  std::vector<plugin::PluginUse> plugins;
 
   // Lists every field and the conditions across modules. The groups of `drive` and of `experiment`
   // stand at the top level of a file.

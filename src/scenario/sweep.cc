@@ -156,6 +156,9 @@ Sweep Describe(const SweepSpec& spec) {
 
 Sweep Resolve(JsonValue document, const SweepChanges& changes,
               const std::filesystem::path& folder) {
+  if (core::JsonValue* base = document.Find("scenario"); base != nullptr) {
+    AnchorPlugins(*base, folder);
+  }
   ApplyChanges(document, changes);
   std::vector<Problem> problems;
   const SweepSpec spec = ReadSweepSpec(std::move(document), folder, problems);

@@ -37,7 +37,8 @@ bool Has(const JsonValue& value, std::string_view key) { return value.Find(key) 
 class AxisReader {
  public:
   // `parts` must outlive the reader.
-  explicit AxisReader(PartReader& parts);
+  // The parameters that axes may vary are those of `scenario`.
+  AxisReader(PartReader& parts, const Scenario& scenario);
 
   // Reads an element of "axes", which stands at `path`. Names of scenario files in it are replaced
   // by what the files hold.
@@ -63,7 +64,8 @@ class AxisReader {
 
 }  // namespace
 
-AxisReader::AxisReader(PartReader& parts) : parts_(parts), parameters_(ListParameters()) {}
+AxisReader::AxisReader(PartReader& parts, const Scenario& scenario)
+    : parts_(parts), parameters_(ListParameters(scenario)) {}
 
 AxisSpec AxisReader::Read(JsonValue& value, const std::string& path) {
   AxisSpec axis;
@@ -225,16 +227,38 @@ void AxisReader::CheckLevels(const AxisSpec& axis, const std::string& path) {
   }
 }
 
+namespace {
+
+// Returns a default scenario with the plugins of the base; those of "set" replace them.
+Scenario DefaultsOf(const SweepSpec& spec, std::vector<core::Problem>& problems) {
+  const core::JsonValue* list = spec.settings.Find(plugin::kPluginsKey);
+  if (list == nullptr && spec.scenario != nullptr) {
+    list = spec.scenario->Find(plugin::kPluginsKey);
+  }
+  if (list == nullptr) return {};
+  core::JsonValue document = core::JsonValue::Object();
+  document.Set(plugin::kPluginsKey, *list);
+  try {
+    return ReadScenario(document);
+  } catch (const core::UserError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    return {};
+  }
+}
+
+}  // namespace
+
 SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& folder,
                         std::vector<core::Problem>& problems) {
   PartReader parts(folder, problems);
-  AxisReader axes(parts);
   SweepSpec spec;
   spec.document = std::move(document);
   spec.params = parts.Fixed<SweepParams>(spec.document, "", kFreeSweepKeys);
   parts.CheckName(spec.params.name, "name");
   spec.scenario = parts.Base(spec.document, "");
   spec.settings = parts.Settings(spec.document.Find("set"), "set");
+  spec.defaults = DefaultsOf(spec, problems);
+  AxisReader axes(parts, spec.defaults);
   for (core::JsonValue* axis : parts.Elements(spec.document, "axes", "")) {
     spec.axes.push_back(axes.Read(*axis, fmt::format("axes[{}]", spec.axes.size())));
   }

@@ -111,12 +111,13 @@ ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& le
   };
   apply(spec.settings);
   for (const LevelSpec& level : levels) apply(level.settings);
-  cell.scenario = ReadScenario(document);
+  cell.scenario = ReadScenario(document, spec.defaults);
   cell.document = WriteScenario(cell.scenario);
   CheckExperiment(cell.scenario, cell.problems);
   for (const auto& [path, value] : asked) {
     CheckScope(path, cell.problems);
-    ReadBack(value, cell.document, path, cell.problems);
+    // What is read back of plugins has their hashes, too.
+    if (path != plugin::kPluginsKey) ReadBack(value, cell.document, path, cell.problems);
   }
   // Ablations go over all settings, which they may replace; WithAblations refuses one that another
   // undoes.

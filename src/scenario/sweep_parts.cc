@@ -7,6 +7,7 @@
 
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "scenario/load.h"
 
 namespace rockyard::scenario {
 namespace {
@@ -59,7 +60,9 @@ JsonValue PartReader::Settings(const JsonValue* set, const std::string& path) {
 
 JsonValue PartReader::ScenarioFile(const std::string& name, const std::string& path) {
   try {
-    return core::LoadJsonFile(folder_ / name);
+    core::JsonValue document = core::LoadJsonFile(folder_ / name);
+    AnchorPlugins(document, (folder_ / name).parent_path());
+    return document;
   } catch (const core::UserError& error) {
     for (const Problem& problem : error.problems()) {
       Add(path, fmt::format("names {}: {}: {}", name, problem.path, problem.reason),

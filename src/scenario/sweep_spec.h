@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/json_value.h"
+#include "scenario/scenario.h"
 #include "scenario/sweep_keys.h"
 
 namespace rockyard::scenario {
@@ -41,6 +42,7 @@ struct SweepSpec {
   SweepParams params;
   core::JsonValue document;  // with every file that is named
   std::shared_ptr<const core::JsonValue> scenario;
+  Scenario defaults;  // with the plugins of `scenario` and `settings`
   core::JsonValue settings = core::JsonValue::Object();  // "set" of the file
   std::vector<AxisSpec> axes;
   std::vector<LevelSpec> cells;  // of design list

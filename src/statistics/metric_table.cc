@@ -116,6 +116,8 @@ constexpr std::array kMetrics = {
                 "share of trials that leave the arena"),
     OutcomeRate("excessive_slip", Bit(TrialOutcome::kExcessiveSlip),
                 "share of trials that end as the wheels were seen to slip too much"),
+    OutcomeRate("navigator_fault", Bit(TrialOutcome::kNavigatorFault),
+                "share of trials in which the plugin or process that decides fails"),
     Needing(300, Quotient("path_ratio", "true_distance_m", "displacement_m", 0.05,
                           "true path length over the straight distance from start to true end")),
     Arrived("time_to_goal_s", "s", "sim_time_s", 0.0, 0.1, "simulated time up to the goal"),

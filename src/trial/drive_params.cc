@@ -103,6 +103,7 @@ void NavigationParams::Visit(core::FieldVisitor& v) {
           "what a rover does that notices that it is stuck, whichever its navigator");
   v.Group("on_slip", on_slip, "what a rover does whose check of slip raises an alarm");
   v.Group("wheel_driver", wheel_driver, "from motions to wheel and steering set points");
+  v.Group("limits", limits, "what a plugin or the process of a navigator may use");
 }
 
 void DriveParams::Visit(core::FieldVisitor& v) {

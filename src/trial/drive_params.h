@@ -102,6 +102,7 @@ struct NavigationParams {
   navigation::StuckReactionParams on_board_stuck;
   navigation::SlipReactionParams on_slip;
   navigation::WheelDriverParams wheel_driver;
+  navigation::LimitParams limits;
 
   void Visit(core::FieldVisitor& v);
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/random.h"
 #include "localization/estimator.h"
@@ -38,7 +39,8 @@ struct DriveEnd {
 // What came of one drive.
 struct DriveResult {
   truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;
-  std::string detail;  // the sentence of the cause (truth/end_cause.h)
+  std::string detail;              // the sentence of the cause (truth/end_cause.h)
+  std::vector<double> own_values;  // of the navigator, as its kind declares them
   truth::DriveRecord record;
   DriveEnd end;
 };

@@ -7,9 +7,10 @@ namespace rockyard::truth {
 std::optional<EndCause> CauseOf(TrialOutcome outcome, std::string_view detail) {
   for (std::size_t i = 0; i < kEndCauses.size(); ++i) {
     const EndCauseInfo& info = kEndCauses[i];
-    if (info.outcome == outcome && info.sentence == detail) {
-      return static_cast<EndCause>(i);
-    }
+    if (info.outcome != outcome || !detail.starts_with(info.sentence)) continue;
+    const std::string_view rest = detail.substr(info.sentence.size());
+    const bool told = outcome == TrialOutcome::kNavigatorFault && rest.starts_with(": ");
+    if (rest.empty() || told) return static_cast<EndCause>(i);
   }
   return std::nullopt;
 }

@@ -34,6 +34,15 @@ enum class EndCause {
   kFoundRock,
   kRockNotFound,
   kExcessiveSlip,
+  // Of a plugin or a process that decides; IsNavigatorFault.
+  kNavigatorThrew,
+  kNavigatorNonsense,
+  kNavigatorMessage,
+  kNavigatorEnded,
+  kNavigatorCrashed,
+  kNavigatorCpuTime,
+  kNavigatorMemory,
+  kNavigatorSilent,
 };
 
 // What files, tables and records say of a cause.
@@ -46,7 +55,7 @@ struct EndCauseInfo {
 };
 
 // The causes in the order of EndCause. No two of one outcome have the same sentence.
-inline constexpr std::array<EndCauseInfo, 17> kEndCauses = {{
+inline constexpr std::array<EndCauseInfo, 25> kEndCauses = {{
     {"arrived", TrialOutcome::kGoalReached, "arrived", "arrived at the goal",
      "course.goal_radius_m"},
     {"believed_only", TrialOutcome::kFalseGoal, "believed only",
@@ -85,6 +94,23 @@ inline constexpr std::array<EndCauseInfo, 17> kEndCauses = {{
     {"excessive_slip", TrialOutcome::kExcessiveSlip, "slipped too much",
      "stopped because its wheels slipped more than it should stand",
      "perception.visual_odometry.slip_check.limit"},
+    {"navigator_threw", TrialOutcome::kNavigatorFault, "navigator failed",
+     "stopped because its navigator reported an error", ""},
+    {"navigator_nonsense", TrialOutcome::kNavigatorFault, "nonsense decided",
+     "stopped because its navigator decided what cannot be done", ""},
+    {"navigator_message", TrialOutcome::kNavigatorFault, "wrong message",
+     "stopped because its navigator answered with no right message", ""},
+    {"navigator_ended", TrialOutcome::kNavigatorFault, "navigator ended",
+     "stopped because the process of its navigator ended", ""},
+    {"navigator_crashed", TrialOutcome::kNavigatorFault, "navigator crashed",
+     "stopped because its navigator crashed the process that ran it", ""},
+    {"navigator_cpu_time", TrialOutcome::kNavigatorFault, "navigator too slow",
+     "stopped because its navigator used more CPU time than it may",
+     "navigation.limits.decision_cpu_s"},
+    {"navigator_memory", TrialOutcome::kNavigatorFault, "navigator too large",
+     "stopped because its navigator used more memory than it may", "navigation.limits.memory_mb"},
+    {"navigator_silent", TrialOutcome::kNavigatorFault, "no answer",
+     "stopped because its navigator gave no answer", "navigation.limits.answer_s"},
 }};
 
 constexpr const EndCauseInfo& Info(EndCause cause) {
@@ -99,8 +125,9 @@ constexpr bool IsLimit(EndCause cause) {
 }
 bool EndedByLimit(const Record& record);
 
-// Return the cause that has this outcome and this sentence; nothing for a measurement, for a fault,
-// and for a sentence of another version.
+// Return the cause that has this outcome and this sentence; nothing for a measurement, for a fault
+// of the simulator, and for a sentence of another version. The sentence of a navigator's fault is
+// followed by ": " and what the navigator said.
 std::optional<EndCause> CauseOf(TrialOutcome outcome, std::string_view detail);
 inline std::optional<EndCause> CauseOf(const Record& record) {
   return CauseOf(record.outcome, record.detail);

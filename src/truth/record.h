@@ -4,9 +4,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "truth/value_table.h"
@@ -28,12 +31,14 @@ enum class TrialOutcome {
   kSimulatorFault,  ///< NaN, solver blow-up, exception: counted apart, never a failure of the rover
   kMeasured,        ///< no drive: the record holds measurements of a sensor
   kExcessiveSlip,   ///< stopped, as its wheels were seen to slip too much
+  kNavigatorFault,  ///< a plugin or process that decides failed: a failure of the rover's software
 };
 
 /// The names of outcomes in stores and files, in the order of TrialOutcome.
-inline constexpr std::array<std::string_view, 12> kTrialOutcomeNames = {
-    "goal_reached",    "false_goal", "tip_over",   "high_centred",    "jammed",   "no_path",
-    "energy_depleted", "time_limit", "left_arena", "simulator_fault", "measured", "excessive_slip"};
+inline constexpr std::array<std::string_view, 13> kTrialOutcomeNames = {
+    "goal_reached", "false_goal",      "tip_over",       "high_centred", "jammed",
+    "no_path",      "energy_depleted", "time_limit",     "left_arena",   "simulator_fault",
+    "measured",     "excessive_slip",  "navigator_fault"};
 
 /// Returns the name of an outcome.
 constexpr std::string_view Name(TrialOutcome outcome) {
@@ -90,6 +95,13 @@ struct Record {
 /// Returns whether the simulator failed, not the rover.
 inline bool IsFault(const Record& record) {
   return record.outcome == TrialOutcome::kSimulatorFault;
+}
+
+/// Returns the record of a drive whose navigator ended the process that ran it: nothing of it was
+/// measured, so that every value is NaN. `columns`: of the schema.
+inline Record MakeNavigatorCrash(std::uint64_t trial, std::string detail, std::size_t columns) {
+  return {trial, TrialOutcome::kNavigatorFault, std::move(detail),
+          std::vector<double>(columns, std::numeric_limits<double>::quiet_NaN())};
 }
 
 /// Makes the record of a fault; its detail says how to run that trial again.

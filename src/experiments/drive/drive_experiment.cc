@@ -1,11 +1,15 @@
 #include "experiments/drive/drive_experiment.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "core/numbers.h"
 #include "experiments/cell_experiment.h"
 #include "trial/run_trial.h"
 
@@ -14,9 +18,9 @@ namespace {
 
 // Returns the values of a record. A number that is none is a fault of the simulation (RecordOf),
 // unless its column may lack one.
-std::vector<double> Values(const truth::DriveRecord& drive) {
+std::vector<double> Values(const truth::DriveRecord& drive, std::size_t columns) {
   std::vector<double> values;
-  values.reserve(truth::kDriveColumns.size());
+  values.reserve(columns);
   for (const truth::DriveColumn& column : truth::kDriveColumns) {
     const double value = drive.*column.member;
     if (!std::isfinite(value) && !(column.may_lack && std::isnan(value))) {
@@ -25,6 +29,18 @@ std::vector<double> Values(const truth::DriveRecord& drive) {
     values.push_back(value);
   }
   return values;
+}
+
+// Appends the own values of the navigators. A navigator that failed before it had any has none.
+void AppendOwn(const navigation::NavigatorSet& navigators, std::span<const double> own,
+               std::vector<double>& values) {
+  for (const auto& kind : navigators.kinds()) {
+    const bool drives = kind.get() == &navigators.chosen();
+    for (std::size_t i = 0; i < kind->own_values().size(); ++i) {
+      const bool has = drives && i < own.size() && std::isfinite(own[i]);
+      values.push_back(has ? own[i] : core::kNaN);
+    }
+  }
 }
 
 }  // namespace
@@ -41,10 +57,22 @@ const truth::RecordSchema& DriveSchema() {
   return kSchema;
 }
 
-DriveExperiment::DriveExperiment(trial::DriveParams params, trial::Watchers watchers)
-    : params_(std::move(params)), watchers_(std::move(watchers)) {}
+truth::RecordSchema DriveSchema(const navigation::NavigatorSet& navigators) {
+  truth::RecordSchema schema = DriveSchema();
+  for (const auto& kind : navigators.kinds()) {
+    for (const messages::OwnValue& value : kind->own_values()) {
+      schema.push_back({std::string(kind->name()) + "." + value.name, value.unit, value.meaning});
+    }
+  }
+  return schema;
+}
 
-const truth::RecordSchema& DriveExperiment::schema() const { return DriveSchema(); }
+DriveExperiment::DriveExperiment(trial::DriveParams params, trial::Watchers watchers)
+    : params_(std::move(params)),
+      watchers_(std::move(watchers)),
+      schema_(DriveSchema(params_.navigation.navigators)) {}
+
+const truth::RecordSchema& DriveExperiment::schema() const { return schema_; }
 
 truth::Record DriveExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
   return RunTrial(seed, index, nullptr);
@@ -59,7 +87,9 @@ truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
                                         truth::Trace* trace) const {
   return RecordOf(seed, index, [&](const core::TrialKey& key) -> truth::Record {
     const trial::DriveResult drive = trial::RunTrial(params_, key, trace, watchers_);
-    return {index, drive.outcome, drive.detail, Values(drive.record)};
+    std::vector<double> values = Values(drive.record, schema_.size());
+    AppendOwn(params_.navigation.navigators, drive.own_values, values);
+    return {index, drive.outcome, drive.detail, std::move(values)};
   });
 }
 

@@ -13,6 +13,11 @@ namespace rockyard::experiments {
 // Returns names, units and meanings of a drive record, in the order of truth::kDriveColumns.
 const truth::RecordSchema& DriveSchema();
 
+// Returns the columns of a record of these drives: DriveSchema, then the own values of every
+// navigator that the scenario could choose, named <navigator>.<value>. Those of navigators that do
+// not drive are NaN, so that cells of a sweep over navigators have the same columns.
+truth::RecordSchema DriveSchema(const navigation::NavigatorSet& navigators);
+
 class DriveExperiment final : public Experiment {
  public:
   explicit DriveExperiment(trial::DriveParams params, trial::Watchers watchers = {});
@@ -29,6 +34,7 @@ class DriveExperiment final : public Experiment {
 
   trial::DriveParams params_;
   trial::Watchers watchers_;
+  truth::RecordSchema schema_;
 };
 
 }  // namespace rockyard::experiments

@@ -79,6 +79,7 @@ SolEnd SolEndOf(truth::TrialOutcome outcome, std::optional<truth::EndCause> caus
       return SolEnd::kSlip;
     // No drive of a mission has these: its arena is open, and a fault of the simulation is thrown.
     case TrialOutcome::kLeftArena:
+    case TrialOutcome::kNavigatorFault:
     case TrialOutcome::kSimulatorFault:
     case TrialOutcome::kMeasured:
       break;

@@ -45,6 +45,7 @@ struct ComputeParams {
   double move_overhead_s = 0.0;
   double visual_cpu_s = 0.084;
   double visual_time_factor = 1.0;
+  double operations_per_s = 0.0;
 
   // Returns acquisition_s where a scenario leaves it open.
   double SuitedAcquisition_s() const {
@@ -107,6 +108,12 @@ struct ComputeParams {
                "time of a step of visual odometry over that of the computer's profile",
                "two to three minutes on MER (Howard 2012 sec. 1) are 0.75 to 1.125 of its 160 s",
                {0.0, 100.0}, {0.75, 1.125}));
+    v.Real("operations_per_s", operations_per_s,
+           core::Setting("operations a second for navigators that state the work of a decision "
+                         "(plugins and processes): the rover rests, or computes beside the drive, "
+                         "for work / operations_per_s; 0: that work takes no time. MER's RAD6000 "
+                         "has some 2.2e7 instructions a second, MSL's RAD750 4e8",
+                         {0.0, 1e15}));
   }
 };
 

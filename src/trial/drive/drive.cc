@@ -7,12 +7,15 @@
 #include <string>
 #include <utility>
 
+#include "core/random.h"
+#include "navigation/event_gate.h"
 #include "navigation/stuck_reaction.h"
 #include "terrain/arena.h"
 #include "trial/clock/compute_profile.h"
 #include "trial/course/goal_designation.h"
 #include "trial/drive/make_estimator.h"
 #include "trial/drive/tick_guard.h"
+#include "trial/sight/onboard_calibration.h"
 
 namespace rockyard::trial {
 namespace {
@@ -35,18 +38,72 @@ std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
   return ArenaBounds{bounds.x_min_m, bounds.x_max_m};
 }
 
+// Stands for a navigator that could not begin: says so when it is first asked, when there is a
+// drive that can end by it.
+class FailedStart final : public navigation::Navigator {
+ public:
+  explicit FailedStart(const navigation::NavigatorFault& fault) : fault_(fault) {}
+
+  navigation::NavigatorDecision Decide(const navigation::NavigatorInput&) override { throw fault_; }
+  void OnPoseUpdate(const messages::PoseEstimate&, const messages::PoseEstimate&) override {}
+  void SetGoal(const messages::Goal&, navigation::GoalChange) override {}
+
+ private:
+  navigation::NavigatorFault fault_;
+};
+
+std::unique_ptr<navigation::Navigator> Begun(const navigation::NavigatorKind& kind,
+                                             const navigation::NavigatorSetup& setup) {
+  try {
+    return kind.Make(setup);
+  } catch (const navigation::NavigatorFault& fault) {
+    return std::make_unique<FailedStart>(fault);
+  }
+}
+
+truth::EndCause CauseOf(navigation::FaultKind kind) {
+  using enum navigation::FaultKind;
+  switch (kind) {
+    case kThrew:
+      return truth::EndCause::kNavigatorThrew;
+    case kNonsense:
+      return truth::EndCause::kNavigatorNonsense;
+    case kMessage:
+      return truth::EndCause::kNavigatorMessage;
+    case kEnded:
+      return truth::EndCause::kNavigatorEnded;
+    case kCpuTime:
+      return truth::EndCause::kNavigatorCpuTime;
+    case kMemory:
+      return truth::EndCause::kNavigatorMemory;
+    case kSilent:
+      return truth::EndCause::kNavigatorSilent;
+  }
+  return truth::EndCause::kNavigatorThrew;
+}
+
 // Makes the navigator of the scenario. A route that it is told to follow is planned before anything
 // moves.
 std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
                                                      const terrain::Terrain& terrain,
                                                      core::TrialKey key,
-                                                     const messages::Goal& goal) {
+                                                     const std::vector<messages::Goal>& goals,
+                                                     double tick_s) {
   const navigation::NavigatorKind& chosen = drive.navigation.navigators.chosen();
-  navigation::NavigatorSetup setup{.goal = goal,
-                                   .judges_hazards = drive.perception.hazard.enabled,
-                                   .full_speed_m_s = drive.rover.drive.speed_m_s};
-  if (chosen.traits().follows_route) setup.route = ToldRoute(drive, terrain, key, goal);
-  std::unique_ptr<navigation::Navigator> navigator = chosen.Make(setup);
+  navigation::NavigatorSetup setup{
+      .goal = goals.front(),
+      .judges_hazards = drive.perception.hazard.enabled,
+      .full_speed_m_s = drive.rover.drive.speed_m_s,
+      .places = goals,
+      .rover = OnboardRoverBelief(drive.rover, drive.perception.calibration.drive,
+                                  drive.perception.vehicle_hazard),
+      .random_seed = core::RandomStream(key, core::Purpose::kNavigator).NextU64(),
+      .operations_per_s = drive.clock.compute.operations_per_s,
+      .control_period_s = tick_s,
+      .limits = drive.navigation.limits};
+  if (chosen.traits().follows_route) setup.route = ToldRoute(drive, terrain, key, goals.front());
+  std::unique_ptr<navigation::Navigator> navigator =
+      std::make_unique<navigation::EventGate>(Begun(chosen, setup), goals.front());
   const navigation::StuckReactionParams& stuck = drive.navigation.on_board_stuck;
   if (stuck.reaction == navigation::StuckResponse::kOff) return navigator;
   return std::make_unique<navigation::StuckReaction>(stuck, std::move(navigator));
@@ -63,12 +120,12 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
              const Watchers& watchers, const DriveStart* start)
     : params_(drive),
       world_(drive, key, start != nullptr ? &start->field : nullptr),
-      told_places_(ToldPlaces(drive, world_.field().terrain, key)),
-      onboard_(drive, key, told_places_,
-               MakeNavigator(drive, world_.field().terrain, key, told_places_.front()),
-               world_.ramp_s(), WithTruth(watchers, world_)),
       tick_(WholeSteps(1.0 / drive.clock.control_rate_hz, world_.step_s())),
       stop_(WholeSteps(world_.ramp_s() + drive.clock.stop_time_s, world_.step_s())),
+      told_places_(ToldPlaces(drive, world_.field().terrain, key)),
+      onboard_(drive, key, told_places_,
+               MakeNavigator(drive, world_.field().terrain, key, told_places_, tick_.duration_s),
+               world_.ramp_s(), WithTruth(watchers, world_)),
       ledger_(MakePowerBudget(drive), drive.energy.battery_wh,
               start != nullptr ? start->sun : std::nullopt),
       timeline_(drive.clock.overlap, ledger_),
@@ -105,8 +162,20 @@ std::optional<Verdict> Drive::Step() {
     if (!LooksOnTheMove(decision)) return Look(*decision.look);
     if (auto verdict = LookOnTheMove(*decision.look)) return verdict;
   }
+  if (auto verdict = SpendOnDecision(decision.work_ops)) return verdict;
   if (observer_.OnMotion(decision.motion)) SpendOverhead();
   return Follow(decision.motion);
+}
+
+std::optional<Verdict> Drive::SpendOnDecision(double work_ops) {
+  const double rate_per_s = params_.clock.compute.operations_per_s;
+  if (work_ops <= 0.0 || rate_per_s <= 0.0) return std::nullopt;
+  const double time_s = work_ops / rate_per_s;
+  if (params_.clock.overlap.computing) {
+    ledger_.SpendBeside(Activity::kComputing, time_s);
+    return std::nullopt;
+  }
+  return RestFor({Activity::kComputing, time_s});
 }
 
 std::optional<Verdict> Drive::Follow(const messages::MotionCommand& told) {
@@ -256,33 +325,65 @@ DriveResult Drive::Finish(const Verdict& verdict) {
   }
   const truth::EndCauseInfo& end = truth::Info(verdict.cause);
   tracer_.Event("end", std::string(end.sentence));
-  return {end.outcome, std::string(end.sentence),
-          observer_.Report(truth::DeclaredSuccess(end.outcome), stall_, referee_), observer_.End()};
+  return {end.outcome,
+          std::string(end.sentence),
+          {},
+          observer_.Report(truth::DeclaredSuccess(end.outcome), stall_, referee_),
+          observer_.End()};
+}
+
+DriveResult Drive::Finish(const navigation::NavigatorFault& fault) {
+  DriveResult result = Finish(Verdict{CauseOf(fault.kind())});
+  result.detail += fmt::format(": {}", fault.what());
+  tracer_.Event("end", fault.what());
+  return result;
 }
 
 namespace {
 
-DriveResult RunToEnd(Drive& drive, const DriveParams& params) {
+DriveResult RunToEnd(Drive& drive, const DriveParams& params, bool last_attempt) {
   TickGuard guard(params.referee.time_limit_s, drive.tick_s());
   std::optional<Verdict> verdict;
-  while (!verdict) {
-    guard.Observe(drive.time_s());
-    verdict = drive.Step();
+  std::vector<double> own_values;
+  try {
+    while (!verdict) {
+      guard.Observe(drive.time_s());
+      verdict = drive.Step();
+    }
+    own_values = drive.own_values();
+  } catch (const navigation::NavigatorFault& fault) {
+    if (fault.may_be_the_machine() && !last_attempt) throw;
+    return drive.Finish(fault);
   }
-  return drive.Finish(*verdict);
+  DriveResult result = drive.Finish(*verdict);
+  result.own_values = std::move(own_values);
+  return result;
+}
+
+// Drives, and once more where the machine may be to blame for what a navigator did. `make(attempt)`
+// returns a drive at its start.
+template <typename Make>
+DriveResult RunTwiceAtMost(const DriveParams& params, const Make& make) {
+  try {
+    return RunToEnd(*make(), params, false);
+  } catch (const navigation::NavigatorFault&) {
+    return RunToEnd(*make(), params, true);
+  }
 }
 
 }  // namespace
 
 DriveResult RunTrial(const DriveParams& params, core::TrialKey key, truth::Trace* trace,
                      const Watchers& watchers) {
-  Drive drive(params, key, trace, watchers);
-  return RunToEnd(drive, params);
+  return RunTwiceAtMost(params, [&] {
+    if (trace != nullptr) *trace = {};
+    return std::make_unique<Drive>(params, key, trace, watchers);
+  });
 }
 
 DriveResult RunTrial(const DriveParams& params, core::TrialKey key, const DriveStart& start) {
-  Drive drive(params, key, nullptr, {}, &start);
-  return RunToEnd(drive, params);
+  return RunTwiceAtMost(
+      params, [&] { return std::make_unique<Drive>(params, key, nullptr, Watchers{}, &start); });
 }
 
 }  // namespace rockyard::trial

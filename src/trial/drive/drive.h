@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "navigation/navigator_fault.h"
 #include "trial/clock/ledger.h"
 #include "trial/drive/drive_observer.h"
 #include "trial/drive/drive_tracer.h"
@@ -47,11 +48,14 @@ class Drive {
 
   // Makes one decision, and what follows from it. Returns the verdict once the drive is over.
   std::optional<Verdict> Step();
-  // Ends the drive by its verdict; called once.
+  // Ends the drive by its verdict, or because its navigator failed; one of them is called once.
   DriveResult Finish(const Verdict& verdict);
+  DriveResult Finish(const navigation::NavigatorFault& fault);
 
   double time_s() const { return ledger_.time_s(); }
   double tick_s() const { return tick_.duration_s; }
+  // Returns the navigator's own values so far. May throw navigation::NavigatorFault, as Step.
+  std::vector<double> own_values() const { return onboard_.own_values(); }
 
  private:
   // Shows the navigator where the tracker sees the goal, or the rock at it.
@@ -74,6 +78,9 @@ class Drive {
   double SpendOnVision(Activity activity, double duration_s, bool beside);
   // Shows watcher and tracer what the navigator made of the last look.
   void ShowStep();
+  // Spends what the navigator says that its decision took: at rest, or beside the drive where
+  // computing overlaps.
+  std::optional<Verdict> SpendOnDecision(double work_ops);
   // Spends what a move takes beyond the motion of wheels (clock.compute.move_overhead_s).
   void SpendOverhead();
   void RestBetweenMoves(double duration_s);
@@ -102,11 +109,11 @@ class Drive {
 
   const DriveParams& params_;
   World world_;
+  Stretch tick_;                             // one control tick
+  Stretch stop_;                             // until the rover has come to rest
   std::vector<messages::Goal> told_places_;  // waypoints, then the goal, as the rover is told
   Onboard onboard_;
 
-  Stretch tick_;  // one control tick
-  Stretch stop_;  // until the rover has come to rest
   Ledger ledger_;
   Timeline timeline_;
 

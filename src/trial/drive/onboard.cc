@@ -1,5 +1,7 @@
 #include "trial/drive/onboard.h"
 
+#include <utility>
+
 #include "perception/tracked_feature.h"
 #include "trial/sight/onboard_calibration.h"
 
@@ -72,8 +74,11 @@ Decided Onboard::Decide(double time_s, const SeenLook* seen) {
   const std::optional<ToldSlip> slip = parts_.get<SlipAlarms>().Take();
   const std::size_t reached = navigator_.reached();
   Decided decided;
+  navigation::Events events;
+  if (std::exchange(ended_plan_, false)) events.Add(navigation::Event::kEndOfPlan);
   decided.decision = navigator_.Decide(
       {.time_s = time_s,
+       .events = events,
        .estimate = estimate().pose,
        .attitude = estimate().attitude,
        .odometry = estimate().odometry,
@@ -82,14 +87,22 @@ Decided Onboard::Decide(double time_s, const SeenLook* seen) {
        .look = seen != nullptr ? &seen->moment : nullptr,
        .vehicle_hazard = slip && slip->hazard ? &*slip->hazard : guard().hazard(),
        .touches_behind = guard().touches_behind(),
-       .notices_stuck = parts_.get<StuckWatch>().noticed() || (slip && slip->as_stuck)});
+       .notices_stuck = parts_.get<StuckWatch>().noticed() || (slip && slip->as_stuck),
+       .covariance = estimate().covariance ? &*estimate().covariance : nullptr,
+       .felt = feels_ ? &guard().measured() : nullptr});
   decided.told_slip = slip.has_value();
   decided.passed = navigator_.reached() - reached;
   return decided;
 }
 
 messages::MotionCommand Onboard::Follow(const messages::MotionCommand& told, double tick_s) {
-  return parts_.get<Locomotion>().follower.Follow(told, estimate().pose.distance_m, tick_s);
+  const messages::MotionCommand motion =
+      parts_.get<Locomotion>().follower.Follow(told, estimate().pose.distance_m, tick_s);
+  const bool rests = motion.kind == messages::MotionKind::kStop;
+  const bool rests_early = rests && told.kind != messages::MotionKind::kStop;
+  ended_plan_ = rests_early && !rests_early_;
+  rests_early_ = rests_early;
+  return motion;
 }
 
 messages::WheelCommand Onboard::Drive(const messages::MotionCommand& motion, double tick_s) {
@@ -99,6 +112,7 @@ messages::WheelCommand Onboard::Drive(const messages::MotionCommand& motion, dou
 std::vector<messages::VehicleHazard> Onboard::Feel(const messages::VehicleState& felt,
                                                    const messages::WheelCommand& command,
                                                    const messages::MotionMeasurement& motion) {
+  feels_ = true;
   return parts_.get<VehicleGuard>().Feel(felt, command, motion);
 }
 

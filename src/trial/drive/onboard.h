@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -143,6 +144,11 @@ class Onboard {
   bool EndsBySlip() const { return parts_.get<SlipAlarms>().EndsDrive(); }
 
   const navigation::WaypointSequence& navigator() const { return navigator_; }
+  // Returns the navigator's own values, or as many as there are.
+  std::vector<double> own_values() const {
+    const std::span<const double> values = navigator_.own_values();
+    return {values.begin(), values.end()};
+  }
   const VehicleGuard& guard() const { return parts_.get<VehicleGuard>(); }
   const AidSuite& aids() const { return parts_.get<AidSuite>(); }
   const VisualAid& vision() const { return parts_.get<VisualAid>(); }
@@ -152,6 +158,9 @@ class Onboard {
   navigation::WaypointSequence navigator_;
   TerrainSensing terrain_sensing_;
   CaptureCounter captures_;
+  bool feels_ = false;        // whether vehicle sensors have measured
+  bool rests_early_ = false;  // at the end of a plan, before its command's end
+  bool ended_plan_ = false;   // came to rest so at the last tick
   PartSet<Locomotion, VehicleGuard, StuckWatch, SlipAlarms, AidSuite, VisualAid, VisualReader>
       parts_;
 };

@@ -45,6 +45,20 @@ messages::DriveCalibration OnboardDriveCalibration(
   return calibration;
 }
 
+messages::RoverBelief OnboardRoverBelief(const rover::RoverParams& rover,
+                                         const perception::DriveCalibrationErrors& errors,
+                                         const perception::VehicleHazardParams& felt) {
+  const rover::RoverGeometryParams& geometry = rover.geometry;
+  return {.drive = OnboardDriveCalibration(rover, errors),
+          .length_m = geometry.length_m,
+          .width_m = geometry.width_m,
+          .belly_clearance_m = geometry.belly_clearance_m,
+          .wheel_width_m = geometry.wheel_width_m,
+          .max_rocker_rad = geometry.rocker_limit_rad,
+          .max_bogie_rad = geometry.bogie_limit_rad,
+          .max_tilt_rad = felt.max_tilt_rad};
+}
+
 messages::StripeCalibration OnboardStripeCalibration(
     const sensing::LightStripeParams& sensor, const perception::CalibrationErrorParams& errors) {
   messages::StripeCalibration calibration = sensing::TrueCalibration(sensor);

@@ -12,6 +12,7 @@
 #include "messages/calibration.h"
 #include "messages/point_cloud.h"
 #include "perception/calibration_params.h"
+#include "perception/hazard_params.h"
 #include "rover/rover_params.h"
 #include "sensing/light_stripe_params.h"
 #include "sensing/stereo_params.h"
@@ -24,6 +25,11 @@ messages::DriveCalibration OnboardDriveCalibration(
     const rover::RoverParams& rover, const perception::DriveCalibrationErrors& errors);
 messages::StripeCalibration OnboardStripeCalibration(
     const sensing::LightStripeParams& sensor, const perception::CalibrationErrorParams& errors);
+
+// Returns what the rover believes of its body, for navigators.
+messages::RoverBelief OnboardRoverBelief(const rover::RoverParams& rover,
+                                         const perception::DriveCalibrationErrors& errors,
+                                         const perception::VehicleHazardParams& felt);
 
 // Returns how a wrong mount displaces the points that a pair of stereo cameras sees,
 //   p_believed = X_RC_believed X_RC_true^-1 p_true,

@@ -1,0 +1,67 @@
+// The process of a navigator: started, asked, and ended with all that it started. POSIX; Linux.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "navigation/navigator_set_params.h"
+
+namespace rockyard::plugin {
+
+// Returns the words that start `command`, for /bin/sh, in a folder: by bubblewrap where it is there
+// and works (no network, files read-only, an empty /tmp), else as it is. `confined` is set to
+// which.
+std::vector<std::string> StartWords(const std::string& command, const std::string& folder,
+                                    bool& confined);
+
+// One process. It is asked by one thread at a time. Messages are a length, 4 bytes little endian,
+// and that many bytes, on its descriptors 3 (to it) and 4 (from it). What it writes to stdout and
+// stderr is read, and the last of it kept.
+class ChildProcess {
+ public:
+  // Starts it. Throws core::MachineError where no process can be made.
+  ChildProcess(const std::vector<std::string>& words, const std::string& folder);
+  // Kills it and what it has started.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // Sends a message and returns the answer. `left_cpu_s`: what is left of the drive's limit. Throws
+  // navigation::NavigatorFault: the process ended, exceeded a limit, or sent what is no message.
+  // The process is of no use then.
+  std::string Ask(std::string_view message, const navigation::LimitParams& limits,
+                  double left_cpu_s);
+
+  // Returns the CPU time of the last answer, s.
+  double used_s() const { return used_s_; }
+  // Returns whether it can still be asked by the process that calls: it lives, and is no fork's.
+  bool usable() const;
+  // Returns the last that it wrote to stdout and stderr.
+  const std::string& said() const { return said_; }
+
+ private:
+  class Question;
+
+  // Sends what is left of a message and reads what is there of the answer.
+  void Exchange(Question& question);
+  void ReadLog();
+  [[noreturn]] void FailEnded();
+  std::string WithWords(std::string text) const;
+
+  pid_t starter_;
+  mutable pid_t pid_ = -1;  // the head of its process group; -1: it has ended and is waited for
+  int to_ = -1;
+  int from_ = -1;
+  int log_ = -1;
+  double used_s_ = 0.0;
+  std::string said_;
+};
+
+// The longest message, either way.
+inline constexpr std::size_t kLongestMessage = std::size_t{64} << 20;
+
+}  // namespace rockyard::plugin

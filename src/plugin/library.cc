@@ -1,0 +1,441 @@
+#include "plugin/library.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <ctime>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "core/json_text.h"
+#include "plugin/abi.h"
+#include "plugin/guarded_call.h"
+
+namespace rockyard::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+using navigation::FaultKind;
+using navigation::NavigatorFault;
+
+// Loads the library into this process. Throws std::runtime_error with the reason of the loader.
+const rockyard_plugin_info& Load(const fs::path& file) {
+  // A library is never unloaded: threads of its own may still run in it.
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw std::runtime_error(dlerror());
+  void* symbol = dlsym(library, ROCKYARD_PLUGIN_FUNCTION);
+  if (symbol == nullptr) {
+    throw std::runtime_error(
+        fmt::format("it has no function {}: it is no plugin of rockyard, or names its navigators "
+                    "by no ROCKYARD_NAVIGATORS",
+                    ROCKYARD_PLUGIN_FUNCTION));
+  }
+  const auto function = reinterpret_cast<rockyard_plugin_function>(symbol);
+  const rockyard_plugin_info* info = function();
+  if (info == nullptr) throw std::runtime_error("it hands over no navigators");
+  if (info->abi != ROCKYARD_PLUGIN_ABI) {
+    throw std::runtime_error(
+        fmt::format("it was built for version {} of the plugin interface, and this program has "
+                    "version {}: build it with the headers of this program",
+                    info->abi, ROCKYARD_PLUGIN_ABI));
+  }
+  if (info->navigator_count == 0 || info->navigators == nullptr) {
+    throw std::runtime_error("it has no navigators");
+  }
+  return *info;
+}
+
+void TakeText(void* to, const char* text, std::size_t bytes) {
+  static_cast<std::string*>(to)->assign(text, bytes);
+}
+
+// Throws what a function of a plugin reports.
+void RequireDone(int result, const rockyard_error& error) {
+  if (result == 0) return;
+  const auto* end = std::find(std::begin(error.text), std::end(error.text), '\0');
+  throw std::runtime_error(std::string(std::begin(error.text), end));
+}
+
+// The values of parameters as the C interface has them; views of `parameters`.
+class AbiValues {
+ public:
+  explicit AbiValues(const Parameters& parameters) {
+    for (const FieldValue& value : parameters.values()) {
+      rockyard_value& to = values_.emplace_back();
+      to.real = value.real;
+      to.integer = value.boolean ? 1 : value.choice != 0 ? value.choice : value.integer;
+      to.text = value.text.c_str();
+      to.reals = value.reals.data();
+      to.integers = value.integers.data();
+      to.count = std::max(value.reals.size(), value.integers.size());
+    }
+    all_ = {values_.data(), values_.size()};
+  }
+  AbiValues(const AbiValues&) = delete;
+  AbiValues& operator=(const AbiValues&) = delete;
+
+  const rockyard_values* get() const { return &all_; }
+
+ private:
+  std::vector<rockyard_value> values_;
+  rockyard_values all_{};
+};
+
+rockyard_pose Pose(const messages::PoseEstimate& pose) {
+  return {pose.x_m, pose.y_m, pose.heading_rad, pose.distance_m};
+}
+rockyard_place Place(const messages::Goal& goal) { return {goal.x_m, goal.y_m}; }
+rockyard_attitude Attitude(const messages::AttitudeEstimate& attitude) {
+  return {attitude.roll_rad, attitude.pitch_rad, attitude.z_m};
+}
+
+rockyard_rover Rover(const messages::RoverBelief& from) {
+  rockyard_rover to{};
+  to.length_m = from.length_m;
+  to.width_m = from.width_m;
+  to.belly_clearance_m = from.belly_clearance_m;
+  to.wheel_width_m = from.wheel_width_m;
+  to.max_rocker_rad = from.max_rocker_rad;
+  to.max_bogie_rad = from.max_bogie_rad;
+  to.max_tilt_rad = from.max_tilt_rad;
+  to.wheel_radius_m = from.drive.wheel_radius_m;
+  to.max_wheel_speed_m_s = from.drive.max_wheel_speed_m_s;
+  to.max_steer_rad = from.drive.max_steer_rad;
+  to.steering_offset_rad = from.drive.steering_offset_rad;
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    to.wheel_x_m[wheel] = from.drive.wheel_x_m[wheel];
+    to.wheel_y_m[wheel] = from.drive.wheel_y_m[wheel];
+    to.radius_ratio[wheel] = from.drive.radius_ratio[wheel];
+    to.steered[wheel] = from.drive.steered[wheel] ? 1 : 0;
+  }
+  return to;
+}
+
+// A NavigatorInput as the C interface has it; views of `from`.
+class AbiInput {
+ public:
+  explicit AbiInput(const navigation::NavigatorInput& from) {
+    input_.time_s = from.time_s;
+    input_.events = from.events.bits();
+    input_.estimate = Pose(from.estimate);
+    input_.odometry = Pose(from.odometry);
+    input_.attitude = Attitude(from.attitude);
+    input_.touches_behind = from.touches_behind ? 1 : 0;
+    input_.notices_stuck = from.notices_stuck ? 1 : 0;
+    if (from.report != nullptr) Take(*from.report);
+    if (from.cloud != nullptr) Take(*from.cloud);
+    if (from.look != nullptr) {
+      look_ = {from.look->number, from.look->time_s, Pose(from.look->estimate),
+               Pose(from.look->odometry), Attitude(from.look->attitude)};
+      input_.look = &look_;
+    }
+    if (from.vehicle_hazard != nullptr) {
+      hazard_ = {static_cast<std::int32_t>(from.vehicle_hazard->kind),
+                 static_cast<std::int32_t>(from.vehicle_hazard->side)};
+      input_.hazard = &hazard_;
+    }
+    if (from.felt != nullptr) Take(*from.felt);
+    // Symmetric, so that rows and columns are one.
+    if (from.covariance != nullptr) input_.covariance = from.covariance->data();
+  }
+  AbiInput(const AbiInput&) = delete;
+  AbiInput& operator=(const AbiInput&) = delete;
+
+  const rockyard_input* get() const { return &input_; }
+
+ private:
+  void Take(const messages::HazardReport& from) {
+    std::copy(from.stripe_hazard.begin(), from.stripe_hazard.end(), stripes_.begin());
+    report_ = {from.scan_number, from.stripe_hazard.size(), stripes_.data()};
+    input_.report = &report_;
+  }
+  void Take(const messages::PointCloud& from) {
+    static_assert(sizeof(math::Vector3) == 3 * sizeof(double));
+    cloud_ = {from.number, from.direction == messages::LookDirection::kBehind ? 1 : 0,
+              from.points_R.size(), from.points_R.empty() ? nullptr : from.points_R.front().data()};
+    input_.cloud = &cloud_;
+  }
+  void Take(const messages::VehicleState& from) {
+    if (from.articulation) {
+      joints_ = {from.articulation->left_rocker_rad, from.articulation->right_rocker_rad,
+                 from.articulation->left_bogie_rad, from.articulation->right_bogie_rad};
+      felt_.articulation_rad = joints_.data();
+    }
+    if (from.specific_force_R) felt_.specific_force_R = from.specific_force_R->data();
+    if (from.motor_current_A) felt_.motor_current_A = from.motor_current_A->data();
+    if (from.contact) {
+      std::copy(from.contact->begin(), from.contact->end(), contact_.begin());
+      felt_.contact = contact_.data();
+    }
+    input_.felt = &felt_;
+  }
+
+  rockyard_input input_{};
+  rockyard_report report_{};
+  rockyard_cloud cloud_{};
+  rockyard_look look_{};
+  rockyard_hazard hazard_{};
+  rockyard_felt felt_{};
+  std::array<std::uint8_t, messages::kMaxStripes> stripes_{};
+  std::array<std::uint8_t, messages::kContactSwitchCount> contact_{};
+  std::array<double, 4> joints_{};
+};
+
+navigation::NavigatorDecision Decision(const rockyard_decision& from) {
+  navigation::NavigatorDecision to;
+  to.status = static_cast<navigation::NavigatorStatus>(from.status);
+  if (from.look != 0) {
+    to.look = from.look == 2 ? messages::LookDirection::kBehind : messages::LookDirection::kAhead;
+  }
+  to.looks_on_the_move = from.looks_on_the_move != 0;
+  to.motion = {static_cast<messages::MotionKind>(from.motion),
+               from.curvature_per_m,
+               from.direction,
+               from.curvature_rate_per_m2,
+               from.speed_share,
+               from.end_m,
+               from.move};
+  to.until = {from.until_period_s, from.until_distance_m, from.until_turn_rad,
+              from.until_near_goal_m};
+  to.work_ops = from.work_ops;
+  return to;
+}
+
+double ThreadCpu_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// One navigator of a library.
+class LibraryNavigator final : public navigation::Navigator {
+ public:
+  LibraryNavigator(const rockyard_navigator_type& type, const navigation::LimitParams& limits,
+                   std::size_t own_values)
+      : type_(type), limits_(limits), own_values_(own_values) {}
+  ~LibraryNavigator() override {
+    if (navigator_ != nullptr) type_.destroy(navigator_);
+  }
+  LibraryNavigator(const LibraryNavigator&) = delete;
+  LibraryNavigator& operator=(const LibraryNavigator&) = delete;
+
+  void Begin(const Parameters& parameters, const navigation::NavigatorSetup& setup) {
+    const AbiValues values(parameters);
+    std::vector<rockyard_place> places;
+    for (const messages::Goal& place : setup.places) places.push_back(Place(place));
+    rockyard_site_map map{};
+    if (setup.site_map) {
+      const messages::SiteMap& from = *setup.site_map;
+      map = {from.x0_m,        from.y0_m,
+             from.step_m,      from.nx,
+             from.ny,          from.height_m.empty() ? nullptr : from.height_m.data(),
+             from.height_sd_m, from.rock_share.empty() ? nullptr : from.rock_share.data()};
+    }
+    const rockyard_setup to{.goal = Place(setup.goal),
+                            .places = places.data(),
+                            .place_count = places.size(),
+                            .judges_hazards = setup.judges_hazards ? 1 : 0,
+                            .full_speed_m_s = setup.full_speed_m_s,
+                            .control_period_s = setup.control_period_s,
+                            .operations_per_s = setup.operations_per_s,
+                            .random_seed = setup.random_seed,
+                            .rover = Rover(setup.rover),
+                            .site_map = setup.site_map ? &map : nullptr};
+    Call(
+        [&](rockyard_error* error) { return type_.create(values.get(), &to, &navigator_, error); });
+    if (navigator_ == nullptr) throw NavigatorFault(FaultKind::kThrew, "it made no navigator");
+  }
+
+  navigation::NavigatorDecision Decide(const navigation::NavigatorInput& input) override {
+    const AbiInput from(input);
+    rockyard_decision to{};
+    Call([&](rockyard_error* error) { return type_.decide(navigator_, from.get(), &to, error); });
+    navigation::NavigatorDecision decision = Decision(to);
+    CheckDecision(decision);
+    return decision;
+  }
+
+  void OnPoseUpdate(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override {
+    OnJump(0, before, after);
+  }
+  void OnCorrection(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override {
+    OnJump(1, before, after);
+  }
+
+  void SetGoal(const messages::Goal& goal, navigation::GoalChange change) override {
+    const rockyard_place place = Place(goal);
+    const int moved = change == navigation::GoalChange::kMoved ? 1 : 0;
+    Call([&](rockyard_error* error) { return type_.set_goal(navigator_, &place, moved, error); });
+  }
+
+  const messages::Overlay* overlay() const override {
+    rockyard_overlay shown{};
+    Call([&](rockyard_error* error) { return type_.overlay(navigator_, &shown, error); });
+    overlay_ = {};
+    for (std::size_t i = 0; i < shown.line_count; ++i) {
+      const rockyard_overlay_line& line = shown.lines[i];
+      messages::OverlayLine& to = overlay_.lines.emplace_back();
+      to.name = line.name;
+      for (std::size_t k = 0; k < line.count; ++k) {
+        to.points.push_back({line.points[k].x_m, line.points[k].y_m});
+      }
+    }
+    for (std::size_t i = 0; i < shown.grid_count; ++i) {
+      const rockyard_overlay_grid& grid = shown.grids[i];
+      const std::size_t cells = grid.nx > 0 && grid.ny > 0 ? static_cast<std::size_t>(grid.nx) *
+                                                                 static_cast<std::size_t>(grid.ny)
+                                                           : 0;
+      overlay_.grids.push_back({grid.name,
+                                grid.x0_m,
+                                grid.y0_m,
+                                grid.step_m,
+                                grid.nx,
+                                grid.ny,
+                                {grid.values, grid.values + cells}});
+    }
+    CheckOverlay(overlay_);
+    return overlay_.lines.empty() && overlay_.grids.empty() ? nullptr : &overlay_;
+  }
+
+  std::span<const double> own_values() const override {
+    values_.assign(own_values_, 0.0);
+    if (own_values_ == 0) return values_;
+    Call([&](rockyard_error* error) {
+      return type_.own_values(navigator_, values_.data(), values_.size(), error);
+    });
+    return values_;
+  }
+
+ private:
+  void OnJump(int corrected, const messages::PoseEstimate& before,
+              const messages::PoseEstimate& after) {
+    const rockyard_pose from = Pose(before);
+    const rockyard_pose to = Pose(after);
+    Call([&](rockyard_error* error) {
+      return type_.on_jump(navigator_, corrected, &from, &to, error);
+    });
+  }
+
+  // Calls a function of the library, and judges what it took.
+  template <typename Function>
+  void Call(const Function& function) const {
+    const pid_t process = getpid();
+    const double began_s = ThreadCpu_s();
+    rockyard_error error{};
+    const int result = function(&error);
+    // A plugin that forks: its child must not go on with this drive and this store.
+    if (getpid() != process) _exit(1);
+    const double took_s = ThreadCpu_s() - began_s;
+    used_s_ += took_s;
+    try {
+      RequireDone(result, error);
+    } catch (const std::runtime_error& failed) {
+      throw NavigatorFault(FaultKind::kThrew, failed.what());
+    }
+    Limit(took_s, limits_.decision_cpu_s, "for one answer");
+    Limit(used_s_, limits_.drive_cpu_s, "for one drive");
+  }
+
+  static void Limit(double used_s, double most_s, const char* what) {
+    if (used_s <= most_s) return;
+    throw NavigatorFault(FaultKind::kCpuTime, fmt::format("more than {} s {}", most_s, what));
+  }
+
+  const rockyard_navigator_type& type_;
+  const navigation::LimitParams limits_;
+  const std::size_t own_values_;
+  void* navigator_ = nullptr;
+  mutable double used_s_ = 0.0;
+  mutable messages::Overlay overlay_;
+  mutable std::vector<double> values_;
+};
+
+// One kind of navigators of a library.
+class LibrarySource final : public NavigatorSource {
+ public:
+  LibrarySource(fs::path file, std::size_t place, std::unique_ptr<const Description> description)
+      : NavigatorSource(file.string(), std::move(description)),
+        file_(std::move(file)),
+        place_(place) {}
+
+  std::unique_ptr<navigation::Navigator> Make(
+      const Parameters& parameters, const navigation::NavigatorSetup& setup) const override {
+    auto navigator =
+        std::make_unique<LibraryNavigator>(Type(), setup.limits, description().own_values.size());
+    navigator->Begin(parameters, setup);
+    return navigator;
+  }
+
+ protected:
+  core::JsonValue AskTraits(const Parameters& parameters) const override {
+    const std::string text = InChild(name(), [&] {
+      const AbiValues values(parameters);
+      rockyard_error error{};
+      std::string answer;
+      const rockyard_navigator_type& type = *Load(file_).navigators[place_];
+      RequireDone(type.traits(values.get(), TakeText, &answer, &error), error);
+      return answer;
+    });
+    return core::ParseJson(text, name());
+  }
+
+ private:
+  // Returns the functions; loads the library the first time.
+  const rockyard_navigator_type& Type() const {
+    const std::lock_guard lock(mutex_);
+    if (type_ == nullptr) {
+      try {
+        const rockyard_plugin_info& info = Load(file_);
+        if (place_ >= info.navigator_count) throw std::runtime_error("it has fewer navigators");
+        type_ = info.navigators[place_];
+      } catch (const std::runtime_error& error) {
+        throw core::UserError(name(), std::string("cannot be loaded: ") + error.what(),
+                              "build it anew, and let it be while it is used");
+      }
+    }
+    return *type_;
+  }
+
+  const fs::path file_;
+  const std::size_t place_;
+  mutable std::mutex mutex_;
+  mutable const rockyard_navigator_type* type_ = nullptr;
+};
+
+// What the library says of its navigators: a list of descriptions.
+std::string DescribeAll(const fs::path& file) {
+  const rockyard_plugin_info& info = Load(file);
+  std::string all = "[";
+  for (std::size_t i = 0; i < info.navigator_count; ++i) {
+    rockyard_error error{};
+    std::string one;
+    RequireDone(info.navigators[i]->describe(TakeText, &one, &error), error);
+    all += (i == 0 ? "" : ",") + one;
+  }
+  return all + "]";
+}
+
+}  // namespace
+
+std::vector<std::shared_ptr<const NavigatorSource>> OpenLibrary(const fs::path& file) {
+  const std::string name = file.string();
+  const core::JsonValue answers =
+      core::ParseJson(InChild(name, [&] { return DescribeAll(file); }), name);
+  std::vector<std::shared_ptr<const NavigatorSource>> sources;
+  for (const core::JsonValue& answer : answers.list()) {
+    sources.push_back(
+        std::make_shared<LibrarySource>(file, sources.size(), ReadDescription(answer, name)));
+  }
+  return sources;
+}
+
+}  // namespace rockyard::plugin

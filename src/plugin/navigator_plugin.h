@@ -1,0 +1,624 @@
+/// @file
+/// Makes a plugin of navigators, header only: a shared library that includes this file, links
+/// nothing of rockyard and names its navigators once.
+///
+///   navigation::NavigatorDescription<MineParams> DescribeMine();  // as for a built-in navigator
+///   ROCKYARD_NAVIGATORS(DescribeMine)
+///
+/// Class, parameters and description are the same as those of a navigator that a program links, so
+/// that one source serves both. What a navigator throws ends its drive as a fault of the navigator.
+/// Limits: views (Navigator::view), plan_counts, stripe names, rates of curvature and routes do not
+/// pass through a plugin; overlays and own values do.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/fields.h"
+#include "messages/calibration.h"
+#include "messages/estimates.h"
+#include "messages/navigation_view.h"
+#include "messages/point_cloud.h"
+#include "messages/site_map.h"
+#include "messages/vehicle_state.h"
+#include "navigation/navigator.h"
+#include "navigation/navigator_set_params.h"
+#include "navigation/navigator_traits_params.h"
+#include "plugin/abi.h"
+
+namespace rockyard::plugin {
+
+// What follows is for the macro below alone.
+namespace layer {
+
+/// JSON that is written from front to back.
+class JsonLine {
+ public:
+  JsonLine& Raw(std::string_view text) {
+    text_ += text;
+    return *this;
+  }
+  JsonLine& Text(std::string_view text) {
+    text_ += '"';
+    for (const char c : text) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (c == '"' || c == '\\') {
+        text_ += '\\';
+        text_ += c;
+      } else if (byte < 0x20) {
+        std::array<char, 8> escaped{};
+        std::snprintf(escaped.data(), escaped.size(), "\\u%04x", static_cast<unsigned>(byte));
+        text_ += escaped.data();
+      } else {
+        text_ += c;
+      }
+    }
+    text_ += '"';
+    return *this;
+  }
+  JsonLine& Number(double value) {
+    if (!std::isfinite(value)) return Raw("null");
+    std::array<char, 40> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.17g", value);
+    std::replace(digits.begin(), digits.end(), ',', '.');
+    return Raw(digits.data());
+  }
+  JsonLine& Integer(std::int64_t value) { return Raw(std::to_string(value)); }
+  /// Begins a member, after a comma unless it is the first of its object.
+  JsonLine& Key(std::string_view key) {
+    if (!text_.empty() && text_.back() != '{' && text_.back() != '[') text_ += ',';
+    return Text(key).Raw(":");
+  }
+  JsonLine& Member(std::string_view key, std::string_view value) { return Key(key).Text(value); }
+  JsonLine& Comma() {
+    if (!text_.empty() && text_.back() != '[') text_ += ',';
+    return *this;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+/// Lists parameters as JSON, with their defaults.
+class FieldLister final : public core::FieldVisitor {
+ public:
+  explicit FieldLister(JsonLine& json) : json_(json) {}
+
+  void Real(std::string_view name, double& value, const core::FieldInfo& info) override {
+    Begin(name, "real", info).Number(value).Raw("}");
+  }
+  void Angle(std::string_view name, double& value_rad, const core::FieldInfo& info) override {
+    Begin(name, "angle", info).Number(value_rad).Raw("}");
+  }
+  void Integer(std::string_view name, std::int64_t& value, const core::FieldInfo& info) override {
+    Begin(name, "integer", info).Integer(value).Raw("}");
+  }
+  void Boolean(std::string_view name, bool& value, const core::FieldInfo& info) override {
+    Begin(name, "boolean", info).Raw(value ? "true}" : "false}");
+  }
+  void Text(std::string_view name, std::string& value, const core::FieldInfo& info) override {
+    Begin(name, "text", info).Text(value).Raw("}");
+  }
+  void Reals(std::string_view name, std::vector<double>& values,
+             const core::FieldInfo& info) override {
+    List(Begin(name, "reals", info), values);
+  }
+  void FixedReals(std::string_view name, std::span<double> values,
+                  const core::FieldInfo& info) override {
+    List(Begin(name, "fixed_reals", info), values);
+  }
+  void Integers(std::string_view name, std::vector<std::int64_t>& values,
+                const core::FieldInfo& info) override {
+    List(Begin(name, "integers", info), values);
+  }
+  void Require(std::string_view, bool, std::string_view, std::string_view) override {}
+
+ protected:
+  void ChoiceIndex(std::string_view name, int& index, std::span<const std::string_view> names,
+                   const core::FieldInfo& info) override {
+    json_.Comma().Raw("{").Member("name", name).Member("type", "choice");
+    Describe(info);
+    json_.Key("choices").Raw("[");
+    for (const std::string_view choice : names) json_.Comma().Text(choice);
+    json_.Raw("]").Key("default").Integer(index).Raw("}");
+  }
+  void BeginGroup(std::string_view name, std::string_view doc) override {
+    json_.Comma().Raw("{").Member("name", name).Member("type", "group").Member("doc", doc);
+    json_.Key("parameters").Raw("[");
+  }
+  void EndGroup() override { json_.Raw("]}"); }
+
+ private:
+  JsonLine& Begin(std::string_view name, std::string_view type, const core::FieldInfo& info) {
+    json_.Comma().Raw("{").Member("name", name).Member("type", type);
+    Describe(info);
+    return json_.Key("default");
+  }
+  void Describe(const core::FieldInfo& info) {
+    constexpr std::array<std::string_view, 4> kOrigins{"published", "calibrated", "assumed",
+                                                       "setting"};
+    json_.Member("doc", info.doc).Member("source", info.source);
+    json_.Member("origin", kOrigins[static_cast<std::size_t>(info.origin)]);
+    if (std::isfinite(info.min)) json_.Key("min").Number(info.min);
+    if (std::isfinite(info.max)) json_.Key("max").Number(info.max);
+    if (info.study_low < info.study_high) {
+      json_.Key("study").Raw("[").Number(info.study_low).Raw(",").Number(info.study_high).Raw("]");
+    }
+    json_.Key("max_entries").Integer(static_cast<std::int64_t>(info.max_entries));
+  }
+  template <typename Values>
+  static void List(JsonLine& json, const Values& values) {
+    json.Raw("[");
+    for (const auto value : values) {
+      json.Comma();
+      if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
+        json.Number(value);
+      } else {
+        json.Integer(value);
+      }
+    }
+    json.Raw("]}");
+  }
+
+  JsonLine& json_;
+};
+
+/// Sets parameters to the values of the command, in the order of the lister.
+class FieldSetter final : public core::FieldVisitor {
+ public:
+  explicit FieldSetter(const rockyard_values& values) : values_(values) {}
+
+  void Real(std::string_view, double& value, const core::FieldInfo&) override {
+    value = Next().real;
+  }
+  void Angle(std::string_view, double& value_rad, const core::FieldInfo&) override {
+    value_rad = Next().real;
+  }
+  void Integer(std::string_view, std::int64_t& value, const core::FieldInfo&) override {
+    value = Next().integer;
+  }
+  void Boolean(std::string_view, bool& value, const core::FieldInfo&) override {
+    value = Next().integer != 0;
+  }
+  void Text(std::string_view, std::string& value, const core::FieldInfo&) override {
+    value = Next().text;
+  }
+  void Reals(std::string_view, std::vector<double>& values, const core::FieldInfo&) override {
+    const rockyard_value& value = Next();
+    values.assign(value.reals, value.reals + value.count);
+  }
+  void FixedReals(std::string_view, std::span<double> values, const core::FieldInfo&) override {
+    const rockyard_value& value = Next();
+    std::copy_n(value.reals, std::min(values.size(), value.count), values.begin());
+  }
+  void Integers(std::string_view, std::vector<std::int64_t>& values,
+                const core::FieldInfo&) override {
+    const rockyard_value& value = Next();
+    values.assign(value.integers, value.integers + value.count);
+  }
+  void Require(std::string_view, bool, std::string_view, std::string_view) override {}
+
+ protected:
+  void ChoiceIndex(std::string_view, int& index, std::span<const std::string_view>,
+                   const core::FieldInfo&) override {
+    index = static_cast<int>(Next().integer);
+  }
+  void BeginGroup(std::string_view, std::string_view) override {}
+  void EndGroup() override {}
+
+ private:
+  const rockyard_value& Next() {
+    if (next_ >= values_.count) throw std::runtime_error("the command handed too few parameters");
+    return values_.values[next_++];
+  }
+
+  const rockyard_values& values_;
+  std::size_t next_ = 0;
+};
+
+/// Lists the conditions across parameters that do not hold.
+class Conditions final : public core::FieldVisitor {
+ public:
+  explicit Conditions(JsonLine& json) : json_(json) {}
+
+  void Real(std::string_view, double&, const core::FieldInfo&) override {}
+  void Angle(std::string_view, double&, const core::FieldInfo&) override {}
+  void Integer(std::string_view, std::int64_t&, const core::FieldInfo&) override {}
+  void Boolean(std::string_view, bool&, const core::FieldInfo&) override {}
+  void Text(std::string_view, std::string&, const core::FieldInfo&) override {}
+  void Reals(std::string_view, std::vector<double>&, const core::FieldInfo&) override {}
+  void FixedReals(std::string_view, std::span<double>, const core::FieldInfo&) override {}
+  void Integers(std::string_view, std::vector<std::int64_t>&, const core::FieldInfo&) override {}
+  void Require(std::string_view name, bool holds, std::string_view reason,
+               std::string_view suggestion) override {
+    if (holds) return;
+    json_.Comma().Raw("{").Member("parameter", prefix_ + std::string(name));
+    json_.Member("reason", reason).Member("suggestion", suggestion).Raw("}");
+  }
+
+ protected:
+  void ChoiceIndex(std::string_view, int&, std::span<const std::string_view>,
+                   const core::FieldInfo&) override {}
+  void BeginGroup(std::string_view name, std::string_view) override {
+    prefix_ += std::string(name) + ".";
+  }
+  void EndGroup() override {
+    prefix_.pop_back();
+    prefix_.resize(prefix_.find_last_of('.') + 1);  // npos + 1 is 0
+  }
+
+ private:
+  JsonLine& json_;
+  std::string prefix_;
+};
+
+inline messages::PoseEstimate Pose(const rockyard_pose& pose) {
+  return {pose.x_m, pose.y_m, pose.heading_rad, pose.distance_m};
+}
+inline messages::AttitudeEstimate Attitude(const rockyard_attitude& attitude) {
+  return {attitude.roll_rad, attitude.pitch_rad, attitude.z_m};
+}
+inline messages::Goal Place(const rockyard_place& place) { return {place.x_m, place.y_m}; }
+
+inline messages::RoverBelief Rover(const rockyard_rover& from) {
+  messages::RoverBelief rover;
+  rover.length_m = from.length_m;
+  rover.width_m = from.width_m;
+  rover.belly_clearance_m = from.belly_clearance_m;
+  rover.wheel_width_m = from.wheel_width_m;
+  rover.max_rocker_rad = from.max_rocker_rad;
+  rover.max_bogie_rad = from.max_bogie_rad;
+  rover.max_tilt_rad = from.max_tilt_rad;
+  rover.drive.wheel_radius_m = from.wheel_radius_m;
+  rover.drive.max_wheel_speed_m_s = from.max_wheel_speed_m_s;
+  rover.drive.max_steer_rad = from.max_steer_rad;
+  rover.drive.steering_offset_rad = from.steering_offset_rad;
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    rover.drive.wheel_x_m[wheel] = from.wheel_x_m[wheel];
+    rover.drive.wheel_y_m[wheel] = from.wheel_y_m[wheel];
+    rover.drive.radius_ratio[wheel] = from.radius_ratio[wheel];
+    rover.drive.steered[wheel] = from.steered[wheel] != 0;
+  }
+  return rover;
+}
+
+inline std::shared_ptr<const messages::SiteMap> SiteMap(const rockyard_site_map* from) {
+  if (from == nullptr) return nullptr;
+  auto map = std::make_shared<messages::SiteMap>();
+  map->x0_m = from->x0_m;
+  map->y0_m = from->y0_m;
+  map->step_m = from->step_m;
+  map->nx = from->nx;
+  map->ny = from->ny;
+  const auto cells = static_cast<std::size_t>(from->nx) * static_cast<std::size_t>(from->ny);
+  if (from->height_m != nullptr) map->height_m.assign(from->height_m, from->height_m + cells);
+  map->height_sd_m = from->height_sd_m;
+  if (from->rock_share != nullptr) {
+    map->rock_share.assign(from->rock_share, from->rock_share + cells);
+  }
+  return map;
+}
+
+inline navigation::NavigatorSetup Setup(const rockyard_setup& from) {
+  navigation::NavigatorSetup setup;
+  setup.goal = Place(from.goal);
+  for (std::size_t i = 0; i < from.place_count; ++i) setup.places.push_back(Place(from.places[i]));
+  setup.judges_hazards = from.judges_hazards != 0;
+  setup.full_speed_m_s = from.full_speed_m_s;
+  setup.control_period_s = from.control_period_s;
+  setup.operations_per_s = from.operations_per_s;
+  setup.random_seed = from.random_seed;
+  setup.rover = Rover(from.rover);
+  setup.site_map = SiteMap(from.site_map);
+  return setup;
+}
+
+/// Holds what a NavigatorInput points to.
+class Input {
+ public:
+  explicit Input(const rockyard_input& from) {
+    input_.time_s = from.time_s;
+    input_.events = navigation::Events(from.events);
+    input_.estimate = Pose(from.estimate);
+    input_.odometry = Pose(from.odometry);
+    input_.attitude = Attitude(from.attitude);
+    input_.touches_behind = from.touches_behind != 0;
+    input_.notices_stuck = from.notices_stuck != 0;
+    if (from.report != nullptr) TakeReport(*from.report);
+    if (from.cloud != nullptr) TakeCloud(*from.cloud);
+    if (from.look != nullptr) {
+      look_ = {from.look->number, from.look->time_s, Pose(from.look->estimate),
+               Pose(from.look->odometry), Attitude(from.look->attitude)};
+      input_.look = &look_;
+    }
+    if (from.hazard != nullptr) {
+      hazard_ = {static_cast<messages::VehicleHazardKind>(from.hazard->kind),
+                 static_cast<messages::HazardSide>(from.hazard->side)};
+      input_.vehicle_hazard = &hazard_;
+    }
+    if (from.felt != nullptr) TakeFelt(*from.felt);
+    if (from.covariance != nullptr) {
+      covariance_ = Eigen::Map<const messages::PoseCovariance>(from.covariance);
+      input_.covariance = &covariance_;
+    }
+  }
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+
+  const navigation::NavigatorInput& get() const { return input_; }
+
+ private:
+  void TakeReport(const rockyard_report& from) {
+    report_.scan_number = from.scan_number;
+    report_.stripe_hazard = messages::PerStripe<bool>(from.stripes);
+    for (std::size_t i = 0; i < from.stripes; ++i) report_.stripe_hazard[i] = from.hazard[i] != 0;
+    input_.report = &report_;
+  }
+  void TakeCloud(const rockyard_cloud& from) {
+    cloud_.number = from.number;
+    cloud_.direction =
+        from.behind != 0 ? messages::LookDirection::kBehind : messages::LookDirection::kAhead;
+    cloud_.points_R.resize(from.count);
+    if (from.count > 0) {
+      std::memcpy(cloud_.points_R.data(), from.points_R, 3 * sizeof(double) * from.count);
+    }
+    input_.cloud = &cloud_;
+  }
+  void TakeFelt(const rockyard_felt& from) {
+    if (from.articulation_rad != nullptr) {
+      felt_.articulation = {from.articulation_rad[0], from.articulation_rad[1],
+                            from.articulation_rad[2], from.articulation_rad[3]};
+    }
+    if (from.specific_force_R != nullptr) {
+      felt_.specific_force_R = Eigen::Map<const math::Vector3>(from.specific_force_R);
+    }
+    if (from.motor_current_A != nullptr) {
+      felt_.motor_current_A.emplace();
+      std::copy_n(from.motor_current_A, messages::kWheelCount, felt_.motor_current_A->begin());
+    }
+    if (from.contact != nullptr) {
+      felt_.contact.emplace();
+      for (std::size_t i = 0; i < messages::kContactSwitchCount; ++i) {
+        (*felt_.contact)[i] = from.contact[i] != 0;
+      }
+    }
+    input_.felt = &felt_;
+  }
+
+  navigation::NavigatorInput input_;
+  messages::HazardReport report_;
+  messages::PointCloud cloud_;
+  messages::LookMoment look_;
+  messages::VehicleHazard hazard_;
+  messages::VehicleState felt_;
+  messages::PoseCovariance covariance_ = messages::PoseCovariance::Zero();
+};
+
+inline void Write(const navigation::NavigatorDecision& from, rockyard_decision& to) {
+  to = {};
+  to.status = static_cast<std::int32_t>(from.status);
+  if (from.look) to.look = *from.look == messages::LookDirection::kAhead ? 1 : 2;
+  to.looks_on_the_move = from.looks_on_the_move ? 1 : 0;
+  to.motion = static_cast<std::int32_t>(from.motion.kind);
+  to.direction = from.motion.direction;
+  to.curvature_per_m = from.motion.curvature_per_m;
+  to.curvature_rate_per_m2 = from.motion.curvature_rate_per_m2;
+  to.speed_share = from.motion.speed_share;
+  to.end_m = from.motion.end_m;
+  to.move = from.motion.move;
+  to.until_period_s = from.until.period_s;
+  to.until_distance_m = from.until.distance_m;
+  to.until_turn_rad = from.until.turn_rad;
+  to.until_near_goal_m = from.until.near_goal_m;
+  to.work_ops = from.work_ops;
+}
+
+/// A navigator with the overlay that it handed over last.
+struct Held {
+  std::unique_ptr<navigation::Navigator> navigator;
+  std::vector<std::vector<rockyard_place>> points;
+  std::vector<rockyard_overlay_line> lines;
+  std::vector<rockyard_overlay_grid> grids;
+
+  void Show(const messages::Overlay& from, rockyard_overlay& to) {
+    points.clear();
+    lines.clear();
+    grids.clear();
+    for (const messages::OverlayLine& line : from.lines) {
+      std::vector<rockyard_place>& places = points.emplace_back();
+      for (const messages::Goal& point : line.points) places.push_back({point.x_m, point.y_m});
+    }
+    for (std::size_t i = 0; i < from.lines.size(); ++i) {
+      lines.push_back({from.lines[i].name.c_str(), points[i].data(), points[i].size()});
+    }
+    for (const messages::OverlayGrid& grid : from.grids) {
+      grids.push_back({grid.name.c_str(), grid.x0_m, grid.y0_m, grid.step_m, grid.nx, grid.ny,
+                       grid.values.data()});
+    }
+    to = {lines.data(), lines.size(), grids.data(), grids.size()};
+  }
+};
+
+/// Runs `call`; returns 0, or 1 and what it threw.
+template <typename Call>
+int Guarded(rockyard_error* error, const Call& call) noexcept {
+  const auto fail = [error](const char* text) {
+    std::snprintf(error->text, sizeof error->text, "%s", text);
+    return 1;
+  };
+  try {
+    call();
+    return 0;
+  } catch (const std::exception& thrown) {
+    return fail(thrown.what());
+  } catch (...) {
+    return fail("it threw something that is no std::exception");
+  }
+}
+
+inline std::string TraitsText(const navigation::NavigatorTraits& traits) {
+  constexpr std::array<std::string_view, 3> kReads{"hazards", "points", "nothing"};
+  JsonLine json;
+  json.Raw("{").Member("reads", kReads[static_cast<std::size_t>(traits.reads)]);
+  json.Key("goal_tolerance").Raw("{").Member("parameter", traits.goal.path);
+  json.Key("value_m").Number(traits.goal.tolerance_m).Raw("}");
+  json.Key("cost").Raw("{");
+  if (const auto* map = std::get_if<navigation::CostOfMap>(&traits.cost)) {
+    json.Member("kind", "map").Key("cell_m").Number(map->cell_m);
+    json.Key("area_m2").Number(map->area_m2);
+  } else if (const auto* look = std::get_if<navigation::CostOfLook>(&traits.cost)) {
+    json.Member("kind", "look").Key("time_s").Number(look->time_s);
+  } else {
+    json.Member("kind", "judgement");
+  }
+  json.Raw("}").Key("looks_on_the_move").Raw(traits.looks_on_the_move ? "true" : "false");
+  json.Key("steers_on_the_move").Raw(traits.steers_on_the_move ? "true" : "false");
+  json.Key("problems").Raw("[");
+  return json.text();
+}
+
+/// The functions of one kind of navigator. `Describe` returns its NavigatorDescription.
+template <auto Describe>
+struct NavigatorType {
+  using Description = decltype(Describe());
+
+  template <typename Params>
+  static Params ParamsIn(const navigation::NavigatorDescription<Params>&) {
+    return {};
+  }
+  using Params = decltype(ParamsIn(std::declval<Description>()));
+
+  static Params WithValues(const rockyard_values& values) {
+    Params params;
+    FieldSetter setter(values);
+    params.Visit(setter);
+    return params;
+  }
+
+  static int DescribeIt(rockyard_take_text take, void* to, rockyard_error* error) noexcept {
+    return Guarded(error, [&] {
+      const Description description = Describe();
+      JsonLine json;
+      json.Raw("{").Member("name", description.name).Member("doc", description.doc);
+      json.Key("parameters").Raw("[");
+      Params params;
+      FieldLister lister(json);
+      params.Visit(lister);
+      json.Raw("]").Key("own_values").Raw("[");
+      for (const messages::OwnValue& value : description.own_values) {
+        json.Comma().Raw("{").Member("name", value.name).Member("unit", value.unit);
+        json.Member("meaning", value.meaning).Raw("}");
+      }
+      json.Raw("]}");
+      take(to, json.text().data(), json.text().size());
+    });
+  }
+
+  static int Traits(const rockyard_values* values, rockyard_take_text take, void* to,
+                    rockyard_error* error) noexcept {
+    return Guarded(error, [&] {
+      Params params = WithValues(*values);
+      JsonLine json;
+      json.Raw(TraitsText(Describe().traits(params)));
+      Conditions conditions(json);
+      params.Visit(conditions);
+      json.Raw("]}");
+      take(to, json.text().data(), json.text().size());
+    });
+  }
+
+  static int Create(const rockyard_values* values, const rockyard_setup* setup, void** navigator,
+                    rockyard_error* error) noexcept {
+    return Guarded(error, [&] {
+      auto held = std::make_unique<Held>();
+      held->navigator = Describe().make(WithValues(*values), Setup(*setup));
+      if (held->navigator == nullptr) throw std::runtime_error("it made no navigator");
+      *navigator = held.release();
+    });
+  }
+
+  static navigation::Navigator& At(void* navigator) {
+    return *static_cast<Held*>(navigator)->navigator;
+  }
+
+  static int Decide(void* navigator, const rockyard_input* input, rockyard_decision* decision,
+                    rockyard_error* error) noexcept {
+    return Guarded(error, [&] { Write(At(navigator).Decide(Input(*input).get()), *decision); });
+  }
+
+  static int OnJump(void* navigator, int corrected, const rockyard_pose* before,
+                    const rockyard_pose* after, rockyard_error* error) noexcept {
+    return Guarded(error, [&] {
+      if (corrected != 0) {
+        At(navigator).OnCorrection(Pose(*before), Pose(*after));
+      } else {
+        At(navigator).OnPoseUpdate(Pose(*before), Pose(*after));
+      }
+    });
+  }
+
+  static int SetGoal(void* navigator, const rockyard_place* goal, int moved,
+                     rockyard_error* error) noexcept {
+    return Guarded(error, [&] {
+      At(navigator).SetGoal(Place(*goal), moved != 0 ? navigation::GoalChange::kMoved
+                                                     : navigation::GoalChange::kNext);
+    });
+  }
+
+  static int OwnValues(void* navigator, double* values, std::size_t count,
+                       rockyard_error* error) noexcept {
+    return Guarded(error, [&] {
+      const std::span<const double> own = At(navigator).own_values();
+      if (own.size() != count) {
+        throw std::runtime_error("own_values() returns " + std::to_string(own.size()) +
+                                 " values, and its description declares " + std::to_string(count));
+      }
+      std::copy(own.begin(), own.end(), values);
+    });
+  }
+
+  static int Overlay(void* navigator, rockyard_overlay* overlay, rockyard_error* error) noexcept {
+    return Guarded(error, [&] {
+      const messages::Overlay* shown = At(navigator).overlay();
+      if (shown != nullptr) static_cast<Held*>(navigator)->Show(*shown, *overlay);
+    });
+  }
+
+  static void Destroy(void* navigator) noexcept { delete static_cast<Held*>(navigator); }
+
+  static constexpr rockyard_navigator_type kType{DescribeIt, Traits,    Create,  Decide, OnJump,
+                                                 SetGoal,    OwnValues, Overlay, Destroy};
+};
+
+/// What a library of these navigators hands over.
+template <auto... Describe>
+struct Library {
+  static constexpr std::array<const rockyard_navigator_type*, sizeof...(Describe)> kTypes{
+      &NavigatorType<Describe>::kType...};
+  static constexpr rockyard_plugin_info kInfo{ROCKYARD_PLUGIN_ABI, 0, kTypes.data(), kTypes.size()};
+};
+
+}  // namespace layer
+}  // namespace rockyard::plugin
+
+/// Makes the library a plugin of navigators, each named by the function that returns its
+/// NavigatorDescription. Stands once in a library, outside of all namespaces.
+#define ROCKYARD_NAVIGATORS(...)                                                                 \
+  extern "C" __attribute__((visibility("default"))) const rockyard_plugin_info* rockyard_plugin( \
+      void) {                                                                                    \
+    return &::rockyard::plugin::layer::Library<__VA_ARGS__>::kInfo;                              \
+  }

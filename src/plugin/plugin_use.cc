@@ -1,0 +1,258 @@
+#include "plugin/plugin_use.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/text.h"
+#include "plugin/foreign_navigator.h"
+#include "plugin/library.h"
+#include "plugin/process.h"
+
+namespace rockyard::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+using core::JsonValue;
+using core::UserError;
+using Kind = PluginUse::Kind;
+
+constexpr std::size_t kMostPlugins = 16;
+
+void HashFile(const fs::path& file, core::Hasher& hasher) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw UserError(file.string(), "cannot be read", "check its permissions");
+  hasher.Text(bytes);
+}
+
+// Returns the words of a command, as far as blanks and quotes part them.
+std::vector<std::string> WordsOf(const std::string& command) {
+  std::vector<std::string> words;
+  std::string word;
+  char quote = 0;
+  for (const char c : command) {
+    if (quote != 0 ? c == quote : c == '"' || c == '\'') {
+      quote = quote != 0 ? '\0' : c;
+    } else if (quote == 0 && (c == ' ' || c == '\t')) {
+      if (!word.empty()) words.push_back(std::exchange(word, {}));
+    } else {
+      word += c;
+    }
+  }
+  if (!word.empty()) words.push_back(word);
+  return words;
+}
+
+std::string HashOfLibrary(const fs::path& file) {
+  core::Hasher hasher;
+  HashFile(file, hasher);
+  return core::Hex(hasher.value());
+}
+
+std::string HashOfProcess(const PluginUse& use) {
+  core::Hasher hasher;
+  hasher.Text(use.text);
+  for (const std::string& word : WordsOf(use.text)) {
+    const fs::path file = fs::path(use.folder) / word;  // an absolute word stays itself
+    std::error_code error;
+    if (fs::is_regular_file(file, error)) HashFile(file, hasher);
+  }
+  for (const auto& navigator : use.navigators) {
+    hasher.Text(navigator->description().name).Text(navigator->description().version);
+  }
+  return core::Hex(hasher.value());
+}
+
+// One entry of the list as it is written.
+struct Entry {
+  Kind kind = Kind::kLibrary;
+  std::string text;
+  std::string folder;  // "" where the entry has none
+  std::string hash;    // "" where the entry has none
+};
+
+std::string TextIn(const JsonValue& object, std::string_view key, const std::string& path) {
+  const JsonValue* member = object.Find(key);
+  if (member == nullptr) return {};
+  if (!member->Is(JsonValue::Type::kText) || member->text().empty()) {
+    throw UserError(fmt::format("{}.{}", path, key), "is no text", "write a text");
+  }
+  return member->text();
+}
+
+Entry ReadEntry(const JsonValue& value, const std::string& path) {
+  if (value.Is(JsonValue::Type::kText)) return {Kind::kLibrary, value.text(), {}, {}};
+  if (!value.Is(JsonValue::Type::kObject)) {
+    throw UserError(path, "is neither a text nor an object",
+                    R"(write {"library": "libmine.so"} or {"process": "python3 mine.py"})");
+  }
+  constexpr std::array<std::string_view, 4> kKeys{"library", "process", "folder", "hash"};
+  for (const core::JsonMember& member : value.members()) {
+    if (std::find(kKeys.begin(), kKeys.end(), member.key) == kKeys.end()) {
+      throw UserError(fmt::format("{}.{}", path, member.key), "is not a known key",
+                      core::Suggest(member.key, kKeys));
+    }
+  }
+  const std::string library = TextIn(value, "library", path);
+  const std::string process = TextIn(value, "process", path);
+  if (library.empty() == process.empty()) {
+    throw UserError(path, library.empty() ? "names no plugin" : "names a library and a process",
+                    R"(write {"library": "libmine.so"} or {"process": "python3 mine.py"})");
+  }
+  return {library.empty() ? Kind::kProcess : Kind::kLibrary, library.empty() ? process : library,
+          TextIn(value, "folder", path), TextIn(value, "hash", path)};
+}
+
+PluginUse OpenOne(const Entry& entry, const fs::path& folder, const std::string& path) {
+  PluginUse use{.kind = entry.kind, .text = entry.text, .folder = {}, .hash = {}, .navigators = {}};
+  const fs::path base = fs::absolute(folder).lexically_normal();
+  if (use.kind == Kind::kLibrary) {
+    const fs::path file = (base / entry.text).lexically_normal();
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) {
+      throw UserError(fmt::format("{}.library", path),
+                      fmt::format("names {}, which is no file", file.string()),
+                      "build the plugin, or give its place with --plugin FILE");
+    }
+    use.text = file.string();
+    use.hash = HashOfLibrary(file);
+  } else {
+    use.folder = entry.folder.empty() ? base.string() : entry.folder;
+    std::error_code error;
+    if (!fs::is_directory(use.folder, error)) {
+      throw UserError(fmt::format("{}.folder", path),
+                      fmt::format("names {}, which is no folder", use.folder),
+                      "give the command again with --navigator-process CMD");
+    }
+  }
+  const auto changed = [&] {
+    throw UserError(path,
+                    fmt::format("is another one than before: {} has the hash {} now, and had {}",
+                                use.Name(), use.hash, entry.hash),
+                    "go on with the former one, or begin a run of its own");
+  };
+  if (use.kind == Kind::kLibrary && !entry.hash.empty() && entry.hash != use.hash) changed();
+  if (use.kind == Kind::kLibrary) {
+    use.navigators = OpenLibrary(use.text);
+  } else {
+    OpenedProcess opened = OpenProcess(use.text, use.folder);
+    use.navigators.push_back(std::move(opened.source));
+    use.confined = opened.confined;
+    use.hash = HashOfProcess(use);
+    if (!entry.hash.empty() && entry.hash != use.hash) changed();
+  }
+  return use;
+}
+
+}  // namespace
+
+std::string PluginUse::Name() const {
+  return kind == Kind::kLibrary ? fs::path(text).filename().string() : text;
+}
+
+JsonValue Anchored(JsonValue list, const fs::path& folder) {
+  if (!list.Is(JsonValue::Type::kList)) return list;
+  const fs::path base = fs::absolute(folder.empty() ? fs::path(".") : folder);
+  const auto anchored = [&](const std::string& path) {
+    return JsonValue((base / path).lexically_normal().string());
+  };
+  for (JsonValue& entry : list.list()) {
+    if (entry.Is(JsonValue::Type::kText)) {
+      entry = JsonValue::Object({{"library", anchored(entry.text())}});
+      continue;
+    }
+    JsonValue* library = entry.Find("library");
+    if (library != nullptr && library->Is(JsonValue::Type::kText)) {
+      *library = anchored(library->text());
+    }
+    if (entry.Find("process") != nullptr && entry.Find("folder") == nullptr) {
+      entry.Set("folder", JsonValue(base.lexically_normal().string()));
+    }
+  }
+  return list;
+}
+
+JsonValue SchemaOfPlugins() {
+  const auto text = [](const char* description) {
+    return JsonValue::Object(
+        {{"description", JsonValue(description)}, {"type", JsonValue("string")}});
+  };
+  JsonValue entry = JsonValue::Object(
+      {{"type", core::ListOf(std::array{"string", "object"})},
+       {"properties",
+        JsonValue::Object({{"library", text("shared library of a plugin, relative to this file")},
+                           {"process", text("command of a navigator's process")},
+                           {"folder", text("in which the command runs: that of this file")},
+                           {"hash", text("of what the scenario was resolved with")}})},
+       {"additionalProperties", JsonValue(false)}});
+  return JsonValue::Object(
+      {{"description",
+        JsonValue("navigators that are no part of the program (docs/navigators.md)")},
+       {"type", JsonValue("array")},
+       {"items", std::move(entry)}});
+}
+
+std::vector<PluginUse> OpenPlugins(const JsonValue& list, const fs::path& folder,
+                                   const std::vector<PluginUse>& opened) {
+  if (!list.Is(JsonValue::Type::kList)) {
+    throw UserError(kPluginsKey, "is no list", R"(write [{"library": "libmine.so"}])");
+  }
+  if (list.list().size() > kMostPlugins) {
+    throw UserError(kPluginsKey, fmt::format("has {} entries", list.list().size()),
+                    fmt::format("use at most {}", kMostPlugins));
+  }
+  std::vector<PluginUse> plugins;
+  for (std::size_t i = 0; i < list.list().size(); ++i) {
+    const std::string path = fmt::format("{}[{}]", kPluginsKey, i);
+    const Entry entry = ReadEntry(list.list()[i], path);
+    const auto known = std::find_if(opened.begin(), opened.end(), [&](const PluginUse& use) {
+      return use.kind == entry.kind && use.text == entry.text &&
+             (entry.hash.empty() || use.hash == entry.hash);
+    });
+    plugins.push_back(known != opened.end() ? *known : OpenOne(entry, folder, path));
+  }
+  return plugins;
+}
+
+JsonValue ToJson(const std::vector<PluginUse>& plugins) {
+  return core::ListOf(plugins, [](const PluginUse& use) {
+    JsonValue entry = JsonValue::Object();
+    entry.Append(use.kind == Kind::kLibrary ? "library" : "process", JsonValue(use.text));
+    if (use.kind == Kind::kProcess) entry.Append("folder", JsonValue(use.folder));
+    entry.Append("hash", JsonValue(use.hash));
+    return entry;
+  });
+}
+
+JsonValue IdentityOf(const JsonValue& list) {
+  JsonValue identity = list;
+  if (!identity.Is(JsonValue::Type::kList)) return identity;
+  for (JsonValue& entry : identity.list()) {
+    entry.Erase("folder");
+    entry.Erase("library");
+    entry.Erase("process");
+  }
+  return identity;
+}
+
+void AddNavigators(const std::vector<PluginUse>& plugins, navigation::NavigatorSet& set) {
+  for (const PluginUse& use : plugins) {
+    for (const auto& source : use.navigators) {
+      // Those that a copy of the scenario has already.
+      const bool there = std::ranges::any_of(set.kinds(), [&](const auto& kind) {
+        const auto* foreign = dynamic_cast<const ForeignKind*>(kind.get());
+        return foreign != nullptr && foreign->IsOf(source);
+      });
+      if (!there) set.Add(std::make_unique<ForeignKind>(source));
+    }
+  }
+}
+
+}  // namespace rockyard::plugin

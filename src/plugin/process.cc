@@ -1,0 +1,228 @@
+#include "plugin/process.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <mutex>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/json_text.h"
+#include "plugin/child_process.h"
+#include "plugin/messages_json.h"
+
+namespace rockyard::plugin {
+namespace {
+
+using core::JsonValue;
+using navigation::FaultKind;
+using navigation::LimitParams;
+using navigation::NavigatorFault;
+
+constexpr std::int64_t kProtocol = 1;
+
+// Asks, and reads the answer. Throws NavigatorFault, also where the answer is an error.
+JsonValue AskJson(ChildProcess& process, const JsonValue& request, const LimitParams& limits,
+                  double left_cpu_s) {
+  const std::string text = process.Ask(core::CompactJson(request), limits, left_cpu_s);
+  JsonValue answer;
+  try {
+    answer = core::ParseJson(text, "its answer", {.max_bytes = kLongestMessage});
+  } catch (const core::UserError& error) {
+    throw NavigatorFault(FaultKind::kMessage, error.what());
+  }
+  if (!answer.Is(JsonValue::Type::kObject)) {
+    throw NavigatorFault(FaultKind::kMessage, "its answer is no object");
+  }
+  if (const JsonValue* error = answer.Find("error")) {
+    throw NavigatorFault(FaultKind::kThrew, error->Is(JsonValue::Type::kText)
+                                                ? error->text()
+                                                : std::string("without a text"));
+  }
+  return answer;
+}
+
+// The processes that wait for a drive.
+class Pool {
+ public:
+  Pool(std::vector<std::string> words, std::string folder)
+      : words_(std::move(words)), folder_(std::move(folder)) {}
+
+  std::unique_ptr<ChildProcess> Take() {
+    {
+      const std::lock_guard lock(mutex_);
+      while (!idle_.empty()) {
+        std::unique_ptr<ChildProcess> process = std::move(idle_.back());
+        idle_.pop_back();
+        if (process->usable()) return process;
+      }
+    }
+    return std::make_unique<ChildProcess>(words_, folder_);
+  }
+  void Return(std::unique_ptr<ChildProcess> process) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(process));
+  }
+
+ private:
+  const std::vector<std::string> words_;
+  const std::string folder_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<ChildProcess>> idle_;
+};
+
+// The navigator of one drive.
+class ProcessNavigator final : public navigation::Navigator {
+ public:
+  ProcessNavigator(Pool& pool, const LimitParams& limits, std::size_t own_values)
+      : pool_(pool), limits_(limits), process_(pool.Take()), own_values_(own_values, 0.0) {}
+  ~ProcessNavigator() override {
+    // What failed once is not trusted with another drive.
+    if (process_ != nullptr && !failed_) pool_.Return(std::move(process_));
+  }
+  ProcessNavigator(const ProcessNavigator&) = delete;
+  ProcessNavigator& operator=(const ProcessNavigator&) = delete;
+
+  void Begin(const Parameters& parameters, const navigation::NavigatorSetup& setup) {
+    JsonValue request = Request("start");
+    request.Set("parameters", parameters.ToJson());
+    request.Set("setup", SetupToJson(setup));
+    Ask(request);
+  }
+
+  navigation::NavigatorDecision Decide(const navigation::NavigatorInput& input) override {
+    JsonValue request = Request("decide");
+    request.Update(InputToJson(input));
+    const JsonValue answer = Ask(request);
+    navigation::NavigatorDecision decision = Read(answer);
+    return decision;
+  }
+  void OnPoseUpdate(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override {
+    OnJump(false, before, after);
+  }
+  void OnCorrection(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override {
+    OnJump(true, before, after);
+  }
+  void SetGoal(const messages::Goal& goal, navigation::GoalChange change) override {
+    JsonValue request = Request("goal");
+    request.Set("goal", PlaceToJson(goal));
+    request.Set("moved", JsonValue(change == navigation::GoalChange::kMoved));
+    Ask(request);
+  }
+  const messages::Overlay* overlay() const override {
+    overlay_ = OverlayFromJson(Ask(Request("overlay")));
+    CheckOverlay(overlay_);
+    return overlay_.lines.empty() && overlay_.grids.empty() ? nullptr : &overlay_;
+  }
+  std::span<const double> own_values() const override { return own_values_; }
+
+ private:
+  static JsonValue Request(std::string_view type) {
+    return JsonValue::Object({{"type", JsonValue(type)}});
+  }
+
+  void OnJump(bool corrected, const messages::PoseEstimate& before,
+              const messages::PoseEstimate& after) {
+    JsonValue request = Request("jump");
+    request.Set("corrected", JsonValue(corrected));
+    request.Set("before", PoseToJson(before));
+    request.Set("after", PoseToJson(after));
+    Ask(request);
+  }
+
+  navigation::NavigatorDecision Read(const JsonValue& answer) {
+    failed_ = true;  // unless all that follows goes well
+    navigation::NavigatorDecision decision = DecisionFromJson(answer);
+    CheckDecision(decision);
+    if (const JsonValue* own = answer.Find("own_values")) OwnValuesFromJson(*own, own_values_);
+    failed_ = false;
+    return decision;
+  }
+
+  JsonValue Ask(const JsonValue& request) const {
+    failed_ = true;
+    JsonValue answer = AskJson(*process_, request, limits_, limits_.drive_cpu_s - used_s_);
+    used_s_ += process_->used_s();
+    failed_ = false;
+    return answer;
+  }
+
+  Pool& pool_;
+  const LimitParams limits_;
+  std::unique_ptr<ChildProcess> process_;
+  std::vector<double> own_values_;
+  mutable double used_s_ = 0.0;
+  mutable bool failed_ = false;
+  mutable messages::Overlay overlay_;
+};
+
+class ProcessSource final : public NavigatorSource {
+ public:
+  ProcessSource(std::string name, std::unique_ptr<const Description> description,
+                std::unique_ptr<Pool> pool)
+      : NavigatorSource(std::move(name), std::move(description)), pool_(std::move(pool)) {}
+
+  std::unique_ptr<navigation::Navigator> Make(
+      const Parameters& parameters, const navigation::NavigatorSetup& setup) const override {
+    auto navigator =
+        std::make_unique<ProcessNavigator>(*pool_, setup.limits, description().own_values.size());
+    navigator->Begin(parameters, setup);
+    return navigator;
+  }
+
+ protected:
+  JsonValue AskTraits(const Parameters& parameters) const override {
+    JsonValue request = JsonValue::Object({{"type", JsonValue("traits")}});
+    request.Set("parameters", parameters.ToJson());
+    return AskOutside(*pool_, name(), request);
+  }
+
+ public:
+  // Asks outside of a drive. Throws core::UserError.
+  static JsonValue AskOutside(Pool& pool, const std::string& name, const JsonValue& request) {
+    try {
+      std::unique_ptr<ChildProcess> process = pool.Take();
+      const LimitParams limits;
+      JsonValue answer = AskJson(*process, request, limits, limits.drive_cpu_s);
+      pool.Return(std::move(process));
+      return answer;
+    } catch (const NavigatorFault& fault) {
+      throw core::UserError(name,
+                            fmt::format("failed when it was asked what it is: {}", fault.what()),
+                            "run the command by itself, and see docs/navigators.md for what a "
+                            "navigator answers");
+    }
+  }
+
+ private:
+  std::unique_ptr<Pool> pool_;
+};
+
+}  // namespace
+
+OpenedProcess OpenProcess(const std::string& command, const std::string& folder) {
+  OpenedProcess opened;
+  auto pool = std::make_unique<Pool>(StartWords(command, folder, opened.confined), folder);
+  const JsonValue answer = ProcessSource::AskOutside(
+      *pool, command,
+      JsonValue::Object({{"type", JsonValue("describe")}, {"protocol", JsonValue(kProtocol)}}));
+  const JsonValue* protocol = answer.Find("protocol");
+  if (protocol == nullptr || !protocol->IsNumber() ||
+      protocol->number() != static_cast<double>(kProtocol)) {
+    throw core::UserError(
+        command,
+        fmt::format("speaks version {} of the protocol, and this program {}",
+                    protocol == nullptr ? "(none)" : core::Abbreviate(*protocol), kProtocol),
+        "answer \"describe\" with the version of this program");
+  }
+  opened.source =
+      std::make_shared<ProcessSource>(command, ReadDescription(answer, command), std::move(pool));
+  return opened;
+}
+
+}  // namespace rockyard::plugin
