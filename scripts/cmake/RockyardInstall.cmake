@@ -21,6 +21,19 @@ rockyard_side(onboard onboard
   rockyard_core rockyard_localization rockyard_math rockyard_messages rockyard_navigation)
 rockyard_side(world rockyard rockyard_side_onboard ${targets})
 
+# rockyard::navigator_plugin: the headers of the side `onboard` alone, for plugins, which link nothing of rockyard.
+# Exported apart from the modules, so that who builds a plugin needs none of their libraries but Eigen.
+add_library(rockyard_navigator_plugin INTERFACE)
+add_library(rockyard::navigator_plugin ALIAS rockyard_navigator_plugin)
+set_target_properties(rockyard_navigator_plugin PROPERTIES EXPORT_NAME navigator_plugin)
+target_compile_features(rockyard_navigator_plugin INTERFACE cxx_std_20)
+target_compile_options(rockyard_navigator_plugin INTERFACE
+  ${ROCKYARD_FLOATING_POINT} -fvisibility=hidden -fvisibility-inlines-hidden)
+target_link_options(rockyard_navigator_plugin INTERFACE LINKER:--no-undefined)  # told here, not when it is loaded
+target_link_libraries(rockyard_navigator_plugin INTERFACE Eigen3::Eigen)
+target_include_directories(rockyard_navigator_plugin INTERFACE
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/rockyard/onboard>)
+
 set(public_headers ${PROJECT_SOURCE_DIR}/src/public_headers.txt)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${public_headers})
 file(STRINGS ${public_headers} lines REGEX "^[^#]")
@@ -37,6 +50,8 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/rockyard)
 install(TARGETS ${targets} rockyard_side_onboard rockyard_side_world EXPORT rockyardTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT rockyardTargets NAMESPACE rockyard:: DESTINATION ${package_dir})
+install(TARGETS rockyard_navigator_plugin EXPORT rockyardPluginTargets)
+install(EXPORT rockyardPluginTargets NAMESPACE rockyard:: DESTINATION ${package_dir})
 if(TARGET rockyard)  # the command, with the scenarios that it finds by name, completion for bash and man pages
   set_target_properties(rockyard PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   install(TARGETS rockyard RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -19,7 +19,9 @@ campaign::CampaignRequest CampaignOf(const RunRequest& request) {
                                      .folder = request.folder,
                                      .existing = request.existing,
                                      .shard = request.shard,
-                                     .max_fault_fraction = request.max_fault_fraction};
+                                     .max_fault_fraction = request.max_fault_fraction,
+                                     .defaults = request.defaults.values(),
+                                     .program = request.program};
   campaign.containment.threads = request.threads;
   campaign.traces.rules = request.traces;
   return campaign;

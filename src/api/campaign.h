@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "api/scenario.h"
 #include "campaign/work.h"
 
 namespace rockyard::api {
@@ -28,6 +29,12 @@ struct RunRequest {
   /// "I/N", 1 <= I <= N: of every cell the trials t with t mod N = I - 1 alone, for Merge. Empty:
   /// all.
   std::string shard = {};
+  /// The values that the file leaves out, and the navigators and estimators that it may name.
+  Scenario defaults = {};
+  /// What the program that calls is known by: a name and a version, or a hash of its own code.
+  /// Stores keep it beside the build of rockyard: another one may not go on with the run. Empty
+  /// where the program adds nothing that decides.
+  std::string program = {};
   int threads = 0;                   ///< 0: as many as the machine runs at once
   double max_fault_fraction = 0.01;  ///< simulator faults above it: kTooManyFaults
   /// Rules by which trials are chosen that leave a trace: "all", "failures", "worst:N", "share:P".
@@ -44,9 +51,9 @@ struct RunRequest {
 
 /// Runs what the folder lacks of the trials and writes results.sqlite, summary.json, trials.csv and
 /// what else follows from them. Never throws. Trials run on threads of this process, without a
-/// supervisor: one that hangs or crashes takes the process with it. Records depend on scenario,
-/// seed and index alone, not on threads, order, or where earlier calls stopped. Limit: the
-/// navigators and estimators are those of rockyard.
+/// supervisor: one that hangs or crashes takes the process with it, so that plugins of shared
+/// libraries are refused. Records depend on scenario, seed and index alone, not on threads, order,
+/// or where earlier calls stopped.
 campaign::WorkResult Run(const RunRequest& request);
 
 /// Runs a sweep file in the same way: scenarios that differ along axes, as one campaign.

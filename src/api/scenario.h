@@ -67,6 +67,9 @@ class Scenario {
   /// for bit.
   std::string ResolvedJson() const;
 
+  /// Returns what it holds, for rockyard's own code.
+  const scenario::Scenario& values() const { return *values_; }
+
   /// Returns the experiment that runs single trials of it. Changes of the scenario after the call
   /// do not reach it.
   std::unique_ptr<experiments::Experiment> MakeExperiment() const;

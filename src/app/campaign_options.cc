@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/set_options.h"
+
 namespace rockyard::app {
 namespace {
 
@@ -39,9 +41,7 @@ void AddPlanOptions(CLI::App& command, CampaignOptions& options) {
                      "I/N: only the I-th of N parts of the trials; `rockyard merge` puts the parts "
                      "together");
   command.add_option("--seed", options.request.seed, "seed of every random stream");
-  command
-      .add_option("--set", options.request.overrides, "PATH=VALUE: changes the scenario; repeat")
-      ->allow_extra_args(false);
+  AddSetOptions(command, options.request.overrides);
 }
 
 void AddFolderOptions(CLI::App& command, CampaignOptions& options) {

@@ -200,6 +200,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddParametersCommand(app);
   AddPlanCommand(app);
   AddMetricsCommand(app);
+  AddNewCommand(app);
   AddHelpCommand(app);
   AddCompletionCommand(app);
   // Must come last: these go over all options that have been added.

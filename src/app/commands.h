@@ -42,6 +42,7 @@ void AddListCommand(CLI::App& app);
 void AddParametersCommand(CLI::App& app);
 void AddPlanCommand(CLI::App& app);
 void AddMetricsCommand(CLI::App& app);
+void AddNewCommand(CLI::App& app);
 void AddHelpCommand(CLI::App& app);
 void AddCompletionCommand(CLI::App& app);  // after all others, which it completes
 

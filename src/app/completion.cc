@@ -344,10 +344,17 @@ std::string ZshText(const std::string& text) {
   return safe;
 }
 
+// Returns the name of an option as zsh reads it, which takes a + at its end for something else.
+std::string ZshName(const std::string& name) {
+  std::string safe;
+  for (const char c : name) safe += c == '+' ? std::string("\\+") : std::string(1, c);
+  return safe;
+}
+
 std::string ZshOption(const Offer& option) {
   std::string text;
   for (const std::string& name : option.names) {
-    std::string spec = fmt::format("*{}[{}]", name, ZshText(option.about));
+    std::string spec = fmt::format("*{}[{}]", ZshName(name), ZshText(option.about));
     if (option.takes == Takes::kNumber) spec += ":number:";
     if (option.takes == Takes::kWord) {
       spec += fmt::format(":word:({})", fmt::join(option.choices, " "));

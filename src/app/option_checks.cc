@@ -20,6 +20,7 @@
 #include "app/console.h"
 #include "app/run_folders.h"
 #include "app/scenario_names.h"
+#include "app/set_options.h"
 #include "core/json_file.h"
 #include "core/text.h"
 
@@ -191,8 +192,7 @@ void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request) {
   command.add_option("--trial", request.trial, "trial index, from 0")->required();
   command.add_option("--cell", request.cell, "cell of a campaign: its name, or number from 0");
   command.add_option("--seed", request.seed, "seed of every random stream");
-  command.add_option("--set", request.overrides, "PATH=VALUE: changes the scenario; repeat")
-      ->allow_extra_args(false);
+  AddSetOptions(command, request.overrides);
 }
 
 void FindSource(campaign::TrialRequest& request) {

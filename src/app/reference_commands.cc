@@ -13,6 +13,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/scenario_names.h"
+#include "app/set_options.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
 #include "report/parameter_table.h"
@@ -20,15 +21,28 @@
 
 namespace rockyard::app {
 
+namespace {
+
+// Adds a command that prints something of the default scenario, changed by the options of a
+// scenario: with a plugin, its parameters are there too.
+void AddPrinting(CLI::App& app, const char* name, const char* description,
+                 std::string (*text)(const scenario::Scenario& scenario)) {
+  auto overrides = std::make_shared<std::vector<std::string>>();
+  CLI::App* command = app.add_subcommand(name, description);
+  AddSetOptions(*command, *overrides);
+  command->callback(
+      [overrides, text] { PrintJson(text(scenario::ParseScenario("{}", *overrides))); });
+}
+
+}  // namespace
+
 void AddDefaultsCommand(CLI::App& app) {
-  app.add_subcommand("defaults", "Prints a scenario with every parameter at its default")
-      ->callback([] { PrintJson(scenario::DefaultsJson()); });
+  AddPrinting(app, "defaults", "Prints a scenario with every parameter at its default",
+              scenario::ResolvedJson);
 }
 
 void AddSchemaCommand(CLI::App& app) {
-  app.add_subcommand("schema", "Prints the JSON Schema of scenario files")->callback([] {
-    PrintJson(scenario::SchemaJson());
-  });
+  AddPrinting(app, "schema", "Prints the JSON Schema of scenario files", scenario::SchemaJson);
 }
 
 void AddMetricsCommand(CLI::App& app) {
@@ -94,8 +108,7 @@ void AddParametersCommand(CLI::App& app) {
       "parameters", "Lists every parameter with value, range, origin and source");
   command->add_option("SCENARIO", options->scenario,
                       "scenario file or its name (default: the defaults)");
-  command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
-      ->allow_extra_args(false);
+  AddSetOptions(*command, options->overrides);
   const std::vector<std::pair<std::string, core::Origin>> origins = {
       {"published", core::Origin::kPublished},
       {"calibrated", core::Origin::kCalibrated},

@@ -57,7 +57,7 @@ void Read(const fs::path& path, ListedFile& file) {
     file.description = sweep.description;
     file.cells = sweep.cells.size();
   } else if (kind == ListedKind::kScenario) {
-    const scenario::Scenario scenario = scenario::ReadScenario(document);
+    const scenario::Scenario scenario = scenario::ReadScenarioSealed(document);
     file.name = scenario.name;
     file.description = scenario.description;
   }

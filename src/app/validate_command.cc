@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/scenario_names.h"
+#include "app/set_options.h"
 #include "campaign/run_source.h"
 #include "campaign/scenario_doubts.h"
 #include "core/error.h"
@@ -84,8 +85,7 @@ void AddValidateCommand(CLI::App& app) {
       ->add_option("SCENARIO_OR_SWEEP", options->scenarios,
                    "scenario or sweep files, or their names")
       ->required();
-  command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
-      ->allow_extra_args(false);
+  AddSetOptions(*command, options->overrides);
   command->callback([options] { Validate(*options); });
 }
 

@@ -139,6 +139,7 @@ class LocalWorkSource final : public WorkSource {
 struct CellWork {
   const experiments::Experiment* experiment = nullptr;
   std::uint64_t seed = 1;
+  bool foreign = false;  // a plugin or a process decides: crashes and hangs are its faults
 };
 
 struct BatchOptions {

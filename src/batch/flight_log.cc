@@ -100,6 +100,7 @@ void FlightLog::Clear() {
   for (Slot& slot : shared_->slots) slot.word = slot.word - StateOf(slot.word) + kStates;
   shared_->stored = 0;
   shared_->stop = false;
+  shared_->returned = false;
 }
 
 namespace {

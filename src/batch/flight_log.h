@@ -69,8 +69,13 @@ class FlightLog {
   void SetReported() { shared_->reported = true; }
   bool reported() const { return shared_->reported; }
 
-  // Forgets flights, count and the stop flag; opened() and reported() stay. The supervisor calls it
-  // before another worker starts.
+  // Notes that the work of a process has come to its end. A process that ends without it was ended
+  // by code that it ran, such as a plugin's exit().
+  void SetReturned() { shared_->returned = true; }
+  bool returned() const { return shared_->returned; }
+
+  // Forgets flights, count, the stop flag and returned(); opened() and reported() stay. The
+  // supervisor calls it before another worker starts.
   void Clear();
 
  private:
@@ -96,6 +101,7 @@ class FlightLog {
     std::atomic<bool> stop = false;
     std::atomic<bool> opened = false;
     std::atomic<bool> reported = false;
+    std::atomic<bool> returned = false;
     Slot slots[kSlots];
   };
 

@@ -30,14 +30,22 @@ bool IsForSupervisor(const ProcessEnd& end) {
   return end.signal == 0 && (end.code == kOverdueExit || end.code == kShortExit);
 }
 
+bool Crashed(const ProcessEnd& end) { return end.signal != 0 || end.cut_short; }
+
+// Returns "by SIGSEGV (Segmentation fault)".
+std::string HowItCrashed(const ProcessEnd& end) {
+  if (end.signal != 0) return "by " + SignalText(end.signal);
+  return fmt::format("by itself in the middle of its work, with exit code {}", end.code);
+}
+
 // Returns whether no trial is to blame: the worker was killed, or short of memory, files or disk.
 bool FailedFromOutside(const ProcessEnd& end) {
-  return end.signal == SIGKILL || (end.signal == 0 && end.code == kShortExit);
+  return end.signal == SIGKILL || (!Crashed(end) && end.code == kShortExit);
 }
 
 std::string WhatFailed(const ProcessEnd& end) {
-  return end.signal == 0 ? "the machine was short of memory, files or disk"
-                         : fmt::format("the process was ended by {}", SignalText(end.signal));
+  return Crashed(end) ? "the process was ended " + HowItCrashed(end)
+                      : "the machine was short of memory, files or disk";
 }
 
 bool AskedToEnd(int signal) {
@@ -77,12 +85,17 @@ class Supervisor {
   ProcessEnd Do(Mission mission) {
     log_.Clear();
     mission.left_out = left_out_;
-    const ProcessEnd end = held_.Run([&] { return worker_(mission); });
+    ProcessEnd end = held_.Run([&] {
+      const int code = worker_(mission);
+      log_.SetReturned();
+      return code;
+    });
+    end.cut_short = end.signal == 0 && !log_.returned() && !IsForSupervisor(end);
     if (end.interrupted || AskedToEnd(end.signal)) {
       // A user who asked for an end is not told that a trial hung meanwhile.
-      const bool own = end.signal == 0 && !IsForSupervisor(end);
+      const bool own = !Crashed(end) && !IsForSupervisor(end);
       exit_code_ = own ? end.code : options_.interrupted_exit;
-    } else if (end.signal == 0 && !IsForSupervisor(end)) {
+    } else if (!Crashed(end) && !IsForSupervisor(end)) {
       const bool campaign = mission.task == Task::kBegin || mission.task == Task::kGoOn;
       if (campaign || end.code != 0) exit_code_ = end.code;
     }
@@ -90,10 +103,9 @@ class Supervisor {
   }
 
   void Tell(const ProcessEnd& end, const std::vector<Flight>& flights) const {
-    if (end.signal != 0 || FailedFromOutside(end)) {
-      const std::string what = end.signal == 0
-                                   ? WhatFailed(end)
-                                   : "the worker process was ended by " + SignalText(end.signal);
+    if (Crashed(end) || FailedFromOutside(end)) {
+      const std::string what =
+          Crashed(end) ? "the worker process was ended " + HowItCrashed(end) : WhatFailed(end);
       note_(fmt::format("{}; {} trials were in flight and are run again one by one", what,
                         flights.size()));
     }
@@ -102,7 +114,7 @@ class Supervisor {
   void Resolve(const Flight& flight, const ProcessEnd& end) {
     if (flight.overdue) {
       NoteOverdue(flight.id);
-    } else if (end.signal == 0 && !FailedFromOutside(end)) {
+    } else if (!Crashed(end) && !FailedFromOutside(end)) {
       return;  // it had no time left to be stored, and is run again with the others
     }
     int hung = flight.overdue ? 1 : 0;
@@ -127,7 +139,8 @@ class Supervisor {
           break;
         case Alone::kHung:
           NoteOverdue(flight.id);
-          if (++hung > options_.hung_retries) return LeaveOut(flight.id, Why::kHangs);
+          if (++hung == 2 && StoreHang(flight.id)) return;
+          if (hung > options_.hung_retries) return LeaveOut(flight.id, Why::kHangs);
           break;
       }
       if (exit_code_) return;
@@ -138,7 +151,7 @@ class Supervisor {
     end = Do({.task = Task::kRunAlone, .trial = id});
     if (exit_code_) return Alone::kEnded;
     if (FailedFromOutside(end)) return Alone::kKilled;
-    if (end.signal != 0) return Alone::kCrashed;
+    if (Crashed(end)) return Alone::kCrashed;
     return end.code == kOverdueExit ? Alone::kHung : Alone::kPassed;
   }
 
@@ -153,23 +166,26 @@ class Supervisor {
     ProcessEnd end;
     for (int attempt = 0; attempt < 2; ++attempt) {
       end = Do(mission);
-      if (exit_code_ || end.signal == 0) return;
+      if (exit_code_ || !Crashed(end)) return;
     }
     note_(
-        fmt::format("the process that stores faults was ended twice, the second time by {}: giving "
+        fmt::format("the process that stores faults was ended twice, the second time {}: giving "
                     "up; what was finished is stored, go on with --resume",
-                    SignalText(end.signal)));
+                    HowItCrashed(end)));
     exit_code_ = options_.failed_exit;
   }
 
   void StoreFault(TrialId id, const ProcessEnd& end) {
-    note_(fmt::format("trial {}{} crashed again when it ran alone, by {}: a simulator fault",
-                      id.trial, id.cell == 0 ? "" : fmt::format(" of cell {}", id.cell),
-                      SignalText(end.signal)));
-    Store({.task = Task::kStoreFault,
-           .trial = id,
-           .reason = fmt::format("the simulator crashed by {}, again when the trial ran alone",
-                                 SignalText(end.signal))});
+    note_(fmt::format("trial {}{} crashed again when it ran alone, {}: stored as a fault", id.trial,
+                      id.cell == 0 ? "" : fmt::format(" of cell {}", id.cell), HowItCrashed(end)));
+    Store({.task = Task::kStoreFault, .trial = id, .reason = HowItCrashed(end)});
+  }
+
+  // Returns whether the trial that hung twice is stored as a fault of its navigator.
+  bool StoreHang(TrialId id) {
+    if (!options_.faults_are_stored) return false;
+    Store({.task = Task::kStoreHang, .trial = id});
+    return !exit_code_ && log_.stored() > 0;
   }
 
   void NoteFault(TrialId id, std::string kind, std::string reason) {
@@ -188,9 +204,9 @@ class Supervisor {
 
   void NoteCrashed(TrialId id, const ProcessEnd& end) {
     NoteFault(id, "crashed",
-              fmt::format("the process in which the trial ran alone was ended by {}, for the first "
+              fmt::format("the process in which the trial ran alone was ended {}, for the first "
                           "time",
-                          SignalText(end.signal)));
+                          HowItCrashed(end)));
   }
 
   void NotePassed(TrialId id, const ProcessEnd& end) {

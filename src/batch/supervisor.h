@@ -25,6 +25,7 @@ struct ProcessEnd {
   int code = 0;              // exit code, where it ended by itself
   int signal = 0;            // that ended it; 0: none
   bool interrupted = false;  // this process was asked to end meanwhile
+  bool cut_short = false;    // ended by itself in the middle of its work, as by exit() in a plugin
 };
 
 // e.g. "SIGSEGV (Segmentation fault)"
@@ -101,7 +102,8 @@ struct Mission {
     kBegin,             // the whole campaign, as the user asked for it
     kGoOn,              // the rest of it: the store is there
     kRunAlone,          // one trial, and store it
-    kStoreFault,        // store one trial as a simulator fault
+    kStoreFault,        // store one trial as a fault: of its navigator where that is foreign
+    kStoreHang,         // the same of a trial that hung twice, where its navigator is foreign
     kStoreMachineFault  // note an infrastructure fault of one trial
   };
 
@@ -135,7 +137,10 @@ struct SupervisorOptions {
 // are run one by one, each in a process of its own; then another worker goes on. Records depend on
 // how a trial ends when it runs alone:
 //
-// - A trial with two crashes, at least one of them alone, is stored as a simulator fault.
+// - A trial with two crashes, at least one of them alone, is stored as a simulator fault, or where
+// a
+//   plugin or process decides as a fault of the navigator. Ending in the middle of work counts as a
+//   crash.
 // - A trial that passes leaves an infrastructure fault behind: the machine failed, not the trial.
 // - SIGKILL is no crash: it comes from outside, where memory is short. A trial that is killed alone
 //   is tried again, and left out, pending, when that happens too often; no machine decides what is
@@ -144,7 +149,8 @@ struct SupervisorOptions {
 // Work that has no place for faults (faults_are_stored) is given neither of the missions that store
 // one. A worker that ends with kShortExit found the machine short of memory, files or disk in a
 // trial; it counts as killed. A worker that ends with kOverdueExit (flight_log.h) left hanging
-// trials: each is tried again alone, and left out when it hangs again too often.
+// trials: each is tried again alone, and left out when it hangs again too often. Where a plugin
+// decides, the second time counts as a fault of the navigator.
 //
 // SIGINT, SIGTERM, SIGHUP and SIGUSR1 are passed on to the worker; the second of them kills it
 // (what is stored stays). The worker dies with the supervisor.

@@ -25,6 +25,7 @@
 #include "core/json_text.h"
 #include "experiments/make_experiment.h"
 #include "scenario/load.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -211,6 +212,14 @@ void TellOverdue(const batch::ResultStore& store, const std::vector<batch::Trial
   _exit(static_cast<int>(Outcome::kFailed));
 }
 
+// Returns the record of a drive whose navigator ended the process that ran it.
+truth::Record NavigatorFaultOf(const CellWork& cell, batch::TrialId id, truth::EndCause cause,
+                               const std::string& what) {
+  return truth::MakeNavigatorCrash(static_cast<std::uint64_t>(id.trial),
+                                   fmt::format("{}: {}", truth::Info(cause).sentence, what),
+                                   cell.experiment->schema().size());
+}
+
 std::chrono::milliseconds Milliseconds(double time_s) {
   return std::chrono::milliseconds(std::llround(1e3 * time_s));
 }
@@ -379,9 +388,20 @@ Outcome CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultSto
     store.AddInfrastructureFault({id, mission_.kind, mission_.reason});
     return Outcome::kDone;
   }
+  const CellWork& cell = work[static_cast<std::size_t>(id.cell)];
+  if (mission_.task == Task::kStoreHang && !cell.foreign) return Outcome::kDone;
   batch::CellRecord record{id.cell, {}};
-  if (mission_.task == Task::kStoreFault) {
-    const std::string reason = fmt::format("{}; see `{}`", mission_.reason, ReplayLine(store, id));
+  if (mission_.task == Task::kStoreHang) {
+    record.record = NavigatorFaultOf(
+        cell, id, truth::EndCause::kNavigatorCpuTime,
+        fmt::format("more than {} s of a trial, twice", options_.trial_cpu_limit_s));
+  } else if (mission_.task == Task::kStoreFault && cell.foreign) {
+    record.record = NavigatorFaultOf(cell, id, truth::EndCause::kNavigatorCrashed,
+                                     mission_.reason + ", again when the trial ran alone");
+  } else if (mission_.task == Task::kStoreFault) {
+    const std::string reason =
+        fmt::format("the simulator crashed {}, again when the trial ran alone; see `{}`",
+                    mission_.reason, ReplayLine(store, id));
     record.record = truth::MakeFault(SeedOf(store, id.cell), id.trial, reason);
   } else {
     const HeededWork logged(work, log_, contact_.stop,
@@ -393,6 +413,7 @@ Outcome CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultSto
     record = batch::RunTrial(logged.work(), id);
   }
   store.Append(std::span(&record, 1));
+  log_.SetStored(1);
   return Outcome::kDone;
 }
 

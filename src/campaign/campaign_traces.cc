@@ -83,7 +83,8 @@ class TraceWriter {
 
   void WriteCell(const StoredRun& run) {
     if (!MakeFolder(CellFolder(folder_, run))) return;
-    const scenario::Scenario scenario = LoadScenarioFrom(folder_, {}, std::to_string(run.cell));
+    const scenario::Scenario scenario =
+        LoadScenarioFrom(folder_, {}, std::to_string(run.cell), request_.defaults);
     const std::vector<std::uint64_t>& wanted = wanted_[static_cast<std::size_t>(run.cell)];
     std::vector<const truth::Record*> records;
     for (const truth::Record& record : run.records) {

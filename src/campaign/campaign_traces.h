@@ -90,6 +90,7 @@ struct TraceRequest {
   // written.
   std::function<void(const TraceProgress& progress, Moment moment)> progress = {};
   TraceDriver drive = RecordDrive;
+  scenario::Scenario defaults = {};  // as of the campaign: its navigators and estimators
 };
 
 // Returns the bytes of a trace file, for campaigns and `rockyard trace` alike.

@@ -9,6 +9,7 @@
 #include "batch/executor.h"
 #include "batch/trial_hash.h"
 #include "campaign/run_source.h"
+#include "core/json_text.h"
 #include "core/provenance.h"
 #include "report/atomic_file.h"
 #include "report/run_description.h"
@@ -76,8 +77,9 @@ RunReport ReportRun(const std::filesystem::path& folder, const ReportSettings& s
                  .summary = {},
                  .method = run.rule ? statistics::IntervalMethod::kStopped : settings.method};
   // The resolved scenario names the trials that are planned now; the run may have been extended.
-  told.description.resolved = scenario::ResolvedJson(
-      LoadScenarioFrom(folder, std::vector{fmt::format("trials={}", run.planned)}));
+  core::JsonValue resolved = core::ParseJson(run.identity.resolved, folder.string());
+  resolved.Set("trials", core::JsonValue(run.planned));
+  told.description.resolved = core::DumpJson(resolved);
   if (!run.shard.whole()) {
     WriteShardFiles(run, told.description);
   } else if (truth::IsMeasurement(run.schema)) {

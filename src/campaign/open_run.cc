@@ -226,7 +226,7 @@ batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::Record
                                    batch::Shard shard) {
   batch::CampaignIdentity identity{.name = plan.name,
                                    .design = plan.design,
-                                   .build = BuildName(),
+                                   .build = BuildName(plan.program),
                                    .schema = schema,
                                    .cells = {},
                                    .shard = shard,

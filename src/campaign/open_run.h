@@ -37,6 +37,7 @@ struct CampaignPlan {
   std::filesystem::path folder;  // where nothing else is asked for
   std::vector<CampaignCell> cells;
   std::optional<std::vector<std::string>> settings = std::nullopt;  // CampaignIdentity::settings
+  std::string program = {};  // that links rockyard and decides records, too; "" of the command
 };
 
 // How a plan is to be run, and in which folder.

@@ -10,6 +10,7 @@
 #include "batch/run_folder.h"
 #include "campaign/output_folder.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "report/parameter_table.h"
 #include "report/trial_outcomes.h"
 #include "scenario/load.h"
@@ -151,7 +152,8 @@ std::vector<ReportInput> FindReportInputs(const std::vector<std::string>& paths,
 
 std::optional<scenario::Scenario> ScenarioOf(const StoredRun& run) {
   try {
-    return scenario::ParseScenario(run.identity.resolved);
+    return scenario::ReadScenarioSealed(
+        core::ParseJson(run.identity.resolved, "resolved scenario"));
   } catch (const core::UserError&) {
     return std::nullopt;
   }

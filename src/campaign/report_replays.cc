@@ -18,6 +18,7 @@
 #include "campaign/report_inputs.h"
 #include "campaign/trial_source.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "experiments/drive/drive_experiment.h"
 #include "report/trace_view.h"
 #include "report/trial_outcomes.h"
@@ -357,12 +358,26 @@ class Driver {
   Tracks tracks_;
 };
 
+// Returns the scenario with the plugins that it drives with; nothing, and a warning, where one is
+// another than it was.
+std::optional<scenario::Scenario> OpenedScenario(const StoredRun& run, const Contact& contact) {
+  const auto sealed = ScenarioOf(run);
+  if (!sealed || !sealed->drive.navigation.navigators.chosen().foreign()) return sealed;
+  try {
+    return scenario::ReadScenario(core::ParseJson(run.identity.resolved, "resolved scenario"));
+  } catch (const core::UserError& error) {
+    contact.journal.Warn(
+        fmt::format("{}: no trial is driven again: {}", run.Label(), error.what()));
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Tracks DriveTracks(const StoredRun& run, const TrackRequest& request, const Contact& contact,
                    const TrackReport& progress) {
   if (request.first == 0 || truth::IsMeasurement(run.schema)) return {};
-  const auto scenario = ScenarioOf(run);
+  const auto scenario = OpenedScenario(run, contact);
   if (!scenario) return {};
   return Driver(run, *scenario, request, contact, progress).Drive();
 }

@@ -41,8 +41,9 @@ std::vector<std::string> OverridesOf(const RunRequest& request) {
 
 CampaignPlan PlanOf(const RunRequest& request) {
   const scenario::Scenario scenario =
-      scenario::WithAblations(LoadScenarioFrom(request.source, OverridesOf(request)),
-                              request.ablations)
+      scenario::WithAblations(
+          LoadScenarioFrom(request.source, OverridesOf(request), "", request.campaign.defaults),
+          request.ablations)
           .scenario;
   std::string folder = scenario.name;
   for (const std::string& ablation : request.ablations) folder += fmt::format("-{}", ablation);
@@ -52,14 +53,16 @@ CampaignPlan PlanOf(const RunRequest& request) {
           .design = "",
           .folder = DefaultFolder(folder, scenario.seed),
           .cells = {{.name = "", .scenario = scenario}},
-          .settings = std::move(settings)};
+          .settings = std::move(settings),
+          .program = request.campaign.program};
 }
 
 // Remarks on ablations that change nothing: they may be a mistake, as nothing of that kind is in
 // the scenario.
 void RemarkIdleAblations(const RunRequest& request, Journal& journal) {
   if (request.ablations.empty() || !IsFirstRank()) return;
-  const scenario::Scenario base = LoadScenarioFrom(request.source, request.campaign.overrides);
+  const scenario::Scenario base =
+      LoadScenarioFrom(request.source, request.campaign.overrides, "", request.campaign.defaults);
   for (const std::string& name : scenario::WithAblations(base, request.ablations).idle) {
     journal.Remark(fmt::format("--ablate {} changes nothing in this scenario", name));
   }
@@ -76,7 +79,8 @@ void RemarkFolder(const RunRequest& request, Journal& journal) {
 // Warns of doubts: what the scenario has without saying so may not be meant.
 void WarnOfDoubts(const RunRequest& request, Journal& journal) {
   if (!IsFirstRank()) return;
-  for (const core::Problem& doubt : DoubtsOf(request.source, OverridesOf(request))) {
+  for (const core::Problem& doubt :
+       DoubtsOf(request.source, OverridesOf(request), request.campaign.defaults)) {
     journal.Warn("doubtful: " + campaign::TextOf(doubt));
   }
 }
@@ -115,7 +119,8 @@ scenario::Sweep RequestedSweep(const SweepRequest& request) {
   try {
     return scenario::LoadSweep(file, {.overrides = request.campaign.overrides,
                                       .trials = request.campaign.trials,
-                                      .seed = request.campaign.seed});
+                                      .seed = request.campaign.seed,
+                                      .defaults = request.campaign.defaults});
   } catch (const core::UserError& error) {
     std::vector<core::Problem> problems = error.problems();
     for (core::Problem& problem : problems) {
@@ -131,7 +136,8 @@ CampaignPlan PlanOfCells(const SweepRequest& request, const scenario::Sweep& swe
                     .design = sweep.document,
                     .folder = DefaultFolder(sweep.name, static_cast<std::int64_t>(sweep.seed)),
                     .cells = {},
-                    .settings = request.campaign.overrides};
+                    .settings = request.campaign.overrides,
+                    .program = request.campaign.program};
   for (const scenario::SweepCell& cell : sweep.cells) {
     plan.cells.push_back({.name = cell.name, .scenario = cell.scenario});
   }

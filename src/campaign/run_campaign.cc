@@ -23,7 +23,8 @@ class PlannedWork {
     for (const CampaignCell& cell : plan.cells) {
       experiments_.push_back(
           experiments::MakeExperiment(cell.scenario.experiment, cell.scenario.drive));
-      work_.push_back({experiments_.back().get(), static_cast<std::uint64_t>(cell.scenario.seed)});
+      work_.push_back({experiments_.back().get(), static_cast<std::uint64_t>(cell.scenario.seed),
+                       cell.scenario.drive.navigation.navigators.chosen().foreign()});
     }
   }
 
@@ -103,7 +104,8 @@ class Campaign {
     const std::filesystem::path folder = OpeningOf(request_, planner_()).folder;
     TraceRequest traces{.retention = request_.traces.retention(),
                         .format = request_.traces.form(),
-                        .threads = batch::ThreadCount({.threads = process.threads()})};
+                        .threads = batch::ThreadCount({.threads = process.threads()}),
+                        .defaults = request_.defaults};
     try {
       const batch::FolderClaim claim(folder);
       return process.Afterwards([&](const batch::Mission& mission, batch::FlightLog& log) {
@@ -270,6 +272,24 @@ void CheckTraces(const CampaignRequest& request, const CampaignPlan& plan,
   }
 }
 
+// Adds the problem of a shared library that nobody watches over.
+void CheckPlugins(const CampaignRequest& request, const CampaignPlan& plan,
+                  std::vector<core::Problem>& problems) {
+  if (request.containment.supervisor) return;
+  for (const CampaignCell& cell : plan.cells) {
+    for (const plugin::PluginUse& use : cell.scenario.plugins) {
+      if (use.kind != plugin::PluginUse::Kind::kLibrary) continue;
+      problems.push_back(
+          {"plugins",
+           fmt::format("{} would run without a supervisor, which finds out whether a "
+                       "crash was its own",
+                       use.Name()),
+           "leave out --no-supervisor, use `rockyard run`, or make it a process"});
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 batch::Shard CampaignRequest::ParseShard() const {
@@ -290,6 +310,7 @@ void CheckPlan(const CampaignRequest& request, const CampaignPlan& plan) {
   std::vector<core::Problem> problems;
   CheckRule(request, plan, problems);
   CheckTraces(request, plan, problems);
+  CheckPlugins(request, plan, problems);
   if (!problems.empty()) throw core::UserError(std::move(problems));
 }
 

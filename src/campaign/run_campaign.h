@@ -40,6 +40,10 @@ struct CampaignRequest {
   // The default is for a plain caller: trials run in this process, however long one takes.
   ContainmentOptions containment = {.supervisor = false, .trial_cpu_limit_s = 0.0, .threads = 0};
   TraceOptions traces = {};  // written once all trials are stored
+  // The values that files leave out, and the navigators and estimators that they may name.
+  scenario::Scenario defaults = {};
+  // What a program that links rockyard is known by, beside rockyard's own build; "" of the command.
+  std::string program = {};
 
   // Returns the shard. Throws core::UserError where the text is none of 1/N ... N/N.
   batch::Shard ParseShard() const;

@@ -123,7 +123,7 @@ std::string Localization(const std::string& resolved) {
 // Reads the scenario; returns nothing where it is of another version of the program.
 std::optional<scenario::Scenario> TryRead(const std::string& resolved) {
   try {
-    return scenario::ParseScenario(resolved);
+    return scenario::ReadScenarioSealed(core::ParseJson(resolved, "resolved scenario"));
   } catch (const core::UserError&) {
     return std::nullopt;
   }
@@ -239,9 +239,10 @@ void RequireWhole(const StoredRun& run) {
       "put all shards together first: rockyard merge SHARD... --out DIR");
 }
 
-std::string BuildName() {
+std::string BuildName(const std::string& program) {
   const core::Provenance p = core::CurrentProvenance();
-  return fmt::format("{} {}, {}, {}, {}", p.version, p.commit, p.compiler, p.flags, p.cpu_level);
+  return fmt::format("{}{} {}, {}, {}, {}", program.empty() ? "" : program + " with ", p.version,
+                     p.commit, p.compiler, p.flags, p.cpu_level);
 }
 
 report::RunDescription Describe(const StoredRun& run, int threads) {

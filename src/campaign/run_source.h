@@ -97,8 +97,10 @@ void RequireWhole(const StoredRun& run);
 
 // Returns the program, its compiler and the CPU level that records may depend on. Stores and
 // baselines keep it, and rank 0 sends it to the others, to be compared as text. Must stay: its
-// form, as another text is another build.
-std::string BuildName();
+// form, as another text is another build. `program`: what a program that links rockyard is known
+// by,
+// "" of the command.
+std::string BuildName(const std::string& program = "");
 
 // Returns what a report says of a run, with the provenance of this program.
 report::RunDescription Describe(const StoredRun& run, int threads);

@@ -224,8 +224,9 @@ std::vector<Problem> Doubts(const scenario::Scenario& scenario) {
 }
 
 std::vector<Problem> DoubtsOf(const std::filesystem::path& source,
-                              std::span<const std::string> overrides) {
-  return Doubts(LoadScenarioFrom(source, overrides));
+                              std::span<const std::string> overrides,
+                              const scenario::Scenario& defaults) {
+  return Doubts(LoadScenarioFrom(source, overrides, "", defaults));
 }
 
 std::vector<Problem> DoubtsOf(const scenario::Sweep& sweep) {

@@ -27,10 +27,12 @@ namespace rockyard::campaign {
 // files quote them, and a doubt that is worded anew, or has other numbers, comes back.
 std::vector<core::Problem> Doubts(const scenario::Scenario& scenario);
 
-// Returns the doubts of a scenario file, or of the run in a folder, with "PATH=VALUE" overrides.
+// Returns the doubts of a scenario file, or of the run in a folder, with "PATH=VALUE" overrides;
+// absent keys keep the values of `defaults`.
 // Throws core::UserError.
 std::vector<core::Problem> DoubtsOf(const std::filesystem::path& source,
-                                    std::span<const std::string> overrides);
+                                    std::span<const std::string> overrides,
+                                    const scenario::Scenario& defaults = {});
 
 // Returns the doubts of the cells of a sweep, each cell as it is run. Doubts of one path are told
 // as one: that of the first cell, and how many more there are.

@@ -8,8 +8,8 @@
 
 namespace rockyard::messages {
 
-/// Heights or obstacles on a grid of square cells, in the frame in which goals are told. Row-major,
-/// x ascending fastest.
+/// Heights or rocks on a grid of square cells, in the world frame W as far as its maker knows:
+/// estimates and told goals have errors of their own against W. Row-major, x ascending fastest.
 struct SiteMap {
   double x0_m = 0.0;  ///< lower corner of the first cell
   double y0_m = 0.0;

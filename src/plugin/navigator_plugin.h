@@ -374,7 +374,8 @@ class Input {
         from.behind != 0 ? messages::LookDirection::kBehind : messages::LookDirection::kAhead;
     cloud_.points_R.resize(from.count);
     if (from.count > 0) {
-      std::memcpy(cloud_.points_R.data(), from.points_R, 3 * sizeof(double) * from.count);
+      std::memcpy(static_cast<void*>(cloud_.points_R.data()), from.points_R,
+                  3 * sizeof(double) * from.count);
     }
     input_.cloud = &cloud_;
   }

@@ -221,6 +221,74 @@ std::vector<PluginUse> OpenPlugins(const JsonValue& list, const fs::path& folder
   return plugins;
 }
 
+namespace {
+
+// Returns the parameters of a group as a navigator would declare them.
+JsonValue DeclaredBy(const JsonValue& group) {
+  JsonValue::List fields;
+  for (const core::JsonMember& member : group.members()) {
+    using Type = JsonValue::Type;
+    const JsonValue& value = member.value;
+    JsonValue field = JsonValue::Object({{"name", JsonValue(member.key)}});
+    if (value.Is(Type::kObject)) {
+      field.Set("type", JsonValue("group"));
+      field.Set("parameters", DeclaredBy(value));
+    } else {
+      const char* type = value.IsNumber()           ? "real"
+                         : value.Is(Type::kBoolean) ? "boolean"
+                         : value.Is(Type::kList)    ? "reals"
+                                                    : "text";
+      field.Set("type", JsonValue(type));
+      field.Set("default", value);
+    }
+    fields.push_back(std::move(field));
+  }
+  return JsonValue(std::move(fields));
+}
+
+// Stands for a navigator that is not opened.
+class StandIn final : public NavigatorSource {
+ public:
+  explicit StandIn(const JsonValue& description)
+      : NavigatorSource("a navigator that is not opened",
+                        ReadDescription(description, "a stored scenario")) {}
+
+  std::unique_ptr<navigation::Navigator> Make(const Parameters&,
+                                              const navigation::NavigatorSetup&) const override {
+    throw UserError(kPluginsKey, "are not opened, as nothing is to be driven", "");
+  }
+
+ protected:
+  JsonValue AskTraits(const Parameters&) const override {
+    return JsonValue::Object(
+        {{"reads", JsonValue("hazards")},
+         {"goal_tolerance", JsonValue::Object({{"value_m", JsonValue(0.0)}})}});
+  }
+};
+
+}  // namespace
+
+void AddStandIns(const JsonValue& navigation, navigation::NavigatorSet& set) {
+  if (!navigation.Is(JsonValue::Type::kObject)) return;
+  const auto add = [&](const std::string& name, const JsonValue& group) {
+    if (std::ranges::count(set.names(), name) > 0) return;
+    JsonValue description = JsonValue::Object({{"name", JsonValue(name)}});
+    description.Set("parameters", DeclaredBy(group));
+    try {
+      set.Add(std::make_unique<ForeignKind>(std::make_shared<StandIn>(description)));
+    } catch (const UserError&) {
+      // A key of the group that is no navigator: whoever reads the scenario judges it.
+    }
+  };
+  for (const core::JsonMember& member : navigation.members()) {
+    if (member.value.Is(JsonValue::Type::kObject)) add(member.key, member.value);
+  }
+  const JsonValue* chosen = navigation.Find("navigator");
+  if (chosen != nullptr && chosen->Is(JsonValue::Type::kText)) {
+    add(chosen->text(), JsonValue::Object());
+  }
+}
+
 JsonValue ToJson(const std::vector<PluginUse>& plugins) {
   return core::ListOf(plugins, [](const PluginUse& use) {
     JsonValue entry = JsonValue::Object();

@@ -46,6 +46,12 @@ core::JsonValue Anchored(core::JsonValue list, const std::filesystem::path& fold
 std::vector<PluginUse> OpenPlugins(const core::JsonValue& list, const std::filesystem::path& folder,
                                    const std::vector<PluginUse>& opened = {});
 
+// Adds to the set a stand-in for each navigator that `navigation`, a scenario's group, chooses or
+// has a group of, and that the set lacks: its parameters are those that the group states, and it
+// cannot drive. So the scenario of a stored run can be read, shown and compared without running
+// anybody's code.
+void AddStandIns(const core::JsonValue& navigation, navigation::NavigatorSet& set);
+
 // Returns the list as a resolved scenario has it.
 core::JsonValue ToJson(const std::vector<PluginUse>& plugins);
 

@@ -70,6 +70,18 @@ Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults)
   return scenario;
 }
 
+Scenario ReadScenarioSealed(const core::JsonValue& document) {
+  if (document.Find(plugin::kPluginsKey) == nullptr) return ReadScenario(document);
+  core::JsonValue sealed = document;
+  sealed.Erase(plugin::kPluginsKey);
+  Scenario scenario;
+  const core::JsonValue* navigation = document.Find("navigation");
+  if (navigation != nullptr) {
+    plugin::AddStandIns(*navigation, scenario.drive.navigation.navigators);
+  }
+  return ReadScenario(sealed, scenario);
+}
+
 core::JsonValue WriteScenario(const Scenario& scenario) {
   core::JsonValue document = core::WriteParams(scenario);
   // Only where there are some, so that all other scenarios keep their fingerprints.

@@ -36,6 +36,11 @@ void AnchorPlugins(core::JsonValue& document, const std::filesystem::path& folde
 // opened again.
 Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults = {});
 
+// Returns the same without opening plugins: to show, list and compare what was run, by whoever.
+// What it returns cannot drive where a plugin decides. Throws as ReadScenario, also where the
+// conditions of a scenario need to know its navigator.
+Scenario ReadScenarioSealed(const core::JsonValue& document);
+
 // Return every effective value, as a scenario file that reads back to the same scenario, bit for
 // bit.
 core::JsonValue WriteScenario(const Scenario& scenario);

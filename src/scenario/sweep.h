@@ -66,6 +66,7 @@ struct SweepChanges {
   std::vector<std::string> overrides;  // "PATH=VALUE" on every cell's scenario
   std::optional<std::int64_t> trials;
   std::optional<std::int64_t> seed;
+  Scenario defaults = {};  // of every cell, with the navigators and estimators that it may name
 };
 
 inline constexpr std::size_t kMaxSweepCells = 10'000;

@@ -229,27 +229,28 @@ void AxisReader::CheckLevels(const AxisSpec& axis, const std::string& path) {
 
 namespace {
 
-// Returns a default scenario with the plugins of the base; those of "set" replace them.
-Scenario DefaultsOf(const SweepSpec& spec, std::vector<core::Problem>& problems) {
+// Returns `defaults` with the plugins of the base; those of "set" replace them.
+Scenario DefaultsOf(const SweepSpec& spec, const Scenario& defaults,
+                    std::vector<core::Problem>& problems) {
   const core::JsonValue* list = spec.settings.Find(plugin::kPluginsKey);
   if (list == nullptr && spec.scenario != nullptr) {
     list = spec.scenario->Find(plugin::kPluginsKey);
   }
-  if (list == nullptr) return {};
+  if (list == nullptr) return defaults;
   core::JsonValue document = core::JsonValue::Object();
   document.Set(plugin::kPluginsKey, *list);
   try {
-    return ReadScenario(document);
+    return ReadScenario(document, defaults);
   } catch (const core::UserError& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    return {};
+    return defaults;
   }
 }
 
 }  // namespace
 
 SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& folder,
-                        std::vector<core::Problem>& problems) {
+                        const Scenario& defaults, std::vector<core::Problem>& problems) {
   PartReader parts(folder, problems);
   SweepSpec spec;
   spec.document = std::move(document);
@@ -257,7 +258,7 @@ SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& f
   parts.CheckName(spec.params.name, "name");
   spec.scenario = parts.Base(spec.document, "");
   spec.settings = parts.Settings(spec.document.Find("set"), "set");
-  spec.defaults = DefaultsOf(spec, problems);
+  spec.defaults = DefaultsOf(spec, defaults, problems);
   AxisReader axes(parts, spec.defaults);
   for (core::JsonValue* axis : parts.Elements(spec.document, "axes", "")) {
     spec.axes.push_back(axes.Read(*axis, fmt::format("axes[{}]", spec.axes.size())));

@@ -48,10 +48,11 @@ struct SweepSpec {
   std::vector<LevelSpec> cells;  // of design list
 };
 
-// Reads the document of a sweep file, whose "extends" are resolved. Adds what is wrong to
+// Reads the document of a sweep file, whose cells have the values of `defaults` where they state no
+// others, and whose "extends" are resolved. Adds what is wrong to
 // `problems`; the result is of use only where nothing was added.
 SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& folder,
-                        std::vector<core::Problem>& problems);
+                        const Scenario& defaults, std::vector<core::Problem>& problems);
 
 // Checks that design, axes, cells and fit fit together; adds what is wrong to `problems`.
 void CheckDesign(const SweepSpec& spec, std::vector<core::Problem>& problems);

@@ -19,6 +19,20 @@ file(MAKE_DIRECTORY ${WORK_DIR}/campaign)
 execute_process(COMMAND ${WORK_DIR}/build/consumer ${WORK_DIR}/campaign COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK_DIR}/build/own_navigator COMMAND_ERROR_IS_FATAL ANY)
 
+# A plugin as `rockyard new` begins it, built by headers alone, and the same as a process.
+set(new ${prefix}/bin/rockyard new navigator mine)
+execute_process(COMMAND ${new} --out ${WORK_DIR}/plugin OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${new} --out ${WORK_DIR}/process --python OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK_DIR}/plugin -B ${WORK_DIR}/plugin/build -G ${GENERATOR}
+                        -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_PREFIX_PATH=${prefix}
+                OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/plugin/build OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+foreach(form plugin process)
+  execute_process(COMMAND ${prefix}/bin/rockyard run ${WORK_DIR}/${form}/mine.json --trials 2 --quiet
+                          --set rover.fidelity=quasi_static --out ${WORK_DIR}/${form}/run
+                  COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+
 # No other header than the listed ones is installed, each below the root of its side.
 file(STRINGS ${SOURCE_DIR}/src/public_headers.txt listed REGEX "^[^#]")
 list(TRANSFORM listed REPLACE " " "/")

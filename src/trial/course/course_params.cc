@@ -179,6 +179,7 @@ void CourseParams::Visit(core::FieldVisitor& v) {
           "how the route is planned that navigation.navigator route follows");
   v.Group("route_map", route_map, "by whose knowledge of the rocks it is, and who drives along it");
   v.Group("lander_map", lander_map, "what the lander's cameras show of the rocks");
+  v.Group("site_map", site_map, "what the navigator is told of the site before it drives");
   v.Group("goal_rock", goal_rock, "a rock at the goal that the rover has to find");
   const double dx = goal_x_m - start_x_m;
   const double dy = goal_y_m - start_y_m;

@@ -14,6 +14,7 @@
 #include "messages/estimates.h"
 #include "sensing/tracker_params.h"
 #include "trial/course/designation_params.h"
+#include "trial/course/site_map_params.h"
 
 namespace rockyard::trial {
 
@@ -117,6 +118,7 @@ struct CourseParams {
   RoutePlanParams oracle_route;
   RouteMapParams route_map;
   LanderMapParams lander_map;
+  SiteMapParams site_map;
   GoalRockParams goal_rock;
 
   math::Pose2 Start() const { return {start_x_m, start_y_m, start_heading_rad}; }

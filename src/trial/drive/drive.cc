@@ -13,6 +13,7 @@
 #include "terrain/arena.h"
 #include "trial/clock/compute_profile.h"
 #include "trial/course/goal_designation.h"
+#include "trial/course/site_map.h"
 #include "trial/drive/make_estimator.h"
 #include "trial/drive/tick_guard.h"
 #include "trial/sight/onboard_calibration.h"
@@ -97,6 +98,7 @@ std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
       .places = goals,
       .rover = OnboardRoverBelief(drive.rover, drive.perception.calibration.drive,
                                   drive.perception.vehicle_hazard),
+      .site_map = MakeSiteMap(drive.course, terrain, key),
       .random_seed = core::RandomStream(key, core::Purpose::kNavigator).NextU64(),
       .operations_per_s = drive.clock.compute.operations_per_s,
       .control_period_s = tick_s,

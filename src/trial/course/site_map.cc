@@ -1,0 +1,82 @@
+#include "trial/course/site_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace rockyard::trial {
+namespace {
+
+constexpr int kSamplesPerSide = 5;  // along each side of a cell
+
+// What the places of one cell show.
+struct CellSum {
+  double height_m = 0.0;
+  int on_rock = 0;
+};
+
+CellSum SampleCell(const terrain::Terrain& terrain, double x0_m, double y0_m, double cell_m) {
+  CellSum sum;
+  const double step_m = cell_m / kSamplesPerSide;
+  for (int iy = 0; iy < kSamplesPerSide; ++iy) {
+    for (int ix = 0; ix < kSamplesPerSide; ++ix) {
+      const double x_m = x0_m + (ix + 0.5) * step_m;
+      const double y_m = y0_m + (iy + 0.5) * step_m;
+      const double height_m = terrain.Height(x_m, y_m);
+      sum.height_m += height_m / (kSamplesPerSide * kSamplesPerSide);
+      if (height_m > terrain.ground().Height(x_m, y_m)) ++sum.on_rock;
+    }
+  }
+  return sum;
+}
+
+// The most cells along a side.
+constexpr double kMostCells = 2000.0;
+
+}  // namespace
+
+std::shared_ptr<const messages::SiteMap> MakeSiteMap(const CourseParams& course,
+                                                     const terrain::Terrain& terrain,
+                                                     core::TrialKey key) {
+  const SiteMapParams& params = course.site_map;
+  if (params.kind == SiteMapKind::kNone) return nullptr;
+  std::vector<messages::Goal> places = course.Goals();
+  places.push_back({course.start_x_m, course.start_y_m});
+  const auto by_x = [](const auto& a, const auto& b) { return a.x_m < b.x_m; };
+  const auto by_y = [](const auto& a, const auto& b) { return a.y_m < b.y_m; };
+  const auto [west, east] = std::ranges::minmax(places, by_x);
+  const auto [south, north] = std::ranges::minmax(places, by_y);
+  core::RandomStream shifts(key, core::Purpose::kSiteMap, 0);
+  const double shift_x_m = core::SampleNormal(shifts, 0.0, params.shift_sd_m);
+  const double shift_y_m = core::SampleNormal(shifts, 0.0, params.shift_sd_m);
+  auto map = std::make_shared<messages::SiteMap>();
+  const auto cells = [&](double size_m) {
+    const double count = std::ceil((size_m + 2.0 * params.margin_m) / params.cell_m);
+    return static_cast<int>(std::clamp(count, 1.0, kMostCells));
+  };
+  map->x0_m = west.x_m - params.margin_m;
+  map->y0_m = south.y_m - params.margin_m;
+  map->step_m = params.cell_m;
+  map->nx = cells(east.x_m - west.x_m);
+  map->ny = cells(north.y_m - south.y_m);
+  map->height_sd_m = params.height_sd_m;
+  const bool heights = params.kind != SiteMapKind::kRocks;
+  const bool rocks = params.kind != SiteMapKind::kElevation;
+  core::RandomStream errors(key, core::Purpose::kSiteMap, 1);
+  for (int iy = 0; iy < map->ny; ++iy) {
+    for (int ix = 0; ix < map->nx; ++ix) {
+      // A map that lies off by the shift shows at a place what is truly a shift away.
+      const CellSum sum = SampleCell(terrain, map->x0_m + ix * map->step_m - shift_x_m,
+                                     map->y0_m + iy * map->step_m - shift_y_m, map->step_m);
+      if (heights) {
+        map->height_m.push_back(sum.height_m + core::SampleNormal(errors, 0.0, params.height_sd_m));
+      }
+      if (rocks)
+        map->rock_share.push_back(sum.on_rock /
+                                  static_cast<double>(kSamplesPerSide * kSamplesPerSide));
+    }
+  }
+  return map;
+}
+
+}  // namespace rockyard::trial
