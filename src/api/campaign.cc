@@ -64,7 +64,8 @@ campaign::WorkResult Report(const ReportRequest& request) {
                              .against = request.reference.string(),
                              .title = request.title,
                              .replays = request.replays,
-                             .tracks = request.tracks},
+                             .tracks = request.tracks,
+                             .plugins = request.plugins},
                             {request.observer}, {.wanted = request.stop});
   return static_cast<const campaign::WorkResult&>(result);
 }

@@ -86,6 +86,7 @@ struct ReportRequest {
   /// outcome of a run. 0: none.
   std::size_t replays = 5;
   std::size_t tracks = 100;  ///< trials of each run that are driven again for its map; 0: none
+  bool plugins = false;      ///< whether runs in which a plugin decides are driven again for these
   /// Is asked while trials are driven again. True: the page is written without the rest.
   std::function<bool()> stop = {};
   campaign::Observer observer = {};

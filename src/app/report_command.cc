@@ -112,6 +112,9 @@ void AddReportCommand(CLI::App& app, ExitCode& exit_code) {
                    "fourth of them where the rover is multibody), for 20 s at most; 0: none")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
+  command->add_flag("--plugins", options->plugins,
+                    "drive trials again, for replays and tracks, also where a plugin or process "
+                    "decides: that runs its code");
   command->add_option("--against", options->against,
                       "reference with published values (default: those in results/reference that "
                       "name the scenarios)");

@@ -52,7 +52,7 @@ void Read(const fs::path& path, ListedFile& file) {
   const JsonValue document = core::LoadJsonFile(path);
   const ListedKind kind = DocumentKind(document);
   if (kind == ListedKind::kSweep) {
-    const scenario::Sweep sweep = scenario::LoadSweep(path);
+    const scenario::Sweep sweep = scenario::LoadSweep(path, {.sealed = true});
     file.name = sweep.name;
     file.description = sweep.description;
     file.cells = sweep.cells.size();

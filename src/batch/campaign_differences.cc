@@ -116,6 +116,18 @@ std::string Show(const JsonValue* value) {
   return core::Abbreviate(*value);
 }
 
+// Returns the hashes of a scenario's plugins, which alone decide records, wherever the files lie.
+JsonValue PluginHashes(const JsonValue* list) {
+  JsonValue::List hashes;
+  if (list != nullptr && list->Is(JsonValue::Type::kList)) {
+    for (const JsonValue& entry : list->list()) {
+      const JsonValue* hash = entry.Find("hash");
+      hashes.push_back(hash == nullptr ? JsonValue("none") : *hash);
+    }
+  }
+  return JsonValue(std::move(hashes));
+}
+
 class Walk {
  public:
   void Compare(const std::string& path, const JsonValue* stored, const JsonValue* wanted) {
@@ -124,6 +136,12 @@ class Walk {
                          wanted->Is(JsonValue::Type::kObject);
     if (objects) {
       CompareMembers(path, *stored, *wanted);
+    } else if (path == "plugins") {
+      const JsonValue before = PluginHashes(stored);
+      const JsonValue now = PluginHashes(wanted);
+      if (core::DumpJson(before) != core::DumpJson(now)) {
+        found_.push_back({path, Show(&before), Show(&now)});
+      }
     } else if (stored == nullptr || wanted == nullptr ||
                core::DumpJson(*stored) != core::DumpJson(*wanted)) {
       found_.push_back({path, Show(stored), Show(wanted)});

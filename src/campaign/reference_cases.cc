@@ -168,7 +168,8 @@ constexpr std::size_t kMaxShown = 12;
 std::optional<Settings> DifferencesFrom(const fs::path& file, const StoredRun& run,
                                         Journal& journal) {
   try {
-    const std::string published = scenario::ResolvedJson(LoadScenarioFrom(file));
+    const std::string published =
+        scenario::ResolvedJson(scenario::ReadScenarioSealed(core::LoadJsonFile(file)));
     // The run may be of an older program, which had fewer settings.
     const BaselineScenario compared = CompareWithBaseline(run.identity.resolved, published);
     Settings settings;

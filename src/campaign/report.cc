@@ -67,6 +67,7 @@ Outcome Write(const ReportRequest& request, const ReportObserver& observer, cons
                    .page = PageFile(request),
                    .progress = observer.replays,
                    .tracks = request.tracks,
+                   .plugins = request.plugins,
                    .track_progress = observer.tracks};
   CheckFiles(request);
   result.page = page.page;
@@ -167,7 +168,8 @@ class Builder {
                                        .examples = examples,
                                        .named = named,
                                        .limit_s = kTrackTime_s / static_cast<double>(plain),
-                                       .threads = batch::ThreadCount({})},
+                                       .threads = batch::ThreadCount({}),
+                                       .plugins = request_.plugins},
                                       contact_, request_.track_progress);
     runs_.back()
         .Add("examples", core::JsonList(examples, [](auto trial) { return std::to_string(trial); }))
@@ -213,6 +215,7 @@ class Builder {
 
   void AddWorst(std::vector<ChosenTrial> worst, const std::string& label) {
     for (ChosenTrial& each : worst) {
+      if (!request_.plugins && HasPlugins(each.identity.resolved)) continue;
       each.run = runs_.size();
       each.label = label;
       worst_.push_back(std::move(each));

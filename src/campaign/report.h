@@ -26,6 +26,7 @@ struct ReportRequest {
   std::size_t replays = 5;   // of the worst failed trials of each run, or of each sweep; above 0, a
                              // run gets one of each outcome too
   std::size_t tracks = 100;  // true paths of trials of each run, for its map
+  bool plugins = false;      // whether runs in which a plugin decides are driven again for both
 };
 
 struct ReportObserver : Observer {
@@ -57,6 +58,7 @@ struct PageRequest {
   std::filesystem::path page;  // whose replays are written beside it
   ReplayReport progress;       // of these
   std::size_t tracks = 0;      // of each run that is no cell of a sweep
+  bool plugins = false;        // whether plugins may run for them
   TrackReport track_progress = {};
 };
 

@@ -196,7 +196,7 @@ std::string ReplayCommand(const StoredRun& run) {
 
 scenario::Sweep SweepOf(const batch::ResultStore& store, const std::filesystem::path& folder) {
   try {
-    scenario::Sweep sweep = scenario::ParseSweep(store.identity().design);
+    scenario::Sweep sweep = StoredSweep(store);
     if (sweep.cells.size() == static_cast<std::size_t>(store.cells())) return sweep;
   } catch (const core::UserError&) {
     // Said below: problems of the design are about a file that the user has not got.

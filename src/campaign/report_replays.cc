@@ -358,11 +358,17 @@ class Driver {
   Tracks tracks_;
 };
 
-// Returns the scenario with the plugins that it drives with; nothing, and a warning, where one is
-// another than it was.
-std::optional<scenario::Scenario> OpenedScenario(const StoredRun& run, const Contact& contact) {
+// Returns the scenario, with its plugins where they may run; nothing, and a note, where not, or
+// where one is another than it was.
+std::optional<scenario::Scenario> OpenedScenario(const StoredRun& run, bool plugins,
+                                                 const Contact& contact) {
   const auto sealed = ScenarioOf(run);
   if (!sealed || !sealed->drive.navigation.navigators.chosen().foreign()) return sealed;
+  if (!plugins) {
+    contact.journal.Remark(fmt::format(
+        "{}: no trial is driven again, as a plugin decides (--plugins lets it)", run.Label()));
+    return std::nullopt;
+  }
   try {
     return scenario::ReadScenario(core::ParseJson(run.identity.resolved, "resolved scenario"));
   } catch (const core::UserError& error) {
@@ -377,7 +383,7 @@ std::optional<scenario::Scenario> OpenedScenario(const StoredRun& run, const Con
 Tracks DriveTracks(const StoredRun& run, const TrackRequest& request, const Contact& contact,
                    const TrackReport& progress) {
   if (request.first == 0 || truth::IsMeasurement(run.schema)) return {};
-  const auto scenario = OpenedScenario(run, contact);
+  const auto scenario = OpenedScenario(run, request.plugins, contact);
   if (!scenario) return {};
   return Driver(run, *scenario, request, contact, progress).Drive();
 }

@@ -84,6 +84,7 @@ struct TrackRequest {
   std::vector<std::uint64_t> named;     // and these
   double limit_s = 0.0;                 // no further trial starts after it
   int threads = 1;
+  bool plugins = false;  // whether plugins may run, for runs in which one decides
 };
 
 struct Tracks {

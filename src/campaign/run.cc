@@ -190,7 +190,7 @@ FolderReport ReportMerged(const std::filesystem::path& folder) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
   const std::string& design = store.identity().design;
   if (design.empty()) return ReportRun(folder, {});
-  return ReportSweep(store, scenario::ParseSweep(design), {});
+  return ReportSweep(store, StoredSweep(store), {});
 }
 
 // Remarks that traces are not merged: a trace belongs to a trial, but which trials have one was

@@ -149,6 +149,21 @@ std::optional<std::vector<std::string>> SettingsOf(const fs::path& path) {
   return list == nullptr ? std::nullopt : core::TextsIn(*list);
 }
 
+bool HasPlugins(const std::string& resolved) {
+  return core::ParseJson(resolved, "resolved scenario").Find(plugin::kPluginsKey) != nullptr;
+}
+
+scenario::Sweep StoredSweep(const batch::ResultStore& store) {
+  const batch::CampaignIdentity& identity = store.identity();
+  // The parameters that axes vary are those of a cell, navigators that are no part of the program
+  // included.
+  const scenario::Scenario defaults =
+      TryRead(identity.cells.front().resolved).value_or(scenario::Scenario{});
+  scenario::Scenario known;
+  known.drive.navigation.navigators = defaults.drive.navigation.navigators;
+  return scenario::ParseSweep(identity.design, {.defaults = std::move(known), .sealed = true});
+}
+
 CellReader::CellReader(fs::path folder, const batch::ResultStore& store)
     : folder_(std::move(folder)),
       store_(store),

@@ -16,6 +16,7 @@
 #include "report/run_description.h"
 #include "report/sweep_summary.h"
 #include "scenario/scenario.h"
+#include "scenario/sweep.h"
 #include "statistics/published_comparison.h"
 #include "truth/record.h"
 
@@ -33,6 +34,12 @@ scenario::Scenario LoadScenarioFrom(const std::filesystem::path& path,
 // (CampaignIdentity::settings), for a scenario file an empty list. Absent where it is not known.
 // Throws core::UserError.
 std::optional<std::vector<std::string>> SettingsOf(const std::filesystem::path& path);
+
+// Returns whether a resolved scenario names plugins.
+bool HasPlugins(const std::string& resolved);
+
+// Returns the sweep whose campaign the store holds; opens no plugins. Throws core::UserError.
+scenario::Sweep StoredSweep(const batch::ResultStore& store);
 
 // Which values of the records of a run are read.
 enum class StoredValues {

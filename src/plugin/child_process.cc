@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -88,8 +89,13 @@ void Close(int& fd) {
 // Two ends of a pipe, closed unless they are taken.
 class Pipe {
  public:
-  Pipe() {
-    if (pipe2(ends_.data(), O_CLOEXEC) == 0) return;
+  enum class Kind { kPipe, kSocket };
+
+  explicit Pipe(Kind kind = Kind::kPipe) {
+    const int failed = kind == Kind::kPipe
+                           ? pipe2(ends_.data(), O_CLOEXEC)
+                           : socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends_.data());
+    if (failed == 0) return;
     throw core::MachineError("processes", std::strerror(errno), core::kMoreOpenFiles);
   }
   ~Pipe() {
@@ -156,6 +162,7 @@ bool RunsWell(const std::vector<std::string>& words) {
 std::vector<std::string> ConfiningWords(const std::string& folder) {
   return {"bwrap",
           "--die-with-parent",
+          "--new-session",
           "--unshare-net",
           "--unshare-pid",
           "--unshare-ipc",
@@ -192,7 +199,9 @@ std::vector<std::string> StartWords(const std::string& command, const std::strin
 
 ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::string& folder)
     : starter_(getpid()) {
-  Pipe requests;
+  // A socket, as writing to a pipe whose reader has ended raises SIGPIPE in a program that does not
+  // ignore it.
+  Pipe requests(Pipe::Kind::kSocket);
   Pipe answers;
   Pipe log;
   std::vector<const char*> argv;
@@ -292,7 +301,8 @@ void ChildProcess::ReadLog() {
   // A process that writes without end must not keep anyone here.
   for (int i = 0; i < 64; ++i) {
     const ssize_t count = read(log_, buffer.data(), buffer.size());
-    if (count <= 0) return;
+    if (count == 0) return Close(log_);  // or poll would come back at once, for ever
+    if (count < 0) return;
     said_.append(buffer.data(), static_cast<std::size_t>(count));
     if (said_.size() > kKeptWords) said_.erase(0, said_.size() - kKeptWords);
   }
@@ -322,7 +332,7 @@ void ChildProcess::Exchange(Question& question) {
   if (poll(ready.data(), count, kLook_ms) <= 0) return;
   if (ready[1].revents != 0) ReadLog();
   if (count == 3 && ready[2].revents != 0) {
-    const ssize_t written = write(to_, unsent.data(), unsent.size());
+    const ssize_t written = send(to_, unsent.data(), unsent.size(), MSG_NOSIGNAL);
     if (written > 0) question.Sent(static_cast<std::size_t>(written));
     if (written < 0 && errno != EAGAIN && errno != EINTR) FailEnded();
   }
@@ -331,14 +341,12 @@ void ChildProcess::Exchange(Question& question) {
   const ssize_t got = read(from_, buffer.data(), buffer.size());
   if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) {
     // The end of the pipe comes a little before that of the process.
-    for (int i = 0; i < 50 && usable(); ++i) {
+    for (int i = 0; i < 50; ++i) {
+      siginfo_t info{};
+      const int failed = waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT);
+      if (failed != 0 || info.si_pid == pid_) break;
       const timespec wait{0, 2'000'000};
       nanosleep(&wait, nullptr);
-      siginfo_t info{};
-      if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-          info.si_pid == pid_) {
-        break;
-      }
     }
     FailEnded();
   }
@@ -350,8 +358,17 @@ std::string ChildProcess::Ask(std::string_view message, const navigation::LimitP
   if (message.size() > kLongestMessage) {
     throw NavigatorFault(FaultKind::kMessage, "a request would be longer than 64 MiB");
   }
+  // An answer that nobody asked for would be taken for that to the next question.
+  pollfd unread{from_, POLLIN, 0};
+  if (poll(&unread, 1, 0) > 0 && (unread.revents & POLLIN) != 0) {
+    throw NavigatorFault(FaultKind::kMessage, WithWords("it wrote without having been asked"));
+  }
   Question question(message);
-  const double began_cpu_s = CpuTime_s(Family(pid_));
+  // What descends from it appears as it starts; later it is looked for in slow answers, and now and
+  // then.
+  if (asked_ < 4 || asked_ % 64 == 0) family_ = Family(pid_);
+  ++asked_;
+  const double began_cpu_s = CpuTime_s(family_);
   double seen_cpu_s = began_cpu_s;
   Clock::time_point alive = Clock::now();
   Clock::time_point looked = alive;
@@ -360,23 +377,9 @@ std::string ChildProcess::Ask(std::string_view message, const navigation::LimitP
     const Clock::time_point now = Clock::now();
     if (question.complete() || now - looked < std::chrono::milliseconds(kLook_ms)) continue;
     looked = now;
-    const std::vector<pid_t> family = Family(pid_);
-    const double cpu_s = CpuTime_s(family);
-    const double used_s = cpu_s - began_cpu_s;
-    if (used_s > limits.decision_cpu_s) {
-      throw NavigatorFault(
-          FaultKind::kCpuTime,
-          WithWords(fmt::format("more than {} s for one answer", limits.decision_cpu_s)));
-    }
-    if (used_s > left_cpu_s) {
-      throw NavigatorFault(
-          FaultKind::kCpuTime,
-          WithWords(fmt::format("more than {} s for one drive", limits.drive_cpu_s)));
-    }
-    if (Memory_mb(family) > limits.memory_mb) {
-      throw NavigatorFault(FaultKind::kMemory,
-                           WithWords(fmt::format("more than {} MiB", limits.memory_mb)));
-    }
+    family_ = Family(pid_);
+    const double cpu_s = CpuTime_s(family_);
+    CheckUse(began_cpu_s, limits, left_cpu_s);
     // A process that computes is not silent.
     if (cpu_s > seen_cpu_s + 1e-3) {
       seen_cpu_s = cpu_s;
@@ -387,8 +390,26 @@ std::string ChildProcess::Ask(std::string_view message, const navigation::LimitP
                            WithWords(fmt::format("it waited for {} s", limits.answer_s)));
     }
   }
-  used_s_ = std::max(0.0, CpuTime_s(Family(pid_)) - began_cpu_s);
+  used_s_ = std::max(0.0, CpuTime_s(family_) - began_cpu_s);
+  CheckUse(began_cpu_s, limits, left_cpu_s);
   return question.answer();
+}
+
+void ChildProcess::CheckUse(double began_cpu_s, const navigation::LimitParams& limits,
+                            double left_cpu_s) const {
+  const double used_s = CpuTime_s(family_) - began_cpu_s;
+  if (used_s > limits.decision_cpu_s) {
+    throw NavigatorFault(FaultKind::kCpuTime, WithWords(fmt::format("more than {} s for one answer",
+                                                                    limits.decision_cpu_s)));
+  }
+  if (used_s > left_cpu_s) {
+    throw NavigatorFault(FaultKind::kCpuTime, WithWords(fmt::format("more than {} s for one drive",
+                                                                    limits.drive_cpu_s)));
+  }
+  if (Memory_mb(family_) > limits.memory_mb) {
+    throw NavigatorFault(FaultKind::kMemory,
+                         WithWords(fmt::format("more than {} MiB", limits.memory_mb)));
+  }
 }
 
 }  // namespace rockyard::plugin

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,8 @@ class ChildProcess {
   // Sends what is left of a message and reads what is there of the answer.
   void Exchange(Question& question);
   void ReadLog();
+  // Throws where what it used since `began_cpu_s` is more than the limits.
+  void CheckUse(double began_cpu_s, const navigation::LimitParams& limits, double left_cpu_s) const;
   [[noreturn]] void FailEnded();
   std::string WithWords(std::string text) const;
 
@@ -57,6 +60,8 @@ class ChildProcess {
   int to_ = -1;
   int from_ = -1;
   int log_ = -1;
+  std::vector<pid_t> family_;  // it and what descends from it, as last looked
+  std::int64_t asked_ = 0;
   double used_s_ = 0.0;
   std::string said_;
 };

@@ -18,6 +18,7 @@ using core::UserError;
 
 constexpr std::size_t kMostFields = 1000;
 constexpr int kDeepestGroup = 4;
+constexpr std::size_t kMostOwnValues = 100;
 
 // Reads members of an answer; throws UserError that names the plugin and the member.
 class Answer {
@@ -232,6 +233,12 @@ std::unique_ptr<const Description> ReadDescription(const JsonValue& json,
   for (const Answer& each : answer.Objects("own_values")) {
     messages::OwnValue value{each.Text("name"), each.Text("unit", "1"), each.Text("meaning", "")};
     if (!IsKey(value.name)) each.Fail("name", "has characters other than letters, digits and _");
+    for (const messages::OwnValue& other : description->own_values) {
+      if (other.name == value.name) each.Fail("name", "is there twice");
+    }
+    if (description->own_values.size() == kMostOwnValues) {
+      answer.Fail("own_values", fmt::format("are more than {}", kMostOwnValues));
+    }
     description->own_values.push_back(std::move(value));
   }
   return description;

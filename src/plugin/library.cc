@@ -8,6 +8,8 @@
 #include <array>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -279,7 +281,9 @@ class LibraryNavigator final : public navigation::Navigator {
 
   const messages::Overlay* overlay() const override {
     rockyard_overlay shown{};
+    const double used_s = used_s_;
     Call([&](rockyard_error* error) { return type_.overlay(navigator_, &shown, error); });
+    used_s_ = used_s;  // a drive that is watched is the same as one that is not
     overlay_ = {};
     for (std::size_t i = 0; i < shown.line_count; ++i) {
       const rockyard_overlay_line& line = shown.lines[i];
@@ -291,9 +295,11 @@ class LibraryNavigator final : public navigation::Navigator {
     }
     for (std::size_t i = 0; i < shown.grid_count; ++i) {
       const rockyard_overlay_grid& grid = shown.grids[i];
-      const std::size_t cells = grid.nx > 0 && grid.ny > 0 ? static_cast<std::size_t>(grid.nx) *
-                                                                 static_cast<std::size_t>(grid.ny)
-                                                           : 0;
+      constexpr int kMostCells = 4096;  // along a side
+      const bool some =
+          grid.nx > 0 && grid.ny > 0 && grid.nx <= kMostCells && grid.ny <= kMostCells;
+      const std::size_t cells =
+          some ? static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny) : 0;
       overlay_.grids.push_back({grid.name,
                                 grid.x0_m,
                                 grid.y0_m,
@@ -362,9 +368,11 @@ class LibraryNavigator final : public navigation::Navigator {
 // One kind of navigators of a library.
 class LibrarySource final : public NavigatorSource {
  public:
-  LibrarySource(fs::path file, std::size_t place, std::unique_ptr<const Description> description)
+  LibrarySource(fs::path file, std::string hash, std::size_t place,
+                std::unique_ptr<const Description> description)
       : NavigatorSource(file.string(), std::move(description)),
         file_(std::move(file)),
+        hash_(std::move(hash)),
         place_(place) {}
 
   std::unique_ptr<navigation::Navigator> Make(
@@ -393,6 +401,11 @@ class LibrarySource final : public NavigatorSource {
   const rockyard_navigator_type& Type() const {
     const std::lock_guard lock(mutex_);
     if (type_ == nullptr) {
+      if (const std::string now = HashOfLibrary(file_); now != hash_) {
+        throw core::MachineError(
+            name(), "was built anew meanwhile: its hash is " + now + ", and was " + hash_,
+            "let it be while it drives, and begin a run of its own");
+      }
       try {
         const rockyard_plugin_info& info = Load(file_);
         if (place_ >= info.navigator_count) throw std::runtime_error("it has fewer navigators");
@@ -406,6 +419,7 @@ class LibrarySource final : public NavigatorSource {
   }
 
   const fs::path file_;
+  const std::string hash_;
   const std::size_t place_;
   mutable std::mutex mutex_;
   mutable const rockyard_navigator_type* type_ = nullptr;
@@ -426,14 +440,28 @@ std::string DescribeAll(const fs::path& file) {
 
 }  // namespace
 
-std::vector<std::shared_ptr<const NavigatorSource>> OpenLibrary(const fs::path& file) {
+void AddFile(const fs::path& file, core::Hasher& hasher) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw core::UserError(file.string(), "cannot be read", "check its permissions");
+  hasher.Text(bytes);
+}
+
+std::string HashOfLibrary(const fs::path& file) {
+  core::Hasher hasher;
+  AddFile(file, hasher);
+  return core::Hex(hasher.value());
+}
+
+std::vector<std::shared_ptr<const NavigatorSource>> OpenLibrary(const fs::path& file,
+                                                                const std::string& hash) {
   const std::string name = file.string();
   const core::JsonValue answers =
       core::ParseJson(InChild(name, [&] { return DescribeAll(file); }), name);
   std::vector<std::shared_ptr<const NavigatorSource>> sources;
   for (const core::JsonValue& answer : answers.list()) {
     sources.push_back(
-        std::make_shared<LibrarySource>(file, sources.size(), ReadDescription(answer, name)));
+        std::make_shared<LibrarySource>(file, hash, sources.size(), ReadDescription(answer, name)));
   }
   return sources;
 }

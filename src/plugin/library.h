@@ -5,14 +5,24 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "core/hash.h"
 #include "plugin/foreign_navigator.h"
 
 namespace rockyard::plugin {
 
-// Returns the kinds of navigators of a library. Throws core::UserError: no such file, no shared
-// library, no plugin, of another version of the interface, a wrong description.
-std::vector<std::shared_ptr<const NavigatorSource>> OpenLibrary(const std::filesystem::path& file);
+// Adds the bytes of a file. Throws core::UserError where it cannot be read.
+void AddFile(const std::filesystem::path& file, core::Hasher& hasher);
+
+// Returns what a library is known by: a hash of its bytes.
+std::string HashOfLibrary(const std::filesystem::path& file);
+
+// Returns the kinds of navigators of a library that has that hash. Throws core::UserError: no such
+// file, no shared library, no plugin, of another version of the interface, a wrong description.
+// Drives throw core::MachineError where the file is another one by then.
+std::vector<std::shared_ptr<const NavigatorSource>> OpenLibrary(const std::filesystem::path& file,
+                                                                const std::string& hash);
 
 }  // namespace rockyard::plugin

@@ -447,6 +447,13 @@ struct Held {
       lines.push_back({from.lines[i].name.c_str(), points[i].data(), points[i].size()});
     }
     for (const messages::OverlayGrid& grid : from.grids) {
+      const auto cells = static_cast<std::size_t>(std::max(grid.nx, 0)) *
+                         static_cast<std::size_t>(std::max(grid.ny, 0));
+      if (grid.values.size() != cells) {
+        throw std::runtime_error("the grid \"" + grid.name + "\" of its overlay has " +
+                                 std::to_string(grid.values.size()) + " values for " +
+                                 std::to_string(cells) + " cells");
+      }
       grids.push_back({grid.name.c_str(), grid.x0_m, grid.y0_m, grid.step_m, grid.nx, grid.ny,
                        grid.values.data()});
     }

@@ -25,13 +25,6 @@ using Kind = PluginUse::Kind;
 
 constexpr std::size_t kMostPlugins = 16;
 
-void HashFile(const fs::path& file, core::Hasher& hasher) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw UserError(file.string(), "cannot be read", "check its permissions");
-  hasher.Text(bytes);
-}
-
 // Returns the words of a command, as far as blanks and quotes part them.
 std::vector<std::string> WordsOf(const std::string& command) {
   std::vector<std::string> words;
@@ -50,19 +43,13 @@ std::vector<std::string> WordsOf(const std::string& command) {
   return words;
 }
 
-std::string HashOfLibrary(const fs::path& file) {
-  core::Hasher hasher;
-  HashFile(file, hasher);
-  return core::Hex(hasher.value());
-}
-
 std::string HashOfProcess(const PluginUse& use) {
   core::Hasher hasher;
   hasher.Text(use.text);
   for (const std::string& word : WordsOf(use.text)) {
     const fs::path file = fs::path(use.folder) / word;  // an absolute word stays itself
     std::error_code error;
-    if (fs::is_regular_file(file, error)) HashFile(file, hasher);
+    if (fs::is_regular_file(file, error)) AddFile(file, hasher);
   }
   for (const auto& navigator : use.navigators) {
     hasher.Text(navigator->description().name).Text(navigator->description().version);
@@ -140,7 +127,7 @@ PluginUse OpenOne(const Entry& entry, const fs::path& folder, const std::string&
   };
   if (use.kind == Kind::kLibrary && !entry.hash.empty() && entry.hash != use.hash) changed();
   if (use.kind == Kind::kLibrary) {
-    use.navigators = OpenLibrary(use.text);
+    use.navigators = OpenLibrary(use.text, use.hash);
   } else {
     OpenedProcess opened = OpenProcess(use.text, use.folder);
     use.navigators.push_back(std::move(opened.source));
@@ -214,6 +201,7 @@ std::vector<PluginUse> OpenPlugins(const JsonValue& list, const fs::path& folder
     const Entry entry = ReadEntry(list.list()[i], path);
     const auto known = std::find_if(opened.begin(), opened.end(), [&](const PluginUse& use) {
       return use.kind == entry.kind && use.text == entry.text &&
+             (entry.folder.empty() || use.folder == entry.folder) &&
              (entry.hash.empty() || use.hash == entry.hash);
     });
     plugins.push_back(known != opened.end() ? *known : OpenOne(entry, folder, path));

@@ -115,7 +115,9 @@ class ProcessNavigator final : public navigation::Navigator {
     Ask(request);
   }
   const messages::Overlay* overlay() const override {
+    const double used_s = used_s_;
     overlay_ = OverlayFromJson(Ask(Request("overlay")));
+    used_s_ = used_s;  // a drive that is watched is the same as one that is not
     CheckOverlay(overlay_);
     return overlay_.lines.empty() && overlay_.grids.empty() ? nullptr : &overlay_;
   }

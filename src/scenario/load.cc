@@ -70,11 +70,10 @@ Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults)
   return scenario;
 }
 
-Scenario ReadScenarioSealed(const core::JsonValue& document) {
-  if (document.Find(plugin::kPluginsKey) == nullptr) return ReadScenario(document);
+Scenario ReadScenarioSealed(const core::JsonValue& document, const Scenario& defaults) {
   core::JsonValue sealed = document;
   sealed.Erase(plugin::kPluginsKey);
-  Scenario scenario;
+  Scenario scenario = defaults;
   const core::JsonValue* navigation = document.Find("navigation");
   if (navigation != nullptr) {
     plugin::AddStandIns(*navigation, scenario.drive.navigation.navigators);

@@ -39,7 +39,7 @@ Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults 
 // Returns the same without opening plugins: to show, list and compare what was run, by whoever.
 // What it returns cannot drive where a plugin decides. Throws as ReadScenario, also where the
 // conditions of a scenario need to know its navigator.
-Scenario ReadScenarioSealed(const core::JsonValue& document);
+Scenario ReadScenarioSealed(const core::JsonValue& document, const Scenario& defaults = {});
 
 // Return every effective value, as a scenario file that reads back to the same scenario, bit for
 // bit.

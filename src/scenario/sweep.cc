@@ -161,7 +161,7 @@ Sweep Resolve(JsonValue document, const SweepChanges& changes,
   }
   ApplyChanges(document, changes);
   std::vector<Problem> problems;
-  const SweepSpec spec = ReadSweepSpec(std::move(document), folder, changes.defaults, problems);
+  const SweepSpec spec = ReadSweepSpec(std::move(document), folder, changes, problems);
   if (problems.empty()) CheckDesign(spec, problems);
   if (!problems.empty()) throw core::UserError(std::move(problems));
   Sweep sweep = Describe(spec);

@@ -63,10 +63,11 @@ struct Sweep {
 
 // What the command line changes of a sweep.
 struct SweepChanges {
-  std::vector<std::string> overrides;  // "PATH=VALUE" on every cell's scenario
-  std::optional<std::int64_t> trials;
-  std::optional<std::int64_t> seed;
+  std::vector<std::string> overrides = {};  // "PATH=VALUE" on every cell's scenario
+  std::optional<std::int64_t> trials = {};
+  std::optional<std::int64_t> seed = {};
   Scenario defaults = {};  // of every cell, with the navigators and estimators that it may name
+  bool sealed = false;     // plugins are not opened: the cells are to be shown, not run
 };
 
 inline constexpr std::size_t kMaxSweepCells = 10'000;

@@ -250,7 +250,7 @@ Scenario DefaultsOf(const SweepSpec& spec, const Scenario& defaults,
 }  // namespace
 
 SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& folder,
-                        const Scenario& defaults, std::vector<core::Problem>& problems) {
+                        const SweepChanges& changes, std::vector<core::Problem>& problems) {
   PartReader parts(folder, problems);
   SweepSpec spec;
   spec.document = std::move(document);
@@ -258,7 +258,8 @@ SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& f
   parts.CheckName(spec.params.name, "name");
   spec.scenario = parts.Base(spec.document, "");
   spec.settings = parts.Settings(spec.document.Find("set"), "set");
-  spec.defaults = DefaultsOf(spec, defaults, problems);
+  spec.sealed = changes.sealed;
+  spec.defaults = changes.sealed ? changes.defaults : DefaultsOf(spec, changes.defaults, problems);
   AxisReader axes(parts, spec.defaults);
   for (core::JsonValue* axis : parts.Elements(spec.document, "axes", "")) {
     spec.axes.push_back(axes.Read(*axis, fmt::format("axes[{}]", spec.axes.size())));

@@ -111,7 +111,8 @@ ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& le
   };
   apply(spec.settings);
   for (const LevelSpec& level : levels) apply(level.settings);
-  cell.scenario = ReadScenario(document, spec.defaults);
+  cell.scenario = spec.sealed ? ReadScenarioSealed(document, spec.defaults)
+                              : ReadScenario(document, spec.defaults);
   cell.document = WriteScenario(cell.scenario);
   CheckExperiment(cell.scenario, cell.problems);
   for (const auto& [path, value] : asked) {

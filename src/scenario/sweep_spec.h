@@ -42,17 +42,18 @@ struct SweepSpec {
   SweepParams params;
   core::JsonValue document;  // with every file that is named
   std::shared_ptr<const core::JsonValue> scenario;
-  Scenario defaults;  // with the plugins of `scenario` and `settings`
+  Scenario defaults;    // with the plugins of `scenario` and `settings`
+  bool sealed = false;  // plugins are not opened
   core::JsonValue settings = core::JsonValue::Object();  // "set" of the file
   std::vector<AxisSpec> axes;
   std::vector<LevelSpec> cells;  // of design list
 };
 
-// Reads the document of a sweep file, whose cells have the values of `defaults` where they state no
-// others, and whose "extends" are resolved. Adds what is wrong to
+// Reads the document of a sweep file, whose cells have the values of `changes.defaults` where they
+// state no others, and whose "extends" are resolved. Adds what is wrong to
 // `problems`; the result is of use only where nothing was added.
 SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& folder,
-                        const Scenario& defaults, std::vector<core::Problem>& problems);
+                        const SweepChanges& changes, std::vector<core::Problem>& problems);
 
 // Checks that design, axes, cells and fit fit together; adds what is wrong to `problems`.
 void CheckDesign(const SweepSpec& spec, std::vector<core::Problem>& problems);

@@ -75,9 +75,9 @@ class Study:
         names = [column[0] for column in found.description]
         rows = [dict(zip(names, row)) for row in found]
         store.close()
-        told = ("campaign_cell", "trial", "outcome", "detail", "row_checksum")
-        return {row["trial"]: (row["outcome"], row["detail"], [row[name] for name in names if name not in told])
-                for row in rows}
+        told = ("campaign_cell", "trial", "outcome", "detail")
+        values = [name for name in names if name not in told and "checksum" not in name]
+        return {row["trial"]: (row["outcome"], row["detail"], [row[name] for name in values]) for row in rows}
 
     def plain_records(self, form, at):
         if form not in self.plain:

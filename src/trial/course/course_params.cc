@@ -119,6 +119,18 @@ std::vector<messages::Goal> CourseParams::Goals() const {
   return goals;
 }
 
+double CourseParams::SiteMapSide_m() const {
+  double least_x_m = start_x_m, most_x_m = start_x_m;
+  double least_y_m = start_y_m, most_y_m = start_y_m;
+  for (const messages::Goal& place : Goals()) {
+    least_x_m = std::min(least_x_m, place.x_m);
+    most_x_m = std::max(most_x_m, place.x_m);
+    least_y_m = std::min(least_y_m, place.y_m);
+    most_y_m = std::max(most_y_m, place.y_m);
+  }
+  return std::max(most_x_m - least_x_m, most_y_m - least_y_m) + 2.0 * site_map.margin_m;
+}
+
 messages::Goal CourseParams::GoalAt(double time_s) const {
   const double way_m = target_speed_m_s * time_s;
   return {goal_x_m + way_m * std::cos(target_heading_rad),
@@ -180,6 +192,9 @@ void CourseParams::Visit(core::FieldVisitor& v) {
   v.Group("route_map", route_map, "by whose knowledge of the rocks it is, and who drives along it");
   v.Group("lander_map", lander_map, "what the lander's cameras show of the rocks");
   v.Group("site_map", site_map, "what the navigator is told of the site before it drives");
+  v.Require("site_map",
+            site_map.kind == SiteMapKind::kNone || SiteMapSide_m() <= 1000.0 * site_map.cell_m,
+            "has more than 1000 cells along a side", "use larger cells, or a smaller margin_m");
   v.Group("goal_rock", goal_rock, "a rock at the goal that the rover has to find");
   const double dx = goal_x_m - start_x_m;
   const double dy = goal_y_m - start_y_m;

@@ -138,6 +138,10 @@ struct CourseParams {
   // are one, which Visit refuses.
   double DesignationRange_m(const messages::Goal& place) const;
 
+  // Returns the longer side of the rectangle that holds start, waypoints and goal, with the margin
+  // of site_map on either side.
+  double SiteMapSide_m() const;
+
   void Visit(core::FieldVisitor& v);
 };
 

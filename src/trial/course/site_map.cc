@@ -30,9 +30,6 @@ CellSum SampleCell(const terrain::Terrain& terrain, double x0_m, double y0_m, do
   return sum;
 }
 
-// The most cells along a side.
-constexpr double kMostCells = 2000.0;
-
 }  // namespace
 
 std::shared_ptr<const messages::SiteMap> MakeSiteMap(const CourseParams& course,
@@ -52,7 +49,7 @@ std::shared_ptr<const messages::SiteMap> MakeSiteMap(const CourseParams& course,
   auto map = std::make_shared<messages::SiteMap>();
   const auto cells = [&](double size_m) {
     const double count = std::ceil((size_m + 2.0 * params.margin_m) / params.cell_m);
-    return static_cast<int>(std::clamp(count, 1.0, kMostCells));
+    return std::max(1, static_cast<int>(count));
   };
   map->x0_m = west.x_m - params.margin_m;
   map->y0_m = south.y_m - params.margin_m;

@@ -160,11 +160,11 @@ std::optional<Verdict> Drive::Step() {
     if (decided.told_slip && !arrived) return Verdict{truth::EndCause::kExcessiveSlip};
     return referee_.OnNavigatorStop(decision.status, world_.state(), time_s());
   }
+  if (auto verdict = SpendOnDecision(decision.work_ops)) return verdict;
   if (decision.looks()) {
     if (!LooksOnTheMove(decision)) return Look(*decision.look);
     if (auto verdict = LookOnTheMove(*decision.look)) return verdict;
   }
-  if (auto verdict = SpendOnDecision(decision.work_ops)) return verdict;
   if (observer_.OnMotion(decision.motion)) SpendOverhead();
   return Follow(decision.motion);
 }
