@@ -159,27 +159,17 @@ bool RunsWell(const std::vector<std::string>& words) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+// Files are read-only everywhere but in a folder for temporary ones, which is its own.
 std::vector<std::string> ConfiningWords(const std::string& folder) {
-  return {"bwrap",
-          "--die-with-parent",
-          "--new-session",
-          "--unshare-net",
-          "--unshare-pid",
-          "--unshare-ipc",
-          "--ro-bind",
-          "/",
-          "/",
-          "--dev",
-          "/dev",
-          "--proc",
-          "/proc",
-          "--tmpfs",
-          "/tmp",
-          "--ro-bind",
-          folder,
-          folder,
-          "--chdir",
-          folder};
+  std::vector<std::string> words;
+  for (const char* word :
+       {"bwrap", "--die-with-parent", "--new-session", "--unshare-net", "--unshare-pid",
+        "--unshare-ipc", "--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc", "--tmpfs",
+        "/var/tmp", "--setenv", "TMPDIR", "/var/tmp", "--chdir"}) {
+    words.emplace_back(word);
+  }
+  words.push_back(folder);
+  return words;
 }
 
 }  // namespace

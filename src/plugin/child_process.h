@@ -14,8 +14,8 @@
 namespace rockyard::plugin {
 
 // Returns the words that start `command`, for /bin/sh, in a folder: by bubblewrap where it is there
-// and works (no network, files read-only, an empty /tmp), else as it is. `confined` is set to
-// which.
+// and works (no network, files read-only but in a TMPDIR of its own), else as it is. `confined` is
+// set to which.
 std::vector<std::string> StartWords(const std::string& command, const std::string& folder,
                                     bool& confined);
 

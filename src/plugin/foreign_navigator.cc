@@ -22,7 +22,8 @@ const Traits& NavigatorSource::TraitsOf(const Parameters& parameters) const {
 
 void ForeignKind::Visit(core::FieldVisitor& v) {
   parameters_.Visit(v);
-  for (const core::Problem& problem : source_->TraitsOf(parameters_).problems) {
+  traits_ = &source_->TraitsOf(parameters_);
+  for (const core::Problem& problem : traits_->problems) {
     v.Require(problem.path, false, problem.reason, problem.suggestion);
   }
 }

@@ -58,7 +58,8 @@ class ForeignKind final : public navigation::NavigatorKind {
   bool has_params() const override { return !parameters_.values().empty(); }
   void Visit(core::FieldVisitor& v) override;
   navigation::NavigatorTraits traits() const override {
-    return source_->TraitsOf(parameters_).AsNavigatorTraits();
+    const Traits& traits = traits_ != nullptr ? *traits_ : source_->TraitsOf(parameters_);
+    return traits.AsNavigatorTraits();
   }
   std::span<const messages::OwnValue> own_values() const override {
     return source_->description().own_values;
@@ -76,8 +77,10 @@ class ForeignKind final : public navigation::NavigatorKind {
   }
 
  private:
-  std::shared_ptr<const NavigatorSource> source_;
+  std::shared_ptr<const NavigatorSource> source_;  // which outlives the traits
   Parameters parameters_;
+  const Traits* traits_ =
+      nullptr;  // of parameters_, as the last Visit left them; null: never visited
 };
 
 // Throws navigation::NavigatorFault where the decision cannot be done: a number that is none, a

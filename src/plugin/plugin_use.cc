@@ -80,7 +80,8 @@ Entry ReadEntry(const JsonValue& value, const std::string& path) {
     throw UserError(path, "is neither a text nor an object",
                     R"(write {"library": "libmine.so"} or {"process": "python3 mine.py"})");
   }
-  constexpr std::array<std::string_view, 4> kKeys{"library", "process", "folder", "hash"};
+  constexpr std::array<std::string_view, 5> kKeys{"library", "process", "folder", "hash",
+                                                  "confined"};
   for (const core::JsonMember& member : value.members()) {
     if (std::find(kKeys.begin(), kKeys.end(), member.key) == kKeys.end()) {
       throw UserError(fmt::format("{}.{}", path, member.key), "is not a known key",
@@ -177,7 +178,8 @@ JsonValue SchemaOfPlugins() {
         JsonValue::Object({{"library", text("shared library of a plugin, relative to this file")},
                            {"process", text("command of a navigator's process")},
                            {"folder", text("in which the command runs: that of this file")},
-                           {"hash", text("of what the scenario was resolved with")}})},
+                           {"hash", text("of what the scenario was resolved with")},
+                           {"confined", JsonValue::Object({{"type", JsonValue("boolean")}})}})},
        {"additionalProperties", JsonValue(false)}});
   return JsonValue::Object(
       {{"description",
@@ -283,6 +285,8 @@ JsonValue ToJson(const std::vector<PluginUse>& plugins) {
     entry.Append(use.kind == Kind::kLibrary ? "library" : "process", JsonValue(use.text));
     if (use.kind == Kind::kProcess) entry.Append("folder", JsonValue(use.folder));
     entry.Append("hash", JsonValue(use.hash));
+    // For people: how it ran.
+    if (use.kind == Kind::kProcess) entry.Append("confined", JsonValue(use.confined));
     return entry;
   });
 }
@@ -292,6 +296,7 @@ JsonValue IdentityOf(const JsonValue& list) {
   if (!identity.Is(JsonValue::Type::kList)) return identity;
   for (JsonValue& entry : identity.list()) {
     entry.Erase("folder");
+    entry.Erase("confined");
     entry.Erase("library");
     entry.Erase("process");
   }

@@ -141,6 +141,17 @@ class Drives(unittest.TestCase):
         self.command(["sweep", "sweep.json", "--plugin", PLUGINS["arc_planner"], "--quiet", "--out", "swept"])
         self.command(["report", "swept", "--replays", 0])
 
+    def test_a_plugin_of_another_compiler_and_standard_library_decides_the_same(self):
+        clang = next(filter(None, map(shutil.which, ("clang++", "clang++-14", "clang++-15", "clang++-16"))), None)
+        self.assertIsNotNone(clang, "clang++ is not there: scripts/install_dependencies.sh test")
+        library = self.folder / "libother.so"
+        headers = [f"-I{PROJECT / 'src'}", "-I/usr/include/eigen3"]
+        subprocess.run([clang, "-stdlib=libc++", "-std=c++20", "-O2", "-ffp-contract=off", "-shared", "-fPIC", *headers,
+                        EXAMPLES / "arc_planner.cc", "-o", library], check=True)
+        self.assertIn(b"libc++", subprocess.run(["ldd", library], capture_output=True, check=True).stdout)
+        ours = self.run_hash("by_gcc", ("--plugin", PLUGINS["arc_planner"]), trials=3)
+        self.assertEqual(self.run_hash("by_clang", ("--plugin", library), trials=3), ours)
+
     def test_an_unknown_parameter_is_told_with_its_path(self):
         told = self.command(["run", NOMINAL, *self.twin(), "--set", "navigation.pathfinder_twin.scan_intervall_m=1",
                              "--out", "unknown"], ends=2)

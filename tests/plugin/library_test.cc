@@ -465,9 +465,12 @@ TEST_P(RefusedLibrary, IsNamedWithWhatIsWrong) {
 
 // Answers of the command are read by programs.
 TEST(LibraryTest, WhatItPrintsAsItIsAskedIsNoOutputOfTheCommand) {
+  const core::TestFolder folder;
+  const fs::path copy = folder.path() / "copy.so";  // no test has loaded it into this process
+  fs::copy_file(FileOf("plain"), copy);
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  Open(fs::path(FileOf("plain")));
+  Open(copy);
   const std::string err = testing::internal::GetCapturedStderr();
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_THAT(err, HasSubstr("noise of a plugin that is loaded"));
