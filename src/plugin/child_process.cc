@@ -113,31 +113,108 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-// Becomes the program; only what is safe after a fork in a process with threads.
-[[noreturn]] void BeProgram(const char* const* words, const char* folder, int requests, int answers,
-                            int log, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(127);
+// The ends that the program gets.
+struct ProgramEnds {
+  int requests;
+  int answers;
+  int log;
+};
+
+// What follows up to BeKeeper runs in a fork of a process with threads: only what is safe there,
+// and so no memory is taken.
+
+// Becomes the program.
+[[noreturn]] void BeProgram(const char* const* words, const char* folder, const ProgramEnds& ends) {
   setpgid(0, 0);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(signal, SIG_DFL);
+  for (const int each : {SIGPIPE, SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGCHLD}) {
+    signal(each, SIG_DFL);
+  }
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   // Above 4 first, so that no end is written over before it is copied.
-  const int high_requests = fcntl(requests, F_DUPFD, 10);
-  const int high_answers = fcntl(answers, F_DUPFD, 10);
-  const int high_log = fcntl(log, F_DUPFD, 10);
+  const int high_requests = fcntl(ends.requests, F_DUPFD, 10);
+  const int high_answers = fcntl(ends.answers, F_DUPFD, 10);
+  const int high_log = fcntl(ends.log, F_DUPFD, 10);
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   dup2(high_log, STDOUT_FILENO);
   dup2(high_log, STDERR_FILENO);
   dup2(high_requests, kToChild);
   dup2(high_answers, kFromChild);
-  for (int fd = kFromChild + 1; fd < 1024; ++fd) close(fd);
+  close_range(kFromChild + 1, ~0U, 0);
   if (chdir(folder) != 0) _exit(127);
   execvp(words[0], const_cast<char* const*>(words));
+  _exit(127);
+}
+
+// Kills the children of this process; what they started becomes its children then.
+void KillChildren(const char* children_file) {
+  std::array<char, 4096> text;
+  const int file = open(children_file, O_RDONLY);
+  const ssize_t count = file < 0 ? 0 : read(file, text.data(), text.size());
+  if (file >= 0) close(file);
+  pid_t child = 0;
+  for (ssize_t i = 0; i < count; ++i) {
+    const char c = text[static_cast<std::size_t>(i)];
+    if (c >= '0' && c <= '9') {
+      child = 10 * child + (c - '0');
+    } else if (child > 0) {
+      kill(child, SIGKILL);
+      child = 0;
+    }
+  }
+}
+
+// Starts the program and stays, until it ends or `life` says so or is closed, as it is when the
+// process that asks has ended; then ends all that the program has started, wherever it went. Ends
+// as the program did. A signal by the end of the thread that started it would not do: threads hand
+// processes on.
+[[noreturn]] void BeKeeper(const char* const* words, const char* folder, const ProgramEnds& ends,
+                           int life) {
+  setpgid(0, 0);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  for (const int each : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) signal(each, SIG_IGN);
+  signal(SIGCHLD, [](int) {});
+  sigset_t children;
+  sigset_t none;
+  sigemptyset(&none);
+  sigemptyset(&children);
+  sigaddset(&children, SIGCHLD);
+  sigprocmask(SIG_SETMASK, &children, nullptr);
+  const pid_t program = fork();
+  if (program == 0) BeProgram(words, folder, ends);
+  dup2(life, STDIN_FILENO);
+  close_range(STDIN_FILENO + 1, ~0U, 0);
+  int ended = -1;  // the status of the program
+  const auto reap = [&](int options) {
+    int status = 0;
+    const pid_t child = waitpid(-1, &status, options);
+    if (child == program) ended = status;
+    return child;
+  };
+  while (ended < 0) {
+    while (reap(WNOHANG) > 0) {
+    }
+    pollfd wish{STDIN_FILENO, POLLIN, 0};
+    if (ended < 0 && ppoll(&wish, 1, nullptr, &none) > 0) break;
+  }
+  // The name of the file takes no memory: a process has one thread of its own number here.
+  for (;;) {
+    KillChildren("/proc/thread-self/children");
+    if (program > 0) kill(-program, SIGKILL);
+    if (reap(0) < 0 && errno == ECHILD) break;
+  }
+  if (ended >= 0 && WIFEXITED(ended)) _exit(WEXITSTATUS(ended));
+  if (ended >= 0 && WIFSIGNALED(ended)) {
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    signal(WTERMSIG(ended), SIG_DFL);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    kill(getpid(), WTERMSIG(ended));
+  }
   _exit(127);
 }
 
@@ -194,6 +271,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::str
   Pipe requests(Pipe::Kind::kSocket);
   Pipe answers;
   Pipe log;
+  Pipe life(Pipe::Kind::kSocket);
   std::vector<const char*> argv;
   for (const std::string& word : words) argv.push_back(word.c_str());
   argv.push_back(nullptr);
@@ -203,12 +281,15 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::str
                              "end other programs, then run it again");
   }
   if (pid_ == 0) {
-    BeProgram(argv.data(), folder.c_str(), requests.read(), answers.write(), log.write(), starter_);
+    BeKeeper(argv.data(), folder.c_str(),
+             {.requests = requests.read(), .answers = answers.write(), .log = log.write()},
+             life.read());
   }
   setpgid(pid_, pid_);
   to_ = requests.TakeWrite();
   from_ = answers.TakeRead();
   log_ = log.TakeRead();
+  life_ = life.TakeWrite();
   for (const int fd : {to_, from_, log_}) fcntl(fd, F_SETFL, O_NONBLOCK);
 }
 
@@ -216,9 +297,20 @@ ChildProcess::~ChildProcess() {
   Close(to_);
   Close(from_);
   Close(log_);
-  if (pid_ <= 0 || getpid() != starter_) return;
+  const bool own = getpid() == starter_;
+  // Told, not only closed: a fork of this process may hold the end, too.
+  if (own && pid_ > 0) send(life_, "q", 1, MSG_NOSIGNAL);
+  Close(life_);
+  if (!own || pid_ <= 0) return;
+  // A keeper that the program has stopped is killed with all that is known of.
+  constexpr int kPatience = 1000;
+  for (int i = 0; i < kPatience; ++i) {
+    const pid_t ended = waitpid(pid_, nullptr, WNOHANG);
+    if (ended == pid_ || (ended < 0 && errno != EINTR)) return;
+    const timespec wait{0, i < 50 ? 100'000 : 2'000'000};
+    nanosleep(&wait, nullptr);
+  }
   for (const pid_t each : Family(pid_)) kill(each, SIGKILL);
-  kill(-pid_, SIGKILL);
   while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
   }
 }

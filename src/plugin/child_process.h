@@ -21,7 +21,8 @@ std::vector<std::string> StartWords(const std::string& command, const std::strin
 
 // One process. It is asked by one thread at a time. Messages are a length, 4 bytes little endian,
 // and that many bytes, on its descriptors 3 (to it) and 4 (from it). What it writes to stdout and
-// stderr is read, and the last of it kept.
+// stderr is read, and the last of it kept. A small process of its own, its keeper, starts it and
+// ends all that it has started, also where this process is killed.
 class ChildProcess {
  public:
   // Starts it. Throws core::MachineError where no process can be made.
@@ -56,10 +57,11 @@ class ChildProcess {
   std::string WithWords(std::string text) const;
 
   pid_t starter_;
-  mutable pid_t pid_ = -1;  // the head of its process group; -1: it has ended and is waited for
+  mutable pid_t pid_ = -1;  // of its keeper; -1: both have ended and are waited for
   int to_ = -1;
   int from_ = -1;
   int log_ = -1;
+  int life_ = -1;              // closed: its keeper ends it
   std::vector<pid_t> family_;  // it and what descends from it, as last looked
   std::int64_t asked_ = 0;
   double used_s_ = 0.0;

@@ -63,11 +63,14 @@ void TakeText(void* to, const char* text, std::size_t bytes) {
   static_cast<std::string*>(to)->assign(text, bytes);
 }
 
+// Returns what a function of a plugin reports, up to the end of the field at most.
+std::string TextOf(const rockyard_error& error) {
+  return {std::begin(error.text), std::find(std::begin(error.text), std::end(error.text), '\0')};
+}
+
 // Throws what a function of a plugin reports.
 void RequireDone(int result, const rockyard_error& error) {
-  if (result == 0) return;
-  const auto* end = std::find(std::begin(error.text), std::end(error.text), '\0');
-  throw std::runtime_error(std::string(std::begin(error.text), end));
+  if (result != 0) throw std::runtime_error(TextOf(error));
 }
 
 // The values of parameters as the C interface has them; views of `parameters`.
@@ -348,10 +351,7 @@ class LibraryNavigator final : public navigation::Navigator {
     const double took_s = std::chrono::duration<double>(Clock::now() - began).count();
     used_s_ += took_s;
     if (took_s > kForkTakes_s) CheckSlow(took_s);
-    if (result != 0) {
-      const auto* end = std::find(std::begin(error.text), std::end(error.text), '\0');
-      throw NavigatorFault(FaultKind::kThrew, std::string(std::begin(error.text), end));
-    }
+    if (result != 0) throw NavigatorFault(FaultKind::kThrew, TextOf(error));
   }
 
   // Judges a call that was slow by the clock on the wall, by the CPU time of the thread.

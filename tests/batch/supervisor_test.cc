@@ -57,9 +57,15 @@ class SupervisorTest : public testing::Test {
     const auto trial = static_cast<int>(mission.trial.trial);
     switch (mission.task) {
       case Task::kStoreFault:
-        EXPECT_THAT(mission.reason, HasSubstr("SIG"));
+        EXPECT_THAT(mission.reason, testing::AnyOf(HasSubstr("SIG"), HasSubstr("exit code 0")));
         board_->stored[trial] = true;
         ++board_->faults[trial];
+        return 0;
+      case Task::kStoreHang:
+        if (!foreign_) return 0;
+        board_->stored[trial] = true;
+        ++board_->faults[trial];
+        log_.SetStored(1);
         return 0;
       case Task::kStoreMachineFault:
         ++board_->machine_faults[trial];
@@ -116,6 +122,7 @@ class SupervisorTest : public testing::Test {
   static constexpr std::chrono::milliseconds kTick{20};
   FlightLog log_;
   Board* board_;
+  bool foreign_ = false;  // whether a plugin decides
   std::string notes_;
 };
 
@@ -269,6 +276,30 @@ TEST_F(SupervisorTest, HangingTrialIsTriedAgainAndLeftOut) {
   EXPECT_EQ(Sum(board_->faults), 0);
   EXPECT_EQ(board_->runs[7], 3) << "once with others, twice alone";
   EXPECT_EQ(board_->machine_faults[7], 3);
+}
+
+TEST_F(SupervisorTest, TrialOfAPluginThatHangsTwiceIsAFault) {
+  foreign_ = true;
+  const int code = Supervised([](int trial) {
+    if (trial == 3) Spin();
+  });
+  EXPECT_EQ(code, 0);
+  EXPECT_EQ(board_->runs[3], 2) << "once with the others, once alone";
+  EXPECT_EQ(board_->faults[3], 1);
+  EXPECT_EQ(Sum(board_->faults), 1);
+  EXPECT_EQ(Stored(), kTrials);
+}
+
+// As code of a plugin does that calls exit(): the campaign has not ended, whatever the exit code
+// says.
+TEST_F(SupervisorTest, EndingInTheMiddleOfTheWorkCountsAsACrash) {
+  const int code = Supervised([](int trial) {
+    if (trial == 3) _exit(0);
+  });
+  EXPECT_EQ(code, 0);
+  EXPECT_EQ(board_->faults[3], 1);
+  EXPECT_EQ(Sum(board_->faults), 1);
+  EXPECT_EQ(Stored(), kTrials);
 }
 
 TEST_F(SupervisorTest, HangingOnceIsForgiven) {

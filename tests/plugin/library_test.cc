@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <set>
 
@@ -412,6 +413,17 @@ TEST(LibraryTest, CpuTimeIsLimitedByAnswerAndByDrive) {
     EXPECT_THAT(FaultOf([&] { navigator->Decide({}); }),
                 IsFault(FaultKind::kCpuTime, "more than 0.12 s for one drive"));
   }
+}
+
+// A machine that has too much to do lets plugins wait, and the simulation computes on this thread.
+TEST(LibraryTest, WaitingIsNoComputingNorIsTheSimulation) {
+  navigation::NavigatorSetup setup;
+  setup.limits = {.decision_cpu_s = 0.02, .drive_cpu_s = 0.04};
+  const auto navigator = Make(*Open("faults", "sleeps"), "{}", setup);
+  const std::clock_t end = std::clock() + CLOCKS_PER_SEC / 10;
+  while (std::clock() < end) {
+  }
+  EXPECT_EQ(FaultOf([&] { navigator->Decide({}); }), "");
 }
 
 // Its child would go on with this drive and write into this store.

@@ -212,7 +212,8 @@ TEST_F(PluginUseTest, IsReadAsItIsWritten) {
   EXPECT_EQ(CompactJson(written), R"([{"library":")" + At("echo.so") + R"(","hash":")" +
                                       opened[0].hash + R"("},{"process":")" + opened[1].text +
                                       R"(","folder":")" + folder().string() + R"(","hash":")" +
-                                      opened[1].hash + "\"}]");
+                                      opened[1].hash + R"(","confined":)" +
+                                      (opened[1].confined ? "true" : "false") + "}]");
   const auto again = OpenPlugins(written, "/");
   EXPECT_EQ(CompactJson(ToJson(again)), CompactJson(written));
   EXPECT_EQ(CompactJson(Anchored(written, "/elsewhere")), CompactJson(written));
@@ -221,7 +222,7 @@ TEST_F(PluginUseTest, IsReadAsItIsWritten) {
 TEST_F(PluginUseTest, IdentityIsWithoutPlaces) {
   EXPECT_EQ(CompactJson(IdentityOf(Json(
                 R"([{"library": "/a.so", "hash": "1"},
-                    {"process": "a", "folder": "/b", "hash": "2"}])"))),
+                    {"process": "a", "folder": "/b", "hash": "2", "confined": true}])"))),
             R"([{"hash":"1"},{"hash":"2"}])");
   EXPECT_EQ(CompactJson(IdentityOf(Json("3"))), "3");
 }
@@ -348,7 +349,8 @@ TEST(PluginSchema, AllowsEveryFormOfAnEntryAndNoOtherKey) {
   for (const core::JsonMember& member : item->Find("properties")->members()) {
     keys.push_back(member.key);
   }
-  EXPECT_THAT(keys, testing::UnorderedElementsAre("library", "process", "folder", "hash"));
+  EXPECT_THAT(keys,
+              testing::UnorderedElementsAre("library", "process", "folder", "hash", "confined"));
 }
 
 }  // namespace

@@ -24,11 +24,12 @@ enum class Fault {
   kForks,
   kComputes,
   kThrowsWhereItIsTold,
+  kSleeps,
 };
 
-constexpr std::array<const char*, 9> kNames{"throws", "throws_anything", "throws_where_made",
-                                            "none",   "no_number",       "one_of_two",
-                                            "forks",  "computes",        "throws_where_told"};
+constexpr std::array<const char*, 10> kNames{
+    "throws", "throws_anything", "throws_where_made", "none",  "no_number", "one_of_two",
+    "forks",  "computes",        "throws_where_told", "sleeps"};
 
 // Some 50 ms of the thread's own time.
 void Compute() {
@@ -50,6 +51,7 @@ class Faulty final : public navigation::Navigator {
     if (kFault == Fault::kThrowsAnything) throw 7;
     if (kFault == Fault::kForks) fork();
     if (kFault == Fault::kComputes) Compute();
+    if (kFault == Fault::kSleeps) usleep(50'000);
     NavigatorDecision decision;
     if (kFault == Fault::kDecidesNoNumber) {
       decision.motion.curvature_per_m = std::numeric_limits<double>::quiet_NaN();
@@ -100,4 +102,4 @@ ROCKYARD_NAVIGATORS(Describe<Fault::kThrows>, Describe<Fault::kThrowsAnything>,
                     Describe<Fault::kThrowsWhereItIsMade>, Describe<Fault::kIsNone>,
                     Describe<Fault::kDecidesNoNumber>, Describe<Fault::kHasOneOwnValueOfTwo>,
                     Describe<Fault::kForks>, Describe<Fault::kComputes>,
-                    Describe<Fault::kThrowsWhereItIsTold>)
+                    Describe<Fault::kThrowsWhereItIsTold>, Describe<Fault::kSleeps>)

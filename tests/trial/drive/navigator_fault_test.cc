@@ -115,7 +115,7 @@ DriveParams With(const FailingParams& params, const Overrides& overrides = {}) {
   return scenario::Shipped("pathfinder/level_sand", all, defaults).drive;
 }
 
-DriveResult Run(const FailingParams& params) { return RunTrial(With(params), {1, 0}); }
+DriveResult Driven(const FailingParams& params) { return RunTrial(With(params), {1, 0}); }
 
 std::optional<EndCause> CauseOf(const DriveResult& result) {
   return truth::CauseOf(result.outcome, result.detail);
@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(NavigatorFaults, EndTheDriveWithCauseAndText) {
   FailingParams params;
   params.script->faults = {GetParam().kind, GetParam().kind};
-  const DriveResult result = Run(params);
+  const DriveResult result = Driven(params);
   EXPECT_EQ(result.outcome, TrialOutcome::kNavigatorFault);
   EXPECT_EQ(CauseOf(result), GetParam().cause);
   EXPECT_THAT(result.detail, StartsWith(std::string(truth::Info(GetParam().cause).sentence)));
@@ -171,9 +171,9 @@ TEST_P(NavigatorFaults, EndTheDriveWithCauseAndText) {
 TEST_P(NavigatorFaults, ThatComeOnceCountWhereTheyAreTheNavigators) {
   FailingParams params;
   params.script->faults = {GetParam().kind};
-  const DriveResult result = Run(params);
+  const DriveResult result = Driven(params);
   if (GetParam().twice) {
-    const DriveResult well = Run({});
+    const DriveResult well = Driven({});
     EXPECT_EQ(well.outcome, TrialOutcome::kGoalReached);
     EXPECT_THAT(Differences(result, well), IsEmpty());
     EXPECT_EQ(result.own_values, well.own_values);
@@ -188,7 +188,7 @@ TEST_P(NavigatorFaults, WhereItIsMadeEndTheDriveToo) {
   FailingParams params;
   params.script->where = Where::kMaking;
   params.script->faults = {GetParam().kind, GetParam().kind};
-  const DriveResult result = Run(params);
+  const DriveResult result = Driven(params);
   EXPECT_EQ(CauseOf(result), GetParam().cause);
   EXPECT_THAT(result.detail, EndsWith(": the reason"));
   EXPECT_EQ(params.script->drives, GetParam().twice ? 2 : 1);
@@ -200,7 +200,7 @@ TEST_P(NavigatorFaults, WhereItsOwnValuesAreAskedForAreFaultsToo) {
   FailingParams params;
   params.script->where = Where::kCounting;
   params.script->faults = {GetParam().kind, GetParam().kind};
-  const DriveResult result = Run(params);
+  const DriveResult result = Driven(params);
   EXPECT_EQ(CauseOf(result), GetParam().cause);
   EXPECT_GT(result.record.true_distance_m, 2.0) << "it had arrived";
   ExpectWhole(result.record);
@@ -210,7 +210,7 @@ TEST_P(NavigatorFaults, WhereItsOwnValuesAreAskedForAreFaultsToo) {
 TEST(NavigatorFaultTest, AfterAFaultOfTheMachineAnotherOneMayCome) {
   FailingParams params;
   params.script->faults = {FaultKind::kEnded, FaultKind::kNonsense};
-  EXPECT_EQ(CauseOf(Run(params)), EndCause::kNavigatorNonsense);
+  EXPECT_EQ(CauseOf(Driven(params)), EndCause::kNavigatorNonsense);
   EXPECT_EQ(params.script->drives, 2);
 }
 
@@ -241,13 +241,13 @@ TEST(NavigatorFaultTest, OtherExceptionsPass) {
   FailingParams params;
   params.script->faults = {FaultKind::kEnded};
   params.script->is_a_fault = false;
-  EXPECT_THROW(Run(params), std::runtime_error);
+  EXPECT_THROW(Driven(params), std::runtime_error);
   EXPECT_EQ(params.script->drives, 1);
 }
 
 TEST(NavigatorFaultTest, ADriveThatGoesWellIsDrivenOnce) {
   const FailingParams params;
-  const DriveResult result = Run(params);
+  const DriveResult result = Driven(params);
   EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached);
   EXPECT_EQ(params.script->drives, 1);
   ASSERT_EQ(result.own_values.size(), 2U);
