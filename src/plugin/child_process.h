@@ -53,6 +53,8 @@ class ChildProcess {
   void ReadLog();
   // Throws where what it used since `began_cpu_s` is more than the limits.
   void CheckUse(double began_cpu_s, const navigation::LimitParams& limits, double left_cpu_s) const;
+  // Returns the CPU time of it and what it started; of what has ended, as last looked.
+  double Cpu_s() const;
   [[noreturn]] void FailEnded();
   std::string WithWords(std::string text) const;
 
@@ -63,6 +65,7 @@ class ChildProcess {
   int log_ = -1;
   int life_ = -1;              // closed: its keeper ends it
   std::vector<pid_t> family_;  // it and what descends from it, as last looked
+  double ended_cpu_s_ = 0.0;
   std::int64_t asked_ = 0;
   double used_s_ = 0.0;
   std::string said_;

@@ -30,7 +30,9 @@ using navigation::NavigatorFault;
 using Clock = std::chrono::steady_clock;
 
 // No call in which a process forks takes less.
-constexpr double kForkTakes_s = 20e-6;
+constexpr std::chrono::microseconds kForkTakes{20};
+// What calls that are no longer take by the clock on the wall counts as CPU time.
+constexpr std::chrono::milliseconds kShort{1};
 
 // Loads the library into this process. Throws std::runtime_error with the reason of the loader.
 const rockyard_plugin_info& Load(const fs::path& file) {
@@ -344,39 +346,47 @@ class LibraryNavigator final : public navigation::Navigator {
   template <typename Function>
   void Call(const Function& function) const {
     const Clock::time_point began = Clock::now();
+    if (began - read_at_ > kShort) {
+      cpu_s_ = ThreadCpu_s();
+      read_at_ = began;
+    }
     rockyard_error error;  // not cleared whole: it is read after a failure alone
     error.text[0] = '\0';
     std::end(error.text)[-1] = '\0';
     const int result = function(&error);
-    const double took_s = std::chrono::duration<double>(Clock::now() - began).count();
-    used_s_ += took_s;
-    if (took_s > kForkTakes_s) CheckSlow(took_s);
+    const Clock::duration took = Clock::now() - began;
+    // A plugin that forks: its child must not go on with this drive and this store.
+    if (took > kForkTakes && getpid() != process_) _exit(1);
+    if (took > kShort) {
+      CheckSlow();
+    } else {
+      used_s_ += std::chrono::duration<double>(took).count();
+    }
     if (result != 0) throw NavigatorFault(FaultKind::kThrew, TextOf(error));
   }
 
-  // Judges a call that was slow by the clock on the wall, by the CPU time of the thread.
-  void CheckSlow(double took_s) const {
-    // A plugin that forks: its child must not go on with this drive and this store.
-    if (getpid() != process_) _exit(1);
-    if (took_s <= limits_.decision_cpu_s && used_s_ <= limits_.drive_cpu_s) return;
-    const double cpu_s = ThreadCpu_s() - began_cpu_s_;
-    if (took_s > limits_.decision_cpu_s && cpu_s > limits_.decision_cpu_s) {
-      throw NavigatorFault(FaultKind::kCpuTime,
-                           fmt::format("more than {} s for one answer", limits_.decision_cpu_s));
-    }
-    if (used_s_ > limits_.drive_cpu_s && cpu_s > limits_.drive_cpu_s) {
-      throw NavigatorFault(FaultKind::kCpuTime,
-                           fmt::format("more than {} s for one drive", limits_.drive_cpu_s));
-    }
+  // Judges a slow call by the CPU time of the thread, in which it may have waited.
+  void CheckSlow() const {
+    const double used_s = ThreadCpu_s() - std::exchange(cpu_s_, ThreadCpu_s());
+    read_at_ = Clock::now();
+    used_s_ += used_s;
+    Limit(used_s, limits_.decision_cpu_s, "for one answer");
+    Limit(used_s_, limits_.drive_cpu_s, "for one drive");
+  }
+
+  static void Limit(double used_s, double most_s, const char* what) {
+    if (used_s <= most_s) return;
+    throw NavigatorFault(FaultKind::kCpuTime, fmt::format("more than {} s {}", most_s, what));
   }
 
   const rockyard_navigator_type& type_;
   const navigation::LimitParams limits_;
   const std::size_t own_values_;
   const pid_t process_ = getpid();
-  const double began_cpu_s_ = ThreadCpu_s();  // of the thread that drives
   void* navigator_ = nullptr;
-  mutable double used_s_ = 0.0;  // of the clock on the wall: an upper bound
+  mutable double cpu_s_ = ThreadCpu_s();  // of the thread, at most kShort before a call
+  mutable Clock::time_point read_at_ = Clock::now();
+  mutable double used_s_ = 0.0;  // in all calls
   mutable messages::Overlay overlay_;
   mutable std::vector<double> values_;
 };

@@ -224,10 +224,12 @@ JsonValue DeclaredBy(const JsonValue& group) {
       field.Set("type", JsonValue("group"));
       field.Set("parameters", DeclaredBy(value));
     } else {
-      const char* type = value.IsNumber()           ? "real"
-                         : value.Is(Type::kBoolean) ? "boolean"
-                         : value.Is(Type::kList)    ? "reals"
-                                                    : "text";
+      const auto whole = [](const JsonValue& each) { return each.Is(Type::kInteger); };
+      const char* type = "text";
+      if (value.IsNumber()) type = whole(value) ? "integer" : "real";
+      if (value.Is(Type::kBoolean)) type = "boolean";
+      if (value.Is(Type::kList))
+        type = std::ranges::all_of(value.list(), whole) ? "integers" : "reals";
       field.Set("type", JsonValue(type));
       field.Set("default", value);
     }

@@ -421,7 +421,7 @@ TEST_F(ProcessTest, ThatDoesNotSayWhatItIsIsRefused) {
 TEST_F(ProcessTest, TraitsThatAreNoneAreRefused) {
   const auto opened = Open("serve(None, traits=lambda p: {})");
   ForeignKind kind(opened.source);
-  EXPECT_THAT(core::RefusalOf([&] { kind.traits(); }), HasSubstr("goal_tolerance"));
+  EXPECT_THAT(core::RefusalOf([&] { kind.traits(); }), HasSubstr("traits.reads"));
   const auto ends = Open("serve(None, traits=lambda p: sys.exit(3))");
   EXPECT_THAT(core::RefusalOf([&] { ForeignKind(ends.source).traits(); }),
               HasSubstr("exit code 3"));
