@@ -94,6 +94,7 @@ constexpr CommandExample kExamples[] = {
      "trials for a rate of 90 % to 2 %"},
     {"plan", "rockyard plan claim --below 0.01", "trials that show a rate below 1 %"},
     {"metrics", "rockyard metrics", "what of a trial is measured"},
+    {"metrics", "rockyard metrics mine.json", "and what the navigators of a scenario count"},
     {"help", "rockyard help run", "all of a command, with examples"},
     {"completion", "eval \"$(rockyard completion bash)\"", "in this shell; ~/.bashrc keeps it"},
     {"completion", "rockyard completion zsh > \"${fpath[1]}/_rockyard\"", "for zsh"},
