@@ -94,6 +94,7 @@ constexpr CommandExample kExamples[] = {
      "trials for a rate of 90 % to 2 %"},
     {"plan", "rockyard plan claim --below 0.01", "trials that show a rate below 1 %"},
     {"metrics", "rockyard metrics", "what of a trial is measured"},
+    {"metrics", "rockyard metrics mine.json", "and what the navigators of a scenario count"},
     {"new", "rockyard new navigator mine",
      "in C++: source, build file, scenario and README in mine"},
     {"new", "rockyard new navigator mine --python --out work/mine",

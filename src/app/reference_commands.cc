@@ -45,14 +45,37 @@ void AddSchemaCommand(CLI::App& app) {
   AddPrinting(app, "schema", "Prints the JSON Schema of scenario files", scenario::SchemaJson);
 }
 
+namespace {
+
+struct MetricsOptions {
+  std::string scenario;
+  std::vector<std::string> overrides;
+  bool markdown = false;
+};
+
+void ListMetrics(const MetricsOptions& options) {
+  const auto columns = options.scenario.empty()
+                           ? truth::RecordSchema()
+                           : campaign::ColumnsOf(campaign::LoadScenarioFrom(
+                                 ScenarioFile(options.scenario), options.overrides));
+  Print(options.markdown ? report::MetricTableMarkdown(columns)
+                         : Wrapped(report::MetricTableText(columns)));
+}
+
+}  // namespace
+
 void AddMetricsCommand(CLI::App& app) {
-  auto markdown = std::make_shared<bool>(false);
+  auto options = std::make_shared<MetricsOptions>();
   CLI::App* command =
       app.add_subcommand("metrics", "Lists what is computed of drives, each with its definition");
-  command->add_flag("--markdown", *markdown, "as the table of src/statistics/README.md");
-  command->callback([markdown] {
-    Print(*markdown ? report::MetricTableMarkdown() : Wrapped(report::MetricTableText()));
-  });
+  CLI::Option* scenario = command->add_option(
+      "SCENARIO", options->scenario,
+      "scenario file or its name: what its navigators count for themselves, too");
+  command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
+      ->allow_extra_args(false)
+      ->needs(scenario);
+  command->add_flag("--markdown", options->markdown, "as the table of src/statistics/README.md");
+  command->callback([options] { ListMetrics(*options); });
 }
 
 namespace {

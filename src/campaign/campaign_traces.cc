@@ -295,7 +295,7 @@ std::vector<std::uint64_t> KeptTrials(const TraceRetention& retention,
                                       std::span<const truth::Record> records, std::uint64_t seed) {
   std::set<std::uint64_t> kept;
   for (const truth::Record& record : records) {
-    if (truth::IsFault(record)) continue;
+    if (truth::IsFault(record) || truth::IsNavigatorCrash(record)) continue;
     if (retention.all || IsInShare(seed, record.trial, retention.share)) kept.insert(record.trial);
   }
   if (retention.failures) {

@@ -65,7 +65,8 @@ struct TraceOptions {
 bool IsInShare(std::uint64_t seed, std::uint64_t trial, double share);
 
 // Returns the trials of one cell that the rules keep, ascending. Simulator faults are never kept:
-// they have no record that the trace could be held against.
+// they have no record that the trace could be held against. Nor is a drive whose navigator ended
+// the process that ran it (truth::IsNavigatorCrash): it would end this one.
 std::vector<std::uint64_t> KeptTrials(const TraceRetention& retention,
                                       const truth::RecordSchema& schema,
                                       std::span<const truth::Record> records, std::uint64_t seed);

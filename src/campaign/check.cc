@@ -21,6 +21,7 @@
 #include "report/baseline.h"
 #include "report/comparison_reference.h"
 #include "report/result_json.h"
+#include "statistics/drive_summary.h"
 #include "truth/record.h"
 
 namespace rockyard::campaign {
@@ -212,7 +213,8 @@ class BaselineComparison {
                                         .paired = checked.paired,
                                         .identical = checked.identical,
                                         .baseline = cell.metrics,
-                                        .run = {}};
+                                        .run = {},
+                                        .schema = run.schema};
     for (const statistics::BaselineMetric& metric : cell.metrics) {
       compared.run.push_back(ValuesOf(metric.name, run.schema, records));
       if (compared.run.back().empty()) {
@@ -220,6 +222,7 @@ class BaselineComparison {
             fmt::format("{}: the run has no column for {}", cell.name, metric.name));
       }
     }
+    NoteNewMetrics(cell, run.schema, records);
     if (checked.paired) {
       checked.records = CompareRecords(cell, records, compared.run);
       checked.records.only_hash = checked.records.trials == 0 && !checked.identical &&
@@ -227,6 +230,22 @@ class BaselineComparison {
     }
     report_.cells.push_back(std::move(checked));
     return compared;
+  }
+
+  // Names what the run's navigators count and the baseline does not know: nothing checks it.
+  void NoteNewMetrics(const BaselineCell& cell, const truth::RecordSchema& schema,
+                      std::span<const truth::Record> records) {
+    std::vector<std::string> names;
+    for (std::size_t column = 0; column < schema.size(); ++column) {
+      const std::string& name = schema[column].name;
+      const bool known = std::ranges::any_of(
+          cell.metrics, [&](const auto& metric) { return metric.name == name; });
+      if (!truth::IsOwnColumn(name) || known) continue;
+      if (!statistics::ColumnValues(records, column).empty()) names.push_back(name);
+    }
+    if (names.empty()) return;
+    report_.notes.push_back(fmt::format("{}: not in the baseline and not checked: {}", cell.name,
+                                        fmt::join(names, ", ")));
   }
 
   // Returns the records of the run that are compared: at most as many as the baseline has.
@@ -269,9 +288,8 @@ class BaselineComparison {
 
   static std::vector<double> ValuesOf(const std::string& name, const truth::RecordSchema& schema,
                                       std::span<const truth::Record> records) {
-    const statistics::Metric* metric = statistics::FindMetric(name);
-    auto values =
-        statistics::MetricValues(*metric, schema, records).value_or(std::vector<double>());
+    auto values = statistics::MetricValues(*statistics::FindMetric(name), schema, records)
+                      .value_or(std::vector<double>());
     for (double& value : values) value = statistics::RoundForBaseline(value);
     return values;
   }

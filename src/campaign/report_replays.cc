@@ -291,7 +291,8 @@ class Driver {
       const bool chosen = std::any_of(chosen_.begin(), chosen_.end(), [&](const auto* each) {
         return each->trial == record.trial;
       });
-      if (!chosen && !truth::IsFault(record)) chosen_.push_back(&record);
+      const bool drivable = !truth::IsFault(record) && !truth::IsNavigatorCrash(record);
+      if (!chosen && drivable) chosen_.push_back(&record);
     };
     for (const auto* trials : {&request_.examples, &request_.named}) {
       for (const std::uint64_t trial : *trials) {

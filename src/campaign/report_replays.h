@@ -94,8 +94,9 @@ struct Tracks {
 
 // Drives trials again for their true paths. The examples and the named trials come first, then the
 // first ones; of a multibody rover these are a fourth as many. Trials that are not the stored ones
-// when they are driven again have no track, and are told as one warning. Paths are simplified by 1
-// cm. Cost: that of the trials.
+// when they are driven again have no track, and are told as one warning. A drive whose navigator
+// ended the process that ran it is not driven again. Paths are simplified by 1 cm. Cost: that of
+// the trials.
 Tracks DriveTracks(const StoredRun& run, const TrackRequest& request, const Contact& contact,
                    const TrackReport& progress = {});
 

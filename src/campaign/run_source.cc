@@ -21,6 +21,7 @@
 #include "core/fields.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "experiments/make_experiment.h"
 #include "scenario/ablations.h"
 #include "scenario/load.h"
 #include "scenario/sweep.h"
@@ -138,6 +139,10 @@ scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::s
   scenario::AnchorPlugins(document, path.parent_path());
   for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
   return scenario::ReadScenario(document, defaults);
+}
+
+truth::RecordSchema ColumnsOf(const scenario::Scenario& scenario) {
+  return experiments::MakeExperiment(scenario.experiment, scenario.drive)->schema();
 }
 
 std::optional<std::vector<std::string>> SettingsOf(const fs::path& path) {
@@ -352,6 +357,18 @@ void AddColumns(report::RunComparison more, report::RunComparison& all) {
   const auto append = [](auto& from, auto& to) { to.insert(to.end(), from.begin(), from.end()); };
   append(more.columns, all.columns);
   append(more.arrived_columns, all.arrived_columns);
+  append(more.only_first, all.only_first);
+  append(more.only_second, all.only_second);
+}
+
+// Returns the columns of the first run, and what only navigators of the second one count.
+truth::RecordSchema ColumnsOfBoth(const StoredRun& first, const StoredRun& second) {
+  truth::RecordSchema columns = first.schema;
+  for (const truth::ValueInfo& column : second.schema) {
+    const bool known = truth::FindColumn(first.schema, column.name) != nullptr;
+    if (truth::IsOwnColumn(column.name) && !known) columns.push_back(column);
+  }
+  return columns;
 }
 
 }  // namespace
@@ -387,15 +404,16 @@ report::RunComparison CompareDrives(const StoredRun& first, const StoredRun& sec
   Side b(second);
   const std::size_t trials = std::max<std::size_t>(1, a.trials() + b.trials());
   const std::size_t width = std::max<std::size_t>(1, values_at_once / trials);
+  const truth::RecordSchema both = ColumnsOfBoth(first, second);
   const auto compare = [&](std::size_t from) {
-    const auto begin = first.schema.begin() + static_cast<std::ptrdiff_t>(from);
-    const std::size_t count = std::min(width, first.schema.size() - from);
+    const auto begin = both.begin() + static_cast<std::ptrdiff_t>(from);
+    const std::size_t count = std::min(width, both.size() - from);
     const truth::RecordSchema columns(begin, begin + static_cast<std::ptrdiff_t>(count));
     const report::ComparedRun& one = a.Read(columns);
     return report::CompareRuns(one, b.Read(columns));
   };
   report::RunComparison all = compare(0);
-  for (std::size_t from = width; from < first.schema.size(); from += width) {
+  for (std::size_t from = width; from < both.size(); from += width) {
     AddColumns(compare(from), all);
   }
   return all;

@@ -30,6 +30,10 @@ scenario::Scenario LoadScenarioFrom(const std::filesystem::path& path,
                                     const std::string& cell = "",
                                     const scenario::Scenario& defaults = {});
 
+// Returns the columns of the records that runs of the scenario have: those of its experiment, and
+// what its navigators count for themselves.
+truth::RecordSchema ColumnsOf(const scenario::Scenario& scenario);
+
 // Returns what the scenario of that source was changed by before: for a run its settings
 // (CampaignIdentity::settings), for a scenario file an empty list. Absent where it is not known.
 // Throws core::UserError.

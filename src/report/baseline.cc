@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -52,8 +53,8 @@ JsonValue CellJson(const BaselineCell& cell) {
   JsonValue metrics = JsonValue::Object();
   for (const statistics::BaselineMetric& each : cell.metrics) {
     margins.Set(each.name, ShortNumber(each.margin));
-    const Metric* metric = statistics::FindMetric(each.name);
-    if (metric == nullptr || metric->source != MetricSource::kOutcome) {
+    const std::optional<Metric> metric = statistics::FindMetric(each.name);
+    if (!metric || metric->source != MetricSource::kOutcome) {
       metrics.Set(each.name, core::ListOf(each.values, ShortNumber));
     }
   }
@@ -69,7 +70,7 @@ JsonValue CellJson(const BaselineCell& cell) {
 void FillBaselineCell(const truth::RecordSchema& schema, std::span<const truth::Record> records,
                       BaselineCell& cell) {
   for (const truth::Record& record : records) cell.outcomes.push_back(record.outcome);
-  for (const Metric& metric : statistics::Metrics()) {
+  for (const Metric& metric : statistics::MetricsOf(schema)) {
     auto values = statistics::MetricValues(metric, schema, records);
     if (!values || !HasValue(*values)) continue;
     for (double& value : *values) value = statistics::RoundForBaseline(value);
@@ -176,8 +177,8 @@ class Reader {
                    BaselineCell& cell) {
     for (const core::JsonMember& margin : margins.members()) {
       const std::string here = path + "margins." + margin.key;
-      const Metric* metric = statistics::FindMetric(margin.key);
-      if (metric == nullptr) {
+      const std::optional<Metric> metric = statistics::FindMetric(margin.key);
+      if (!metric) {
         if (unknown_ != nullptr) unknown_->push_back(margin.key);
         continue;
       }

@@ -43,7 +43,8 @@ struct Baseline {
 };
 
 // Fills outcomes and metrics from the records 0, 1, 2, ... of the cell: every metric that a trial
-// has a value of, rounded (RoundForBaseline), with its default margin.
+// has a value of, what navigators count for themselves among them, rounded (RoundForBaseline), with
+// its default margin.
 void FillBaselineCell(const truth::RecordSchema& schema, std::span<const truth::Record> records,
                       BaselineCell& cell);
 
@@ -51,15 +52,17 @@ void FillBaselineCell(const truth::RecordSchema& schema, std::span<const truth::
 // [...]}. A cell has name, scenario, fingerprint, seed (decimal text), trial_hash, outcomes (a
 // letter for each trial, kOutcomeLetters: G goal_reached, F false_goal, T tip_over, H high_centred,
 // J jammed, N no_path, E energy_depleted, L time_limit, A left_arena, X simulator_fault, S
-// excessive_slip), margins (by metric), metrics (by metric a list with a number or null for each
-// trial; rates of outcomes follow from outcomes), resolved. Some 250 bytes for each trial.
+// excessive_slip, V navigator_fault), margins (by metric), metrics (by metric a list with a number
+// or null for each trial; rates of outcomes follow from outcomes), resolved. Some 250 bytes for
+// each trial.
 std::string BaselineJson(const Baseline& baseline);
 
 // Whether a JSON document says that it is a baseline.
 bool IsBaseline(const core::JsonValue& json);
 
 // Reads a baseline. Throws core::UserError with every problem and its JSON path. Metrics that this
-// program does not know are left out: `unknown` gets their names.
+// program does not know are left out: `unknown` gets their names. What navigators count is known
+// by the form of its name alone.
 Baseline ParseBaseline(const core::JsonValue& json, std::vector<std::string>* unknown = nullptr);
 
 }  // namespace rockyard::report

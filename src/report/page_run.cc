@@ -196,8 +196,11 @@ std::string PageTrialsJson(const truth::RecordSchema& schema, std::span<const Re
     const std::string values = list([&](const Record& r) {
       return i < r.values.size() ? JsonSixDigits(r.values[i]) : std::string("null");
     });
-    columns.push_back(
-        ObjectText("name", schema[i].name, "unit", schema[i].unit, "values", Json{values}));
+    core::JsonObject column;
+    AddMembers(column, "name", schema[i].name, "unit", schema[i].unit);
+    // The page knows what the others are.
+    if (truth::IsOwnColumn(schema[i].name)) column.AddText("meaning", schema[i].meaning);
+    columns.push_back(column.Add("values", values).Text());
   }
   return ObjectText("trial", Json{numbers}, "outcome", Json{ends}, "outcome_names",
                     outcomes.texts(), "detail", Json{why}, "detail_texts", details.texts(),

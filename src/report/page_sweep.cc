@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/json_text.h"
@@ -95,7 +96,8 @@ std::string SettingJson(const PageSetting& setting) {
   return ObjectText("path", setting.path, "first", setting.first, "second", setting.second);
 }
 
-std::vector<std::string> Notes(const RunComparison& comparison, bool adjusted) {
+std::vector<std::string> Notes(const PageComparison& page, bool adjusted) {
+  const RunComparison& comparison = page.comparison;
   std::vector<std::string> notes;
   if (!comparison.paired) {
     notes.emplace_back("Different seeds: compared as two samples, not in pairs.");
@@ -114,6 +116,9 @@ std::vector<std::string> Notes(const RunComparison& comparison, bool adjusted) {
   notes.emplace_back(
       "Intervals are each on their own at 95 %: of thirty columns one or two exclude zero by "
       "chance.");
+  for (std::string& note : OneSidedNotes(comparison, page.first, page.second)) {
+    notes.push_back(std::move(note));
+  }
   return notes;
 }
 
@@ -138,7 +143,7 @@ std::string PageComparisonJson(const PageComparison& comparison, bool adjusted) 
   const std::string columns = ColumnsOf(result).Json(
       "trials,column as name,unit,n,n_second,first,second,difference,low,high");
   return ObjectText("first", comparison.first, "second", comparison.second, "paired", result.paired,
-                    "pairs", result.pairs, "notes", Notes(result, adjusted), "settings",
+                    "pairs", result.pairs, "notes", Notes(comparison, adjusted), "settings",
                     Json{JsonList(comparison.settings, SettingJson)}, "successes",
                     Json{JsonList(result.successes, SuccessJson)}, "columns", Json{columns});
 }

@@ -1,6 +1,7 @@
 #include "report/paired_comparison.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -247,6 +248,26 @@ void CompareAsSamples(const ComparedRun& first, const ComparedRun& second, bool 
   result.arrived_columns = UnpairedColumns(first, second, true);
 }
 
+// Returns the names of what navigators count of which this run has values.
+std::vector<std::string> OwnValuesOf(const ComparedRun& run) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < run.schema.size(); ++i) {
+    if (!truth::IsOwnColumn(run.schema[i].name)) continue;
+    if (!statistics::ColumnValues(run.records, i).empty()) names.push_back(run.schema[i].name);
+  }
+  return names;
+}
+
+// Returns the names that the other list lacks.
+std::vector<std::string> Without(const std::vector<std::string>& names,
+                                 const std::vector<std::string>& others) {
+  std::vector<std::string> left;
+  std::ranges::copy_if(names, std::back_inserter(left), [&](const std::string& name) {
+    return std::ranges::find(others, name) == others.end();
+  });
+  return left;
+}
+
 }  // namespace
 
 RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second) {
@@ -260,6 +281,10 @@ RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second) {
   } else {
     CompareAsSamples(first, second, drives, result);
   }
+  const std::vector<std::string> own_first = OwnValuesOf(first);
+  const std::vector<std::string> own_second = OwnValuesOf(second);
+  result.only_first = Without(own_first, own_second);
+  result.only_second = Without(own_second, own_first);
   return result;
 }
 
@@ -300,7 +325,7 @@ std::string ColumnLine(const ColumnComparison& column) {
 }
 
 bool IsOfAMetric(const ColumnComparison& column, statistics::MetricTrials trials) {
-  const auto metrics = statistics::Metrics();
+  const auto metrics = statistics::MetricsOf({{column.name, column.unit, ""}});
   return Least(column) > 0 && std::ranges::any_of(metrics, [&](const statistics::Metric& metric) {
            return metric.trials == trials &&
                   (metric.name == column.name || metric.columns[0] == column.name);
@@ -367,8 +392,24 @@ std::string RunComparisonText(const ComparedRun& first, const ComparedRun& secon
     text += ColumnTable(comparison.paired ? "means, both arrived" : "means, arrived", arrived);
     text += "  (arrived: declared success; trials that one of both failed are left out here)\n";
   }
+  for (const std::string& note : OneSidedNotes(comparison, "A", "B")) {
+    text += Wrapped("  " + Printable(note)) + "\n";
+  }
   if (whole) return text;
   return text + "\n  every column: --all, or --csv FILE\n";
+}
+
+std::vector<std::string> OneSidedNotes(const RunComparison& comparison, std::string_view first,
+                                       std::string_view second) {
+  std::vector<std::string> notes;
+  const auto add = [&](std::string_view run, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    notes.push_back(fmt::format("Counted by the navigator of {} alone, and left out: {}.", run,
+                                fmt::join(names, ", ")));
+  };
+  add(first, comparison.only_first);
+  add(second, comparison.only_second);
+  return notes;
 }
 
 ResultTable ColumnsOf(const RunComparison& comparison) {

@@ -60,6 +60,10 @@ struct RunComparison {
   // The columns over drives that ended in declared success: paired, in both runs. A distance to the
   // goal exists there only, but these are the easier fields: `columns` belongs beside it.
   std::vector<ColumnComparison> arrived_columns;
+  // What navigators count for themselves of which one run alone has values, as its own navigator
+  // counts it: names of columns. There is nothing to compare these with.
+  std::vector<std::string> only_first;
+  std::vector<std::string> only_second;
 };
 
 // Compares two runs. Equal seed and index mean equal rocks and equal noise, so that differences
@@ -68,15 +72,19 @@ struct RunComparison {
 // mean of the differences. Not paired: success by Newcombe (1998), method 10, from the Wilson
 // intervals; columns in the same way from the intervals of both means. A mean difference has no
 // interval where a mean of as many values has none (statistics/sample_statistics.h). No correction
-// for the number of columns: they describe.
+// for the number of columns: they describe. Columns that one schema lacks are left out.
 RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second);
 
 // Returns text of at most 100 columns: what differs between the runs, `settings` (lines), success,
 // and the columns that metrics are made of (statistics/metrics.h), with a value; with
-// `every_column` all of them.
+// `every_column` all of them. What only one run's navigator counts is named.
 std::string RunComparisonText(const ComparedRun& first, const ComparedRun& second,
                               const RunComparison& comparison, std::string_view settings = "",
                               bool every_column = false);
+
+// Returns what is left out, as only one of the runs has it, in a sentence each.
+std::vector<std::string> OneSidedNotes(const RunComparison& comparison, std::string_view first,
+                                       std::string_view second);
 
 // Returns `columns` and `arrived_columns` as one table: trials (all, arrived), column, unit, how
 // many values (least of both runs, n, n_second: none where paired), first and second mean, their

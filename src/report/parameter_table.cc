@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "report/line_text.h"
 #include "statistics/metrics.h"
 
 namespace rockyard::report {
@@ -114,19 +115,20 @@ std::string ParametersCsv(std::span<const ParameterInfo> parameters) {
       .Csv("path,kind,value,unit,origin,study_low,study_high,min,max,choices,source,doc");
 }
 
-std::string MetricTableText() {
+std::string MetricTableText(const truth::RecordSchema& schema) {
   std::string text;
-  for (const Metric& metric : statistics::Metrics()) {
+  for (const Metric& metric : statistics::MetricsOf(schema)) {
     text +=
-        fmt::format("{:<25} {:<4} {:<8} margin {:<12} from {}\n    {}\n", metric.name, metric.unit,
-                    TrialsOf(metric), MarginOf(metric), ColumnsOf(metric), metric.definition);
+        fmt::format("{:<25} {:<4} {:<8} margin {:<12} from {}\n    {}\n", Printable(metric.name),
+                    Printable(metric.unit), TrialsOf(metric), MarginOf(metric),
+                    Printable(ColumnsOf(metric)), Printable(metric.definition));
   }
   return text;
 }
 
-std::string MetricTableMarkdown() {
+std::string MetricTableMarkdown(const truth::RecordSchema& schema) {
   ResultTable table("metric,unit,trials,definition,from,margin");
-  for (const Metric& metric : statistics::Metrics()) {
+  for (const Metric& metric : statistics::MetricsOf(schema)) {
     table.Add(metric.name, metric.unit, TrialsOf(metric), metric.definition, ColumnsOf(metric),
               MarginOf(metric));
   }

@@ -10,6 +10,7 @@
 
 #include "core/field_table.h"
 #include "report/result_table.h"
+#include "truth/record.h"
 
 namespace rockyard::report {
 
@@ -34,8 +35,10 @@ std::string ParametersMarkdown(std::span<const core::ParameterInfo> parameters);
 // |), source, doc; RFC 4180.
 std::string ParametersCsv(std::span<const core::ParameterInfo> parameters);
 
-// Name, unit, trials that count, definition, record columns, default margin.
-std::string MetricTableText();      // at most 100 columns
-std::string MetricTableMarkdown();  // for src/statistics/README.md
+// Name, unit, trials that count, definition, record columns, default margin: of every metric of
+// records with these columns (statistics::MetricsOf); of drives without plugins by default.
+std::string MetricTableText(const truth::RecordSchema& schema = {});  // lines of one metric long
+std::string MetricTableMarkdown(
+    const truth::RecordSchema& schema = {});  // src/statistics/README.md
 
 }  // namespace rockyard::report

@@ -32,21 +32,20 @@ std::string Probability(double p) {
 }
 
 std::string Label(const RegressionRow& row) {
-  return row.cell.empty() ? std::string(row.metric->name)
-                          : fmt::format("{}: {}", row.cell, row.metric->name);
+  return row.cell.empty() ? row.metric.name : fmt::format("{}: {}", row.cell, row.metric.name);
 }
 
 std::string Sentence(const RegressionRow& row) {
   std::string moved = fmt::format(
       "{} {} by {} {}, from {} to {} (95 % {} to {}, Holm p {}{})", Label(row),
-      row.difference < 0.0 ? "fell" : "rose", FourDigits(std::abs(row.difference)),
-      row.metric->unit, FourDigits(row.baseline_mean), FourDigits(row.run_mean),
-      Signed(row.interval.low), Signed(row.interval.high), Probability(row.holm_p_value),
+      row.difference < 0.0 ? "fell" : "rose", FourDigits(std::abs(row.difference)), row.metric.unit,
+      FourDigits(row.baseline_mean), FourDigits(row.run_mean), Signed(row.interval.low),
+      Signed(row.interval.high), Probability(row.holm_p_value),
       std::abs(row.difference) < row.margin ? "; less than its margin" : "");
   if (row.verdict == RegressionVerdict::kChanged) return moved;
   if (row.verdict == RegressionVerdict::kEquivalent) {
     return fmt::format("{}: less than {} {} apart", Label(row), FourDigits(row.margin),
-                       row.metric->unit);
+                       row.metric.unit);
   }
   if (row.verdict == RegressionVerdict::kNoneSeen) {
     return fmt::format("{}: {} apart; the run would have seen {} with 80 %, and {} matters",
@@ -119,7 +118,7 @@ ResultTable RegressionTable(const RegressionReport& report) {
       "difference_low,difference_high,margin,p_value,p_holm,level,p_equivalence,seen_80,seen_90,"
       "trials_for_margin,family,to_see");
   for (const RegressionRow& row : report.result.rows) {
-    table.Add(row.cell, row.metric->name, row.metric->unit, Name(row.verdict), row.paired,
+    table.Add(row.cell, row.metric.name, row.metric.unit, Name(row.verdict), row.paired,
               row.baseline_count, row.run_count, row.baseline_mean, row.run_mean, row.difference,
               row.interval, row.margin, row.p_value, row.holm_p_value, row.level,
               row.equivalence_p_value, row.seen_80, row.seen_90, row.trials_for_margin,
@@ -140,7 +139,7 @@ std::string RegressionJUnit(const RegressionReport& report) {
     cases.push_back({named(cell.name), "determinism", "failure", NotDeterministic(cell)});
   }
   for (const RegressionRow& row : report.result.rows) {
-    cases.push_back({named(row.cell), std::string(row.metric->name),
+    cases.push_back({named(row.cell), row.metric.name,
                      kElements[static_cast<std::size_t>(row.verdict)], Sentence(row)});
   }
   return JUnitReport(report.baseline, cases);
@@ -213,11 +212,14 @@ std::string TableHead() {
                      "baseline", "run", "difference", "margin", "Holm p", "seen 80 %");
 }
 
+// What navigators count may have longer names than the column is wide.
+constexpr std::size_t kMetricWidth = 24;
+
 std::string RegressionLine(const RegressionRow& row) {
   return fmt::format("  {:<13}{:<25}{:>10}{:>10}{:>11}{:>10}{:>9}{:>10}\n", Name(row.verdict),
-                     row.metric->name, FourDigits(row.baseline_mean), FourDigits(row.run_mean),
-                     Signed(row.difference), FourDigits(row.margin), Probability(row.holm_p_value),
-                     FourDigits(row.seen_80));
+                     Cut(Printable(row.metric.name), kMetricWidth), FourDigits(row.baseline_mean),
+                     FourDigits(row.run_mean), Signed(row.difference), FourDigits(row.margin),
+                     Probability(row.holm_p_value), FourDigits(row.seen_80));
 }
 
 // Whether kThatMatter shows the row: what is undecided in the secondary family decides nothing, and

@@ -69,6 +69,7 @@ std::vector<DistanceStep> DistanceSteps(const truth::RecordSchema& schema,
   if (!column) return distances;
   const std::vector<double> values = statistics::ColumnValues(records, *column);
   const auto durations = statistics::GoalDurations(records, *column);
+  const auto drives = static_cast<double>(durations.size());
   // Where trials share layouts each layout says as much as one trial, whatever their dependence.
   const std::vector<std::size_t> groups = statistics::DependentGroups(schema, records);
   const auto layouts =
@@ -95,11 +96,10 @@ std::vector<DistanceStep> DistanceSteps(const truth::RecordSchema& schema,
                         share * static_cast<double>(sorted.size()))) {
     while (next < steps.size() && steps[next].at <= point.value) now = steps[next++];
     const auto ended = std::upper_bound(limits.begin(), limits.end(), point.value);
-    distances.push_back(
-        {.all = point,
-         .goal = now,
-         .limit = static_cast<double>(ended - limits.begin()) / static_cast<double>(sorted.size()),
-         .at_risk = sorted.size() - passed});
+    distances.push_back({.all = point,
+                         .goal = now,
+                         .limit = static_cast<double>(ended - limits.begin()) / drives,
+                         .at_risk = sorted.size() - passed});
     while (passed < sorted.size() && sorted[passed] <= point.value) ++passed;
   }
   return distances;

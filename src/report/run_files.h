@@ -78,6 +78,9 @@ std::array<double, kDistanceColumns.size()> DistanceNumbers(const DistanceStep& 
 //   at_risk                      runs still under way just before this distance
 //   limit                        share that patience or time had ended: neither arrived nor failed,
 //                                so that at most goal + limit could have arrived so far
+// Of a drive that was never measured (truth::IsNavigatorCrash) no distance is known: it is in no
+// number of ecdf and at_risk, and stays among those that `goal`, `failure` and `limit` are shares
+// of, so that goal and failure end below 1 together.
 // `records` must be a contiguous prefix. Only the header where there is no column true_distance_m.
 // Memory: 250 bytes a record.
 void DistanceCdfCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,

@@ -87,7 +87,7 @@ void AddColumns(const DriveSummary& summary, JsonValue& json) {
 JsonValue MetricsJson(const std::vector<statistics::MetricSummary>& metrics) {
   JsonValue json = JsonValue::Object();
   for (const statistics::MetricSummary& summary : metrics) {
-    if (summary.count > 0) json.Set(summary.metric->name, MetricJson(summary));
+    if (summary.count > 0) json.Set(summary.metric.name, MetricJson(summary));
   }
   return json;
 }
@@ -232,7 +232,7 @@ JsonValue RateJson(const statistics::Proportion& rate) {
 JsonValue MetricJson(const statistics::MetricSummary& summary) {
   JsonValue json =
       ObjectTree("count", summary.count, "mean", summary.mean, "ci95", summary.interval);
-  if (summary.metric->kind == statistics::MetricKind::kRate) {
+  if (summary.metric.kind == statistics::MetricKind::kRate) {
     SetMembers(json, "ci_method", statistics::MethodName(summary.method));
     return json;
   }

@@ -212,6 +212,27 @@ std::string MetricLine(const TableRow& row, const statistics::MetricSummary& met
   return line + "\n" + ApartLine(metric);
 }
 
+// The metrics of what navigators count for themselves of which drives have values.
+std::string OwnLines(const DriveSummary& summary) {
+  constexpr std::size_t kMostOwn = 12;
+  constexpr std::size_t kLabel = 24;
+  std::string text;
+  std::size_t shown = 0;
+  std::size_t all = 0;
+  for (const statistics::MetricSummary& metric : summary.metrics) {
+    if (!truth::IsOwnColumn(metric.metric.name) || metric.count < 2) continue;
+    if (++all > kMostOwn) continue;
+    ++shown;
+    const std::string& unit = metric.metric.unit;
+    const std::string label =
+        unit == "1" ? metric.metric.name : fmt::format("{} [{}]", metric.metric.name, unit);
+    const std::string cut = Cut(Printable(label), kLabel);
+    text += MetricLine({.column = metric.metric.name, .label = cut}, metric);
+  }
+  if (all > shown) text += fmt::format("  and {} more: summary.json\n", all - shown);
+  return text;
+}
+
 // Means and medians with their intervals, of what the table above has not.
 std::string MetricLines(const DriveSummary& summary) {
   const TableRow rows[] = {{"time_to_goal_s", "time to goal [s]"},
@@ -224,10 +245,11 @@ std::string MetricLines(const DriveSummary& summary) {
   std::string text;
   for (const TableRow& row : rows) {
     const auto found = std::find_if(summary.metrics.begin(), summary.metrics.end(),
-                                    [&](const auto& m) { return m.metric->name == row.column; });
+                                    [&](const auto& m) { return m.metric.name == row.column; });
     if (found == summary.metrics.end() || found->count < 2) continue;
     text += MetricLine(row, *found);
   }
+  text += OwnLines(summary);
   if (text.empty()) return text;
   return fmt::format("  {:<24} {:>9} {:>22} {:>9} {:>22}\n", "", "mean", "95 % interval", "median",
                      "95 % interval") +
@@ -236,9 +258,8 @@ std::string MetricLines(const DriveSummary& summary) {
 
 // What a reader of the numbers above must know of the soil.
 std::string SoilLine(const DriveSummary& summary) {
-  const auto found =
-      std::find_if(summary.metrics.begin(), summary.metrics.end(),
-                   [](const auto& m) { return m.metric->name == "beyond_soil_law"; });
+  const auto found = std::find_if(summary.metrics.begin(), summary.metrics.end(),
+                                  [](const auto& m) { return m.metric.name == "beyond_soil_law"; });
   if (found == summary.metrics.end() || found->count == 0 || found->mean == 0.0) return "";
   return fmt::format(
       "  note: in {:.1f} % of the trials a wheel sank deeper than a sixth of its diameter, to "

@@ -92,7 +92,7 @@ std::string SweepCurvesCsv(const Sweep& sweep, const SweepSummary& summary) {
     for (const statistics::MetricSummary& metric : summary.cells[i].metrics) {
       CsvRow row(i);
       AddLevels(sweep.cells[i], row);
-      row.Add(metric.metric->name, metric.metric->unit, metric.count, metric.mean, metric.interval,
+      row.Add(metric.metric.name, metric.metric.unit, metric.count, metric.mean, metric.interval,
               metric.median, metric.median_interval);
       csv += row.Line();
     }
@@ -180,7 +180,7 @@ JsonValue Outcomes(const SweepCellSummary& cell) {
 JsonValue Metrics(const SweepCellSummary& cell) {
   JsonValue metrics = JsonValue::Object();
   for (const statistics::MetricSummary& metric : cell.metrics) {
-    metrics.Set(metric.metric->name, MetricJson(metric));
+    metrics.Set(metric.metric.name, MetricJson(metric));
   }
   return metrics;
 }

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "report/line_text.h"
 #include "report/run_description.h"
@@ -33,13 +35,24 @@ std::string RateColumn(const statistics::Proportion& rate) {
                      100.0 * rate.interval.high);
 }
 
-std::string Mean(const SweepCellSummary& cell, std::string_view metric) {
+std::string CellNumber(double value) {
+  if (!std::isfinite(value)) return "-";
+  if (std::fabs(value) >= kHugeCell) return fmt::format("{:.0e}", value);
+  return fmt::format("{:.{}f}", value, std::fabs(value) < 100.0 ? 2 : 0);
+}
+
+// Returns a metric of a cell; null where the cell has none of that name.
+const statistics::MetricSummary* FindSummary(const SweepCellSummary& cell,
+                                             std::string_view metric) {
   const auto found = std::find_if(
       cell.metrics.begin(), cell.metrics.end(),
-      [&](const statistics::MetricSummary& each) { return each.metric->name == metric; });
-  if (found == cell.metrics.end() || !std::isfinite(found->mean)) return "-";
-  if (std::fabs(found->mean) >= kHugeCell) return fmt::format("{:.0e}", found->mean);
-  return fmt::format("{:.{}f}", found->mean, std::fabs(found->mean) < 100.0 ? 2 : 0);
+      [&](const statistics::MetricSummary& each) { return each.metric.name == metric; });
+  return found == cell.metrics.end() ? nullptr : &*found;
+}
+
+std::string Mean(const SweepCellSummary& cell, std::string_view metric) {
+  const statistics::MetricSummary* found = FindSummary(cell, metric);
+  return found == nullptr ? "-" : CellNumber(found->mean);
 }
 
 // Returns a number in five columns; cells.csv has every digit.
@@ -127,6 +140,58 @@ std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle
          "  (intervals of 95 % for a cell alone; path ratio, time [s] and energy [Wh]: means of "
          "arrivals)\n" +
          LimitLine(sweep, summary);
+}
+
+// Returns the names of what navigators count for themselves of which some cell has a value.
+std::vector<std::string> OwnNames(const SweepSummary& summary) {
+  std::vector<std::string> names;
+  for (const SweepCellSummary& cell : summary.cells) {
+    for (const statistics::MetricSummary& each : cell.metrics) {
+      const std::string& name = each.metric.name;
+      if (!truth::IsOwnColumn(name) || each.count == 0) continue;
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+constexpr std::size_t kOwnWidth = 23;
+
+// Returns the mean, with its interval where there is one that has room.
+std::string OwnMean(const SweepCellSummary& cell, std::string_view name) {
+  const statistics::MetricSummary* found = FindSummary(cell, name);
+  if (found == nullptr) return "-";
+  std::string mean = CellNumber(found->mean);
+  if (!std::isfinite(found->interval.low)) return mean;
+  std::string both = fmt::format("{} ({} .. {})", mean, CellNumber(found->interval.low),
+                                 CellNumber(found->interval.high));
+  return both.size() <= kOwnWidth ? both : mean;
+}
+
+// The means of what navigators count for themselves, three columns of them; "-" in the cells that
+// another navigator drove.
+std::string OwnTable(const Sweep& sweep, const SweepSummary& summary) {
+  constexpr std::size_t kMostOwn = 3;
+  const std::vector<std::string> names = OwnNames(summary);
+  if (names.empty()) return "";
+  const auto shown = std::span(names).first(std::min(names.size(), kMostOwn));
+  std::string text = fmt::format("\n  {:<{}}", "counted by navigators", kLabelWidth);
+  for (const std::string& name : shown) {
+    text += fmt::format(" {:>{}}", Cut(Printable(name), kOwnWidth), kOwnWidth);
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < std::min(summary.cells.size(), kMaxCells); ++i) {
+    text += fmt::format("  {:<{}}", Cut(Label(sweep, i), kLabelWidth), kLabelWidth);
+    for (const std::string& name : shown) {
+      text += fmt::format(" {:>{}}", OwnMean(summary.cells[i], name), kOwnWidth);
+    }
+    text += "\n";
+  }
+  text += "  (means of all trials, with intervals of 95 % for a cell alone";
+  if (names.size() > shown.size()) {
+    text += fmt::format("; {} more: curves.csv", names.size() - shown.size());
+  }
+  return text + ")\n";
 }
 
 // Tells where the rule ended each cell.
@@ -231,8 +296,8 @@ std::string Differences(const SweepSummary& summary) {
 std::string SweepText(const Sweep& sweep, const SweepSummary& summary,
                       const SweepDescription& description, TextStyle style) {
   std::string text = Head(sweep, summary) + CellTable(sweep, summary, style) +
-                     Stops(sweep, summary) + Fits(sweep, summary) + Differences(summary) +
-                     AttributionText(summary.attributions);
+                     OwnTable(sweep, summary) + Stops(sweep, summary) + Fits(sweep, summary) +
+                     Differences(summary) + AttributionText(summary.attributions);
   for (const std::string& note : summary.notes) text += Wrapped("  " + Printable(note)) + "\n";
   return text + fmt::format("  trial hash {}\n", description.trial_hash);
 }

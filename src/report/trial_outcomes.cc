@@ -59,9 +59,14 @@ namespace {
 
 using truth::TrialOutcome;
 
+// Whether the trial can be driven again to be looked at.
+bool CanBeShown(const truth::Record& record) {
+  return !truth::IsFault(record) && record.outcome != TrialOutcome::kMeasured &&
+         !truth::IsNavigatorCrash(record);
+}
+
 bool Failed(const truth::Record& record) {
-  return !truth::IsFault(record) && record.outcome != truth::TrialOutcome::kGoalReached &&
-         record.outcome != truth::TrialOutcome::kMeasured;
+  return CanBeShown(record) && record.outcome != TrialOutcome::kGoalReached;
 }
 
 using Ended = std::vector<std::pair<double, std::uint64_t>>;  // distance and number of each trial
@@ -117,7 +122,7 @@ std::vector<std::uint64_t> ExampleTrials(const truth::RecordSchema& schema,
   const auto column = statistics::ColumnIndex(schema, "true_distance_m");
   std::array<Ended, truth::kTrialOutcomeNames.size()> by_outcome;
   for (const truth::Record& record : records) {
-    if (truth::IsFault(record) || record.outcome == TrialOutcome::kMeasured) continue;
+    if (!CanBeShown(record)) continue;
     by_outcome[static_cast<std::size_t>(record.outcome)].emplace_back(DistanceOf(record, column),
                                                                       record.trial);
   }

@@ -56,7 +56,9 @@ class CellOutcomes {
 };
 
 // Returns the trials that ended other than goal_reached, simulator faults and measurements left
-// out: the failures of the rover. By trial number.
+// out: the failures of the rover. By trial number. Here and in the next two, a trial whose
+// navigator ended the process that ran it (truth::IsNavigatorCrash) is left out, too: these trials
+// are driven again to be shown, and it would end that process as well.
 std::vector<std::uint64_t> FailedTrials(std::span<const truth::Record> records);
 
 // Returns true_goal_distance_m of the record, whose schema has it in that column; infinity where it

@@ -14,6 +14,7 @@
 #include "core/numbers.h"
 #include "core/random.h"
 #include "statistics/sample_statistics.h"
+#include "truth/measurement_record.h"
 
 namespace rockyard::statistics {
 
@@ -103,19 +104,56 @@ Proportion RateOfRuns(std::span<const CountOfRun> runs, bool independent, double
   return rate;
 }
 
-std::vector<std::size_t> DependentGroups(const truth::RecordSchema& schema,
-                                         std::span<const truth::Record> records) {
+namespace {
+
+// Returns how many trials share a layout, by the trials that tell theirs. Trial t of layout k = t /
+// n (trial/course/layout.h) says that n is above t / (k + 1), and the last one of any layout that n
+// is just above.
+std::uint64_t TrialsPerLayout(std::span<const truth::Record> records,
+                              std::span<const double> layouts) {
+  std::uint64_t shared = 1;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (!(layouts[i] >= 0.0)) continue;
+    const auto layout = static_cast<std::uint64_t>(layouts[i]);
+    shared = std::max(shared, records[i].trial / (layout + 1) + 1);
+  }
+  return shared;
+}
+
+}  // namespace
+
+std::vector<double> LayoutsOf(const truth::RecordSchema& schema,
+                              std::span<const truth::Record> records) {
+  std::vector<double> layouts(records.size(), core::kNaN);
   const auto column = std::find_if(schema.begin(), schema.end(), [](const truth::ValueInfo& info) {
     return info.name == "layout";
   });
-  if (column == schema.end()) return {};
+  if (column == schema.end()) return layouts;
   const auto at = static_cast<std::size_t>(column - schema.begin());
+  bool untold = false;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (at < records[i].values.size()) layouts[i] = records[i].values[at];
+    untold = untold || (!std::isfinite(layouts[i]) && !IsFault(records[i]));
+  }
+  if (!untold) return layouts;
+  const std::uint64_t shared = TrialsPerLayout(records, layouts);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (std::isfinite(layouts[i]) || IsFault(records[i])) continue;
+    layouts[i] = static_cast<double>(records[i].trial / shared);
+  }
+  return layouts;
+}
+
+std::vector<std::size_t> DependentGroups(const truth::RecordSchema& schema,
+                                         std::span<const truth::Record> records) {
+  if (truth::FindColumn(schema, "layout") == nullptr) return {};
+  const std::vector<double> of_trials = LayoutsOf(schema, records);
   std::map<double, std::size_t> layouts;
   std::vector<std::size_t> groups;
   for (std::size_t i = 0; i < records.size(); ++i) {
     // What a fault leaves has no layout, and is in no rate.
-    const bool told = at < records[i].values.size() && std::isfinite(records[i].values[at]);
-    const double layout = told ? records[i].values[at] : -1.0 - static_cast<double>(i);
+    const double layout =
+        std::isfinite(of_trials[i]) ? of_trials[i] : -1.0 - static_cast<double>(i);
     groups.push_back(layouts.emplace(layout, layouts.size()).first->second);
   }
   if (layouts.size() == records.size()) groups.clear();

@@ -42,6 +42,12 @@ Proportion RateOfRuns(std::span<const CountOfRun> runs, bool independent = false
                       double confidence = kConfidence,
                       IntervalMethod method = IntervalMethod::kWilson);
 
+// Returns the layout of rocks of each trial (the column "layout"; course.trials_per_layout). A
+// drive that was never measured (truth::IsNavigatorCrash) tells none: it has the one that those
+// beside it tell, as n trials after each other share one. NaN where nothing tells.
+std::vector<double> LayoutsOf(const truth::RecordSchema& schema,
+                              std::span<const truth::Record> records);
+
 // Returns for each trial the number of its group, from 0. Trials of one group hang together, as
 // they share a layout of rocks (the column "layout"; course.trials_per_layout). The list is empty
 // where all trials are independent: no two share a layout, or no column tells. Every rate, mean and

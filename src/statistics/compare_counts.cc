@@ -49,14 +49,14 @@ double TowardsHalf(double rate) {
 
 // Successes and trials of each layout, where the records tell layouts apart.
 std::vector<LayoutCount> Layouts(const PublishedValue& published, const ScenarioRun& run) {
-  const auto column = ColumnIndex(run.schema, "layout");
-  if (!column) return {};
+  const std::vector<double> of_trials = LayoutsOf(run.schema, run.records);
   std::map<double, LayoutCount> layouts;
-  for (const truth::Record& record : run.records) {
-    if (IsFault(record) || *column >= record.values.size()) continue;
-    LayoutCount& layout = layouts[record.values[*column]];
+  for (std::size_t i = 0; i < of_trials.size(); ++i) {
+    // A number that is none has no place in a map.
+    if (IsFault(run.records[i]) || !std::isfinite(of_trials[i])) continue;
+    LayoutCount& layout = layouts[of_trials[i]];
     ++layout.trials;
-    if (Contains(published.outcomes, record.outcome)) ++layout.successes;
+    if (Contains(published.outcomes, run.records[i].outcome)) ++layout.successes;
   }
   std::vector<LayoutCount> counts;
   counts.reserve(layouts.size());

@@ -37,6 +37,7 @@ std::vector<RatioTerm> TermsOf(const PublishedValue& published) {
 
 bool Counts(const PublishedValue& published, const ScenarioRun& run, const truth::Record& record) {
   if (IsFault(record) || record.values.size() != run.schema.size()) return false;
+  if (truth::IsNavigatorCrash(record)) return false;
   return std::all_of(published.where.begin(), published.where.end(), [&](const ColumnRange& range) {
     const auto column = ColumnIndex(run.schema, range.column);
     return column && record.values[*column] >= range.low && record.values[*column] <= range.high;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/numbers.h"
 
 namespace rockyard::statistics {
 namespace {
@@ -122,7 +123,7 @@ std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> duratio
   EXPECT(confidence > 0.0 && confidence < 1.0);
   std::vector<Duration> sorted;
   std::copy_if(durations.begin(), durations.end(), std::back_inserter(sorted),
-               [](const Duration& d) { return std::isfinite(d.at); });
+               [](const Duration& d) { return !std::isnan(d.at); });
   std::sort(sorted.begin(), sorted.end(),
             [](const Duration& a, const Duration& b) { return a.at < b.at; });
   std::vector<IncidenceStep> steps;
@@ -170,7 +171,9 @@ std::vector<Duration> GoalDurations(std::span<const truth::Record> records, std:
     if (record.outcome == TrialOutcome::kSimulatorFault || column >= record.values.size()) continue;
     const bool reached = success == Success::kTrue ? record.outcome == TrialOutcome::kGoalReached
                                                    : truth::DeclaredSuccess(record.outcome);
-    durations.push_back({record.values[column], reached ? EndKind::kEvent : EndKind::kCompeting});
+    double at = record.values[column];
+    if (std::isnan(at) && !reached) at = core::kInfinity;
+    durations.push_back({at, reached ? EndKind::kEvent : EndKind::kCompeting});
   }
   return durations;
 }

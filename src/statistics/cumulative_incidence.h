@@ -20,7 +20,7 @@ enum class EndKind {
 };
 
 struct Duration {
-  double at = 0.0;  // distance driven (or time) at the end, >= 0
+  double at = 0.0;  // distance driven (or time) at the end, >= 0; infinite where unknown
   EndKind kind = EndKind::kCensored;
 };
 
@@ -40,7 +40,8 @@ struct IncidenceStep {
 // Returns the Aalen-Johansen estimate, one step per distinct distance with an event or a competing
 // event. The variance is by the delta method (Marubini and Valsecchi 1995, eq. 10.12). As long as
 // nothing was censored the incidences are the counts over all trials, to the last bit, and the
-// variance is the binomial one. Entries whose distance is not finite are left out. Where entries
+// variance is the binomial one. Entries whose distance is not a number are left out; those at
+// infinity are at risk throughout and end in a step of their own, the last. Where entries
 // hang together, `share` is below 1: bands and standard errors are those of `share` times as many
 // entries. Cost: n log n.
 std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> durations,
@@ -52,7 +53,9 @@ enum class Success { kDeclared, kTrue };
 // Returns the ends of trials where the event is reaching the goal; `column` has the distance
 // driven. A simulator fault is no observation, all else competes. A time limit competes too: it is
 // a condition of the scenario, and it ends the slow and the lost, so that to censor them would be
-// to assume that they would arrive as the others do. So the curve ends at the success rate.
+// to assume that they would arrive as the others do. So the curve ends at the success rate. A trial
+// that did not arrive and whose distance is not known (truth::IsNavigatorCrash) ends at infinity:
+// it counts among those that could have arrived, wherever it ended.
 std::vector<Duration> GoalDurations(std::span<const truth::Record> records, std::size_t column,
                                     Success success = Success::kDeclared);
 

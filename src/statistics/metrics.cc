@@ -86,7 +86,7 @@ MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> valu
                               std::span<const std::size_t> groups) {
   const std::vector<double> sorted = SortedFinite(values);
   const Moments moments = MomentsOf(sorted);
-  MetricSummary summary{.metric = &metric,
+  MetricSummary summary{.metric = metric,
                         .count = moments.count(),
                         .mean = moments.mean(),
                         .deviation = moments.standard_deviation(),
@@ -116,7 +116,7 @@ std::vector<MetricSummary> SummarizeMetrics(const truth::RecordSchema& schema,
                                             std::optional<truth::TrialOutcome> outcome) {
   std::vector<MetricSummary> summaries;
   const std::vector<std::size_t> groups = DependentGroups(schema, records);
-  for (const Metric& metric : Metrics()) {
+  for (const Metric& metric : MetricsOf(schema)) {
     if (outcome &&
         (metric.source == MetricSource::kOutcome || metric.source == MetricSource::kCause)) {
       continue;

@@ -1,5 +1,6 @@
 // The numbers that people ask of drives, each defined here (the table: metric_table.cc) and nowhere
-// else. Summaries, sweeps, comparisons of runs, baselines and `rockyard metrics` take them from
+// else, but for what navigators count for themselves, which the columns of their records define.
+// Summaries, sweeps, comparisons of runs, baselines and `rockyard metrics` take them from
 // here. Baselines hold the names, and values as MetricValues gives them: a check leaves out a name
 // that it does not know (its exit code is then 4 at best), and takes another definition for a
 // change of the build.
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,15 +40,15 @@ enum class MetricSource {
 };
 
 struct Metric {
-  std::string_view name;
-  std::string_view unit;
-  std::string_view definition;  // one sentence
+  std::string name;
+  std::string unit;
+  std::string definition;  // one sentence
   MetricKind kind = MetricKind::kMean;
   MetricTrials trials = MetricTrials::kAll;
   MetricSource source = MetricSource::kColumn;
-  std::array<std::string_view, 2> columns{};  // of the record
-  std::uint32_t outcomes = 0;                 // one bit for each, kOutcome only
-  std::uint32_t causes = 0;                   // one bit for each, kCause only
+  std::array<std::string, 2> columns{};  // of the record
+  std::uint32_t outcomes = 0;            // one bit for each, kOutcome only
+  std::uint32_t causes = 0;              // one bit for each, kCause only
   // Differences below max(margin, relative_margin |mean|) do not matter, unless a user says
   // otherwise: default of the equivalence tests, a convention and no result.
   double margin = 0.0;
@@ -55,9 +57,19 @@ struct Metric {
   std::int64_t fewest_for_mean = kFewestForMean;
 };
 
-// Returns all metrics, in the order of reports.
+// Returns the metrics of all drives, in the order of reports.
 std::span<const Metric> Metrics();
-const Metric* FindMetric(std::string_view name);  // nullptr where there is none
+
+// Returns the metrics of records with these columns: Metrics(), then one for each column of what a
+// navigator counts for itself (truth::IsOwnColumn), of its name. That is a mean over all trials;
+// trials that another navigator drove have no value.
+std::vector<Metric> MetricsOf(const truth::RecordSchema& schema);
+
+// Returns the metric of that name: one of Metrics(), or that of a navigator's own value. The unit
+// and the definition of the latter stand in the schema, and are empty where it lacks the column: a
+// baseline may have been made with a plugin that counted something else. nullopt where there is
+// none.
+std::optional<Metric> FindMetric(std::string_view name, const truth::RecordSchema& schema = {});
 
 // Returns the difference below which a metric whose mean is `mean` counts as unchanged, in the
 // metric's unit. It is always above 0: where neither margin says anything (a mean of 0), any
@@ -76,7 +88,7 @@ std::optional<std::vector<double>> MetricValues(const Metric& metric,
 
 // A metric over some trials. What is undefined is NaN.
 struct MetricSummary {
-  const Metric* metric = nullptr;
+  Metric metric;
   std::int64_t count = 0;  // trials with a value
   double mean = 0.0;       // the rate, of a rate
   double deviation = 0.0;  // unbiased standard deviation
@@ -98,8 +110,8 @@ MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> valu
                               IntervalMethod method = IntervalMethod::kWilson,
                               std::span<const std::size_t> groups = {});
 
-// Summarizes every metric whose columns the schema has. With `outcome`, it is over trials that
-// ended so (rates of outcomes are then left out).
+// Summarizes every metric of MetricsOf whose columns the schema has. With `outcome`, it is over
+// trials that ended so (rates of outcomes are then left out).
 std::vector<MetricSummary> SummarizeMetrics(const truth::RecordSchema& schema,
                                             std::span<const truth::Record> records,
                                             IntervalMethod method = IntervalMethod::kWilson,

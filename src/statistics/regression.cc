@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "core/check.h"
@@ -50,7 +51,7 @@ RegressionRow MakeRow(const RegressionCell& cell, std::size_t index, const Metri
                       const RegressionSamples& samples) {
   const BaselineMetric& baseline = cell.baseline[index];
   RegressionRow row{
-      .cell = cell.name, .metric = &metric, .primary = IsPrimary(metric), .paired = cell.paired};
+      .cell = cell.name, .metric = metric, .primary = IsPrimary(metric), .paired = cell.paired};
   row.margin = baseline.margin;
   Describe(samples, baseline.values, cell.run[index], row);
   TestSamples(samples, row);
@@ -120,8 +121,8 @@ RegressionResult CheckRegression(std::span<const RegressionCell> cells,
   for (const RegressionCell& cell : cells) {
     EXPECT(cell.run.size() == cell.baseline.size());
     for (std::size_t i = 0; i < cell.baseline.size(); ++i) {
-      const Metric* metric = FindMetric(cell.baseline[i].name);
-      if (metric == nullptr) continue;
+      const std::optional<Metric> metric = FindMetric(cell.baseline[i].name, cell.schema);
+      if (!metric) continue;
       if (!HasValue(cell.baseline[i].values) && !HasValue(cell.run[i])) continue;
       samples.push_back(TakeSamples(cell.paired, cell.baseline[i].values, cell.run[i]));
       result.rows.push_back(MakeRow(cell, i, *metric, samples.back()));

@@ -28,6 +28,7 @@
 
 #include "statistics/metrics.h"
 #include "statistics/proportions.h"
+#include "truth/record.h"
 
 namespace rockyard::statistics {
 
@@ -55,6 +56,8 @@ struct RegressionCell {
   std::span<const BaselineMetric> baseline;
   // The values of the run, in the order of `baseline`; empty where the run has no such metric.
   std::vector<std::vector<double>> run;
+  // The run's columns, which tell of what its navigator counts for itself.
+  truth::RecordSchema schema = {};
 };
 
 // Power with which a shift that matters must be seen, for its absence to say something: as
@@ -86,7 +89,7 @@ enum class RegressionVerdict {
 
 struct RegressionRow {
   std::string cell;
-  const Metric* metric = nullptr;
+  Metric metric;
   bool primary = false;
   bool paired = false;
   std::int64_t baseline_count = 0;  // pairs, where paired

@@ -224,7 +224,7 @@ Spread SpreadOf(const RegressionSamples& samples) {
 
 void TestSamples(const RegressionSamples& samples, RegressionRow& row) {
   if (samples.empty()) return;
-  if (row.metric->kind == MetricKind::kRate) {
+  if (row.metric.kind == MetricKind::kRate) {
     TestRate(samples, row);
   } else {
     TestMean(samples, row);
@@ -258,8 +258,8 @@ void RegressionPower::Fill(const RegressionSamples& samples, double equivalence_
                            RegressionRow& row) {
   row.seen_80 = row.seen_90 = kNaN;
   if (samples.empty()) return;
-  row.metric->kind == MetricKind::kRate ? FillRate(samples, row)
-                                        : FillMean(samples, equivalence_alpha, row);
+  row.metric.kind == MetricKind::kRate ? FillRate(samples, row)
+                                       : FillMean(samples, equivalence_alpha, row);
 }
 
 void RegressionPower::FillRate(const RegressionSamples& samples, RegressionRow& row) {

@@ -3,7 +3,9 @@
 /// records; stores, summaries, comparisons and reports read them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -84,6 +86,15 @@ struct ValueInfo {
 /// The columns of every record of one experiment, in order.
 using RecordSchema = std::vector<ValueInfo>;
 
+/// Return the name of the column that holds what a navigator counts for itself, and whether a
+/// column has such a name. No other column has a dot in its name.
+inline std::string OwnColumn(std::string_view navigator, std::string_view value) {
+  return std::string(navigator) + "." + std::string(value);
+}
+constexpr bool IsOwnColumn(std::string_view name) {
+  return name.find('.') != std::string_view::npos;
+}
+
 /// What is kept of one trial.
 struct Record {
   std::uint64_t trial = 0;  ///< index in the campaign
@@ -102,6 +113,14 @@ inline bool IsFault(const Record& record) {
 inline Record MakeNavigatorCrash(std::uint64_t trial, std::string detail, std::size_t columns) {
   return {trial, TrialOutcome::kNavigatorFault, std::move(detail),
           std::vector<double>(columns, std::numeric_limits<double>::quiet_NaN())};
+}
+
+/// Returns whether nothing of a drive was measured since its navigator ended the process that ran
+/// it. Whoever drove it again would lose a process, too.
+inline bool IsNavigatorCrash(const Record& record) {
+  return record.outcome == TrialOutcome::kNavigatorFault &&
+         std::none_of(record.values.begin(), record.values.end(),
+                      [](double value) { return std::isfinite(value); });
 }
 
 /// Makes the record of a fault; its detail says how to run that trial again.

@@ -122,6 +122,18 @@ TEST(TraceRetention, AllButFaults) {
   EXPECT_THAT(Kept({"share:1"}, 100), SizeIs(90));
 }
 
+// Their drive would end this process too.
+TEST(TraceRetention, ADriveWhoseNavigatorEndedItsProcessLeavesNoTrace) {
+  std::vector<truth::Record> records = Records(30);
+  records[3] = truth::MakeNavigatorCrash(3, "crashed", kSchema.size());
+  records[6].outcome = TrialOutcome::kNavigatorFault;  // that reported an error
+  for (const char* rule : {"all", "share:1", "failures", "worst:30"}) {
+    const auto kept = KeptTrials(TraceOptions{.rules = {rule}}.retention(), kSchema, records, 1);
+    EXPECT_THAT(kept, testing::AllOf(testing::Not(testing::Contains(3)), testing::Contains(6)))
+        << rule;
+  }
+}
+
 TEST(TraceRetention, WorstAreFailures) {
   EXPECT_THAT(Kept({"worst:3"}, 200), IsSubsetOf(Kept({"failures"}, 200)));
   EXPECT_THAT(Kept({"worst:3", "worst:5"}, 200), SizeIs(5));

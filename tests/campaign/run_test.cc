@@ -207,6 +207,27 @@ TEST_F(SmallRuns, ColumnsComparedInPartsAreThoseOfTheWhole) {
   }
 }
 
+// What only one run's navigator counts is told once, however the columns are parted.
+TEST_F(SmallRuns, ColumnsOfOneRunAreToldOfEachPart) {
+  RunRequest own = Request("own", 4);
+  own.campaign.overrides.emplace_back(std::string(R"(plugins=[{"library": ")") +
+                                      COUNTING_NAVIGATOR + R"("}])");
+  own.campaign.overrides.emplace_back("navigation.navigator=counter");
+  ASSERT_EQ(campaign::Run(Request("plain", 4)).outcome, Outcome::kDone);
+  ASSERT_EQ(campaign::Run(own).outcome, Outcome::kDone);
+  const StoredRun counts = ReadRun(Path("own"), "", StoredValues::kNone);
+  const StoredRun plain = ReadRun(Path("plain"), "", StoredValues::kNone);
+  for (const std::size_t values : {10000, 8 * 7, 1}) {
+    const report::RunComparison second = CompareDrives(plain, counts, values);
+    EXPECT_THAT(second.only_first, testing::IsEmpty());
+    EXPECT_THAT(second.only_second, testing::ElementsAre("counter.decisions", "counter.last_s"));
+    const report::RunComparison first = CompareDrives(counts, plain, values);
+    EXPECT_EQ(first.only_first, second.only_second);
+    EXPECT_EQ(first.columns.size(), second.columns.size());
+    EXPECT_THAT(CompareDrives(counts, counts, values).only_first, testing::IsEmpty());
+  }
+}
+
 TEST_F(SmallRuns, ARunWithoutValuesHasOutcomesAlone) {
   ASSERT_EQ(campaign::Run(Request("a", 3)).outcome, Outcome::kDone);
   const StoredRun run = ReadRun(Path("a"), "", StoredValues::kNone);

@@ -172,7 +172,7 @@ void Power(const std::vector<Pool>& pools, std::size_t changed_cell, const std::
     const RegressionResult result = campaign.Check(pools, true);
     tally.Add(result);
     tally.found += std::any_of(result.rows.begin(), result.rows.end(), [&](const auto& row) {
-      return row.cell == pool.name && row.metric->name == metric &&
+      return row.cell == pool.name && row.metric.name == metric &&
              row.verdict == RegressionVerdict::kChanged;
     });
   }

@@ -147,7 +147,7 @@ TEST(DependentGroups, DecideTheRatesOfASummary) {
   EXPECT_LT(clustered.true_success.interval.low, plain.true_success.interval.low - 0.1);
   // The metric of that name says the same.
   for (const MetricSummary& metric : clustered.metrics) {
-    if (metric.metric->name != "true_success") continue;
+    if (metric.metric.name != "true_success") continue;
     EXPECT_EQ(metric.method, IntervalMethod::kClustered);
     EXPECT_EQ(metric.interval.low, clustered.true_success.interval.low);
   }

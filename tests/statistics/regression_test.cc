@@ -242,7 +242,7 @@ TEST(RegressionFamilies, EachHasItsOwnLevel) {
   ASSERT_EQ(run.size(), 20u);
   const RegressionResult result = Check(false, baseline, run);
   for (const RegressionRow& row : result.rows) {
-    EXPECT_DOUBLE_EQ(row.level, row.primary ? 0.008 : 0.002 / 19) << row.metric->name;
+    EXPECT_DOUBLE_EQ(row.level, row.primary ? 0.008 : 0.002 / 19) << row.metric.name;
   }
   // Without families success would be one of 20.
   EXPECT_GT(result.rows[0].level, 0.01 / 20);

@@ -20,7 +20,8 @@ TEST(RecordTest, OutcomesHaveUniqueNames) {
   EXPECT_EQ(Name(TrialOutcome::kSimulatorFault), "simulator_fault");
   EXPECT_EQ(Name(TrialOutcome::kMeasured), "measured");
   EXPECT_EQ(Name(TrialOutcome::kExcessiveSlip), "excessive_slip");
-  EXPECT_EQ(static_cast<std::size_t>(TrialOutcome::kExcessiveSlip) + 1, kTrialOutcomeNames.size());
+  EXPECT_EQ(Name(TrialOutcome::kNavigatorFault), "navigator_fault");
+  EXPECT_EQ(static_cast<std::size_t>(TrialOutcome::kNavigatorFault) + 1, kTrialOutcomeNames.size());
 }
 
 TEST(RecordTest, OnlyArrivalsAreDeclaredSuccesses) {
@@ -170,6 +171,32 @@ TEST(EndCause, IsUnknownWhereOutcomeAndSentenceDoNotBelongTogether) {
   EXPECT_EQ(CauseOf(MakeFault(1, 2, "it crashed")), std::nullopt);
 }
 
+// What a navigator said stands behind the sentence, whatever it is; behind no other sentence does
+// anything.
+TEST(EndCause, OfANavigatorsFaultIsFoundWhateverTheNavigatorSaid) {
+  for (std::size_t i = 0; i < kEndCauses.size(); ++i) {
+    Record record = RecordOf(kEndCauses[i]);
+    record.detail += ": no memory: 3";
+    const bool fault = kEndCauses[i].outcome == TrialOutcome::kNavigatorFault;
+    const auto expected = fault ? std::optional(static_cast<EndCause>(i)) : std::nullopt;
+    EXPECT_EQ(CauseOf(record), expected) << kEndCauses[i].name;
+  }
+}
+
+TEST(RecordTest, ACrashOfTheNavigatorLeavesNoValue) {
+  const Record crash = MakeNavigatorCrash(7, "it crashed", 3);
+  EXPECT_EQ(crash.trial, 7u);
+  EXPECT_EQ(crash.values.size(), 3u);
+  EXPECT_TRUE(IsNavigatorCrash(crash));
+  EXPECT_FALSE(IsFault(crash));
+  Record reported = crash;
+  reported.values[1] = 0.0;
+  EXPECT_FALSE(IsNavigatorCrash(reported));
+  reported = crash;
+  reported.outcome = TrialOutcome::kJammed;
+  EXPECT_FALSE(IsNavigatorCrash(reported));
+}
+
 // Every way in which a drive can end has a cause; sentences are for people, names for files.
 TEST(EndCause, TableIsInOrder) {
   std::set<std::string_view> names;
@@ -202,6 +229,7 @@ TEST(EndCause, SomeOutcomesLeaveItOpen) {
   EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kNoPath));
   EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kJammed));
   EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kGoalReached));
+  EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kNavigatorFault));
   EXPECT_FALSE(HasSeveralCauses(TrialOutcome::kTipOver));
   EXPECT_FALSE(HasSeveralCauses(TrialOutcome::kExcessiveSlip));
   EXPECT_FALSE(HasSeveralCauses(TrialOutcome::kMeasured));

@@ -5,7 +5,7 @@ import { loadModule } from "./harness.mjs";
 
 const { matching } = await loadModule("report/trial_rows.ts");
 
-const COLUMNS = [{ name: "energy_wh", unit: "Wh" }, { name: "true_distance_m", unit: "m" }];
+const COLUMNS = [{ name: "energy_wh", unit: "Wh" }, { name: "true_distance_m", unit: "m" }, { name: "Mine.replans", unit: "1" }];
 const row = (trial, outcome, energy, distance, more) =>
   ({ run: "nominal", trial, outcome, detail: "", replay: "", of: 0, unrated: "", v_energy_wh: energy, v_true_distance_m: distance, ...more });
 const ROWS = [
@@ -27,6 +27,13 @@ test("numbers are compared, with blanks or without, by the column's name or titl
   }
   assert.deepEqual(search("trial=30"), [[30], 0]);
   assert.deepEqual(search("energy>20 true_distance<5"), [[1], 0]);
+});
+
+test("what a navigator counts is found by a name with a dot, in upper or lower case", () => {
+  const rows = [row(0, "jammed", 1, 1, { "v_Mine.replans": 3 }), row(1, "jammed", 1, 1, { "v_Mine.replans": 5 })];
+  for (const text of ["Mine.replans>4", "mine.replans > 4"]) {
+    assert.deepEqual(matching(rows, COLUMNS, { ...ALL, text }).rows.map((each) => each.trial), [1], text);
+  }
 });
 
 test("texts are found by words, and by the name of what they are", () => {

@@ -61,7 +61,7 @@ truth::RecordSchema DriveSchema(const navigation::NavigatorSet& navigators) {
   truth::RecordSchema schema = DriveSchema();
   for (const auto& kind : navigators.kinds()) {
     for (const messages::OwnValue& value : kind->own_values()) {
-      schema.push_back({std::string(kind->name()) + "." + value.name, value.unit, value.meaning});
+      schema.push_back({truth::OwnColumn(kind->name(), value.name), value.unit, value.meaning});
     }
   }
   return schema;

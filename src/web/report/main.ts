@@ -13,13 +13,14 @@ import { answer } from "./sections/answer";
 import { changes } from "./sections/changes";
 import { comparison } from "./sections/comparison";
 import { distance } from "./sections/distance";
-import { deadReckoning, timeAndEnergy } from "./sections/distributions";
+import { deadReckoning, ownCounts, timeAndEnergy } from "./sections/distributions";
 import { examples } from "./sections/examples";
 import { about, pageHeader } from "./sections/header";
 import { headline } from "./sections/headline";
 import { trackMap } from "./sections/map";
 import { measurements } from "./sections/measurements";
 import { outcomes } from "./sections/outcomes";
+import { ownCurves } from "./sections/own_curves";
 import { parameters } from "./sections/parameters";
 import { provenance } from "./sections/provenance";
 import { published } from "./sections/published";
@@ -30,8 +31,8 @@ import "./trial_table.css";
 
 // The answer first, then what there is to see, then the statistics.
 const SECTIONS = [
-  answer, changes, abundance, trackMap, outcomes, examples, about, headline, published, comparison, measurements, distance, deadReckoning,
-  timeAndEnergy, trials, parameters, provenance,
+  answer, changes, abundance, ownCurves, trackMap, outcomes, examples, about, headline, published, comparison, measurements, distance, deadReckoning,
+  timeAndEnergy, ownCounts, trials, parameters, provenance,
 ];
 // The choice of runs stands before the first section that follows it.
 const FIRST_TO_FOLLOW = distance.id;

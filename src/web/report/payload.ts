@@ -97,6 +97,8 @@ interface TrialTable {
 
 export interface Column {
   name: string; unit: string;
+  /** One sentence, as the navigator declares it; of what navigators count for themselves alone. */
+  meaning?: string;
   /** One per trial. */
   values: (number | null)[];
 }

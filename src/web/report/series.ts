@@ -81,6 +81,7 @@ const STYLES: Record<string, OutcomeStyle> = {
   time_limit: { colour: "var(--muted)", mark: SQUARE, dash: "5 2" },
   left_arena: { colour: "var(--muted)", mark: CROSS, dash: "none", hollow: true },
   excessive_slip: { colour: "var(--muted)", mark: BAR, dash: "7 3" },
+  navigator_fault: { colour: "var(--bad)", mark: PLUS, dash: "10 3 2 3", hollow: true },
 };
 const OTHER: OutcomeStyle = { colour: "var(--text)", mark: PLUS, dash: "1 3", hollow: true };
 

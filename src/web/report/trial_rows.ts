@@ -86,7 +86,8 @@ const holdsWord = (text: string, wanted: string) => text.toLowerCase().includes(
 // By its name in trials.csv, or as its title has it, with _ for a blank.
 function fieldNamed(name: string, columns: ColumnInfo[]): "trial" | `v_${string}` | null {
   if (name === "trial") return "trial";
-  const column = columns.find((each) => each.name === name) ?? columns.find((each) => columnWords(each.name).replaceAll(" ", "_") === name);
+  const called = (of: (column: ColumnInfo) => string) => columns.find((each) => of(each).toLowerCase() === name);
+  const column = called((each) => each.name) ?? called((each) => columnWords(each.name).replaceAll(" ", "_"));
   return column ? fieldOf(column.name) : null;
 }
 

@@ -17,8 +17,15 @@ const COLUMNS: Record<string, string> = {
 
 const UNIT_ENDINGS = /(_per)?_(m_s|m2|m|s|rad|deg|percent|wh|kg|w|px|hz)$/;
 
-/** A column's name for people, without its unit. */
-export function columnWords(name: string): string { return COLUMNS[name] ?? words(name.replace(UNIT_ENDINGS, "")); }
+/** Whether the column holds what a navigator counts for itself: "mine.replans". No other has a dot in its name. */
+export function isOwnColumn(name: string): boolean { return name.includes("."); }
+
+/** A column's name for people, without its unit; of "mine.replans" "replans (mine)". */
+export function columnWords(name: string): string {
+  const [navigator = "", value] = name.split(".");
+  if (value !== undefined) return `${columnWords(value)} (${words(navigator)})`;
+  return COLUMNS[name] ?? words(name.replace(UNIT_ENDINGS, ""));
+}
 
 /** The same with the unit in brackets. */
 export function columnLabel(name: string, unit: string): string {

@@ -123,7 +123,7 @@ export const abundance: Section = {
 
 // ---- Success along an axis of a sweep: points with intervals, fit with band.
 
-interface SlottedCurve { curve: Curve; slot: number }
+export interface SlottedCurve { curve: Curve; slot: number }
 
 function marksOf({ curve, slot }: SlottedCurve): Plot.Markish[] {
   const style = seriesStyle(slot);
@@ -155,11 +155,12 @@ function ticksOf(curves: SlottedCurve[], logarithmic: boolean, width: number): n
   return kept;
 }
 
-export function drawCurves(curves: SlottedCurve[], width: number): Element {
+/** Size and axis of a drawing along the axis of a sweep. */
+export function alongAxis(curves: SlottedCurve[], width: number): Plot.PlotOptions {
   const first = curves[0]!.curve;
   const logarithmic = first.scale === "log";
   const unit = first.unit === "" || first.unit === "1" ? "" : ` [${unitText(first.unit)}]`;
-  return Plot.plot({
+  return {
     width, height: Math.min(360, Math.max(260, width * 0.62)), marginLeft: 52, marginRight: 22,
     marginBottom: 42,
     x: {
@@ -171,6 +172,13 @@ export function drawCurves(curves: SlottedCurve[], width: number): Element {
       tickFormat: (x: number) => number(x, 3),
       inset: 6,
     },
+  };
+}
+
+export function drawCurves(curves: SlottedCurve[], width: number): Element {
+  const first = curves[0]!.curve;
+  return Plot.plot({
+    ...alongAxis(curves, width),
     y: { domain: [0, 1], label: `${first.success} success`, labelArrow: "none", grid: true, ticks: 5, tickFormat: (rate: number) => `${Math.round(100 * rate)} %` },
     marks: [Plot.ruleY([0], { stroke: "var(--line-strong)" }), ...curves.flatMap(marksOf)],
   });

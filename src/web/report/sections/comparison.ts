@@ -8,7 +8,7 @@ import { type Cell, numberCells, numeric, numericHeads, rowHeader, table } from 
 import { chartFigure } from "../charts/figure";
 import type { Context } from "../context";
 import type { Comparison } from "../payload";
-import { columnLabel, columnWords } from "../words";
+import { columnLabel, columnWords, isOwnColumn } from "../words";
 import type { Section } from "./section";
 
 type Column = Comparison["columns"][number];
@@ -36,7 +36,7 @@ const MOST_DRAWN = 16;
 const MOST_PERCENT = 100;
 
 function drawnColumns(of: Comparison): Column[] {
-  const known = of.columns.filter((row) => DRAWN[row.trials]?.includes(row.name));
+  const known = of.columns.filter((row) => DRAWN[row.trials]?.includes(row.name) || (row.trials === "all" && isOwnColumn(row.name)));
   return known.length > 0 ? known : of.columns.slice(0, MOST_DRAWN);
 }
 

@@ -3,7 +3,7 @@
 import * as Plot from "@observablehq/plot";
 
 import { el } from "../../shared/dom";
-import { isNumber, number, percent } from "../../shared/format";
+import { counted, isNumber, number, percent } from "../../shared/format";
 import { numberCells, numericHeads, table } from "../../shared/table";
 import { type Mark, niceStep, publishedMarks } from "../charts/axis";
 import { chartFigure } from "../charts/figure";
@@ -29,6 +29,14 @@ function endsOf(all: Steps[], what: string): string {
     .join("; ");
 }
 
+/** Drives whose navigator ended the process that ran them: nobody knows how far they came. */
+function withoutDistance(run: Run): string {
+  const drives = run.summary?.declared_success?.trials;
+  const known = run.cdf?.["at_risk"]?.[0];
+  if (!isNumber(drives) || !isNumber(known) || drives <= known) return "";
+  return ` Of ${counted(drives - known, "drive")} of ${run.label} no distance is known, since the navigator ended the process that ran ${drives - known === 1 ? "it" : "them"}.`;
+}
+
 /** What holds of the curves of some runs only. */
 function remarks(all: Steps[]): string {
   const runs = all.map(({ shown }) => shown.run);
@@ -36,7 +44,8 @@ function remarks(all: Steps[]): string {
   const drawn = thinned.map((run) => `${number(run.cdf!["distance_m"]!.length)} of ${number(run.cdf_steps)} steps`);
   return (
     (thinned.length > 0 ? ` Drawn are ${drawn.join("; ")}, the curve nowhere lower by more than 1/998 of the trials; distance_cdf.csv has all.` : "") +
-    (runs.some((run) => run.shared_layouts) ? ` ${SHARED_LAYOUTS}` : "")
+    (runs.some((run) => run.shared_layouts) ? ` ${SHARED_LAYOUTS}` : "") +
+    runs.map(withoutDistance).join("")
   );
 }
 

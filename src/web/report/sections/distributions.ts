@@ -1,4 +1,4 @@
-// Columns of the trials as distributions: errors of dead reckoning, time and energy.
+// Columns of the trials as distributions: errors of dead reckoning, time and energy, what navigators count.
 
 import * as Plot from "@observablehq/plot";
 
@@ -8,10 +8,10 @@ import { numberCells, numericHeads, rowHeader, table } from "../../shared/table"
 import { type Mark, niceStep, publishedMarks } from "../charts/axis";
 import { chartFigure } from "../charts/figure";
 import type { Context, ShownRun } from "../context";
-import type { PublishedRow } from "../payload";
+import type { Column, PublishedRow } from "../payload";
 import { partOfTrials, ratedRows } from "../prefix";
 import { seriesStyle } from "../series";
-import { columnLabel, columnWords, unitText } from "../words";
+import { columnLabel, columnWords, isOwnColumn, unitText } from "../words";
 import type { Section } from "./section";
 
 interface Distribution {
@@ -58,6 +58,24 @@ const COSTS: Distribution[] = [
     summary: (summary) => summary.columns?.net_rate_m_s,
   },
 ];
+
+const MOST_OWN = 12;
+
+/** What the navigators of the shown runs count for themselves. */
+function ownValues(context: Context): Distribution[] {
+  const columns = new Map<string, Column>();
+  for (const { run } of context.drives()) {
+    for (const column of run.trials?.columns ?? []) {
+      if (isOwnColumn(column.name) && column.values.some(isNumber) && !columns.has(column.name)) columns.set(column.name, column);
+    }
+  }
+  return [...columns.values()].slice(0, MOST_OWN).map(({ name, meaning }) => ({
+    column: name,
+    title: columnWords(name),
+    what: (meaning ?? "").replace(/\.$/, "") || "as the navigator counts it",
+    summary: (summary) => summary.columns?.[name],
+  }));
+}
 
 function unitOf(shown: ShownRun, name: string): string {
   return shown.run.trials.columns.find((each) => each.name === name)?.unit ?? "";
@@ -110,7 +128,7 @@ function figure(context: Context, of: Distribution): HTMLElement | null {
   ];
   const limits = reached.length > 0 ? ` The dashed upright is where ${of.limit!.where}: ${reached.map(({ text }) => text).join(", ")}.` : "";
   return chartFigure({
-    id: `histogram-${of.column}`,
+    id: `histogram-${of.column.replace(".", "-")}`,
     title: of.title,
     caption: `Share of trials by ${columnWords(of.column)}: ${of.what}.${limits}`,
     alternative: alternative(samples, of, unit),
@@ -129,14 +147,14 @@ const HOW_TO_READ =
   "Bars are shares of a run's trials, faults left out. Below them the dot is the median, and the line holds 90 % of the trials.";
 const PUBLISHED = " Dashed uprights are the published minimum, mode and maximum, where there are any.";
 
-function section(id: string, title: string, short: string, distributions: Distribution[]): Section {
+function section(id: string, title: string, short: string, distributions: (context: Context) => Distribution[]): Section {
   return {
     id,
     title,
     short,
     follows: true,
     render: (context) => {
-      const figures = distributions.map((each) => figure(context, each));
+      const figures = distributions(context).map((each) => figure(context, each));
       if (figures.every((each) => each === null)) return null;
       const part = partOfTrials(context.drives().map(({ run }) => run), " Bars are of");
       return [el("p", { class: "note" }, HOW_TO_READ + (id === "dead-reckoning" ? PUBLISHED : "") + part), el("div", { class: "chart-grid three" }, ...figures)];
@@ -144,8 +162,9 @@ function section(id: string, title: string, short: string, distributions: Distri
   };
 }
 
-export const deadReckoning = section("dead-reckoning", "Errors of dead reckoning", "Dead reckoning", ERRORS);
-export const timeAndEnergy = section("time-energy", "Time and energy", "Time and energy", COSTS);
+export const deadReckoning = section("dead-reckoning", "Errors of dead reckoning", "Dead reckoning", () => ERRORS);
+export const timeAndEnergy = section("time-energy", "Time and energy", "Time and energy", () => COSTS);
+export const ownCounts = section("own-values", "What the navigator counts", "Counts", ownValues);
 
 // ---- Histograms of one column, a row for each run, with the published values as marks.
 
