@@ -52,10 +52,11 @@ inline double Number(const Json& object, const std::string& key) {
 }
 
 /// Returns the decision to drive an arc; positive curvatures turn left, direction -1 backs off.
-inline Json Drive(double curvature_per_m, double until_distance_m, int direction = 1) {
+inline Json Drive(double curvature_per_m, double until_distance_m, int direction = 1,
+                  double near_goal_m = 0.0) {
   return {
       {"motion", {{"kind", "arc"}, {"curvature_per_m", curvature_per_m}, {"direction", direction}}},
-      {"until", {{"distance_m", until_distance_m}}}};
+      {"until", {{"distance_m", until_distance_m}, {"near_goal_m", near_goal_m}}}};
 }
 /// Returns the decision to turn in place, +1 to the left, until the heading is `turn_rad` away.
 inline Json Turn(int direction, double turn_rad) {

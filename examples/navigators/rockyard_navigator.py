@@ -32,11 +32,11 @@ def parameter(name, kind, default, doc, **more):
 
 
 # Decisions. What asks again earlier than events do stands in "until".
-def drive(curvature_per_m=0.0, until_distance_m=None, direction=1):
-    """Drives an arc; positive curvatures turn left, direction -1 backs off."""
-    until = {} if until_distance_m is None else {"distance_m": until_distance_m}
-    return {"motion": {"kind": "arc", "curvature_per_m": curvature_per_m, "direction": direction},
-            "until": until}
+def drive(curvature_per_m=0.0, until_distance_m=None, direction=1, speed_share=1.0, near_goal_m=0.0):
+    """Drives an arc; positive curvatures turn left, direction -1 backs off. Distances of None have no end."""
+    return {"motion": {"kind": "arc", "curvature_per_m": curvature_per_m, "direction": direction,
+                       "speed_share": speed_share},
+            "until": {"distance_m": until_distance_m, "near_goal_m": near_goal_m}}
 
 def turn(direction, turn_rad):
     """Turns in place, +1 to the left, until the heading is another one by turn_rad."""
@@ -112,11 +112,13 @@ def run(cls):
         while len(size := requests.read(4)) == 4:
             text = requests.read(struct.unpack("<I", size)[0])
             try:
-                answer, navigator = _answer(cls, navigator, json.loads(text, object_hook=Values))
+                ask = json.loads(text, object_hook=Values, parse_constant=lambda _: None)
+                answer, navigator = _answer(cls, navigator, ask)
                 data = json.dumps(answer, allow_nan=False).encode()
             except Exception as error:  # the drive ends with its text
                 traceback.print_exc()
                 at = traceback.extract_tb(error.__traceback__)[-1]
-                data = json.dumps({"error": f"{type(error).__name__}: {error} ({at.filename}:{at.lineno})"}).encode()
+                told = f"{type(error).__name__}: {error} ({at.filename}:{at.lineno})"
+                data = json.dumps({"error": told}).encode()
             answers.write(struct.pack("<I", len(data)) + data)
             answers.flush()

@@ -109,6 +109,10 @@ class StopAndLook : public navigation::Navigator {
       MarkAhead(in.vehicle_hazard);
       return Drive({.kind = messages::MotionKind::kArc, .direction = -1}, cycle_.back_off_m);
     }
+    if (in.events.Has(navigation::Event::kStuck)) {  // the reaction to it has backed off already
+      MarkAhead(nullptr);
+      motion_.reset();
+    }
     const bool backs_into = motion_ && BacksOff() && in.touches_behind;
     // Asked for another reason than the end of the motion: it goes on.
     if (motion_ && !backs_into && Left() > 1e-6) return GoOn();
@@ -194,9 +198,7 @@ class StopAndLook : public navigation::Navigator {
   bool BacksOff() const { return motion_->command.direction < 0 && DrivesArc(); }
   bool DrivesArc() const { return motion_->command.kind == messages::MotionKind::kArc; }
   bool FeelsAnew(const navigation::NavigatorInput& in) const {
-    using navigation::Event;
-    const bool hazard = in.vehicle_hazard != nullptr && in.events.Has(Event::kHazard);
-    return !BacksOff() && (hazard || in.events.Has(Event::kStuck));
+    return !BacksOff() && in.vehicle_hazard != nullptr && in.events.Has(navigation::Event::kHazard);
   }
   // By how much the frame of goals is turned against O.
   double Turned_rad() const { return estimate_.heading_rad - here_.heading_rad; }

@@ -141,12 +141,16 @@ class StopAndLook(Navigator):
             self.map.add(input.cloud, input.look)
             return self.begin(goal_m)
         backs_off = self.motion is not None and self.motion[:2] == ("arc", -1)
-        feels = input.hazard is not None and "hazard" in input.events or "stuck" in input.events
+        feels = input.hazard is not None and "hazard" in input.events
         if self.motion is not None and not backs_off and feels:
             self.mark_ahead(input.hazard)
             return self.move("arc", -1, self.p.back_off_m)
+        if "stuck" in input.events:  # the reaction to it has backed off already
+            self.mark_ahead(None)
+            self.motion = None
         # Asked for another reason than the end of the motion: it goes on.
-        if self.motion is not None and not (backs_off and input.touches_behind) and self.left() > 1e-6:
+        backs_into = backs_off and input.touches_behind
+        if self.motion is not None and not backs_into and self.left() > 1e-6:
             return self.go_on()
         self.motion = None
         return look()
@@ -195,7 +199,7 @@ class StopAndLook(Navigator):
 
     def go_on(self):
         kind, sense, _, _, curvature_per_m = self.motion
-        decision = (drive(curvature_per_m, self.left(), sense) if kind == "arc"
+        decision = (drive(curvature_per_m, self.left(), direction=sense) if kind == "arc"
                     else turn(sense, self.left()))
         decision["until"]["near_goal_m"] = self.p.goal_tolerance_m
         return decision

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -15,6 +16,9 @@
 #include "core/json_text.h"
 #include "core/refusals.h"
 #include "core/statistical_checks.h"
+#include "navigation/navigator.h"
+#include "trial/course/goal_designation.h"
+#include "trial/shipped_trials.h"
 
 namespace rockyard::trial {
 namespace {
@@ -293,6 +297,89 @@ TEST(SiteMapTest, OfMoreThanAThousandCellsASideIsRefused) {
               core::OneProblem("site_map", "1000 cells"));
   EXPECT_THAT(problems(R"({"site_map": {"cell_m": 0.1, "margin_m": 500}})"), IsEmpty())
       << "of no map";
+}
+
+// A navigator that keeps what it is told at the start of a drive, and gives up.
+
+struct ToyParams {
+  std::shared_ptr<navigation::NavigatorSetup> told = std::make_shared<navigation::NavigatorSetup>();
+
+  void Visit(core::FieldVisitor&) {}
+};
+
+class Toy final : public navigation::Navigator {
+ public:
+  navigation::NavigatorDecision Decide(const navigation::NavigatorInput&) override {
+    return navigation::Finish(navigation::NavigatorStatus::kGaveUp);
+  }
+  void OnPoseUpdate(const messages::PoseEstimate&, const messages::PoseEstimate&) override {}
+  void SetGoal(const messages::Goal&, navigation::GoalChange) override {}
+};
+
+// What a drive tells its navigator.
+navigation::NavigatorSetup ToldIn(core::TrialKey key, DriveParams* of = nullptr) {
+  const ToyParams params;
+  scenario::Scenario defaults;
+  defaults.drive.navigation.navigators.Add<ToyParams>(
+      {.name = "toy",
+       .doc = "keeps what it is told",
+       .traits = [](const ToyParams&) -> navigation::NavigatorTraits {
+         return {navigation::LookReading::kNothing, navigation::CostOfLook{}, {"", 0.1}};
+       },
+       .make = [](const ToyParams& toy, const navigation::NavigatorSetup& setup)
+           -> std::unique_ptr<navigation::Navigator> {
+         *toy.told = setup;
+         return std::make_unique<Toy>();
+       }},
+      params);
+  const Overrides toy = {"navigation.navigator=toy",
+                         "rover.fidelity=quasi_static",
+                         "rover.drive.speed_m_s=0.11",
+                         "perception.hazard.enabled=false",
+                         "course.goal_x_m=8",
+                         "course.waypoints.x_m=[3,5]",
+                         "course.waypoints.y_m=[0.5,-0.5]",
+                         "course.site_map.kind=both",
+                         "clock.control_rate_hz=10",
+                         "clock.compute.operations_per_s=5e6",
+                         "navigation.limits.memory_mb=123"};
+  const DriveParams drive = scenario::Shipped("pathfinder/nominal", toy, defaults).drive;
+  RunTrial(drive, key);
+  if (of != nullptr) *of = drive;
+  return *params.told;
+}
+
+TEST(NavigatorSetupTest, HoldsTheMapAndAllElseThatADriveKnows) {
+  DriveParams drive;
+  const navigation::NavigatorSetup told = ToldIn(kKey, &drive);
+  const std::vector<messages::Goal> places = DesignatedGoals(drive.course, kKey);
+  ASSERT_EQ(told.places.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(told.places[i].x_m, places[i].x_m);
+    EXPECT_EQ(told.places[i].y_m, places[i].y_m);
+  }
+  EXPECT_EQ(told.goal.x_m, told.places[0].x_m);
+  EXPECT_FALSE(told.judges_hazards);
+  EXPECT_EQ(told.full_speed_m_s, 0.11);
+  EXPECT_NEAR(told.control_period_s, 0.1, 0.02);
+  EXPECT_EQ(told.operations_per_s, 5e6);
+  EXPECT_EQ(told.limits.memory_mb, 123.0);
+  EXPECT_EQ(told.rover.length_m, drive.rover.geometry.length_m);
+  EXPECT_EQ(told.rover.width_m, drive.rover.geometry.width_m);
+  EXPECT_EQ(told.rover.drive.wheel_radius_m, drive.rover.geometry.wheel_radius_m);
+  ASSERT_NE(told.site_map, nullptr);
+  EXPECT_EQ(told.site_map->nx, 28);
+  EXPECT_THAT(told.site_map->rock_share, testing::Contains(testing::Gt(0.0)));
+}
+
+// A generator of its own: the same whenever the trial is run, and another one in each.
+TEST(NavigatorSetupTest, HasASeedOfTheTrial) {
+  const navigation::NavigatorSetup told = ToldIn({3, 5});
+  const navigation::NavigatorSetup again = ToldIn({3, 5});
+  EXPECT_EQ(told.random_seed, again.random_seed);
+  EXPECT_EQ(told.site_map->height_m, again.site_map->height_m);
+  EXPECT_NE(told.random_seed, ToldIn({3, 6}).random_seed);
+  EXPECT_NE(told.random_seed, ToldIn({4, 5}).random_seed);
 }
 
 }  // namespace
