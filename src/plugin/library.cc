@@ -279,7 +279,8 @@ class LibraryNavigator final : public navigation::Navigator {
 
   const messages::Overlay* overlay() const override {
     rockyard_overlay shown{};
-    Call([&](rockyard_error* error) { return type_.overlay(navigator_, &shown, error); });
+    // A drive is the same whether or not somebody watches it.
+    Call([&](rockyard_error* error) { return type_.overlay(navigator_, &shown, error); }, false);
     overlay_ = {};
     for (std::size_t i = 0; i < shown.line_count; ++i) {
       const rockyard_overlay_line& line = shown.lines[i];
@@ -325,9 +326,9 @@ class LibraryNavigator final : public navigation::Navigator {
     });
   }
 
-  // Calls a function of the library, and judges what it took.
+  // Calls a function of the library, and judges what it took. `counts`: as time of the drive.
   template <typename Function>
-  void Call(const Function& function) const {
+  void Call(const Function& function, bool counts = true) const {
     const pid_t process = getpid();
     const double began_s = ThreadCpu_s();
     rockyard_error error{};
@@ -335,7 +336,7 @@ class LibraryNavigator final : public navigation::Navigator {
     // A plugin that forks: its child must not go on with this drive and this store.
     if (getpid() != process) _exit(1);
     const double took_s = ThreadCpu_s() - began_s;
-    used_s_ += took_s;
+    if (counts) used_s_ += took_s;
     try {
       RequireDone(result, error);
     } catch (const std::runtime_error& failed) {
