@@ -217,6 +217,8 @@ std::string TraceBytes(const scenario::Scenario& scenario, const std::string& ce
                            .poses = poses,
                            .scans = recording.scans,
                            .steps = recording.steps,
+                           .overlays = recording.overlays,
+                           .overlay_every = recording.overlay_every,
                            .cell = cell,
                            .record_hash = batch::TrialHash(std::span(&traced.record, 1)),
                            .provenance = core::CurrentProvenance()});

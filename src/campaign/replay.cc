@@ -252,9 +252,9 @@ class MomentReplayer {
       : request_(request), source_(source), observer_(observer), result_(result) {}
 
   MomentTrial Run() {
-    trial::Watchers watchers{
-        .scan = [this](const trial::WatchedScan& watched) { OnScan(watched); },
-        .step = [this](const trial::WatchedStep& watched) { OnStep(watched); }};
+    trial::Watchers watchers{.scan = [this](const trial::WatchedScan& watched) { OnScan(watched); },
+                             .step = [this](const trial::WatchedStep& watched) { OnStep(watched); },
+                             .begin = [this] { result_.scans = result_.steps = 0; }};
     if (request_.step) {
       watchers.stereo = [this](const trial::WatchedStereo& watched) {
         looks_.Add(Capture(watched));

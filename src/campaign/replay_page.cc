@@ -169,6 +169,8 @@ ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial) {
   data.scans = std::move(recording.scans);
   data.steps = std::move(recording.steps);
   data.looks = std::move(recording.looks);
+  data.overlays = std::move(recording.overlays);
+  data.overlay_every = recording.overlay_every;
   replayed.plan_svg = PlanView(source.scenario, traced);
   return replayed;
 }

@@ -136,9 +136,12 @@ class Recorder {
     traced.goal = {scenario_.drive.course.goal_x_m, scenario_.drive.course.goal_y_m};
     traced.schema = experiments::DriveSchema();
     const experiments::DriveExperiment experiment(
-        scenario_.drive, {.scan = [this](const trial::WatchedScan& scan) { OnScan(scan); },
-                          .stereo = [this](const trial::WatchedStereo& look) { OnLook(look); },
-                          .step = [this](const trial::WatchedStep& step) { OnStep(step); }});
+        scenario_.drive,
+        {.scan = [this](const trial::WatchedScan& scan) { OnScan(scan); },
+         .stereo = [this](const trial::WatchedStereo& look) { OnLook(look); },
+         .step = [this](const trial::WatchedStep& step) { OnStep(step); },
+         .overlay = [this](const trial::WatchedOverlay& shown) { OnOverlay(shown); },
+         .begin = [this] { Begin(); }});
     traced.record = experiment.RunTraced(seed, trial, traced.trace);
     return std::move(recording_);
   }
@@ -146,6 +149,17 @@ class Recorder {
  private:
   // The present time: the end of the trace, which grows while the trial runs.
   double now_s() const { return recording_.traced.trace.now_s(); }
+
+  // The trace is begun anew by the drive itself.
+  void Begin() {
+    recording_.scans.clear();
+    recording_.steps.clear();
+    recording_.looks.clear();
+    recording_.overlays.clear();
+    recording_.overlay_every = 1;
+    overlays_ = 0;
+    overlay_bytes_ = 0;
+  }
 
   void OnScan(const trial::WatchedScan& watched) {
     replay::ReplayScan scan{.time_s = now_s(),
@@ -192,9 +206,54 @@ class Recorder {
     recording_.steps.push_back(std::move(step));
   }
 
+  void OnOverlay(const trial::WatchedOverlay& watched) {
+    const math::Pose2 pose = math::ToPose2(watched.X_WR);
+    if (!watched.failure.empty()) {
+      recording_.traced.trace.events.push_back(
+          {watched.time_s, pose, "overlay", std::string(watched.failure)});
+    }
+    if (overlays_++ % recording_.overlay_every != 0) return;
+    const messages::PoseEstimate& believed = watched.believed;
+    recording_.overlays.push_back({.time_s = watched.time_s,
+                                   .pose = pose,
+                                   .believed = {believed.x_m, believed.y_m, believed.heading_rad},
+                                   .shown = watched.overlay});
+    overlay_bytes_ += BytesOf(watched.overlay);
+    while (overlay_bytes_ > kMaxOverlayMemoryBytes && recording_.overlays.size() > 1) {
+      LeaveOutOverlays();
+    }
+  }
+
+  static std::size_t BytesOf(const messages::Overlay& overlay) {
+    std::size_t bytes = 0;
+    for (const messages::OverlayLine& line : overlay.lines) {
+      bytes += sizeof(line) + line.points.size() * sizeof(messages::Goal);
+    }
+    for (const messages::OverlayGrid& grid : overlay.grids) {
+      bytes += sizeof(grid) + grid.values.size() * sizeof(double);
+    }
+    return bytes;
+  }
+
+  // Leaves out every second overlay.
+  void LeaveOutOverlays() {
+    std::vector<replay::ReplayOverlay>& overlays = recording_.overlays;
+    overlay_bytes_ = 0;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < overlays.size(); i += 2) {
+      overlay_bytes_ += BytesOf(overlays[i].shown);
+      if (i != kept) overlays[kept] = std::move(overlays[i]);
+      ++kept;
+    }
+    overlays.resize(kept);
+    recording_.overlay_every *= 2;
+  }
+
   const scenario::Scenario& scenario_;
   const perception::Triangulator triangulator_;
   DriveRecording recording_;
+  std::size_t overlays_ = 0;       // that the drive had so far
+  std::size_t overlay_bytes_ = 0;  // of those that are kept
 };
 
 }  // namespace

@@ -24,15 +24,21 @@ struct DriveRecording {
   std::vector<replay::ReplayScan> scans;
   std::vector<replay::ReplayStep> steps;
   std::vector<replay::ReplayLook> looks;  // those that have images
+  std::vector<replay::ReplayOverlay> overlays;
+  std::size_t overlay_every = 1;  // one of so many overlays of the drive is in `overlays`
 };
 
 // The most points of one step that are kept, evenly spread over those that the look gave.
 inline constexpr std::size_t kMaxStepPoints = 120;
 
+// How much memory the overlays of a recording may take, where they are more than one. Where they
+// would take more, only every second one is kept, or every fourth, ...
+inline constexpr std::size_t kMaxOverlayMemoryBytes = 64'000'000;
+
 // Drives the trial: a pure function of its arguments, with the record of the campaign, bit for bit.
 // A simulator fault ends the recording where it happens. Throws core::UserError where the scenario
-// is no drive. Memory: some 0.4 kB a control tick, and 60 kB a step of a map-based navigator, 30 kB
-// a look with images.
+// is no drive. Memory: some 0.4 kB a control tick, 60 kB a step of a map-based navigator, 30 kB a
+// look with images, and 64 MB of overlays at the most.
 DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t seed,
                            std::uint64_t trial);
 

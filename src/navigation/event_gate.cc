@@ -22,8 +22,9 @@ bool SameHazard(const VehicleHazard* now, const std::optional<VehicleHazard>& be
 
 }  // namespace
 
-EventGate::EventGate(std::unique_ptr<Navigator> navigator, const messages::Goal& goal)
-    : navigator_(std::move(navigator)), goal_(goal) {
+EventGate::EventGate(std::unique_ptr<Navigator> navigator, const messages::Goal& goal,
+                     AskedListener on_asked)
+    : navigator_(std::move(navigator)), goal_(goal), on_asked_(std::move(on_asked)) {
   EXPECT(navigator_ != nullptr);
 }
 
@@ -45,6 +46,7 @@ NavigatorDecision EventGate::Decide(const NavigatorInput& input) {
   last_ = decision;
   if (!decision.stops_to_look()) last_->look.reset();
   last_->work_ops = 0.0;
+  if (on_asked_) on_asked_(*navigator_, asked);
   return decision;
 }
 

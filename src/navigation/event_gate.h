@@ -5,6 +5,7 @@
 // decides as without the gate, bit for bit.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,10 +14,15 @@
 
 namespace rockyard::navigation {
 
+// Is called with a navigator right after it was asked, and with what it was asked.
+using AskedListener = std::function<void(const Navigator& asked, const NavigatorInput& input)>;
+
 class EventGate final : public Navigator {
  public:
-  // `navigator` is not null; `goal` is its first one.
-  EventGate(std::unique_ptr<Navigator> navigator, const messages::Goal& goal);
+  // `navigator` is not null; `goal` is its first one. `on_asked` may be empty; it is not called at
+  // ticks at which the last decision goes on.
+  EventGate(std::unique_ptr<Navigator> navigator, const messages::Goal& goal,
+            AskedListener on_asked = {});
 
   // Events that `input` names already (of wrappers, of what follows the motion) are among those
   // that the navigator is asked for.
@@ -39,6 +45,7 @@ class EventGate final : public Navigator {
 
   std::unique_ptr<Navigator> navigator_;
   messages::Goal goal_;
+  AskedListener on_asked_;
   std::optional<NavigatorDecision> last_;  // nothing before the first question
   Events pending_;                         // since the last tick
   // At the last question.

@@ -198,8 +198,10 @@ class Navigator {
   /// Returns what became of plans on the move so far.
   virtual PlanCounts plan_counts() const { return {}; }
 
-  /// Returns what the navigator shows on the map of a replay since its last decision, or null. Is
-  /// asked for traces and pages alone: no decision may depend on the call.
+  /// Returns what the navigator shows on the map of a replay since its last decision; null or empty
+  /// where it shows nothing, also of what it showed before. Is asked after a decision, for traces
+  /// and pages alone: no decision may depend on the call. Where it throws, the drive goes on, the
+  /// replay tells of it, and it is asked no more.
   virtual const messages::Overlay* overlay() const { return nullptr; }
 
   /// Returns its own values so far, as many and in the order as NavigatorDescription declares them.

@@ -169,6 +169,14 @@ struct ReplayLook {
   std::string disparity_png;
 };
 
+// What the navigator shows from a moment on, until the next one of these.
+struct ReplayOverlay {
+  double time_s = 0.0;
+  math::Pose2 pose;         // true, at time_s
+  math::Pose2 believed;     // as the rover believed at time_s
+  messages::Overlay shown;  // in the believed world; empty where it shows nothing any more
+};
+
 // One drive as its page shows it.
 struct ReplayData {
   std::string title;
@@ -192,6 +200,8 @@ struct ReplayData {
   std::vector<ReplayScan> scans;
   std::vector<ReplayStep> steps;
   std::vector<ReplayLook> looks;
+  std::vector<ReplayOverlay> overlays;
+  std::size_t overlay_every = 1;  // one of so many of those that the drive had is in `overlays`
   std::vector<truth::TraceEvent> events;
 };
 
@@ -203,6 +213,10 @@ inline constexpr std::size_t kMaxDetailedSteps = 240;
 // How many bytes of base64 the pictures of looks may take on a page. Where they would take more,
 // only every second look ahead and every second look behind is there, or every third, ...
 inline constexpr std::size_t kMaxLookBytes = 1'500'000;
+
+// How many bytes of JSON the overlays of a page may take. Where they would take more, only every
+// second one is there, or every third, ...; none where the first alone takes more.
+inline constexpr std::size_t kMaxOverlayBytes = 1'500'000;
 
 // Returns the drive as JSON on one line; `beside` is a second drive on the same page. Must agree:
 // src/web/replay/payload.ts, by which the page and the converter to MCAP (src/web/mcap) read it; a

@@ -178,6 +178,7 @@ std::string ReplayJson(const ReplayData& data, const ReplayData* beside) {
       .Add("scans", ScansJson(data.scans))
       .Add("steps", StepsJson(data.steps))
       .Add("eyes", EyesJson(data.looks))
+      .Add("overlays", OverlaysJson(data.overlays, data.overlay_every))
       .Add("events", EventsJson(data.events))
       .Add("beside", beside == nullptr ? "null" : ReplayJson(*beside));
   return object.Text();

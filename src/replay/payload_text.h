@@ -33,6 +33,8 @@ std::string MotionJson(std::span<const ReplayLink> links, std::span<const Replay
 std::string ScansJson(std::span<const ReplayScan> scans);
 std::string StepsJson(std::span<const ReplayStep> steps);
 std::string EyesJson(std::span<const ReplayLook> looks);
+// `every`: one of so many overlays of the drive is there already.
+std::string OverlaysJson(std::span<const ReplayOverlay> overlays, std::size_t every);
 std::string EventsJson(std::span<const truth::TraceEvent> events);
 
 }  // namespace rockyard::replay

@@ -258,6 +258,46 @@ void AddSteps(std::span<const ReplayStep> steps, NpzFile& file) {
   AddMaps(steps, file);
 }
 
+// Points and values of all overlays follow one another, as lines and grids differ in size; lines
+// name their overlay, and points their line.
+void AddOverlays(std::span<const ReplayOverlay> overlays, NpzFile& file) {
+  NpzTable pose(3);
+  NpzTable believed(3);
+  std::vector<std::int64_t> line_overlay;
+  std::vector<std::string> line_name;
+  NpzTable points(3);
+  std::vector<std::string> grid_name;
+  NpzTable grids(6);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < overlays.size(); ++i) {
+    pose.Add(overlays[i].pose);
+    believed.Add(overlays[i].believed);
+    for (const messages::OverlayLine& line : overlays[i].shown.lines) {
+      const auto number = static_cast<double>(line_name.size());
+      line_overlay.push_back(static_cast<std::int64_t>(i));
+      line_name.push_back(line.name);
+      for (const messages::Goal& p : line.points) points.Add(std::array{number, p.x_m, p.y_m});
+    }
+    for (const messages::OverlayGrid& grid : overlays[i].shown.grids) {
+      grid_name.push_back(grid.name);
+      grids.Add(std::array{static_cast<double>(i), grid.x0_m, grid.y0_m, grid.step_m,
+                           static_cast<double>(grid.nx), static_cast<double>(grid.ny)});
+      values.insert(values.end(), grid.values.begin(), grid.values.end());
+    }
+  }
+  AddColumn(
+      "overlay_time_s", overlays, [](const ReplayOverlay& overlay) { return overlay.time_s; },
+      file);
+  pose.Write("overlay_pose", file);
+  believed.Write("overlay_believed", file);
+  file.AddIntegers("overlay_line", line_overlay, {line_overlay.size()});
+  file.AddTexts("overlay_line_name", line_name);
+  points.Write("overlay_points", file);
+  grids.Write("overlay_grid", file);
+  file.AddTexts("overlay_grid_name", grid_name);
+  file.AddReals("overlay_values", values, {values.size()});
+}
+
 void AddRecord(const truth::TracedTrial& traced, NpzFile& file) {
   const std::size_t columns = std::min(traced.schema.size(), traced.record.values.size());
   std::vector<std::string> names;
@@ -279,6 +319,7 @@ std::string MetaText(const TraceArrays& arrays) {
       .AddText("outcome", truth::Name(traced.record.outcome))
       .AddText("detail", traced.record.detail)
       .AddText("record_hash", arrays.record_hash)
+      .AddInteger("overlay_every", static_cast<std::int64_t>(arrays.overlay_every))
       .Add("provenance", ProvenanceText(arrays.provenance))
       .Text();
 }
@@ -293,6 +334,7 @@ std::string TraceNpz(const TraceArrays& arrays) {
   AddEvents(arrays.traced.trace, file);
   AddScans(arrays.scans, file);
   AddSteps(arrays.steps, file);
+  AddOverlays(arrays.overlays, file);
   return file.Bytes();
 }
 

@@ -16,6 +16,8 @@ struct TraceArrays {
   std::span<const ReplayPose> poses;  // every moment of the trace
   std::span<const ReplayScan> scans;
   std::span<const ReplayStep> steps;
+  std::span<const ReplayOverlay> overlays;
+  std::size_t overlay_every = 1;  // as ReplayData has it
   std::string cell;
   std::string record_hash;
   core::Provenance provenance;

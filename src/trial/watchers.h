@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <string_view>
 
 #include "core/random.h"
 #include "math/pose.h"
+#include "messages/estimates.h"
 #include "messages/measurements.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
@@ -57,11 +59,29 @@ struct WatchedStep {
 
 using StepWatcher = std::function<void(const WatchedStep&)>;
 
+// What a navigator shows from a decision on. Valid during the call only.
+struct WatchedOverlay {
+  double time_s = 0.0;
+  const math::Transform& X_WR;      // true
+  messages::PoseEstimate believed;  // in the frame of the overlay, in which goals are told
+  const messages::Overlay& overlay;
+  // Why the navigator could not say what it shows; it is not asked again, and `overlay` is empty.
+  std::string_view failure = {};
+};
+
+using OverlayWatcher = std::function<void(const WatchedOverlay&)>;
+
 // The watchers of one trial; empty ones are not called.
 struct Watchers {
   ScanWatcher scan = {};      // called after every scan of the light stripe
   StereoWatcher stereo = {};  // after every look of stereo cameras that has images
   StepWatcher step = {};      // after every decision of a map-based navigator that follows a look
+  // After every decision from which on the navigator shows something else. Without this watcher no
+  // navigator is asked what it shows.
+  OverlayWatcher overlay = {};
+  // Before anything else of a drive: what was shown before it is void. A drive begins twice where
+  // the machine may be to blame for a fault of its navigator.
+  std::function<void()> begin = {};
 };
 
 }  // namespace rockyard::trial

@@ -54,7 +54,7 @@ struct TraceEvent {
   double time_s = 0.0;
   math::Pose2 pose;  // true, when it happened
   // "hazard", "look", "chosen", "felt", "scrape", "reflection", "waypoint", "tracker", "vision",
-  // "slip", "end".
+  // "slip", "overlay", "end".
   std::string kind;
   std::string detail;
 };

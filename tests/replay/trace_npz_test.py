@@ -5,6 +5,7 @@ Usage: trace_npz_test.py ROCKYARD SCENARIOS     ROCKYARD: the command; SCENARIOS
 Exit code 0: the arrays are as src/report/README.md says; 1: they are not, or NumPy is missing.
 """
 
+import base64
 import csv
 import json
 import subprocess
@@ -81,6 +82,12 @@ class StripeTrace(unittest.TestCase):
         self.assertTrue((points[:, 0] < scans).all() and (points[:, 4] < 5).all())
         self.assertEqual(self.arrays["map_goodness"].shape, (0, 0, 0))
 
+    def test_its_navigator_shows_nothing(self):
+        shapes = {name: array.shape for name, array in self.arrays.items() if name.startswith("overlay_")}
+        self.assertEqual(shapes, {"overlay_time_s": (0,), "overlay_pose": (0, 3), "overlay_believed": (0, 3),
+                                  "overlay_line": (0,), "overlay_line_name": (0,), "overlay_points": (0, 3),
+                                  "overlay_grid": (0, 6), "overlay_grid_name": (0,), "overlay_values": (0,)})
+
 
 class MapTrace(unittest.TestCase):
     def test_maps_and_votes(self):
@@ -117,6 +124,69 @@ class MapTrace(unittest.TestCase):
         self.assertGreater(int(chosen.sum()), steps // 2)
         self.assertEqual(numpy.bincount(arrays["spline_step"][chosen]).max(), 1)
         self.assertTrue(arrays["spline_feasible"][chosen].all())
+
+
+# Drives straight on and shows, with each decision, a way to where it stands and what it knows.
+SHOWING = """
+import json, os, struct
+
+def read(size):
+    data = b""
+    while len(data) < size:
+        piece = os.read(3, size - len(data))
+        if not piece:
+            raise SystemExit
+        data += piece
+    return data
+
+decisions = 0
+while True:
+    request = json.loads(read(struct.unpack("<I", read(4))[0]))
+    answer = {}
+    if request["type"] == "describe":
+        answer = {"protocol": 1, "name": "showing", "doc": "shows", "version": "1", "parameters": [], "own_values": []}
+    if request["type"] == "traits":
+        answer = {"reads": "nothing", "goal_tolerance": {"parameter": "goal_tolerance_m", "value_m": 0.1}}
+    if request["type"] == "decide":
+        x = request["estimate"]["x_m"]
+        decisions += 1
+        answer = {"status": "gave_up" if decisions > 3 else "driving", "motion": {"kind": "arc"}, "until": {"period_s": 2}}
+    if request["type"] == "overlay":
+        answer = {"lines": [{"name": "way", "points": [[0, 0.25], [x, 0.5]]}, {"name": "end", "points": []}],
+                  "grids": [{"name": "known", "x0_m": x, "y0_m": -1, "step_m": 0.5, "nx": 2, "ny": 1, "values": [0.125, None]}]}
+        if decisions == 3:
+            answer = {"lines": [], "grids": []}
+    text = json.dumps(answer).encode()
+    os.write(4, struct.pack("<I", len(text)) + text)
+"""
+
+
+class OverlayTrace(unittest.TestCase):
+    def test_lines_and_grids(self):
+        script = base64.b64encode(SHOWING.encode()).decode()
+        command = f"{sys.executable} -c \"import base64;exec(base64.b64decode('{script}'))\""
+        plugins = json.dumps([{"process": command}])
+        with tempfile.TemporaryDirectory() as folder:
+            arrays, _ = trace(Path(folder), "pathfinder/nominal.json", "--set", f"plugins={plugins}",
+                              "--set", "navigation.navigator=showing")
+        # Shown at three of four decisions; at the third nothing any more, and at the last again.
+        self.assertEqual(json.loads(str(arrays["meta"]))["overlay_every"], 1)
+        self.assertEqual(len(arrays["overlay_time_s"]), 4)
+        self.assertTrue((numpy.diff(arrays["overlay_time_s"]) > 0.0).all())
+        numpy.testing.assert_array_equal(arrays["overlay_line"], [0, 0, 1, 1, 3, 3])
+        self.assertEqual(arrays["overlay_line_name"].tolist(), ["way", "end"] * 3)
+        x = arrays["overlay_believed"][[0, 1, 3], 0]
+        self.assertTrue((numpy.diff(x) > 0).all())
+        # Each at the end of the moment before its decision, with every digit.
+        moments = numpy.searchsorted(arrays["time_s"], arrays["overlay_time_s"], side="right") - 1
+        numpy.testing.assert_array_equal(arrays["overlay_time_s"], arrays["time_s"][moments])
+        numpy.testing.assert_array_equal(arrays["overlay_pose"][:, :2], arrays["position_m"][moments, :2])
+        numpy.testing.assert_array_equal(arrays["overlay_believed"], arrays["believed"][moments, :3])
+        numpy.testing.assert_array_equal(arrays["overlay_points"], [[0, 0, 0.25], [0, x[0], 0.5], [2, 0, 0.25],
+                                                                    [2, x[1], 0.5], [4, 0, 0.25], [4, x[2], 0.5]])
+        numpy.testing.assert_array_equal(arrays["overlay_grid"], [[i, x_m, -1, 0.5, 2, 1] for i, x_m in zip((0, 1, 3), x)])
+        self.assertEqual(arrays["overlay_grid_name"].tolist(), ["known"] * 3)
+        numpy.testing.assert_array_equal(arrays["overlay_values"], [0.125, numpy.nan] * 3)
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@
 #include "trial/course/goal_designation.h"
 #include "trial/course/site_map.h"
 #include "trial/drive/make_estimator.h"
+#include "trial/drive/overlay_teller.h"
 #include "trial/drive/tick_guard.h"
 #include "trial/sight/onboard_calibration.h"
 
@@ -85,11 +86,9 @@ truth::EndCause CauseOf(navigation::FaultKind kind) {
 
 // Makes the navigator of the scenario. A route that it is told to follow is planned before anything
 // moves.
-std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
-                                                     const terrain::Terrain& terrain,
-                                                     core::TrialKey key,
-                                                     const std::vector<messages::Goal>& goals,
-                                                     double tick_s) {
+std::unique_ptr<navigation::Navigator> MakeNavigator(
+    const DriveParams& drive, const terrain::Terrain& terrain, core::TrialKey key,
+    const std::vector<messages::Goal>& goals, double tick_s, navigation::AskedListener on_asked) {
   const navigation::NavigatorKind& chosen = drive.navigation.navigators.chosen();
   navigation::NavigatorSetup setup{
       .goal = goals.front(),
@@ -104,8 +103,8 @@ std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
       .control_period_s = tick_s,
       .limits = drive.navigation.limits};
   if (chosen.traits().follows_route) setup.route = ToldRoute(drive, terrain, key, goals.front());
-  std::unique_ptr<navigation::Navigator> navigator =
-      std::make_unique<navigation::EventGate>(Begun(chosen, setup), goals.front());
+  std::unique_ptr<navigation::Navigator> navigator = std::make_unique<navigation::EventGate>(
+      Begun(chosen, setup), goals.front(), std::move(on_asked));
   const navigation::StuckReactionParams& stuck = drive.navigation.on_board_stuck;
   if (stuck.reaction == navigation::StuckResponse::kOff) return navigator;
   return std::make_unique<navigation::StuckReaction>(stuck, std::move(navigator));
@@ -126,7 +125,8 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
       stop_(WholeSteps(world_.ramp_s() + drive.clock.stop_time_s, world_.step_s())),
       told_places_(ToldPlaces(drive, world_.field().terrain, key)),
       onboard_(drive, key, told_places_,
-               MakeNavigator(drive, world_.field().terrain, key, told_places_, tick_.duration_s),
+               MakeNavigator(drive, world_.field().terrain, key, told_places_, tick_.duration_s,
+                             TellsOverlays(watchers.overlay, world_)),
                world_.ramp_s(), WithTruth(watchers, world_)),
       ledger_(MakePowerBudget(drive), drive.energy.battery_wh,
               start != nullptr ? start->sun : std::nullopt),
@@ -379,6 +379,7 @@ DriveResult RunTrial(const DriveParams& params, core::TrialKey key, truth::Trace
                      const Watchers& watchers) {
   return RunTwiceAtMost(params, [&] {
     if (trace != nullptr) *trace = {};
+    if (watchers.begin) watchers.begin();
     return std::make_unique<Drive>(params, key, trace, watchers);
   });
 }
