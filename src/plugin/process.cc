@@ -115,9 +115,8 @@ class ProcessNavigator final : public navigation::Navigator {
     Ask(request);
   }
   const messages::Overlay* overlay() const override {
-    const double used_s = used_s_;
-    overlay_ = OverlayFromJson(Ask(Request("overlay")));
-    used_s_ = used_s;  // a drive that is watched is the same as one that is not
+    // A drive is the same whether or not somebody watches it.
+    overlay_ = OverlayFromJson(Ask(Request("overlay"), false));
     CheckOverlay(overlay_);
     return overlay_.lines.empty() && overlay_.grids.empty() ? nullptr : &overlay_;
   }
@@ -146,10 +145,12 @@ class ProcessNavigator final : public navigation::Navigator {
     return decision;
   }
 
-  JsonValue Ask(const JsonValue& request) const {
+  // `counts`: as CPU time of the drive.
+  JsonValue Ask(const JsonValue& request, bool counts = true) const {
     failed_ = true;
-    JsonValue answer = AskJson(*process_, request, limits_, limits_.drive_cpu_s - used_s_);
-    used_s_ += process_->used_s();
+    const double left_s = limits_.drive_cpu_s - (counts ? used_s_ : 0.0);
+    JsonValue answer = AskJson(*process_, request, limits_, left_s);
+    if (counts) used_s_ += process_->used_s();
     failed_ = false;
     return answer;
   }
