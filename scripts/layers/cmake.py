@@ -56,7 +56,7 @@ def check_links(rules, module, text, arguments, used):
         for _, other in arguments.get(keyword, []):
             if other not in rules.allowed.get(module, set()):
                 yield f"{keyword} {other}: the table does not allow it"
-            elif keyword == "DEPENDS" and module in rules.params_only and other not in FOR_ALL:
+            elif keyword == "DEPENDS" and module in rules.params_only and other not in (*FOR_ALL, *rules.params_only[module]):
                 yield f"DEPENDS {other}: {module} may link parameters only (PARAMS_OF)"
             elif other not in used:
                 yield f"{keyword} {other}: nothing in {module} includes it"

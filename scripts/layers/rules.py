@@ -37,7 +37,7 @@ class Rules:
 
     named: dict = field(default_factory=dict)        # folder -> folders that its row names
     allowed: dict = field(default_factory=dict)      # folder -> folders it may include, with itself
-    params_only: set = field(default_factory=set)    # folders that may include *_params.h only
+    params_only: dict = field(default_factory=dict)  # folders that may include *_params.h only: but for which
     heavy: dict = field(default_factory=dict)        # library -> folders of its .cc files
 
     def height(self, folder):
@@ -47,7 +47,7 @@ class Rules:
 
 def read_table(text):
     """Returns (named, params_only) from the table below "may also include", from the bottom up."""
-    named, params_only = {}, set()
+    named, params_only = {}, {}
     lines = iter(text.splitlines())
     for line in lines:
         if re.match(r"\|\s*folder\s*\|\s*may also include\s*\|", line):
@@ -63,7 +63,8 @@ def read_table(text):
             raise RulesError(f"src/README.md: two rows for {folder}")
         note = re.search(r"\(([^)]*)\)", others)
         if note and "*_params.h" in note.group(1):
-            params_only.add(folder)
+            whole = note.group(1).partition("but for")[2]
+            params_only[folder] = {name.strip() for name in whole.split(",") if name.strip()}
         names = re.sub(r"\([^)]*\)", "", others)
         named[folder] = {name.strip() for name in names.split(",") if name.strip()}
     for folder, others in named.items():

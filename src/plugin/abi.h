@@ -219,4 +219,4 @@ typedef const struct rockyard_plugin_info* (*rockyard_plugin_function)(void);
 }
 #endif
 
-#endif  // ROCKYARD_PLUGIN_ABI_H
+#endif

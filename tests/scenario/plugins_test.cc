@@ -48,7 +48,7 @@ class PluginScenarios : public testing::Test {
     Write(name + "/mine.json",
           R"({"name": "mine", "plugins": ["libs/echo.so"],
               "navigation": {"navigator": "echo", "echo": {"goal_tolerance_m": 0.3},
-                             "every_type": {"angle_deg": 0.1}}})");
+                             "every_type": {"real": 0.5, "angle_deg": 0.1}}})");
   }
 
   Scenario Load(const std::string& name = "here", const Overrides& overrides = {}) const {
@@ -260,7 +260,8 @@ TEST_F(PluginSweeps, TellWhatIsWrongWithAValue) {
                 Parse(R"({"path": "navigation.echo.goal_tolerance_m", "values": [0.1, 9]})");
               }),
               core::Says("goal_tolerance_m=9", "navigation.echo.goal_tolerance_m", "above"));
-  EXPECT_THAT(core::RefusalOf([&] { Parse(R"({"path": "navigation.echo.goal", "values": [1]})"); }),
+  EXPECT_THAT(core::RefusalOf(
+                  [&] { Parse(R"({"path": "navigation.echo.goal_tolerance", "values": [1]})"); }),
               core::Says("axes[0].path", "no parameter", "navigation.echo.goal_tolerance_m"));
 }
 
