@@ -87,16 +87,25 @@ function paintWhenAsked() {
   }
 }
 
+/** In the page: a browser that has no WebGL. */
+function hideWebGl() {
+  const { getContext } = HTMLCanvasElement.prototype;
+  HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+    return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
+  };
+}
+
 /**
  * Opens a file. With `paints` the browser fills every picture, else those that pixels() reads; with `stepped` time
  * stands until the test runs page.clock. Returns the page, every request that it made and everything that went
  * wrong in it: errors and warnings on the console, exceptions, requests that failed.
  */
-export async function openPage(browser, file, { width = 1280, height = 900, scheme = "light", paints = false, stepped = false, ...context } = {}) {
+export async function openPage(browser, file, { width = 1280, height = 900, scheme = "light", paints = false, stepped = false, withoutWebGl = false, ...context } = {}) {
   // Less motion, so that a replay stands at its start until a test moves it.
   const opened = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, reducedMotion: "reduce", ...context });
   opened.setDefaultTimeout(HANG_MS);
   if (!paints) await opened.addInitScript(paintWhenAsked);
+  if (withoutWebGl) await opened.addInitScript(hideWebGl);
   if (stepped) {
     await opened.clock.install({ time: 0 });
     await opened.clock.pauseAt(1000);

@@ -269,3 +269,32 @@ test("rocks, pushes, walls and settings back are in the scene", async () => {
   const stretches = entity("/scene/paths", "true_path").lines.map(({ points }) => points.length);
   assert.deepEqual(stretches, [20, stripe.replay.motion.t.length - 20]);
 });
+
+test("what the navigator shows is a scene of its lines, and a grid on a topic of its name", async () => {
+  const [t, later, last] = [0.25, 0.5, 0.75].map((share) => share * stripe.replay.motion.t.at(-1));
+  const pose = { x: 0, y: 0, heading: 0 };
+  const cost = { name: "cost", x0: -1, y0: 2, step: 0.5, nx: 2, ny: 2, values: [0, 51, 255, -1] };
+  const data = changed(stripe.data, "shown.json", (replay) => {
+    replay.overlays = {
+      every: 1,
+      shown: [
+        { t, pose, believed: pose, lines: [{ name: "path", points: [[0, 0], [1, 2]] }, { name: "tree", points: [[3, 4]] }], grids: [cost] },
+        { t: later, pose, believed: pose, lines: [{ name: "tree", points: [[5, 6], [7, 8]] }], grids: [] },
+        { t: last, pose, believed: pose, lines: [], grids: [] },
+      ],
+    };
+  });
+  const trace = await open(converted(data, at("shown.mcap")));
+  const scenes = trace.of("/scene/overlay").map(({ content }) => content);
+  // Each by itself: what is not in it is gone.
+  assert.ok(scenes.every(({ deletions }) => deletions.length === 1 && deletions[0].type === 1));
+  assert.deepEqual(scenes.map(({ entities }) => entities.map(({ id }) => id)), [["path", "tree"], ["tree"], []]);
+  const points = scenes[1].entities[0].lines[0].points;
+  assert.deepEqual(points.map(({ x, y }) => [x, y]), [[5, 6], [7, 8]]);
+  assert.deepEqual(scenes[0].entities[1].lines[0].color, scenes[1].entities[0].lines[0].color);
+  const [{ content, schema, logTime }, ...others] = trace.of("/overlay/cost");
+  assert.deepEqual([others.length, schema, Number(logTime)], [0, "foxglove.Grid", Math.round(1e9 * t)]);
+  assert.deepEqual([content.pose.position.x, content.pose.position.y, content.column_count], [-1, 2, 2]);
+  assert.deepEqual(unpack(content).map(({ value }) => value), [0, Math.fround(0.2), 1, NaN]);
+  assert.equal(stripe.trace.of("/scene/overlay").length, 0);
+});

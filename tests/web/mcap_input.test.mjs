@@ -62,6 +62,13 @@ test("bad input exits with 2, says what is wrong and writes nothing", () => {
   damaged(/shapes\[0\]\.kind is not known/, (replay) => void (replay.rover.links[0].shapes[0].kind = "cone"));
   damaged(/rock_moves\[0\]\.rock/, (replay) => void (replay.rock_moves = [{ rock: 1e6, t: 0, x: 0, y: 0, z: 0 }]));
   damaged(/must be at least 0/, (replay) => void (replay.scans[0].t = -5));
+  const pose = { x: 0, y: 0, heading: 0 };
+  const overlays = (more) => (replay) =>
+    void (replay.overlays = { every: 1, shown: [{ t: 1, pose, believed: pose, lines: [], grids: [], ...more }] });
+  damaged(/overlays\.shown\[0\]\.lines\[0\]\.name must be text/, overlays({ lines: [{ points: [] }] }));
+  damaged(/lines\[0\] must have points of two numbers/, overlays({ lines: [{ name: "a", points: [[1]] }] }));
+  damaged(/grids\[0\] must have nx times ny/, overlays({ grids: [{ name: "a", x0: 0, y0: 0, step: 1, nx: 2, ny: 1, values: [1] }] }));
+  damaged(/must be at least 0/, overlays({ t: -1 }));
   damaged(/ground\.z must have/, (replay) => void replay.ground.z.pop());
 });
 

@@ -42,6 +42,15 @@ const REPLAY: Shape = {
   events: [{ ...POSE, t: "number", kind: "text", detail: "text" }],
 };
 
+// Of a version of the program that has no overlays there are none.
+const OVERLAYS: Shape = {
+  shown: [{
+    t: "number", pose: POSE, believed: POSE,
+    lines: [{ name: "text", points: [["number"]] }],
+    grids: [{ name: "text", ...numbers("x0", "y0", "step", "nx", "ny"), values: ["number"] }],
+  }],
+};
+
 const SHAPES: Record<string, Shape> = {
   box: { center: ["number"], size: ["number"] },
   wheel: { center: ["number"], radius: "number", width: "number" },
@@ -77,6 +86,15 @@ function linkProblem({ links }: ReplayPayload["rover"]): string | null {
   });
 }
 
+function overlaysProblem({ overlays }: ReplayPayload): string | null {
+  if (!overlays) return null;
+  return mismatch(overlays, OVERLAYS, "overlays") ?? first(overlays.shown, ({ lines, grids }, i) => {
+    const path = `overlays.shown[${i}]`;
+    return first(lines, ({ points }, k) => points.every(({ length }) => length === 2) ? null : `${path}.lines[${k}] must have points of two numbers`) ??
+      first(grids, ({ nx, ny, values }, k) => values.length === nx * ny ? null : `${path}.grids[${k}] must have nx times ny values`);
+  });
+}
+
 // Never descending.
 function inOrder(times: readonly number[]): number[] {
   let latest = 0;
@@ -98,7 +116,8 @@ export function asReplay(value: unknown): ReplayPayload {
     first(moves, ({ rock }, i) => (rock in rocks ? null : `rock_moves[${i}].rock must be the number of a rock`)) ??
     first(steps, ({ map: { nx, ny, goodness } }, i) =>
       goodness.length === nx * ny ? null : `steps[${i}].map.goodness must have nx times ny cells`) ??
-    first([...moves, ...steps, ...events, ...scans], ({ t }) => (t >= 0 ? null : `the time ${t} must be at least 0`));
+    overlaysProblem(replay) ??
+    first([...moves, ...steps, ...events, ...scans, ...(replay.overlays?.shown ?? [])], ({ t }) => (t >= 0 ? null : `the time ${t} must be at least 0`));
   if (problem) throw new Error(`the data of the replay is damaged: ${problem}`);
   return { ...replay, motion: { ...replay.motion, t: inOrder(replay.motion.t) } };
 }

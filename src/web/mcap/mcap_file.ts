@@ -3,9 +3,10 @@ import { McapWriter } from "@mcap/core";
 import type { ReplayPayload } from "../replay/payload";
 import { nanoseconds } from "./geometry";
 import { motionMessages } from "./motion_messages";
+import { overlayMessages } from "./overlay_messages";
 import { sceneMessages } from "./scene_messages";
 import { sensingMessages } from "./sensing_messages";
-import { TOPICS, type Message, type Topic } from "./topics";
+import { schemaOf, type Message, type Topic } from "./topics";
 
 /** Collects what a writer writes. */
 class Memory {
@@ -45,7 +46,7 @@ const encode = (content: unknown): Uint8Array => Buffer.from(JSON.stringify(cont
 
 /** In the order of time; of one moment in the order of the topics, then as they came. */
 function messagesOf(replay: ReplayPayload): Message[] {
-  const messages = [...sceneMessages(replay), ...motionMessages(replay), ...sensingMessages(replay)];
+  const messages = [...sceneMessages(replay), ...motionMessages(replay), ...sensingMessages(replay), ...overlayMessages(replay)];
   return messages.sort((a, b) => nanoseconds(a.t) - nanoseconds(b.t));
 }
 
@@ -53,7 +54,7 @@ async function registerTopics(writer: McapWriter, topics: Iterable<Topic>): Prom
   const schemas = new Map<string, number>();
   const channels = new Map<Topic, number>();
   for (const topic of topics) {
-    const schema = TOPICS[topic];
+    const schema = schemaOf(topic);
     const name = schema.title;
     if (!schemas.has(name)) {
       schemas.set(name, await writer.registerSchema({ name, encoding: "jsonschema", data: encode(schema) }));

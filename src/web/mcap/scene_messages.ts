@@ -27,7 +27,8 @@ const WALL_THICKNESS_M = 0.01;
 
 type Parts = Partial<Pick<SceneEntity, "cubes" | "spheres" | "cylinders" | "lines" | "triangles">>;
 
-function entity(t: number, frame: string, id: string, parts: Parts): SceneEntity {
+/** What is drawn in a frame until one with its id replaces it. */
+export function entity(t: number, frame: string, id: string, parts: Parts): SceneEntity {
   return {
     timestamp: timestamp(t), frame_id: frame, id, lifetime: { sec: 0, nsec: 0 }, frame_locked: true, metadata: [],
     arrows: [], cubes: [], spheres: [], cylinders: [], lines: [], triangles: [], texts: [], models: [], ...parts,

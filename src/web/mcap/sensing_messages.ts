@@ -6,13 +6,13 @@ import { pose, timestamp, vector } from "./geometry";
 import { WORLD } from "./motion_messages";
 import type { Message } from "./topics";
 
-const FLOAT_BYTES = 4;
+export const FLOAT_BYTES = 4;
 
-const fieldsOf = (names: readonly string[]): PackedElementField[] =>
+export const fieldsOf = (names: readonly string[]): PackedElementField[] =>
   names.map((name, i) => ({ name, offset: i * FLOAT_BYTES, type: NumericType.FLOAT32 }));
 
 /** Rows of numbers as little-endian floats, whatever the machine. */
-function packed(rows: readonly (readonly number[])[]): Uint8Array {
+export function packed(rows: readonly (readonly number[])[]): Uint8Array {
   const all = rows.flat();
   const view = new DataView(new ArrayBuffer(all.length * FLOAT_BYTES));
   all.forEach((value, i) => view.setFloat32(i * FLOAT_BYTES, value, true));

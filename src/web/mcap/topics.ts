@@ -58,6 +58,7 @@ export const TOPICS = {
   "/scene/pushed_rocks": foxglove.SceneUpdate,
   "/scene/rover": foxglove.SceneUpdate,
   "/scene/paths": foxglove.SceneUpdate,
+  "/scene/overlay": foxglove.SceneUpdate,
   "/scan": foxglove.PointCloud,
   "/look": foxglove.PointCloud,
   "/map": foxglove.Grid,
@@ -65,7 +66,15 @@ export const TOPICS = {
   "/events": foxglove.Log,
 };
 
-export type Topic = keyof typeof TOPICS;
+/** Of each grid that the navigator shows, by its name. */
+const OVERLAY_GRID = "/overlay/";
+
+export type Topic = keyof typeof TOPICS | `${typeof OVERLAY_GRID}${string}`;
+
+export const gridTopic = (name: string): Topic => `${OVERLAY_GRID}${name}`;
+
+export const schemaOf = (topic: Topic): (typeof TOPICS)[keyof typeof TOPICS] =>
+  topic in TOPICS ? TOPICS[topic as keyof typeof TOPICS] : foxglove.Grid;
 
 export interface Message {
   topic: Topic;

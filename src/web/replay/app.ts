@@ -10,6 +10,7 @@ import { Overview } from "./overview";
 import { CameraBar } from "./panels/camera_bar";
 import { Ending } from "./panels/ending";
 import { EyesPanel } from "./panels/eyes";
+import { gridNames } from "./overlays";
 import { bindKeys, helpDialog, type Key, pageKeys } from "./panels/keys";
 import { layersPanel, SCENE_LAYERS } from "./panels/layers";
 import { Readout } from "./panels/readout";
@@ -52,9 +53,12 @@ export class App {
   private readonly player = this.shared?.player ?? new Player(this.drive.start, this.drive.end, stretchesOf(this.drive));
   private readonly scanTimes = this.payload.scans.map((scan) => scan.t);
   private readonly stepTimes = this.payload.steps.map((step) => step.t);
+  private readonly overlayTimes = (this.payload.overlays?.shown ?? []).map((overlay) => overlay.t);
   private readonly layers: Layers = {
     believed: true, wholePath: false, scan: this.payload.steps.length === 0, map: this.payload.steps.length > 0 ? "goodness" : "off",
     mapAtTruth: false, votes: true, marks: true, grid: true, ...SCENE_LAYERS,
+    // One map at a time.
+    overlay: true, overlayGrid: this.payload.steps.length > 0 ? null : (gridNames(this.payload.overlays)[0] ?? null),
   };
   private readonly events = timelineEvents(this.payload);
   private readonly readout = new Readout(this.payload, this.events);
@@ -235,6 +239,7 @@ export class App {
       moment: this.drive.at(t),
       scan: this.payload.scans[lastAtOrBefore(this.scanTimes, t)] ?? null,
       step: this.payload.steps[lastAtOrBefore(this.stepTimes, t)] ?? null,
+      overlay: this.payload.overlays?.shown[lastAtOrBefore(this.overlayTimes, t)] ?? null,
     };
   }
 

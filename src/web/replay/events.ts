@@ -2,7 +2,7 @@
 import type { ReplayPayload, TrialEvent } from "./payload";
 
 /** The order of the rows; kinds that are not here come after. */
-const ORDER = ["scan", "look", "hazard", "chosen", "turn", "felt", "scrape", "stall", "reflection", "waypoint", "tracker", "end"];
+const ORDER = ["scan", "look", "hazard", "chosen", "turn", "felt", "scrape", "stall", "reflection", "waypoint", "tracker", "overlay", "end"];
 
 export function timelineEvents(payload: ReplayPayload): TrialEvent[] {
   const events = [...payload.events];
@@ -43,11 +43,15 @@ const WORDS: Record<string, string> = {
   scrape: "scraped a rock",
   stall: "is stuck",
   reflection: "operators turned the rover back at a mirror line of the arena",
+  overlay: "its navigator failed to say what it shows",
   end: "the trial ended",
 };
 
-/** A kind as the record of the trial names it: its "turns in place" are others, and fewer. */
-export function kindName(kind: string): string { return kind === "turn" ? "turn in place" : kind; }
+// What the kind alone leaves open; "turns in place" of the record are others, and fewer.
+const NAMES: Record<string, string> = { turn: "turn in place", overlay: "overlay failed" };
+
+/** A kind in a word or two. */
+export function kindName(kind: string): string { return NAMES[kind] ?? kind; }
 
 export function kindTitle(kind: string): string {
   if (kind === "turn") return "turns in place; one that goes on after a look counts again";

@@ -26,6 +26,13 @@ const NAMES = [
   "laser",
   "camera",
   "track",
+  "overlay-1",
+  "overlay-2",
+  "overlay-3",
+  "overlay-4",
+  "overlay-5",
+  "overlay-6",
+  "overlay-edge",
 ] as const;
 
 export type Palette = Record<(typeof NAMES)[number] | (typeof WORLD_NAMES)[number], string>;

@@ -31,6 +31,8 @@ export interface ReplayPayload {
   steps: Step[];
   /** What stereo cameras saw; null where the trial had no images. */
   eyes: Eyes | null;
+  /** What the navigator shows of itself; null where it shows nothing. */
+  overlays: Overlays | null;
   events: TrialEvent[];
   /** A second trial, shown beside this one on one clock; null where there is none. */
   beside: ReplayPayload | null;
@@ -227,6 +229,30 @@ export interface StereoLook {
   /** PNG files in base64: the left image as it was matched, and its disparities in colours, black where there is none. */
   left: string;
   disparity: string;
+}
+
+/** What a navigator of any kind shows of its decisions, in the order of time. */
+export interface Overlays {
+  /** One of so many is here. */
+  every: number;
+  /** Each holds until the next one. None where the first alone would be too large for a page. */
+  shown: Overlay[];
+}
+
+export interface Overlay {
+  t: number;
+  /** Where the rover truly was at t, and where it believed to be: lines and grids lie in the believed world. */
+  pose: Place; believed: Place;
+  lines: { name: string; points: [number, number][] }[];
+  grids: OverlayGrid[];
+}
+
+/** Square cells from the lower corner of the first one, row-major [iy][ix]. */
+export interface OverlayGrid {
+  name: string;
+  x0: number; y0: number; step: number; nx: number; ny: number;
+  /** 0 (free) to 255 (blocked), or -1 where unknown. */
+  values: number[];
 }
 
 export interface Vote {

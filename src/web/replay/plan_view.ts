@@ -2,8 +2,9 @@
 
 import { el } from "../shared/dom";
 import type { Course as Drive, Moment } from "./motion";
+import { gridPicture, lineNames, overlayStyle, placingOf } from "./overlays";
 import { type Palette, rampCss, readPalette } from "./palette";
-import type { Course, Place, ReplayPayload, Rock, RockMove, Scan, Shape, Splines, Step, TrialEvent } from "./payload";
+import type { Course, Overlay, Place, ReplayPayload, Rock, RockMove, Scan, Shape, Splines, Step, TrialEvent } from "./payload";
 import { arcPoint, drawingOrder, type Frame, frameOf, PIECES, placed, splinePath, turnPoint } from "./scene/arcs";
 import { toldElsewhere, WAYPOINT_RADIUS_M } from "./scene/course";
 import { type Extent, extentOf } from "./scene/ground";
@@ -11,6 +12,7 @@ import { worldKind } from "./scene/world";
 import type { CameraMode, DrawnLink, DrawnPose, Layers, Shown, View } from "./view";
 
 const MARGIN_PX = 16;
+const OVERLAY_PX = 2.5;
 
 export class PlanView implements View {
   readonly element = el("canvas", { class: "plan" });
@@ -21,6 +23,7 @@ export class PlanView implements View {
   private readonly context = this.element.getContext("2d")!;
   private palette = readPalette(worldKind(this.payload.world));
   private readonly body = bodyOf(this.payload);
+  private readonly names = lineNames(this.payload.overlays);
 
   constructor(private readonly payload: ReplayPayload, private readonly drive: Drive, private readonly extent: Extent) {
   }
@@ -71,7 +74,10 @@ export class PlanView implements View {
     const { course, rocks, rock_moves: moves, events } = this.payload;
     if (layers.grid) drawGrid(brush, course);
     if (shown.step) drawStep(brush, shown.step, layers);
+    const overlay = layers.overlay ? shown.overlay : null;
+    if (overlay) drawOverlayGrids(brush, overlay, layers);
     drawRocks(brush, rocks, moves, shown.moment.t);
+    if (overlay) drawOverlayLines(brush, overlay, layers, this.names);
     drawMirrorLines(brush, course);
     this.drawCourse(brush);
     this.drawPaths(brush, shown.moment, layers.believed);
@@ -252,4 +258,31 @@ function drawPath(brush: Brush, at: (share: number) => Place, frame: Frame["ahea
       brush.context.lineTo(...frame(x, y));
     }
   });
+}
+
+// ---- What the navigator shows.
+
+function drawOverlayGrids({ context }: Brush, overlay: Overlay, layers: Layers): void {
+  const place = placingOf(overlay, layers.mapAtTruth);
+  const [x0, y0] = place(0, 0);
+  const [[xx, xy], [yx, yy]] = [place(1, 0), place(0, 1)];
+  for (const grid of overlay.grids) {
+    const picture = grid.name === layers.overlayGrid ? gridPicture(grid) : null;
+    if (!picture) continue;
+    context.save();
+    context.transform(xx - x0, xy - y0, yx - x0, yy - y0, x0, y0);
+    context.imageSmoothingEnabled = false;
+    context.drawImage(picture.canvas, grid.x0, grid.y0, picture.width, picture.height);
+    context.restore();
+  }
+}
+
+function drawOverlayLines(brush: Brush, overlay: Overlay, layers: Layers, names: string[]): void {
+  const place = placingOf(overlay, layers.mapAtTruth);
+  for (const { name, points } of overlay.lines) {
+    const { colour, dash } = overlayStyle(names.indexOf(name));
+    const trace = (): void => points.forEach(([x, y]) => brush.context.lineTo(...place(x, y)));
+    stroke(brush, brush.palette["overlay-edge"], OVERLAY_PX + 2, trace);
+    stroke(brush, brush.palette[colour], OVERLAY_PX, trace, (dash ?? []).map((length) => length * OVERLAY_PX));
+  }
 }

@@ -1,7 +1,7 @@
 // What any picture of the trial can do: the scene in three dimensions, and the plan where WebGL is
 // missing.
 import type { Moment, Quaternion } from "./motion";
-import type { Scan, Step } from "./payload";
+import type { Overlay, Scan, Step } from "./payload";
 import type { WorldKind } from "./scene/world";
 
 export type CameraMode = "follow" | "top" | "orbit" | "rover";
@@ -10,9 +10,11 @@ export type MapKind = "goodness" | "certainty" | "elevation" | "off";
 export interface Layers {
   believed: boolean; wholePath: boolean; scan: boolean;
   map: MapKind;
-  /** Whether map and votes lie where the rover truly is instead of where it believes to be. */
+  /** Whether map, votes and what the navigator shows lie where the rover truly is instead of where it believes to be. */
   mapAtTruth: boolean;
   votes: boolean;
+  /** What the navigator shows; and which of its grids, by name; null for none. */
+  overlay: boolean; overlayGrid: string | null;
   /** Of hazards, scrapes and stalls so far. */
   marks: boolean;
   grid: boolean; tracks: boolean;
@@ -27,7 +29,7 @@ export interface Layers {
 }
 
 /** All that a picture shows of one moment. */
-export interface Shown { moment: Moment; scan: Scan | null; step: Step | null }
+export interface Shown { moment: Moment; scan: Scan | null; step: Step | null; overlay: Overlay | null }
 
 /** The pose that is drawn. */
 export interface DrawnPose { x: number; y: number; z: number; heading: number }
@@ -55,6 +57,8 @@ export interface Drawing {
   planes: DrawnPlane[];
   /** How many cameras' views. */
   views: number;
+  /** What the navigator shows: its lines, as long as they are drawn, and the names of its grids. */
+  overlay: { lines: { name: string; points: Place[] }[]; grids: string[] };
   /** From W to the picture of the shadows, -1 to 1 within it, column by column; and the length of one of its pixels, m. */
   shadow: { toLight: number[]; texel: number };
 }

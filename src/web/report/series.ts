@@ -70,7 +70,7 @@ const BAR: Mark = (s) => `m${-2 * s},${-4.4 * s}h${4 * s}v${8.8 * s}h${-4 * s}z`
 const CROSS: Mark = (s) => `m${-3.4 * s},${-3.4 * s}l${6.8 * s},${6.8 * s}m0,${-6.8 * s}l${-6.8 * s},${6.8 * s}`;
 const PLUS: Mark = (s) => `m0,${-4.4 * s}v${8.8 * s}m${-4.4 * s},${-4.4 * s}h${8.8 * s}`;
 
-const STYLES: Record<string, OutcomeStyle> = {
+export const STYLES: Record<string, OutcomeStyle> = {
   goal_reached: { colour: "var(--series-3)", mark: CIRCLE, dash: "none" },
   false_goal: { colour: "var(--series-5)", mark: DIAMOND, dash: "7 3" },
   no_path: { colour: "var(--series-2)", mark: TRIANGLE, dash: "none" },
@@ -81,7 +81,7 @@ const STYLES: Record<string, OutcomeStyle> = {
   time_limit: { colour: "var(--muted)", mark: SQUARE, dash: "5 2" },
   left_arena: { colour: "var(--muted)", mark: CROSS, dash: "none", hollow: true },
   excessive_slip: { colour: "var(--muted)", mark: BAR, dash: "7 3" },
-  navigator_fault: { colour: "var(--bad)", mark: PLUS, dash: "10 3 2 3", hollow: true },
+  navigator_fault: { colour: "var(--bad)", mark: TRIANGLE, dash: "2 3" },
 };
 const OTHER: OutcomeStyle = { colour: "var(--text)", mark: PLUS, dash: "1 3", hollow: true };
 

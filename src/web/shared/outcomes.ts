@@ -11,7 +11,7 @@ const SENTENCES: Record<string, string> = {
   time_limit: "It ran out of time before it arrived.",
   left_arena: "It left the area that it had to stay in.",
   excessive_slip: "It stopped, as its wheels were seen to slip too much.",
-  navigator_fault: "The plugin or process that decides for it failed.",
+  navigator_fault: "Its navigator failed: the plugin or process that decides where it drives.",
   simulator_fault: "The simulator failed; this says nothing of the rover and is in no rate.",
   measured: "It was measured.",
 };
@@ -33,7 +33,7 @@ const BY_OUTCOME: Record<string, string> = {
   time_limit: "ran out of time before the goal",
   left_arena: "left the area that the rover has to stay in",
   excessive_slip: "stopped, since the wheels were seen to slip too much",
-  navigator_fault: "ended as the plugin or process that decides failed",
+  navigator_fault: "stopped, since the navigator failed",
   simulator_fault: "ended with a fault of the simulator, which says nothing of the rover",
 };
 
@@ -50,18 +50,17 @@ const BY_DETAIL: Record<string, string> = {
     "spent too long without coming nearer to the goal",
   "stopped because its navigator reported an error": "stopped, since the navigator reported an error",
   "stopped because its navigator decided what cannot be done": "stopped, since the navigator decided what cannot be done",
-  "stopped because its navigator answered with no right message": "stopped, since the navigator answered with no right message",
+  "stopped because its navigator answered with no right message": "stopped, since an answer of the navigator was no right message",
   "stopped because the process of its navigator ended": "stopped, since the process of the navigator ended",
-  "stopped because its navigator crashed the process that ran it": "stopped, since the navigator crashed the process that ran the drive",
+  "stopped because its navigator crashed the process that ran it": "stopped, since the navigator crashed",
   "stopped because its navigator used more CPU time than it may": "stopped, since the navigator used more CPU time than it may",
   "stopped because its navigator used more memory than it may": "stopped, since the navigator used more memory than it may",
   "stopped because its navigator gave no answer": "stopped, since the navigator gave no answer",
 };
 
-// Behind the sentence of a navigator's fault stands what the navigator said, which may be anything.
-const sentenceOf = (outcome: string, detail: string) => (outcome === "navigator_fault" ? detail.split(": ")[0]! : detail);
-
 /** What a drive did that ended so. */
 export function causeWords(outcome: string, detail = ""): string {
-  return BY_DETAIL[sentenceOf(outcome, detail)] ?? BY_OUTCOME[outcome] ?? `ended as ${outcome.replaceAll("_", " ")}`;
+  // What the navigator said of its fault follows the sentence.
+  const sentence = outcome === "navigator_fault" ? detail.split(": ", 1)[0]! : detail;
+  return BY_DETAIL[sentence] ?? BY_OUTCOME[outcome] ?? `ended as ${outcome.replaceAll("_", " ")}`;
 }

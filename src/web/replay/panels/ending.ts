@@ -12,7 +12,7 @@ import type { Player } from "../player";
 const LED_THERE = ["hazard", "felt", "scrape", "stall", "reflection"];
 const MOST_LINKS = 3;
 
-const TRY: Record<string, string> = {
+export const TRY: Record<string, string> = {
   false_goal:
     "Compare the two paths: where they part, the odometer or the gyro was wrong. A run with perfect localization shows the most that better ones can buy.",
   tip_over: "Look at the last metre from the side: which wheel climbed what, and whether the rover had seen it.",
@@ -22,6 +22,7 @@ const TRY: Record<string, string> = {
   energy_depleted: "Scans and detours cost most: the energy of each is in the record.",
   time_limit: "Most time goes where it stands: scans and computing are on the time line.",
   excessive_slip: "Look at the ground under it: a slope, or wheels that have dug in. The slip that was seen is in the record.",
+  navigator_fault: "Its navigator failed: what it said stands in the detail of the record.",
   left_arena: "Its course, or its belief, leads out of the terrain: a wider arena shows which.",
 };
 

@@ -2,6 +2,7 @@
 
 import { checkbox, el, labelled, select, svg } from "../../shared/dom";
 import { number } from "../../shared/format";
+import { gridNames, lineNames, overlayStyle } from "../overlays";
 import { rampCss } from "../palette";
 import type { ReplayPayload } from "../payload";
 import { mirrorLines, toldElsewhere } from "../scene/course";
@@ -27,7 +28,7 @@ const MARKS = [
 
 const isMarked = (kind: string): boolean => MARKS.some((mark) => mark.kind === kind);
 
-type Add = (name: Exclude<keyof Layers, "map">, label: string, mark?: string | null) => void;
+type Add = (name: Exclude<keyof Layers, "map" | "overlayGrid">, label: string, mark?: string | null) => void;
 
 /** What the scene in three dimensions shows at first, beside what the drive tells. */
 export const SCENE_LAYERS = { tracks: true, light: true, cameras: false, trueShapes: false, plain: false } as const;
@@ -51,6 +52,7 @@ export function layersPanel(payload: ReplayPayload, layers: Layers, solid: boole
     panel.append(el("p", { class: "key" }, swatch("clear"), "clear stripe ", swatch("hazard"), "stripe with a hazard"));
   }
   if (payload.steps.length > 0) addMap(panel, payload, layers, add, changed);
+  if (payload.overlays) addOverlays(panel, payload, layers, add, changed);
   if (payload.events.some(({ kind }) => isMarked(kind))) {
     add("marks", "Where it happened");
     const key = el("p", { class: "key" });
@@ -96,7 +98,7 @@ function aboutPicture({ world, course }: ReplayPayload): HTMLElement {
     el("p", {}, `All light planes are drawn at once. A picture has at most ${number(MOST_TRIANGLES)} triangles and ${MOST_DRAW_CALLS} draw calls with its shadows: of many rocks those that look small have fewer faces.`));
 }
 
-function addMap(panel: HTMLElement, { steps }: ReplayPayload, layers: Layers, add: Add, changed: () => void): void {
+function addMap(panel: HTMLElement, { steps, overlays }: ReplayPayload, layers: Layers, add: Add, changed: () => void): void {
   const list = select(MAPS, layers.map);
   const low = el("span", {});
   const high = el("span", {});
@@ -113,9 +115,49 @@ function addMap(panel: HTMLElement, { steps }: ReplayPayload, layers: Layers, ad
   say();
   panel.append(labelled("Map", list), key);
   const paths = steps.some(({ splines }) => splines !== null) ? "Splines" : "Arcs";
-  add("mapAtTruth", `Map and ${paths.toLowerCase()} at the true pose`);
+  const moved = overlays ? `Map, ${paths.toLowerCase()} and what the navigator shows` : `Map and ${paths.toLowerCase()}`;
+  add("mapAtTruth", `${moved} at the true pose`);
   add("votes", `${paths}: wide and yellow is a high vote`);
   add("scan", "Some of the points seen");
+}
+
+// A key of more is no key.
+const MOST_NAMES = 12;
+
+function addOverlays(panel: HTMLElement, { overlays, steps }: ReplayPayload, layers: Layers, add: Add, changed: () => void): void {
+  const { every, shown } = overlays!;
+  if (shown.length === 0) {
+    panel.append(el("p", { class: "key" }, "What the navigator shows is too large for a page; rockyard trace --npz has it."));
+    return;
+  }
+  add("overlay", "What the navigator shows");
+  const lines = lineNames(overlays);
+  const key = el("p", { class: "key overlay-lines" });
+  lines.slice(0, MOST_NAMES).forEach((name, slot) => key.append(el("span", {}, overlaySwatch(slot), name || "a line")));
+  if (lines.length > MOST_NAMES) key.append(`and ${number(lines.length - MOST_NAMES)} more`);
+  if (lines.length > 0) panel.append(key);
+  const grids = gridNames(overlays);
+  if (grids.length > 0) {
+    // By their places: any text may be a name.
+    const options = grids.map((name, i): [string, string] => [`${i}`, name || "a grid"]);
+    const list = select([...options, ["off", "off"]], layers.overlayGrid === null ? "off" : `${grids.indexOf(layers.overlayGrid)}`);
+    const ramp = el("p", { class: "ramp", hidden: layers.overlayGrid === null }, el("span", {}, "1, blocked"), rampBar(), el("span", {}, "0, free"));
+    list.addEventListener("change", () => {
+      layers.overlayGrid = grids[Number(list.value)] ?? null;
+      ramp.hidden = layers.overlayGrid === null;
+      changed();
+    });
+    panel.append(labelled("Its grid", list), ramp);
+  }
+  if (steps.length === 0) add("mapAtTruth", "At the true pose, not the believed one");
+  if (every > 1) panel.append(el("p", { class: "key" }, `To keep the page small, it has one overlay out of ${every}.`));
+}
+
+function overlaySwatch(slot: number): SVGSVGElement {
+  const { colour, dash } = overlayStyle(slot);
+  const dashes = dash?.map((length) => 3 * length).join(" ") ?? null;
+  return svg("svg", { viewBox: "0 0 34 12", class: "swatch", "aria-hidden": "true" },
+    svg("path", { d: "M1 6h32", style: `stroke: var(--scene-${colour})`, "stroke-dasharray": dashes }));
 }
 
 function rampBar(): SVGSVGElement {

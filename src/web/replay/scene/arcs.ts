@@ -23,15 +23,17 @@ export function placed(pose: Place, x: number, y: number): [number, number] {
   return [pose.x + c * x - s * y, pose.y + s * x + c * y];
 }
 
+/** From the believed world to where it truly is, by the error of a rover that was at `pose` and believed to be at `believed`. */
+export function corrected(believed: Place, pose: Place, x: number, y: number): [number, number] {
+  const [c, s] = [Math.cos(believed.heading), Math.sin(believed.heading)];
+  const [dx, dy] = [x - believed.x, y - believed.y];
+  return placed(pose, c * dx + s * dy, c * dy - s * dx);
+}
+
 /** The map lies in the believed world; `atTruth` moves it by the rover's error of the moment at which it looked. */
 export function frameOf(step: Step, atTruth: boolean): Frame {
   const { believed, pose, look, spline_start: start } = step;
-  const place = (x: number, y: number): [number, number] => {
-    if (!atTruth) return [x, y];
-    const { x: x0, y: y0, heading } = look.believed;
-    const [c, s] = [Math.cos(heading), Math.sin(heading)];
-    return placed(pose, c * (x - x0) + s * (y - y0), c * (y - y0) - s * (x - x0));
-  };
+  const place = (x: number, y: number): [number, number] => (atTruth ? corrected(look.believed, pose, x, y) : [x, y]);
   return { place, ahead: (x, y) => place(...placed(believed, x, y)), along: (x, y) => place(...placed(start, x, y)) };
 }
 

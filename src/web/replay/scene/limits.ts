@@ -7,6 +7,10 @@ export const MOST_ROCK_TRIANGLES = 120_000;
 export const MOST_SOIL_TRIANGLES = 80_000;
 /** Of wheel tracks: two a piece. */
 export const MOST_TRACK_TRIANGLES = 24_000;
+/** Pieces of the lines that a navigator shows; where there are more, they are one pixel wide. */
+export const MOST_OVERLAY_PIECES = 2000;
+/** Squares along a side of the grid that it shows. */
+export const MOST_OVERLAY_SQUARES = 60;
 /** Of all that is drawn for one picture: rocks and their shadows, soil, tracks, and as much as half of the rocks for all else. */
 export const MOST_TRIANGLES = 400_000;
 /** Calls that a picture sends to the graphics, its shadows included. */

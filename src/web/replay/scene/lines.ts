@@ -10,6 +10,8 @@ interface LineStyle {
   /** Lengths of dash and gap, m. */
   dash?: [number, number];
   opacity?: number;
+  /** A wider line below another one at the same place, which it keeps apart from the ground. */
+  edge?: boolean;
 }
 
 export class Lines {
@@ -17,7 +19,7 @@ export class Lines {
   private readonly material: LineMaterial;
   private count = 0;
 
-  constructor(style: LineStyle) {
+  constructor(private readonly style: LineStyle) {
     this.material = new LineMaterial({
       linewidth: style.width_px,
       dashed: style.dash !== undefined,
@@ -25,6 +27,7 @@ export class Lines {
       gapSize: style.dash?.[1] ?? 1,
       transparent: true,
       opacity: style.opacity ?? 1,
+      depthWrite: !style.edge,
     });
     this.object = new LineSegments2(new LineSegmentsGeometry(), this.material);
     this.object.visible = false;
@@ -57,6 +60,6 @@ export class Lines {
   /** In front of everything where the picture is a plan. */
   set onTop(on: boolean) {
     this.material.depthTest = !on;
-    this.object.renderOrder = on ? 10 : 1;
+    this.object.renderOrder = (on ? 10 : 1) - (this.style.edge ? 0.5 : 0);
   }
 }

@@ -10,6 +10,7 @@ import { extentOf, GroundHeights, type Extent } from "./ground";
 import { fitLabels } from "./labels";
 import { StepPicture } from "./maps";
 import { EventMarks } from "./marks";
+import { OverlayPicture } from "./overlays";
 import { Paths } from "./paths";
 import { Rocks } from "./rocks";
 import { GhostRover, SolidRover } from "./rover";
@@ -42,6 +43,7 @@ export class SceneView implements View {
   private readonly scan = new ScanPoints(this.heights);
   private readonly sight = new Sight(this.payload, this.heights);
   private readonly step = new StepPicture(this.heights);
+  private readonly overlays = new OverlayPicture(this.payload.overlays, this.heights);
   private readonly marks = new EventMarks(this.payload.events, this.heights);
   private readonly rig = new CameraRig(this.element, this.extent, this.rover.length());
   // Ground, walls, course and surroundings are made anew with the colours.
@@ -58,7 +60,7 @@ export class SceneView implements View {
     this.renderer.info.autoReset = false;
     this.rig.setPlanExtent(plan);
     this.scene.add(this.fixed, this.sunlight.group, this.rocks.group, this.rover.body, this.ghost.body);
-    for (const { group } of [this.paths, this.tracks, this.scan, this.sight, this.step, this.marks]) this.scene.add(group);
+    for (const { group } of [this.paths, this.tracks, this.scan, this.sight, this.step, this.overlays, this.marks]) this.scene.add(group);
     this.recolour();
   }
 
@@ -67,7 +69,7 @@ export class SceneView implements View {
   setMode(mode: CameraMode): void {
     this.rig.setMode(mode);
     this.rig.update(this.rover.body);
-    this.paths.onTop = this.marks.onTop = mode === "top";
+    this.paths.onTop = this.marks.onTop = this.overlays.onTop = mode === "top";
   }
 
   approach(factor: number): void { this.rig.approach(factor); }
@@ -78,7 +80,7 @@ export class SceneView implements View {
     this.rig.onMoved(listener);
   }
 
-  show({ moment, scan, step }: Shown, layers: Layers): void {
+  show({ moment, scan, step, overlay }: Shown, layers: Layers): void {
     const { attitude, believed } = moment;
     this.rover.body.position.set(moment.x, moment.y, moment.z);
     // The data's digits are few.
@@ -97,6 +99,7 @@ export class SceneView implements View {
     this.sight.show(this.rover.body, moment.t, layers.light && moment.activity === SCANNING, layers.cameras);
     this.tracks.show(moment, layers.tracks);
     this.step.show(step, layers);
+    this.overlays.show(overlay, layers);
     this.marks.show(moment.t, layers.marks);
     this.rig.update(this.rover.body);
   }
@@ -121,7 +124,7 @@ export class SceneView implements View {
       around.fixed,
       around.sky,
     );
-    const parts = [this.rover, this.ghost, this.rocks, this.paths, this.tracks, this.scan, this.sight, this.step, this.marks];
+    const parts = [this.rover, this.ghost, this.rocks, this.paths, this.tracks, this.scan, this.sight, this.step, this.overlays, this.marks];
     for (const part of parts) part.recolour(palette);
   }
 
@@ -168,6 +171,7 @@ export class SceneView implements View {
       tracks: this.tracks.drawn(),
       planes: this.sight.drawnPlanes(),
       views: this.sight.drawnViews,
+      overlay: this.overlays.drawn(),
       shadow: { toLight: this.sunlight.toLight().toArray(), texel: this.sunlight.texel_m },
     };
   }
