@@ -88,7 +88,7 @@ pageTest("a navigator's fault is an outcome with its cause in words", "own.html"
 test("causes are known by the sentence, whatever a navigator said behind it", async () => {
   const { causeWords, outcomeSentence } = await loadModule("shared/outcomes.ts");
   const crash = "stopped because its navigator crashed the process that ran it";
-  assert.equal(causeWords("navigator_fault", crash), "stopped, since the navigator crashed the process that ran the drive");
+  assert.equal(causeWords("navigator_fault", crash), "stopped, since the navigator crashed");
   assert.equal(causeWords("navigator_fault", `${crash}: signal 11: again`), causeWords("navigator_fault", crash));
   assert.equal(causeWords("navigator_fault", "of another version"), "ended as the plugin or process that decides failed");
   assert.notEqual(outcomeSentence("navigator_fault"), "");
