@@ -107,7 +107,7 @@ std::vector<core::ParameterInfo> Containing(const std::string& word,
 void ListParameters(const ParametersOptions& options) {
   const scenario::Scenario scenario =
       options.scenario.empty()
-          ? scenario::Scenario{}
+          ? scenario::ParseScenario("{}", options.overrides)
           : campaign::LoadScenarioFrom(ScenarioFile(options.scenario), options.overrides);
   const auto parameters = Containing(
       options.word, report::SelectParameters(scenario::ListParameters(scenario), options.origin));

@@ -71,13 +71,25 @@ constexpr std::array kAblations{
              kNoSlip},
 };
 
+// Returns a default scenario that knows the navigators of another one, for a document that is made of
+// it: what the document leaves out has its default.
+Scenario DefaultsKnowing(const Scenario& scenario) {
+  Scenario defaults;
+  defaults.plugins = scenario.plugins;
+  navigation::NavigatorSet& known = defaults.drive.navigation.navigators;
+  const std::size_t own = known.kinds().size();
+  const auto& kinds = scenario.drive.navigation.navigators.kinds();
+  for (std::size_t i = own; i < kinds.size(); ++i) known.Add(kinds[i]->Clone());
+  return defaults;
+}
+
 // Returns whether the ablation would change nothing. A document that the experiment refuses (it may
 // measure the errors that are taken away) is another scenario.
 bool IsInForce(const Scenario& scenario, const Ablation& ablation) {
   core::JsonValue document = WriteScenario(scenario);
   ApplyAblation(document, ablation.name);
   try {
-    return Fingerprint(ReadScenario(document, scenario)) == Fingerprint(scenario);
+    return Fingerprint(ReadScenario(document, DefaultsKnowing(scenario))) == Fingerprint(scenario);
   } catch (const core::UserError&) {
     return false;
   }
@@ -127,7 +139,7 @@ AblatedScenario WithAblations(const Scenario& scenario, std::span<const std::str
     if (IsInForce(scenario, FindAblation(name))) ablated.idle.push_back(name);
     core::JsonValue document = WriteScenario(ablated.scenario);
     ApplyAblation(document, name);
-    ablated.scenario = ReadScenario(document, ablated.scenario);
+    ablated.scenario = ReadScenario(document, DefaultsKnowing(scenario));
   }
   for (const std::string& name : names) {
     if (IsInForce(ablated.scenario, FindAblation(name))) continue;

@@ -127,7 +127,7 @@ TEST_F(CliOwnValues, CrashedDrivesAreReportedWithoutBeingDrivenAgain) {
                "UPDATE trials SET outcome = 'navigator_fault', detail = 'stopped because its "
                "navigator crashed the process that ran it: signal 11'" +
                    columns + " WHERE trial = 3");
-  ASSERT_EQ(Report({"a"}, 3).exit_code, 0);
+  ASSERT_EQ(Report({"a", "--plugins"}, 3).exit_code, 0);
   const json run = Data()["runs"][0];
   EXPECT_EQ(run["summary"]["outcomes"]["navigator_fault"], 1);
   EXPECT_EQ(run["summary"]["causes"]["navigator_crashed"], 1);

@@ -213,6 +213,7 @@ TEST_F(SmallRuns, ColumnsOfOneRunAreToldOfEachPart) {
   own.campaign.overrides.emplace_back(std::string(R"(plugins=[{"library": ")") +
                                       COUNTING_NAVIGATOR + R"("}])");
   own.campaign.overrides.emplace_back("navigation.navigator=counter");
+  own.campaign.containment.supervisor = true;  // as a plugin needs
   ASSERT_EQ(campaign::Run(Request("plain", 4)).outcome, Outcome::kDone);
   ASSERT_EQ(campaign::Run(own).outcome, Outcome::kDone);
   const StoredRun counts = ReadRun(Path("own"), "", StoredValues::kNone);

@@ -52,6 +52,8 @@ def reachable(rules, module):
             reached.add(folder)
             if folder not in rules.params_only or folder == module:
                 todo += rules.allowed[folder]
+            else:
+                todo += rules.params_only[folder]  # what it may include whole, its headers may name
     return reached
 
 

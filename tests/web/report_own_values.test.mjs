@@ -80,7 +80,7 @@ pageTest("trials are searched by a counter, whose name has a dot", "own.html", a
 pageTest("a navigator's fault is an outcome with its cause in words", "own.html", async (page) => {
   const text = await page.locator("#outcomes").innerText();
   assert.match(text, /navigator fault/);
-  assert.match(text, /The plugin or process that decides for it failed\./);
+  assert.match(text, /Its navigator failed: the plugin or process that decides where it drives\./);
   assert.match(await page.locator("#goal-incidence, #distance-cdf").first().innerText(),
     /Of 1 drive of .* no distance is known, since the navigator ended the process that ran it\./);
 });
@@ -90,7 +90,7 @@ test("causes are known by the sentence, whatever a navigator said behind it", as
   const crash = "stopped because its navigator crashed the process that ran it";
   assert.equal(causeWords("navigator_fault", crash), "stopped, since the navigator crashed");
   assert.equal(causeWords("navigator_fault", `${crash}: signal 11: again`), causeWords("navigator_fault", crash));
-  assert.equal(causeWords("navigator_fault", "of another version"), "ended as the plugin or process that decides failed");
+  assert.equal(causeWords("navigator_fault", "of another version"), "stopped, since the navigator failed");
   assert.notEqual(outcomeSentence("navigator_fault"), "");
   const { columnLabel, columnWords, isOwnColumn } = await loadModule("report/words.ts");
   assert.equal(columnWords("my_own.plans_made"), "plans made (my own)");

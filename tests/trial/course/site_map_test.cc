@@ -200,19 +200,17 @@ TEST(SiteMapTest, HeightsErrAsStated) {
   EXPECT_LT(core::KolmogorovP(errors, NormalCdf), 0.001);
 }
 
-// By how much the map of a trial lies off, as two planes tell it that rise along x and along y.
+// By how much the map of a trial lies off, as two planes tell it that rise along x and along y: it
+// shows at a place what is truly a shift before it.
 std::array<double, 2> ShiftOf(const CourseParams& course, core::TrialKey key) {
   constexpr double kSlope_rad = 0.5;
-  std::array<double, 2> shift_m{};
-  for (const int axis : {0, 1}) {
-    const terrain::Terrain plane(Slope(kSlope_rad, 0.5 * std::numbers::pi * axis), {}, {});
-    const messages::SiteMap map = MapOf(course, plane, key);
-    const double middle_m = (axis == 0 ? map.x0_m : map.y0_m) + 0.5 * map.step_m;
-    // The map shows at a place what is truly a shift before it.
-    shift_m[static_cast<std::size_t>(axis)] =
-        middle_m - map.height_m.front() / std::tan(kSlope_rad);
-  }
-  return shift_m;
+  static const terrain::Terrain kAlongX(Slope(kSlope_rad, 0.0), {}, {});
+  static const terrain::Terrain kAlongY(Slope(kSlope_rad, 0.5 * std::numbers::pi), {}, {});
+  const messages::SiteMap x = MapOf(course, kAlongX, key);
+  const messages::SiteMap y = MapOf(course, kAlongY, key);
+  const double half_m = 0.5 * x.step_m;
+  return {x.x0_m + half_m - x.height_m.front() / std::tan(kSlope_rad),
+          y.y0_m + half_m - y.height_m.front() / std::tan(kSlope_rad)};
 }
 
 // Kolmogorov and Smirnov, alpha 0.001 each; 4000 trials of seed 3, with a map of one cell.
