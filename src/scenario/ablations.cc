@@ -71,8 +71,8 @@ constexpr std::array kAblations{
              kNoSlip},
 };
 
-// Returns a default scenario that knows the navigators of another one, for a document that is made of
-// it: what the document leaves out has its default.
+// Returns a default scenario that knows the navigators of another one, for a document that is made
+// of it: what the document leaves out has its default.
 Scenario DefaultsKnowing(const Scenario& scenario) {
   Scenario defaults;
   defaults.plugins = scenario.plugins;
