@@ -13,6 +13,8 @@
 #ifndef ROCKYARD_PLUGIN_ABI_H
 #define ROCKYARD_PLUGIN_ABI_H
 
+/// C has its own names and headers.
+/// NOLINTBEGIN(readability-identifier-naming, modernize-deprecated-headers, modernize-use-using)
 #include <stddef.h>
 #include <stdint.h>
 
@@ -219,4 +221,5 @@ typedef const struct rockyard_plugin_info* (*rockyard_plugin_function)(void);
 }
 #endif
 
+/// NOLINTEND(readability-identifier-naming, modernize-deprecated-headers, modernize-use-using)
 #endif

@@ -174,7 +174,7 @@ struct ProgramEnds {
 
 // Kills the children of this process; what they started becomes its children then.
 void KillChildren(const char* children_file) {
-  std::array<char, 4096> text;
+  std::array<char, 4096> text{};
   const int file = open(children_file, O_RDONLY);
   const ssize_t count = file < 0 ? 0 : read(file, text.data(), text.size());
   if (file >= 0) close(file);
@@ -242,6 +242,7 @@ void KillChildren(const char* children_file) {
 
 bool RunsWell(const std::vector<std::string>& words) {
   std::vector<const char*> argv;
+  argv.reserve(words.size() + 1);
   for (const std::string& word : words) argv.push_back(word.c_str());
   argv.push_back(nullptr);
   const pid_t pid = fork();
@@ -295,6 +296,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::str
   Pipe log;
   Pipe life(Pipe::Kind::kSocket);
   std::vector<const char*> argv;
+  argv.reserve(words.size() + 1);
   for (const std::string& word : words) argv.push_back(word.c_str());
   argv.push_back(nullptr);
   pid_ = fork();
@@ -441,7 +443,7 @@ void ChildProcess::Exchange(Question& question) {
     if (written < 0 && errno != EAGAIN && errno != EINTR) FailEnded();
   }
   if (ready[0].revents == 0) return;
-  std::array<char, 65536> buffer;
+  std::array<char, 65536> buffer{};
   const ssize_t got = read(from_, buffer.data(), buffer.size());
   if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) {
     // The end of the pipe comes a little before that of the process.

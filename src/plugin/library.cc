@@ -350,9 +350,7 @@ class LibraryNavigator final : public navigation::Navigator {
       cpu_s_ = ThreadCpu_s();
       read_at_ = began;
     }
-    rockyard_error error;  // not cleared whole: it is read after a failure alone
-    error.text[0] = '\0';
-    std::end(error.text)[-1] = '\0';
+    rockyard_error error{};
     const int result = function(&error);
     const Clock::duration took = Clock::now() - began;
     // A plugin that forks: its child must not go on with this drive and this store.

@@ -139,7 +139,8 @@ std::vector<double> LayoutsOf(const truth::RecordSchema& schema,
   const std::uint64_t shared = TrialsPerLayout(records, layouts);
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (std::isfinite(layouts[i]) || IsFault(records[i])) continue;
-    layouts[i] = static_cast<double>(records[i].trial / shared);
+    const auto layout = records[i].trial / shared;  // a whole number
+    layouts[i] = static_cast<double>(layout);
   }
   return layouts;
 }

@@ -1,5 +1,6 @@
 #include "trial/drive/make_navigator.h"
 
+#include <exception>
 #include <utility>
 
 #include "navigation/navigator_fault.h"
@@ -15,22 +16,24 @@ namespace {
 // drive that can end by it.
 class FailedStart final : public navigation::Navigator {
  public:
-  explicit FailedStart(const navigation::NavigatorFault& fault) : fault_(fault) {}
+  explicit FailedStart(std::exception_ptr fault) : fault_(std::move(fault)) {}
 
-  navigation::NavigatorDecision Decide(const navigation::NavigatorInput&) override { throw fault_; }
+  navigation::NavigatorDecision Decide(const navigation::NavigatorInput&) override {
+    std::rethrow_exception(fault_);
+  }
   void OnPoseUpdate(const messages::PoseEstimate&, const messages::PoseEstimate&) override {}
   void SetGoal(const messages::Goal&, navigation::GoalChange) override {}
 
  private:
-  navigation::NavigatorFault fault_;
+  std::exception_ptr fault_;
 };
 
 std::unique_ptr<navigation::Navigator> Begun(const navigation::NavigatorKind& kind,
                                              const navigation::NavigatorSetup& setup) {
   try {
     return kind.Make(setup);
-  } catch (const navigation::NavigatorFault& fault) {
-    return std::make_unique<FailedStart>(fault);
+  } catch (const navigation::NavigatorFault&) {
+    return std::make_unique<FailedStart>(std::current_exception());
   }
 }
 
