@@ -6,7 +6,7 @@ why are there; here is how it reads in Python.
 import math
 
 from rockyard_navigator import parameter, run
-from stop_and_look import CYCLE_PARAMETERS, FELT, LOOK, POINTS, SUM, StopAndLook, beside, length
+from stop_and_look import CYCLE_PARAMETERS, FELT, LOOK, POINTS, SUM, StopAndLook, assumed, beside, length
 
 TURNS, TURN_RAD = 5, math.pi / 6.0  # to either side
 SEARCH = 12  # turns all round
@@ -39,20 +39,30 @@ class ArcPlanner(StopAndLook):
     own_values = [("plans", "1", "Plans that were made."),
                   ("unsafe_arcs", "1", "Candidate motions whose first part was unsafe.")]
     parameters = CYCLE_PARAMETERS + [
-        parameter("bogies_lead", "boolean", True, "whether the bogies are at the front", origin="setting"),
-        parameter("limit_share", "real", 0.9, "share that a pose may use of its limits", min=0.1, max=1),
+        parameter("bogies_lead", "boolean", True, "whether the bogies are at the front, as those of Rocky 3.2",
+                  origin="setting", source="rover.geometry.bogie_end, which navigators are not told"),
+        assumed("limit_share", 0.9, "share that a pose may use of the limits of tilt, rockers and bogies",
+                "some room before the hazard is felt", (0.1, 1.0), (0.6, 1.0)),
         parameter("drop_radii", "real", 1.33, "largest range of heights under a wheel, in wheel radii",
-                  min=0.1, max=10, origin="published", source="Perseverance: 0.35 m (PIA26073)"),
-        parameter("min_clearance_share", "real", 0.3, "least room below the belly, of its clearance",
-                  min=0, max=1),
-        parameter("arcs", "integer", 11, "arcs to choose from", min=2, max=101),
-        parameter("max_curvature_per_m", "real", 1.0, "curvature of the tightest arcs", min=0, max=5),
-        parameter("arc_m", "real", 1.5, "how far motions are followed over the map", min=0.1, max=10),
-        parameter("check_m", "real", 0.15, "way from one judged pose to the next", min=0.02, max=1),
-        parameter("step_m", "real", 0.45, "how far it drives between two looks", min=0.02, max=5),
-        parameter("margin_weight_m", "real", 0.5, "detour that a pose at its limits is worth", min=0, max=10),
-        parameter("unknown_weight_m", "real", 0.5, "detour that unseen ground is worth", min=0, max=10),
-        parameter("turn_weight_m_per_rad", "real", 0.3, "detour that a turn in place is worth", min=0, max=10),
+                  min=0.1, max=10.0, origin="published", source="Perseverance: 0.35 m (PIA26073), wheels of 0.263 m"),
+        assumed("min_clearance_share", 0.3, "least room below the belly, as a share of its clearance",
+                "the mean height of a cell lies below the top of a rock, and wheels sink", (0.0, 1.0), (0.1, 0.5)),
+        parameter("arcs", "integer", 11, "arcs to choose from", min=2, max=101, origin="published",
+                  source="11 in a layer of ENav"),
+        assumed("max_curvature_per_m", 1.0, "curvature of the tightest arcs", "a circle three rover lengths wide",
+                (0.0, 5.0), (0.5, 2.0)),
+        assumed("arc_m", 1.5, "how far motions are followed over the map", "as far as a small rover sees well",
+                (0.1, 10.0), (1.0, 3.0)),
+        assumed("check_m", 0.15, "way from one judged pose to the next",
+                "a quarter of a small rover's length; ENav: 0.25 m", (0.02, 1.0), (0.1, 0.25)),
+        assumed("step_m", 0.45, "how far it drives between two looks", "a third of an arc, as ENav",
+                (0.02, 5.0), (0.3, 1.0)),
+        assumed("margin_weight_m", 0.5, "detour that a pose at its limits is worth", "a small rover's length",
+                (0.0, 10.0), (0.0, 1.0)),
+        assumed("unknown_weight_m", 0.5, "detour that a way over unseen ground is worth", "a pose at its limits",
+                (0.0, 10.0), (0.0, 1.0)),
+        assumed("turn_weight_m_per_rad", 0.3, "detour that a turn in place is worth",
+                "turning takes time, and slips", (0.0, 10.0), (0.1, 1.0)),
     ]
 
     def start(self, setup):

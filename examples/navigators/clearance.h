@@ -5,9 +5,10 @@
 /// taken at its worse end: a false "unsafe" costs a detour, a false "safe" the rover.
 ///
 /// Here, not in the paper: angles by levers between the wheels, as if all pivots were at axle
-/// height, since navigators are told the places of wheels and not of pivots; wheels on unseen
-/// ground; a square of the wheel's diameter for its box; all that lies between the wheels for the
-/// belly.
+/// height, since navigators are told the places of wheels and not of pivots; what unseen ground is
+/// taken for; a square of the wheel's diameter for its box; all between the wheels for the belly.
+/// With the size of Perseverance and 0.1 m of doubt under all wheels, bounds of rockers are 5 %
+/// narrower than those by its pivots, and those of bogies 3 %: what limit_share leaves covers it.
 #pragma once
 
 #include <algorithm>

@@ -35,7 +35,7 @@ struct PotentialFieldParams {
   CycleParams cycle;
   double obstacle_share = 0.8;
   double influence_m = 1.0;
-  double push_m2 = 0.04;
+  double push_m3 = 0.04;
   double step_m = 0.3;
   double turn_above_rad = std::numbers::pi / 6.0;
   OnMinimum on_minimum = OnMinimum::kGoRound;
@@ -52,10 +52,10 @@ struct PotentialFieldParams {
     v.Real("influence_m", influence_m,
            Assumed("distance from the rover's side up to which obstacles push",
                    "two small rovers' widths", {0.05, 10.0}, {0.5, 1.5}));
-    v.Real("push_m2", push_m2,
+    v.Real("push_m3", push_m3,
            Assumed("strength of the push, where the goal pulls with 1",
                    "as strong as the pull at 0.3 m of one obstacle straight ahead", {0.0, 10.0},
-                   {0.05, 0.5}));
+                   {0.01, 0.1}));
     v.Real("step_m", step_m,
            Assumed("how far it drives between two looks", "half of a small rover's length",
                    {0.02, 5.0}, {0.15, 0.5}));
@@ -128,7 +128,7 @@ class PotentialField final : public StopAndLook {
       if (distance_m[i] > reach_m) continue;
       const double room_m = std::max(0.05, distance_m[i] - side_m);
       const double push =
-          params_.push_m2 * (1.0 / room_m - 1.0 / params_.influence_m) / (room_m * room_m);
+          params_.push_m3 * (1.0 / room_m - 1.0 / params_.influence_m) / (room_m * room_m);
       Place away{-nearest[i].x_m / distance_m[i], -nearest[i].y_m / distance_m[i]};
       // On the way round all pushes are turned to the left by a right angle, so that none of them
       // points against the pull for good.

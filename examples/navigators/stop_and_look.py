@@ -95,13 +95,19 @@ class GroundMap:
         return cell[SUM] / cell[POINTS] - min(heights)
 
 
+def assumed(name, value, doc, reason, bounds, studied):
+    """Declares a real number that nobody published."""
+    return parameter(name, "real", value, doc, min=bounds[0], max=bounds[1], study=list(studied), origin="assumed",
+                     source=reason)
+
+
 CYCLE_PARAMETERS = [
     parameter("goal_tolerance_m", "real", 0.3, "believed distance from the goal at which it has arrived",
-              min=0.01, max=5, origin="setting"),
-    parameter("cell_m", "real", 0.1, "side of a cell of the map", min=0.02, max=1, study=[0.05, 0.2],
-              source="the test set-up of ACE has 0.1 m (Otsu 2020)"),
-    parameter("back_off_m", "real", 0.3, "how far it drives back from a hazard that it feels",
-              min=0.01, max=2, study=[0.1, 0.5], source="half of a small rover's length"),
+              min=0.01, max=5.0, origin="setting"),
+    assumed("cell_m", 0.1, "side of a cell of the map", "the test set-up of ACE has 0.1 m (Otsu 2020)",
+            (0.02, 1.0), (0.05, 0.2)),
+    assumed("back_off_m", 0.3, "how far it drives back from a hazard that it feels",
+            "half of a small rover's length", (0.01, 2.0), (0.1, 0.5)),
     parameter("max_fruitless_looks", "integer", 60, "looks without a gain on the goal after which it gives up",
               min=1, max=100000, origin="setting"),
 ]
