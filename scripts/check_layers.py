@@ -17,6 +17,7 @@ bottom up, and the sentence of rule 2 that says which folder each heavy library 
     it links no further than the table, and nothing that no include needs;
   * src/public_headers.txt lists at most 35 headers, which are what is installed: what they include is
     listed too, on a side that theirs may see, and their comments are ///;
+  * CMakeLists.txt of each folder of tests names every file of tests below it;
   * every module has a README.md and no file is longer than 600 lines.
 Exit code 0: kept; 1: violations, one line each; 2: the rules cannot be read.
 """
@@ -156,6 +157,17 @@ def check_folder(rules, folder, used, helpers):
         yield f"{folder.name}/CMakeLists.txt", message
 
 
+def unlisted_tests(tests):
+    """Yields the files of tests, below tests/, that no program compiles: they would never fail."""
+    for path in sorted(tests.rglob("*_test.cc")):
+        place = path.relative_to(tests)
+        folder = tests / place.parts[0]
+        lists = folder / "CMakeLists.txt"
+        words = re.split(r"[\s()]+", lists.read_text(encoding="utf-8")) if lists.is_file() else []
+        if path.relative_to(folder).as_posix() not in words:
+            yield place
+
+
 def check_tree(root):
     """Every violation below ROOT/src as 'path:line: message', and the number of source files."""
     src = root / "src"
@@ -176,6 +188,8 @@ def check_tree(root):
                   for line, message in check_file(rules, src, source)]
     found += [f"src/{place}:1: {message}" for place, message in check_circles(src, sources)]
     found += [f"src/{place}:{line}: {message}" for place, line, message in check_public(src, sources)]
+    found += [f"tests/{place}:1: in no list of {place.parts[0]}/CMakeLists.txt"
+              for place in unlisted_tests(root / "tests")]
     return found, len(paths)
 
 

@@ -69,6 +69,7 @@ std::string NominalSeenFrom(const fs::path& folder) {
 // Returns what was written and all that is to be typed next.
 std::string NewFolderText(const fs::path& folder, const std::vector<NewFile>& files) {
   std::vector<std::string> names;
+  names.reserve(files.size());
   for (const NewFile& file : files) names.push_back(file.name);
   std::string text = fmt::format("  {} in {}\n  next: cd {}\n", fmt::join(names, ", "),
                                  folder.string(), campaign::ShellPath(folder.string()));

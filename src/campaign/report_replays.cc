@@ -363,7 +363,7 @@ class Driver {
 // where one is another than it was.
 std::optional<scenario::Scenario> OpenedScenario(const StoredRun& run, bool plugins,
                                                  const Contact& contact) {
-  const auto sealed = ScenarioOf(run);
+  std::optional<scenario::Scenario> sealed = ScenarioOf(run);
   if (!sealed || !sealed->drive.navigation.navigators.chosen().foreign()) return sealed;
   if (!plugins) {
     contact.journal.Remark(fmt::format(

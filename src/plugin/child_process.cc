@@ -223,10 +223,10 @@ void KillChildren(const char* children_file) {
     pollfd wish{STDIN_FILENO, POLLIN, 0};
     if (ended < 0 && ppoll(&wish, 1, nullptr, &none) > 0) break;
   }
-  // The name of the file takes no memory: a process has one thread of its own number here.
   for (;;) {
     KillChildren("/proc/thread-self/children");
-    if (program > 0) kill(-program, SIGKILL);
+    // Once it has been waited for, its number may be another's.
+    if (program > 0 && ended < 0) kill(-program, SIGKILL);
     if (reap(0) < 0 && errno == ECHILD) break;
   }
   if (ended >= 0 && WIFEXITED(ended)) _exit(WEXITSTATUS(ended));

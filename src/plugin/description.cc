@@ -232,7 +232,11 @@ std::unique_ptr<const Description> ReadDescription(const JsonValue& json,
   description->fields = FieldsReader().Read(answer);
   for (const Answer& each : answer.Objects("own_values")) {
     messages::OwnValue value{each.Text("name"), each.Text("unit", "1"), each.Text("meaning", "")};
-    if (!IsKey(value.name)) each.Fail("name", "has characters other than letters, digits and _");
+    const bool capitals =
+        std::ranges::any_of(value.name, [](char c) { return c >= 'A' && c <= 'Z'; });
+    if (!IsKey(value.name) || capitals) {
+      each.Fail("name", "has characters other than lower-case letters, digits and _");
+    }
     for (const messages::OwnValue& other : description->own_values) {
       if (other.name == value.name) each.Fail("name", "is there twice");
     }

@@ -359,13 +359,15 @@ class LibraryNavigator final : public navigation::Navigator {
       CheckSlow();
     } else {
       used_s_ += std::chrono::duration<double>(took).count();
+      Limit(used_s_, limits_.drive_cpu_s, "for one drive");
     }
     if (result != 0) throw NavigatorFault(FaultKind::kThrew, TextOf(error));
   }
 
   // Judges a slow call by the CPU time of the thread, in which it may have waited.
   void CheckSlow() const {
-    const double used_s = ThreadCpu_s() - std::exchange(cpu_s_, ThreadCpu_s());
+    const double now_s = ThreadCpu_s();
+    const double used_s = now_s - std::exchange(cpu_s_, now_s);
     read_at_ = Clock::now();
     used_s_ += used_s;
     Limit(used_s, limits_.decision_cpu_s, "for one answer");

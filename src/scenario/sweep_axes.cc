@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/field_table.h"
+#include "core/json_file.h"
 #include "core/json_text.h"
 #include "core/json_value.h"
 #include "core/text.h"
@@ -247,6 +249,38 @@ Scenario DefaultsOf(const SweepSpec& spec, const Scenario& defaults,
   }
 }
 
+// Returns the defaults of a sweep whose plugins are not opened, with stand-ins for the navigators
+// that base, settings and axes name a parameter of.
+Scenario SealedDefaults(const SweepSpec& spec, const Scenario& defaults) {
+  core::JsonValue document = core::JsonValue::Object();
+  if (spec.scenario != nullptr) document = *spec.scenario;
+  const auto set = [&](const std::string& path, const core::JsonValue& value) {
+    if (!path.starts_with("navigation.")) return;
+    try {
+      core::SetPath(document, path, value);
+    } catch (const core::UserError&) {
+      // No path: whoever reads the settings or the axis says so.
+    }
+  };
+  for (const core::JsonMember& member : spec.settings.members()) set(member.key, member.value);
+  const core::JsonValue* axes = spec.document.Find("axes");
+  if (axes != nullptr && axes->Is(Type::kList)) {
+    for (const core::JsonValue& axis : axes->list()) {
+      const core::JsonValue* path = axis.Find("path");
+      const core::JsonValue* values = axis.Find("values");
+      const bool has = values != nullptr && values->Is(Type::kList) && !values->list().empty();
+      if (path != nullptr && path->Is(Type::kText)) {
+        set(path->text(), has ? values->list().front() : core::JsonValue(0.0));
+      }
+    }
+  }
+  Scenario sealed = defaults;
+  if (const core::JsonValue* navigation = document.Find("navigation")) {
+    plugin::AddStandIns(*navigation, sealed.drive.navigation.navigators);
+  }
+  return sealed;
+}
+
 }  // namespace
 
 SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& folder,
@@ -260,7 +294,8 @@ SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& f
   spec.settings = parts.Settings(spec.document.Find("set"), "set");
   spec.sealed = changes.sealed;
   spec.defaults = changes.sealed ? changes.defaults : DefaultsOf(spec, changes.defaults, problems);
-  AxisReader axes(parts, spec.defaults);
+  AxisReader axes(parts,
+                  spec.sealed ? SealedDefaults(spec, spec.defaults) : Scenario(spec.defaults));
   for (core::JsonValue* axis : parts.Elements(spec.document, "axes", "")) {
     spec.axes.push_back(axes.Read(*axis, fmt::format("axes[{}]", spec.axes.size())));
   }

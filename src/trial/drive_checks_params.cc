@@ -238,8 +238,10 @@ void RequireOverlap(const DriveParams& drive, core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
   const navigation::NavigatorTraits traits = navigator.traits();
   const OverlapParams& overlap = drive.clock.overlap;
-  const std::string cycle = navigator.PathOf("continuous.cycle");
-  const std::string suggestion = "use stop_and_look, or ";
+  // A navigator that is no part of the program has no such parameter: it is named itself.
+  const bool foreign = navigator.foreign();
+  const std::string cycle = foreign ? "navigation.navigator" : navigator.PathOf("continuous.cycle");
+  const std::string suggestion = foreign ? "use " : "use stop_and_look, or ";
   v.Require(cycle, !traits.looks_on_the_move || overlap.imaging || overlap.computing,
             "looks on the move where clock.overlap lets neither imaging nor computing go on "
             "beside the drive: the rover would stop for each look",
@@ -248,9 +250,11 @@ void RequireOverlap(const DriveParams& drive, core::FieldVisitor& v) {
             !traits.looks_on_the_move || drive.sensors.terrain_sensors.chosen().takes_image_sets(),
             "looks on the move where sensors.terrain_sensor is one that scans at rest",
             suggestion + "sensors.terrain_sensor stereo");
-  v.Require(cycle, !traits.steers_on_the_move || overlap.steering,
-            "is csad where clock.overlap.steering is false: the rover would stand to steer",
-            "use csod, or clock.overlap.steering true");
+  v.Require(
+      cycle, !traits.steers_on_the_move || overlap.steering,
+      "steers on the move (csad) where clock.overlap.steering is false: the rover would stand "
+      "to steer",
+      std::string(foreign ? "use " : "use csod, or ") + "clock.overlap.steering true");
 }
 
 // Refuses steering so slow that a rover in a curve finds no motion to go on with.

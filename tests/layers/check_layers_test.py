@@ -249,6 +249,18 @@ class PlantedViolations(InATree):
         self.tree.replace("rover/CMakeLists.txt", "multibody/wheel.cc", "# multibody/wheel.cc")
         self.assert_caught("src/rover/CMakeLists.txt", "multibody/wheel.cc is in no list")
 
+    def test_file_of_tests_that_is_not_compiled(self):
+        tests = self.tree.root / "tests/rover"
+        (tests / "room").mkdir(parents=True)
+        (tests / "room/wheel_test.cc").touch()
+        (tests / "helper.cc").touch()
+        self.assert_caught("tests/rover/room/wheel_test.cc", "in no list of rover/CMakeLists.txt")
+        lists = tests / "CMakeLists.txt"
+        lists.write_text("rockyard_test(rover_test UNIT room/wheel_test.cc)\n", encoding="utf-8")
+        self.assert_in_order()
+        lists.write_text("rockyard_test(rover_test\n  UNIT\n    wheel_test.cc)\n", encoding="utf-8")
+        self.assert_caught("tests/rover/room/wheel_test.cc", "in no list of rover/CMakeLists.txt")
+
     def test_source_listed_twice(self):
         self.tree.add_line("core/CMakeLists.txt", "add_executable(tool archive.cc)")
         self.assert_caught("src/core/CMakeLists.txt", "lists archive.cc 2 times")

@@ -104,12 +104,12 @@ TEST(DescriptionTest, WhatIsLeftOutHasADefault) {
 TEST(DescriptionTest, OwnValuesKeepTheirOrder) {
   const auto description =
       Read(R"({"name": "mine", "doc": "drives", "version": "1.5", "own_values": [
-        {"name": "replans", "unit": "1", "meaning": "how often"}, {"name": "B2"}]})");
+        {"name": "replans", "unit": "1", "meaning": "how often"}, {"name": "b2"}]})");
   EXPECT_EQ(description->doc, "drives");
   EXPECT_EQ(description->version, "1.5");
   ASSERT_EQ(description->own_values.size(), 2U);
   EXPECT_EQ(description->own_values[0].meaning, "how often");
-  EXPECT_EQ(description->own_values[1].name, "B2");
+  EXPECT_EQ(description->own_values[1].name, "b2");
   EXPECT_EQ(description->own_values[1].unit, "1");
 }
 

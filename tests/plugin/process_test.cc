@@ -297,16 +297,16 @@ serve(decide)
   EXPECT_NE(ProcessOf(*Make(*opened.source)), before);
 }
 
-// Each decision takes 0.1 s, and each drive has the whole limit.
+// Each decision takes 0.06 s, and each drive has the whole limit.
 TEST_F(ProcessTest, CpuTimeOfADriveAddsUp) {
   const auto opened = Open(R"(
 def decide(message, own):
-    burn(0.1)
+    burn(0.06)
     tell({})
 serve(decide)
 )");
   navigation::NavigatorSetup setup;
-  setup.limits.drive_cpu_s = 0.45;
+  setup.limits.drive_cpu_s = 0.27;
   for (int drive = 0; drive < 2; ++drive) {
     const auto navigator = Make(*opened.source, "{}", setup);
     std::string fault;
@@ -314,7 +314,7 @@ serve(decide)
     for (; fault.empty() && decisions < 10; ++decisions) {
       fault = FaultOf([&] { navigator->Decide({}); });
     }
-    EXPECT_THAT(fault, IsFault(FaultKind::kCpuTime, "more than 0.45 s for one drive"));
+    EXPECT_THAT(fault, IsFault(FaultKind::kCpuTime, "more than 0.27 s for one drive"));
     // A process that was started for the drive has spent some on that.
     EXPECT_GE(decisions, 3);
     EXPECT_LE(decisions, 5);
@@ -343,12 +343,12 @@ TEST_F(ProcessTest, OverlaysCostADriveNothing) {
 import peer
 class Slow(list):
     def __iter__(self):
-        burn(0.1)
+        burn(0.06)
         return iter([])
 peer.log = Slow()
 )" + std::string(kDrives));
   navigation::NavigatorSetup setup;
-  setup.limits.drive_cpu_s = 0.3;
+  setup.limits.drive_cpu_s = 0.2;
   const auto navigator = Make(*opened.source, "{}", setup);
   EXPECT_EQ(FaultOf([&] {
               for (int i = 0; i < 5; ++i) {

@@ -48,7 +48,7 @@ class PluginScenarios : public testing::Test {
     Write(name + "/mine.json",
           R"({"name": "mine", "plugins": ["libs/echo.so"],
               "navigation": {"navigator": "echo", "echo": {"goal_tolerance_m": 0.3},
-                             "every_type": {"real": 0.5, "angle_deg": 0.1}}})");
+                             "every_type": {"real": 0.5, "boolean": false, "angle_deg": 0.1}}})");
   }
 
   Scenario Load(const std::string& name = "here", const Overrides& overrides = {}) const {

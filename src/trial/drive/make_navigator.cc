@@ -12,12 +12,10 @@
 namespace rockyard::trial {
 namespace {
 
-// Stands for a navigator that could not begin: says so when it is first asked, when there is a
-// drive that can end by it.
+// Stands for a navigator that could not begin, and is made where its fault is caught: says so when
+// it is first asked, when there is a drive that can end by it.
 class FailedStart final : public navigation::Navigator {
  public:
-  explicit FailedStart(std::exception_ptr fault) : fault_(std::move(fault)) {}
-
   navigation::NavigatorDecision Decide(const navigation::NavigatorInput&) override {
     std::rethrow_exception(fault_);
   }
@@ -25,7 +23,7 @@ class FailedStart final : public navigation::Navigator {
   void SetGoal(const messages::Goal&, navigation::GoalChange) override {}
 
  private:
-  std::exception_ptr fault_;
+  std::exception_ptr fault_ = std::current_exception();
 };
 
 std::unique_ptr<navigation::Navigator> Begun(const navigation::NavigatorKind& kind,
@@ -33,7 +31,7 @@ std::unique_ptr<navigation::Navigator> Begun(const navigation::NavigatorKind& ki
   try {
     return kind.Make(setup);
   } catch (const navigation::NavigatorFault&) {
-    return std::make_unique<FailedStart>(std::current_exception());
+    return std::make_unique<FailedStart>();
   }
 }
 

@@ -14,6 +14,7 @@
 
 #include "core/archive.h"
 #include "core/json_text.h"
+#include "core/random.h"
 #include "core/refusals.h"
 #include "core/statistical_checks.h"
 #include "navigation/navigator.h"
@@ -257,6 +258,22 @@ TEST(SiteMapTest, TheShiftIsOneOfTheMap) {
   for (std::size_t i = 0; i < map.height_m.size(); ++i) {
     EXPECT_NEAR(map.height_m[i], expected.height_m[i], 1e-6) << i;
     EXPECT_NEAR(map.rock_share[i], expected.rock_share[i], 0.041) << "a place on the very edge";
+  }
+}
+
+// Records depend on which numbers are drawn, in which order.
+TEST(SiteMapTest, ErrorsAreThoseOfTheStreamsThatAreNamed) {
+  CourseParams course = Course();
+  course.site_map.shift_sd_m = 0.5;
+  core::RandomStream shifts(kKey, core::Purpose::kSiteMap, 0);
+  const auto [shift_x_m, shift_y_m] = ShiftOf(course, kKey);
+  EXPECT_NEAR(shift_x_m, core::SampleNormal(shifts, 0.0, 0.5), 1e-12);
+  EXPECT_NEAR(shift_y_m, core::SampleNormal(shifts, 0.0, 0.5), 1e-12);
+
+  course.site_map.height_sd_m = 0.2;
+  core::RandomStream errors(kKey, core::Purpose::kSiteMap, 1);
+  for (const double height_m : MapOf(course, {terrain::Ground(), {}, {}}).height_m) {
+    EXPECT_EQ(height_m, core::SampleNormal(errors, 0.0, 0.2));
   }
 }
 
