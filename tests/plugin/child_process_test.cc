@@ -82,7 +82,9 @@ TEST_F(ChildProcessTest, HasItsFolderAndFiveDescriptors) {
 }
 
 TEST_F(ChildProcessTest, ItsNoiseDelaysNoAnswerAndTheLastOfItIsKept) {
-  const auto process = Shell("echo first; yes 'noise without end' >&2 & " + kReadOne + kAnswerOk +
+  // More than a pipe holds, so that it was read before the answer came.
+  const auto process = Shell("echo first; yes 'noise without end' >&2 & " + kReadOne +
+                             "yes 'noise without end' | head -n 20000 >&2; " + kAnswerOk +
                              kReadOne + kAnswerOk + "wait");
   EXPECT_EQ(Ask(*process), "ok");
   EXPECT_EQ(Ask(*process), "ok");

@@ -18,6 +18,10 @@ using messages::PoseEstimate;
 // control tick, 1.3 deg at 26 deg/s and 20 Hz.
 constexpr double kFinestAim_rad = math::DegToRad(2.0);
 
+// How much earlier than the end of a manoeuvre the controller is asked again, m and rad: whoever
+// watches for it adds the way up by other sums. A tick's way is some thousand times as long.
+constexpr double kEarly = 1e-6;
+
 bool OnlyOutermostStripes(const HazardReport& report) {
   for (std::size_t i = 1; i + 1 < report.stripe_hazard.size(); ++i) {
     if (report.stripe_hazard[i]) return false;
@@ -201,7 +205,7 @@ NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input)
   const double turned =
       motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
   const bool faces_goal = mode_ == Mode::kFacingGoal && !NeedsPointTurn(input.estimate);
-  if (turned < params_.turn_increment_rad && !faces_goal) return Move(motion_);
+  if (turned < params_.turn_increment_rad && !faces_goal) return GoOn(input);
   if (mode_ == Mode::kAvoiding) {
     avoided_turn_rad_ += turned;
     odometer_at_avoiding_m_ = input.estimate.distance_m;
@@ -213,15 +217,37 @@ NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input)
 NavigatorDecision PathfinderNavigator::ContinueDrive(const NavigatorInput& input) {
   const double driven = input.estimate.distance_m - anchor_.distance_m;
   if (mode_ == Mode::kBackingOff) {
-    return driven < leg_m_ ? Move(motion_) : BeginTurn(Mode::kAvoiding, *avoid_direction_, input);
+    return driven < leg_m_ ? GoOn(input) : BeginTurn(Mode::kAvoiding, *avoid_direction_, input);
   }
-  if (mode_ == Mode::kThreading && driven < leg_m_) return Move(motion_);
+  if (mode_ == Mode::kThreading && driven < leg_m_) return GoOn(input);
   // A scan may interrupt the straight drive; what is left of it is driven afterwards.
   if (mode_ == Mode::kClearing) clearing_left_m_ = std::max(0.0, leg_m_ - driven);
   const double since_scan = input.estimate.distance_m - odometer_at_scan_m_;
   if (uses_hazard_sensor_ && since_scan >= params_.scan_interval_m) return BeginScan();
-  if (driven < leg_m_) return Move(motion_);
+  if (driven < leg_m_) return GoOn(input);
   return mode_ == Mode::kThreading ? ScanOrGoOn(input) : BeginForward(input);
+}
+
+// Until the manoeuvre may end, each answer would be this one. At every tick it is asked where that
+// hangs on more than the way: on the bearing of the goal, and on a felt hazard that is overlooked
+// for a while.
+NavigatorDecision PathfinderNavigator::GoOn(const NavigatorInput& input) const {
+  if (mode_ == Mode::kFacingGoal || input.vehicle_hazard != nullptr) return Move(motion_);
+  Until until = AtEvents();
+  until.near_goal_m = params_.goal_tolerance_m;
+  if (params_.time_out_s > 0.0) until.period_s = params_.time_out_s - input.time_s;
+  if (mode_ == Mode::kAvoiding) {
+    const double turned = math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
+    until.turn_rad = std::max(0.0, params_.turn_increment_rad - std::abs(turned) - kEarly);
+    return Move(motion_, until);
+  }
+  double left_m = leg_m_ - (input.estimate.distance_m - anchor_.distance_m);
+  if (uses_hazard_sensor_ && (mode_ == Mode::kForward || mode_ == Mode::kClearing)) {
+    const double since_scan_m = input.estimate.distance_m - odometer_at_scan_m_;
+    left_m = std::min(left_m, params_.scan_interval_m - since_scan_m);
+  }
+  until.distance_m = std::max(0.0, left_m - kEarly);
+  return Move(motion_, until);
 }
 
 NavigatorDecision PathfinderNavigator::BeginScan() {
@@ -241,7 +267,7 @@ NavigatorDecision PathfinderNavigator::BeginForward(const NavigatorInput& input)
   anchor_ = input.estimate;
   leg_m_ = params_.scan_interval_m;  // the bearing is looked at anew as often as the terrain
   motion_ = {MotionKind::kArc, CurvatureToGoal(bearing, params_), +1};
-  return Move(motion_);
+  return GoOn(input);
 }
 
 NavigatorDecision PathfinderNavigator::BeginStraight(Mode mode, double distance_m,
@@ -250,7 +276,7 @@ NavigatorDecision PathfinderNavigator::BeginStraight(Mode mode, double distance_
   anchor_ = input.estimate;
   leg_m_ = distance_m;
   motion_ = {MotionKind::kArc, 0.0, mode == Mode::kBackingOff ? -1 : +1};
-  return Move(motion_);
+  return GoOn(input);
 }
 
 NavigatorDecision PathfinderNavigator::BeginTurn(Mode mode, int direction,
@@ -258,7 +284,7 @@ NavigatorDecision PathfinderNavigator::BeginTurn(Mode mode, int direction,
   mode_ = mode;
   anchor_ = input.estimate;
   motion_ = {MotionKind::kTurnInPlace, 0.0, direction};
-  return Move(motion_);
+  return GoOn(input);
 }
 
 double PathfinderNavigator::GoalBearing(const PoseEstimate& estimate) const {

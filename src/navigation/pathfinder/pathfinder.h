@@ -80,6 +80,7 @@ class PathfinderNavigator final : public Navigator {
   NavigatorDecision ContinueTurn(const NavigatorInput& input);
   NavigatorDecision ContinueDrive(const NavigatorInput& input);
 
+  NavigatorDecision GoOn(const NavigatorInput& input) const;
   NavigatorDecision BeginScan();
   NavigatorDecision ScanOrGoOn(const NavigatorInput& input);
   NavigatorDecision BeginForward(const NavigatorInput& input);
