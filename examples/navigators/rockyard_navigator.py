@@ -26,6 +26,14 @@ class Values(dict):
         return self.get(name)
 
 
+class Parameters(Values):
+    """The same, of which all members are declared."""
+    def __getattr__(self, name):
+        if name in self:
+            return self[name]
+        raise AttributeError(f"no parameter {name} is declared: there are {', '.join(self)}")
+
+
 def parameter(name, kind, default, doc, **more):
     """Declares a parameter; `more`: min, max, study, origin, source, choices, parameters."""
     return {"name": name, "type": kind, "default": default, "doc": doc, **more}
@@ -89,14 +97,17 @@ def _answer(cls, navigator, ask):
                 "parameters": cls.parameters, "own_values": own}, navigator
     if ask.type in ("traits", "start"):
         made = cls()
-        made.p = ask.parameters
+        made.p = Parameters(ask.parameters)
         if ask.type == "traits":
             return made.traits(), navigator
         made.goal, made.own = ask.setup.goal, {value[0]: 0 for value in cls.own_values}
         made.start(ask.setup)
         return {}, made
     if ask.type == "decide":
-        return {**navigator.decide(ask), "own_values": list(navigator.own.values())}, navigator
+        decision = navigator.decide(ask)
+        if decision is None:
+            raise TypeError("decide() returned None")
+        return {**decision, "own_values": list(navigator.own.values())}, navigator
     if ask.type == "jump":
         navigator.jump(ask.corrected, ask.before, ask.after)
     elif ask.type == "goal":

@@ -72,6 +72,34 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
         FILES_MATCHING PATTERN "*.md")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 
+# What pages link to beyond docs lies as far from them as in the project.
+file(GLOB pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
+  ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/commands/*.md)
+set(linked)
+foreach(page ${pages})
+  file(READ ${PROJECT_SOURCE_DIR}/${page} text)
+  string(REGEX MATCHALL "\\]\\(\\.\\./[^)#]+" links "${text}")
+  cmake_path(GET page PARENT_PATH folder)
+  foreach(link ${links})
+    string(SUBSTRING "${link}" 2 -1 link)
+    cmake_path(APPEND folder ${link} OUTPUT_VARIABLE target)
+    cmake_path(NORMAL_PATH target)
+    string(REGEX REPLACE "/$" "" target "${target}")
+    list(APPEND linked "${target}")
+  endforeach()
+endforeach()
+list(REMOVE_DUPLICATES linked)
+list(FILTER linked EXCLUDE REGEX "^(docs|scenarios)(/|$)")
+foreach(target ${linked})
+  if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${target})
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${target}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/${target})
+  else()
+    cmake_path(GET target PARENT_PATH folder)
+    install(FILES ${PROJECT_SOURCE_DIR}/${target} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+  endif()
+endforeach()
+install(CODE "file(CREATE_LINK ../../rockyard/scenarios \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/scenarios\" SYMBOLIC)")
+
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rockyardConfig.cmake.in
   ${PROJECT_BINARY_DIR}/rockyardConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/rockyardConfigVersion.cmake

@@ -44,8 +44,9 @@ std::string SettingsText(const std::vector<batch::ScenarioDifference>& differenc
   std::string text = "settings that differ (A, B)\n";
   for (const batch::ScenarioDifference& each :
        std::span(differences).first(std::min(kShown, differences.size()))) {
-    text += fmt::format("  {:<56} {:>18.18} {:>20.20}\n", report::Printable(each.path),
-                        report::Printable(each.first), report::Printable(each.second));
+    text += fmt::format("  {:<56} {:>18} {:>20}\n", report::Printable(each.path),
+                        report::Cut(report::Printable(each.first), 18),
+                        report::Cut(report::Printable(each.second), 20));
   }
   if (differences.size() > kShown) {
     text += fmt::format("  and {} more: compare the files scenario.resolved.json\n",

@@ -16,7 +16,10 @@
 #include "app/console.h"
 #include "app/run_folders.h"
 #include "app/scenario_names.h"
+#include "campaign/plugin_settings.h"
+#include "core/error.h"
 #include "core/field_table.h"
+#include "core/json_file.h"
 #include "scenario/load.h"
 
 namespace rockyard::app {
@@ -109,10 +112,36 @@ std::vector<std::string> ValuesOf(const core::ParameterInfo& parameter) {
   return parameter.choices;
 }
 
-std::vector<std::string> Settings(std::string_view typed) {
+// Returns a scenario with the navigators of the line: of the libraries that it names by --plugin,
+// or as far as a scenario file states their parameters. What is wrong with either is told when the
+// command runs. Must stay: no file that is merely opened runs anybody's code.
+scenario::Scenario ScenarioOf(const std::vector<std::string>& line) {
+  campaign::GivenPlugins given;
+  std::string file;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == "--plugin") {
+      // The shell makes three words of --plugin=FILE.
+      const std::size_t value = i + (i + 1 < line.size() && line[i + 1] == "=" ? 2 : 1);
+      if (value < line.size()) given.libraries.push_back(line[value]);
+    } else if (line[i].ends_with(".json") && file.empty()) {
+      file = line[i];
+    }
+  }
+  try {
+    if (!given.libraries.empty()) {
+      return scenario::ParseScenario("{}", campaign::SettingsOf(given));
+    }
+    if (!file.empty()) return scenario::ReadScenarioSealed(core::LoadJsonFile(file));
+  } catch (const core::UserError&) {
+    return {};
+  }
+  return {};
+}
+
+std::vector<std::string> Settings(std::string_view typed, const std::vector<std::string>& line) {
   const bool has_path = typed.find('=') != std::string_view::npos;
   std::vector<std::string> words;
-  for (const core::ParameterInfo& parameter : scenario::ListParameters()) {
+  for (const core::ParameterInfo& parameter : scenario::ListParameters(ScenarioOf(line))) {
     const std::string path = parameter.path + "=";
     if (!has_path) {
       words.push_back(path);
@@ -136,8 +165,9 @@ std::vector<std::string> Names(Wanted wanted, std::string_view typed) {
   return typed.find('/') == std::string_view::npos ? ScenarioNames(wanted) : ScenarioPaths(wanted);
 }
 
-std::vector<std::string> WordsOf(std::string_view kind, std::string_view typed) {
-  if (kind == "settings") return Settings(typed);
+std::vector<std::string> WordsOf(std::string_view kind, std::string_view typed,
+                                 const std::vector<std::string>& line) {
+  if (kind == "settings") return Settings(typed, line);
   if (kind == "scenarios") return Names(Wanted::kScenario, typed);
   if (kind == "sweeps") return Names(Wanted::kSweep, typed);
   if (kind == "rovers") return Names(Wanted::kRover, typed);
@@ -160,11 +190,11 @@ std::vector<CommandOffer> Offers(const CLI::App& app) {
   return offers;
 }
 
-std::vector<std::string> LookUp(std::string_view asked) {
+std::vector<std::string> LookUp(std::string_view asked, const std::vector<std::string>& line) {
   const std::size_t colon = asked.find(':');
   if (colon == std::string_view::npos) return {};
   const std::string_view typed = asked.substr(colon + 1);
-  std::vector<std::string> words = WordsOf(asked.substr(0, colon), typed);
+  std::vector<std::string> words = WordsOf(asked.substr(0, colon), typed, line);
   std::erase_if(words, [&](const std::string& word) { return !word.starts_with(typed); });
   return words;
 }
@@ -186,7 +216,7 @@ std::string FishQuoted(std::string_view text) {
 std::string FishLookup(std::string_view kind, std::string_view before) {
   return fmt::format(
       "{} -a '(rockyard completion --offer {}:(commandline -ct | string collect --allow-empty) "
-      "2>/dev/null)'",
+      "--line (commandline -co | string collect --allow-empty) 2>/dev/null)'",
       before, kind);
 }
 
@@ -288,7 +318,10 @@ std::string Bash(const std::vector<CommandOffer>& commands) {
     words += BashWords(command);
   }
   return fmt::format(R"sh(# Completion of rockyard for bash: eval "$(rockyard completion bash)"
-_rockyard_offers() {{ "${{COMP_WORDS[0]}}" completion --offer "$1:$2" 2>/dev/null; }}
+_rockyard_offers() {{
+  local line="$(printf '%s\n' "${{COMP_WORDS[@]/#\~\//$HOME/}}")"
+  "${{COMP_WORDS[0]}}" completion --offer "$1:$2" --line "$line" 2>/dev/null
+}}
 _rockyard_settings() {{
   COMPREPLY=($(_rockyard_offers settings "$1$2"))
   COMPREPLY=("${{COMPREPLY[@]#"$1"}}")
@@ -392,7 +425,7 @@ _rockyard_offers() {{
   local kind
   local -a offers
   for kind in "$@"; do
-    offers=(${{(f)"$("$program" completion --offer "$kind:$PREFIX" 2>/dev/null)"}})
+    offers=(${{(f)"$("$program" completion --offer "$kind:$PREFIX" --line "${{(F)words}}" 2>/dev/null)"}})
     compadd -Q -S '' -- $offers
   done
 }}
@@ -439,9 +472,9 @@ std::string CompletionScript(const CLI::App& app, Shell shell) {
 
 namespace {
 
-void PrintOffers(const std::string& asked) {
+void PrintOffers(const std::string& asked, const std::string& line) {
   std::string text;
-  for (const std::string& word : LookUp(asked)) text += word + "\n";
+  for (const std::string& word : LookUp(asked, CLI::detail::split(line, '\n'))) text += word + "\n";
   PrintExact(text);
 }
 
@@ -449,6 +482,7 @@ void PrintOffers(const std::string& asked) {
 
 void AddCompletionCommand(CLI::App& app) {
   auto asked = std::make_shared<std::string>();
+  auto line = std::make_shared<std::string>();
   auto shell = std::make_shared<std::string>();
   CLI::App* command =
       app.add_subcommand("completion", "Prints what lets a shell complete rockyard's commands");
@@ -457,9 +491,10 @@ void AddCompletionCommand(CLI::App& app) {
   // What the scripts ask for while somebody types.
   CLI::Option* offer =
       command->add_option("--offer", *asked, "KIND:TYPED: words to offer")->group("");
+  command->add_option("--line", *line, "the words of the command line, a line each")->group("");
   // The parser holds this callback, so it is there when the callback runs.
-  command->callback([shell, asked, named, offer, &app] {
-    if (*offer) return PrintOffers(*asked);
+  command->callback([shell, asked, line, named, offer, &app] {
+    if (*offer) return PrintOffers(*asked, *line);
     if (!*named) throw CLI::RequiredError("SHELL");
     const Shell known = *shell == "bash"  ? Shell::kBash
                         : *shell == "zsh" ? Shell::kZsh

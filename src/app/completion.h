@@ -48,12 +48,13 @@ std::vector<CommandOffer> Offers(const CLI::App& app);
 // Answers "KIND:TYPED" with the words of that kind that begin with TYPED, and with nothing for a
 // kind that is none of these:
 //   settings: "PATH=" for each parameter of a scenario, and where TYPED has a "=", "PATH=VALUE" for
-//   each value of an enumeration or a boolean
+//   each value of an enumeration or a boolean. Those of navigators that the words of `line` bring,
+//   too: all of a library's (--plugin), and those that a scenario file states.
 //   scenarios, sweeps, rovers: names (scenario_names.h)
 //   runs: folders in results/runs
 // Must stay: the kinds, by which scripts of earlier programs ask, too.
 // Cost: 30 ms for the scenarios of the project.
-std::vector<std::string> LookUp(std::string_view asked);
+std::vector<std::string> LookUp(std::string_view asked, const std::vector<std::string>& line = {});
 
 enum class Shell { kBash, kZsh, kFish };
 

@@ -172,6 +172,13 @@ fs::path ScenarioFolder() {
   return "scenarios";
 }
 
+std::string ProjectPath(const std::string& path) {
+  std::error_code error;
+  if (fs::exists(path, error)) return path;
+  const fs::path other = ScenarioFolder().parent_path() / path;
+  return fs::exists(other, error) ? other.string() : path;
+}
+
 std::string ScenarioFile(const std::string& word, Wanted wanted) {
   std::error_code error;
   if (fs::exists(word, error)) return word;

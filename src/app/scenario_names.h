@@ -15,6 +15,11 @@ namespace rockyard::app {
 // `scenarios` of the source tree whose build folder the program is in; else "scenarios".
 std::filesystem::path ScenarioFolder();
 
+// Returns the file or folder that a path of the project means, "results/reference": itself where it
+// is there, else that beside ScenarioFolder(), where an installed package has it; itself where
+// neither is there.
+std::string ProjectPath(const std::string& path);
+
 // What a command takes where it asks for a file.
 enum class Wanted { kScenario, kSweep, kEither, kRover };
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "batch/sqlite_database.h"
+#include "campaign/navigator_times.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
 #include "core/hash.h"
@@ -65,12 +66,21 @@ void RefuseForeignFolder(const OpenRequest& request) {
 // them, and the folder of campaign_traces.h. Must name all of them: a file that is missing here
 // stays beside the results of another run after --force, and other commands may be told to write
 // over it (IsRunFile).
-constexpr std::array kDerivedFiles = {
-    "attribution.csv", "cells.csv",        "cells.svg",
-    "curves.csv",      "distance_cdf.csv", "differences.csv",
-    "fit.csv",         "fits.csv",         "scenario.resolved.json",
-    "success.svg",     "summary.json",     "sweep.json",
-    "traces",          "trials.csv"};
+constexpr std::array kDerivedFiles = {"attribution.csv",
+                                      "cells.csv",
+                                      "cells.svg",
+                                      "curves.csv",
+                                      "distance_cdf.csv",
+                                      "differences.csv",
+                                      "fit.csv",
+                                      "fits.csv",
+                                      NavigatorTimes::kFile,
+                                      "scenario.resolved.json",
+                                      "success.svg",
+                                      "summary.json",
+                                      "sweep.json",
+                                      "traces",
+                                      "trials.csv"};
 
 // The files that `rockyard report` writes where it is told no other name: of the run, but written
 // later.

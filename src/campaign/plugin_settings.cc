@@ -20,8 +20,8 @@ std::vector<std::string> SettingsOf(const GivenPlugins& given) {
   if (list.empty()) return {};
   const JsonValue anchored = plugin::Anchored(JsonValue(std::move(list)), ".");
   const std::vector<plugin::PluginUse> opened = plugin::OpenPlugins(anchored, ".");
-  return {std::string(plugin::kPluginsKey) + "=" + core::CompactJson(anchored),
-          "navigation.navigator=" + opened.front().navigators.front()->description().name};
+  return {"navigation.navigator=" + opened.front().navigators.front()->description().name,
+          std::string(plugin::kPluginsKey) + "=" + core::CompactJson(anchored)};
 }
 
 }  // namespace rockyard::campaign

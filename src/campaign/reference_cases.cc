@@ -202,12 +202,10 @@ Settings OtherSettings(const statistics::PublishedReference& reference, const fs
   return run.settings.value_or(Settings());
 }
 
-constexpr const char* kReferenceFolder = "results/reference";
-
-std::vector<fs::path> StoredReferences() {
+std::vector<fs::path> StoredReferences(const std::string& folder) {
   std::vector<fs::path> files;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(kReferenceFolder, error)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
@@ -239,12 +237,13 @@ void PublishedTables::Load(const fs::path& file) {
   references_.push_back({file.parent_path(), report::LoadReference(file)});
 }
 
-PublishedTables::PublishedTables(const std::string& file, Journal& journal) : journal_(journal) {
+PublishedTables::PublishedTables(const std::string& file, std::string folder, Journal& journal)
+    : folder_(std::move(folder)), journal_(journal) {
   if (!file.empty()) {
     Load(file);
     return;
   }
-  for (const fs::path& each : StoredReferences()) {
+  for (const fs::path& each : StoredReferences(folder_)) {
     try {
       Load(each);
     } catch (const core::UserError& error) {
@@ -269,13 +268,13 @@ std::string PublishedTables::Table(const StoredRun& run) const {
 std::string PublishedTables::WhyNone() const {
   if (references_.empty()) {
     return fmt::format(
-        "no published values stand beside the runs: {} below the working folder holds no "
-        "reference; name one with --against FILE",
-        kReferenceFolder);
+        "no published values stand beside the runs: {} holds no reference; name one with --against "
+        "FILE",
+        folder_);
   }
   return fmt::format(
       "no published values stand beside the runs: no reference in {} names their scenarios",
-      kReferenceFolder);
+      folder_);
 }
 
 }  // namespace rockyard::campaign

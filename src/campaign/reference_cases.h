@@ -68,11 +68,10 @@ std::vector<statistics::ScenarioRun> PublishedViews(const statistics::PublishedR
 // The tables of published values beside the runs of a report.
 class PublishedTables {
  public:
-  // Takes the reference in `file`, or, where `file` is empty, every reference in results/reference
-  // below the working folder: none where there is no such folder; one that cannot be read is noted
-  // and left out. `journal` must outlive the tables. Throws core::UserError where `file` is no
-  // reference.
-  PublishedTables(const std::string& file, Journal& journal);
+  // Takes the reference in `file`, or, where `file` is empty, every reference in `folder`: none
+  // where there is no such folder; one that cannot be read is noted and left out. `journal` must
+  // outlive the tables. Throws core::UserError where `file` is no reference.
+  PublishedTables(const std::string& file, std::string folder, Journal& journal);
 
   // Returns a `PublishedTable` of src/web/report/payload.ts from the first reference that names the
   // scenario of the run, or "null". The values of one run are a family for Holm's procedure: what a
@@ -91,6 +90,7 @@ class PublishedTables {
   };
   void Load(const std::filesystem::path& file);
 
+  std::string folder_;
   Journal& journal_;
   std::vector<Reference> references_;
 };

@@ -63,6 +63,7 @@ Outcome Write(const ReportRequest& request, const ReportObserver& observer, cons
                    .title = request.title,
                    .command = request.command,
                    .against = request.against,
+                   .references = request.references,
                    .replays = request.replays,
                    .page = PageFile(request),
                    .progress = observer.replays,
@@ -123,7 +124,9 @@ std::vector<std::uint64_t> TrialsOf(const std::vector<ChosenTrial>& worst) {
 class Builder {
  public:
   Builder(const PageRequest& request, const Contact& contact)
-      : request_(request), contact_(contact), published_(request.against, contact.journal) {}
+      : request_(request),
+        contact_(contact),
+        published_(request.against, request.references, contact.journal) {}
 
   Report Build() {
     for (const ReportInput& input : request_.inputs) {
@@ -215,7 +218,10 @@ class Builder {
 
   void AddWorst(std::vector<ChosenTrial> worst, const std::string& label) {
     for (ChosenTrial& each : worst) {
-      if (!request_.plugins && HasPlugins(each.identity.resolved)) continue;
+      if (!request_.plugins && PluginDecides(each.identity.resolved)) {
+        left_out_ = true;
+        continue;
+      }
       each.run = runs_.size();
       each.label = label;
       worst_.push_back(std::move(each));
@@ -240,7 +246,12 @@ class Builder {
       hashes.push_back({std::move(name), trials.trial_hash});
       return trials;
     };
+    left_out_ = false;
     const report::SweepSummary summary = report::SummarizeSweep(sweep, load, kMethod);
+    if (left_out_) {
+      contact_.journal.Remark(fmt::format(
+          "{}: trials in which a plugin decides get no replay (--plugins lets them)", input.label));
+    }
     if (report_.trials == before) FailEmpty(input.folder);
     worst_.insert(worst_.begin(), others.begin(), others.end());
     sweeps_.push_back(report::PageSweepJson(input.label, input.folder.string(), sweep, summary,
@@ -339,6 +350,7 @@ class Builder {
   std::vector<std::string> sweeps_;
   std::vector<report::PageComparison> comparisons_;
   std::vector<ChosenTrial> worst_;
+  bool left_out_ = false;       // trials of worst_, as a plugin decides
   std::size_t first_cell_ = 0;  // of the sweep that is being added
   std::vector<core::ParameterInfo> first_cell_parameters_;
   bool any_published_ = false;

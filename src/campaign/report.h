@@ -20,9 +20,10 @@ struct ReportRequest {
   std::string cell = {};          // of a campaign, that one alone: its name or number
   std::string page = {};          // empty: report.html in the folder that is named first
   std::string data = {};          // the numbers of the page as JSON; empty: no such file
-  std::string against = {};       // reference file; empty: those of results/reference
-  std::string title = {};         // empty: the scenarios of the runs
-  std::string command = {};       // that makes the page, as the page shows it
+  std::string against = {};       // reference file; empty: those of `references`
+  std::string references = "results/reference";  // folder
+  std::string title = {};                        // empty: the scenarios of the runs
+  std::string command = {};                      // that makes the page, as the page shows it
   std::size_t replays = 5;   // of the worst failed trials of each run, or of each sweep; above 0, a
                              // run gets one of each outcome too
   std::size_t tracks = 100;  // true paths of trials of each run, for its map
@@ -53,7 +54,8 @@ struct PageRequest {
   std::vector<ReportInput> inputs;
   std::string title;  // empty: what the inputs are of
   std::string command;
-  std::string against;         // reference file; "" for those of results/reference
+  std::string against;                           // reference file; "" for those of `references`
+  std::string references = "results/reference";  // folder
   std::size_t replays = 0;     // of the worst of each run, and of each sweep in all
   std::filesystem::path page;  // whose replays are written beside it
   ReplayReport progress;       // of these

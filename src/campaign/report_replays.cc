@@ -144,7 +144,13 @@ class ReplayWriter {
       done_[i] = true;
       return;
     }
-    problems_.insert(problems_.end(), problems.begin(), problems.end());
+    // What is wrong with all of them, such as a plugin that was built anew, is told once.
+    for (core::Problem& problem : problems) {
+      const bool known = std::ranges::any_of(problems_, [&](const core::Problem& other) {
+        return other.path == problem.path && other.reason == problem.reason;
+      });
+      if (!known) problems_.push_back(std::move(problem));
+    }
     if (replays_.outcome != Outcome::kDiffers) replays_.outcome = outcome;
   }
 

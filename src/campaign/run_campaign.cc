@@ -10,6 +10,7 @@
 
 #include "batch/run_folder.h"
 #include "campaign/campaign_process.h"
+#include "campaign/navigator_times.h"
 #include "core/error.h"
 #include "experiments/make_experiment.h"
 
@@ -21,17 +22,29 @@ class PlannedWork {
  public:
   explicit PlannedWork(const CampaignPlan& plan) {
     for (const CampaignCell& cell : plan.cells) {
+      const bool foreign = cell.scenario.drive.navigation.navigators.chosen().foreign();
+      trial::Watchers watchers;
+      if (foreign) {
+        watchers.navigator_use = [this, name = cell.name](core::TrialKey key,
+                                                          const messages::NavigatorUse& use) {
+          times_.Add(name, key.trial, use);
+        };
+      }
       experiments_.push_back(
-          experiments::MakeExperiment(cell.scenario.experiment, cell.scenario.drive));
-      work_.push_back({experiments_.back().get(), static_cast<std::uint64_t>(cell.scenario.seed),
-                       cell.scenario.drive.navigation.navigators.chosen().foreign()});
+          experiments::MakeExperiment(cell.scenario.experiment, cell.scenario.drive, watchers));
+      work_.push_back(
+          {experiments_.back().get(), static_cast<std::uint64_t>(cell.scenario.seed), foreign});
     }
   }
+  PlannedWork(const PlannedWork&) = delete;
+  PlannedWork& operator=(const PlannedWork&) = delete;
 
   std::span<const batch::CellWork> work() const { return work_; }
   const truth::RecordSchema& schema() const { return experiments_.front()->schema(); }
+  NavigatorTimes& times() { return times_; }
 
  private:
+  NavigatorTimes times_;  // of navigators that are plugins or processes
   std::vector<std::unique_ptr<experiments::Experiment>> experiments_;
   std::vector<batch::CellWork> work_;
 };
@@ -86,17 +99,20 @@ class Campaign {
   Outcome Run(CampaignProcess& process) const {
     const CampaignPlan plan = planner_();
     CheckPlan(request_, plan);
-    const PlannedWork work(plan);
+    PlannedWork work(plan);
     CheckColumns(plan, work);
     OpenRequest opening = OpeningOf(request_, plan);
     if (!process.begins()) opening.existing = ExistingRun::kOwn;
     opening.own = [&] { process.SetOpened(); };
     OpenedRun run = OpenRun(opening, plan, work.schema());
     journal_.SetFolder(run.folder);
+    work.times().Begin(run.folder);
     if (process.begins()) {
       for (const std::string& note : run.notes) journal_.Remark(note);
     }
-    return RunAndReport(work.work(), run, process);
+    const Outcome outcome = RunAndReport(work.work(), run, process);
+    if (const auto problem = work.times().problem()) journal_.Warn(*problem);
+    return outcome;
   }
 
   // Writes the traces of the trials that the rules keep, once all are stored.

@@ -154,8 +154,15 @@ std::optional<std::vector<std::string>> SettingsOf(const fs::path& path) {
   return list == nullptr ? std::nullopt : core::TextsIn(*list);
 }
 
-bool HasPlugins(const std::string& resolved) {
-  return core::ParseJson(resolved, "resolved scenario").Find(plugin::kPluginsKey) != nullptr;
+bool PluginDecides(const std::string& resolved) {
+  const auto sealed = TryRead(resolved);
+  return !sealed || sealed->drive.navigation.navigators.chosen().foreign();
+}
+
+scenario::Scenario ScenarioToDrive(const std::string& resolved, const std::string& source) {
+  const core::JsonValue document = core::ParseJson(resolved, source);
+  return PluginDecides(resolved) ? scenario::ReadScenario(document)
+                                 : scenario::ReadScenarioSealed(document);
 }
 
 scenario::Sweep StoredSweep(const batch::ResultStore& store) {

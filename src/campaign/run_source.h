@@ -39,8 +39,11 @@ truth::RecordSchema ColumnsOf(const scenario::Scenario& scenario);
 // Throws core::UserError.
 std::optional<std::vector<std::string>> SettingsOf(const std::filesystem::path& path);
 
-// Returns whether a resolved scenario names plugins.
-bool HasPlugins(const std::string& resolved);
+// Return whether a plugin decides in the trials of a resolved scenario, and the scenario by which
+// they are driven again: its plugins are opened where one decides, and else they may be gone.
+// `source` names it in messages. Throws core::UserError.
+bool PluginDecides(const std::string& resolved);
+scenario::Scenario ScenarioToDrive(const std::string& resolved, const std::string& source);
 
 // Returns the sweep whose campaign the store holds; opens no plugins. Throws core::UserError.
 scenario::Sweep StoredSweep(const batch::ResultStore& store);

@@ -86,7 +86,7 @@ TrialSource FindTrial(const TrialRequest& request) {
 TrialSource StoredTrial(const TrialRequest& request, const batch::CellIdentity& cell,
                         std::vector<std::string> builds, std::optional<truth::Record> stored) {
   TrialSource source;
-  source.scenario = scenario::ReadScenario(core::ParseJson(cell.resolved, request.source));
+  source.scenario = ScenarioToDrive(cell.resolved, request.source);
   source.seed = cell.seed;
   source.cell = cell.name;
   source.request = RequestWords(request);

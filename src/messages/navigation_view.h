@@ -122,6 +122,14 @@ struct Overlay {
   std::vector<OverlayGrid> grids;
 };
 
+/// What a plugin or process took for a drive, by the clocks of the machine. No record holds it.
+struct NavigatorUse {
+  std::int64_t questions = 0;  ///< how often it was asked to decide
+  double cpu_s = 0.0;          ///< of all answers
+  double wall_s = 0.0;
+  double longest_s = 0.0;  ///< of the slowest answer, by the clock on the wall
+};
+
 /// A number that a navigator counts or measures for itself, as it declares it once. It is a column
 /// of every record of a drive with that navigator.
 struct OwnValue {

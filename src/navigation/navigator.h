@@ -164,7 +164,7 @@ struct PlanCounts {
 
 /// A path selection algorithm. One object drives one trial, from one thread. A trial must repeat
 /// bit for bit: a navigator reads no clock, and draws no random numbers but such as are seeded by
-/// its parameters. What it throws makes the trial a simulator fault.
+/// its setup. What it throws ends the drive: navigator_fault of a plugin, else simulator_fault.
 class Navigator {
  public:
   virtual ~Navigator() = default;

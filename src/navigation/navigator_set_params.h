@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -55,6 +56,8 @@ struct NavigatorSetup {
   double operations_per_s = 0.0;
   double control_period_s = 0.05;  ///< between two ticks
   LimitParams limits = {};         ///< for whoever asks a plugin or process
+  /// Is told of a plugin or process when its drive is over; may be empty. Must not throw.
+  std::function<void(const messages::NavigatorUse&)> on_end = {};
 };
 
 /// All that is needed to add a navigator. `Params` has `void Visit(core::FieldVisitor&)`.

@@ -229,11 +229,12 @@ double ThreadCpu_s() {
 // One navigator of a library.
 class LibraryNavigator final : public navigation::Navigator {
  public:
-  LibraryNavigator(const rockyard_navigator_type& type, const navigation::LimitParams& limits,
+  LibraryNavigator(const rockyard_navigator_type& type, const navigation::NavigatorSetup& setup,
                    std::size_t own_values)
-      : type_(type), limits_(limits), own_values_(own_values) {}
+      : type_(type), limits_(setup.limits), on_end_(setup.on_end), own_values_(own_values) {}
   ~LibraryNavigator() override {
     if (navigator_ != nullptr) type_.destroy(navigator_);
+    if (on_end_) on_end_(use_);
   }
   LibraryNavigator(const LibraryNavigator&) = delete;
   LibraryNavigator& operator=(const LibraryNavigator&) = delete;
@@ -268,6 +269,7 @@ class LibraryNavigator final : public navigation::Navigator {
   navigation::NavigatorDecision Decide(const navigation::NavigatorInput& input) override {
     const AbiInput from(input);
     rockyard_decision to{};
+    ++use_.questions;
     Call([&](rockyard_error* error) { return type_.decide(navigator_, from.get(), &to, error); });
     navigation::NavigatorDecision decision = Decision(to);
     CheckDecision(decision);
@@ -291,9 +293,9 @@ class LibraryNavigator final : public navigation::Navigator {
 
   const messages::Overlay* overlay() const override {
     rockyard_overlay shown{};
-    const double used_s = used_s_;
+    const messages::NavigatorUse use = use_;
     Call([&](rockyard_error* error) { return type_.overlay(navigator_, &shown, error); });
-    used_s_ = used_s;  // a drive that is watched is the same as one that is not
+    use_ = use;  // a drive that is watched is the same as one that is not
     overlay_ = {};
     for (std::size_t i = 0; i < shown.line_count; ++i) {
       const rockyard_overlay_line& line = shown.lines[i];
@@ -355,11 +357,14 @@ class LibraryNavigator final : public navigation::Navigator {
     const Clock::duration took = Clock::now() - began;
     // A plugin that forks: its child must not go on with this drive and this store.
     if (took > kForkTakes && getpid() != process_) _exit(1);
+    const double took_s = std::chrono::duration<double>(took).count();
+    use_.wall_s += took_s;
+    use_.longest_s = std::max(use_.longest_s, took_s);
     if (took > kShort) {
       CheckSlow();
     } else {
-      used_s_ += std::chrono::duration<double>(took).count();
-      Limit(used_s_, limits_.drive_cpu_s, "for one drive");
+      use_.cpu_s += took_s;
+      Limit(use_.cpu_s, limits_.drive_cpu_s, "for one drive");
     }
     if (result != 0) throw NavigatorFault(FaultKind::kThrew, TextOf(error));
   }
@@ -369,9 +374,9 @@ class LibraryNavigator final : public navigation::Navigator {
     const double now_s = ThreadCpu_s();
     const double used_s = now_s - std::exchange(cpu_s_, now_s);
     read_at_ = Clock::now();
-    used_s_ += used_s;
+    use_.cpu_s += used_s;
     Limit(used_s, limits_.decision_cpu_s, "for one answer");
-    Limit(used_s_, limits_.drive_cpu_s, "for one drive");
+    Limit(use_.cpu_s, limits_.drive_cpu_s, "for one drive");
   }
 
   static void Limit(double used_s, double most_s, const char* what) {
@@ -381,12 +386,13 @@ class LibraryNavigator final : public navigation::Navigator {
 
   const rockyard_navigator_type& type_;
   const navigation::LimitParams limits_;
+  const std::function<void(const messages::NavigatorUse&)> on_end_;
   const std::size_t own_values_;
   const pid_t process_ = getpid();
   void* navigator_ = nullptr;
   mutable double cpu_s_ = ThreadCpu_s();  // of the thread, at most kShort before a call
   mutable Clock::time_point read_at_ = Clock::now();
-  mutable double used_s_ = 0.0;  // in all calls
+  mutable messages::NavigatorUse use_;  // in all calls
   mutable messages::Overlay overlay_;
   mutable std::vector<double> values_;
 };
@@ -404,7 +410,7 @@ class LibrarySource final : public NavigatorSource {
   std::unique_ptr<navigation::Navigator> Make(
       const Parameters& parameters, const navigation::NavigatorSetup& setup) const override {
     auto navigator =
-        std::make_unique<LibraryNavigator>(Type(), setup.limits, description().own_values.size());
+        std::make_unique<LibraryNavigator>(Type(), setup, description().own_values.size());
     navigator->Begin(parameters, setup);
     return navigator;
   }

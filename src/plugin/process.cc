@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string_view>
@@ -77,9 +80,14 @@ class Pool {
 // The navigator of one drive.
 class ProcessNavigator final : public navigation::Navigator {
  public:
-  ProcessNavigator(Pool& pool, const LimitParams& limits, std::size_t own_values)
-      : pool_(pool), limits_(limits), process_(pool.Take()), own_values_(own_values, 0.0) {}
+  ProcessNavigator(Pool& pool, const navigation::NavigatorSetup& setup, std::size_t own_values)
+      : pool_(pool),
+        limits_(setup.limits),
+        on_end_(setup.on_end),
+        process_(pool.Take()),
+        own_values_(own_values, 0.0) {}
   ~ProcessNavigator() override {
+    if (on_end_) on_end_(use_);
     // What failed once is not trusted with another drive.
     if (process_ != nullptr && !failed_) pool_.Return(std::move(process_));
   }
@@ -94,6 +102,7 @@ class ProcessNavigator final : public navigation::Navigator {
   }
 
   navigation::NavigatorDecision Decide(const navigation::NavigatorInput& input) override {
+    ++use_.questions;
     JsonValue request = Request("decide");
     request.Update(InputToJson(input));
     const JsonValue answer = Ask(request);
@@ -148,18 +157,25 @@ class ProcessNavigator final : public navigation::Navigator {
   // `counts`: as CPU time of the drive.
   JsonValue Ask(const JsonValue& request, bool counts = true) const {
     failed_ = true;
-    const double left_s = limits_.drive_cpu_s - (counts ? used_s_ : 0.0);
+    const double left_s = limits_.drive_cpu_s - (counts ? use_.cpu_s : 0.0);
+    const auto began = std::chrono::steady_clock::now();
     JsonValue answer = AskJson(*process_, request, limits_, left_s);
-    if (counts) used_s_ += process_->used_s();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+    if (counts) {
+      use_.cpu_s += process_->used_s();
+      use_.wall_s += took.count();
+      use_.longest_s = std::max(use_.longest_s, took.count());
+    }
     failed_ = false;
     return answer;
   }
 
   Pool& pool_;
   const LimitParams limits_;
+  const std::function<void(const messages::NavigatorUse&)> on_end_;
   std::unique_ptr<ChildProcess> process_;
   std::vector<double> own_values_;
-  mutable double used_s_ = 0.0;
+  mutable messages::NavigatorUse use_;
   mutable bool failed_ = false;
   mutable messages::Overlay overlay_;
 };
@@ -173,7 +189,7 @@ class ProcessSource final : public NavigatorSource {
   std::unique_ptr<navigation::Navigator> Make(
       const Parameters& parameters, const navigation::NavigatorSetup& setup) const override {
     auto navigator =
-        std::make_unique<ProcessNavigator>(*pool_, setup.limits, description().own_values.size());
+        std::make_unique<ProcessNavigator>(*pool_, setup, description().own_values.size());
     navigator->Begin(parameters, setup);
     return navigator;
   }

@@ -1,6 +1,7 @@
 #include "report/summary_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -123,6 +124,13 @@ std::string CauseLines(const DriveSummary& summary, TrialOutcome outcome) {
   return text;
 }
 
+// Returns the line of what a navigator said as it failed, of the first that did.
+std::string FaultLine(const DriveSummary& summary) {
+  const auto& first = summary.first_navigator_fault;
+  if (!first) return "";
+  return Wrapped(fmt::format("    trial {}: {}", first->trial, Printable(first->detail))) + "\n";
+}
+
 std::string OutcomeLines(const DriveSummary& summary, TextStyle style) {
   std::string text;
   const double total = static_cast<double>(std::max<std::int64_t>(summary.completed, 1));
@@ -136,6 +144,7 @@ std::string OutcomeLines(const DriveSummary& summary, TextStyle style) {
                         Coloured(style, ColourOf(static_cast<TrialOutcome>(i)),
                                  std::string(static_cast<std::size_t>(length), '#')));
     text += CauseLines(summary, static_cast<TrialOutcome>(i));
+    if (static_cast<TrialOutcome>(i) == TrialOutcome::kNavigatorFault) text += FaultLine(summary);
   }
   return text;
 }
@@ -219,8 +228,13 @@ std::string OwnLines(const DriveSummary& summary) {
   std::string text;
   std::size_t shown = 0;
   std::size_t all = 0;
+  std::vector<std::string> few;
   for (const statistics::MetricSummary& metric : summary.metrics) {
-    if (!truth::IsOwnColumn(metric.metric.name) || metric.count < 2) continue;
+    if (!truth::IsOwnColumn(metric.metric.name)) continue;
+    if (metric.count < 2) {
+      few.push_back(metric.metric.name);
+      continue;
+    }
     if (++all > kMostOwn) continue;
     ++shown;
     const std::string& unit = metric.metric.unit;
@@ -230,6 +244,18 @@ std::string OwnLines(const DriveSummary& summary) {
     text += MetricLine({.column = metric.metric.name, .label = cut}, metric);
   }
   if (all > shown) text += fmt::format("  and {} more: summary.json\n", all - shown);
+  // Of a navigator that did not drive all are empty.
+  std::erase_if(few, [&](const std::string& name) {
+    const std::string navigator = name.substr(0, name.find('.') + 1);
+    return std::ranges::none_of(summary.metrics, [&](const statistics::MetricSummary& metric) {
+      return metric.count >= 2 && metric.metric.name.starts_with(navigator);
+    });
+  });
+  if (!few.empty()) {
+    text +=
+        Wrapped("  in one trial at most: " + Printable(fmt::format("{}", fmt::join(few, ", ")))) +
+        "\n";
+  }
   return text;
 }
 

@@ -271,10 +271,10 @@ std::string PText(double p) {
 
 std::string Differences(const SweepSummary& summary) {
   if (summary.differences.empty()) return "";
-  std::string text =
-      fmt::format("\n  differences of success, {}, in points; p by Holm over all {}\n",
-                  summary.differences.front().paired ? "trial by trial" : "as two samples",
-                  summary.differences.size());
+  std::string text = fmt::format(
+      "\n  differences of success, {}, in points; intervals of each, p by Holm over all {}\n",
+      summary.differences.front().paired ? "trial by trial" : "as two samples",
+      summary.differences.size());
   for (std::size_t i = 0; i < std::min(summary.differences.size(), kMaxDifferences); ++i) {
     const SweepDifference& each = summary.differences[i];
     const SuccessComparison& success = each.success;

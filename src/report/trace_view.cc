@@ -60,7 +60,13 @@ std::vector<std::string> RecordDifferences(const truth::RecordSchema& schema,
     differences.push_back(
         fmt::format("detail: stored \"{}\", now \"{}\"", stored.detail, now.detail));
   }
-  if (stored.values.size() != now.values.size()) {
+  // A scenario that is read without its plugins knows no columns of navigators that did not drive.
+  const std::size_t known = std::min(now.values.size(), stored.values.size());
+  bool none = true;
+  for (std::size_t i = known; i < stored.values.size(); ++i) {
+    none = none && std::isnan(stored.values[i]);
+  }
+  if (now.values.size() > known || !none) {
     differences.push_back(
         fmt::format("values: stored {}, now {}", stored.values.size(), now.values.size()));
     return differences;

@@ -10,6 +10,7 @@
 #include "core/hash.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "plugin/plugin_use.h"
 #include "scenario/load.h"
 #include "scenario/sweep_cell.h"
 #include "scenario/sweep_spec.h"
@@ -123,15 +124,34 @@ std::optional<std::size_t> FitAxis(const SweepSpec& spec) {
   return std::nullopt;
 }
 
+// Returns whether an axis, a cell or a setting in the document has that path.
+bool States(const JsonValue& document, std::string_view path) {
+  if (document.Is(JsonValue::Type::kText)) return document.text() == path;
+  if (document.Is(JsonValue::Type::kList)) {
+    return std::ranges::any_of(document.list(),
+                               [&](const JsonValue& each) { return States(each, path); });
+  }
+  if (!document.Is(JsonValue::Type::kObject)) return false;
+  return std::ranges::any_of(document.members(), [&](const core::JsonMember& member) {
+    return member.key == path || States(member.value, path);
+  });
+}
+
 // Writes the changes into the document, so that it says by itself what is run. An override goes
 // last among the settings.
 void ApplyChanges(JsonValue& document, const SweepChanges& changes) {
+  const std::string plugins = std::string(plugin::kPluginsKey) + "=";
+  const auto list = std::ranges::find_if(
+      changes.overrides, [&](const std::string& each) { return each.starts_with(plugins); });
+  bool chosen = list != changes.overrides.end();  // by a list of plugins that is yet to come
   if (changes.trials) document.Set("trials", JsonValue(*changes.trials));
   if (changes.seed) document.Set("seed", JsonValue(*changes.seed));
   for (const std::string& assignment : changes.overrides) {
     JsonValue parsed = JsonValue::Object();
     core::ApplyOverride(parsed, assignment);
     const std::string path = assignment.substr(0, assignment.find('='));
+    chosen = chosen && path != plugin::kPluginsKey;
+    if (chosen && States(document, path)) continue;
     JsonValue* set = document.Find("set");
     if (set == nullptr) set = &document.Set("set", JsonValue::Object());
     set->Erase(path);

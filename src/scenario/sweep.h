@@ -63,7 +63,9 @@ struct Sweep {
 
 // What the command line changes of a sweep.
 struct SweepChanges {
-  std::vector<std::string> overrides = {};  // "PATH=VALUE" on every cell's scenario
+  // "PATH=VALUE" on every cell's scenario. Those before a list of plugins are what that list
+  // chooses for want of better: they give way to axes, cells and settings of the file.
+  std::vector<std::string> overrides = {};
   std::optional<std::int64_t> trials = {};
   std::optional<std::int64_t> seed = {};
   Scenario defaults = {};  // of every cell, with the navigators and estimators that it may name

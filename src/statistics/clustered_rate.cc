@@ -364,7 +364,8 @@ LayoutEffect EstimateLayoutEffect(std::span<const LayoutCount> layouts) {
 
 CountLaw OneLayoutLaw(std::int64_t trials, std::span<const LayoutCount> layouts,
                       std::uint64_t seed) {
-  EXPECT(std::isfinite(EstimateLayoutEffect(layouts).correlation));
+  const LayoutEffect whole = EstimateLayoutEffect(layouts);
+  EXPECT(std::isfinite(whole.correlation));
   constexpr std::uint32_t kResamples = 400;
   CountLaw mean(static_cast<std::size_t>(trials) + 1, 0.0);
   std::vector<LayoutCount> resample(layouts.size());
@@ -375,7 +376,10 @@ CountLaw OneLayoutLaw(std::int64_t trials, std::span<const LayoutCount> layouts,
       // Layouts are resampled, not trials: they are what is independent.
       layout = layouts[static_cast<std::size_t>(u)];
     }
-    const CountLaw law = LawOf(trials, EstimateLayoutEffect(resample));
+    LayoutEffect effect = EstimateLayoutEffect(resample);
+    // Layouts of one trial alone were drawn, which tell nothing of how trials hang together.
+    if (!std::isfinite(effect.correlation)) effect.correlation = whole.correlation;
+    const CountLaw law = LawOf(trials, effect);
     for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += law[k] / kResamples;
   }
   return mean;

@@ -85,6 +85,10 @@ DriveSummary Summarize(const truth::RecordSchema& schema, std::span<const truth:
     if (const auto cause = truth::CauseOf(record)) {
       ++summary.causes[static_cast<std::size_t>(*cause)];
     }
+    const bool fault = record.outcome == truth::TrialOutcome::kNavigatorFault;
+    if (fault && !summary.first_navigator_fault) {
+      summary.first_navigator_fault = {record.trial, record.detail};
+    }
   }
   summary.faults = summary.outcome(truth::TrialOutcome::kSimulatorFault);
   const std::vector<std::size_t> groups = DependentGroups(schema, records);

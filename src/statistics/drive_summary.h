@@ -47,6 +47,12 @@ struct DriveSummary {
   bool shared_layouts = false;  // trials share rocks, which every interval allows for
   std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
   std::array<std::int64_t, truth::kEndCauses.size()> causes{};  // of records that tell theirs
+  // The first trial that its navigator ended by a fault, with what it said.
+  struct FirstFault {
+    std::uint64_t trial = 0;
+    std::string detail;
+  };
+  std::optional<FirstFault> first_navigator_fault;
   // Every column of the schema over all trials without a fault, in the schema's order; but
   // "path_ratio", last, is that metric's (over declared successes), whatever the schema has.
   std::vector<ColumnSummary> columns;

@@ -13,6 +13,7 @@
 #include "messages/measurements.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
+#include "navigation/navigator_set_params.h"
 #include "perception/stereo_points.h"
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
@@ -79,6 +80,8 @@ struct Watchers {
   // After every decision from which on the navigator shows something else. Without this watcher no
   // navigator is asked what it shows.
   OverlayWatcher overlay = {};
+  // After a drive with a plugin or process for a navigator: what that took.
+  std::function<void(core::TrialKey, const messages::NavigatorUse&)> navigator_use = {};
   // Before anything else of a drive: what was shown before it is void. A drive begins twice where
   // the machine may be to blame for a fault of its navigator.
   std::function<void()> begin = {};

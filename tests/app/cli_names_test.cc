@@ -51,6 +51,21 @@ TEST_F(CliNames, OfTwoFilesNameBoth) {
       << "the path from the folder itself goes first";
 }
 
+// As of an installed package, away from the project.
+TEST_F(CliNames, ReferencesLieBesideTheScenarios) {
+  setenv("ROCKYARD_SCENARIOS", Source("scenarios").c_str(), 1);
+  RunTo(0,
+        {"run", "nominal", "--trials", "2", "--set", "rover.fidelity=quasi_static", "--out", "a"});
+  const CommandResult check =
+      Run({"check", "a", "--against", "results/reference/matthies1995.json"});
+  EXPECT_THAT(check.out, HasSubstr("published")) << check.err;
+  EXPECT_EQ(RunTo(0, {"report", "a", "--replays", "0", "--tracks", "0"}).err, "");
+  setenv("ROCKYARD_SCENARIOS", "/nowhere", 1);
+  EXPECT_THAT(RunTo(0, {"report", "a", "--replays", "0", "--tracks", "0"}).err,
+              HasSubstr("results/reference holds no reference"));
+  RunTo(2, {"check", "a", "--against", "results/reference/matthies1995.json"});
+}
+
 TEST_F(CliNames, AFileOfThatNameWins) {
   Place("scenarios/a/one.json");
   Place("one");

@@ -224,6 +224,23 @@ TEST_F(CliCompletion, BashAsksTheProgramForSettingsAndNames) {
   unsetenv("ROCKYARD_SCENARIOS");
 }
 
+// A library that the line names is asked for its parameters; a scenario file is only read.
+TEST_F(CliCompletion, BashOffersParametersOfPlugins) {
+  const std::string program = ROCKYARD_COMMAND;
+  const std::string plugin = COUNTING_NAVIGATOR;
+  for (const std::string given : {" --plugin ", " --plugin = "}) {
+    EXPECT_EQ(Offered(program + " run nominal" + given + plugin + " --set navigation.counter.s"),
+              "\nnavigation.counter.stretch_m=\n");
+  }
+  WriteFile(work() / "theirs.json", R"({"plugins": [{"process": "touch opened"}],
+      "navigation": {"navigator": "theirs", "theirs": {"boldness": 1}}})");
+  EXPECT_EQ(Offered(program + " run theirs.json --set navigation.theirs."),
+            "\nnavigation.theirs.boldness=\n");
+  EXPECT_FALSE(fs::exists(work() / "opened"));
+  EXPECT_EQ(Offered(program + " run nominal --plugin nowhere.so --set terrain.rocks.k_per"),
+            "\nterrain.rocks.k_per_m2=\n");
+}
+
 TEST_F(CliCompletion, BashOffersRunFolders) {
   RunTo(0, QuickRun("results/runs/first", 1));
   EXPECT_THAT(Offered(std::string(ROCKYARD_COMMAND) + " report results/runs/f"),

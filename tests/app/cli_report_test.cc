@@ -23,7 +23,7 @@ TEST_F(CliReport, HoldsTheNumbersOfSummaryJson) {
   EXPECT_EQ(run["replay_command"], "rockyard replay a --trial {trial}");
   EXPECT_EQ(run["trials"]["trial"].size(), 5u);
   EXPECT_GT(run["parameters"].size(), 100u);
-  EXPECT_TRUE(run["published"].is_null());
+  EXPECT_EQ(run["published"]["reference"], "Matthies 1995");
   EXPECT_THAT(data["command"].get<std::string>(), HasSubstr("rockyard report a"));
   EXPECT_TRUE(data["comparisons"].empty());
 }
@@ -39,7 +39,8 @@ TEST_F(CliReport, OfAScenarioWithoutANameIsTitledByItsFolder) {
 TEST_F(CliReport, TellsWhichTrialsAreInTheRates) {
   ASSERT_EQ(Drive("a", 6, {"--set", "course.trials_per_layout=2"}).exit_code, 0);
   batch::Forge(work() / "a/results.sqlite", "DELETE FROM trials WHERE trial = 3");
-  ASSERT_EQ(Report({"a"}).exit_code, 0);
+  const CommandResult result = Report({"a"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
   const json run = Data()["runs"][0];
   EXPECT_EQ(run["prefix_trials"], 3);
   EXPECT_EQ(run["trials"]["trial"], json({0, 1, 2, 4, 5}));
@@ -149,7 +150,9 @@ TEST_F(CliReport, ReferencesOfTheWorkingFolderAreFound) {
 
 TEST_F(CliReport, SaysWhereNoReferenceWasFound) {
   ASSERT_EQ(Drive("a", 3).exit_code, 0);
-  EXPECT_THAT(Report({"a"}).err, HasSubstr("results/reference below the working folder"));
+  setenv("ROCKYARD_SCENARIOS", "/nowhere", 1);
+  EXPECT_THAT(Report({"a"}).err, HasSubstr("results/reference holds no reference"));
+  unsetenv("ROCKYARD_SCENARIOS");
   EXPECT_THAT(Data()["why_none_published"].get<std::string>(), HasSubstr("--against"));
 }
 

@@ -53,11 +53,12 @@ function(refuses cheat header)
     message(FATAL_ERROR "${cheat} fails for another reason than ${header}:\n${output}")
   endif()
 endfunction()
-foreach(side cheat cheat_world)
+foreach(side cheat cheat_plugin cheat_world)
   refuses(${side}_terrain terrain/terrain.h)
   refuses(${side}_rover_state truth/rover_state.h)
 endforeach()
 refuses(cheat_record truth/record.h)
+refuses(cheat_plugin_record truth/record.h)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/build --target control_record
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 

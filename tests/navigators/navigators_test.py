@@ -55,9 +55,25 @@ class Drives(unittest.TestCase):
     def twin(self):
         return ("--plugin", PLUGINS["pathfinder_twin"])
 
+    def process(self):
+        return ("--navigator-process", f"python3 {EXAMPLES / 'arc_planner.py'}")
+
+    def times(self, name):
+        with open(self.folder / name / "navigator_times.csv", newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
     def test_a_plugin_drives_as_the_same_sources_built_in(self):
         for threads in (1, 2):
             self.assertEqual(self.run_hash(f"twin{threads}", (*self.twin(), "--threads", threads)), self.built_in)
+
+    def test_the_program_shows_a_plugin_nothing_of_its_own(self):
+        """The wall: a library finds no function of rockyard in the program that loads it, the world's least of all."""
+        def defined(file, dynamic):
+            symbols = subprocess.run(["nm", "--defined-only", "-C", *dynamic, file], capture_output=True, text=True,
+                                     check=True).stdout
+            return [line for line in symbols.splitlines() if " rockyard::" in line]
+        self.assertEqual(defined(ROCKYARD, ["-D"]), [])
+        self.assertTrue(any("rockyard::terrain::" in line for line in defined(ROCKYARD, [])))
 
     def test_shards_of_a_plugin_make_the_whole(self):
         shards = [f"shard{i}" for i in (1, 2)]
@@ -67,23 +83,40 @@ class Drives(unittest.TestCase):
         self.command(["merge", *shards, "--out", "merged"])
         self.assertEqual(self.hash_of("merged"), self.built_in)
 
-    def test_ranks_drive_with_a_plugin(self):
+    def test_ranks_drive_with_a_plugin_and_with_a_process(self):
         mpirun = shutil.which("mpirun")
         if mpirun is None or b"libmpi" not in subprocess.run(["ldd", ROCKYARD], capture_output=True, check=True).stdout:
             self.assertIsNone(mpirun, "the program was built without MPI, which is there")
             return
         before = (mpirun, "--allow-run-as-root", "--oversubscribe", "-n", "2")
         self.assertEqual(self.run_hash("ranks", self.twin(), before), self.built_in)
+        alone = self.run_hash("processes", self.process(), trials=4)
+        self.assertEqual(self.run_hash("ranks_of_processes", self.process(), before, trials=4), alone)
 
     def test_a_killed_campaign_goes_on_to_the_same(self):
-        words = ["run", NOMINAL, "--trials", 60, *QUICK, "--quiet", "--out", "killed", *self.twin()]
-        started = subprocess.Popen([ROCKYARD, *map(str, words)], cwd=self.folder, start_new_session=True)
-        time.sleep(1.0)
-        os.killpg(started.pid, signal.SIGKILL)
-        started.wait()
-        self.command([*words, "--resume"] if (self.folder / "killed/results.sqlite").exists() else words)
-        self.command(["run", NOMINAL, "--trials", 60, *QUICK, "--quiet", "--out", "undisturbed"])
-        self.assertEqual(self.hash_of("killed"), self.hash_of("undisturbed"))
+        for name, trials, navigator in (("plugin", 60, self.twin()), ("process", 12, self.process())):
+            words = ["run", NOMINAL, "--trials", trials, *QUICK, "--quiet", "--out", f"killed_{name}", *navigator]
+            started = subprocess.Popen([ROCKYARD, *map(str, words)], cwd=self.folder, start_new_session=True)
+            time.sleep(1.5)
+            os.killpg(started.pid, signal.SIGKILL)
+            started.wait()
+            begun = (self.folder / f"killed_{name}/results.sqlite").exists()
+            self.command([*words, "--resume"] if begun else words)
+            undisturbed = self.run_hash(f"undisturbed_{name}", navigator, trials=trials)
+            self.assertEqual(self.hash_of(f"killed_{name}"), undisturbed)
+
+    def test_what_a_navigator_took_stands_beside_the_records(self):
+        for name, navigator in (("timed", self.twin()), ("timed_process", self.process())):
+            self.run_hash(name, navigator, trials=3)
+            rows = self.times(name)
+            self.assertEqual(sorted(row["trial"] for row in rows), ["0", "1", "2"])
+            for row in rows:
+                self.assertGreater(int(row["questions"]), 10)
+                self.assertGreater(float(row["wall_s"]), 0)
+                self.assertLessEqual(float(row["longest_s"]), float(row["wall_s"]))
+        self.command(["run", NOMINAL, "--trials", 5, *QUICK, "--quiet", "--out", "timed", *self.twin(), "--resume"])
+        self.assertEqual(len(self.times("timed")), 5)
+        self.assertFalse((self.folder / "built_in/navigator_times.csv").exists())
 
     def test_cpp_and_python_decide_the_same(self):
         plugin = self.run_hash("in_cpp", ("--plugin", PLUGINS["arc_planner"]), trials=3)
@@ -123,6 +156,48 @@ class Drives(unittest.TestCase):
         self.command(["report", "gone"])
         told = self.command(["replay", "gone", "--trial", 0, "--out", "page.html"], ends=2)
         self.assertIn("libgone.so", told.stderr)
+
+    def test_a_run_that_a_plugin_does_not_decide_needs_none(self):
+        """Nor does a rebuilt plugin, whose own values its records have columns for."""
+        library = self.folder / "libother_arc.so"
+        shutil.copy(PLUGINS["arc_planner"], library)
+        self.run_hash("not_chosen", ("--plugin", library, "--set", "navigation.navigator=pathfinder"))
+        library.unlink()
+        self.command(["trace", "not_chosen", "--trial", 0])
+        told = self.command(["report", "not_chosen", "--tracks", 3, "--data", "page.json"])
+        for word in ("error", "left out", "no trial", "no replay"):
+            self.assertNotIn(word, told.stderr)
+        page = json.loads((self.folder / "page.json").read_text())
+        self.assertGreaterEqual(page["runs"][0]["first_tracks"], 3)
+        self.assertTrue(list((self.folder / "not_chosen/report_replays").glob("*.html")))
+
+    def test_a_report_says_what_it_does_not_drive_again(self):
+        sweep = {"name": "kinds", "trials": 3, "set": {"rover.fidelity": "quasi_static"}, "scenario": str(NOMINAL),
+                 "axes": [{"path": "navigation.navigator", "values": ["pathfinder", "arc_planner"]}]}
+        (self.folder / "kinds.json").write_text(json.dumps(sweep))
+        self.command(["sweep", "kinds.json", "--plugin", PLUGINS["arc_planner"], "--quiet", "--out", "kinds"])
+        told = self.command(["report", "kinds"])
+        self.assertIn("trials in which a plugin decides get no replay (--plugins lets them)", told.stderr)
+        self.assertNotIn("get no replay", self.command(["report", "kinds", "--plugins", "--replays", 1]).stderr)
+
+    def test_what_a_navigator_says_as_it_fails_is_told(self):
+        shutil.copy(EXAMPLES / "rockyard_navigator.py", self.folder)
+        (self.folder / "lost.py").write_text(
+            "from rockyard_navigator import Navigator, drive, parameter, run\n"
+            "class Lost(Navigator):\n"
+            "    name = 'lost'\n"
+            "    parameters = [parameter('goal_tolerance_m', 'real', 0.3, 'arrives within', min=0, max=5)]\n"
+            "    def decide(self, input):\n"
+            "        if input.estimate.distance_m > 1: return drive(self.p.boldness)\n"
+            "        if input.estimate.distance_m < 0.5: return drive(until_distance_m=0.6)\n"
+            "run(Lost)\n")
+        told = self.command(["run", NOMINAL, "--trials", 3, *QUICK, "--navigator-process", "python3 lost.py",
+                             "--out", "lost"]).stdout
+        self.assertIn("navigator_fault", told)
+        self.assertIn("trial 0: stopped because its navigator reported an error: TypeError: decide() returned None", told)
+        values = "from rockyard_navigator import Parameters; Parameters(step_m=1).boldness"
+        failed = subprocess.run(["python3", "-c", values], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertIn("no parameter boldness is declared: there are step_m", failed.stderr)
 
     def test_examples_drive_and_count(self):
         for name in ("arc_planner", "bug2", "potential_field"):

@@ -34,9 +34,21 @@ grep -q "<title>" run/report.html || fail "no page"
 "$command" rover mfex > /dev/null
 [ -s "$folder/root/usr/share/bash-completion/completions/rockyard" ] || fail "no completion"
 [ -s "$folder/root/usr/share/doc/rockyard/docs/tutorial.md" ] || fail "no documentation"
+/usr/bin/python3 - "$folder/root/usr/share/doc/rockyard/docs" << 'EOF' || fail "links of the pages lead nowhere"
+import pathlib, re, sys
+dead = [f"{page}: {link}" for page in pathlib.Path(sys.argv[1]).rglob("*.md")
+        for link in re.findall(r"\]\((\.\./[^)#]+)", page.read_text()) if not (page.parent / link).exists()]
+print("\n".join(dead))
+sys.exit(bool(dead))
+EOF
+"$command" report run --replays 0 --tracks 0 2>&1 | grep -q "holds no reference" && fail "the references are not found"
 [ -s "$folder/root/usr/share/man/man1/rockyard-run.1" ] || fail "no man page"
 [ -s "$folder/root/usr/share/rockyard/trace_to_mcap.mjs" ] || fail "no converter to MCAP"
 [ -s "$folder/root/usr/share/doc/rockyard/THIRD_PARTY.txt" ] || fail "no notices"
 [ -s "$folder/root/usr/share/doc/rockyard/copyright" ] || fail "no licence"
+"$command" new navigator mine > /dev/null
+cmake -S mine -B mine/build -DCMAKE_PREFIX_PATH="$folder/root/usr" > cmake.log 2>&1 || fail "no package to be found: $(cat cmake.log)"
+cmake --build mine/build > cmake.log 2>&1 || fail "a plugin does not build: $(cat cmake.log)"
+"$command" run mine/mine.json --trials 2 --set rover.fidelity=quasi_static --out mine/run > /dev/null || fail "a plugin does not drive"
 ! "$command" run nominl > /dev/null 2> err.txt || fail "a scenario that is not there"
 grep -q 'did you mean "nominal"' err.txt || fail "no suggestion"

@@ -142,10 +142,10 @@ inline void AddRover(const messages::RoverBelief& from, MemberList& list) {
   list.Add("rover.max_wheel_speed_m_s", max_wheel_speed_m_s);
 }
 
-// Route and limits are none of a plugin's.
+// Route, limits and who is told of the end are none of a plugin's.
 inline std::map<std::string, double> MembersOf(const navigation::NavigatorSetup& setup) {
   const auto& [goal, judges_hazards, full_speed_m_s, route, places, rover, site_map, random_seed,
-               operations_per_s, control_period_s, limits] = setup;
+               operations_per_s, control_period_s, limits, on_end] = setup;
   MemberList list;
   list.AddPlace("goal", goal);
   list.Add("judges_hazards", judges_hazards);

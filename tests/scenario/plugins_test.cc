@@ -247,6 +247,32 @@ TEST_F(PluginSweeps, CompareAPluginWithOwnNavigators) {
   EXPECT_THAT(names, ElementsAre("pathfinder", "echo", "every_type"));
 }
 
+// As --plugin does: it chooses where the file does not, and --set chooses above all.
+TEST_F(PluginSweeps, WhatAListChoosesGivesWayToTheFile) {
+  const std::string list = "plugins=" + core::CompactJson(core::JsonValue(core::JsonValue::List{
+                                            core::JsonValue(At("here/libs/echo.so").string())}));
+  const auto chosen = [&](const std::string& axes, std::vector<std::string> overrides) {
+    std::vector<std::string> names;
+    for (const SweepCell& cell :
+         ParseSweep(R"({"name": "sweep", "axes": [)" + axes + "]}", {.overrides = overrides})
+             .cells) {
+      names.emplace_back(NavigatorsOf(cell.scenario).chosen().name());
+    }
+    return names;
+  };
+  const std::string navigators =
+      R"({"path": "navigation.navigator", "values": ["pathfinder", "echo"]})";
+  const std::string choice = "navigation.navigator=echo";
+  EXPECT_THAT(chosen(navigators, {choice, list}), ElementsAre("pathfinder", "echo"));
+  EXPECT_THAT(chosen(R"({"path": "navigation.echo.goal_tolerance_m", "values": [0.1, 0.2]})",
+                     {choice, list}),
+              ElementsAre("echo", "echo"));
+  EXPECT_THAT(core::RefusalOf([&] {
+                chosen(navigators, {choice, list, choice});
+              }),
+              HasSubstr("was set to \"echo\""));
+}
+
 // An axis without values takes the range that the plugin says is worth a study.
 TEST_F(PluginSweeps, TakeTheStudyRangeOfAPlugin) {
   const Sweep sweep = Parse(R"({"path": "navigation.every_type.real", "steps": 3})");

@@ -244,6 +244,16 @@ TEST(LayoutEffect, RecoversASimulatedCorrelation) {
   EXPECT_GT(law[6], BinomialLaw(6, 0.7)[6]);
 }
 
+// Resamples that hold layouts of one trial alone have no correlation of their own: of 2 and 1
+// trials a fourth of them, of one 2 and many 1 more than a third.
+TEST(OneLayoutLawTest, IsALawWhereFewLayoutsHaveTwoTrials) {
+  for (const std::size_t single : {1U, 9U}) {
+    std::vector<LayoutCount> layouts(single + 1, {.successes = 1, .trials = 1});
+    layouts.back() = {.successes = 1, .trials = 2};
+    EXPECT_NEAR(Sum(OneLayoutLaw(6, layouts, 1)), 1.0, 1e-9);
+  }
+}
+
 TEST(OneLayoutBounds, ContainTheIndependentValueAndTheDecidedOne) {
   const double independent = TwoSided(CountTails(PredictiveCountLaw(6, 285, 300), 4));
   const Interval bounds = OneLayoutPValueBounds(6, 4, 285, 300);

@@ -73,7 +73,10 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
       told_places_(ToldPlaces(drive, world_.field().terrain, key)),
       onboard_(drive, key, told_places_,
                MakeNavigator(drive, world_.field().terrain, key, told_places_, tick_.duration_s,
-                             TellsOverlays(watchers.overlay, world_)),
+                             TellsOverlays(watchers.overlay, world_),
+                             watchers.navigator_use
+                                 ? std::bind_front(watchers.navigator_use, key)
+                                 : std::function<void(const messages::NavigatorUse&)>()),
                world_.ramp_s(), WithTruth(watchers, world_)),
       ledger_(MakePowerBudget(drive), drive.energy.battery_wh,
               start != nullptr ? start->sun : std::nullopt),

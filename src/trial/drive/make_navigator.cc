@@ -39,7 +39,8 @@ std::unique_ptr<navigation::Navigator> Begun(const navigation::NavigatorKind& ki
 
 std::unique_ptr<navigation::Navigator> MakeNavigator(
     const DriveParams& drive, const terrain::Terrain& terrain, core::TrialKey key,
-    const std::vector<messages::Goal>& goals, double tick_s, navigation::AskedListener on_asked) {
+    const std::vector<messages::Goal>& goals, double tick_s, navigation::AskedListener on_asked,
+    std::function<void(const messages::NavigatorUse&)> on_end) {
   const navigation::NavigatorKind& chosen = drive.navigation.navigators.chosen();
   navigation::NavigatorSetup setup{
       .goal = goals.front(),
@@ -52,7 +53,8 @@ std::unique_ptr<navigation::Navigator> MakeNavigator(
       .random_seed = core::RandomStream(key, core::Purpose::kNavigator).NextU64(),
       .operations_per_s = drive.clock.compute.operations_per_s,
       .control_period_s = tick_s,
-      .limits = drive.navigation.limits};
+      .limits = drive.navigation.limits,
+      .on_end = std::move(on_end)};
   if (chosen.traits().follows_route) setup.route = ToldRoute(drive, terrain, key, goals.front());
   std::unique_ptr<navigation::Navigator> navigator = std::make_unique<navigation::EventGate>(
       Begun(chosen, setup), goals.front(), std::move(on_asked));
