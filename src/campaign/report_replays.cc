@@ -370,7 +370,7 @@ class Driver {
 std::optional<scenario::Scenario> OpenedScenario(const StoredRun& run, bool plugins,
                                                  const Contact& contact) {
   std::optional<scenario::Scenario> sealed = ScenarioOf(run);
-  if (!sealed || !sealed->drive.navigation.navigators.chosen().foreign()) return sealed;
+  if (!sealed || !sealed->drive.foreign()) return sealed;
   if (!plugins) {
     contact.journal.Remark(fmt::format(
         "{}: no trial is driven again, as a plugin decides (--plugins lets it)", run.Label()));

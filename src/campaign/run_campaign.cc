@@ -22,7 +22,7 @@ class PlannedWork {
  public:
   explicit PlannedWork(const CampaignPlan& plan) {
     for (const CampaignCell& cell : plan.cells) {
-      const bool foreign = cell.scenario.drive.navigation.navigators.chosen().foreign();
+      const bool foreign = cell.scenario.drive.foreign();
       trial::Watchers watchers;
       if (foreign) {
         watchers.navigator_use = [this, name = cell.name](core::TrialKey key,

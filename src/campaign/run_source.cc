@@ -167,12 +167,12 @@ scenario::Scenario ScenarioToDrive(const std::string& resolved, const std::strin
 
 scenario::Sweep StoredSweep(const batch::ResultStore& store) {
   const batch::CampaignIdentity& identity = store.identity();
-  // The parameters that axes vary are those of a cell, navigators that are no part of the program
-  // included.
+  // The parameters that axes vary are those of a cell, what is no part of the program included.
   const scenario::Scenario defaults =
       TryRead(identity.cells.front().resolved).value_or(scenario::Scenario{});
   scenario::Scenario known;
   known.drive.navigation.navigators = defaults.drive.navigation.navigators;
+  known.drive.localization.estimators = defaults.drive.localization.estimators;
   return scenario::ParseSweep(identity.design, {.defaults = std::move(known), .sealed = true});
 }
 

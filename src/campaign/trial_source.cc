@@ -134,7 +134,7 @@ class Recorder {
     traced.scenario = scenario_.name;
     traced.seed = seed;
     traced.goal = {scenario_.drive.course.goal_x_m, scenario_.drive.course.goal_y_m};
-    traced.schema = experiments::DriveSchema(scenario_.drive.navigation.navigators);
+    traced.schema = experiments::DriveSchema(scenario_.drive);
     const experiments::DriveExperiment experiment(
         scenario_.drive,
         {.scan = [this](const trial::WatchedScan& scan) { OnScan(scan); },

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "localization/error_state.h"
 #include "math/pose.h"
@@ -74,6 +75,10 @@ class Estimator {
     const messages::PoseEstimate& pose = estimate().pose;
     return {.pose = {pose.x_m, pose.y_m, pose.heading_rad}, .covariance = std::nullopt};
   }
+
+  /// Returns what it counts for itself, as its description declares it: columns of the record. Read
+  /// at the end of a drive; NaN: none.
+  virtual std::span<const double> own_values() const { return {}; }
 };
 
 }  // namespace rockyard::localization

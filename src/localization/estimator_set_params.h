@@ -5,14 +5,17 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/fields.h"
 #include "core/kind_set.h"
 #include "localization/dead_reckoning_params.h"
 #include "math/pose.h"
 #include "messages/calibration.h"
+#include "messages/navigation_view.h"
 
 namespace rockyard::localization {
 
@@ -38,6 +41,10 @@ struct EstimatorSetup {
   std::optional<LanderFrame> lander{};  ///< empty: goals are told in the world frame
   /// What the estimator of the drive before kept; null where operators put the rover down.
   const EstimatorMemory* memory = nullptr;
+  /// For whoever asks an estimator that is no part of the program: the most CPU time of one call,
+  /// and of all calls of a drive (navigation.limits).
+  double call_cpu_s = 60.0;
+  double drive_cpu_s = 600.0;
 };
 
 /// All that is needed to add an estimator. `Params` has `void Visit(core::FieldVisitor&)`; one
@@ -50,6 +57,8 @@ struct EstimatorDescription {
   std::unique_ptr<Estimator> (*make)(const Params&, const EstimatorSetup&) = nullptr;
   bool takes_fixes = false;    ///< whether it uses poses that aids measure (PoseFix)
   bool takes_motions = false;  ///< whether it uses motions between two moments (RelativeMotion)
+  /// What Estimator::own_values() returns: columns of records, in this order.
+  std::vector<messages::OwnValue> own_values = {};
 };
 
 /// One estimator of a set, whatever its parameters.
@@ -62,6 +71,10 @@ class EstimatorKind : public core::Kind {
   /// Return whether it uses poses that aids measure, and motions between two moments.
   virtual bool takes_fixes() const = 0;
   virtual bool takes_motions() const = 0;
+  /// Returns what it counts for itself.
+  virtual std::span<const messages::OwnValue> own_values() const = 0;
+  /// Returns whether it is a plugin, which the program does not answer for.
+  virtual bool foreign() const { return false; }
   /// Returns a copy with parameters of its own.
   virtual std::unique_ptr<EstimatorKind> Clone() const = 0;
 };
@@ -78,6 +91,8 @@ class EstimatorSet : public core::KindSet<EstimatorKind> {
   void Add(const EstimatorDescription<Params>& description, Params params = {}) {
     AddKind(std::make_unique<KindOf<Params>>(description, std::move(params)));
   }
+  /// Adds a kind; throws as above.
+  void Add(std::unique_ptr<EstimatorKind> kind) { AddKind(std::move(kind)); }
 
  private:
   template <typename Params>
@@ -91,6 +106,9 @@ class EstimatorSet : public core::KindSet<EstimatorKind> {
     }
     bool takes_fixes() const override { return description.takes_fixes; }
     bool takes_motions() const override { return description.takes_motions; }
+    std::span<const messages::OwnValue> own_values() const override {
+      return description.own_values;
+    }
     std::unique_ptr<EstimatorKind> Clone() const override {
       return std::make_unique<KindOf>(*this);
     }

@@ -130,8 +130,8 @@ struct NavigatorUse {
   double longest_s = 0.0;  ///< of the slowest answer, by the clock on the wall
 };
 
-/// A number that a navigator counts or measures for itself, as it declares it once. It is a column
-/// of every record of a drive with that navigator.
+/// A number that a navigator or an estimator counts or measures for itself, as it declares it once.
+/// It is a column of every record of a drive that could choose it.
 struct OwnValue {
   std::string name;     ///< lower case, digits, underscores: "replans"
   std::string unit;     ///< "1" for counts

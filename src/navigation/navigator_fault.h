@@ -1,6 +1,7 @@
 /// @file
-/// What the host of a plugin or of a navigator's process throws where that navigator fails. A drive
-/// ends by it with the outcome navigator_fault; nothing of rockyard's own throws it.
+/// What the host of a plugin or of a navigator's process throws where that navigator, or the
+/// estimator of a plugin, fails. A drive ends by it with the outcome navigator_fault; nothing of
+/// rockyard's own throws it.
 #pragma once
 
 #include <stdexcept>
@@ -19,7 +20,7 @@ enum class FaultKind {
   kSilent,    ///< it gave no answer, and used no CPU time
 };
 
-/// A failure of the navigator, not of the simulator.
+/// A failure of the navigator or estimator, not of the simulator.
 class NavigatorFault : public std::runtime_error {
  public:
   /// `text`: what happened, for people.

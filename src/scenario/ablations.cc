@@ -71,15 +71,20 @@ constexpr std::array kAblations{
              kNoSlip},
 };
 
-// Returns a default scenario that knows the navigators of another one, for a document that is made
-// of it: what the document leaves out has its default.
+// Adds to a default set the kinds that another one has beyond it, with their parameters.
+template <typename Set>
+void AddUnknown(const Set& other, Set& known) {
+  const std::size_t own = known.kinds().size();
+  for (std::size_t i = own; i < other.kinds().size(); ++i) known.Add(other.kinds()[i]->Clone());
+}
+
+// Returns a default scenario that knows the navigators and estimators of another one, for a
+// document that is made of it: what the document leaves out has its default.
 Scenario DefaultsKnowing(const Scenario& scenario) {
   Scenario defaults;
   defaults.plugins = scenario.plugins;
-  navigation::NavigatorSet& known = defaults.drive.navigation.navigators;
-  const std::size_t own = known.kinds().size();
-  const auto& kinds = scenario.drive.navigation.navigators.kinds();
-  for (std::size_t i = own; i < kinds.size(); ++i) known.Add(kinds[i]->Clone());
+  AddUnknown(scenario.drive.navigation.navigators, defaults.drive.navigation.navigators);
+  AddUnknown(scenario.drive.localization.estimators, defaults.drive.localization.estimators);
   return defaults;
 }
 

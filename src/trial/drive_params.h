@@ -124,6 +124,12 @@ struct DriveParams {
   // drive_checks_params.h requires what must hold across groups, more or less of it by what the
   // experiment does with the drive.
   void Visit(core::FieldVisitor& v);
+
+  // Returns whether a plugin or a process decides or estimates, which the program does not answer
+  // for.
+  bool foreign() const {
+    return navigation.navigators.chosen().foreign() || localization.estimators.chosen().foreign();
+  }
 };
 
 }  // namespace rockyard::trial

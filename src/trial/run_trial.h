@@ -36,11 +36,17 @@ struct DriveEnd {
   double battery_wh = 0.0;                         // drawn from the batteries
 };
 
+// What the parts of a drive count for themselves, as their kinds declare it.
+struct OwnValues {
+  std::vector<double> navigator;
+  std::vector<double> estimator;
+};
+
 // What came of one drive.
 struct DriveResult {
   truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;
-  std::string detail;              // the sentence of the cause (truth/end_cause.h)
-  std::vector<double> own_values;  // of the navigator, as its kind declares them
+  std::string detail;  // the sentence of the cause (truth/end_cause.h)
+  OwnValues own_values;
   truth::DriveRecord record;
   DriveEnd end;
 };

@@ -31,14 +31,24 @@ std::vector<double> Values(const truth::DriveRecord& drive, std::size_t columns)
   return values;
 }
 
-// Appends the own values of the navigators. A navigator that failed before it had any has none.
-void AppendOwn(const navigation::NavigatorSet& navigators, std::span<const double> own,
-               std::vector<double>& values) {
-  for (const auto& kind : navigators.kinds()) {
-    const bool drives = kind.get() == &navigators.chosen();
+// Appends the own values of all kinds of a set, `own` being those of the chosen one. One that
+// failed before it had any has none.
+template <typename Set>
+void AppendOwn(const Set& set, std::span<const double> own, std::vector<double>& values) {
+  for (const auto& kind : set.kinds()) {
+    const bool drives = kind.get() == &set.chosen();
     for (std::size_t i = 0; i < kind->own_values().size(); ++i) {
       const bool has = drives && i < own.size() && std::isfinite(own[i]);
       values.push_back(has ? own[i] : core::kNaN);
+    }
+  }
+}
+
+template <typename Set>
+void AppendColumns(const Set& set, truth::RecordSchema& schema) {
+  for (const auto& kind : set.kinds()) {
+    for (const messages::OwnValue& value : kind->own_values()) {
+      schema.push_back({truth::OwnColumn(kind->name(), value.name), value.unit, value.meaning});
     }
   }
 }
@@ -57,20 +67,15 @@ const truth::RecordSchema& DriveSchema() {
   return kSchema;
 }
 
-truth::RecordSchema DriveSchema(const navigation::NavigatorSet& navigators) {
+truth::RecordSchema DriveSchema(const trial::DriveParams& drive) {
   truth::RecordSchema schema = DriveSchema();
-  for (const auto& kind : navigators.kinds()) {
-    for (const messages::OwnValue& value : kind->own_values()) {
-      schema.push_back({truth::OwnColumn(kind->name(), value.name), value.unit, value.meaning});
-    }
-  }
+  AppendColumns(drive.navigation.navigators, schema);
+  AppendColumns(drive.localization.estimators, schema);
   return schema;
 }
 
 DriveExperiment::DriveExperiment(trial::DriveParams params, trial::Watchers watchers)
-    : params_(std::move(params)),
-      watchers_(std::move(watchers)),
-      schema_(DriveSchema(params_.navigation.navigators)) {}
+    : params_(std::move(params)), watchers_(std::move(watchers)), schema_(DriveSchema(params_)) {}
 
 const truth::RecordSchema& DriveExperiment::schema() const { return schema_; }
 
@@ -88,7 +93,8 @@ truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
   return RecordOf(seed, index, [&](const core::TrialKey& key) -> truth::Record {
     const trial::DriveResult drive = trial::RunTrial(params_, key, trace, watchers_);
     std::vector<double> values = Values(drive.record, schema_.size());
-    AppendOwn(params_.navigation.navigators, drive.own_values, values);
+    AppendOwn(params_.navigation.navigators, drive.own_values.navigator, values);
+    AppendOwn(params_.localization.estimators, drive.own_values.estimator, values);
     return {index, drive.outcome, drive.detail, std::move(values)};
   });
 }

@@ -14,9 +14,9 @@ namespace rockyard::experiments {
 const truth::RecordSchema& DriveSchema();
 
 // Returns the columns of a record of these drives: DriveSchema, then the own values of every
-// navigator that the scenario could choose, named <navigator>.<value>. Those of navigators that do
-// not drive are NaN, so that cells of a sweep over navigators have the same columns.
-truth::RecordSchema DriveSchema(const navigation::NavigatorSet& navigators);
+// navigator and then of every estimator that the scenario could choose, named <navigator>.<value>.
+// Those of what is not chosen are NaN, so that cells of a sweep over them have the same columns.
+truth::RecordSchema DriveSchema(const trial::DriveParams& drive);
 
 class DriveExperiment final : public Experiment {
  public:

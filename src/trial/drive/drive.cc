@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "localization/dead_reckoning.h"
 #include "terrain/arena.h"
 #include "trial/clock/compute_profile.h"
 #include "trial/course/goal_designation.h"
@@ -88,13 +89,22 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
       tracer_(world_, onboard_, ledger_, told_places_, trace),
       step_watcher_(watchers.step) {
   world_.Begin();
-  onboard_.Begin(MakeEstimator(drive, world_.rover(), start != nullptr ? &start->memory : nullptr));
+  const localization::EstimatorMemory* memory = start != nullptr ? &start->memory : nullptr;
+  try {
+    onboard_.Begin(MakeEstimator(drive, world_.rover(), memory));
+  } catch (const navigation::NavigatorFault&) {
+    // There is no drive yet that could end by it. The record needs a belief.
+    failed_start_ = std::current_exception();
+    onboard_.Begin(
+        std::make_unique<localization::DeadReckoningEstimator>(EstimatorSetupOf(drive, memory)));
+  }
   observer_.OnPlaced();
   tracer_.Rest({});
   Rest(Activity::kComputing, StartUpTime(drive));
 }
 
 std::optional<Verdict> Drive::Step() {
+  if (failed_start_) std::rethrow_exception(failed_start_);
   if (onboard_.EndsBySlip()) return Verdict{truth::EndCause::kExcessiveSlip};
   if (onboard_.SeesMotionNow(time_s())) return SeeMotion();
   TrackGoal();
@@ -296,24 +306,27 @@ namespace {
 DriveResult RunToEnd(Drive& drive, const DriveParams& params, bool last_attempt) {
   TickGuard guard(params.referee.time_limit_s, drive.tick_s());
   std::optional<Verdict> verdict;
-  std::vector<double> own_values;
+  OwnValues own_values;
+  localization::EstimatorMemory memory;
   try {
     while (!verdict) {
       guard.Observe(drive.time_s());
       verdict = drive.Step();
     }
     own_values = drive.own_values();
+    memory = drive.Remember();
   } catch (const navigation::NavigatorFault& fault) {
     if (fault.may_be_the_machine() && !last_attempt) throw;
     return drive.Finish(fault);
   }
   DriveResult result = drive.Finish(*verdict);
   result.own_values = std::move(own_values);
+  result.end.memory = memory;
   return result;
 }
 
-// Drives, and once more where the machine may be to blame for what a navigator did. `make(attempt)`
-// returns a drive at its start.
+// Drives, and once more where the machine may be to blame for what a navigator or estimator did.
+// `make(attempt)` returns a drive at its start.
 template <typename Make>
 DriveResult RunTwiceAtMost(const DriveParams& params, const Make& make) {
   try {

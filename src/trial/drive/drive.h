@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -48,14 +49,17 @@ class Drive {
 
   // Makes one decision, and what follows from it. Returns the verdict once the drive is over.
   std::optional<Verdict> Step();
-  // Ends the drive by its verdict, or because its navigator failed; one of them is called once.
+  // Ends the drive by its verdict, or because its navigator or estimator failed; one of them is
+  // called once. What the estimator keeps is left to the caller.
   DriveResult Finish(const Verdict& verdict);
   DriveResult Finish(const navigation::NavigatorFault& fault);
 
   double time_s() const { return ledger_.time_s(); }
   double tick_s() const { return tick_.duration_s; }
-  // Returns the navigator's own values so far. May throw navigation::NavigatorFault, as Step.
-  std::vector<double> own_values() const { return onboard_.own_values(); }
+  // Return the own values so far, and what the estimator keeps for the next drive. May throw
+  // navigation::NavigatorFault, as Step.
+  OwnValues own_values() const { return onboard_.own_values(); }
+  localization::EstimatorMemory Remember() const { return onboard_.Remember(); }
 
  private:
   // Shows the navigator where the tracker sees the goal, or the rock at it.
@@ -123,10 +127,11 @@ class Drive {
   DriveTracer tracer_;
   StepWatcher step_watcher_;
 
-  std::unique_ptr<SeenLook> seen_;  // to be told at the next tick
-  bool rolling_ = false;            // whether the wheels rolled in the last stretch
-  bool sees_goal_ = false;          // at the tracker's last look; of a goal rock: at any look
-  Stall stall_;                     // of a rover that was found stuck
+  std::unique_ptr<SeenLook> seen_;   // to be told at the next tick
+  bool rolling_ = false;             // whether the wheels rolled in the last stretch
+  bool sees_goal_ = false;           // at the tracker's last look; of a goal rock: at any look
+  Stall stall_;                      // of a rover that was found stuck
+  std::exception_ptr failed_start_;  // of the estimator; null: it began
 };
 
 }  // namespace rockyard::trial

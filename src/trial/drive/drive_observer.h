@@ -68,7 +68,7 @@ class DriveObserver {
   // Returns all columns of the record. `stall`: of a rover that was found stuck.
   truth::DriveRecord Report(bool declared_success, const Stall& stall,
                             const Referee& referee) const;
-  // Returns what the drive leaves to the next one.
+  // Returns what the drive leaves to the next one, without what the estimator keeps.
   DriveEnd End() const;
 
  private:

@@ -19,7 +19,9 @@ localization::EstimatorSetup EstimatorSetupOf(const DriveParams& drive,
       .calibration = OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
       .dead_reckoning = drive.perception.dead_reckoning,
       .attitude = drive.perception.attitude,
-      .start = drive.course.Start()};
+      .start = drive.course.Start(),
+      .call_cpu_s = drive.navigation.limits.decision_cpu_s,
+      .drive_cpu_s = drive.navigation.limits.drive_cpu_s};
   if (const DesignationParams& designation = drive.course.designation; designation.enabled) {
     const messages::Goal lander = drive.course.LanderPlace();
     setup.lander = {.x_m = lander.x_m, .y_m = lander.y_m, .pan_sd_rad = designation.PanSd_rad()};

@@ -25,6 +25,7 @@
 #include "trial/drive/timeline.h"
 #include "trial/drive/vehicle_guard.h"
 #include "trial/drive_params.h"
+#include "trial/run_trial.h"
 #include "trial/sight/terrain_sensing.h"
 #include "trial/sight/visual_reader.h"
 
@@ -144,10 +145,12 @@ class Onboard {
   bool EndsBySlip() const { return parts_.get<SlipAlarms>().EndsDrive(); }
 
   const navigation::WaypointSequence& navigator() const { return navigator_; }
-  // Returns the navigator's own values, or as many as there are.
-  std::vector<double> own_values() const {
-    const std::span<const double> values = navigator_.own_values();
-    return {values.begin(), values.end()};
+  // Returns the own values of navigator and estimator, or as many as there are.
+  OwnValues own_values() const {
+    const auto copied = [](std::span<const double> values) {
+      return std::vector<double>(values.begin(), values.end());
+    };
+    return {copied(navigator_.own_values()), copied(estimator_->own_values())};
   }
   const VehicleGuard& guard() const { return parts_.get<VehicleGuard>(); }
   const AidSuite& aids() const { return parts_.get<AidSuite>(); }

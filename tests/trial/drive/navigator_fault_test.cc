@@ -159,7 +159,7 @@ TEST_P(NavigatorFaults, EndTheDriveWithCauseAndText) {
   EXPECT_THAT(result.detail, StartsWith(std::string(truth::Info(GetParam().cause).sentence)));
   EXPECT_THAT(result.detail, EndsWith(": the reason"));
   EXPECT_EQ(params.script->drives, GetParam().twice ? 2 : 1);
-  EXPECT_THAT(result.own_values, IsEmpty());
+  EXPECT_THAT(result.own_values.navigator, IsEmpty());
   // What was driven up to there is told.
   ExpectWhole(result.record);
   EXPECT_GT(result.record.true_distance_m, 0.05);
@@ -176,7 +176,7 @@ TEST_P(NavigatorFaults, ThatComeOnceCountWhereTheyAreTheNavigators) {
     const DriveResult well = Driven({});
     EXPECT_EQ(well.outcome, TrialOutcome::kGoalReached);
     EXPECT_THAT(Differences(result, well), IsEmpty());
-    EXPECT_EQ(result.own_values, well.own_values);
+    EXPECT_EQ(result.own_values.navigator, well.own_values.navigator);
     EXPECT_EQ(params.script->drives, 2);
   } else {
     EXPECT_EQ(CauseOf(result), GetParam().cause);
@@ -250,9 +250,9 @@ TEST(NavigatorFaultTest, ADriveThatGoesWellIsDrivenOnce) {
   const DriveResult result = Driven(params);
   EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached);
   EXPECT_EQ(params.script->drives, 1);
-  ASSERT_EQ(result.own_values.size(), 2U);
-  EXPECT_GT(result.own_values[0], 100.0);
-  EXPECT_NEAR(result.own_values[1], result.record.sim_time_s, 1.0);
+  ASSERT_EQ(result.own_values.navigator.size(), 2U);
+  EXPECT_GT(result.own_values.navigator[0], 100.0);
+  EXPECT_NEAR(result.own_values.navigator[1], result.record.sim_time_s, 1.0);
 }
 
 // Own values are columns of records, of every navigator that a scenario could choose.
@@ -280,8 +280,8 @@ TEST(OwnValuesTest, AreTheLastColumnsOfARecord) {
   const truth::Record record = experiment.Run(1, 0);
   const DriveResult result = RunTrial(With({}), {1, 0});
   ASSERT_EQ(record.values.size(), schema.size());
-  EXPECT_EQ(record.values[ColumnOf(experiment, kDecisions)], result.own_values[0]);
-  EXPECT_EQ(record.values[ColumnOf(experiment, kLastTime)], result.own_values[1]);
+  EXPECT_EQ(record.values[ColumnOf(experiment, kDecisions)], result.own_values.navigator[0]);
+  EXPECT_EQ(record.values[ColumnOf(experiment, kLastTime)], result.own_values.navigator[1]);
   EXPECT_EQ(record.values[0], result.record.*truth::kDriveColumns[0].member);
 }
 
