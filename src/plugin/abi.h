@@ -1,8 +1,8 @@
 /// @file
 /// The C interface between the rockyard command and the shared library of a plugin. Plain structs
 /// and functions, so that a plugin built by another compiler or against another standard library
-/// works. navigator_plugin.h is a layer above it in C++; write to this file directly only from
-/// another language.
+/// works. navigator_plugin.h and estimator_plugin.h are layers above it in C++; write to this file
+/// directly only from another language.
 ///
 /// A library exports one function, rockyard_plugin(). Texts are UTF-8 and end with 0. Units are SI
 /// and radians; frames are those of messages/estimates.h. A pointer that is handed over is valid
@@ -26,7 +26,7 @@ extern "C" {
 #endif
 
 /// What went wrong in a plugin, for people. Every function that may fail returns 0, or 1 with a
-/// text here. A failure ends the drive as a fault of its navigator.
+/// text here. A failure ends the drive as a fault of its navigator or estimator.
 struct rockyard_error {
   char text[512];
 };
@@ -205,12 +205,114 @@ struct rockyard_navigator_type {
   void (*destroy)(void* navigator);
 };
 
-/// What a library holds.
+/// messages::MotionMeasurement; wheels in the order of messages::Wheel.
+struct rockyard_motion {
+  double duration_s;
+  double wheel_turn_rad[6], steer_rad[6];
+  double turn_rad;
+};
+
+/// messages::PoseUpdate.
+struct rockyard_update {
+  double x_m, y_m, heading_rad;
+  int32_t mirrored;
+};
+
+/// messages::PoseFix. Coordinates in the order of messages::PoseCoordinate; covariances are
+/// symmetric.
+struct rockyard_fix {
+  int64_t capture;
+  int32_t measured[6];  ///< 0 or 1
+  double pose[6];
+  double covariance[36];
+  int32_t in_lander_frame;
+};
+
+/// messages::RelativeMotion.
+struct rockyard_relative_motion {
+  int64_t from, to;
+  double motion_F[6];
+  double covariance[36];
+};
+
+/// messages::LocalizationEstimate.
+struct rockyard_estimate {
+  struct rockyard_pose pose;
+  struct rockyard_attitude attitude;
+  struct rockyard_pose odometry;
+  int32_t has_covariance, has_world;  ///< 0: what follows of them counts for nothing
+  double covariance[36];
+  struct rockyard_pose world;
+  double world_covariance[36];
+};
+
+/// localization::EstimatorMemory; the covariance is 10 x 10, in the order of
+/// localization/error_state.h.
+struct rockyard_memory {
+  double x_m, y_m, heading_rad;
+  double gyro_scale, wheel_scale, pan_rad;
+  int32_t has_covariance;
+  double covariance[100];
+};
+
+/// localization::LanderFrame.
+struct rockyard_lander {
+  double x_m, y_m, pan_sd_rad;
+};
+
+/// localization::EstimatorSetup; enumerations by their places.
+struct rockyard_estimator_setup {
+  double wheel_radius_m, max_wheel_speed_m_s, max_steer_rad, steering_offset_rad;
+  double wheel_x_m[6], wheel_y_m[6], radius_ratio[6];
+  int32_t steered[6];               ///< 0 or 1
+  double distance_scale;            ///< DeadReckoningParams
+  int32_t wheels, step_heading;     ///< OdometryWheels, StepHeading
+  int32_t attitude_source, height;  ///< AttitudeSource, HeightSource
+  double attitude_filter_s;         ///< AttitudeParams
+  double start_x_m, start_y_m, start_heading_rad;
+  const struct rockyard_lander* lander;  ///< null: goals are told in the world frame
+  const struct rockyard_memory* memory;  ///< null: operators put the rover down
+};
+
+/// One kind of estimator, called as navigators are. estimate() follows each of the functions that
+/// may change what is believed.
+struct rockyard_estimator_type {
+  /// Hands over the description as JSON (docs/estimators.md).
+  int (*describe)(rockyard_take_text take, void* to, struct rockyard_error* error);
+  /// Hands over what is wrong with these parameters, as JSON.
+  int (*check)(const struct rockyard_values* values, rockyard_take_text take, void* to,
+               struct rockyard_error* error);
+  /// Makes the estimator of one drive; `setup` is valid during the call.
+  int (*create)(const struct rockyard_values* values, const struct rockyard_estimator_setup* setup,
+                void** estimator, struct rockyard_error* error);
+  int (*propagate)(void* estimator, const struct rockyard_motion* motion,
+                   struct rockyard_error* error);
+  int (*feel)(void* estimator, const struct rockyard_felt* felt, double duration_s,
+              struct rockyard_error* error);
+  int (*place)(void* estimator, const struct rockyard_update* update, struct rockyard_error* error);
+  int (*capture)(void* estimator, int64_t capture, struct rockyard_error* error);
+  int (*forget)(void* estimator, int64_t capture, struct rockyard_error* error);
+  /// Correct what is believed; `use` is a localization::AidUse by its place.
+  int (*fix)(void* estimator, const struct rockyard_fix* fix, int32_t* use,
+             struct rockyard_error* error);
+  int (*motion)(void* estimator, const struct rockyard_relative_motion* motion, int32_t* use,
+                struct rockyard_error* error);
+  int (*estimate)(void* estimator, struct rockyard_estimate* estimate,
+                  struct rockyard_error* error);
+  int (*remember)(void* estimator, struct rockyard_memory* memory, struct rockyard_error* error);
+  /// Copies its own values; `count` is the declared number.
+  int (*own_values)(void* estimator, double* values, size_t count, struct rockyard_error* error);
+  void (*destroy)(void* estimator);
+};
+
+/// What a library holds; a list may be null where its count is 0.
 struct rockyard_plugin_info {
   uint32_t abi;       ///< ROCKYARD_PLUGIN_ABI of the header that it was built with
   uint32_t reserved;  ///< 0
   const struct rockyard_navigator_type* const* navigators;
   size_t navigator_count;
+  const struct rockyard_estimator_type* const* estimators;
+  size_t estimator_count;
 };
 
 /// The one function that a library exports. What it returns is valid while the library is loaded.

@@ -245,7 +245,25 @@ std::unique_ptr<const Description> ReadDescription(const JsonValue& json,
     }
     description->own_values.push_back(std::move(value));
   }
+  description->takes_fixes = answer.Flag("takes_fixes");
+  description->takes_motions = answer.Flag("takes_motions");
   return description;
+}
+
+namespace {
+
+Problems ProblemsIn(const Answer& answer) {
+  Problems problems;
+  for (const Answer& each : answer.Objects("problems")) {
+    problems.push_back({each.Text("parameter"), each.Text("reason"), each.Text("suggestion", "")});
+  }
+  return problems;
+}
+
+}  // namespace
+
+Problems ReadProblems(const JsonValue& json, const std::string& source) {
+  return ProblemsIn(Answer(json, source, "check"));
 }
 
 Traits ReadTraits(const JsonValue& json, const std::string& source) {
@@ -277,10 +295,7 @@ Traits ReadTraits(const JsonValue& json, const std::string& source) {
   }
   traits.looks_on_the_move = answer.Flag("looks_on_the_move");
   traits.steers_on_the_move = answer.Flag("steers_on_the_move");
-  for (const Answer& each : answer.Objects("problems")) {
-    traits.problems.push_back(
-        {each.Text("parameter"), each.Text("reason"), each.Text("suggestion", "")});
-  }
+  traits.problems = ProblemsIn(answer);
   return traits;
 }
 

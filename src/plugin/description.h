@@ -61,13 +61,15 @@ struct Field {
   Field& operator=(Field&&) = delete;
 };
 
-// What a navigator says of itself.
+// What a navigator or an estimator says of itself.
 struct Description {
-  std::string name;  // in navigation.navigator, and of its group of parameters
+  std::string name;  // in navigation.navigator or localization.estimator, and of its parameters
   std::string doc;
   std::string version;  // of a process; "" of a library, whose file is its identity
   std::vector<std::unique_ptr<Field>> fields;
   std::vector<messages::OwnValue> own_values;
+  bool takes_fixes = false;  // of an estimator, as the next
+  bool takes_motions = false;
 };
 
 // Reads the answer to "describe". `source` names the plugin in messages. Throws core::UserError
@@ -91,6 +93,12 @@ struct Traits {
 
 // Reads the answer to "traits". Throws as ReadDescription.
 Traits ReadTraits(const core::JsonValue& answer, const std::string& source);
+
+// What is wrong with parameters; paths within their group.
+using Problems = std::vector<core::Problem>;
+
+// Reads the member "problems" of an answer. Throws as ReadDescription.
+Problems ReadProblems(const core::JsonValue& answer, const std::string& source);
 
 // The values of all parameters of a description. A value; the description outlives it.
 class Parameters {

@@ -5,19 +5,13 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/json_text.h"
-
 namespace rockyard::plugin {
 
 using navigation::FaultKind;
 using navigation::NavigatorFault;
 
 const Traits& NavigatorSource::TraitsOf(const Parameters& parameters) const {
-  const std::string key = core::CompactJson(parameters.ToJson());
-  const std::lock_guard lock(mutex_);
-  const auto found = traits_.find(key);
-  if (found != traits_.end()) return found->second;
-  return traits_.emplace(key, ReadTraits(AskTraits(parameters), name_)).first->second;
+  return AnswerTo(parameters, [&] { return ReadTraits(AskTraits(parameters), name()); });
 }
 
 void ForeignKind::Visit(core::FieldVisitor& v) {

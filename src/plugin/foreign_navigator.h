@@ -2,11 +2,8 @@
 // their own (process.h), as kinds of a NavigatorSet. Scenarios add them (plugin_use.h).
 #pragma once
 
-#include <map>
 #include <memory>
-#include <mutex>
 #include <span>
-#include <string>
 #include <utility>
 
 #include "core/json_value.h"
@@ -14,21 +11,15 @@
 #include "navigation/navigator_fault.h"
 #include "navigation/navigator_set_params.h"
 #include "plugin/description.h"
+#include "plugin/foreign_source.h"
 
 namespace rockyard::plugin {
 
 // Where navigators of one kind come from. Shared by all copies of the kind; any thread may call it.
-class NavigatorSource {
+class NavigatorSource : public ForeignSource<Traits> {
  public:
-  NavigatorSource(std::string name, std::unique_ptr<const Description> description)
-      : name_(std::move(name)), description_(std::move(description)) {}
-  virtual ~NavigatorSource() = default;
-  NavigatorSource(const NavigatorSource&) = delete;
-  NavigatorSource& operator=(const NavigatorSource&) = delete;
+  using ForeignSource::ForeignSource;
 
-  // Returns the plugin in words, for messages.
-  const std::string& name() const { return name_; }
-  const Description& description() const { return *description_; }
   // Returns what a trial has to know; lasts as long as the source. Throws core::UserError where the
   // plugin fails to say it. Asks once for the same parameters.
   const Traits& TraitsOf(const Parameters& parameters) const;
@@ -39,12 +30,6 @@ class NavigatorSource {
  protected:
   // Returns the answer to "traits". Throws core::UserError.
   virtual core::JsonValue AskTraits(const Parameters& parameters) const = 0;
-
- private:
-  std::string name_;
-  std::unique_ptr<const Description> description_;
-  mutable std::mutex mutex_;
-  mutable std::map<std::string, Traits> traits_;  // by the parameters as JSON
 };
 
 // A kind of such navigators, with its parameters.

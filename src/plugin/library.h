@@ -1,6 +1,6 @@
-// Navigators of a shared library (abi.h). What a library says of itself is asked in a child
-// process; it is loaded into this one when the first drive begins. From then on its code is code of
-// this process: a crash ends the process, and the supervisor of campaigns finds the trial.
+// Navigators and estimators of a shared library (abi.h). What a library says of itself is asked in
+// a child process; it is loaded into this one when the first drive begins. From then on its code is
+// code of this process: a crash ends the process, and the supervisor of campaigns finds the trial.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/hash.h"
+#include "plugin/foreign_estimator.h"
 #include "plugin/foreign_navigator.h"
 
 namespace rockyard::plugin {
@@ -19,10 +20,15 @@ void AddFile(const std::filesystem::path& file, core::Hasher& hasher);
 // Returns what a library is known by: a hash of its bytes.
 std::string HashOfLibrary(const std::filesystem::path& file);
 
-// Returns the kinds of navigators of a library that has that hash. Throws core::UserError: no such
+// What a library holds.
+struct OpenedLibrary {
+  std::vector<std::shared_ptr<const NavigatorSource>> navigators;
+  std::vector<std::shared_ptr<const EstimatorSource>> estimators;
+};
+
+// Returns what a library holds that has that hash. Throws core::UserError: no such
 // file, no shared library, no plugin, of another version of the interface, a wrong description.
 // Drives throw core::MachineError where the file is another one by then.
-std::vector<std::shared_ptr<const NavigatorSource>> OpenLibrary(const std::filesystem::path& file,
-                                                                const std::string& hash);
+OpenedLibrary OpenLibrary(const std::filesystem::path& file, const std::string& hash);
 
 }  // namespace rockyard::plugin

@@ -45,13 +45,7 @@ namespace rockyard::plugin {
 /// What follows is for the macro below alone.
 namespace layer {
 
-/// Return what the command hands over as messages.
-inline messages::PoseEstimate Pose(const rockyard_pose& pose) {
-  return {pose.x_m, pose.y_m, pose.heading_rad, pose.distance_m};
-}
-inline messages::AttitudeEstimate Attitude(const rockyard_attitude& attitude) {
-  return {attitude.roll_rad, attitude.pitch_rad, attitude.z_m};
-}
+/// Returns what the command hands over as a message.
 inline messages::Goal Place(const rockyard_place& place) { return {place.x_m, place.y_m}; }
 
 /// Returns the believed rover.
@@ -64,16 +58,7 @@ inline messages::RoverBelief Rover(const rockyard_rover& from) {
   rover.max_rocker_rad = from.max_rocker_rad;
   rover.max_bogie_rad = from.max_bogie_rad;
   rover.max_tilt_rad = from.max_tilt_rad;
-  rover.drive.wheel_radius_m = from.wheel_radius_m;
-  rover.drive.max_wheel_speed_m_s = from.max_wheel_speed_m_s;
-  rover.drive.max_steer_rad = from.max_steer_rad;
-  rover.drive.steering_offset_rad = from.steering_offset_rad;
-  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
-    rover.drive.wheel_x_m[wheel] = from.wheel_x_m[wheel];
-    rover.drive.wheel_y_m[wheel] = from.wheel_y_m[wheel];
-    rover.drive.radius_ratio[wheel] = from.radius_ratio[wheel];
-    rover.drive.steered[wheel] = from.steered[wheel] != 0;
-  }
+  rover.drive = Wheels(from);
   return rover;
 }
 
@@ -163,23 +148,7 @@ class Input {
     input_.cloud = &cloud_;
   }
   void TakeFelt(const rockyard_felt& from) {
-    if (from.articulation_rad != nullptr) {
-      felt_.articulation = {from.articulation_rad[0], from.articulation_rad[1],
-                            from.articulation_rad[2], from.articulation_rad[3]};
-    }
-    if (from.specific_force_R != nullptr) {
-      felt_.specific_force_R = Eigen::Map<const math::Vector3>(from.specific_force_R);
-    }
-    if (from.motor_current_A != nullptr) {
-      felt_.motor_current_A.emplace();
-      std::copy_n(from.motor_current_A, messages::kWheelCount, felt_.motor_current_A->begin());
-    }
-    if (from.contact != nullptr) {
-      felt_.contact.emplace();
-      for (std::size_t i = 0; i < messages::kContactSwitchCount; ++i) {
-        (*felt_.contact)[i] = from.contact[i] != 0;
-      }
-    }
+    felt_ = Felt(from);
     input_.felt = &felt_;
   }
 
@@ -245,23 +214,6 @@ struct Held {
   }
 };
 
-/// Runs `call`; returns 0, or 1 and what it threw.
-template <typename Call>
-int Guarded(rockyard_error* error, const Call& call) noexcept {
-  const auto fail = [error](const char* text) {
-    std::snprintf(error->text, sizeof error->text, "%s", text);
-    return 1;
-  };
-  try {
-    call();
-    return 0;
-  } catch (const std::exception& thrown) {
-    return fail(thrown.what());
-  } catch (...) {
-    return fail("it threw something that is no std::exception");
-  }
-}
-
 /// Returns the traits as JSON, up to the list of problems.
 inline std::string TraitsText(const navigation::NavigatorTraits& traits) {
   constexpr std::array<std::string_view, 3> kReads{"hazards", "points", "nothing"};
@@ -295,28 +247,11 @@ struct NavigatorType {
   }
   using Params = decltype(ParamsIn(std::declval<Description>()));
 
-  static Params WithValues(const rockyard_values& values) {
-    Params params;
-    FieldSetter setter(values);
-    params.Visit(setter);
-    return params;
-  }
-
   static int DescribeIt(rockyard_take_text take, void* to, rockyard_error* error) noexcept {
     return Guarded(error, [&] {
-      const Description description = Describe();
       JsonLine json;
-      json.Raw("{").Member("name", description.name).Member("doc", description.doc);
-      json.Key("parameters").Raw("[");
-      Params params;
-      FieldLister lister(json);
-      params.Visit(lister);
-      json.Raw("]").Key("own_values").Raw("[");
-      for (const messages::OwnValue& value : description.own_values) {
-        json.Comma().Raw("{").Member("name", value.name).Member("unit", value.unit);
-        json.Member("meaning", value.meaning).Raw("}");
-      }
-      json.Raw("]}");
+      WriteDescription<Params>(Describe(), json);
+      json.Raw("}");
       take(to, json.text().data(), json.text().size());
     });
   }
@@ -324,7 +259,7 @@ struct NavigatorType {
   static int Traits(const rockyard_values* values, rockyard_take_text take, void* to,
                     rockyard_error* error) noexcept {
     return Guarded(error, [&] {
-      Params params = WithValues(*values);
+      Params params = WithValues<Params>(*values);
       JsonLine json;
       json.Raw(TraitsText(Describe().traits(params)));
       Conditions conditions(json);
@@ -338,7 +273,7 @@ struct NavigatorType {
                     rockyard_error* error) noexcept {
     return Guarded(error, [&] {
       auto held = std::make_unique<Held>();
-      held->navigator = Describe().make(WithValues(*values), Setup(*setup));
+      held->navigator = Describe().make(WithValues<Params>(*values), Setup(*setup));
       if (held->navigator == nullptr) throw std::runtime_error("it made no navigator");
       *navigator = held.release();
     });
@@ -374,14 +309,7 @@ struct NavigatorType {
 
   static int OwnValues(void* navigator, double* values, std::size_t count,
                        rockyard_error* error) noexcept {
-    return Guarded(error, [&] {
-      const std::span<const double> own = At(navigator).own_values();
-      if (own.size() != count) {
-        throw std::runtime_error("own_values() returns " + std::to_string(own.size()) +
-                                 " values, and its description declares " + std::to_string(count));
-      }
-      std::copy(own.begin(), own.end(), values);
-    });
+    return Guarded(error, [&] { CopyOwnValues(At(navigator).own_values(), values, count); });
   }
 
   static int Overlay(void* navigator, rockyard_overlay* overlay, rockyard_error* error) noexcept {
@@ -397,21 +325,14 @@ struct NavigatorType {
                                                  SetGoal,    OwnValues, Overlay, Destroy};
 };
 
-/// What a library of these navigators hands over.
-template <auto... Describe>
-struct Library {
-  static constexpr std::array<const rockyard_navigator_type*, sizeof...(Describe)> kTypes{
-      &NavigatorType<Describe>::kType...};
-  static constexpr rockyard_plugin_info kInfo{ROCKYARD_PLUGIN_ABI, 0, kTypes.data(), kTypes.size()};
-};
+/// What ROCKYARD_PLUGIN takes of a navigator.
+template <auto Describe, typename Params>
+struct TypeOf<Describe, navigation::NavigatorDescription<Params>> : NavigatorType<Describe> {};
 
 }  // namespace layer
 }  // namespace rockyard::plugin
 
 /// Makes the library a plugin of navigators, each named by the function that returns its
-/// NavigatorDescription. Stands once in a library, outside of all namespaces.
-#define ROCKYARD_NAVIGATORS(...)                                                                 \
-  extern "C" __attribute__((visibility("default"))) const rockyard_plugin_info* rockyard_plugin( \
-      void) {                                                                                    \
-    return &::rockyard::plugin::layer::Library<__VA_ARGS__>::kInfo;                              \
-  }
+/// NavigatorDescription. Stands once in a library, outside of all namespaces. ROCKYARD_PLUGIN is
+/// the same, and takes estimators beside them.
+#define ROCKYARD_NAVIGATORS(...) ROCKYARD_PLUGIN(__VA_ARGS__)

@@ -1,6 +1,7 @@
 /// @file
-/// The parameters of a navigator, between its plugin and the command: listed as JSON, set from
-/// values, their conditions told. A part of navigator_plugin.h, which alone includes it.
+/// What plugins of navigators and of estimators share. Parameters between plugin and command:
+/// listed as JSON, set from values, their conditions told. Messages that both get; what a library
+/// hands over. A part of navigator_plugin.h and estimator_plugin.h, which alone include it.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -17,6 +19,10 @@
 #include <vector>
 
 #include "core/fields.h"
+#include "messages/calibration.h"
+#include "messages/estimates.h"
+#include "messages/navigation_view.h"
+#include "messages/vehicle_state.h"
 #include "plugin/abi.h"
 
 namespace rockyard::plugin::layer {
@@ -244,4 +250,144 @@ class Conditions final : public core::FieldVisitor {
   std::string prefix_;
 };
 
+/// Returns the parameters with the values of the command.
+template <typename Params>
+Params WithValues(const rockyard_values& values) {
+  Params params;
+  FieldSetter setter(values);
+  params.Visit(setter);
+  return params;
+}
+
+/// Writes what a description says, as an object without its end.
+template <typename Params, typename Description>
+void WriteDescription(const Description& description, JsonLine& json) {
+  json.Raw("{").Member("name", description.name).Member("doc", description.doc);
+  json.Key("parameters").Raw("[");
+  Params params;
+  FieldLister lister(json);
+  params.Visit(lister);
+  json.Raw("]").Key("own_values").Raw("[");
+  for (const messages::OwnValue& value : description.own_values) {
+    json.Comma().Raw("{").Member("name", value.name).Member("unit", value.unit);
+    json.Member("meaning", value.meaning).Raw("}");
+  }
+  json.Raw("]");
+}
+
+/// Runs `call`; returns 0, or 1 and what it threw.
+template <typename Call>
+int Guarded(rockyard_error* error, const Call& call) noexcept {
+  const auto fail = [error](const char* text) {
+    std::snprintf(error->text, sizeof error->text, "%s", text);
+    return 1;
+  };
+  try {
+    call();
+    return 0;
+  } catch (const std::exception& thrown) {
+    return fail(thrown.what());
+  } catch (...) {
+    return fail("it threw something that is no std::exception");
+  }
+}
+
+/// Copies own values. Throws where there are others than the description declares.
+inline void CopyOwnValues(std::span<const double> own, double* values, std::size_t count) {
+  if (own.size() != count) {
+    throw std::runtime_error("own_values() returns " + std::to_string(own.size()) +
+                             " values, and its description declares " + std::to_string(count));
+  }
+  std::copy(own.begin(), own.end(), values);
+}
+
+/// Return what the command hands over as messages.
+inline messages::PoseEstimate Pose(const rockyard_pose& pose) {
+  return {pose.x_m, pose.y_m, pose.heading_rad, pose.distance_m};
+}
+inline messages::AttitudeEstimate Attitude(const rockyard_attitude& attitude) {
+  return {attitude.roll_rad, attitude.pitch_rad, attitude.z_m};
+}
+inline messages::VehicleState Felt(const rockyard_felt& from) {
+  messages::VehicleState felt;
+  if (from.articulation_rad != nullptr) {
+    felt.articulation = {from.articulation_rad[0], from.articulation_rad[1],
+                         from.articulation_rad[2], from.articulation_rad[3]};
+  }
+  if (from.specific_force_R != nullptr) {
+    felt.specific_force_R = Eigen::Map<const math::Vector3>(from.specific_force_R);
+  }
+  if (from.motor_current_A != nullptr) {
+    felt.motor_current_A.emplace();
+    std::copy_n(from.motor_current_A, messages::kWheelCount, felt.motor_current_A->begin());
+  }
+  if (from.contact != nullptr) {
+    felt.contact.emplace();
+    for (std::size_t i = 0; i < messages::kContactSwitchCount; ++i) {
+      (*felt.contact)[i] = from.contact[i] != 0;
+    }
+  }
+  return felt;
+}
+
+/// Returns what is believed of the wheels: of a rockyard_rover or a rockyard_estimator_setup.
+template <typename From>
+messages::DriveCalibration Wheels(const From& from) {
+  messages::DriveCalibration drive;
+  drive.wheel_radius_m = from.wheel_radius_m;
+  drive.max_wheel_speed_m_s = from.max_wheel_speed_m_s;
+  drive.max_steer_rad = from.max_steer_rad;
+  drive.steering_offset_rad = from.steering_offset_rad;
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    drive.wheel_x_m[wheel] = from.wheel_x_m[wheel];
+    drive.wheel_y_m[wheel] = from.wheel_y_m[wheel];
+    drive.radius_ratio[wheel] = from.radius_ratio[wheel];
+    drive.steered[wheel] = from.steered[wheel] != 0;
+  }
+  return drive;
+}
+
+/// The functions of what `Describe` describes, in a member kType.
+template <auto Describe, typename Description>
+struct TypeOf {
+  static_assert(
+      sizeof(Description) == 0,
+      "ROCKYARD_PLUGIN takes functions that return a NavigatorDescription (include "
+      "plugin/navigator_plugin.h) or an EstimatorDescription (plugin/estimator_plugin.h)");
+};
+
+/// Returns the functions of all that are of one type, in their order.
+template <typename Type, typename... Kinds>
+constexpr auto TypesOf() {
+  constexpr std::size_t kCount =
+      (std::size_t{0} + ... + (std::is_same_v<decltype(Kinds::kType), const Type> ? 1U : 0U));
+  std::array<const Type*, kCount> types{};
+  [[maybe_unused]] std::size_t next = 0;
+  const auto add = [&](const auto& type) {
+    if constexpr (std::is_same_v<decltype(type), const Type&>) types[next++] = &type;
+  };
+  (add(Kinds::kType), ...);
+  return types;
+}
+
+/// What a library hands over.
+template <auto... Describe>
+struct Library {
+  static constexpr auto kNavigators =
+      TypesOf<rockyard_navigator_type, TypeOf<Describe, decltype(Describe())>...>();
+  static constexpr auto kEstimators =
+      TypesOf<rockyard_estimator_type, TypeOf<Describe, decltype(Describe())>...>();
+  static constexpr rockyard_plugin_info kInfo{ROCKYARD_PLUGIN_ABI, 0,
+                                              kNavigators.data(),  kNavigators.size(),
+                                              kEstimators.data(),  kEstimators.size()};
+};
+
 }  // namespace rockyard::plugin::layer
+
+/// Makes the library a plugin of navigators and estimators, each named by the function that returns
+/// its description, in any order. Stands once in a library, outside of all namespaces.
+#define ROCKYARD_PLUGIN(...)                                                                     \
+  extern "C" __attribute__((visibility("default"))) const rockyard_plugin_info* rockyard_plugin( \
+      void) {                                                                                    \
+    return &::rockyard::plugin::layer::Library<__VA_ARGS__>::kInfo;                              \
+  }

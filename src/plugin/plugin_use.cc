@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/text.h"
+#include "plugin/foreign_estimator.h"
 #include "plugin/foreign_navigator.h"
 #include "plugin/library.h"
 #include "plugin/process.h"
@@ -128,7 +129,9 @@ PluginUse OpenOne(const Entry& entry, const fs::path& folder, const std::string&
   };
   if (use.kind == Kind::kLibrary && !entry.hash.empty() && entry.hash != use.hash) changed();
   if (use.kind == Kind::kLibrary) {
-    use.navigators = OpenLibrary(use.text, use.hash);
+    OpenedLibrary opened = OpenLibrary(use.text, use.hash);
+    use.navigators = std::move(opened.navigators);
+    use.estimators = std::move(opened.estimators);
   } else {
     OpenedProcess opened = OpenProcess(use.text, use.folder);
     use.navigators.push_back(std::move(opened.source));
@@ -182,8 +185,8 @@ JsonValue SchemaOfPlugins() {
                            {"confined", JsonValue::Object({{"type", JsonValue("boolean")}})}})},
        {"additionalProperties", JsonValue(false)}});
   return JsonValue::Object(
-      {{"description",
-        JsonValue("navigators that are no part of the program (docs/navigators.md)")},
+      {{"description", JsonValue("navigators and estimators that are no part of the program "
+                                 "(docs/navigators.md)")},
        {"type", JsonValue("array")},
        {"items", std::move(entry)}});
 }
@@ -213,7 +216,7 @@ std::vector<PluginUse> OpenPlugins(const JsonValue& list, const fs::path& folder
 
 namespace {
 
-// Returns the parameters of a group as a navigator would declare them.
+// Returns the parameters of a group as a plugin would declare them.
 JsonValue DeclaredBy(const JsonValue& group) {
   JsonValue::List fields;
   for (const core::JsonMember& member : group.members()) {
@@ -238,16 +241,18 @@ JsonValue DeclaredBy(const JsonValue& group) {
   return JsonValue(std::move(fields));
 }
 
-// Stands for a navigator that is not opened.
+[[noreturn]] void RefuseToDrive() {
+  throw UserError(kPluginsKey, "are not opened, as nothing is to be driven", "");
+}
+
+// Stand for a navigator and an estimator that are not opened.
 class StandIn final : public NavigatorSource {
  public:
-  explicit StandIn(const JsonValue& description)
-      : NavigatorSource("a navigator that is not opened",
-                        ReadDescription(description, "a stored scenario")) {}
+  using NavigatorSource::NavigatorSource;
 
   std::unique_ptr<navigation::Navigator> Make(const Parameters&,
                                               const navigation::NavigatorSetup&) const override {
-    throw UserError(kPluginsKey, "are not opened, as nothing is to be driven", "");
+    RefuseToDrive();
   }
 
  protected:
@@ -258,27 +263,53 @@ class StandIn final : public NavigatorSource {
   }
 };
 
-}  // namespace
+class EstimatorStandIn final : public EstimatorSource {
+ public:
+  using EstimatorSource::EstimatorSource;
 
-void AddStandIns(const JsonValue& navigation, navigation::NavigatorSet& set) {
-  if (!navigation.Is(JsonValue::Type::kObject)) return;
-  const auto add = [&](const std::string& name, const JsonValue& group) {
+  std::unique_ptr<localization::Estimator> Make(
+      const Parameters&, const localization::EstimatorSetup&) const override {
+    RefuseToDrive();
+  }
+
+ protected:
+  JsonValue AskProblems(const Parameters&) const override { return JsonValue::Object(); }
+};
+
+// Adds stand-ins to one set; `group` is that of the set in a scenario, `key` the choice in it.
+template <typename Kind, typename Source, typename Set>
+void AddStandInsTo(Set& set, const JsonValue* group, std::string_view key) {
+  if (group == nullptr || !group->Is(JsonValue::Type::kObject)) return;
+  const auto add = [&](const std::string& name, const JsonValue& parameters) {
     if (std::ranges::count(set.names(), name) > 0) return;
     JsonValue description = JsonValue::Object({{"name", JsonValue(name)}});
-    description.Set("parameters", DeclaredBy(group));
+    description.Set("parameters", DeclaredBy(parameters));
+    // An estimator that drove took what aids brought.
+    description.Set("takes_fixes", JsonValue(true));
+    description.Set("takes_motions", JsonValue(true));
     try {
-      set.Add(std::make_unique<ForeignKind>(std::make_shared<StandIn>(description)));
+      set.Add(std::make_unique<Kind>(std::make_shared<Source>(
+          "what is not opened", ReadDescription(description, "a stored scenario"))));
     } catch (const UserError&) {
-      // A key of the group that is no navigator: whoever reads the scenario judges it.
+      // A key of the group that is no kind: whoever reads the scenario judges it.
     }
   };
-  for (const core::JsonMember& member : navigation.members()) {
+  for (const core::JsonMember& member : group->members()) {
     if (member.value.Is(JsonValue::Type::kObject)) add(member.key, member.value);
   }
-  const JsonValue* chosen = navigation.Find("navigator");
+  const JsonValue* chosen = group->Find(key);
   if (chosen != nullptr && chosen->Is(JsonValue::Type::kText)) {
     add(chosen->text(), JsonValue::Object());
   }
+}
+
+}  // namespace
+
+void AddStandIns(const JsonValue& document, PluginSets sets) {
+  if (!document.Is(JsonValue::Type::kObject)) return;
+  AddStandInsTo<ForeignKind, StandIn>(sets.navigators, document.Find("navigation"), "navigator");
+  AddStandInsTo<ForeignEstimatorKind, EstimatorStandIn>(sets.estimators,
+                                                        document.Find("localization"), "estimator");
 }
 
 JsonValue ToJson(const std::vector<PluginUse>& plugins) {
@@ -305,17 +336,46 @@ JsonValue IdentityOf(const JsonValue& list) {
   return identity;
 }
 
-void AddNavigators(const std::vector<PluginUse>& plugins, navigation::NavigatorSet& set) {
-  for (const PluginUse& use : plugins) {
-    for (const auto& source : use.navigators) {
-      // Those that a copy of the scenario has already.
-      const bool there = std::ranges::any_of(set.kinds(), [&](const auto& kind) {
-        const auto* foreign = dynamic_cast<const ForeignKind*>(kind.get());
-        return foreign != nullptr && foreign->IsOf(source);
-      });
-      if (!there) set.Add(std::make_unique<ForeignKind>(source));
+namespace {
+
+// Adds the kinds of these sources, but for those that a copy of the scenario has already.
+template <typename Kind, typename Sources, typename Set>
+void AddSources(const Sources& sources, Set& set) {
+  for (const auto& source : sources) {
+    const bool there = std::ranges::any_of(set.kinds(), [&](const auto& kind) {
+      const auto* foreign = dynamic_cast<const Kind*>(kind.get());
+      return foreign != nullptr && foreign->IsOf(source);
+    });
+    if (!there) set.Add(std::make_unique<Kind>(source));
+  }
+}
+
+void RequireOwnColumns(const PluginSets& sets) {
+  for (const auto& estimator : sets.estimators.kinds()) {
+    for (const auto& navigator : sets.navigators.kinds()) {
+      if (estimator->name() != navigator->name()) continue;
+      for (const messages::OwnValue& value : estimator->own_values()) {
+        if (!std::ranges::count(navigator->own_values(), value.name, &messages::OwnValue::name)) {
+          continue;
+        }
+        throw UserError(fmt::format("localization.{}", estimator->name()),
+                        fmt::format("counts \"{}\", as the navigator of that name does: records "
+                                    "would have two columns of one name",
+                                    value.name),
+                        "give one of them another name");
+      }
     }
   }
+}
+
+}  // namespace
+
+void AddKinds(const std::vector<PluginUse>& plugins, PluginSets sets) {
+  for (const PluginUse& use : plugins) {
+    AddSources<ForeignKind>(use.navigators, sets.navigators);
+    AddSources<ForeignEstimatorKind>(use.estimators, sets.estimators);
+  }
+  RequireOwnColumns(sets);
 }
 
 }  // namespace rockyard::plugin

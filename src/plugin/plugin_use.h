@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "core/json_value.h"
+#include "localization/estimator_set_params.h"
 #include "navigation/navigator_set_params.h"
 
 namespace rockyard::plugin {
 
 class NavigatorSource;
+class EstimatorSource;
 
 // One plugin of a scenario: a shared library, or the process of a navigator.
 struct PluginUse {
@@ -26,6 +28,7 @@ struct PluginUse {
   std::string hash;
   bool confined = false;  // of a process: it runs without network and cannot write files
   std::vector<std::shared_ptr<const NavigatorSource>> navigators;
+  std::vector<std::shared_ptr<const EstimatorSource>> estimators = {};
 
   // Returns "libmine.so" or the command, for people.
   std::string Name() const;
@@ -46,11 +49,17 @@ core::JsonValue Anchored(core::JsonValue list, const std::filesystem::path& fold
 std::vector<PluginUse> OpenPlugins(const core::JsonValue& list, const std::filesystem::path& folder,
                                    const std::vector<PluginUse>& opened = {});
 
-// Adds to the set a stand-in for each navigator that `navigation`, a scenario's group, chooses or
-// has a group of, and that the set lacks: its parameters are those that the group states, and it
-// cannot drive. So the scenario of a stored run can be read, shown and compared without running
-// anybody's code.
-void AddStandIns(const core::JsonValue& navigation, navigation::NavigatorSet& set);
+// The sets that plugins add to.
+struct PluginSets {
+  navigation::NavigatorSet& navigators;
+  localization::EstimatorSet& estimators;
+};
+
+// Adds to the sets a stand-in for each navigator and estimator that the document, a scenario,
+// chooses or has a group of, and that they lack: its parameters are those that the group states,
+// and it cannot drive. So the scenario of a stored run can be read, shown and compared without
+// running anybody's code.
+void AddStandIns(const core::JsonValue& document, PluginSets sets);
 
 // Returns the list as a resolved scenario has it.
 core::JsonValue ToJson(const std::vector<PluginUse>& plugins);
@@ -61,8 +70,9 @@ core::JsonValue SchemaOfPlugins();
 // Returns the list without what no record depends on: paths and folders.
 core::JsonValue IdentityOf(const core::JsonValue& list);
 
-// Adds the navigators of the plugins to the set, but for those that are in it. Throws
-// core::UserError where a name is taken.
-void AddNavigators(const std::vector<PluginUse>& plugins, navigation::NavigatorSet& set);
+// Adds navigators and estimators of the plugins to the sets, but for those that are in them. Throws
+// core::UserError where a name is taken, also where a navigator and an estimator have own values of
+// the same name, as columns of records bear it.
+void AddKinds(const std::vector<PluginUse>& plugins, PluginSets sets);
 
 }  // namespace rockyard::plugin

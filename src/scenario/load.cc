@@ -49,6 +49,10 @@ Scenario ParseScenario(std::string_view text, std::span<const std::string> overr
   return Finish(std::move(document), overrides, defaults);
 }
 
+plugin::PluginSets PluginSetsOf(Scenario& scenario) {
+  return {scenario.drive.navigation.navigators, scenario.drive.localization.estimators};
+}
+
 void AnchorPlugins(core::JsonValue& document, const std::filesystem::path& folder) {
   core::JsonValue* list = document.Find(plugin::kPluginsKey);
   if (list != nullptr) *list = plugin::Anchored(*list, folder);
@@ -59,7 +63,7 @@ Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults)
   core::JsonValue current = document;
   if (const core::JsonValue* list = document.Find(plugin::kPluginsKey)) {
     scenario.plugins = plugin::OpenPlugins(*list, ".", defaults.plugins);
-    plugin::AddNavigators(scenario.plugins, scenario.drive.navigation.navigators);
+    plugin::AddKinds(scenario.plugins, PluginSetsOf(scenario));
     current.Erase(plugin::kPluginsKey);
   }
   // Nulls of open values are taken out before reading, which refuses null. The values are set after
@@ -74,10 +78,7 @@ Scenario ReadScenarioSealed(const core::JsonValue& document, const Scenario& def
   core::JsonValue sealed = document;
   sealed.Erase(plugin::kPluginsKey);
   Scenario scenario = defaults;
-  const core::JsonValue* navigation = document.Find("navigation");
-  if (navigation != nullptr) {
-    plugin::AddStandIns(*navigation, scenario.drive.navigation.navigators);
-  }
+  plugin::AddStandIns(document, PluginSetsOf(scenario));
   return ReadScenario(sealed, scenario);
 }
 

@@ -28,6 +28,9 @@ Scenario LoadScenario(const std::filesystem::path& path,
 Scenario ParseScenario(std::string_view text, std::span<const std::string> overrides = {},
                        const std::filesystem::path& folder = ".", const Scenario& defaults = {});
 
+// Returns the sets of a scenario that plugins add to; they last as long as the scenario.
+plugin::PluginSets PluginSetsOf(Scenario& scenario);
+
 // Makes the paths of plugins in a document absolute, as they are relative to `folder`.
 void AnchorPlugins(core::JsonValue& document, const std::filesystem::path& folder);
 

@@ -250,12 +250,12 @@ Scenario DefaultsOf(const SweepSpec& spec, const Scenario& defaults,
 }
 
 // Returns the defaults of a sweep whose plugins are not opened, with stand-ins for the navigators
-// that base, settings and axes name a parameter of.
+// and estimators that base, settings and axes name a parameter of.
 Scenario SealedDefaults(const SweepSpec& spec, const Scenario& defaults) {
   core::JsonValue document = core::JsonValue::Object();
   if (spec.scenario != nullptr) document = *spec.scenario;
   const auto set = [&](const std::string& path, const core::JsonValue& value) {
-    if (!path.starts_with("navigation.")) return;
+    if (!path.starts_with("navigation.") && !path.starts_with("localization.")) return;
     try {
       core::SetPath(document, path, value);
     } catch (const core::UserError&) {
@@ -275,9 +275,7 @@ Scenario SealedDefaults(const SweepSpec& spec, const Scenario& defaults) {
     }
   }
   Scenario sealed = defaults;
-  if (const core::JsonValue* navigation = document.Find("navigation")) {
-    plugin::AddStandIns(*navigation, sealed.drive.navigation.navigators);
-  }
+  plugin::AddStandIns(document, PluginSetsOf(sealed));
   return sealed;
 }
 

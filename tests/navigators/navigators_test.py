@@ -11,47 +11,15 @@ import os
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
-from pathlib import Path
 
-ROCKYARD, PROJECT = (Path(word).resolve() for word in sys.argv[1:3])
-PLUGINS = {Path(word).stem.removeprefix("lib"): Path(word).resolve() for word in sys.argv[3:7]}
-NOMINAL = PROJECT / "scenarios/pathfinder/nominal.json"
+import plugin_drives
+from plugin_drives import NOMINAL, PLUGINS, PROJECT, QUICK, ROCKYARD, TRIALS
+
 EXAMPLES = PROJECT / "examples/navigators"
-QUICK = ("--set", "rover.fidelity=quasi_static")
-TRIALS = 8
 
 
-class Drives(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp())
-        cls.built_in = cls.run_hash("built_in", ())
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
-
-    @classmethod
-    def command(cls, words, before=(), ends=0):
-        done = subprocess.run([*before, ROCKYARD, *map(str, words)], cwd=cls.folder, capture_output=True, text=True,
-                              timeout=240, check=False)
-        if done.returncode != ends:
-            raise AssertionError(f"{words}: exit code {done.returncode}: {done.stderr}{done.stdout[-500:]}")
-        return done
-
-    @classmethod
-    def run_hash(cls, name, more, before=(), trials=TRIALS):
-        cls.command(["run", NOMINAL, "--trials", trials, *QUICK, "--quiet", "--out", name, *more], before)
-        return cls.hash_of(name)
-
-    @classmethod
-    def hash_of(cls, name):
-        return json.loads((cls.folder / name / "summary.json").read_text())["trial_hash"]
-
+class Drives(plugin_drives.PluginTest):
     def twin(self):
         return ("--plugin", PLUGINS["pathfinder_twin"])
 
@@ -141,10 +109,6 @@ class Drives(unittest.TestCase):
         for told in (resumed, merged, replayed):
             self.assertIn(former, told.stderr)
             self.assertIn(now, told.stderr)
-
-    def plugin_hash(self, name):
-        scenario = json.loads((self.folder / name / "scenario.resolved.json").read_text())["scenario"]
-        return scenario["plugins"][0]["hash"]
 
     def test_reading_results_runs_no_plugin(self):
         """A library that is gone is not missed by who reads what it drove."""
@@ -236,4 +200,4 @@ class Drives(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[7:]])
+    plugin_drives.main()

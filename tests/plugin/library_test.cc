@@ -33,7 +33,7 @@ std::string FileOf(const std::string& library) {
 }
 
 std::vector<std::shared_ptr<const NavigatorSource>> Open(const fs::path& file) {
-  return OpenLibrary(file, HashOfLibrary(file));
+  return OpenLibrary(file, HashOfLibrary(file)).navigators;
 }
 
 // Opens a library, and returns the navigator of that name.
@@ -458,8 +458,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Refused{"undefined_symbol", "NobodyHasThis"},
                     Refused{"crashes", "crashed (SIGABRT)"},
                     Refused{"exits", "ended the process (exit code 3)"},
-                    Refused{"no_navigators", "has no navigators"},
-                    Refused{"no_info", "hands over no navigators"},
+                    Refused{"no_navigators", "has neither navigators nor estimators"},
+                    Refused{"no_info", "hands over nothing"},
                     Refused{"broken_description", "line 1"},
                     Refused{"not_there", "cannot be read"}),
     [](const auto& way) { return std::string(way.param.library); });

@@ -255,21 +255,33 @@ TEST_F(PluginUseTest, TheSameCommandInAnotherFolderIsAnotherProcess) {
   EXPECT_NE(other.at(0).hash, opened[0].hash);
 }
 
+// Adds what plugins hold to a set of navigators; their estimators to none that is looked at.
+void AddTo(const std::vector<PluginUse>& plugins, navigation::NavigatorSet& set) {
+  localization::EstimatorSet estimators;
+  AddKinds(plugins, {set, estimators});
+}
+
+// The same for stand-ins; `navigation` is the group of a scenario.
+void AddStandInsTo(const JsonValue& navigation, navigation::NavigatorSet& set) {
+  localization::EstimatorSet estimators;
+  AddStandIns(JsonValue::Object({{"navigation", navigation}}), {set, estimators});
+}
+
 TEST_F(PluginUseTest, NavigatorsAreAddedOnce) {
   CopyLibrary("echo", "echo.so");
   const auto plugins = Open(R"(["echo.so"])");
   navigation::NavigatorSet set = navigation::StandardNavigators();
   const auto own = set.names().size();
-  AddNavigators(plugins, set);
+  AddTo(plugins, set);
   ASSERT_EQ(set.names().size(), own + 2);
   EXPECT_EQ(set.names()[own], "echo");
   EXPECT_EQ(set.names()[own + 1], "every_type");
   EXPECT_EQ(set.chosen().name(), "pathfinder");
   EXPECT_TRUE(set.Named("echo").foreign());
   EXPECT_FALSE(set.Named("pathfinder").foreign());
-  AddNavigators(plugins, set);
+  AddTo(plugins, set);
   navigation::NavigatorSet copy = set;
-  AddNavigators(plugins, copy);
+  AddTo(plugins, copy);
   EXPECT_EQ(set.names().size(), own + 2);
   EXPECT_EQ(copy.names().size(), own + 2);
 }
@@ -278,7 +290,7 @@ TEST_F(PluginUseTest, TwoPluginsDoNotShareAName) {
   CopyLibrary("echo", "echo.so");
   CopyLibrary("echo", "another.so", "x");
   navigation::NavigatorSet set = navigation::StandardNavigators();
-  EXPECT_THAT(core::ProblemsIn([&] { AddNavigators(Open(R"(["echo.so", "another.so"])"), set); }),
+  EXPECT_THAT(core::ProblemsIn([&] { AddTo(Open(R"(["echo.so", "another.so"])"), set); }),
               core::OneProblem("navigation.echo", "is taken"));
 }
 
@@ -290,7 +302,7 @@ TEST_F(PluginUseTest, SetsHaveParametersOfTheirOwn) {
     void Visit(core::FieldVisitor& v) { set.Visit(v); }
   };
   Group group;
-  AddNavigators(Open(R"(["echo.so"])"), group.set);
+  AddTo(Open(R"(["echo.so"])"), group.set);
   Group copy = group;
   core::ReadParams(Json(R"({"navigator": "every_type", "echo": {"goal_tolerance_m": 1.5}})"), copy);
   EXPECT_EQ(copy.set.Named("echo").traits().goal.tolerance_m, 1.5);
@@ -311,14 +323,14 @@ struct Navigation {
 TEST_F(PluginUseTest, StandInsReadWhatWasWritten) {
   CopyLibrary("echo", "echo.so");
   Navigation before;
-  AddNavigators(Open(R"(["echo.so"])"), before.set);
+  AddTo(Open(R"(["echo.so"])"), before.set);
   core::ReadParams(Json(R"({"navigator": "echo", "echo": {"status": 3, "look": 1},
       "every_type": {"real": 0.1, "integer": -3, "reals": [1, 2.5], "integers": [4, 5],
                      "text": "höher", "choice": "third", "inner": {"low": -1e-300}}})"),
                    before);
   const JsonValue stored = core::WriteParams(before);
   Navigation sealed;
-  AddStandIns(stored, sealed.set);
+  AddStandInsTo(stored, sealed.set);
   EXPECT_THAT(std::vector(sealed.set.names().begin(), sealed.set.names().end()),
               testing::ElementsAreArray(before.set.names()));
   core::ReadParams(stored, sealed);
@@ -330,13 +342,93 @@ TEST_F(PluginUseTest, StandInsReadWhatWasWritten) {
 
 TEST_F(PluginUseTest, AStandInIsMadeOfAChoiceAlone) {
   Navigation sealed;
-  AddStandIns(Json(R"({"navigator": "bare", "limits": {"memory_mb": 100}})"), sealed.set);
+  AddStandInsTo(Json(R"({"navigator": "bare", "limits": {"memory_mb": 100}})"), sealed.set);
   EXPECT_EQ(std::ranges::count(sealed.set.names(), "bare"), 1);
   EXPECT_EQ(std::ranges::count(sealed.set.names(), "limits"), 0) << "a key of the group";
   const std::size_t names = sealed.set.names().size();
-  AddStandIns(Json(R"({"navigator": "bare", "pathfinder": {}})"), sealed.set);
-  AddStandIns(Json("3"), sealed.set);
+  AddStandInsTo(Json(R"({"navigator": "bare", "pathfinder": {}})"), sealed.set);
+  AddStandInsTo(Json("3"), sealed.set);
   EXPECT_EQ(sealed.set.names().size(), names);
+}
+
+// The groups "navigation" and "localization" of a scenario.
+struct Sets {
+  navigation::NavigatorSet navigators = navigation::StandardNavigators();
+  localization::EstimatorSet estimators;
+
+  PluginSets sets() { return {navigators, estimators}; }
+  void Visit(core::FieldVisitor& v) {
+    v.Group("navigation", navigators, "");
+    v.Group("localization", estimators, "");
+  }
+};
+
+TEST_F(PluginUseTest, EstimatorsAreAddedBesideNavigators) {
+  CopyLibrary("estimators", "estimators.so");
+  const auto plugins = Open(R"(["estimators.so"])");
+  ASSERT_EQ(plugins.at(0).navigators.size(), 1U);
+  ASSERT_EQ(plugins.at(0).estimators.size(), 2U);
+  Sets sets;
+  AddKinds(plugins, sets.sets());
+  EXPECT_EQ(sets.navigators.names().back(), "idle");
+  EXPECT_EQ(sets.navigators.chosen().name(), "pathfinder");
+  EXPECT_EQ(sets.estimators.names().size(), 2U);
+  Sets copy = sets;
+  AddKinds(plugins, copy.sets());
+  EXPECT_EQ(copy.estimators.names().size(), 2U);
+  core::ReadParams(Json(R"({"localization": {"estimator": "faulty", "told": {"use": 2}}})"), copy);
+  EXPECT_EQ(copy.estimators.chosen().name(), "faulty");
+  EXPECT_EQ(sets.estimators.chosen().name(), "told");
+}
+
+TEST_F(PluginUseTest, TwoEstimatorsDoNotShareAName) {
+  CopyLibrary("estimators", "estimators.so");
+  CopyLibrary("estimators", "another.so", "x");
+  Sets sets;
+  EXPECT_THAT(core::ProblemsIn([&] { AddKinds(Open(R"(["estimators.so"])"), sets.sets()); }),
+              testing::IsEmpty());
+  Sets others;
+  others.estimators = sets.estimators;
+  EXPECT_THAT(core::ProblemsIn([&] { AddKinds(Open(R"(["another.so"])"), others.sets()); }),
+              core::OneProblem("localization.told", "is taken"));
+}
+
+// Columns of records are "<name>.<own value>", of navigators and estimators alike.
+TEST_F(PluginUseTest, ANavigatorAndAnEstimatorDoNotShareAColumn) {
+  CopyLibrary("estimators", "estimators.so");
+  const auto problems = [&](const char* name, const char* value) {
+    Sets sets;
+    navigation::NavigatorDescription<core::NoParams> description;
+    description.name = name;
+    description.doc = "a namesake";
+    description.own_values = {{value, "1", ""}};
+    sets.navigators.Add(description);
+    return core::ProblemsIn([&] { AddKinds(Open(R"(["estimators.so"])"), sets.sets()); });
+  };
+  EXPECT_THAT(problems("faulty", "first"),
+              core::OneProblem("localization.faulty", "counts \"first\"", "another name"));
+  EXPECT_THAT(problems("faulty", "second"), testing::IsEmpty());
+  EXPECT_THAT(problems("another", "first"), testing::IsEmpty());
+}
+
+// A stored scenario is read and written again by a program that has no plugin.
+TEST_F(PluginUseTest, EstimatorsHaveStandInsToo) {
+  CopyLibrary("estimators", "estimators.so");
+  Sets before;
+  AddKinds(Open(R"(["estimators.so"])"), before.sets());
+  core::ReadParams(Json(R"({"localization": {"estimator": "told", "told": {"low": 0.1, "use": 3},
+                            "faulty": {"fault": "placing"}}})"),
+                   before);
+  const JsonValue stored = core::WriteParams(before);
+  Sets sealed;
+  AddStandIns(stored, sealed.sets());
+  core::ReadParams(stored, sealed);
+  EXPECT_EQ(sealed.estimators.chosen().name(), "told");
+  EXPECT_TRUE(sealed.estimators.chosen().foreign());
+  EXPECT_TRUE(sealed.estimators.chosen().takes_motions()) << "or its aids would be refused";
+  EXPECT_EQ(core::DumpJson(core::WriteParams(sealed)), core::DumpJson(stored));
+  EXPECT_THAT(core::RefusalOf([&] { sealed.estimators.chosen().Make({}); }),
+              HasSubstr("not opened"));
 }
 
 TEST(PluginSchema, AllowsEveryFormOfAnEntryAndNoOtherKey) {

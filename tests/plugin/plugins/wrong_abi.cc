@@ -5,7 +5,11 @@
 
 extern "C" const rockyard_plugin_info* rockyard_plugin(void) {
   static const rockyard_plugin_info info{
-      ROCKYARD_PLUGIN_ABI + 1, 0,
-      reinterpret_cast<const rockyard_navigator_type* const*>(std::uintptr_t{8}), 1};
+      ROCKYARD_PLUGIN_ABI + 1,
+      0,
+      reinterpret_cast<const rockyard_navigator_type* const*>(std::uintptr_t{8}),
+      1,
+      nullptr,
+      0};
   return &info;
 }
