@@ -321,13 +321,16 @@ OpenedLibrary OpenLibrary(const fs::path& file, const std::string& hash) {
   const std::string name = file.string();
   const core::JsonValue answers =
       core::ParseJson(InChild(name, [&] { return DescribeAll(file); }), name);
-  const auto library = std::make_shared<const LoadedLibrary>(file, hash);
+  const core::JsonValue::List& navigators = answers.list()[0].list();
+  const core::JsonValue::List& estimators = answers.list()[1].list();
+  const auto library =
+      std::make_shared<const LoadedLibrary>(file, hash, navigators.size(), estimators.size());
   OpenedLibrary opened;
-  for (const core::JsonValue& answer : answers.list()[0].list()) {
+  for (const core::JsonValue& answer : navigators) {
     opened.navigators.push_back(std::make_shared<LibrarySource>(library, opened.navigators.size(),
                                                                 ReadDescription(answer, name)));
   }
-  for (const core::JsonValue& answer : answers.list()[1].list()) {
+  for (const core::JsonValue& answer : estimators) {
     opened.estimators.push_back(
         MakeLibraryEstimators(library, opened.estimators.size(), ReadDescription(answer, name)));
   }

@@ -71,7 +71,11 @@ const rockyard_plugin_info& LoadedLibrary::info() const {
                              "let it be while it drives, and begin a run of its own");
   }
   try {
-    info_ = &Load(file_);
+    const rockyard_plugin_info& info = Load(file_);
+    if (info.navigator_count != navigators_ || info.estimator_count != estimators_) {
+      throw std::runtime_error("it holds more or less than when it was asked what it is");
+    }
+    info_ = &info;
   } catch (const std::runtime_error& error) {
     throw core::UserError(file_.string(), std::string("cannot be loaded: ") + error.what(),
                           "build it anew, and let it be while it is used");

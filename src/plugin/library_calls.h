@@ -42,8 +42,13 @@ void RequireDone(int result, const rockyard_error& error);
 // all kinds of it.
 class LoadedLibrary {
  public:
-  LoadedLibrary(std::filesystem::path file, std::string hash)
-      : file_(std::move(file)), hash_(std::move(hash)) {}
+  // `navigators`, `estimators`: how many it described.
+  LoadedLibrary(std::filesystem::path file, std::string hash, std::size_t navigators,
+                std::size_t estimators)
+      : file_(std::move(file)),
+        hash_(std::move(hash)),
+        navigators_(navigators),
+        estimators_(estimators) {}
 
   const std::filesystem::path& file() const { return file_; }
   // Returns what it holds. Throws core::MachineError where the file is another one by now,
@@ -53,6 +58,8 @@ class LoadedLibrary {
  private:
   const std::filesystem::path file_;
   const std::string hash_;
+  const std::size_t navigators_;
+  const std::size_t estimators_;
   mutable std::mutex mutex_;
   mutable const rockyard_plugin_info* info_ = nullptr;
 };
