@@ -156,7 +156,7 @@ std::optional<std::vector<std::string>> SettingsOf(const fs::path& path) {
 
 bool PluginDecides(const std::string& resolved) {
   const auto sealed = TryRead(resolved);
-  return !sealed || sealed->drive.navigation.navigators.chosen().foreign();
+  return !sealed || sealed->drive.foreign();
 }
 
 scenario::Scenario ScenarioToDrive(const std::string& resolved, const std::string& source) {

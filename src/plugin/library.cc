@@ -126,8 +126,8 @@ class LibraryNavigator final : public navigation::Navigator {
   LibraryNavigator(const rockyard_navigator_type& type, const navigation::NavigatorSetup& setup,
                    std::size_t own_values)
       : calls_("", setup.limits.decision_cpu_s, setup.limits.drive_cpu_s),
-        on_end_(setup.on_end),
         type_(type),
+        on_end_(setup.on_end),
         own_values_(own_values) {}
   ~LibraryNavigator() override {
     if (navigator_ != nullptr) type_.destroy(navigator_);
