@@ -13,6 +13,7 @@ SI units, radians. Members that a message lacks are None. A trial has to repeat 
 clock, and seed random numbers by setup.random_seed. What is printed is shown where the navigator
 fails. docs/navigators.md has the messages.
 """
+import base64
 import json
 import struct
 import traceback
@@ -104,6 +105,8 @@ def _answer(cls, navigator, ask):
         made.start(ask.setup)
         return {}, made
     if ask.type == "decide":
+        for eye in (ask.images.left, ask.images.right) if ask.images else ():
+            eye["grey"] = base64.b64decode(eye.grey)  # bytes, row by row from the upper left
         decision = navigator.decide(ask)
         if decision is None:
             raise TypeError("decide() returned None")

@@ -19,6 +19,7 @@
 #include "messages/calibration.h"
 #include "messages/commands.h"
 #include "messages/estimates.h"
+#include "messages/look_images.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
 #include "messages/vehicle_state.h"
@@ -95,9 +96,10 @@ struct NavigatorInput {
   messages::AttitudeEstimate attitude = {};  ///< of the rover as it stands
   /// The pose in the frame of odometry, in which LookMoment::odometry of `look` is told too.
   messages::PoseEstimate odometry = {};
-  /// `report`, `cloud` and `look` answer a request for a look, the oldest that has no answer yet,
-  /// when its data are ready; they are null at every other tick. A behaviour controller reads the
-  /// hazard report, a map-based navigator the points; both were taken at the moment of the look.
+  /// `report`, `cloud`, `look` and `images` answer a request for a look, the oldest that has no
+  /// answer yet, when its data are ready; they are null at every other tick. A behaviour controller
+  /// reads the hazard report, a map-based navigator the points; all were taken at the moment of the
+  /// look.
   const messages::HazardReport* report = nullptr;
   const messages::PointCloud* cloud = nullptr;
   const messages::LookMoment* look = nullptr;
@@ -113,6 +115,8 @@ struct NavigatorInput {
   /// What vehicle sensors measured over the last tick, joint angles among it; null before the
   /// first. Sensors that the rover lacks are empty.
   const messages::VehicleState* felt = nullptr;
+  /// What the cameras took, where NavigatorTraits::images asks for it. Valid during the call.
+  const messages::LookImages* images = nullptr;
 };
 
 /// What the navigator asks for until its next decision.

@@ -21,7 +21,7 @@ namespace rockyard::navigation {
 enum class LookReading {
   kHazardReport,  ///< per stripe; the rocks that it had to see are counted as met and missed
   kPoints,        ///< it believes in no single hazards, so that none can be met or missed
-  kNothing,       ///< it never looks
+  kNothing,       ///< it never looks, or reads images alone (NavigatorTraits::images)
 };
 
 /// The navigator's part of a look takes clock.compute.behaviour_s on the rover's computer, where a
@@ -84,6 +84,9 @@ struct NavigatorTraits {
   bool looks_on_the_move = false;      ///< asks for looks while it drives
   bool steers_on_the_move = false;     ///< drives clothoids
   std::optional<CurvatureRates> curvature_rates;  ///< where it chooses among clothoids
+  /// Gets the images of each look beside what it reads. With LookReading::kNothing they are all
+  /// that comes of a look: nobody matches them, and the look takes no time for that.
+  bool images = false;
 };
 
 }  // namespace rockyard::navigation

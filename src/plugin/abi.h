@@ -122,6 +122,20 @@ struct rockyard_felt {
   const uint8_t* contact;          ///< of seven strips, 0 or 1
 };
 
+/// messages::LookImage.
+struct rockyard_image {
+  int32_t width, height;
+  const uint8_t* grey;                    ///< width times height, row by row from the upper left
+  double C_R[3], A_R[3], H_R[3], V_R[3];  ///< messages::LinearCamera; C in m, the others in pixels
+};
+
+/// messages::LookImages.
+struct rockyard_images {
+  int64_t number;
+  int32_t behind;  ///< 0: looked ahead
+  struct rockyard_image left, right;
+};
+
 /// navigation::NavigatorInput.
 struct rockyard_input {
   double time_s;
@@ -135,6 +149,7 @@ struct rockyard_input {
   const struct rockyard_felt* felt;
   int32_t touches_behind, notices_stuck;
   const double* covariance;  ///< 6 x 6, in the order of messages::PoseCoordinate; null: none
+  const struct rockyard_images* images;  ///< null: none; where the traits ask for them
 };
 
 /// navigation::NavigatorDecision. Enumerations by their places.

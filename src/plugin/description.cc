@@ -295,6 +295,7 @@ Traits ReadTraits(const JsonValue& json, const std::string& source) {
   }
   traits.looks_on_the_move = answer.Flag("looks_on_the_move");
   traits.steers_on_the_move = answer.Flag("steers_on_the_move");
+  traits.images = answer.Flag("images");
   traits.problems = ProblemsIn(answer);
   return traits;
 }
@@ -303,6 +304,7 @@ navigation::NavigatorTraits Traits::AsNavigatorTraits() const {
   navigation::NavigatorTraits traits(reads, cost, {goal_parameter, goal_tolerance_m});
   traits.looks_on_the_move = looks_on_the_move;
   traits.steers_on_the_move = steers_on_the_move;
+  traits.images = images;
   return traits;
 }
 

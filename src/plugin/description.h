@@ -85,6 +85,7 @@ struct Traits {
   double goal_tolerance_m = 0.0;
   bool looks_on_the_move = false;
   bool steers_on_the_move = false;
+  bool images = false;
   std::vector<core::Problem> problems;  // of its parameters; paths within its group
 
   // The views in it last as long as this object.

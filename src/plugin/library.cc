@@ -42,6 +42,21 @@ rockyard_rover Rover(const messages::RoverBelief& from) {
   return to;
 }
 
+rockyard_image Image(const messages::LookImage& from) {
+  rockyard_image to{};
+  to.width = from.width;
+  to.height = from.height;
+  to.grey = from.grey.data();
+  const auto copy = [](const math::Vector3& vector, double* place) {
+    std::copy(vector.begin(), vector.end(), place);
+  };
+  copy(from.camera.C_R, to.C_R);
+  copy(from.camera.A_R, to.A_R);
+  copy(from.camera.H_R, to.H_R);
+  copy(from.camera.V_R, to.V_R);
+  return to;
+}
+
 // A NavigatorInput as the C interface has it; views of `from`.
 class AbiInput {
  public:
@@ -68,6 +83,7 @@ class AbiInput {
     if (from.felt != nullptr) Take(*from.felt);
     // Symmetric, so that rows and columns are one.
     if (from.covariance != nullptr) input_.covariance = from.covariance->data();
+    if (from.images != nullptr) Take(*from.images);
   }
   AbiInput(const AbiInput&) = delete;
   AbiInput& operator=(const AbiInput&) = delete;
@@ -90,6 +106,11 @@ class AbiInput {
     felt_.Take(from);
     input_.felt = felt_.get();
   }
+  void Take(const messages::LookImages& from) {
+    images_ = {from.number, from.direction == messages::LookDirection::kBehind ? 1 : 0,
+               Image(from.left), Image(from.right)};
+    input_.images = &images_;
+  }
 
   rockyard_input input_{};
   rockyard_report report_{};
@@ -97,6 +118,7 @@ class AbiInput {
   rockyard_look look_{};
   rockyard_hazard hazard_{};
   AbiFelt felt_;
+  rockyard_images images_{};
   std::array<std::uint8_t, messages::kMaxStripes> stripes_{};
 };
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base64.h"
 #include "core/numbers.h"
 #include "navigation/navigator_fault.h"
 
@@ -88,6 +89,26 @@ JsonValue CloudToJson(const messages::PointCloud& cloud) {
       {{"number", JsonValue(cloud.number)}, {"direction", NameOf(kDirections, cloud.direction)}});
   object.Append("points_R", JsonValue(std::move(points)));
   return object;
+}
+
+JsonValue ImageToJson(const messages::LookImage& image) {
+  const auto vector = [](const math::Vector3& v) {
+    return core::ListOf(std::array{v.x(), v.y(), v.z()});
+  };
+  return JsonValue::Object({{"width", JsonValue(image.width)},
+                            {"height", JsonValue(image.height)},
+                            {"C_R", vector(image.camera.C_R)},
+                            {"A_R", vector(image.camera.A_R)},
+                            {"H_R", vector(image.camera.H_R)},
+                            {"V_R", vector(image.camera.V_R)},
+                            {"grey", JsonValue(core::Base64(image.grey))}});
+}
+
+JsonValue ImagesToJson(const messages::LookImages& images) {
+  return JsonValue::Object({{"number", JsonValue(images.number)},
+                            {"direction", NameOf(kDirections, images.direction)},
+                            {"left", ImageToJson(images.left)},
+                            {"right", ImageToJson(images.right)}});
 }
 
 JsonValue FeltToJson(const messages::VehicleState& felt) {
@@ -175,6 +196,7 @@ JsonValue InputToJson(const navigation::NavigatorInput& input) {
                   core::ListOf(std::span(input.covariance->data(),
                                          static_cast<std::size_t>(input.covariance->size()))));
   }
+  if (input.images != nullptr) object.Append("images", ImagesToJson(*input.images));
   return object;
 }
 

@@ -30,6 +30,7 @@
 #include "core/fields.h"
 #include "messages/calibration.h"
 #include "messages/estimates.h"
+#include "messages/look_images.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
 #include "messages/site_map.h"
@@ -80,6 +81,23 @@ inline std::shared_ptr<const messages::SiteMap> SiteMap(const rockyard_site_map*
   return map;
 }
 
+/// Return what a camera, and a pair of cameras, took.
+inline messages::LookImage Image(const rockyard_image& from) {
+  const auto cells = static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height);
+  const auto vector = [](const double* place) -> math::Vector3 {
+    return Eigen::Map<const math::Vector3>(place);
+  };
+  return {from.width,
+          from.height,
+          {from.grey, from.grey + cells},
+          {vector(from.C_R), vector(from.A_R), vector(from.H_R), vector(from.V_R)}};
+}
+inline messages::LookImages Images(const rockyard_images& from) {
+  return {from.number,
+          from.behind != 0 ? messages::LookDirection::kBehind : messages::LookDirection::kAhead,
+          Image(from.left), Image(from.right)};
+}
+
 /// Returns all that a navigator gets at the start.
 inline navigation::NavigatorSetup Setup(const rockyard_setup& from) {
   navigation::NavigatorSetup setup;
@@ -123,6 +141,10 @@ class Input {
       covariance_ = Eigen::Map<const messages::PoseCovariance>(from.covariance);
       input_.covariance = &covariance_;
     }
+    if (from.images != nullptr) {
+      images_ = Images(*from.images);
+      input_.images = &images_;
+    }
   }
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
@@ -159,6 +181,7 @@ class Input {
   messages::VehicleHazard hazard_;
   messages::VehicleState felt_;
   messages::PoseCovariance covariance_ = messages::PoseCovariance::Zero();
+  messages::LookImages images_;
 };
 
 /// Writes a decision.
@@ -232,6 +255,7 @@ inline std::string TraitsText(const navigation::NavigatorTraits& traits) {
   }
   json.Raw("}").Key("looks_on_the_move").Raw(traits.looks_on_the_move ? "true" : "false");
   json.Key("steers_on_the_move").Raw(traits.steers_on_the_move ? "true" : "false");
+  json.Key("images").Raw(traits.images ? "true" : "false");
   json.Key("problems").Raw("[");
   return json.text();
 }

@@ -257,6 +257,24 @@ void RequireOverlap(const DriveParams& drive, core::FieldVisitor& v) {
       std::string(foreign ? "use " : "use csod, or ") + "clock.overlap.steering true");
 }
 
+// Refuses a navigator that wants images where no cameras take any.
+void RequireImages(const DriveParams& drive, core::FieldVisitor& v) {
+  const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
+  if (!navigator.traits().images) return;
+  const TerrainSensorKind& sensor = drive.sensors.terrain_sensors.chosen();
+  const sensing::StereoParams* cameras = sensor.cameras(drive);
+  v.Require("sensors.terrain_sensor", cameras != nullptr,
+            fmt::format("is {}, which takes no images, where navigation.navigator is {}, which "
+                        "asks for them",
+                        sensor.name(), navigator.name()),
+            "use stereo, with sensors.stereo.fidelity image, or another navigator");
+  v.Require("sensors.stereo.fidelity",
+            cameras == nullptr || cameras->fidelity == sensing::StereoFidelity::kImage,
+            fmt::format("takes no images, where navigation.navigator is {}, which asks for them",
+                        navigator.name()),
+            "use image, or another navigator");
+}
+
 // Refuses steering so slow that a rover in a curve finds no motion to go on with.
 void RequireFeasibleCurves(const DriveParams& drive, core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
@@ -311,6 +329,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   RequireListener(drive, v);
   if (drive.sensors.visual_odometry.enabled) RequireTwoEyes(drive, v);
   RequireOverlap(drive, v);
+  RequireImages(drive, v);
   RequireFeasibleCurves(drive, v);
   RequireSlipReaction(drive, v);
   RequireFindableRock(drive, v);

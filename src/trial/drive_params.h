@@ -132,4 +132,11 @@ struct DriveParams {
   }
 };
 
+// Returns whether the images of a look are all that the navigator gets of it, so that nobody
+// matches them.
+inline bool ReadsImagesAlone(const DriveParams& drive) {
+  const navigation::NavigatorTraits traits = drive.navigation.navigators.chosen().traits();
+  return traits.images && traits.reads == navigation::LookReading::kNothing;
+}
+
 }  // namespace rockyard::trial

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base64.h"
 #include "core/text.h"
 
 namespace rockyard::web {
@@ -27,40 +28,8 @@ void Fill(std::string& html, std::string_view mark, std::string_view value) {
 std::string MakePage(Page page, std::string_view title, std::string_view payload_json) {
   std::string html(page == Page::kReport ? kReportPage : kReplayPage);
   Fill(html, "<!-- title -->", core::EscapeXml(title));
-  Fill(html, "<!-- payload -->", Base64(Gzip(payload_json)));
+  Fill(html, "<!-- payload -->", core::Base64(Gzip(payload_json)));
   return html;
-}
-
-namespace {
-
-constexpr std::string_view kAlphabet =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-// Up to three bytes as the upper bits of a group of 24; bytes beyond the end are zero.
-std::uint32_t Group(std::string_view bytes, std::size_t first) {
-  std::uint32_t group = 0;
-  for (std::size_t i = first; i < first + 3; ++i) {
-    const auto byte = i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U;
-    group = (group << 8U) | byte;
-  }
-  return group;
-}
-
-}  // namespace
-
-std::string Base64(std::string_view bytes) {
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t first = 0; first < bytes.size(); first += 3) {
-    const std::uint32_t group = Group(bytes, first);
-    // n bytes fill n + 1 digits.
-    const std::size_t digits = bytes.size() - first >= 3 ? 4 : bytes.size() - first + 1;
-    for (std::size_t digit = 0; digit < 4; ++digit) {
-      const std::uint32_t six_bits = (group >> (18U - 6U * digit)) & 63U;
-      text += digit < digits ? kAlphabet[six_bits] : '=';
-    }
-  }
-  return text;
 }
 
 namespace {

@@ -13,9 +13,6 @@ enum class Page { kReport, kReplay };
 // escaped. Cost: about 20 ns per byte.
 std::string MakePage(Page page, std::string_view title, std::string_view payload_json);
 
-// Bytes as text (RFC 4648, section 4), with padding, without line breaks.
-std::string Base64(std::string_view bytes);
-
 // Compression that every browser undoes by itself (RFC 1952). Equal bytes give equal bytes: no time
 // and no name goes into the header. Throws std::runtime_error where memory is short.
 std::string Gzip(std::string_view bytes);

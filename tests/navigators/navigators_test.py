@@ -16,6 +16,9 @@ import time
 import plugin_drives
 from plugin_drives import NOMINAL, PLUGINS, PROJECT, QUICK, ROCKYARD, TRIALS
 
+IMAGES = PROJECT / "scenarios/gestalt/abundance_images.json"
+SMALL = ("--set", "sensors.stereo.columns=48", "--set", "sensors.stereo.rows=40",
+         "--set", "sensors.stereo.images.pyramid_level=1")
 EXAMPLES = PROJECT / "examples/navigators"
 
 
@@ -172,6 +175,30 @@ class Drives(plugin_drives.PluginTest):
             self.assertTrue(own)
             self.assertNotIn("navigator_fault", {row["outcome"] for row in rows})
             self.assertTrue(any(float(row[key]) > 0 for row in rows for key in own), own)
+
+    def photographed(self, name, more):
+        """Returns own values and hash of drives of the navigator that tells what images it gets."""
+        self.command(["run", IMAGES, "--trials", 2, *QUICK, *SMALL, "--quiet", "--out", name, *more])
+        with open(self.folder / name / "trials.csv", newline="", encoding="utf-8") as file:
+            rows = [{key.split(".")[1].split(" ")[0]: float(value) for key, value in row.items()
+                     if key.startswith("photographer.")} for row in csv.DictReader(file)]
+        return rows, self.hash_of(name)
+
+    def test_plugin_and_process_get_the_same_images(self):
+        rows, by_plugin = self.photographed("images_in_cpp", ("--plugin", PLUGINS["photographer"]))
+        command = f"python3 {PROJECT / 'tests/navigators/photographer.py'}"
+        in_python, by_process = self.photographed("images_in_python", ("--navigator-process", command))
+        self.assertEqual(rows, in_python)
+        self.assertEqual(by_plugin, by_process)
+        for row in rows:
+            self.assertEqual((row["images"], row["numbers"], row["behind"], row["others"]), (3, 3, 1, 0))
+            self.assertNotEqual(row["left"], row["right"])
+            self.assertNotEqual(row["left_camera"], row["right_camera"])
+        self.assertNotEqual(rows[0]["left"], rows[1]["left"], "trials have noise of their own")
+
+    def test_images_without_cameras_are_refused(self):
+        told = self.command(["run", NOMINAL, "--plugin", PLUGINS["photographer"], "--out", "blind"], ends=2)
+        self.assertIn("sensors.terrain_sensor: is light_stripe, which takes no images", told.stderr)
 
     def test_a_sweep_varies_a_plugins_parameter(self):
         sweep = {"name": "steps", "trials": 2, "set": {"rover.fidelity": "quasi_static"}, "scenario": str(NOMINAL),

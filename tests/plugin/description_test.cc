@@ -302,7 +302,7 @@ TEST(TraitsTest, HoldWhatATrialHasToKnow) {
   EXPECT_EQ(std::get<navigation::CostOfLook>(least.cost).time_s, 0.0);
   EXPECT_EQ(least.goal_parameter, "tolerance_m");
   EXPECT_EQ(least.goal_tolerance_m, 0.25);
-  EXPECT_FALSE(least.looks_on_the_move || least.steers_on_the_move);
+  EXPECT_FALSE(least.looks_on_the_move || least.steers_on_the_move || least.images);
   EXPECT_THAT(least.problems, IsEmpty());
 
   const auto with = [](const std::string& more) {
@@ -320,6 +320,7 @@ TEST(TraitsTest, HoldWhatATrialHasToKnow) {
       with(R"("cost": {"kind": "judgement"})").cost));
   EXPECT_TRUE(with(R"("looks_on_the_move": true)").looks_on_the_move);
   EXPECT_TRUE(with(R"("steers_on_the_move": true)").steers_on_the_move);
+  EXPECT_TRUE(with(R"("images": true)").images);
   EXPECT_EQ(with(R"("looks_on_the_move": false)").reads, navigation::LookReading::kPoints);
   EXPECT_EQ(TraitsIn(std::string(R"({"reads": "hazards", )") + kGoal + "}").reads,
             navigation::LookReading::kHazardReport);
@@ -339,6 +340,9 @@ TEST(TraitsTest, AreThoseOfANavigator) {
   EXPECT_FALSE(known.follows_route);
   traits.steers_on_the_move = true;
   EXPECT_TRUE(traits.AsNavigatorTraits().steers_on_the_move);
+  EXPECT_FALSE(traits.AsNavigatorTraits().images);
+  traits.images = true;
+  EXPECT_TRUE(traits.AsNavigatorTraits().images);
 }
 
 TEST(TraitsTest, TellProblemsOfParameters) {

@@ -314,6 +314,9 @@ TEST(LibraryTest, TraitsFollowTheParameters) {
   EXPECT_EQ(cost.area_m2, 25.0);
   core::ReadParams(core::ParseJson(R"({"kind": 2})", "test"), echo);
   EXPECT_TRUE(echo.traits().steers_on_the_move);
+  EXPECT_FALSE(echo.traits().images);
+  core::ReadParams(core::ParseJson(R"({"look": 1})", "test"), echo);
+  EXPECT_TRUE(echo.traits().images);
 }
 
 // Both conditions of the plugin; bounds are the host's business.

@@ -44,7 +44,15 @@ constexpr const char* kWholeInput =
     R"(102.5,112.5,122.5,123.5,124.5,125.5,)"
     R"(103.5,113.5,123.5,133.5,134.5,135.5,)"
     R"(104.5,114.5,124.5,134.5,144.5,145.5,)"
-    R"(105.5,115.5,125.5,135.5,145.5,155.5]})";
+    R"(105.5,115.5,125.5,135.5,145.5,155.5],)"
+    R"("images":{"number":10,"direction":"behind",)"
+    R"("left":{"width":5,"height":4,"C_R":[1.75,2.75,3.75],"A_R":[4.75,5.75,6.75],)"
+    R"("H_R":[7.75,8.75,9.75],"V_R":[0.875,-1.75,-2.75],)"
+    R"("grey":"yMnKy8zNzs/Q0dLT1NXW19jZ2ts="},)"
+    R"("right":{"width":11,"height":6,"C_R":[-3.75,-4.75,-5.75],"A_R":[-6.75,-7.75,-8.75],)"
+    R"("H_R":[-9.75,35.5,36.5],"V_R":[37.5,38.5,39.5],)"
+    R"("grey":"ZGVmZ2hpamtsbW5vcHFyc3R1dnd4eXp7fH1+f4CBgoOE)"
+    R"(hYaHiImKi4yNjo+QkZKTlJWWl5iZmpucnZ6foKGio6Sl"}}})";
 
 TEST(RequestTest, HoldsAWholeInput) {
   const WholeInput whole;

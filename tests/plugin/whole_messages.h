@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "messages/site_map.h"
 #include "navigation/navigator.h"
@@ -78,6 +80,26 @@ inline void AddLook(const messages::LookMoment& from, MemberList& list) {
   list.AddAttitude("look.attitude", attitude);
 }
 
+inline void AddImage(const std::string& path, const messages::LookImage& from, MemberList& list) {
+  const auto& [width, height, grey, camera] = from;
+  list.Add(path + ".width", width);
+  list.Add(path + ".height", height);
+  list.AddList(path + ".grey", grey);
+  const auto& [C_R, A_R, H_R, V_R] = camera;
+  list.AddList(path + ".C_R", C_R);
+  list.AddList(path + ".A_R", A_R);
+  list.AddList(path + ".H_R", H_R);
+  list.AddList(path + ".V_R", V_R);
+}
+
+inline void AddImages(const messages::LookImages& from, MemberList& list) {
+  const auto& [number, direction, left, right] = from;
+  list.Add("images.number", number);
+  list.Add("images.direction", direction);
+  AddImage("images.left", left, list);
+  AddImage("images.right", right, list);
+}
+
 inline void AddFelt(const messages::VehicleState& from, MemberList& list) {
   const auto& [articulation, specific_force_R, motor_current_A, contact] = from;
   if (articulation) {
@@ -94,7 +116,7 @@ inline void AddFelt(const messages::VehicleState& from, MemberList& list) {
 
 inline std::map<std::string, double> MembersOf(const navigation::NavigatorInput& input) {
   const auto& [time_s, events, estimate, attitude, odometry, report, cloud, look, vehicle_hazard,
-               touches_behind, notices_stuck, covariance, felt] = input;
+               touches_behind, notices_stuck, covariance, felt, images] = input;
   MemberList list;
   list.Add("time_s", time_s);
   list.Add("events", events.bits());
@@ -117,6 +139,7 @@ inline std::map<std::string, double> MembersOf(const navigation::NavigatorInput&
     }
   }
   if (felt != nullptr) AddFelt(*felt, list);
+  if (images != nullptr) AddImages(*images, list);
   return list.values();
 }
 
@@ -197,6 +220,13 @@ inline std::map<std::string, double> MembersOf(const navigation::NavigatorDecisi
   return list.values();
 }
 
+// Returns as many bytes, which count up.
+inline std::vector<std::uint8_t> Bytes(std::uint8_t first, std::size_t count) {
+  std::vector<std::uint8_t> bytes(count);
+  std::iota(bytes.begin(), bytes.end(), first);
+  return bytes;
+}
+
 // An input with all that an input can have. Every number is another one, and short in decimals.
 struct WholeInput {
   WholeInput() {
@@ -217,7 +247,8 @@ struct WholeInput {
              .touches_behind = true,
              .notices_stuck = false,
              .covariance = &covariance,
-             .felt = &felt};
+             .felt = &felt,
+             .images = &images};
   }
   WholeInput(const WholeInput&) = delete;
   WholeInput& operator=(const WholeInput&) = delete;
@@ -235,6 +266,17 @@ struct WholeInput {
       .specific_force_R = math::Vector3(26.5, 27.5, 28.5),
       .motor_current_A = messages::PerWheel<double>{29.5, 30.5, 31.5, 32.5, 33.5, 34.5},
       .contact = messages::ContactSwitches{true, false, true, false, false, true, true}};
+  messages::LookImages images{
+      10,
+      messages::LookDirection::kBehind,
+      {5,
+       4,
+       Bytes(200, 20),
+       {{1.75, 2.75, 3.75}, {4.75, 5.75, 6.75}, {7.75, 8.75, 9.75}, {0.875, -1.75, -2.75}}},
+      {11,
+       6,
+       Bytes(100, 66),
+       {{-3.75, -4.75, -5.75}, {-6.75, -7.75, -8.75}, {-9.75, 35.5, 36.5}, {37.5, 38.5, 39.5}}}};
   navigation::NavigatorInput input;
 };
 

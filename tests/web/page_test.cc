@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base64.h"
 #include "web/gunzip.h"
 
 namespace rockyard::web {
@@ -56,7 +57,7 @@ TEST(Page, IsTheShippedOne) {
     ASSERT_GT(shipped.size(), 300000U) << path;
     const std::string made = MakePage(page, "t", "{}");
     Fill(shipped, "<!-- title -->", "t");
-    Fill(shipped, "<!-- payload -->", Base64(Gzip("{}")));
+    Fill(shipped, "<!-- payload -->", core::Base64(Gzip("{}")));
     EXPECT_TRUE(made == shipped) << path;  // too long to be shown
   }
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "campaign/stereo/match_pair.h"
+#include "core/base64.h"
 #include "core/check.h"
 #include "image_files/png_file.h"
 #include "report/atomic_file.h"
@@ -17,7 +18,6 @@
 #include "report/xml_text.h"
 #include "vision/cameras/cahv.h"
 #include "vision/stereo/pyramid.h"
-#include "web/page.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -285,8 +285,8 @@ replay::ReplayLook LookRecord(const trial::WatchedStereo& watched, double time_s
           .points = static_cast<std::int64_t>(watched.cloud.points_R.size()),
           .least_disparity_px = static_cast<double>(range.min_disparity_px),
           .most_disparity_px = static_cast<double>(range.min_disparity_px + range.disparities - 1),
-          .left_png = web::Base64(image_files::EncodePng(vision::ReduceImage(left, level))),
-          .disparity_png = web::Base64(image_files::EncodePng(disparities))};
+          .left_png = core::Base64(image_files::EncodePng(vision::ReduceImage(left, level))),
+          .disparity_png = core::Base64(image_files::EncodePng(disparities))};
 }
 
 namespace {

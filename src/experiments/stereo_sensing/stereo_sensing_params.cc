@@ -111,6 +111,8 @@ void RequireStereoMeasurable(const StereoSensingParams& study, const trial::Driv
       drive.navigation.navigators.chosen().traits().reads == navigation::LookReading::kPoints,
       "does not read points, where the experiment asks what the navigator's map makes of them",
       "use gestalt");
+  v.Require("navigation.navigator", !drive.navigation.navigators.chosen().traits().images,
+            "asks for images, where the experiment hands it points alone", "use gestalt");
   RequireScene(drive, v);
   v.Require(
       "stereo_sensing.distances_m",

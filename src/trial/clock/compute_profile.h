@@ -91,7 +91,8 @@ struct LookTime {
 
 // Returns the time of one look of a drive:
 //   light stripe: ScanTime; with a map, navigation on top;
-//   stereo: acquisition, stereo, and navigation or the judgement of elevations.
+//   stereo: acquisition, stereo, and navigation or the judgement of elevations; without stereo
+//   where the navigator reads images alone.
 // Times of stereo and navigation are those of MakeComputeTimes.
 LookTime MakeLookTime(const DriveParams& drive);
 

@@ -89,7 +89,8 @@ Decided Onboard::Decide(double time_s, const SeenLook* seen) {
        .touches_behind = guard().touches_behind(),
        .notices_stuck = parts_.get<StuckWatch>().noticed() || (slip && slip->as_stuck),
        .covariance = estimate().covariance ? &*estimate().covariance : nullptr,
-       .felt = feels_ ? &guard().measured() : nullptr});
+       .felt = feels_ ? &guard().measured() : nullptr,
+       .images = seen != nullptr ? seen->images() : nullptr});
   decided.told_slip = slip.has_value();
   decided.passed = navigator_.reached() - reached;
   return decided;

@@ -16,11 +16,12 @@ namespace rockyard::trial {
 
 // A look at the terrain on its way to the navigator.
 struct SeenLook {
-  // Return report or cloud; null where the navigator does not read such.
+  // Return report, cloud or images; null where the navigator does not read such.
   const messages::HazardReport* report() const {
     return percept.report ? &*percept.report : nullptr;
   }
   const messages::PointCloud* cloud() const { return percept.cloud ? &*percept.cloud : nullptr; }
+  const messages::LookImages* images() const { return percept.images ? &*percept.images : nullptr; }
 
   Percept percept;
   messages::LookMoment moment;

@@ -128,8 +128,9 @@ class StereoCameras final : public TerrainSensorKind {
     return {0.5 * drive.rover.geometry.length_m, array.far_m, -array.half_width_m,
             array.half_width_m};
   }
-  LookTime look_time(const DriveParams& /*drive*/, const ComputeTimes& times) const override {
-    return {.imaging_s = times.acquisition_s, .computing_s = times.stereo_s};
+  LookTime look_time(const DriveParams& drive, const ComputeTimes& times) const override {
+    const double matching_s = ReadsImagesAlone(drive) ? 0.0 : times.stereo_s;
+    return {.imaging_s = times.acquisition_s, .computing_s = matching_s};
   }
   const sensing::StereoParams* cameras(const DriveParams& drive) const override {
     return &drive.sensors.stereo;

@@ -8,9 +8,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <variant>
 
 #include "messages/estimates.h"
+#include "messages/look_images.h"
 #include "messages/measurements.h"
 #include "messages/point_cloud.h"
 #include "messages/stripe_images.h"
@@ -64,6 +66,11 @@ class TerrainReader {
   virtual messages::ElevationScan Elevations(const LookOrder& order,
                                              const LookData& data) const = 0;
   virtual messages::PointCloud Points(const LookOrder& order, const LookData& data) const = 0;
+  // Returns the images of a look as a navigator gets them; nothing where no cameras took any.
+  virtual std::optional<messages::LookImages> Images(const LookOrder& /*order*/,
+                                                     const LookData& /*data*/) const {
+    return std::nullopt;
+  }
 };
 
 }  // namespace rockyard::trial

@@ -1,10 +1,13 @@
 #include "trial/sight/onboard_calibration.h"
 
 #include <numbers>
+#include <variant>
 
 #include "math/pose.h"
 #include "rover/rover_layout_params.h"
+#include "sensing/stereo_rig.h"
 #include "sensing/stripe_layout_params.h"
+#include "vision/cameras/cahv.h"
 
 namespace rockyard::trial {
 namespace {
@@ -93,6 +96,19 @@ std::optional<math::Transform> StereoMisplacement(const sensing::StereoParams& s
   math::Transform believed = X_RC;
   Misplace(error, believed);
   return believed * X_RC.inverse();
+}
+
+BelievedCameras OnboardCameras(const sensing::StereoParams& sensor,
+                               const perception::CalibrationErrorParams& errors,
+                               messages::LookDirection direction) {
+  const auto misplaced = StereoMisplacement(sensor, errors, direction);
+  const auto believed = [&](const vision::CameraModel& camera) -> messages::LinearCamera {
+    const auto& calibrated = std::get<vision::Cahv>(camera.lens);
+    const vision::Cahv cahv = misplaced ? vision::Moved(*misplaced, calibrated) : calibrated;
+    return {cahv.C, cahv.A, cahv.H, cahv.V};
+  };
+  const auto [left, right] = sensing::CalibratedCameras(sensor, direction);
+  return {believed(left), believed(right)};
 }
 
 }  // namespace rockyard::trial

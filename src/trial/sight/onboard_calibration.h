@@ -10,6 +10,7 @@
 
 #include "math/pose.h"
 #include "messages/calibration.h"
+#include "messages/look_images.h"
 #include "messages/point_cloud.h"
 #include "perception/calibration_params.h"
 #include "perception/hazard_params.h"
@@ -39,5 +40,16 @@ messages::RoverBelief OnboardRoverBelief(const rover::RoverParams& rover,
 std::optional<math::Transform> StereoMisplacement(const sensing::StereoParams& sensor,
                                                   const perception::CalibrationErrorParams& errors,
                                                   messages::LookDirection direction);
+
+// The cameras of a pair in R, linear ones, as the rover believes that they are mounted.
+struct BelievedCameras {
+  messages::LinearCamera left;
+  messages::LinearCamera right;
+};
+
+// Returns the calibrated cameras (sensing::CalibratedCameras) where a wrong mount puts them.
+BelievedCameras OnboardCameras(const sensing::StereoParams& sensor,
+                               const perception::CalibrationErrorParams& errors,
+                               messages::LookDirection direction);
 
 }  // namespace rockyard::trial

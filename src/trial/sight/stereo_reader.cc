@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "sensing/stereo_rig.h"
-#include "trial/sight/onboard_calibration.h"
 #include "vision/cameras/cahv.h"
 #include "vision/stereo/disparity.h"
 
@@ -35,10 +34,16 @@ sensing::DepthImage InPixels(const vision::DisparityImage& disparities) {
   return image;
 }
 
+messages::LookImage AsMessage(const vision::GrayImage& image,
+                              const messages::LinearCamera& camera) {
+  return {image.width(), image.height(), {image.values().begin(), image.values().end()}, camera};
+}
+
 }  // namespace
 
 StereoReader::Pair::Pair(const DriveParams& drive, LookDirection direction)
     : view_R(sensing::MakeStereoView(drive.sensors.stereo, direction)),
+      cameras(OnboardCameras(drive.sensors.stereo, drive.perception.calibration, direction)),
       misplaced(StereoMisplacement(drive.sensors.stereo, drive.perception.calibration, direction)) {
   if (drive.sensors.stereo.fidelity != sensing::StereoFidelity::kImage) return;
   match.emplace(drive.perception.stereo, SearchOf(drive.sensors.stereo),
@@ -73,6 +78,15 @@ messages::PointCloud StereoReader::Points(const LookOrder& order, const LookData
                order.direction);
   pair.Misplace(cloud);
   return cloud;
+}
+
+std::optional<messages::LookImages> StereoReader::Images(const LookOrder& order,
+                                                         const LookData& data) const {
+  const auto* images = std::get_if<sensing::StereoImages>(&data);
+  if (images == nullptr) return std::nullopt;
+  const BelievedCameras& cameras = PairOf(order.direction).cameras;
+  return messages::LookImages{order.number, order.direction, AsMessage(images->left, cameras.left),
+                              AsMessage(images->right, cameras.right)};
 }
 
 StereoSeen StereoReader::Match(const LookOrder& order, const sensing::StereoImages& images) const {

@@ -13,6 +13,7 @@
 #include "sensing/stereo_view.h"
 #include "trial/drive_params.h"
 #include "trial/sight/look.h"
+#include "trial/sight/onboard_calibration.h"
 
 namespace rockyard::trial {
 
@@ -39,6 +40,8 @@ class StereoReader final : public TerrainReader {
   messages::ElevationScan Elevations(const LookOrder& order, const LookData& data) const override {
     return perception::CloudElevations(Points(order, data), order.attitude, elevations_);
   }
+  std::optional<messages::LookImages> Images(const LookOrder& order,
+                                             const LookData& data) const override;
 
  private:
   // One of the two pairs of cameras, as the rover believes that it is mounted.
@@ -48,6 +51,7 @@ class StereoReader final : public TerrainReader {
     void Misplace(messages::PointCloud& cloud) const;
 
     sensing::StereoView view_R;                     // reduced
+    BelievedCameras cameras;                        // that take images
     std::optional<perception::StereoPoints> match;  // of images
     std::optional<math::Transform> misplaced;       // in R; none where the mount is right
   };

@@ -10,6 +10,8 @@ TerrainSensing::TerrainSensing(const DriveParams& drive, const SightWatchers& wa
     : takes_image_sets_(drive.sensors.terrain_sensors.chosen().takes_image_sets()),
       reads_points_(drive.navigation.navigators.chosen().traits().reads ==
                     navigation::LookReading::kPoints),
+      wants_images_(drive.navigation.navigators.chosen().traits().images),
+      reads_images_alone_(ReadsImagesAlone(drive)),
       reader_(drive.sensors.terrain_sensors.chosen().MakeReader(drive, watchers)),
       hazard_detector_(drive.perception.hazard),
       look_time_(MakeLookTime(drive)) {}
@@ -26,6 +28,12 @@ Percept TerrainSensing::Take(const LookOrder& order, const LookData& data) {
   }
   ++looks_;
   if (order.direction == LookDirection::kBehind) ++looks_behind_;
+  Percept percept = reads_images_alone_ ? Percept{.time = look_time_} : Read(order, data);
+  if (wants_images_) percept.images = reader_->Images(order, data);
+  return percept;
+}
+
+Percept TerrainSensing::Read(const LookOrder& order, const LookData& data) {
   if (order.points) return {.time = look_time_, .cloud = reader_->Points(order, data)};
   return Judge(reader_->Elevations(order, data));
 }

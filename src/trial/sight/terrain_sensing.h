@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "messages/estimates.h"
+#include "messages/look_images.h"
 #include "messages/point_cloud.h"
 #include "perception/hazard_detector.h"
 #include "trial/clock/compute_profile.h"
@@ -17,12 +18,13 @@
 
 namespace rockyard::trial {
 
-// What one look shows: a report or points, as the navigator reads them.
+// What one look shows: a report or points, and images, as the navigator reads them.
 struct Percept {
   bool look_again = false;  // undecided: another look at this pose has to follow
   LookTime time = {};       // what the look took
   std::optional<messages::HazardReport> report = {};
   std::optional<messages::PointCloud> cloud = {};
+  std::optional<messages::LookImages> images = {};
 };
 
 // The four pairs of sensor and navigator:
@@ -30,6 +32,8 @@ struct Percept {
 //   stereo, behaviour controller: the highest points of a cloud as elevations, then the same;
 //   stereo, map: the cloud;
 //   light stripe, map: the triangulated points as a cloud; nothing is seen behind, at no cost.
+// A navigator that asks for images gets those of stereo beside it; one that reads images alone gets
+// nothing else, and nothing is made of them.
 class TerrainSensing {
  public:
   // `watchers` are shown what its sensor's reader makes of a look.
@@ -53,13 +57,19 @@ class TerrainSensing {
 
   // Returns whether a look can be taken from a rover on the move: images of one moment, for points.
   // A light stripe scan takes time, and a hazard report may ask for a second look from one pose.
-  bool LooksOnTheMove() const { return reads_points_ && look_time_.scanning_s == 0.0; }
+  bool LooksOnTheMove() const {
+    return (reads_points_ || reads_images_alone_) && look_time_.scanning_s == 0.0;
+  }
 
  private:
+  // Returns the report or the points of a look.
+  Percept Read(const LookOrder& order, const LookData& data);
   Percept Judge(const messages::ElevationScan& elevations);
 
   bool takes_image_sets_;  // whether looks are sets of images, not scans
   bool reads_points_;      // whether the navigator reads points, not reports
+  bool wants_images_;
+  bool reads_images_alone_;
   std::unique_ptr<TerrainReader> reader_;
   perception::HazardDetector hazard_detector_;
   LookTime look_time_;

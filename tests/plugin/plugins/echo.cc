@@ -117,6 +117,7 @@ navigation::NavigatorDescription<EchoParams> DescribeEcho() {
                                                navigation::CostOfMap{0.5, 25.0},
                                                {"goal_tolerance_m", params.goal_tolerance_m});
             traits.steers_on_the_move = params.kind == 2;
+            traits.images = params.look == 1;
             return traits;
           },
           .make = [](const EchoParams& params, const navigation::NavigatorSetup& setup)

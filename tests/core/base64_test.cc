@@ -1,10 +1,10 @@
+#include "core/base64.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "web/page.h"
-
-namespace rockyard::web {
+namespace rockyard::core {
 namespace {
 
 // RFC 4648, section 10.
@@ -25,4 +25,4 @@ TEST(Base64, BytesBeyondAsciiAndZeros) {
 }
 
 }  // namespace
-}  // namespace rockyard::web
+}  // namespace rockyard::core
