@@ -18,7 +18,7 @@ function(rockyard_side SIDE NAME)
 endfunction()
 
 rockyard_side(onboard onboard
-  rockyard_core rockyard_localization rockyard_math rockyard_messages rockyard_navigation)
+  rockyard_core rockyard_localization rockyard_math rockyard_messages rockyard_navigation rockyard_perception)
 rockyard_side(world rockyard rockyard_side_onboard ${targets})
 
 # rockyard::navigator_plugin: the headers of the side `onboard` alone, for plugins, which link nothing of rockyard.

@@ -39,6 +39,8 @@ localization::EstimatorSet& Scenario::estimators() {
   return values_->drive.localization.estimators;
 }
 
+perception::PointReaderSet& Scenario::readers() { return values_->drive.perception.readers; }
+
 const std::string& Scenario::name() const { return values_->name; }
 std::int64_t Scenario::trials() const { return values_->trials; }
 std::uint64_t Scenario::seed() const { return static_cast<std::uint64_t>(values_->seed); }

@@ -13,6 +13,7 @@
 #include "experiments/experiment.h"
 #include "localization/estimator_set_params.h"
 #include "navigation/navigator_set_params.h"
+#include "perception/point_reader_set_params.h"
 
 namespace rockyard::scenario {
 struct Scenario;
@@ -56,6 +57,8 @@ class Scenario {
 
   /// Returns the estimators that localization.estimator may name; one is added in the same way.
   localization::EstimatorSet& estimators();
+  /// Returns the readers of images that perception.reader may name; one is added in the same way.
+  perception::PointReaderSet& readers();
 
   const std::string& name() const;
   /// Returns how many trials a campaign of it has, >= 1.

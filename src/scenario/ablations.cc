@@ -78,13 +78,14 @@ void AddUnknown(const Set& other, Set& known) {
   for (std::size_t i = own; i < other.kinds().size(); ++i) known.Add(other.kinds()[i]->Clone());
 }
 
-// Returns a default scenario that knows the navigators and estimators of another one, for a
-// document that is made of it: what the document leaves out has its default.
+// Returns a default scenario that knows the navigators, estimators and readers of another one, for
+// a document that is made of it: what the document leaves out has its default.
 Scenario DefaultsKnowing(const Scenario& scenario) {
   Scenario defaults;
   defaults.plugins = scenario.plugins;
   AddUnknown(scenario.drive.navigation.navigators, defaults.drive.navigation.navigators);
   AddUnknown(scenario.drive.localization.estimators, defaults.drive.localization.estimators);
+  AddUnknown(scenario.drive.perception.readers, defaults.drive.perception.readers);
   return defaults;
 }
 

@@ -275,6 +275,23 @@ void RequireImages(const DriveParams& drive, core::FieldVisitor& v) {
             "use image, or another navigator");
 }
 
+// Refuses a reader of images where there are none, or nobody wants what it makes of them.
+void RequireReadImages(const DriveParams& drive, core::FieldVisitor& v) {
+  const perception::PointReaderKind& reader = drive.perception.readers.chosen();
+  if (reader.is_own()) return;
+  const sensing::StereoParams* cameras = drive.sensors.terrain_sensors.chosen().cameras(drive);
+  const bool takes = cameras != nullptr && cameras->fidelity == sensing::StereoFidelity::kImage;
+  v.Require("perception.reader", takes,
+            fmt::format("is {}, where the terrain sensor takes no images that it could read",
+                        reader.name()),
+            "use sensors.terrain_sensor stereo with sensors.stereo.fidelity image, or reader "
+            "stereo");
+  v.Require("perception.reader", !takes || !ReadsImagesAlone(drive),
+            fmt::format("is {}, where navigation.navigator is {}, which reads the images itself",
+                        reader.name(), drive.navigation.navigators.chosen().name()),
+            "use reader stereo, or another navigator");
+}
+
 // Refuses steering so slow that a rover in a curve finds no motion to go on with.
 void RequireFeasibleCurves(const DriveParams& drive, core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
@@ -330,6 +347,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   if (drive.sensors.visual_odometry.enabled) RequireTwoEyes(drive, v);
   RequireOverlap(drive, v);
   RequireImages(drive, v);
+  RequireReadImages(drive, v);
   RequireFeasibleCurves(drive, v);
   RequireSlipReaction(drive, v);
   RequireFindableRock(drive, v);

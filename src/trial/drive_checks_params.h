@@ -48,7 +48,8 @@ inline constexpr double kSame_m = 1e-9;
 // - aids, visual odometry and the check of slip have somebody who listens and answers;
 // - visual odometry by images has two eyes that stand apart;
 // - a navigator that looks or steers on the move has the sensor, overlap and steering rate for it;
-// - a navigator that asks for images has cameras that take them;
+// - a navigator that asks for images has cameras that take them, and so has a reader of images, for
+//   somebody who wants its points;
 // - a rock at the goal can be found by what the navigator reads.
 // Each failure names the parameter, what is wrong and a remedy.
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v);

@@ -95,6 +95,7 @@ void PerceptionParams::Visit(core::FieldVisitor& v) {
           "elevation array that the behaviour controller makes of stereo's points");
   v.Group("visual_odometry", visual_odometry,
           "what the rover makes of motions that it sees (sensors.visual_odometry)");
+  readers.Visit(v);
 }
 
 void NavigationParams::Visit(core::FieldVisitor& v) {

@@ -14,6 +14,7 @@
 #include "perception/calibration_params.h"
 #include "perception/eyes_params.h"
 #include "perception/hazard_params.h"
+#include "perception/point_reader_set_params.h"
 #include "perception/stripe_finder_params.h"
 #include "perception/stuck_detector_params.h"
 #include "rendering/picture/picture_params.h"
@@ -84,6 +85,7 @@ struct PerceptionParams {
   localization::AttitudeParams attitude;
   perception::CloudElevationParams cloud_elevations;
   perception::VisualMotionParams visual_odometry;
+  perception::PointReaderSet readers;
 
   void Visit(core::FieldVisitor& v);
 };

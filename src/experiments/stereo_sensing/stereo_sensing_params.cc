@@ -100,6 +100,8 @@ void RequireStereoMeasurable(const StereoSensingParams& study, const trial::Driv
                              core::FieldVisitor& v) {
   v.Require("sensors.terrain_sensor", drive.sensors.terrain_sensors.chosen().name() == "stereo",
             "is not stereo, the sensor that the experiment stereo_sensing measures", "use stereo");
+  v.Require("perception.reader", drive.perception.readers.chosen().is_own(),
+            "is not rockyard's own, whose disparities the experiment measures", "use stereo");
   const sensing::StereoParams& cameras = drive.sensors.stereo;
   v.Require("sensors.stereo.fidelity", cameras.fidelity != sensing::StereoFidelity::kIdeal,
             "is ideal, which has one eye and no errors to measure", "use image or error_model");

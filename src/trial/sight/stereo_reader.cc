@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <exception>
 #include <iterator>
 #include <utility>
 #include <variant>
+#include <vector>
 
+#include "core/check.h"
+#include "navigation/navigator_fault.h"
 #include "sensing/stereo_rig.h"
 #include "vision/cameras/cahv.h"
 #include "vision/stereo/disparity.h"
@@ -39,6 +43,33 @@ messages::LookImage AsMessage(const vision::GrayImage& image,
   return {image.width(), image.height(), {image.values().begin(), image.values().end()}, camera};
 }
 
+// Stands for a reader that could not begin, and is made where its fault is caught: says so at the
+// first look, when there is a drive that can end by it.
+class FailedStart final : public perception::PointReader {
+ public:
+  std::vector<math::Vector3> Points(const messages::LookImages& /*images*/) const override {
+    std::rethrow_exception(fault_);
+  }
+
+ private:
+  std::exception_ptr fault_ = std::current_exception();
+};
+
+std::unique_ptr<perception::PointReader> ReaderOf(const DriveParams& drive) {
+  if (drive.sensors.stereo.fidelity != sensing::StereoFidelity::kImage) return nullptr;
+  const navigation::LimitParams& limits = drive.navigation.limits;
+  try {
+    return drive.perception.readers.chosen().Make(
+        {.rover = OnboardRoverBelief(drive.rover, drive.perception.calibration.drive,
+                                     drive.perception.vehicle_hazard),
+         .max_range_m = drive.sensors.stereo.max_range_m,
+         .look_cpu_s = limits.decision_cpu_s,
+         .drive_cpu_s = limits.drive_cpu_s});
+  } catch (const navigation::NavigatorFault&) {
+    return std::make_unique<FailedStart>();
+  }
+}
+
 }  // namespace
 
 StereoReader::Pair::Pair(const DriveParams& drive, LookDirection direction)
@@ -59,11 +90,13 @@ StereoReader::StereoReader(const DriveParams& drive,
                            std::function<void(const StereoSightView&)> watcher)
     : params_(drive.sensors.stereo),
       elevations_(drive.perception.cloud_elevations),
+      reader_(ReaderOf(drive)),
       ahead_(drive, LookDirection::kAhead),
       behind_(drive, LookDirection::kBehind),
       watcher_(std::move(watcher)) {}
 
 StereoSeen StereoReader::See(const LookOrder& order, const LookData& data) const {
+  EXPECT(reader_ == nullptr);
   if (PairOf(order.direction).match) return Match(order, std::get<sensing::StereoImages>(data));
   // d = f b / Z.
   const double scale_px_m = params_.focal_columns_px() * params_.baseline_m;
@@ -72,6 +105,7 @@ StereoSeen StereoReader::See(const LookOrder& order, const LookData& data) const
 
 messages::PointCloud StereoReader::Points(const LookOrder& order, const LookData& data) const {
   const Pair& pair = PairOf(order.direction);
+  if (reader_ != nullptr) return Read(order, data);
   if (pair.match) return Match(order, std::get<sensing::StereoImages>(data)).cloud;
   messages::PointCloud cloud =
       PointsOf(params_, pair.view_R, std::get<ModelledStereo>(data).inverse_depths, order.number,
@@ -87,6 +121,15 @@ std::optional<messages::LookImages> StereoReader::Images(const LookOrder& order,
   const BelievedCameras& cameras = PairOf(order.direction).cameras;
   return messages::LookImages{order.number, order.direction, AsMessage(images->left, cameras.left),
                               AsMessage(images->right, cameras.right)};
+}
+
+messages::PointCloud StereoReader::Read(const LookOrder& order, const LookData& data) const {
+  messages::PointCloud cloud{order.number, order.direction,
+                             reader_->Points(Images(order, data).value())};
+  std::erase_if(cloud.points_R, [&](const math::Vector3& p_RoP_R) {
+    return !sensing::IsWanted(params_, p_RoP_R, order.direction);
+  });
+  return cloud;
 }
 
 StereoSeen StereoReader::Match(const LookOrder& order, const sensing::StereoImages& images) const {

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "math/pose.h"
 #include "messages/point_cloud.h"
 #include "perception/cloud_elevations.h"
+#include "perception/point_reader.h"
 #include "perception/stereo_points.h"
 #include "sensing/stereo_view.h"
 #include "trial/drive_params.h"
@@ -26,13 +28,16 @@ struct StereoSeen {
 // Reads the looks of stereo cameras of any fidelity. Images are matched by
 // perception::StereoPoints. Points come out where the calibrated cameras see them
 // (sensing::CalibratedRig, MakeStereoView); a wrong mount (perception.calibration) then moves them
-// rigidly, whatever the fidelity.
+// rigidly, whatever the fidelity. Another reader that the scenario chooses (perception.reader) gets
+// the images in place of StereoPoints, with the cameras where they are believed, and its points are
+// handed on as they come.
 class StereoReader final : public TerrainReader {
  public:
-  // The watcher is shown every look that has images.
+  // The watcher is shown every look whose images are matched by StereoPoints.
   explicit StereoReader(const DriveParams& drive,
                         std::function<void(const StereoSightView&)> watcher = {});
 
+  // Requires rockyard's own stereo where there are images.
   StereoSeen See(const LookOrder& order, const LookData& data) const;
 
   messages::PointCloud Points(const LookOrder& order, const LookData& data) const override;
@@ -59,12 +64,14 @@ class StereoReader final : public TerrainReader {
   const Pair& PairOf(messages::LookDirection direction) const {
     return direction == messages::LookDirection::kAhead ? ahead_ : behind_;
   }
+  messages::PointCloud Read(const LookOrder& order, const LookData& data) const;
   StereoSeen Match(const LookOrder& order, const sensing::StereoImages& images) const;
   void Show(const Pair& pair, const perception::StereoSight& sight,
             const messages::PointCloud& cloud) const;
 
   sensing::StereoParams params_;
   perception::CloudElevationParams elevations_;
+  std::unique_ptr<perception::PointReader> reader_;  // of images; null: StereoPoints
   Pair ahead_;
   Pair behind_;
   std::function<void(const StereoSightView&)> watcher_;
