@@ -6,6 +6,7 @@
 #include "core/json_value.h"
 #include "plugin/foreign_estimator.h"
 #include "plugin/foreign_navigator.h"
+#include "plugin/foreign_reader.h"
 #include "plugin/plugin_use.h"
 
 namespace rockyard::campaign {
@@ -35,6 +36,11 @@ std::vector<std::string> SettingsOf(const GivenPlugins& given) {
   if (navigator != opened.end()) choose("navigation.navigator", navigator->navigators.front());
   const auto estimator = std::ranges::find_if(opened, estimates);
   if (estimator != opened.end()) choose("localization.estimator", estimator->estimators.front());
+  const auto reads = [](const plugin::PluginUse& use) {
+    return use.navigators.empty() && use.estimators.empty() && use.readers.size() == 1;
+  };
+  const auto reader = std::ranges::find_if(opened, reads);
+  if (reader != opened.end()) choose("perception.reader", reader->readers.front());
   settings.push_back(std::string(plugin::kPluginsKey) + "=" + core::CompactJson(anchored));
   return settings;
 }

@@ -1,8 +1,8 @@
 /// @file
 /// The C interface between the rockyard command and the shared library of a plugin. Plain structs
 /// and functions, so that a plugin built by another compiler or against another standard library
-/// works. navigator_plugin.h and estimator_plugin.h are layers above it in C++; write to this file
-/// directly only from another language.
+/// works. navigator_plugin.h, estimator_plugin.h and reader_plugin.h are layers above it in C++;
+/// write to this file directly only from another language.
 ///
 /// A library exports one function, rockyard_plugin(). Texts are UTF-8 and end with 0. Units are SI
 /// and radians; frames are those of messages/estimates.h. A pointer that is handed over is valid
@@ -320,6 +320,29 @@ struct rockyard_estimator_type {
   void (*destroy)(void* estimator);
 };
 
+/// perception::PointReaderSetup.
+struct rockyard_reader_setup {
+  struct rockyard_rover rover;
+  double max_range_m;
+};
+
+/// One kind of reader of images (perception::PointReader), called as navigators are.
+struct rockyard_reader_type {
+  /// Hands over the description as JSON (docs/navigators.md): name, doc, parameters.
+  int (*describe)(rockyard_take_text take, void* to, struct rockyard_error* error);
+  /// Hands over what is wrong with these parameters, as JSON.
+  int (*check)(const struct rockyard_values* values, rockyard_take_text take, void* to,
+               struct rockyard_error* error);
+  /// Makes the reader of one drive; `setup` is valid during the call.
+  int (*create)(const struct rockyard_values* values, const struct rockyard_reader_setup* setup,
+                void** reader, struct rockyard_error* error);
+  /// Sets `points_R` to x, y, z of each point, m, and `count` to how many points there are. The
+  /// list is valid until the next call of the reader.
+  int (*points)(void* reader, const struct rockyard_images* images, const double** points_R,
+                size_t* count, struct rockyard_error* error);
+  void (*destroy)(void* reader);
+};
+
 /// What a library holds; a list may be null where its count is 0.
 struct rockyard_plugin_info {
   uint32_t abi;       ///< ROCKYARD_PLUGIN_ABI of the header that it was built with
@@ -328,6 +351,8 @@ struct rockyard_plugin_info {
   size_t navigator_count;
   const struct rockyard_estimator_type* const* estimators;
   size_t estimator_count;
+  const struct rockyard_reader_type* const* readers;
+  size_t reader_count;
 };
 
 /// The one function that a library exports. What it returns is valid while the library is loaded.

@@ -13,6 +13,7 @@
 #include "plugin/guarded_call.h"
 #include "plugin/library_calls.h"
 #include "plugin/library_estimator.h"
+#include "plugin/library_reader.h"
 
 namespace rockyard::plugin {
 namespace {
@@ -27,34 +28,6 @@ rockyard_pose Pose(const messages::PoseEstimate& pose) {
 rockyard_place Place(const messages::Goal& goal) { return {goal.x_m, goal.y_m}; }
 rockyard_attitude Attitude(const messages::AttitudeEstimate& attitude) {
   return {attitude.roll_rad, attitude.pitch_rad, attitude.z_m};
-}
-
-rockyard_rover Rover(const messages::RoverBelief& from) {
-  rockyard_rover to{};
-  to.length_m = from.length_m;
-  to.width_m = from.width_m;
-  to.belly_clearance_m = from.belly_clearance_m;
-  to.wheel_width_m = from.wheel_width_m;
-  to.max_rocker_rad = from.max_rocker_rad;
-  to.max_bogie_rad = from.max_bogie_rad;
-  to.max_tilt_rad = from.max_tilt_rad;
-  WriteWheels(from.drive, to);
-  return to;
-}
-
-rockyard_image Image(const messages::LookImage& from) {
-  rockyard_image to{};
-  to.width = from.width;
-  to.height = from.height;
-  to.grey = from.grey.data();
-  const auto copy = [](const math::Vector3& vector, double* place) {
-    std::copy(vector.begin(), vector.end(), place);
-  };
-  copy(from.camera.C_R, to.C_R);
-  copy(from.camera.A_R, to.A_R);
-  copy(from.camera.H_R, to.H_R);
-  copy(from.camera.V_R, to.V_R);
-  return to;
 }
 
 // A NavigatorInput as the C interface has it; views of `from`.
@@ -107,8 +80,7 @@ class AbiInput {
     input_.felt = felt_.get();
   }
   void Take(const messages::LookImages& from) {
-    images_ = {from.number, from.direction == messages::LookDirection::kBehind ? 1 : 0,
-               Image(from.left), Image(from.right)};
+    images_ = AbiImages(from);
     input_.images = &images_;
   }
 
@@ -178,7 +150,7 @@ class LibraryNavigator final : public navigation::Navigator {
                             .control_period_s = setup.control_period_s,
                             .operations_per_s = setup.operations_per_s,
                             .random_seed = setup.random_seed,
-                            .rover = Rover(setup.rover),
+                            .rover = AbiRover(setup.rover),
                             .site_map = setup.site_map ? &map : nullptr};
     Call(
         [&](rockyard_error* error) { return type_.create(values.get(), &to, &navigator_, error); });
@@ -321,7 +293,8 @@ std::string DescribeAll(const Type* const* types, std::size_t count) {
 std::string DescribeAll(const fs::path& file) {
   const rockyard_plugin_info& info = Load(file);
   return "[" + DescribeAll(info.navigators, info.navigator_count) + "," +
-         DescribeAll(info.estimators, info.estimator_count) + "]";
+         DescribeAll(info.estimators, info.estimator_count) + "," +
+         DescribeAll(info.readers, info.reader_count) + "]";
 }
 
 }  // namespace
@@ -355,6 +328,10 @@ OpenedLibrary OpenLibrary(const fs::path& file, const std::string& hash) {
   for (const core::JsonValue& answer : estimators) {
     opened.estimators.push_back(
         MakeLibraryEstimators(library, opened.estimators.size(), ReadDescription(answer, name)));
+  }
+  for (const core::JsonValue& answer : answers.list()[2].list()) {
+    opened.readers.push_back(
+        MakeLibraryReaders(library, opened.readers.size(), ReadDescription(answer, name)));
   }
   return opened;
 }

@@ -11,6 +11,7 @@
 #include "core/hash.h"
 #include "plugin/foreign_estimator.h"
 #include "plugin/foreign_navigator.h"
+#include "plugin/foreign_reader.h"
 
 namespace rockyard::plugin {
 
@@ -24,6 +25,7 @@ std::string HashOfLibrary(const std::filesystem::path& file);
 struct OpenedLibrary {
   std::vector<std::shared_ptr<const NavigatorSource>> navigators;
   std::vector<std::shared_ptr<const EstimatorSource>> estimators;
+  std::vector<std::shared_ptr<const ReaderSource>> readers;
 };
 
 // Returns what a library holds that has that hash. Throws core::UserError: no such

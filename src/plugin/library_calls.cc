@@ -43,11 +43,49 @@ const rockyard_plugin_info& Load(const fs::path& file) {
   }
   const std::size_t navigators = info->navigators == nullptr ? 0 : info->navigator_count;
   const std::size_t estimators = info->estimators == nullptr ? 0 : info->estimator_count;
+  const std::size_t readers = info->readers == nullptr ? 0 : info->reader_count;
   if (navigators != info->navigator_count || estimators != info->estimator_count ||
-      navigators + estimators == 0) {
-    throw std::runtime_error("it has neither navigators nor estimators");
+      readers != info->reader_count || navigators + estimators + readers == 0) {
+    throw std::runtime_error("it has neither navigators nor estimators nor readers of images");
   }
   return *info;
+}
+
+namespace {
+
+rockyard_image Image(const messages::LookImage& from) {
+  rockyard_image to{};
+  to.width = from.width;
+  to.height = from.height;
+  to.grey = from.grey.data();
+  const auto copy = [](const math::Vector3& vector, double* place) {
+    std::copy(vector.begin(), vector.end(), place);
+  };
+  copy(from.camera.C_R, to.C_R);
+  copy(from.camera.A_R, to.A_R);
+  copy(from.camera.H_R, to.H_R);
+  copy(from.camera.V_R, to.V_R);
+  return to;
+}
+
+}  // namespace
+
+rockyard_rover AbiRover(const messages::RoverBelief& from) {
+  rockyard_rover to{};
+  to.length_m = from.length_m;
+  to.width_m = from.width_m;
+  to.belly_clearance_m = from.belly_clearance_m;
+  to.wheel_width_m = from.wheel_width_m;
+  to.max_rocker_rad = from.max_rocker_rad;
+  to.max_bogie_rad = from.max_bogie_rad;
+  to.max_tilt_rad = from.max_tilt_rad;
+  WriteWheels(from.drive, to);
+  return to;
+}
+
+rockyard_images AbiImages(const messages::LookImages& from) {
+  return {from.number, from.direction == messages::LookDirection::kBehind ? 1 : 0, Image(from.left),
+          Image(from.right)};
 }
 
 void TakeText(void* to, const char* text, std::size_t bytes) {

@@ -18,6 +18,7 @@
 #include "core/json_value.h"
 #include "messages/calibration.h"
 #include "messages/estimates.h"
+#include "messages/look_images.h"
 #include "messages/navigation_view.h"
 #include "messages/vehicle_state.h"
 #include "plugin/abi.h"
@@ -94,6 +95,11 @@ class AbiFelt {
   std::array<std::uint8_t, messages::kContactSwitchCount> contact_{};
   std::array<double, 4> joints_{};
 };
+
+// Return what is believed of the rover, and the images of a look, as the C interface has them;
+// greys are views of `from`.
+rockyard_rover AbiRover(const messages::RoverBelief& from);
+rockyard_images AbiImages(const messages::LookImages& from);
 
 // Writes what is believed of the wheels: into a rockyard_rover or a rockyard_estimator_setup.
 template <typename To>

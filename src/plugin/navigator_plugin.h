@@ -49,20 +49,6 @@ namespace layer {
 /// Returns what the command hands over as a message.
 inline messages::Goal Place(const rockyard_place& place) { return {place.x_m, place.y_m}; }
 
-/// Returns the believed rover.
-inline messages::RoverBelief Rover(const rockyard_rover& from) {
-  messages::RoverBelief rover;
-  rover.length_m = from.length_m;
-  rover.width_m = from.width_m;
-  rover.belly_clearance_m = from.belly_clearance_m;
-  rover.wheel_width_m = from.wheel_width_m;
-  rover.max_rocker_rad = from.max_rocker_rad;
-  rover.max_bogie_rad = from.max_bogie_rad;
-  rover.max_tilt_rad = from.max_tilt_rad;
-  rover.drive = Wheels(from);
-  return rover;
-}
-
 /// Returns the map of the site; null where there is none.
 inline std::shared_ptr<const messages::SiteMap> SiteMap(const rockyard_site_map* from) {
   if (from == nullptr) return nullptr;
@@ -79,23 +65,6 @@ inline std::shared_ptr<const messages::SiteMap> SiteMap(const rockyard_site_map*
     map->rock_share.assign(from->rock_share, from->rock_share + cells);
   }
   return map;
-}
-
-/// Return what a camera, and a pair of cameras, took.
-inline messages::LookImage Image(const rockyard_image& from) {
-  const auto cells = static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height);
-  const auto vector = [](const double* place) -> math::Vector3 {
-    return Eigen::Map<const math::Vector3>(place);
-  };
-  return {from.width,
-          from.height,
-          {from.grey, from.grey + cells},
-          {vector(from.C_R), vector(from.A_R), vector(from.H_R), vector(from.V_R)}};
-}
-inline messages::LookImages Images(const rockyard_images& from) {
-  return {from.number,
-          from.behind != 0 ? messages::LookDirection::kBehind : messages::LookDirection::kAhead,
-          Image(from.left), Image(from.right)};
 }
 
 /// Returns all that a navigator gets at the start.

@@ -347,13 +347,45 @@ messages::DriveCalibration Wheels(const From& from) {
   return drive;
 }
 
+/// Returns the believed rover.
+inline messages::RoverBelief Rover(const rockyard_rover& from) {
+  messages::RoverBelief rover;
+  rover.length_m = from.length_m;
+  rover.width_m = from.width_m;
+  rover.belly_clearance_m = from.belly_clearance_m;
+  rover.wheel_width_m = from.wheel_width_m;
+  rover.max_rocker_rad = from.max_rocker_rad;
+  rover.max_bogie_rad = from.max_bogie_rad;
+  rover.max_tilt_rad = from.max_tilt_rad;
+  rover.drive = Wheels(from);
+  return rover;
+}
+
+/// Return what a camera, and a pair of cameras, took.
+inline messages::LookImage Image(const rockyard_image& from) {
+  const auto cells = static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height);
+  const auto vector = [](const double* place) -> math::Vector3 {
+    return Eigen::Map<const math::Vector3>(place);
+  };
+  return {from.width,
+          from.height,
+          {from.grey, from.grey + cells},
+          {vector(from.C_R), vector(from.A_R), vector(from.H_R), vector(from.V_R)}};
+}
+inline messages::LookImages Images(const rockyard_images& from) {
+  return {from.number,
+          from.behind != 0 ? messages::LookDirection::kBehind : messages::LookDirection::kAhead,
+          Image(from.left), Image(from.right)};
+}
+
 /// The functions of what `Describe` describes, in a member kType.
 template <auto Describe, typename Description>
 struct TypeOf {
   static_assert(
       sizeof(Description) == 0,
       "ROCKYARD_PLUGIN takes functions that return a NavigatorDescription (include "
-      "plugin/navigator_plugin.h) or an EstimatorDescription (plugin/estimator_plugin.h)");
+      "plugin/navigator_plugin.h), an EstimatorDescription (plugin/estimator_plugin.h) or "
+      "a PointReaderDescription (plugin/reader_plugin.h)");
 };
 
 /// Returns the functions of all that are of one type, in their order.
@@ -377,15 +409,19 @@ struct Library {
       TypesOf<rockyard_navigator_type, TypeOf<Describe, decltype(Describe())>...>();
   static constexpr auto kEstimators =
       TypesOf<rockyard_estimator_type, TypeOf<Describe, decltype(Describe())>...>();
+  static constexpr auto kReaders =
+      TypesOf<rockyard_reader_type, TypeOf<Describe, decltype(Describe())>...>();
   static constexpr rockyard_plugin_info kInfo{ROCKYARD_PLUGIN_ABI, 0,
                                               kNavigators.data(),  kNavigators.size(),
-                                              kEstimators.data(),  kEstimators.size()};
+                                              kEstimators.data(),  kEstimators.size(),
+                                              kReaders.data(),     kReaders.size()};
 };
 
 }  // namespace rockyard::plugin::layer
 
-/// Makes the library a plugin of navigators and estimators, each named by the function that returns
-/// its description, in any order. Stands once in a library, outside of all namespaces.
+/// Makes the library a plugin of navigators, estimators and readers of images, each named by the
+/// function that returns its description, in any order. Stands once in a library, outside of all
+/// namespaces.
 #define ROCKYARD_PLUGIN(...)                                                                     \
   extern "C" __attribute__((visibility("default"))) const rockyard_plugin_info* rockyard_plugin( \
       void) {                                                                                    \

@@ -13,6 +13,7 @@
 #include "core/text.h"
 #include "plugin/foreign_estimator.h"
 #include "plugin/foreign_navigator.h"
+#include "plugin/foreign_reader.h"
 #include "plugin/library.h"
 #include "plugin/process.h"
 
@@ -132,6 +133,7 @@ PluginUse OpenOne(const Entry& entry, const fs::path& folder, const std::string&
     OpenedLibrary opened = OpenLibrary(use.text, use.hash);
     use.navigators = std::move(opened.navigators);
     use.estimators = std::move(opened.estimators);
+    use.readers = std::move(opened.readers);
   } else {
     OpenedProcess opened = OpenProcess(use.text, use.folder);
     use.navigators.push_back(std::move(opened.source));
@@ -185,8 +187,9 @@ JsonValue SchemaOfPlugins() {
                            {"confined", JsonValue::Object({{"type", JsonValue("boolean")}})}})},
        {"additionalProperties", JsonValue(false)}});
   return JsonValue::Object(
-      {{"description", JsonValue("navigators and estimators that are no part of the program "
-                                 "(docs/navigators.md)")},
+      {{"description",
+        JsonValue("navigators, estimators and readers of images that are no part of the program "
+                  "(docs/navigators.md)")},
        {"type", JsonValue("array")},
        {"items", std::move(entry)}});
 }
@@ -245,7 +248,7 @@ JsonValue DeclaredBy(const JsonValue& group) {
   throw UserError(kPluginsKey, "are not opened, as nothing is to be driven", "");
 }
 
-// Stand for a navigator and an estimator that are not opened.
+// Stand for a navigator, an estimator and a reader that are not opened.
 class StandIn final : public NavigatorSource {
  public:
   using NavigatorSource::NavigatorSource;
@@ -269,6 +272,19 @@ class EstimatorStandIn final : public EstimatorSource {
 
   std::unique_ptr<localization::Estimator> Make(
       const Parameters&, const localization::EstimatorSetup&) const override {
+    RefuseToDrive();
+  }
+
+ protected:
+  JsonValue AskProblems(const Parameters&) const override { return JsonValue::Object(); }
+};
+
+class ReaderStandIn final : public ReaderSource {
+ public:
+  using ReaderSource::ReaderSource;
+
+  std::unique_ptr<perception::PointReader> Make(
+      const Parameters&, const perception::PointReaderSetup&) const override {
     RefuseToDrive();
   }
 
@@ -310,6 +326,8 @@ void AddStandIns(const JsonValue& document, PluginSets sets) {
   AddStandInsTo<ForeignKind, StandIn>(sets.navigators, document.Find("navigation"), "navigator");
   AddStandInsTo<ForeignEstimatorKind, EstimatorStandIn>(sets.estimators,
                                                         document.Find("localization"), "estimator");
+  AddStandInsTo<ForeignReaderKind, ReaderStandIn>(sets.readers, document.Find("perception"),
+                                                  "reader");
 }
 
 JsonValue ToJson(const std::vector<PluginUse>& plugins) {
@@ -374,6 +392,7 @@ void AddKinds(const std::vector<PluginUse>& plugins, PluginSets sets) {
   for (const PluginUse& use : plugins) {
     AddSources<ForeignKind>(use.navigators, sets.navigators);
     AddSources<ForeignEstimatorKind>(use.estimators, sets.estimators);
+    AddSources<ForeignReaderKind>(use.readers, sets.readers);
   }
   RequireOwnColumns(sets);
 }

@@ -10,11 +10,13 @@
 #include "core/json_value.h"
 #include "localization/estimator_set_params.h"
 #include "navigation/navigator_set_params.h"
+#include "perception/point_reader_set_params.h"
 
 namespace rockyard::plugin {
 
 class NavigatorSource;
 class EstimatorSource;
+class ReaderSource;
 
 // One plugin of a scenario: a shared library, or the process of a navigator.
 struct PluginUse {
@@ -29,6 +31,7 @@ struct PluginUse {
   bool confined = false;  // of a process: it runs without network and cannot write files
   std::vector<std::shared_ptr<const NavigatorSource>> navigators;
   std::vector<std::shared_ptr<const EstimatorSource>> estimators = {};
+  std::vector<std::shared_ptr<const ReaderSource>> readers = {};
 
   // Returns "libmine.so" or the command, for people.
   std::string Name() const;
@@ -53,12 +56,13 @@ std::vector<PluginUse> OpenPlugins(const core::JsonValue& list, const std::files
 struct PluginSets {
   navigation::NavigatorSet& navigators;
   localization::EstimatorSet& estimators;
+  perception::PointReaderSet& readers;
 };
 
-// Adds to the sets a stand-in for each navigator and estimator that the document, a scenario,
-// chooses or has a group of, and that they lack: its parameters are those that the group states,
-// and it cannot drive. So the scenario of a stored run can be read, shown and compared without
-// running anybody's code.
+// Adds to the sets a stand-in for each navigator, estimator and reader that the document, a
+// scenario, chooses or has a group of, and that they lack: its parameters are those that the group
+// states, and it cannot drive. So the scenario of a stored run can be read, shown and compared
+// without running anybody's code.
 void AddStandIns(const core::JsonValue& document, PluginSets sets);
 
 // Returns the list as a resolved scenario has it.
@@ -70,9 +74,9 @@ core::JsonValue SchemaOfPlugins();
 // Returns the list without what no record depends on: paths and folders.
 core::JsonValue IdentityOf(const core::JsonValue& list);
 
-// Adds navigators and estimators of the plugins to the sets, but for those that are in them. Throws
-// core::UserError where a name is taken, also where a navigator and an estimator have own values of
-// the same name, as columns of records bear it.
+// Adds navigators, estimators and readers of the plugins to the sets, but for those that are in
+// them. Throws core::UserError where a name is taken, also where a navigator and an estimator have
+// own values of the same name, as columns of records bear it.
 void AddKinds(const std::vector<PluginUse>& plugins, PluginSets sets);
 
 }  // namespace rockyard::plugin

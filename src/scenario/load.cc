@@ -50,7 +50,8 @@ Scenario ParseScenario(std::string_view text, std::span<const std::string> overr
 }
 
 plugin::PluginSets PluginSetsOf(Scenario& scenario) {
-  return {scenario.drive.navigation.navigators, scenario.drive.localization.estimators};
+  return {scenario.drive.navigation.navigators, scenario.drive.localization.estimators,
+          scenario.drive.perception.readers};
 }
 
 void AnchorPlugins(core::JsonValue& document, const std::filesystem::path& folder) {
