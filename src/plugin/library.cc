@@ -259,8 +259,8 @@ class LibrarySource final : public NavigatorSource {
 
   std::unique_ptr<navigation::Navigator> Make(
       const Parameters& parameters, const navigation::NavigatorSetup& setup) const override {
-    auto navigator = std::make_unique<LibraryNavigator>(
-        *library_->info().navigators[place_], setup, description().own_values.size());
+    auto navigator = std::make_unique<LibraryNavigator>(*library_->info().navigators[place_], setup,
+                                                        description().own_values.size());
     navigator->Begin(parameters, setup);
     return navigator;
   }

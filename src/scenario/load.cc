@@ -102,12 +102,6 @@ std::uint64_t Fingerprint(const Scenario& scenario) {
 
 std::uint64_t ResolvedFingerprint(core::JsonValue resolved) {
   for (const std::string_view key : kNoInfluence) resolved.Erase(key);
-  // Scenarios keep the fingerprints that they had before readers could be chosen.
-  if (core::JsonValue* perception = resolved.Find("perception")) {
-    const core::JsonValue* reader = perception->Find("reader");
-    if (reader != nullptr && reader->Is(core::JsonValue::Type::kText) && reader->text() == "stereo")
-      perception->Erase("reader");
-  }
   if (core::JsonValue* list = resolved.Find(plugin::kPluginsKey)) *list = plugin::IdentityOf(*list);
   return core::Hasher().Text(core::DumpJson(resolved)).value();
 }

@@ -127,10 +127,11 @@ struct DriveParams {
   // experiment does with the drive.
   void Visit(core::FieldVisitor& v);
 
-  // Returns whether a plugin or a process decides or estimates, which the program does not answer
-  // for.
+  // Returns whether a plugin or a process decides, estimates or reads images, which the program
+  // does not answer for.
   bool foreign() const {
-    return navigation.navigators.chosen().foreign() || localization.estimators.chosen().foreign();
+    return navigation.navigators.chosen().foreign() || localization.estimators.chosen().foreign() ||
+           perception.readers.chosen().foreign();
   }
 };
 
