@@ -34,6 +34,7 @@ class WheelOdometry final : public localization::Estimator {
   WheelOdometry(const WheelOdometryParams& params, const localization::EstimatorSetup& setup)
       : params_(params), radius_m_(setup.calibration.wheel_radius_m) {
     Place({setup.start.x_m, setup.start.y_m, setup.start.heading_rad});
+    estimate_.covariance = messages::PoseCovariance::Zero();
   }
 
   void Propagate(const messages::MotionMeasurement& motion) override {
@@ -55,12 +56,14 @@ class WheelOdometry final : public localization::Estimator {
     estimate_.pose.y_m = update.y_m;
     estimate_.pose.heading_rad = math::WrapAngle(update.heading_rad);
     estimate_.odometry = estimate_.pose;
-    estimate_.covariance = messages::PoseCovariance::Zero();
+    // Operators measured where it stands, unless they mirrored it: then its error is mirrored, too.
+    if (!update.mirrored) estimate_.covariance = messages::PoseCovariance::Zero();
   }
 
   // Takes a place as if it were measured now, though the rover went on since.
   localization::AidUse Update(const messages::PoseFix& fix) override {
-    if (!fix.measured[kX] || !fix.measured[kY]) return localization::AidUse::kNoInterest;
+    const bool place = fix.measured[kX] && fix.measured[kY];
+    if (!place || fix.in_lander_frame) return localization::AidUse::kNoInterest;
     Correct(kX, fix, estimate_.pose.x_m);
     Correct(kY, fix, estimate_.pose.y_m);
     fixes_[0] += 1.0;
@@ -84,6 +87,7 @@ class WheelOdometry final : public localization::Estimator {
 
   void Correct(int row, const messages::PoseFix& fix, double& coordinate_m) {
     double& variance = (*estimate_.covariance)(row, row);
+    if (variance <= 0.0) return;  // nothing was driven since it was put down
     const double weight = variance / (variance + fix.covariance(row, row));
     coordinate_m += weight * (fix.pose[row] - coordinate_m);
     variance *= 1.0 - weight;

@@ -129,7 +129,8 @@ scenario::Scenario ScenarioOf(const std::vector<std::string>& line) {
   }
   try {
     if (!given.libraries.empty()) {
-      return scenario::ParseScenario("{}", campaign::SettingsOf(given));
+      // The list alone: what it would choose need not go with the other defaults.
+      return scenario::ParseScenario("{}", std::vector{campaign::SettingsOf(given).back()});
     }
     if (!file.empty()) return scenario::ReadScenarioSealed(core::LoadJsonFile(file));
   } catch (const core::UserError&) {

@@ -23,6 +23,19 @@ namespace rockyard::app {
 
 namespace {
 
+// Returns the default scenario with what plugins add. What they choose for want of better
+// (campaign/plugin_settings.h) is left out where it does not go with the other defaults.
+scenario::Scenario Defaults(const std::vector<std::string>& overrides) {
+  try {
+    return scenario::ParseScenario("{}", overrides);
+  } catch (const core::UserError&) {
+    const auto list = std::ranges::find_if(
+        overrides, [](const std::string& each) { return each.starts_with("plugins="); });
+    if (list == overrides.begin() || list == overrides.end()) throw;
+    return scenario::ParseScenario("{}", std::vector<std::string>(list, overrides.end()));
+  }
+}
+
 // Adds a command that prints something of the default scenario, changed by the options of a
 // scenario: with a plugin, its parameters are there too.
 void AddPrinting(CLI::App& app, const char* name, const char* description,
@@ -30,8 +43,7 @@ void AddPrinting(CLI::App& app, const char* name, const char* description,
   auto overrides = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand(name, description);
   AddSetOptions(*command, *overrides);
-  command->callback(
-      [overrides, text] { PrintJson(text(scenario::ParseScenario("{}", *overrides))); });
+  command->callback([overrides, text] { PrintJson(text(Defaults(*overrides))); });
 }
 
 }  // namespace
@@ -107,7 +119,7 @@ std::vector<core::ParameterInfo> Containing(const std::string& word,
 void ListParameters(const ParametersOptions& options) {
   const scenario::Scenario scenario =
       options.scenario.empty()
-          ? scenario::ParseScenario("{}", options.overrides)
+          ? Defaults(options.overrides)
           : campaign::LoadScenarioFrom(ScenarioFile(options.scenario), options.overrides);
   const auto parameters = Containing(
       options.word, report::SelectParameters(scenario::ListParameters(scenario), options.origin));

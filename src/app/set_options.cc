@@ -43,7 +43,7 @@ void AddSetOptions(CLI::App& command, std::vector<std::string>& overrides) {
   };
   add("--plugin", &campaign::GivenPlugins::libraries,
       "FILE: shared library with navigators, of which the first one drives unless --set says "
-      "otherwise, or with an estimator; repeat");
+      "otherwise, or with an estimator or a reader of images; repeat");
   add("--navigator-process", &campaign::GivenPlugins::processes,
       "CMD: command of a navigator in a process of its own, which drives; repeat");
 }

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "report/result_table.h"
+
 namespace rockyard::campaign {
 namespace {
 
@@ -40,9 +42,9 @@ void NavigatorTimes::Add(const std::string& cell, std::uint64_t trial,
            (status.st_size > 0 ||
             WriteLine(descriptor_, "cell,trial,questions,cpu_s,wall_s,longest_s\n"));
   }
-  done = done &&
-         WriteLine(descriptor_, fmt::format("{},{},{},{:.6f},{:.6f},{:.6f}\n", cell, trial,
-                                            use.questions, use.cpu_s, use.wall_s, use.longest_s));
+  done = done && WriteLine(descriptor_,
+                           fmt::format("{},{},{},{:.6f},{:.6f},{:.6f}\n", report::CsvField(cell),
+                                       trial, use.questions, use.cpu_s, use.wall_s, use.longest_s));
   if (!done) problem_ = std::generic_category().message(errno);
 }
 

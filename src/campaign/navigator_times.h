@@ -15,7 +15,7 @@ namespace rockyard::campaign {
 
 // navigator_times.csv of a run folder: a line for each drive that has ended, in the order of
 // ending, with cell, trial, questions, cpu_s, wall_s and longest_s. A drive that was begun twice
-// has two lines; drives on other ranks have none. Several threads may call it.
+// has two lines; drives on other ranks and of missions have none. Several threads may call it.
 class NavigatorTimes {
  public:
   static constexpr const char* kFile = "navigator_times.csv";

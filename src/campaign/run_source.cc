@@ -156,23 +156,24 @@ std::optional<std::vector<std::string>> SettingsOf(const fs::path& path) {
 
 bool PluginDecides(const std::string& resolved) {
   const auto sealed = TryRead(resolved);
-  return !sealed || sealed->drive.foreign();
+  return sealed && sealed->drive.foreign();
 }
 
 scenario::Scenario ScenarioToDrive(const std::string& resolved, const std::string& source) {
-  const core::JsonValue document = core::ParseJson(resolved, source);
-  return PluginDecides(resolved) ? scenario::ReadScenario(document)
-                                 : scenario::ReadScenarioSealed(document);
+  std::optional<scenario::Scenario> sealed = TryRead(resolved);
+  if (sealed && !sealed->drive.foreign()) return *std::move(sealed);
+  return scenario::ReadScenario(core::ParseJson(resolved, source));
 }
 
 scenario::Sweep StoredSweep(const batch::ResultStore& store) {
   const batch::CampaignIdentity& identity = store.identity();
-  // The parameters that axes vary are those of a cell, what is no part of the program included.
+  // The parameters that axes vary are those of a cell, also of what is no part of the program.
   const scenario::Scenario defaults =
       TryRead(identity.cells.front().resolved).value_or(scenario::Scenario{});
   scenario::Scenario known;
   known.drive.navigation.navigators = defaults.drive.navigation.navigators;
   known.drive.localization.estimators = defaults.drive.localization.estimators;
+  known.drive.perception.readers = defaults.drive.perception.readers;
   return scenario::ParseSweep(identity.design, {.defaults = std::move(known), .sealed = true});
 }
 

@@ -1,6 +1,6 @@
 /// @file
 /// A set of kinds of one thing, each with a name that a scenario can choose and with parameters of
-/// its own: the navigators, the estimators and the terrain sensors.
+/// its own: the navigators, the estimators, the readers of images, the terrain sensors.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // A navigator around another one, which it asks at events and as the last decision says (Until),
 // and not at every tick. Drives put it around the navigator of the scenario, inside of all other
 // wrappers. Between two questions the motion of the last decision goes on, without its look and its
-// operations. Draws no random numbers. A navigator that asks for every tick, as rockyard's own do,
+// operations. Draws no random numbers. A navigator that asks for every tick, as GESTALT does,
 // decides as without the gate, bit for bit.
 #pragma once
 

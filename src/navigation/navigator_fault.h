@@ -1,7 +1,7 @@
 /// @file
 /// What the host of a plugin or of a navigator's process throws where that navigator, or the
-/// estimator of a plugin, fails. A drive ends by it with the outcome navigator_fault; nothing of
-/// rockyard's own throws it.
+/// estimator or reader of a plugin, fails. A drive ends by it with the outcome navigator_fault;
+/// nothing of rockyard's own throws it.
 #pragma once
 
 #include <stdexcept>

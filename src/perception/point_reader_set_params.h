@@ -43,6 +43,8 @@ class PointReaderKind : public core::Kind {
   /// Returns whether it is rockyard's own stereo (stereo_points.h), by which the stereo sensor
   /// reads on its own.
   virtual bool is_own() const { return false; }
+  /// Returns whether it is of a plugin, which the program does not answer for.
+  virtual bool foreign() const { return false; }
   /// Makes the reader of a drive; null for rockyard's own.
   virtual std::unique_ptr<PointReader> Make(const PointReaderSetup& setup) const = 0;
   /// Returns a copy with parameters of its own.

@@ -9,7 +9,8 @@
 /// during the call alone, unless it says otherwise. No function may let an exception out.
 ///
 /// Must stay, for plugins that are built: the order and types of all members. Another layout has
-/// another ROCKYARD_PLUGIN_ABI, and the command refuses plugins of other versions.
+/// another ROCKYARD_PLUGIN_ABI, and the command refuses plugins of other versions. Version 1 is
+/// that of rockyard 0.1.0 and may change until its release: build plugins with the headers at hand.
 #ifndef ROCKYARD_PLUGIN_ABI_H
 #define ROCKYARD_PLUGIN_ABI_H
 

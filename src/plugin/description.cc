@@ -31,7 +31,7 @@ class Answer {
   [[noreturn]] void Fail(std::string_view key, std::string_view reason) const {
     const std::string at = key.empty() ? path_ : fmt::format("{}.{}", path_, key);
     throw UserError(source_, fmt::format("says of itself: {} {}", at, reason),
-                    "see docs/navigators.md for what a navigator answers");
+                    "see docs/navigators.md for what a plugin says of itself");
   }
 
   std::string Text(std::string_view key, std::optional<std::string> absent = std::nullopt) const {
@@ -227,7 +227,7 @@ std::unique_ptr<const Description> ReadDescription(const JsonValue& json,
   const Answer answer(json, source, "description");
   auto description = std::make_unique<Description>();
   description->name = answer.Text("name");
-  description->doc = answer.Text("doc", "a navigator of one's own");
+  description->doc = answer.Text("doc", "of a plugin");
   description->version = answer.Text("version", "");
   description->fields = FieldsReader().Read(answer);
   for (const Answer& each : answer.Objects("own_values")) {

@@ -61,9 +61,9 @@ struct Field {
   Field& operator=(Field&&) = delete;
 };
 
-// What a navigator or an estimator says of itself.
+// What a navigator, an estimator or a reader says of itself.
 struct Description {
-  std::string name;  // in navigation.navigator or localization.estimator, and of its parameters
+  std::string name;  // by which a scenario chooses it, and of its parameters
   std::string doc;
   std::string version;  // of a process; "" of a library, whose file is its identity
   std::vector<std::unique_ptr<Field>> fields;

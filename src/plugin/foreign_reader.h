@@ -46,6 +46,7 @@ class ForeignReaderKind final : public perception::PointReaderKind {
       v.Require(problem.path, false, problem.reason, problem.suggestion);
     }
   }
+  bool foreign() const override { return true; }
   bool IsOf(const std::shared_ptr<const ReaderSource>& source) const { return source_ == source; }
   std::unique_ptr<perception::PointReader> Make(
       const perception::PointReaderSetup& setup) const override {

@@ -318,8 +318,9 @@ OpenedLibrary OpenLibrary(const fs::path& file, const std::string& hash) {
       core::ParseJson(InChild(name, [&] { return DescribeAll(file); }), name);
   const core::JsonValue::List& navigators = answers.list()[0].list();
   const core::JsonValue::List& estimators = answers.list()[1].list();
-  const auto library =
-      std::make_shared<const LoadedLibrary>(file, hash, navigators.size(), estimators.size());
+  const core::JsonValue::List& readers = answers.list()[2].list();
+  const auto library = std::make_shared<const LoadedLibrary>(file, hash, navigators.size(),
+                                                             estimators.size(), readers.size());
   OpenedLibrary opened;
   for (const core::JsonValue& answer : navigators) {
     opened.navigators.push_back(std::make_shared<LibrarySource>(library, opened.navigators.size(),
@@ -329,7 +330,7 @@ OpenedLibrary OpenLibrary(const fs::path& file, const std::string& hash) {
     opened.estimators.push_back(
         MakeLibraryEstimators(library, opened.estimators.size(), ReadDescription(answer, name)));
   }
-  for (const core::JsonValue& answer : answers.list()[2].list()) {
+  for (const core::JsonValue& answer : readers) {
     opened.readers.push_back(
         MakeLibraryReaders(library, opened.readers.size(), ReadDescription(answer, name)));
   }

@@ -1,6 +1,7 @@
-// Navigators and estimators of a shared library (abi.h). What a library says of itself is asked in
-// a child process; it is loaded into this one when the first drive begins. From then on its code is
-// code of this process: a crash ends the process, and the supervisor of campaigns finds the trial.
+// Navigators, estimators and readers of a shared library (abi.h). What a library says of itself is
+// asked in a child process; it is loaded into this one when the first drive begins. From then on
+// its code is code of this process: a crash ends the process, and the supervisor of campaigns finds
+// the trial.
 #pragma once
 
 #include <filesystem>

@@ -110,7 +110,8 @@ const rockyard_plugin_info& LoadedLibrary::info() const {
   }
   try {
     const rockyard_plugin_info& info = Load(file_);
-    if (info.navigator_count != navigators_ || info.estimator_count != estimators_) {
+    if (info.navigator_count != navigators_ || info.estimator_count != estimators_ ||
+        info.reader_count != readers_) {
       throw std::runtime_error("it holds more or less than when it was asked what it is");
     }
     info_ = &info;

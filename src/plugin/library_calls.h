@@ -1,5 +1,5 @@
-// What the hosts of a library's navigators and estimators share: the library as it is loaded, the
-// messages that both get, and calls whose CPU time is limited.
+// What the hosts of a library's navigators, estimators and readers share: the library as it is
+// loaded, the messages that both get, and calls whose CPU time is limited.
 #pragma once
 
 #include <unistd.h>
@@ -43,13 +43,14 @@ void RequireDone(int result, const rockyard_error& error);
 // all kinds of it.
 class LoadedLibrary {
  public:
-  // `navigators`, `estimators`: how many it described.
+  // `navigators`, `estimators`, `readers`: how many it described.
   LoadedLibrary(std::filesystem::path file, std::string hash, std::size_t navigators,
-                std::size_t estimators)
+                std::size_t estimators, std::size_t readers)
       : file_(std::move(file)),
         hash_(std::move(hash)),
         navigators_(navigators),
-        estimators_(estimators) {}
+        estimators_(estimators),
+        readers_(readers) {}
 
   const std::filesystem::path& file() const { return file_; }
   // Returns what it holds. Throws core::MachineError where the file is another one by now,
@@ -61,6 +62,7 @@ class LoadedLibrary {
   const std::string hash_;
   const std::size_t navigators_;
   const std::size_t estimators_;
+  const std::size_t readers_;
   mutable std::mutex mutex_;
   mutable const rockyard_plugin_info* info_ = nullptr;
 };

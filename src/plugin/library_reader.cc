@@ -15,7 +15,7 @@ using navigation::FaultKind;
 using navigation::NavigatorFault;
 
 // More than any pair of images has pixels (sensors.stereo).
-constexpr std::size_t kMostPoints = std::size_t{1} << 22;
+constexpr std::size_t kMostPoints = std::size_t{1} << 23;
 
 // One reader of a library.
 class LibraryReader final : public perception::PointReader {

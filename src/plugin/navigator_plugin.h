@@ -327,5 +327,5 @@ struct TypeOf<Describe, navigation::NavigatorDescription<Params>> : NavigatorTyp
 
 /// Makes the library a plugin of navigators, each named by the function that returns its
 /// NavigatorDescription. Stands once in a library, outside of all namespaces. ROCKYARD_PLUGIN is
-/// the same, and takes estimators beside them.
+/// the same, and takes estimators and readers beside them.
 #define ROCKYARD_NAVIGATORS(...) ROCKYARD_PLUGIN(__VA_ARGS__)

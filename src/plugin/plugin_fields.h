@@ -1,7 +1,7 @@
 /// @file
-/// What plugins of navigators and of estimators share. Parameters between plugin and command:
+/// What plugins of navigators, estimators and readers share. Parameters between plugin and command:
 /// listed as JSON, set from values, their conditions told. Messages that both get; what a library
-/// hands over. A part of navigator_plugin.h and estimator_plugin.h, which alone include it.
+/// hands over. A part of the headers of these three, which alone include it.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +21,7 @@
 #include "core/fields.h"
 #include "messages/calibration.h"
 #include "messages/estimates.h"
+#include "messages/look_images.h"
 #include "messages/navigation_view.h"
 #include "messages/vehicle_state.h"
 #include "plugin/abi.h"

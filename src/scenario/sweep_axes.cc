@@ -249,13 +249,14 @@ Scenario DefaultsOf(const SweepSpec& spec, const Scenario& defaults,
   }
 }
 
-// Returns the defaults of a sweep whose plugins are not opened, with stand-ins for the navigators
-// and estimators that base, settings and axes name a parameter of.
+// Returns the defaults of a sweep whose plugins are not opened, with stand-ins for the navigators,
+// estimators and readers that base, settings and axes name a parameter of.
 Scenario SealedDefaults(const SweepSpec& spec, const Scenario& defaults) {
   core::JsonValue document = core::JsonValue::Object();
   if (spec.scenario != nullptr) document = *spec.scenario;
   const auto set = [&](const std::string& path, const core::JsonValue& value) {
-    if (!path.starts_with("navigation.") && !path.starts_with("localization.")) return;
+    const auto in = [&](const char* group) { return path.starts_with(group); };
+    if (!in("navigation.") && !in("localization.") && !in("perception.")) return;
     try {
       core::SetPath(document, path, value);
     } catch (const core::UserError&) {

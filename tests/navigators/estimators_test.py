@@ -101,6 +101,7 @@ class Drives(plugin_drives.PluginTest):
         self.run_hash("again", ("--plugin", COUNTING), trials=1)
         self.command(["replay", "again", "--trial", 0, "--out", "again.html"])
         self.assertTrue((self.folder / "again.html").exists())
+        self.assertIn("bit for bit", self.command(["trace", "again", "--trial", 0]).stdout)
 
     def test_a_failing_one_ends_its_drives_and_is_named(self):
         ways = {"throws": ("navigator_threw", "estimator counting: lost its way"),

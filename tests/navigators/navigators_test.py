@@ -5,11 +5,13 @@ shards and after an interruption; another plugin under the same name is refused,
 Usage: navigators_test.py ROCKYARD PROJECT PLUGIN... [unittest's arguments]     (the plugins of CMakeLists.txt here)
 """
 
+import contextlib
 import csv
 import json
 import os
 import shutil
 import signal
+import sqlite3
 import subprocess
 import time
 
@@ -64,15 +66,25 @@ class Drives(plugin_drives.PluginTest):
         alone = self.run_hash("processes", self.process(), trials=4)
         self.assertEqual(self.run_hash("ranks_of_processes", self.process(), before, trials=4), alone)
 
+    @staticmethod
+    def stored(store):
+        try:
+            with contextlib.closing(sqlite3.connect(f"file:{store}?mode=ro", uri=True)) as database:
+                return database.execute("SELECT count(*) FROM trials").fetchone()[0]
+        except sqlite3.OperationalError:  # not there yet
+            return 0
+
     def test_a_killed_campaign_goes_on_to_the_same(self):
-        for name, trials, navigator in (("plugin", 60, self.twin()), ("process", 12, self.process())):
+        for name, trials, navigator in (("plugin", 150, self.twin()), ("process", 20, self.process())):
             words = ["run", NOMINAL, "--trials", trials, *QUICK, "--quiet", "--out", f"killed_{name}", *navigator]
             started = subprocess.Popen([ROCKYARD, *map(str, words)], cwd=self.folder, start_new_session=True)
-            time.sleep(1.5)
+            store = self.folder / f"killed_{name}/results.sqlite"
+            while self.stored(store) == 0 and started.poll() is None:
+                time.sleep(0.02)
             os.killpg(started.pid, signal.SIGKILL)
             started.wait()
-            begun = (self.folder / f"killed_{name}/results.sqlite").exists()
-            self.command([*words, "--resume"] if begun else words)
+            self.assertTrue(0 < self.stored(store) < trials, "it was killed while it ran")
+            self.command([*words, "--resume"])
             undisturbed = self.run_hash(f"undisturbed_{name}", navigator, trials=trials)
             self.assertEqual(self.hash_of(f"killed_{name}"), undisturbed)
 
@@ -140,9 +152,11 @@ class Drives(plugin_drives.PluginTest):
 
     def test_a_report_says_what_it_does_not_drive_again(self):
         sweep = {"name": "kinds", "trials": 3, "set": {"rover.fidelity": "quasi_static"}, "scenario": str(NOMINAL),
-                 "axes": [{"path": "navigation.navigator", "values": ["pathfinder", "arc_planner"]}]}
+                 "axes": [{"path": "terrain.rocks.k_per_m2", "values": [0.002]},
+                          {"path": "navigation.navigator", "values": ["pathfinder", "arc_planner"]}]}
         (self.folder / "kinds.json").write_text(json.dumps(sweep))
         self.command(["sweep", "kinds.json", "--plugin", PLUGINS["arc_planner"], "--quiet", "--out", "kinds"])
+        self.assertEqual({row["cell"] for row in self.times("kinds")}, {"k_per_m2=0.002,navigator=arc_planner"})
         told = self.command(["report", "kinds"])
         self.assertIn("trials in which a plugin decides get no replay (--plugins lets them)", told.stderr)
         self.assertNotIn("get no replay", self.command(["report", "kinds", "--plugins", "--replays", 1]).stderr)
@@ -199,6 +213,33 @@ class Drives(plugin_drives.PluginTest):
     def test_images_without_cameras_are_refused(self):
         told = self.command(["run", NOMINAL, "--plugin", PLUGINS["photographer"], "--out", "blind"], ends=2)
         self.assertIn("sensors.terrain_sensor: is light_stripe, which takes no images", told.stderr)
+
+    def test_a_reader_of_a_plugin_reads_the_looks(self):
+        """GESTALT drives by what it makes of the images, and its failure is none of the simulator."""
+        def drive(name, *more):
+            self.command(["run", IMAGES, "--trials", 1, *QUICK, *SMALL, "--quiet", "--out", name, *more])
+            with open(self.folder / name / "trials.csv", newline="", encoding="utf-8") as file:
+                return self.hash_of(name), next(csv.DictReader(file))
+        faulty = ("--plugin", PLUGINS["readers"], "--set", "navigation.navigator=gestalt",
+                  "--set", "perception.reader=faulty", "--set")
+        own, _ = drive("own_reader")
+        one_point, read = drive("one_point", *faulty, "perception.faulty.way=0")
+        self.assertNotEqual(read["outcome"], "navigator_fault")
+        self.assertNotEqual(one_point, own)
+        _, threw = drive("reader_threw", *faulty, "perception.faulty.way=1")
+        self.assertEqual(threw["outcome"], "navigator_fault")
+        self.assertIn("reader faulty: it rains", threw["detail"])
+        self.command(["trace", "one_point", "--trial", 0])
+        sweep = {"name": "ways", "trials": 1, "scenario": str(IMAGES),
+                 "set": dict(word.split("=") for word in (*QUICK, *SMALL) if "=" in word),
+                 "axes": [{"path": "perception.reader", "values": ["stereo", "faulty"]},
+                          {"path": "perception.faulty.way", "values": [0, 4]}]}
+        sweep["set"] = {path: json.loads(value) if value.isdigit() else value for path, value in sweep["set"].items()}
+        (self.folder / "ways.json").write_text(json.dumps(sweep))
+        self.command(["sweep", "ways.json", "--plugin", PLUGINS["readers"], "--set", "navigation.navigator=gestalt",
+                      "--quiet", "--out", "ways"])
+        self.command(["report", "ways", "--replays", 0])
+        self.command(["parameters", "--plugin", PLUGINS["photographer"], "--search", "photographer"])
 
     def test_a_sweep_varies_a_plugins_parameter(self):
         sweep = {"name": "steps", "trials": 2, "set": {"rover.fidelity": "quasi_static"}, "scenario": str(NOMINAL),

@@ -92,7 +92,7 @@ TEST(DescriptionTest, HasAParameterOfEachType) {
 TEST(DescriptionTest, WhatIsLeftOutHasADefault) {
   const auto description = Read(R"({"name": "mine"})");
   EXPECT_EQ(description->name, "mine");
-  EXPECT_EQ(description->doc, "a navigator of one's own");
+  EXPECT_EQ(description->doc, "of a plugin");
   EXPECT_EQ(description->version, "");
   EXPECT_THAT(description->fields, IsEmpty());
   EXPECT_THAT(description->own_values, IsEmpty());

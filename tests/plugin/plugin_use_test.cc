@@ -258,13 +258,15 @@ TEST_F(PluginUseTest, TheSameCommandInAnotherFolderIsAnotherProcess) {
 // Adds what plugins hold to a set of navigators; their estimators to none that is looked at.
 void AddTo(const std::vector<PluginUse>& plugins, navigation::NavigatorSet& set) {
   localization::EstimatorSet estimators;
-  AddKinds(plugins, {set, estimators});
+  perception::PointReaderSet readers;
+  AddKinds(plugins, {set, estimators, readers});
 }
 
 // The same for stand-ins; `navigation` is the group of a scenario.
 void AddStandInsTo(const JsonValue& navigation, navigation::NavigatorSet& set) {
   localization::EstimatorSet estimators;
-  AddStandIns(JsonValue::Object({{"navigation", navigation}}), {set, estimators});
+  perception::PointReaderSet readers;
+  AddStandIns(JsonValue::Object({{"navigation", navigation}}), {set, estimators, readers});
 }
 
 TEST_F(PluginUseTest, NavigatorsAreAddedOnce) {
@@ -351,15 +353,17 @@ TEST_F(PluginUseTest, AStandInIsMadeOfAChoiceAlone) {
   EXPECT_EQ(sealed.set.names().size(), names);
 }
 
-// The groups "navigation" and "localization" of a scenario.
+// The groups "navigation", "localization" and "perception" of a scenario, as far as plugins add.
 struct Sets {
   navigation::NavigatorSet navigators = navigation::StandardNavigators();
   localization::EstimatorSet estimators;
+  perception::PointReaderSet readers;
 
-  PluginSets sets() { return {navigators, estimators}; }
+  PluginSets sets() { return {navigators, estimators, readers}; }
   void Visit(core::FieldVisitor& v) {
     v.Group("navigation", navigators, "");
     v.Group("localization", estimators, "");
+    v.Group("perception", readers, "");
   }
 };
 

@@ -126,8 +126,12 @@ std::optional<messages::LookImages> StereoReader::Images(const LookOrder& order,
 messages::PointCloud StereoReader::Read(const LookOrder& order, const LookData& data) const {
   messages::PointCloud cloud{order.number, order.direction,
                              reader_->Points(Images(order, data).value())};
+  // As with rockyard's own, the window is where the cameras are meant to be, whatever is believed.
+  const auto& misplaced = PairOf(order.direction).misplaced;
+  const math::Transform as_meant =
+      misplaced ? misplaced->inverse() : math::Transform(math::Transform::Identity());
   std::erase_if(cloud.points_R, [&](const math::Vector3& p_RoP_R) {
-    return !sensing::IsWanted(params_, p_RoP_R, order.direction);
+    return !sensing::IsWanted(params_, as_meant * p_RoP_R, order.direction);
   });
   return cloud;
 }

@@ -11,7 +11,7 @@ int Describe(rockyard_take_text take, void* to, rockyard_error*) {
 const rockyard_navigator_type kType{Describe, nullptr, nullptr, nullptr, nullptr,
                                     nullptr,  nullptr, nullptr, nullptr};
 const rockyard_navigator_type* const kTypes[] = {&kType};
-const rockyard_plugin_info kInfo{ROCKYARD_PLUGIN_ABI, 0, kTypes, 1, nullptr, 0};
+const rockyard_plugin_info kInfo{ROCKYARD_PLUGIN_ABI, 0, kTypes, 1, nullptr, 0, nullptr, 0};
 
 }  // namespace
 

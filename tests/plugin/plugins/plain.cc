@@ -95,7 +95,7 @@ void Destroy(void* navigator) { delete static_cast<Plain*>(navigator); }
 const rockyard_navigator_type kType{Describe, Traits,    Create,  Decide, OnJump,
                                     SetGoal,  OwnValues, Overlay, Destroy};
 const rockyard_navigator_type* const kTypes[] = {&kType};
-const rockyard_plugin_info kInfo{ROCKYARD_PLUGIN_ABI, 0, kTypes, 1, nullptr, 0};
+const rockyard_plugin_info kInfo{ROCKYARD_PLUGIN_ABI, 0, kTypes, 1, nullptr, 0, nullptr, 0};
 
 }  // namespace
 

@@ -10,6 +10,8 @@ extern "C" const rockyard_plugin_info* rockyard_plugin(void) {
       reinterpret_cast<const rockyard_navigator_type* const*>(std::uintptr_t{8}),
       1,
       nullptr,
+      0,
+      nullptr,
       0};
   return &info;
 }
