@@ -13,6 +13,7 @@
 #include "terrain/field.h"
 #include "trial/clock/power.h"
 #include "trial/drive_params.h"
+#include "trial/onboard_end.h"
 #include "trial/watchers.h"
 #include "truth/drive_record.h"
 #include "truth/record.h"
@@ -34,12 +35,6 @@ struct DriveEnd {
   localization::EstimatorMemory memory;
   std::array<double, kActivityCount> energy_wh{};  // drawn, by activity
   double battery_wh = 0.0;                         // drawn from the batteries
-};
-
-// What the parts of a drive count for themselves, as their kinds declare it.
-struct OwnValues {
-  std::vector<double> navigator;
-  std::vector<double> estimator;
 };
 
 // What came of one drive.

@@ -145,7 +145,7 @@ TEST_F(PluginScenarios, AreKnownByTheHashOfThePluginWhereverItLies) {
   EXPECT_EQ(Fingerprint(here), Fingerprint(there));
   EXPECT_NE(Fingerprint(here), Fingerprint(Load("changed")));
   // The controls: a parameter is known, a name is not.
-  EXPECT_NE(Fingerprint(here), Fingerprint(Load("here", {"navigation.echo.look=1"})));
+  EXPECT_NE(Fingerprint(here), Fingerprint(Load("here", {"navigation.echo.goal_tolerance_m=0.2"})));
   EXPECT_EQ(Fingerprint(here), Fingerprint(Load("here", {"name=yours"})));
   // A scenario without plugins says nothing of them, as before there were any.
   EXPECT_EQ(WriteScenario({}).Find("plugins"), nullptr);

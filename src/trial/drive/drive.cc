@@ -306,22 +306,20 @@ namespace {
 DriveResult RunToEnd(Drive& drive, const DriveParams& params, bool last_attempt) {
   TickGuard guard(params.referee.time_limit_s, drive.tick_s());
   std::optional<Verdict> verdict;
-  OwnValues own_values;
-  localization::EstimatorMemory memory;
+  OnboardEnd end;
   try {
     while (!verdict) {
       guard.Observe(drive.time_s());
       verdict = drive.Step();
     }
-    own_values = drive.own_values();
-    memory = drive.Remember();
+    end = drive.AtEnd();
   } catch (const navigation::NavigatorFault& fault) {
     if (fault.may_be_the_machine() && !last_attempt) throw;
     return drive.Finish(fault);
   }
   DriveResult result = drive.Finish(*verdict);
-  result.own_values = std::move(own_values);
-  result.end.memory = memory;
+  result.own_values = std::move(end.own_values);
+  result.end.memory = end.memory;
   return result;
 }
 

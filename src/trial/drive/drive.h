@@ -50,16 +50,14 @@ class Drive {
   // Makes one decision, and what follows from it. Returns the verdict once the drive is over.
   std::optional<Verdict> Step();
   // Ends the drive by its verdict, or because its navigator or estimator failed; one of them is
-  // called once. What the estimator keeps is left to the caller.
+  // called once. What AtEnd returns is left to the caller.
   DriveResult Finish(const Verdict& verdict);
   DriveResult Finish(const navigation::NavigatorFault& fault);
 
   double time_s() const { return ledger_.time_s(); }
   double tick_s() const { return tick_.duration_s; }
-  // Return the own values so far, and what the estimator keeps for the next drive. May throw
-  // navigation::NavigatorFault, as Step.
-  OwnValues own_values() const { return onboard_.own_values(); }
-  localization::EstimatorMemory Remember() const { return onboard_.Remember(); }
+  // Returns what the rover's own side leaves. May throw navigation::NavigatorFault, as Step.
+  OnboardEnd AtEnd() const { return onboard_.AtEnd(); }
 
  private:
   // Shows the navigator where the tracker sees the goal, or the rock at it.

@@ -25,7 +25,7 @@
 #include "trial/drive/timeline.h"
 #include "trial/drive/vehicle_guard.h"
 #include "trial/drive_params.h"
-#include "trial/run_trial.h"
+#include "trial/onboard_end.h"
 #include "trial/sight/terrain_sensing.h"
 #include "trial/sight/visual_reader.h"
 
@@ -91,7 +91,6 @@ class Onboard {
   void Place(const messages::PoseUpdate& update);
 
   const messages::LocalizationEstimate& estimate() const { return estimator_->estimate(); }
-  localization::EstimatorMemory Remember() const { return estimator_->Remember(); }
 
   // Returns the decision of a control tick; `seen` answers the oldest look without an answer, or is
   // null.
@@ -145,12 +144,14 @@ class Onboard {
   bool EndsBySlip() const { return parts_.get<SlipAlarms>().EndsDrive(); }
 
   const navigation::WaypointSequence& navigator() const { return navigator_; }
-  // Returns the own values of navigator and estimator, or as many as there are.
-  OwnValues own_values() const {
+  // Returns what is left at the end of a drive: own values, or as many as there are, and what the
+  // estimator keeps. May throw navigation::NavigatorFault.
+  OnboardEnd AtEnd() const {
     const auto copied = [](std::span<const double> values) {
       return std::vector<double>(values.begin(), values.end());
     };
-    return {copied(navigator_.own_values()), copied(estimator_->own_values())};
+    return {{copied(navigator_.own_values()), copied(estimator_->own_values())},
+            estimator_->Remember()};
   }
   const VehicleGuard& guard() const { return parts_.get<VehicleGuard>(); }
   const AidSuite& aids() const { return parts_.get<AidSuite>(); }
