@@ -78,10 +78,10 @@ file(GLOB pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
 set(linked)
 foreach(page ${pages})
   file(READ ${PROJECT_SOURCE_DIR}/${page} text)
-  string(REGEX MATCHALL "\\]\\(\\.\\./[^)#]+" links "${text}")
+  string(REGEX MATCHALL "\\(\\.\\./[^)#]+" links "${text}")  # without the bracket before it, which lists do not split at
   cmake_path(GET page PARENT_PATH folder)
   foreach(link ${links})
-    string(SUBSTRING "${link}" 2 -1 link)
+    string(SUBSTRING "${link}" 1 -1 link)
     cmake_path(APPEND folder ${link} OUTPUT_VARIABLE target)
     cmake_path(NORMAL_PATH target)
     string(REGEX REPLACE "/$" "" target "${target}")
