@@ -18,6 +18,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/examples.h"
+#include "app/manual.h"
 #include "app/option_checks.h"
 #include "app/run_display.h"
 #include "campaign/campaign_process.h"
@@ -216,6 +217,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   }
   const ExitCode outcome = Guarded([&] {
     CLI::App app("Monte Carlo performance evaluation of planetary rovers", "rockyard");
+    app.formatter(HelpFormatter());  // of its subcommands, too
     ExitCode exit_code = ExitCode::kDone;
     AddCommands(app, exit_code);
     return Parse(app, argc, argv, exit_code);

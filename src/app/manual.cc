@@ -76,6 +76,18 @@ ManualOption OptionOf(const CLI::Option& option) {
   return {AllNames(option), ValueOf(option), option.get_default_str(), TextOf(option)};
 }
 
+class OptionHelp final : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = ValueOf(*option);
+    if (!text.empty()) text.insert(0, " ");
+    const std::string& preset = option->get_default_str();
+    if (!preset.empty()) text += fmt::format(" [{}]", preset);
+    return text + (option->get_items_expected_max() > 1 && !option->get_positional() ? " ..." : "");
+  }
+  std::string make_option_desc(const CLI::Option* option) const override { return TextOf(*option); }
+};
+
 // Returns the argument as a synopsis writes it: "[FILE]..." may be left out and repeated.
 std::string Placeholder(const CLI::Option& option) {
   const std::string name =
@@ -118,6 +130,8 @@ void AddFooter(const CLI::App& command, ManualPage& page) {
 }
 
 }  // namespace
+
+std::shared_ptr<CLI::FormatterBase> HelpFormatter() { return std::make_shared<OptionHelp>(); }
 
 ManualPage ManualOf(const CLI::App& command, std::string_view parent) {
   ManualPage page;

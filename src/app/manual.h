@@ -2,13 +2,15 @@
 // `rockyard help` writes the pages; a test compares docs/commands with them.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace CLI {
 class App;
-}
+class FormatterBase;
+}  // namespace CLI
 
 namespace rockyard::app {
 
@@ -40,6 +42,9 @@ struct ManualPage {
 // Returns the page of a command. `parent` is what stands before its name: "rockyard". Options
 // without a group, which only scripts use, are left out.
 ManualPage ManualOf(const CLI::App& command, std::string_view parent = "");
+
+// Returns what writes --help: it says of an option what its page says.
+std::shared_ptr<CLI::FormatterBase> HelpFormatter();
 
 // Returns the page as Markdown, ending in a line break. Commands below it are sections; on the page
 // of rockyard itself they are links to their own pages.

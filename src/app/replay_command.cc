@@ -63,8 +63,9 @@ void AddOptions(CLI::App& command, ReplayOptions& options) {
           ->excludes(step);
   command
       .add_option("--out", options.out,
-                  "page (default: results/runs/<name>-seed<seed>-trial<I>.html); of a scan or step "
-                  "a folder (default: ...-scan<N>, or -step<N>)")
+                  "page (default: <folder of the run>-trial<I>.html; of a scenario "
+                  "results/runs/<name>-seed<seed>-trial<I>.html); of a scan or step a folder "
+                  "(default: ...-scan<N>, or -step<N>)")
       ->excludes(list);
   command
       .add_option(

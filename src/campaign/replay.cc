@@ -55,16 +55,23 @@ struct AskedFile {
   std::function<std::string(const Replayed&)> text;
 };
 
-std::string DefaultStem(const TrialSource& source, std::uint32_t trial) {
-  const std::string cell = source.cell.empty() ? "" : fmt::format("-{}", source.cell);
-  const fs::path folder =
-      DefaultFolder(source.scenario.name + cell, static_cast<std::int64_t>(source.seed));
-  return fmt::format("{}-trial{}", folder.string(), trial);
+// Returns what stands before the ending of a page: beside the folder of a run, and of a scenario
+// where its run would lie.
+std::string DefaultStem(const TrialRequest& request, const TrialSource& source) {
+  const auto seed = static_cast<std::int64_t>(source.seed);
+  std::error_code error;
+  std::string stem = DefaultFolder(source.scenario.name, seed).string();
+  if (fs::is_directory(request.source, error)) {
+    stem = fs::path(request.source).lexically_normal().string();
+    while (stem.size() > 1 && stem.ends_with('/')) stem.pop_back();
+    if (!source.cell.empty()) stem += "-" + DefaultFolder(source.cell, seed).filename().string();
+  }
+  return fmt::format("{}-trial{}", stem, request.trial);
 }
 
 std::vector<AskedFile> OutputsOf(const ReplayRequest& request, const TrialSource& source) {
   const std::string stem = request.page.empty()
-                               ? DefaultStem(source, request.trial.trial)
+                               ? DefaultStem(request.trial, source)
                                : fs::path(request.page).replace_extension().string();
   const auto path = [&](const std::string& asked, const char* extension) {
     return asked.empty() ? fs::path(stem + extension) : fs::path(asked);
@@ -230,9 +237,8 @@ struct MomentTrial {
 
 fs::path MomentFolder(const MomentsRequest& request, const TrialSource& source) {
   if (!request.folder.empty()) return request.folder;
-  return fs::path("results") / "runs" /
-         fmt::format("{}-seed{}-trial{}-{}{}", source.scenario.name, source.seed,
-                     request.trial.trial, KindOf(request), NumberOf(request));
+  return fmt::format("{}-{}{}", DefaultStem(request.trial, source), KindOf(request),
+                     NumberOf(request));
 }
 
 // Throws where the folder holds something: pictures of two moments in one folder could not be told

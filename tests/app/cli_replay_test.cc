@@ -74,6 +74,9 @@ TEST_F(CliReplay, ChoosesNamesByItself) {
   RunTo(0, Trial({}));
   EXPECT_TRUE(fs::exists(work() / "results/runs/nominal-seed1-trial1.svg"));
   EXPECT_TRUE(fs::exists(work() / "results/runs/nominal-seed1-trial1.html"));
+  RunTo(0, QuickRun("sub/run", 1));
+  RunTo(0, {"replay", "sub/run/", "--trial", "0"});
+  EXPECT_TRUE(fs::exists(work() / "sub/run-trial0.html"));
 }
 
 TEST_F(CliReplay, TwoTrialsStandOnOnePage) {
