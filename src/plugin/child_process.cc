@@ -33,7 +33,6 @@ namespace {
 namespace fs = std::filesystem;
 using navigation::FaultKind;
 using navigation::NavigatorFault;
-using Clock = std::chrono::steady_clock;
 
 constexpr int kToChild = 3;
 constexpr int kFromChild = 4;
@@ -473,10 +472,19 @@ std::string ChildProcess::Ask(std::string_view message, const navigation::LimitP
   // What descends from it appears as it starts; later it is looked for in slow answers, and now and
   // then.
   if (asked_ < 4 || asked_ % 64 == 0) family_ = Family(pid_);
-  ++asked_;
-  const double began_cpu_s = Cpu_s();
-  double seen_cpu_s = began_cpu_s;
+  // To read the use costs more than a quick answer: what was used since the last reading is charged
+  // to the question before which it is read again.
   Clock::time_point alive = Clock::now();
+  double carried_s = 0.0;
+  if (asked_ == 0 || IsStale(alive)) {
+    const double before_s = std::exchange(cpu_s_, Cpu_s());
+    if (asked_ > 0) carried_s = std::max(0.0, cpu_s_ - before_s);
+    read_at_ = alive;
+  }
+  ++asked_;
+  const double began_cpu_s = cpu_s_;
+  left_cpu_s -= carried_s;
+  double seen_cpu_s = began_cpu_s;
   Clock::time_point looked = alive;
   while (!question.complete()) {
     Exchange(question);
@@ -497,9 +505,18 @@ std::string ChildProcess::Ask(std::string_view message, const navigation::LimitP
                            WithWords(fmt::format("it waited for {} s", limits.answer_s)));
     }
   }
-  used_s_ = std::max(0.0, Cpu_s() - began_cpu_s);
-  CheckUse(began_cpu_s, limits, left_cpu_s);
+  used_s_ = carried_s;
+  if (const Clock::time_point now = Clock::now(); IsStale(now)) {
+    cpu_s_ = Cpu_s();
+    read_at_ = now;
+    used_s_ += std::max(0.0, cpu_s_ - began_cpu_s);
+    CheckUse(began_cpu_s, limits, left_cpu_s);
+  }
   return question.answer();
+}
+
+bool ChildProcess::IsStale(Clock::time_point now) const {
+  return now - read_at_ >= std::chrono::milliseconds(kLook_ms);
 }
 
 double ChildProcess::Cpu_s() const { return RunningCpu_s(family_) + ended_cpu_s_; }

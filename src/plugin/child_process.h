@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -38,7 +39,8 @@ class ChildProcess {
   std::string Ask(std::string_view message, const navigation::LimitParams& limits,
                   double left_cpu_s);
 
-  // Returns the CPU time of the last answer, s.
+  // Returns the CPU time of the last answer, s; that of answers which took less than 20 ms by the
+  // clock on the wall is in that of a later one.
   double used_s() const { return used_s_; }
   // Returns whether it can still be asked by the process that calls: it lives, and is no fork's.
   bool usable() const;
@@ -47,12 +49,15 @@ class ChildProcess {
 
  private:
   class Question;
+  using Clock = std::chrono::steady_clock;
 
   // Sends what is left of a message and reads what is there of the answer.
   void Exchange(Question& question);
   void ReadLog();
   // Throws where what it used since `began_cpu_s` is more than the limits.
   void CheckUse(double began_cpu_s, const navigation::LimitParams& limits, double left_cpu_s) const;
+  // Returns whether the last reading of its use is too old.
+  bool IsStale(Clock::time_point now) const;
   // Returns the CPU time of it and what it started; of what has ended, as last looked.
   double Cpu_s() const;
   [[noreturn]] void FailEnded();
@@ -68,6 +73,8 @@ class ChildProcess {
   double ended_cpu_s_ = 0.0;
   std::int64_t asked_ = 0;
   double used_s_ = 0.0;
+  double cpu_s_ = 0.0;           // as last read, between two answers
+  Clock::time_point read_at_{};  // when
   std::string said_;
 };
 
