@@ -131,19 +131,6 @@ struct EstimatorType {
     });
   }
 
-  static int Check(const rockyard_values* values, rockyard_take_text take, void* to,
-                   rockyard_error* error) noexcept {
-    return Guarded(error, [&] {
-      Params params = WithValues<Params>(*values);
-      JsonLine json;
-      json.Raw("{").Key("problems").Raw("[");
-      Conditions conditions(json);
-      params.Visit(conditions);
-      json.Raw("]}");
-      take(to, json.text().data(), json.text().size());
-    });
-  }
-
   static int Create(const rockyard_values* values, const rockyard_estimator_setup* setup,
                     void** estimator, rockyard_error* error) noexcept {
     return Guarded(error, [&] {
@@ -206,8 +193,8 @@ struct EstimatorType {
   static void Destroy(void* estimator) noexcept { delete static_cast<HeldEstimator*>(estimator); }
 
   static constexpr rockyard_estimator_type kType{
-      DescribeIt, Check,   Create,     Propagate, Feel,     Place,     Capture,
-      Forget,     TakeFix, TakeMotion, Estimate,  Remember, OwnValues, Destroy};
+      DescribeIt, Check<Params>, Create,     Propagate, Feel,     Place,     Capture,
+      Forget,     TakeFix,       TakeMotion, Estimate,  Remember, OwnValues, Destroy};
 };
 
 /// What ROCKYARD_PLUGIN takes of an estimator.

@@ -268,12 +268,15 @@ void WriteDescription(const Description& description, JsonLine& json) {
   Params params;
   FieldLister lister(json);
   params.Visit(lister);
-  json.Raw("]").Key("own_values").Raw("[");
-  for (const messages::OwnValue& value : description.own_values) {
-    json.Comma().Raw("{").Member("name", value.name).Member("unit", value.unit);
-    json.Member("meaning", value.meaning).Raw("}");
-  }
   json.Raw("]");
+  if constexpr (requires { description.own_values; }) {
+    json.Key("own_values").Raw("[");
+    for (const messages::OwnValue& value : description.own_values) {
+      json.Comma().Raw("{").Member("name", value.name).Member("unit", value.unit);
+      json.Member("meaning", value.meaning).Raw("}");
+    }
+    json.Raw("]");
+  }
 }
 
 /// Runs `call`; returns 0, or 1 and what it threw.
@@ -329,6 +332,21 @@ inline messages::VehicleState Felt(const rockyard_felt& from) {
     }
   }
   return felt;
+}
+
+/// Hands over what is wrong with parameters.
+template <typename Params>
+int Check(const rockyard_values* values, rockyard_take_text take, void* to,
+          rockyard_error* error) noexcept {
+  return Guarded(error, [&] {
+    Params params = WithValues<Params>(*values);
+    JsonLine json;
+    json.Raw("{").Key("problems").Raw("[");
+    Conditions conditions(json);
+    params.Visit(conditions);
+    json.Raw("]}");
+    take(to, json.text().data(), json.text().size());
+  });
 }
 
 /// Returns what is believed of the wheels: of a rockyard_rover or a rockyard_estimator_setup.

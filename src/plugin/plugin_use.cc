@@ -266,31 +266,20 @@ class StandIn final : public NavigatorSource {
   }
 };
 
-class EstimatorStandIn final : public EstimatorSource {
+template <typename Source, typename Thing, typename Setup>
+class CheckedStandIn final : public Source {
  public:
-  using EstimatorSource::EstimatorSource;
+  using Source::Source;
 
-  std::unique_ptr<localization::Estimator> Make(
-      const Parameters&, const localization::EstimatorSetup&) const override {
-    RefuseToDrive();
-  }
+  std::unique_ptr<Thing> Make(const Parameters&, const Setup&) const override { RefuseToDrive(); }
 
  protected:
   JsonValue AskProblems(const Parameters&) const override { return JsonValue::Object(); }
 };
-
-class ReaderStandIn final : public ReaderSource {
- public:
-  using ReaderSource::ReaderSource;
-
-  std::unique_ptr<perception::PointReader> Make(
-      const Parameters&, const perception::PointReaderSetup&) const override {
-    RefuseToDrive();
-  }
-
- protected:
-  JsonValue AskProblems(const Parameters&) const override { return JsonValue::Object(); }
-};
+using EstimatorStandIn =
+    CheckedStandIn<EstimatorSource, localization::Estimator, localization::EstimatorSetup>;
+using ReaderStandIn =
+    CheckedStandIn<ReaderSource, perception::PointReader, perception::PointReaderSetup>;
 
 // Adds stand-ins to one set; `group` is that of the set in a scenario, `key` the choice in it.
 template <typename Kind, typename Source, typename Set>

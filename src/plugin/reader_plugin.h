@@ -41,25 +41,8 @@ struct ReaderType {
     return Guarded(error, [&] {
       const auto description = Describe();
       JsonLine json;
-      json.Raw("{").Member("name", description.name).Member("doc", description.doc);
-      json.Key("parameters").Raw("[");
-      Params params;
-      FieldLister lister(json);
-      params.Visit(lister);
-      json.Raw("]}");
-      take(to, json.text().data(), json.text().size());
-    });
-  }
-
-  static int Check(const rockyard_values* values, rockyard_take_text take, void* to,
-                   rockyard_error* error) noexcept {
-    return Guarded(error, [&] {
-      Params params = WithValues<Params>(*values);
-      JsonLine json;
-      json.Raw("{").Key("problems").Raw("[");
-      Conditions conditions(json);
-      params.Visit(conditions);
-      json.Raw("]}");
+      WriteDescription<Params>(description, json);
+      json.Raw("}");
       take(to, json.text().data(), json.text().size());
     });
   }
@@ -89,7 +72,7 @@ struct ReaderType {
 
   static void Destroy(void* reader) noexcept { delete static_cast<HeldReader*>(reader); }
 
-  static constexpr rockyard_reader_type kType{DescribeIt, Check, Create, Points, Destroy};
+  static constexpr rockyard_reader_type kType{DescribeIt, Check<Params>, Create, Points, Destroy};
 };
 
 /// What ROCKYARD_PLUGIN takes of a reader.
