@@ -153,7 +153,9 @@ int Run() {
     if (std::fread(text.data(), 1, text.size(), requests) != text.size()) break;
     Json answer;
     try {
-      answer = layer::Answer(Json::parse(text), navigator);
+      const Json ask = Json::parse(text);
+      answer = layer::Answer(ask, navigator);
+      answer["id"] = ask.at("id");
     } catch (const std::exception& error) {  // the drive ends with its text
       answer = {{"error", error.what()}};
     }

@@ -128,6 +128,7 @@ def run(cls):
             try:
                 ask = json.loads(text, object_hook=Values, parse_constant=lambda _: None)
                 answer, navigator = _answer(cls, navigator, ask)
+                answer = {**answer, "id": ask.id}
                 data = json.dumps(answer, allow_nan=False).encode()
             except Exception as error:  # the drive ends with its text
                 traceback.print_exc()

@@ -39,6 +39,8 @@ class ChildProcess {
   std::string Ask(std::string_view message, const navigation::LimitParams& limits,
                   double left_cpu_s);
 
+  // Returns how often it was asked.
+  std::int64_t asked() const { return asked_; }
   // Returns the CPU time of the last answer, s; that of answers which took less than 20 ms by the
   // clock on the wall is in that of a later one.
   double used_s() const { return used_s_; }

@@ -30,7 +30,10 @@ constexpr std::int64_t kProtocol = 1;
 // Asks, and reads the answer. Throws NavigatorFault, also where the answer is an error.
 JsonValue AskJson(ChildProcess& process, const JsonValue& request, const LimitParams& limits,
                   double left_cpu_s) {
-  const std::string text = process.Ask(core::CompactJson(request), limits, left_cpu_s);
+  JsonValue numbered = request;
+  const JsonValue id(process.asked() + 1);
+  numbered.Set("id", id);
+  const std::string text = process.Ask(core::CompactJson(numbered), limits, left_cpu_s);
   JsonValue answer;
   try {
     answer = core::ParseJson(text, "its answer", {.max_bytes = kLongestMessage});
@@ -39,6 +42,13 @@ JsonValue AskJson(ChildProcess& process, const JsonValue& request, const LimitPa
   }
   if (!answer.Is(JsonValue::Type::kObject)) {
     throw NavigatorFault(FaultKind::kMessage, "its answer is no object");
+  }
+  // A process that answers twice would be one answer behind from then on.
+  if (const JsonValue* of = answer.Find("id");
+      of != nullptr && core::CompactJson(*of) != core::CompactJson(id)) {
+    throw NavigatorFault(FaultKind::kMessage,
+                         fmt::format("its answer is to request {}, and {} was asked",
+                                     core::Abbreviate(*of), core::CompactJson(id)));
   }
   if (const JsonValue* error = answer.Find("error")) {
     throw NavigatorFault(FaultKind::kThrew, error->Is(JsonValue::Type::kText)

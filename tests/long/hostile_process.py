@@ -115,6 +115,7 @@ def main():
     while True:
         request = read()
         kind, answer = request["type"], {}
+        of = {"id": request["id"]}
         if kind == "describe":
             answer = describe()
         elif kind == "traits":
@@ -132,10 +133,11 @@ def main():
             answer = {"motion": {"kind": "arc"}, "until": {"distance_m": 0.2}}
             if way_m <= parameters["goal_tolerance_m"]:
                 answer = {"status": "arrived"}
+            answer |= of
             asked += 1
             if hostile and asked == parameters["at"] and not do(parameters["harm"], answer):
                 continue
-        write(answer)
+        write({**answer, **of})
 
 
 main()

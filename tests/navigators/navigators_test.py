@@ -180,6 +180,22 @@ class Drives(plugin_drives.PluginTest):
         failed = subprocess.run(["python3", "-c", values], cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertIn("no parameter boldness is declared: there are step_m", failed.stderr)
 
+    def test_a_navigator_that_waits_for_nothing_fails(self):
+        shutil.copy(EXAMPLES / "rockyard_navigator.py", self.folder)
+        (self.folder / "waits.py").write_text(
+            "from rockyard_navigator import Navigator, parameter, run\n"
+            "class Waits(Navigator):\n"
+            "    name = 'waits'\n"
+            "    parameters = [parameter('goal_tolerance_m', 'real', 0.3, 'arrives within', min=0, max=5)]\n"
+            "    def decide(self, input): return {}\n"
+            "run(Waits)\n")
+        self.command(["run", NOMINAL, "--trials", 1, *QUICK, "--navigator-process", "python3 waits.py", "--quiet",
+                      "--out", "waits"])
+        with open(self.folder / "waits/trials.csv", newline="", encoding="utf-8") as file:
+            row = next(csv.DictReader(file))
+        self.assertEqual((row["outcome"], row["cause"]), ("navigator_fault", "navigator_nonsense"))
+        self.assertIn("more decisions than its time has", row["detail"])
+
     def test_examples_drive_and_count(self):
         for name in ("arc_planner", "bug2", "potential_field"):
             self.run_hash(name, ("--plugin", PLUGINS[name]))

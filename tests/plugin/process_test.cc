@@ -135,6 +135,11 @@ TEST_F(ProcessTest, IsSentWhatHappens) {
   const std::string input = CompactJson(InputToJson(whole.input)).substr(1);
   const std::string poses = R"("before":{"x_m":1.5,"y_m":2.5,"heading_rad":0.25,"distance_m":3.5},)"
                             R"("after":{"x_m":4.5,"y_m":5.5,"heading_rad":0.5,"distance_m":6.5}})";
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    const std::string id = ",\"id\":" + std::to_string(i + 1) + "}";
+    ASSERT_TRUE(sent[i].ends_with(id)) << sent[i];
+    sent[i].replace(sent[i].size() - id.size(), id.size(), "}");
+  }
   EXPECT_THAT(
       sent,
       ElementsAre(R"({"type":"describe","protocol":1})",
@@ -261,6 +266,8 @@ constexpr Failing kWays[] = {
     {"NoJson", R"(raw(b"hello"))", FaultKind::kMessage, "line 1"},
     {"Nothing", R"(raw(b""))", FaultKind::kMessage, ""},
     {"NoUtf8", R"(raw(b'{"status": "\xff"}'))", FaultKind::kMessage, ""},
+    {"OfAnotherRequest", R"(tell({"id": message["id"] - 1}))", FaultKind::kMessage,
+     "its answer is to request"},
     {"NoObject", R"(tell([1]))", FaultKind::kMessage, "no object"},
     {"TooDeep", R"(raw(b"[" * 100000 + b"]" * 100000))", FaultKind::kMessage, ""},
     {"UnknownStatus", R"(tell({"status": "flying"}))", FaultKind::kMessage, "status is \"flying\""},

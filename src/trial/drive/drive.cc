@@ -316,6 +316,9 @@ DriveResult RunToEnd(Drive& drive, const DriveParams& params, bool last_attempt)
   } catch (const navigation::NavigatorFault& fault) {
     if (fault.may_be_the_machine() && !last_attempt) throw;
     return drive.Finish(fault);
+  } catch (const DriveWithoutEnd& fault) {
+    if (!params.navigation.navigators.chosen().foreign()) throw;
+    return drive.Finish(navigation::NavigatorFault(navigation::FaultKind::kNonsense, fault.what()));
   }
   DriveResult result = drive.Finish(*verdict);
   result.own_values = std::move(end.own_values);

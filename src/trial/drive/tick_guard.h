@@ -7,11 +7,17 @@
 
 namespace rockyard::trial {
 
+// Says that a drive has no end.
+struct DriveWithoutEnd : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 // Counts the decisions of a drive. Must stay: decisions, not seconds of a clock, so that it ends
 // the same drives on every machine. The referee ends a drive in simulated time; but a navigator
 // that always stands still is never judged, and looks that take no time never bring time_limit_s
-// nearer. Both would be faults of the program, and become simulator faults. So does a drive without
-// limit of time or patience that goes on for ever.
+// nearer. Both would be faults of the program, and become simulator faults; of a plugin or process
+// they are faults of the navigator. So does a drive without limit of time or patience that goes on
+// for ever.
 class TickGuard {
  public:
   // Most decisions where there is no time limit: at 20 Hz nearly three hours of motion, 1.5 km at
@@ -29,14 +35,14 @@ class TickGuard {
                   ? kMin + static_cast<std::int64_t>(kTicksPerStep * time_limit_s / tick_s)
                   : kUnlimited) {}
 
-  // Counts a decision; called before each. Throws std::runtime_error, which becomes the fault.
+  // Counts a decision; called before each. Throws DriveWithoutEnd, which becomes the fault.
   void Observe(double time_s) {
-    if (--left_ < 0) throw std::runtime_error("the drive makes more decisions than its time has");
+    if (--left_ < 0) throw DriveWithoutEnd("the drive makes more decisions than its time has");
     if (time_s > last_s_) {
       without_time_ = 0;
       last_s_ = time_s;
     } else if (++without_time_ > kMaxWithoutTime) {
-      throw std::runtime_error("the drive makes decisions that take no time, without an end");
+      throw DriveWithoutEnd("the drive makes decisions that take no time, without an end");
     }
   }
 
