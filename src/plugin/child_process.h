@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "navigation/navigator_set_params.h"
+#include "plugin/answerer.h"
 
 namespace rockyard::plugin {
 
@@ -24,28 +25,24 @@ std::vector<std::string> StartWords(const std::string& command, const std::strin
 // and that many bytes, on its descriptors 3 (to it) and 4 (from it). What it writes to stdout and
 // stderr is read, and the last of it kept. A small process of its own, its keeper, starts it and
 // ends all that it has started, also where this process is killed.
-class ChildProcess {
+class ChildProcess final : public Answerer {
  public:
   // Starts it. Throws core::MachineError where no process can be made.
   ChildProcess(const std::vector<std::string>& words, const std::string& folder);
   // Kills it and what it has started.
-  ~ChildProcess();
+  ~ChildProcess() override;
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // Sends a message and returns the answer. `left_cpu_s`: what is left of the drive's limit. Throws
-  // navigation::NavigatorFault: the process ended, exceeded a limit, or sent what is no message.
-  // The process is of no use then.
+  // Throws where the process ended, exceeded a limit, or sent what is no message.
   std::string Ask(std::string_view message, const navigation::LimitParams& limits,
-                  double left_cpu_s);
+                  double left_cpu_s) override;
 
-  // Returns how often it was asked.
-  std::int64_t asked() const { return asked_; }
-  // Returns the CPU time of the last answer, s; that of answers which took less than 20 ms by the
-  // clock on the wall is in that of a later one.
-  double used_s() const { return used_s_; }
-  // Returns whether it can still be asked by the process that calls: it lives, and is no fork's.
-  bool usable() const;
+  std::int64_t asked() const override { return asked_; }
+  // Of answers which took less than 20 ms by the clock on the wall it is in that of a later one.
+  double used_s() const override { return used_s_; }
+  // It lives, and is no fork's.
+  bool usable() const override;
   // Returns the last that it wrote to stdout and stderr.
   const std::string& said() const { return said_; }
 
@@ -79,8 +76,5 @@ class ChildProcess {
   Clock::time_point read_at_{};  // when
   std::string said_;
 };
-
-// The longest message, either way.
-inline constexpr std::size_t kLongestMessage = std::size_t{64} << 20;
 
 }  // namespace rockyard::plugin
