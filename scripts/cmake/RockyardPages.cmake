@@ -13,7 +13,7 @@ include(GNUInstallDirs)
 option(ROCKYARD_PAGE_TOOLS
        "Install the npm packages with which pages are bundled and tested (needs node, npm)" OFF)
 
-set(ROCKYARD_PAGE_FILES report.html replay.html trace_to_mcap.mjs THIRD_PARTY.txt)
+set(ROCKYARD_PAGE_FILES report.html replay.html THIRD_PARTY.txt)
 
 # Installs the packages of the lock file below FOLDER, once for each lock file.
 function(rockyard_install_npm_packages FOLDER)
@@ -67,7 +67,7 @@ function(rockyard_bundle_pages FOLDER_VARIABLE)
     *.ts *.css *.mjs page.html tsconfig.json)
   list(FILTER sources EXCLUDE REGEX "^(built|node_modules)/")
   # Copies of files that are gone would still be checked and might be bundled.
-  file(GLOB_RECURSE old RELATIVE ${work} ${work}/report/* ${work}/replay/* ${work}/shared/* ${work}/mcap/*)
+  file(GLOB_RECURSE old RELATIVE ${work} ${work}/report/* ${work}/replay/* ${work}/shared/*)
   list(REMOVE_ITEM old ${sources})
   foreach(file ${old})
     file(REMOVE ${work}/${file})
@@ -82,6 +82,7 @@ function(rockyard_bundle_pages FOLDER_VARIABLE)
   set(pages ${work}/pages)
   list(TRANSFORM ROCKYARD_PAGE_FILES PREPEND ${pages}/ OUTPUT_VARIABLE files)
   add_custom_command(OUTPUT ${files} DEPENDS ${copies} ${work}/installed.txt
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${pages}  # what is bundled no more
     COMMAND ${ROCKYARD_NODE} build.mjs ${pages} WORKING_DIRECTORY ${work}
     COMMENT "Bundling the pages for a browser")
   add_custom_target(ship_pages DEPENDS ${files}
@@ -108,5 +109,4 @@ function(rockyard_embed_pages SOURCE_VARIABLE)
   set_source_files_properties(${embedded} PROPERTIES COMPILE_OPTIONS "-w" SKIP_UNITY_BUILD_INCLUSION ON)
   set(${SOURCE_VARIABLE} ${embedded} PARENT_SCOPE)
   install(FILES built/THIRD_PARTY.txt DESTINATION ${CMAKE_INSTALL_DOCDIR})
-  install(FILES built/trace_to_mcap.mjs DESTINATION ${CMAKE_INSTALL_DATADIR}/rockyard)
 endfunction()

@@ -1,8 +1,9 @@
 // All that is known of one recorded drive, and its JSON text for the replay page. `campaign` fills
-// it; the command `replay` and pages of reports write it, and trace files (trace_npz.h) hold parts
-// of it. No record, hash or store depends on it, but pages and traces do. SI units; W is the world,
-// R the rover. A moment is the rover at one time of its motion; a scan is what the light stripe
-// takes, a step one decision of a map-based navigator, a look what stereo cameras take.
+// it; the command `replay` and pages of reports write it, and trace files (trace_npz.h,
+// trace_mcap.h) hold parts of it. No record, hash or store depends on it, but pages and traces do.
+// SI units; W is the world, R the rover. A moment is the rover at one time of its motion; a scan is
+// what the light stripe takes, a step one decision of a map-based navigator, a look what stereo
+// cameras take.
 #pragma once
 
 #include <cstddef>
@@ -219,8 +220,8 @@ inline constexpr std::size_t kMaxLookBytes = 1'500'000;
 inline constexpr std::size_t kMaxOverlayBytes = 1'500'000;
 
 // Returns the drive as JSON on one line; `beside` is a second drive on the same page. Must agree:
-// src/web/replay/payload.ts, by which the page and the converter to MCAP (src/web/mcap) read it; a
-// member that changes here changes there, too. Moments of little change are left out (motion.h),
+// src/web/replay/payload.ts, by which the page reads it; a member that changes here changes there,
+// too. Moments of little change are left out (motion.h),
 // and lengths are rounded to 0.1 mm, but the last moment has every digit of its pose.
 std::string ReplayJson(const ReplayData& data, const ReplayData* beside = nullptr);
 

@@ -1,6 +1,6 @@
-// Which moments of a drive the page of a replay needs (ReplayJson). Trace files (trace_npz.h) keep
-// all of them. No record depends on it: another choice is as good where it keeps what
-// ThinMotion promises.
+// Which moments of a drive the page of a replay needs (ReplayJson), and transforms and paths of
+// trace_mcap.h. Other parts of trace files keep all of them. No record depends on it: another
+// choice is as good where it keeps what ThinMotion promises.
 #pragma once
 
 #include <cstddef>

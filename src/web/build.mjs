@@ -1,10 +1,10 @@
-// Bundles each page into one HTML file with everything in it; and trace_to_mcap.mjs, which node runs. Each carries the notices of the packages in it;
-// THIRD_PARTY.txt has those of all.
+// Bundles each page into one HTML file with everything in it, also the notices of the packages in it;
+// THIRD_PARTY.txt has those of both.
 // Usage: node build.mjs OUT    (run where node_modules lies beside this file)
 //
 // A page keeps two marks that web/page.cc fills in: where its title and its data go.
 import { createHash } from "node:crypto";
-import { appendFile, mkdir, readFile, writeFile } from "node:fs/promises";
+import { mkdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { build } from "esbuild";
 import { notices } from "./notices.mjs";
@@ -61,25 +61,8 @@ function comment(text) {
   return `<!--\n${text}\n-->`;
 }
 
-// Some of its packages are CommonJS and call require, which a module lacks.
-const REQUIRE = `import { createRequire } from "node:module"; const require = createRequire(import.meta.url);`;
-
 await mkdir(out, { recursive: true });
-const converter = await build({
-  entryPoints: ["mcap/main.ts"],
-  outfile: path.join(out, "trace_to_mcap.mjs"),
-  bundle: true,
-  platform: "node",
-  minify: true,
-  format: "esm",
-  target: ["node18"],
-  banner: { js: REQUIRE },
-  legalComments: "none",
-  metafile: true,
-  logLevel: "warning",
-});
-const metafiles = [converter.metafile];
-await appendFile(path.join(out, "trace_to_mcap.mjs"), `/*\n${await notices(metafiles)}\n*/\n`);
+const metafiles = [];
 for (const page of PAGES) {
   const { html, metafile } = await makePage(page);
   metafiles.push(metafile);

@@ -23,8 +23,8 @@ SWEEP = {"name": "two", "scenario": "s.json", "trials": 1, "seed": 1,
 FILES = ["s.json", "seen.json", "w.json", "done", "other", "swept", "shard-1", "shard-2", "b.json",
          "done/scenario.resolved.json", "done/results.sqlite", "done/trials.csv", "none", "none.json", "empty", ".",
          "not.json", "-x", "--", "=1", "a b", "\u202e", "s.json/x", "x" * 300, "", "garbage.json", "locked"]
-NEW_FILES = ["out.csv", "out.svg", "out.json", "out.html", "out.urdf", "out.npz", "out.obj", "out.xml", "new", "out",
-             "done", "done/out.csv", "none/out.csv", "empty", "-o", "", "x" * 300, "a\nb.csv", "s.json", "pipe"]
+NEW_FILES = ["out.csv", "out.svg", "out.json", "out.html", "out.urdf", "out.npz", "out.mcap", "out.obj", "out.xml",
+             "new", "out", "done", "done/out.csv", "none/out.csv", "empty", "-o", "", "x" * 300, "a\nb.csv", "s.json", "pipe"]
 SETTINGS = ["referee.time_limit_s=2", "rover.fidelity=quasi_static", "name=x", "trials=3", "seed=-1", "a=1", "=",
             "a", "", "terrain.rocks.k_per_m2=0.01", "terrain.rocks.k_per_m2=1e9", "terrain=1", "terrain.rocks={",
             "rover.geometry.wheel_radius_m=NaN", "a.b.c.d=[]", "a..b=1", ".=1", "description=\u202e", "extends=s.json",
@@ -34,7 +34,7 @@ WHOLE = ["0", "1", "2", "3", "-1", "00", "1.5", "1e1", "x", "", "999999999999999
 REAL = ["0", "0.5", "0.3", "1", "-1", "1e-9", "1e300", "1e999", "nan", "inf", "-inf", "x", "", "0,5", "0.49", "0.05",
         "0.0005", "0.95", "0.999", ".1", "1e-5"]
 TEXT = ["all", "failures", "worst:1", "worst:-1", "worst:99999999999", "share:0.5", "share:nan", "1/2", "2/1", "0/0",
-        "1/99999999999999999999", "npz", "csv", "uniform", "adaptive", "wilson", "clopper-pearson", "published",
+        "1/99999999999999999999", "npz", "csv", "mcap", "uniform", "adaptive", "wilson", "clopper-pearson", "published",
         "assumed", "bash", "zsh", "fish", "no_slip", "perfect_sensing", "time_s=1", "0", "time=off", "x", "",
         "\u202e", "\x1b[2J", "a" * 5000, "'", '"', "$(id)", "=1+1", "-", "--", "%s%n"]
 # Values that these options need to end soon.
@@ -42,7 +42,7 @@ SMALL = {"--fields": ["1", "2", "0", "-1", "x"], "--threads": ["1", "2", "0", "4
          "--trials": ["0", "1", "2", "3", "-1", "x", ""], "--replicates": ["100", "99", "200", "x"],
          "--max-trials": ["1", "2", "30", "0", "x"], "--pilots": ["0", "1", "-1", "x"],
          "--replays": ["0", "1", "1001", "x"], "--block": ["1", "2", "25", "0", "x"]}
-MADE = {"--out", "--csv", "--svg", "--npz", "--junit", "--data"}
+MADE = {"--out", "--csv", "--svg", "--npz", "--mcap", "--junit", "--data"}
 FOUND = {"--against", "--cell", "--cell-b"}
 
 
