@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
 #include <vector>
 
 #include "core/check.h"
@@ -90,6 +93,15 @@ std::size_t Utf8Bytes(std::string_view text) {
     at += first.bytes;
   }
   return at;
+}
+
+std::optional<double> FiniteNumber(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool whole = error == std::errc() && end == word.data() + word.size();
+  if (!whole || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 std::string EscapeXml(std::string_view text) {

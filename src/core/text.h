@@ -1,9 +1,11 @@
-// Texts that people wrote: did you mean ...?, UTF-8, XML. Messages of readers and commands, result
-// files, drawings and pages use them. No record depends on them; Utf8Bytes also decides which files
-// of text are refused.
+// Texts that people wrote: did you mean ...?, UTF-8, numbers, XML. Messages of readers and
+// commands, result files, drawings and pages use them. No record depends on them; Utf8Bytes also
+// decides which files of text are refused, and FiniteNumber what cameras, poses and rovers in text
+// say.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,6 +43,11 @@ CodePoint FirstCodePoint(std::string_view text);
 
 // Returns the place of the first byte that is not valid UTF-8, or the size of the text.
 std::size_t Utf8Bytes(std::string_view text);
+
+// Returns a whole word as a finite number, by its decimal digits in any locale; a plus before it is
+// allowed. Nothing for what is none: blanks, units, hexadecimal digits, infinity, NaN, or a number
+// beyond those of double.
+std::optional<double> FiniteNumber(std::string_view word);
 
 // Returns `text` with entities for the characters that XML takes for its own and blanks for control
 // characters: fit for elements and for quoted attributes.

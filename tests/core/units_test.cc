@@ -5,6 +5,7 @@
 #include "core/provenance.h"
 #include "core/refusals.h"
 #include "core/result.h"
+#include "core/text.h"
 #include "math/angles.h"
 
 namespace rockyard::core {
@@ -33,6 +34,17 @@ TEST(UnitsTest, NamesWithoutUnitsHaveUnitOne) {
   EXPECT_EQ(UnitOf("m"), "1");  // a name is no suffix of itself
   EXPECT_EQ(UnitOf(""), "1");
   EXPECT_EQ(UnitOf("_"), "1");
+}
+
+TEST(FiniteNumberTest, IsAllOfAWord) {
+  const std::pair<const char*, double> numbers[] = {{"0", 0.0},        {"-1.5", -1.5}, {"+2", 2.0},
+                                                    {"1e-3", 1e-3},    {".5", 0.5},    {"007", 7.0},
+                                                    {"5e-324", 5e-324}};
+  for (const auto& [word, number] : numbers) EXPECT_EQ(FiniteNumber(word), number) << word;
+  for (const char* word : {"", "+", "+-1", "++1", "nan", "inf", "-infinity", "1e400", "0x10", "1,5",
+                           "1m", " 1", "1 ", "one"}) {
+    EXPECT_EQ(FiniteNumber(word), std::nullopt) << word;
+  }
 }
 
 TEST(UnitsTest, DegreesComeBackShortAndExact) {

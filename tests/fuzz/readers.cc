@@ -16,6 +16,7 @@
 #include "campaign/odometry/pair_reader.h"
 #include "campaign/odometry/path_journal.h"
 #include "campaign/odometry/pose_text.h"
+#include "core/archive.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
@@ -27,6 +28,8 @@
 #include "image_files/read_image.h"
 #include "report/baseline.h"
 #include "report/comparison_reference.h"
+#include "rover/urdf.h"
+#include "rover/urdf_reader/urdf_reader.h"
 #include "scenario/load.h"
 #include "scenario/sweep.h"
 #include "vision/calibration/target_file.h"
@@ -227,6 +230,18 @@ void ReadReference(std::string_view bytes) {
   }
 }
 
+// What of a rover comes from a file comes back from the file that rockyard writes of it.
+void ReadUrdf(std::string_view bytes) {
+  const rover::UrdfReading reading = rover::ReadUrdf(bytes, "bytes");
+  rover::RoverParams params;
+  core::ReadParams(reading.group, params);
+  const auto written = [](const rover::UrdfReading& read) { return core::DumpJson(read.group); };
+  const rover::UrdfReading again = rover::ReadUrdf(rover::WriteUrdf(params), "what was written");
+  if (!again.not_taken.empty() || written(again).empty()) {
+    throw std::logic_error("a rover does not read back");
+  }
+}
+
 constexpr Reader kReaders[] = {
     {"json", ReadJson},
     {"scenario", ReadScenario},
@@ -251,6 +266,7 @@ constexpr Reader kReaders[] = {
      [](std::string_view bytes) {
        image_files::ReadDisparity(MemoryFile(bytes).path(), 1.0, kSmall);
      }},
+    {"urdf", ReadUrdf},
 };
 
 }  // namespace

@@ -23,15 +23,18 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 FUZZER = ROOT / "build/fuzz/tests/fuzz/reader_fuzz"
 KEPT = ROOT / "tests/data/readers"
-SLOW = ("scenario", "sweep")  # a resolved scenario has a thousand parameters
-LONGEST = {"image": 16384, "reference": 16384, "scenario": 16384, "sweep": 16384}  # bytes; 4096 of the others
+SLOW = ("scenario", "sweep", "urdf")  # a resolved scenario has a thousand parameters, a rover is written back
+LONGEST = {"image": 16384, "reference": 16384, "scenario": 16384, "sweep": 16384, "urdf": 40960}  # bytes; 4096 of the others
 # What turns bytes into values or refusals, of all that the readers call.
 SOURCES = ("campaign/odometry/pair_reader.cc", "campaign/odometry/path_journal.cc",
            "campaign/odometry/pose_text.cc", "core/field_archive.cc", "core/files.cc", "core/json_file.cc",
            "core/json_parse.cc", "core/text.cc", "image_files/float_files.cc", "image_files/header_text.cc",
            "image_files/jpeg_reader.cc", "image_files/planetary.cc", "image_files/png_reader.cc",
            "image_files/pnm_reader.cc", "image_files/read_image.cc", "report/baseline.cc",
-           "report/comparison_reference.cc",
+           "report/comparison_reference.cc", "rover/urdf_reader/urdf_arms.cc", "rover/urdf_reader/urdf_bodies.cc",
+           "rover/urdf_reader/urdf_body.cc", "rover/urdf_reader/urdf_elements.cc", "rover/urdf_reader/urdf_joints.cc",
+           "rover/urdf_reader/urdf_links.cc", "rover/urdf_reader/urdf_masses.cc", "rover/urdf_reader/urdf_model.cc",
+           "rover/urdf_reader/urdf_skeleton.cc", "rover/urdf_reader/urdf_wheels.cc", "rover/urdf_reader/urdf_xml.cc",
            "scenario/load.cc", "scenario/sweep.cc", "scenario/sweep_axes.cc", "scenario/sweep_cell.cc",
            "scenario/sweep_keys.cc", "scenario/sweep_parts.cc", "vision/calibration/target_file.cc",
            "vision/cameras/camera_fields.cc", "vision/cameras/camera_file.cc", "vision/cameras/camera_text.cc")

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 
 #include "core/check.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/text.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -181,9 +181,9 @@ std::vector<std::string_view> WordsOf(std::string_view line) {
 }
 
 bool ParseNumber(std::string_view word, double& number) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
+  const std::optional<double> read = core::FiniteNumber(word);
+  if (read) number = *read;
+  return read.has_value();
 }
 
 std::vector<std::string_view> LinesOf(std::string_view text) {

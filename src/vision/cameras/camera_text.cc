@@ -199,15 +199,16 @@ std::vector<std::string_view> Words(std::string_view text, std::size_t most) {
 // Returns a whole word as a finite number.
 template <typename Number>
 std::optional<Number> NumberIn(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  Number value{};
-  const char* const end = word.data() + word.size();
-  const auto [stopped, error] = std::from_chars(word.data(), end, value);
-  if (error != std::errc() || stopped != end) return std::nullopt;
   if constexpr (std::is_floating_point_v<Number>) {
-    if (!std::isfinite(value)) return std::nullopt;
+    return core::FiniteNumber(word);
+  } else {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    Number value{};
+    const char* const end = word.data() + word.size();
+    const auto [stopped, error] = std::from_chars(word.data(), end, value);
+    if (error != std::errc() || stopped != end) return std::nullopt;
+    return value;
   }
-  return value;
 }
 
 bool Contains(std::span<const std::string_view> names, std::string_view name) {
