@@ -108,7 +108,7 @@ if [ -x /usr/bin/python3 ]; then
   export PATH
 fi
 
-groups="build mpi pages test figures"
+groups="build mpi python pages test figures"
 if [ "$preset" = tsan ]; then groups="$groups tsan"; fi
 # shellcheck disable=SC2086  # a list of words
 scripts/install_dependencies.sh $groups

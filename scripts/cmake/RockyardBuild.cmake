@@ -10,6 +10,11 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
+# The Python module holds the same archives as the command. No function is replaced when it is loaded, so
+# that the compiler may inline as it does in a program.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+add_compile_options(-fno-semantic-interposition)
+
 find_program(ROCKYARD_CCACHE ccache)
 mark_as_advanced(ROCKYARD_CCACHE)
 if(ROCKYARD_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

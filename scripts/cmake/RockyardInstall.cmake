@@ -107,13 +107,24 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/rockyardConfigVersion.cma
 install(FILES ${PROJECT_BINARY_DIR}/rockyardConfig.cmake
               ${PROJECT_BINARY_DIR}/rockyardConfigVersion.cmake DESTINATION ${package_dir})
 
-# `cpack --config <build>/CPackConfig.cmake`: a Debian package of all that is installed.
+# `cpack --config <build>/CPackConfig.cmake`: Debian packages of all that is installed, rockyard and python3-rockyard.
 set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME rockyard)
+set(CPACK_DEBIAN_UNSPECIFIED_FILE_NAME DEB-DEFAULT)
+if(TARGET rockyard_python_module)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-rockyard)
+  set(CPACK_DEBIAN_PYTHON_FILE_NAME DEB-DEFAULT)
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")  # a module is of one version of Python
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "rockyard (= ${PROJECT_VERSION}), python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The package rockyard for Python")
+endif()
 set(CPACK_PACKAGE_CONTACT "the rockyard developers <rockyard@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 if(ROCKYARD_GDAL AND GDAL_FOUND)  # loaded when a planetary image is read, so that no link asks for it

@@ -19,7 +19,9 @@ HEAVY = {
     "libzip": (r"zip\.h", r"LIBZIP"),
     "zlib": (r"zlib\.h", r"ZLIB::"),
     "Highway": (r"hwy/", r"HWY|hwy"),
-    "Boost.Math": (r"boost/", r"Boost::"),
+    "Boost.Math": (r"boost/(?!context/)", r"Boost::(?!context)"),
+    "Boost.Context": (r"boost/context/", r"Boost::context"),
+    "pybind11": (r"pybind11/", r"pybind11::"),
 }
 
 

@@ -77,8 +77,10 @@ void AddTraceOptions(CLI::App& command, campaign::TraceOptions& options) {
           ->allow_extra_args(false);
   command
       .add_option("--trace-format", options.format,
-                  "of these files: npz (arrays for NumPy) or csv (samples and events)")
-      ->check(CLI::IsMember({"npz", "csv"}))
+                  "of these files: npz (arrays for NumPy), csv (samples and events) or mcap (for "
+                  "Foxglove and other readers of MCAP)")
+      ->check(CLI::IsMember(std::vector<std::string>(campaign::kTraceFormatNames.begin(),
+                                                     campaign::kTraceFormatNames.end())))
       ->capture_default_str()
       ->needs(traces);
 }

@@ -10,9 +10,9 @@
 #include "app/progress_line.h"
 #include "app/run_display.h"
 #include "app/run_folders.h"
-#include "app/scenario_names.h"
 #include "campaign/check.h"
 #include "campaign/output_folder.h"
+#include "campaign/scenario_names.h"
 #include "report/comparison_table.h"
 #include "report/regression_report.h"
 
@@ -82,7 +82,7 @@ ExitCode Check(const CheckOptions& options) {
   campaign::CheckOutputFile("--junit", options.junit);
   campaign::CheckOutputFile("--csv", options.csv);
   campaign::CheckRequest request = options.request;
-  request.reference = ProjectPath(options.reference);
+  request.reference = campaign::ProjectPath(options.reference);
   if (options.allow_scenario_change) request.scenario_change = campaign::ScenarioChange::kAllow;
   if (options.same_records) request.record_change = campaign::RecordChange::kRefuse;
   const campaign::CheckResult result = [&] {

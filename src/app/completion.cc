@@ -15,8 +15,8 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/run_folders.h"
-#include "app/scenario_names.h"
 #include "campaign/plugin_settings.h"
+#include "campaign/scenario_names.h"
 #include "core/error.h"
 #include "core/field_table.h"
 #include "core/json_file.h"
@@ -162,16 +162,17 @@ std::vector<std::string> Runs() {
 }
 
 // Returns the shortest names, or paths where a path is being typed.
-std::vector<std::string> Names(Wanted wanted, std::string_view typed) {
-  return typed.find('/') == std::string_view::npos ? ScenarioNames(wanted) : ScenarioPaths(wanted);
+std::vector<std::string> Names(campaign::Wanted wanted, std::string_view typed) {
+  return typed.find('/') == std::string_view::npos ? campaign::ScenarioNames(wanted)
+                                                   : campaign::ScenarioPaths(wanted);
 }
 
 std::vector<std::string> WordsOf(std::string_view kind, std::string_view typed,
                                  const std::vector<std::string>& line) {
   if (kind == "settings") return Settings(typed, line);
-  if (kind == "scenarios") return Names(Wanted::kScenario, typed);
-  if (kind == "sweeps") return Names(Wanted::kSweep, typed);
-  if (kind == "rovers") return Names(Wanted::kRover, typed);
+  if (kind == "scenarios") return Names(campaign::Wanted::kScenario, typed);
+  if (kind == "sweeps") return Names(campaign::Wanted::kSweep, typed);
+  if (kind == "rovers") return Names(campaign::Wanted::kRover, typed);
   return kind == "runs" ? Runs() : std::vector<std::string>();
 }
 

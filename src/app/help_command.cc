@@ -33,7 +33,7 @@ constexpr const char* kStart =
     "\n"
     "docs/README.md of the source tree (share/doc/rockyard of an installation) is the way into "
     "the\n"
-    "documentation: a tutorial of an hour, ten questions with their answers, every command.\n"
+    "documentation: a tutorial of an hour, twelve questions with their answers, every command.\n"
     "\n"
     "Commands:\n";
 

@@ -14,8 +14,8 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/scenario_list.h"
-#include "app/scenario_names.h"
+#include "campaign/scenario_list.h"
+#include "campaign/scenario_names.h"
 #include "core/json_text.h"
 #include "core/json_value.h"
 #include "report/line_text.h"
@@ -29,7 +29,7 @@ using core::JsonValue;
 constexpr std::size_t kMinWidth = 40;
 
 struct ListOptions {
-  std::string folder;  // empty: ScenarioFolder()
+  std::string folder;  // empty: campaign::ScenarioFolder()
   bool all = false;
   bool ablations = false;
   bool json = false;
@@ -46,14 +46,14 @@ std::size_t LineWidth() {
 
 // Prints the name of a subfolder on a line of its own, and below it its files, each with what it
 // is. On a terminal lines are cut to its width.
-void PrintGroup(const std::string& folder, std::span<const ListedFile> files) {
+void PrintGroup(const std::string& folder, std::span<const campaign::ListedFile> files) {
   std::size_t widest = 0;
-  for (const ListedFile& file : files) {
+  for (const campaign::ListedFile& file : files) {
     widest = std::max(widest, report::Columns(report::Printable(file.name_in_group())));
   }
   const std::filesystem::path path = std::filesystem::path(folder) / files.front().group;
   Print(Bold(report::Printable(path.lexically_normal().generic_string())) + "\n");
-  for (const ListedFile& file : files) {
+  for (const campaign::ListedFile& file : files) {
     const std::string line = fmt::format("  {:<{}}  {}", report::Printable(file.name_in_group()),
                                          widest, report::Printable(file.About()));
     Print((IsTerminal(stdout) ? report::Cut(line, LineWidth()) : line) + "\n");
@@ -61,13 +61,15 @@ void PrintGroup(const std::string& folder, std::span<const ListedFile> files) {
 }
 
 // Files of one group must stand next to each other, as ListScenarios sorts them.
-void PrintEntries(const std::string& folder, const std::vector<ListedFile>& files, bool all) {
-  std::vector<ListedFile> shown;
+void PrintEntries(const std::string& folder, const std::vector<campaign::ListedFile>& files,
+                  bool all) {
+  std::vector<campaign::ListedFile> shown;
   std::copy_if(files.begin(), files.end(), std::back_inserter(shown),
-               [&](const ListedFile& file) { return IsShown(file, all); });
+               [&](const campaign::ListedFile& file) { return campaign::IsShown(file, all); });
   for (auto begin = shown.begin(); begin != shown.end();) {
-    const auto end = std::find_if(
-        begin, shown.end(), [&](const ListedFile& file) { return file.group != begin->group; });
+    const auto end = std::find_if(begin, shown.end(), [&](const campaign::ListedFile& file) {
+      return file.group != begin->group;
+    });
     PrintGroup(folder, {begin, end});
     begin = end;
   }
@@ -77,10 +79,11 @@ void PrintEntries(const std::string& folder, const std::vector<ListedFile>& file
   }
 }
 
-void PrintEntriesAsJson(const std::string& folder, const std::vector<ListedFile>& files, bool all) {
+void PrintEntriesAsJson(const std::string& folder, const std::vector<campaign::ListedFile>& files,
+                        bool all) {
   JsonValue::List entries;
-  for (const ListedFile& file : files) {
-    if (IsShown(file, all)) entries.push_back(Json(file));
+  for (const campaign::ListedFile& file : files) {
+    if (campaign::IsShown(file, all)) entries.push_back(Json(file));
   }
   JsonValue json = JsonValue::Object();
   json.Set("schema_version", JsonValue(std::int64_t{1}));
@@ -119,8 +122,9 @@ void ListAblationsAsJson() {
 
 void List(const ListOptions& options) {
   if (options.ablations) return options.json ? ListAblationsAsJson() : ListAblations();
-  const std::string folder = options.folder.empty() ? ScenarioFolder().string() : options.folder;
-  const std::vector<ListedFile> files = ListScenarios(folder);
+  const std::string folder =
+      options.folder.empty() ? campaign::ScenarioFolder().string() : options.folder;
+  const std::vector<campaign::ListedFile> files = campaign::ListScenarios(folder);
   if (options.json) {
     PrintEntriesAsJson(folder, files, options.all);
   } else {

@@ -13,8 +13,8 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/new_files.h"
-#include "app/scenario_names.h"
 #include "campaign/output_folder.h"
+#include "campaign/scenario_names.h"
 #include "core/error.h"
 #include "core/files.h"
 
@@ -53,12 +53,12 @@ fs::path NewFolder(const NewNavigatorOptions& options) {
 std::string NominalSeenFrom(const fs::path& folder) {
   fs::path file;
   try {
-    file = ScenarioFile(kNominal);
+    file = campaign::ScenarioFile(kNominal);
   } catch (const core::UserError&) {
-    throw core::UserError(
-        kNominal,
-        fmt::format("is not in {}, and the new scenario extends it", ScenarioFolder().string()),
-        "set ROCKYARD_SCENARIOS to the folder of rockyard's own scenarios");
+    throw core::UserError(kNominal,
+                          fmt::format("is not in {}, and the new scenario extends it",
+                                      campaign::ScenarioFolder().string()),
+                          "set ROCKYARD_SCENARIOS to the folder of rockyard's own scenarios");
   }
   if (file.is_absolute()) return file.string();
   return fs::weakly_canonical(file)

@@ -19,8 +19,8 @@
 #include "app/completion.h"
 #include "app/console.h"
 #include "app/run_folders.h"
-#include "app/scenario_names.h"
 #include "app/set_options.h"
+#include "campaign/scenario_names.h"
 #include "core/json_file.h"
 #include "core/text.h"
 
@@ -68,8 +68,8 @@ std::string WholeProblem(const std::string& text) {
 
 // The options that name a file or folder to be written. Must be complete: an option that is missing
 // here counts as one that names files to be read.
-constexpr std::array<std::string_view, 6> kOutputs = {"--out", "--csv",  "--svg",
-                                                      "--npz", "--data", "--junit"};
+constexpr std::array<std::string_view, 7> kOutputs = {"--out",  "--csv",  "--svg",  "--npz",
+                                                      "--mcap", "--data", "--junit"};
 
 bool IsOutput(const CLI::Option& option) {
   return std::find(kOutputs.begin(), kOutputs.end(), option.get_name()) != kOutputs.end();
@@ -80,7 +80,7 @@ bool IsOutput(const CLI::Option& option) {
 fs::path MeantBy(const CLI::Option& option, const std::string& word) {
   if (!option.get_positional() || fs::exists(word)) return word;
   try {
-    return ScenarioFile(word, Wanted::kRover);
+    return campaign::ScenarioFile(word, campaign::Wanted::kRover);
   } catch (const core::UserError&) {
     return word;  // it means something else
   }
@@ -196,7 +196,7 @@ void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request) {
 }
 
 void FindSource(campaign::TrialRequest& request) {
-  request.source = ScenarioFile(request.source);
+  request.source = campaign::ScenarioFile(request.source);
   RequireRuns(std::span(&request.source, 1));
 }
 

@@ -12,9 +12,9 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/scenario_names.h"
 #include "app/set_options.h"
 #include "campaign/run_source.h"
+#include "campaign/scenario_names.h"
 #include "core/error.h"
 #include "report/parameter_table.h"
 #include "scenario/load.h"
@@ -69,7 +69,7 @@ void ListMetrics(const MetricsOptions& options) {
   const auto columns = options.scenario.empty()
                            ? truth::RecordSchema()
                            : campaign::ColumnsOf(campaign::LoadScenarioFrom(
-                                 ScenarioFile(options.scenario), options.overrides));
+                                 campaign::ScenarioFile(options.scenario), options.overrides));
   Print(options.markdown ? report::MetricTableMarkdown(columns)
                          : Wrapped(report::MetricTableText(columns)));
 }
@@ -120,7 +120,7 @@ void ListParameters(const ParametersOptions& options) {
   const scenario::Scenario scenario =
       options.scenario.empty()
           ? Defaults(options.overrides)
-          : campaign::LoadScenarioFrom(ScenarioFile(options.scenario), options.overrides);
+          : campaign::LoadScenarioFrom(campaign::ScenarioFile(options.scenario), options.overrides);
   const auto parameters = Containing(
       options.word, report::SelectParameters(scenario::ListParameters(scenario), options.origin));
   if (parameters.empty()) {

@@ -12,9 +12,9 @@
 #include "app/output_files.h"
 #include "app/progress_line.h"
 #include "app/run_display.h"
-#include "app/scenario_names.h"
 #include "campaign/odometry/render_sequence.h"
 #include "campaign/output_folder.h"
+#include "campaign/scenario_names.h"
 #include "campaign/stereo/render_pair.h"
 #include "core/error.h"
 #include "math/angles.h"
@@ -122,7 +122,7 @@ ExitCode Render(RenderOptions& options) {
     throw core::UserError("--resume", "needs --pairs",
                           "take the one pair anew with --force in place of --resume");
   }
-  options.request.scenario = ScenarioFile(options.scenario);
+  options.request.scenario = campaign::ScenarioFile(options.scenario);
   if (options.behind) options.request.direction = messages::LookDirection::kBehind;
   if (options.heading_deg) options.request.heading_rad = math::DegToRad(*options.heading_deg);
   if (options.pairs) return RenderMany(options);

@@ -12,9 +12,9 @@
 #include "app/console.h"
 #include "app/run_display.h"
 #include "app/run_folders.h"
-#include "app/scenario_names.h"
 #include "campaign/output_folder.h"
 #include "campaign/report.h"
+#include "campaign/scenario_names.h"
 #include "report/line_text.h"
 
 namespace rockyard::app {
@@ -124,8 +124,8 @@ void AddReportCommand(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--title", options->title, "title of the page (default: the scenarios)");
   command->add_option("--data", options->data, "write the numbers of the page to this file (JSON)");
   command->callback([options, command, &exit_code] {
-    options->references = ProjectPath(options->references);
-    if (!options->against.empty()) options->against = ProjectPath(options->against);
+    options->references = campaign::ProjectPath(options->references);
+    if (!options->against.empty()) options->against = campaign::ProjectPath(options->against);
     options->command = CommandText(*command);
     exit_code = WritePage(*options);
   });

@@ -1,4 +1,5 @@
-// The command `rockyard rover`: describes a rover, or writes it as a URDF file.
+// The command `rockyard rover`: describes a rover, of a scenario or of a URDF file, or writes it as
+// a URDF file or as a rover file.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,29 +8,28 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_files.h"
-#include "app/scenario_list.h"
-#include "app/scenario_names.h"
+#include "app/rover_source.h"
 #include "campaign/output_folder.h"
-#include "campaign/run_source.h"
 #include "core/error.h"
-#include "core/json_file.h"
+#include "core/json_text.h"
 #include "math/angles.h"
 #include "report/line_text.h"
 #include "rover/rover_layout_params.h"
 #include "rover/rover_params.h"
 #include "rover/urdf.h"
-#include "scenario/load.h"
 
 namespace rockyard::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kUrdfEnding = ".urdf";
+constexpr const char* kRoverEnding = ".json";
 
 struct RoverOptions {
   std::string scenario;
@@ -39,8 +39,10 @@ struct RoverOptions {
 
 void CheckOut(const std::string& out) {
   if (out.empty()) return;
-  if (fs::path(out).extension() != ".urdf") {
-    throw core::UserError("--out", "does not end in .urdf: " + out, "name a URDF file");
+  const fs::path extension = fs::path(out).extension();
+  if (extension != kUrdfEnding && extension != kRoverEnding) {
+    throw core::UserError("--out", "does not end in .urdf or .json: " + out,
+                          "name a URDF file (.urdf) or a rover file (.json)");
   }
   campaign::CheckOutputFile("--out", out);
 }
@@ -91,31 +93,18 @@ std::string Loads(const rover::RoverParams& params) {
               fmt::format("on level ground at {:g} m/s2, by levers", params.physics.gravity_m_s2));
 }
 
-// Returns the scenario whose rover is described. A rover file is read as the group `rover` of a
-// scenario that is otherwise the default one.
-scenario::Scenario ScenarioOfRover(const RoverOptions& options) {
-  const fs::path file = ScenarioFile(options.scenario, Wanted::kRover);
-  std::error_code error;
-  if (fs::is_directory(file, error)) return campaign::LoadScenarioFrom(file, options.overrides);
-  const core::JsonValue group = core::LoadJsonFile(file);
-  if (!IsGroup(group)) return campaign::LoadScenarioFrom(file, options.overrides);
-  core::JsonValue document = core::JsonValue::Object();
-  document.Set("name", core::JsonValue(file.stem().string()));
-  document.Set("rover", group);
-  for (const std::string& assignment : options.overrides) core::ApplyOverride(document, assignment);
-  return scenario::ReadScenario(document);
-}
-
-void DescribeRover(const RoverOptions& options) {
+void ShowRover(const RoverOptions& options) {
   CheckOut(options.out);
-  const scenario::Scenario scenario = ScenarioOfRover(options);
-  if (!options.out.empty()) {
-    WriteNamedFile("URDF", options.out, rover::WriteUrdf(scenario.drive.rover));
-    return;
+  const RoverSource source = LoadRover(options.scenario, options.overrides);
+  if (options.out.empty()) {
+    Print(fmt::format("rover of {}\n", report::Printable(source.name)) + Dimensions(source.params) +
+          MassesAndMotors(source.params) + Loads(source.params));
+  } else if (fs::path(options.out).extension() == kUrdfEnding) {
+    WriteNamedFile("URDF", options.out, rover::WriteUrdf(source.params));
+  } else {
+    WriteNamedFile("rover", options.out, core::DumpJson(source.group));
   }
-  Print(fmt::format("rover of {}\n", report::Printable(scenario.name)) +
-        Dimensions(scenario.drive.rover) + MassesAndMotors(scenario.drive.rover) +
-        Loads(scenario.drive.rover));
+  if (source.reading) Print(LeftOutText(source));
 }
 
 }  // namespace
@@ -123,17 +112,26 @@ void DescribeRover(const RoverOptions& options) {
 void AddRoverCommand(CLI::App& app) {
   auto options = std::make_shared<RoverOptions>();
   CLI::App* command =
-      app.add_subcommand("rover", "Describes a scenario's rover, or writes it as a URDF file");
-  command->footer("scenarios/rovers/README.md tells how a scenario takes another rover.\n\n" +
-                  app.get_footer());
+      app.add_subcommand("rover",
+                         "Describes the rover of a scenario or of a URDF file, or writes it as a "
+                         "URDF or rover file");
+  command->footer(
+      "Of a URDF file it also lists what rockyard's rover has not, and what the file does not "
+      "say.\n"
+      "scenarios/rovers/README.md tells how a scenario takes another rover.\n\n" +
+      app.get_footer());
   command
       ->add_option("ROVER", options->scenario,
-                   "scenario or rover file (scenarios/rovers), its name, or the folder of a run")
+                   "scenario or rover file (scenarios/rovers), its name, the folder of a run, or a "
+                   "URDF file")
       ->required();
   command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);
-  command->add_option("--out", options->out, "URDF file to write instead of the description");
-  command->callback([options] { DescribeRover(*options); });
+  command->add_option(
+      "--out", options->out,
+      "file to write instead of the description: .urdf for other programs, .json for "
+      "scenarios that extend it");
+  command->callback([options] { ShowRover(*options); });
 }
 
 }  // namespace rockyard::app

@@ -13,9 +13,9 @@
 #include "app/console.h"
 #include "app/run_display.h"
 #include "app/run_folders.h"
-#include "app/scenario_names.h"
 #include "app/show_report.h"
 #include "campaign/run.h"
+#include "campaign/scenario_names.h"
 #include "scenario/ablations.h"
 
 namespace rockyard::app {
@@ -28,7 +28,7 @@ struct RunOptions {
 };
 
 ExitCode Run(const RunOptions& options) {
-  const std::string source = ScenarioFile(options.scenario);
+  const std::string source = campaign::ScenarioFile(options.scenario);
   RequireRuns(std::span(&source, 1));
   const campaign::RunRequest request{
       .source = source, .ablations = options.ablations, .campaign = options.campaign.Request()};

@@ -8,9 +8,9 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/run_display.h"
-#include "app/scenario_names.h"
 #include "app/show_report.h"
 #include "campaign/run.h"
+#include "campaign/scenario_names.h"
 
 namespace rockyard::app {
 namespace {
@@ -34,8 +34,9 @@ ExitCode RehearseSweep(const campaign::SweepRequest& request, const SweepOptions
 }
 
 ExitCode RunSweep(const SweepOptions& options) {
-  const campaign::SweepRequest request{.file = ScenarioFile(options.file, Wanted::kSweep),
-                                       .campaign = options.campaign.Request()};
+  const campaign::SweepRequest request{
+      .file = campaign::ScenarioFile(options.file, campaign::Wanted::kSweep),
+      .campaign = options.campaign.Request()};
   if (options.campaign.dry_run) return RehearseSweep(request, options);
   SharedFlag output_failed;
   const campaign::RunObserver shown = ShowRun(options.campaign, output_failed);

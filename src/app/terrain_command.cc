@@ -19,9 +19,9 @@
 #include "app/console.h"
 #include "app/output_files.h"
 #include "app/progress_line.h"
-#include "app/scenario_names.h"
 #include "campaign/output_folder.h"
 #include "campaign/run_source.h"
+#include "campaign/scenario_names.h"
 #include "core/error.h"
 #include "core/fields.h"
 #include "scenario/scenario.h"
@@ -241,7 +241,7 @@ void WriteTerrain(const TerrainOptions& options) {
   const Format format = FormatOf(options.out);
   campaign::CheckOutputFile("--out", options.out);
   const scenario::Scenario scenario =
-      campaign::LoadScenarioFrom(ScenarioFile(options.scenario), options.overrides);
+      campaign::LoadScenarioFrom(campaign::ScenarioFile(options.scenario), options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   const terrain::Course course = trial::TerrainCourse(scenario.drive.course);
   const terrain::Field field = terrain::BuildField(
@@ -251,7 +251,7 @@ void WriteTerrain(const TerrainOptions& options) {
 
 void ShowBlindSwath(const TerrainOptions& options) {
   const scenario::Scenario scenario =
-      campaign::LoadScenarioFrom(ScenarioFile(options.scenario), options.overrides);
+      campaign::LoadScenarioFrom(campaign::ScenarioFile(options.scenario), options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   terrain::BlindSwath swath = SwathOf(scenario);
   swath.width_m = options.width_m.value_or(swath.width_m);
@@ -262,7 +262,7 @@ void ShowBlindSwath(const TerrainOptions& options) {
 
 void ShowDensity(const TerrainOptions& options) {
   const scenario::Scenario scenario =
-      campaign::LoadScenarioFrom(ScenarioFile(options.scenario), options.overrides);
+      campaign::LoadScenarioFrom(campaign::ScenarioFile(options.scenario), options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   const BusyLine busy(fmt::format("building {} fields", options.fields));
   Print(CorridorDensityText(scenario, seed, options.fields));

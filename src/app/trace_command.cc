@@ -28,13 +28,16 @@ struct StoryOptions {
   std::string csv;
   std::string svg;
   std::string npz;
+  std::string mcap;
   bool all = false;
 };
 
 // Refuses files that cannot be written before the drive rather than after it.
 void CheckOutputs(const StoryOptions& options) {
-  const std::array<campaign::NamedFile, 3> files{
-      {{"--csv", options.csv}, {"--svg", options.svg}, {"--npz", options.npz}}};
+  const std::array<campaign::NamedFile, 4> files{{{"--csv", options.csv},
+                                                  {"--svg", options.svg},
+                                                  {"--npz", options.npz},
+                                                  {"--mcap", options.mcap}}};
   for (const campaign::NamedFile& file : files) campaign::CheckOutputFile(file.option, file.file);
   campaign::CheckDistinct(files);
 }
@@ -50,13 +53,15 @@ void WriteOutputs(const StoryOptions& options, const campaign::TrialSource& sour
     report::WriteFileAtomically(options.svg, campaign::PlanView(source.scenario, traced));
     Print(fmt::format("  plan view in {}\n", report::Printable(options.svg)));
   }
-  if (!options.npz.empty()) {
-    // Must agree: the bytes that `run --traces` writes of the same trial.
+  // Must agree: the bytes that `run --traces` writes of the same trial.
+  const auto write = [&](const std::string& file, campaign::TraceFormat format, const char* what) {
+    if (file.empty()) return;
     report::WriteFileAtomically(
-        options.npz,
-        campaign::TraceBytes(source.scenario, source.cell, recording, campaign::TraceFormat::kNpz));
-    Print(fmt::format("  arrays for NumPy in {}\n", report::Printable(options.npz)));
-  }
+        file, campaign::TraceBytes(source.scenario, source.cell, recording, format));
+    Print(fmt::format("  {} in {}\n", what, report::Printable(file)));
+  };
+  write(options.npz, campaign::TraceFormat::kNpz, "arrays for NumPy");
+  write(options.mcap, campaign::TraceFormat::kMcap, "messages for readers of MCAP");
 }
 
 ExitCode Trace(const StoryOptions& options) {
@@ -99,6 +104,8 @@ void AddTraceCommand(CLI::App& app, ExitCode& exit_code) {
                       "file for a plan view with the true and believed path");
   command->add_option("--npz", options->npz,
                       "file for posture, events, scans and steps as arrays for NumPy");
+  command->add_option("--mcap", options->mcap,
+                      "file for the same and the scene, for Foxglove and other readers of MCAP");
   command->add_flag("--all", options->all, "a line for every event");
   command->callback([options, &exit_code] {
     FindSource(options->request);

@@ -10,10 +10,10 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/scenario_names.h"
 #include "app/set_options.h"
 #include "campaign/run_source.h"
 #include "campaign/scenario_doubts.h"
+#include "campaign/scenario_names.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_file.h"
@@ -62,7 +62,7 @@ void Validate(const ValidateOptions& options) {
   std::vector<core::Problem> problems;
   for (const std::string& word : options.scenarios) {
     try {
-      const std::string path = ScenarioFile(word, Wanted::kEither);
+      const std::string path = campaign::ScenarioFile(word, campaign::Wanted::kEither);
       Print(
           fmt::format("{}: valid, {}\n", report::Printable(path), Check(path, options.overrides)));
       PrintDoubts(path, options.overrides);

@@ -223,6 +223,11 @@ fs::path WithoutSlash(const fs::path& path) {
 Merged MergeShards(std::span<const fs::path> shards, const fs::path& out,
                    const MergeOptions& options,
                    const std::function<void(const fs::path&)>& finish) {
+  if (shards.empty()) {
+    throw StoreError(
+        StoreProblem::kMismatch,
+        std::vector<Problem>{{"shards", "are none", "name the folders of all shards"}});
+  }
   const fs::path target = WithoutSlash(out);
   std::error_code error;
   const bool exists = fs::exists(fs::symlink_status(target, error));

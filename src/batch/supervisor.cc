@@ -317,7 +317,9 @@ ProcessEnd SignalsHeld::Wait(pid_t child) const {
       end->interrupted = asked.has_value();
       return *end;
     }
-    const int signal = sigwaitinfo(&held_, nullptr);
+    // Of a program with more threads another one may have got the signal of the child's end.
+    const timespec soon{.tv_sec = 0, .tv_nsec = 100'000'000};
+    const int signal = sigtimedwait(&held_, nullptr, &soon);
     if (signal <= 0 || signal == SIGCHLD) continue;
     const Clock::time_point now = Clock::now();
     if (!asked) {

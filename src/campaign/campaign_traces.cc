@@ -17,8 +17,11 @@
 #include "batch/parallel_tasks.h"
 #include "batch/trial_hash.h"
 #include "campaign/campaign_process.h"
+#include "campaign/replay_page.h"
 #include "campaign/run_source.h"
+#include "core/check.h"
 #include "core/error.h"
+#include "replay/trace_mcap.h"
 #include "replay/trace_npz.h"
 #include "report/atomic_file.h"
 #include "report/trace_view.h"
@@ -212,6 +215,7 @@ std::string TraceBytes(const scenario::Scenario& scenario, const std::string& ce
                        const DriveRecording& recording, TraceFormat format) {
   const truth::TracedTrial& traced = recording.traced;
   if (format == TraceFormat::kCsv) return report::TraceCsv(traced.trace);
+  if (format == TraceFormat::kMcap) return replay::TraceMcap(DataOf(scenario, cell, recording));
   const std::vector<replay::ReplayPose> poses = PosesOf(scenario, traced.trace);
   return replay::TraceNpz({.traced = traced,
                            .poses = poses,
@@ -225,7 +229,8 @@ std::string TraceBytes(const scenario::Scenario& scenario, const std::string& ce
 }
 
 std::string TraceFileName(std::uint64_t trial, TraceFormat format) {
-  return fmt::format("trial-{:06}.{}", trial, format == TraceFormat::kCsv ? "csv" : "npz");
+  return fmt::format("trial-{:06}.{}", trial,
+                     kTraceFormatNames.at(static_cast<std::size_t>(format)));
 }
 
 Outcome WriteTraces(const fs::path& folder, const TraceRequest& request, const Mission& mission,
@@ -285,6 +290,12 @@ TraceRetention TraceOptions::retention() const {
   }
   if (!problems.empty()) throw core::UserError(std::move(problems));
   return retention;
+}
+
+TraceFormat TraceOptions::form() const {
+  const auto found = std::find(kTraceFormatNames.begin(), kTraceFormatNames.end(), format);
+  EXPECT(found != kTraceFormatNames.end());
+  return static_cast<TraceFormat>(found - kTraceFormatNames.begin());
 }
 
 bool IsInShare(std::uint64_t seed, std::uint64_t trial, double share) {

@@ -4,6 +4,7 @@
 // so are driven again.
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +47,9 @@ struct TraceRetention {
   bool any() const { return all || failures || worst > 0 || share > 0.0; }
 };
 
-enum class TraceFormat { kNpz, kCsv };
+// The forms of a trace file, by the names that --trace-format and the ends of files have.
+enum class TraceFormat { kNpz, kCsv, kMcap };
+inline constexpr std::array<std::string_view, 3> kTraceFormatNames{"npz", "csv", "mcap"};
 
 struct TraceOptions {
   std::vector<std::string> rules;  // "all", "failures", "worst:N", "share:P"
@@ -55,7 +58,8 @@ struct TraceOptions {
   // Returns what the rules ask for together. Of two counts or shares the larger holds. Throws
   // core::UserError with everything that is wrong.
   TraceRetention retention() const;
-  TraceFormat form() const { return format == "csv" ? TraceFormat::kCsv : TraceFormat::kNpz; }
+  // `format` must be one of kTraceFormatNames.
+  TraceFormat form() const;
 };
 
 // Returns whether share:P keeps the trial: a pure function of (seed, trial), so that a campaign
@@ -94,11 +98,13 @@ struct TraceRequest {
   scenario::Scenario defaults = {};  // as of the campaign: its navigators and estimators
 };
 
-// Returns the bytes of a trace file, for campaigns and `rockyard trace` alike.
+// Returns the bytes of a trace file, for campaigns and `rockyard trace` alike. Throws
+// core::UserError where the terrain of an MCAP file cannot be built. Memory: of MCAP that of the
+// recording again, and twice the file.
 std::string TraceBytes(const scenario::Scenario& scenario, const std::string& cell,
                        const DriveRecording& recording, TraceFormat format);
 
-// Returns "trial-000123.npz" or "trial-000123.csv".
+// Returns "trial-000123.npz", or with the end of another form.
 std::string TraceFileName(std::uint64_t trial, TraceFormat format);
 
 // Drives the chosen trials of every cell of the run in `folder` again, on several threads, and

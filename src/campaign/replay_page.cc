@@ -142,35 +142,43 @@ std::vector<truth::TraceEvent> EventsOf(const truth::TracedTrial& traced,
 
 }  // namespace
 
-ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial) {
-  DriveRecording recording = RecordDrive(source.scenario, source.seed, trial);
+replay::ReplayData DataOf(const scenario::Scenario& scenario, const std::string& cell,
+                          DriveRecording recording) {
   const truth::TracedTrial& traced = recording.traced;
-  ReplayedTrial replayed;
-  replay::ReplayData& data = replayed.data;
-  data.title = fmt::format("{}, seed {}, trial {}", source.scenario.name, source.seed, trial);
-  data.scenario = source.scenario.name;
-  data.cell = source.cell;
-  data.seed = source.seed;
-  if (source.stored) {
-    data.repeats_stored =
-        report::RecordDifferences(traced.schema, *source.stored, traced.record).empty();
-  }
+  replay::ReplayData data;
+  data.scenario = scenario.name;
+  data.cell = cell;
+  data.seed = traced.seed;
   data.record_hash = batch::TrialHash(std::span(&traced.record, 1));
-  data.command = ReplayCommandLine(source, trial);
   data.provenance = core::CurrentProvenance();
   data.schema = traced.schema;
   data.record = traced.record;
-  AddScene(source.scenario, traced, data);
+  AddScene(scenario, traced, data);
   data.rock_moves = traced.trace.rock_moves;
-  data.links = LinksOf(source.scenario);
-  data.sensor = SensorOf(source.scenario);
-  data.poses = PosesOf(source.scenario, traced.trace);
+  data.links = LinksOf(scenario);
+  data.sensor = SensorOf(scenario);
+  data.poses = PosesOf(scenario, traced.trace);
   data.events = EventsOf(traced, data.poses);
   data.scans = std::move(recording.scans);
   data.steps = std::move(recording.steps);
   data.looks = std::move(recording.looks);
   data.overlays = std::move(recording.overlays);
   data.overlay_every = recording.overlay_every;
+  return data;
+}
+
+ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial) {
+  DriveRecording recording = RecordDrive(source.scenario, source.seed, trial);
+  const truth::TracedTrial traced = recording.traced;
+  ReplayedTrial replayed;
+  replay::ReplayData& data = replayed.data;
+  data = DataOf(source.scenario, source.cell, std::move(recording));
+  data.title = fmt::format("{}, seed {}, trial {}", source.scenario.name, source.seed, trial);
+  if (source.stored) {
+    data.repeats_stored =
+        report::RecordDifferences(traced.schema, *source.stored, traced.record).empty();
+  }
+  data.command = ReplayCommandLine(source, trial);
   replayed.plan_svg = PlanView(source.scenario, traced);
   return replayed;
 }

@@ -12,6 +12,12 @@
 
 namespace rockyard::campaign {
 
+// Returns all that is known of a recorded drive, but for title, command and whether it repeats a
+// stored record, which who asked for the drive knows. Throws core::UserError where the terrain
+// cannot be built, which is a simulator fault of the trial. Cost: that of building the terrain.
+replay::ReplayData DataOf(const scenario::Scenario& scenario, const std::string& cell,
+                          DriveRecording recording);
+
 // All that can be shown of a trial that was driven again.
 struct ReplayedTrial {
   replay::ReplayData data;

@@ -72,24 +72,6 @@ std::string CellList(const std::vector<batch::CellIdentity>& cells) {
   return text;
 }
 
-int FindCell(const fs::path& folder, const std::vector<batch::CellIdentity>& cells,
-             const std::string& wanted) {
-  if (wanted.empty() && cells.size() == 1) return 0;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const bool named = !wanted.empty() && cells[i].name == wanted;
-    if (named || std::to_string(i) == wanted) return static_cast<int>(i);
-  }
-  if (wanted.empty()) {
-    throw core::UserError(
-        folder.string(), fmt::format("holds a campaign of {} cells", cells.size()),
-        "`rockyard trace`, `rockyard replay`, `rockyard check`, `rockyard compare` and "
-        "`rockyard report` take one by --cell: " +
-            CellList(cells));
-  }
-  throw core::UserError("--cell", fmt::format("\"{}\" is no cell of {}", wanted, folder.string()),
-                        "use one of " + CellList(cells));
-}
-
 // Returns whether the document has the form of scenario.resolved.json.
 bool IsResolved(const core::JsonValue& document) {
   return document.Find("scenario") != nullptr && document.Find("provenance") != nullptr;
@@ -239,6 +221,24 @@ std::optional<report::StoppingReport> StoppingOf(const StoredRun& run) {
 std::string StoredRun::Label() const {
   return identity.name.empty() ? folder.string()
                                : fmt::format("{}, cell {}", folder.string(), identity.name);
+}
+
+int FindCell(const fs::path& folder, const std::vector<batch::CellIdentity>& cells,
+             const std::string& wanted) {
+  if (wanted.empty() && cells.size() == 1) return 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool named = !wanted.empty() && cells[i].name == wanted;
+    if (named || std::to_string(i) == wanted) return static_cast<int>(i);
+  }
+  if (wanted.empty()) {
+    throw core::UserError(
+        folder.string(), fmt::format("holds a campaign of {} cells", cells.size()),
+        "`rockyard trace`, `rockyard replay`, `rockyard check`, `rockyard compare` and "
+        "`rockyard report` take one by --cell: " +
+            CellList(cells));
+  }
+  throw core::UserError("--cell", fmt::format("\"{}\" is no cell of {}", wanted, folder.string()),
+                        "use one of " + CellList(cells));
 }
 
 StoredRun ReadRun(const fs::path& folder, const std::string& cell, StoredValues values) {

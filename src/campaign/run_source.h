@@ -93,6 +93,11 @@ report::Accounting AccountingOf(const StoredRun& run);
 // Returns where the rule ended the cell; nothing without a rule.
 std::optional<report::StoppingReport> StoppingOf(const StoredRun& run);
 
+// Returns the number of the cell that `wanted` names, by its name or its number from 0; may be
+// empty where there is only one. Throws core::UserError, which lists the cells.
+int FindCell(const std::filesystem::path& folder, const std::vector<batch::CellIdentity>& cells,
+             const std::string& wanted);
+
 // Reads one cell of the run in a folder. `cell`: its name, or its number from 0; may be left out
 // where the store has only one. Throws core::UserError, which lists the cells where `cell` must not
 // be left out or is none of them.

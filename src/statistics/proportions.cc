@@ -105,6 +105,11 @@ Interval ProportionInterval(std::int64_t count, std::int64_t trials, double conf
   return ClopperPearson(k, n, 1.0 - kStoppedShare * (1.0 - confidence));
 }
 
+Interval ExactInterval(double count, double trials, double confidence) {
+  EXPECT(count >= 0.0 && count <= trials && confidence > 0.0 && confidence < 1.0);
+  return ClopperPearson(count, trials, confidence);
+}
+
 std::string_view MethodName(IntervalMethod method) {
   // Must stay in the order of IntervalMethod.
   constexpr std::array<std::string_view, 4> kNames{"wilson", "clopper_pearson",

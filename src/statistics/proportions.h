@@ -61,6 +61,10 @@ Interval ProportionInterval(std::int64_t count, std::int64_t trials,
                             double confidence = kConfidence,
                             IntervalMethod method = IntervalMethod::kWilson);
 
+// Returns Clopper and Pearson's interval of counts that need not be whole, 0 <= count <= trials: of
+// n trials that hang together as the fewer independent ones that say as much. Cost: constant.
+Interval ExactInterval(double count, double trials, double confidence = kConfidence);
+
 // Returns the rate with its interval, by RateMethod.
 Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confidence = kConfidence,
                           IntervalMethod method = IntervalMethod::kWilson);

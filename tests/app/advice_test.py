@@ -239,6 +239,22 @@ FEW = {"scenarios/pathfinder/nominal.json": {"name": "nominal"}, "scenarios/gest
        "scenarios/sweeps/abundance.json": {"name": "two", "axes": [{"path": "course.goal_x_m", "values": [6, 7]}]}}
 SCAN = ("replay nominal --trial 0 --set referee.time_limit_s=1 --set sensors.light_stripe.columns=64 "
         "--set sensors.light_stripe.rows=48 ")
+def described(folder, *changes):
+    """mine.urdf, as the command writes a rover, with (old, new) once each."""
+    bare(["rover", "nominal", "--out", "mine.urdf"], folder)
+    text = (folder / "mine.urdf").read_text(encoding="utf-8")
+    for old, new in changes:
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    (folder / "mine.urdf").write_text(text, encoding="utf-8")
+
+
+def urdf(says, old, new):
+    """A URDF file with one change, which the advice takes back."""
+    return Row("rover mine.urdf", says, [done(described)], make=lambda box: described(box, (old, new)),
+               may_change=("mine.urdf",))
+
+
 TYPED = [
     Row("fly", r"one of: (\w+), .*completion", [instead("{1} --help")]),
     Row("chekc a", r'did you mean "(\w+)"\? one of: .*', [instead("{1} --help")]),
@@ -305,7 +321,22 @@ TYPED = [
         r"use rocks of kind moore or uniform_count, a course straight along x, and a layout at least 0.5 m wide .*",
         [swap("terrain.rocks.kind=none", "terrain.rocks.kind=moore"),
          swap("terrain.rocks.kind=none", "terrain.rocks.kind=uniform_count")]),
-    Row("rover nominal --out a.txt", r"name a URDF file", [swap("a.txt", "a.urdf")]),
+    Row("rover nominal --out a.txt", r"name a URDF file \((\.urdf)\) or a rover file \((\.json)\)",
+        [swap("a.txt", "a{1}"), swap("a.txt", "a{2}")]),
+    urdf(r"name a URDF file, as xacro writes it", "</robot>", ""),
+    urdf(r"expand it first: xacro FILE > rover.urdf", "<robot name=\"rover\">", "<robot><xacro:rover/>"),
+    urdf(r"give each link and joint a name of its own", "<link name=\"chassis\">", "<link>"),
+    urdf(r"give it a name of its own", "<link name=\"left_bogie\">", "<link name=\"chassis\">"),
+    urdf(r"name a link of this file", "<child link=\"left_bogie\"/>", "<child link=\"bogie\"/>"),
+    urdf(r"name a joint of this file", "<mimic joint=\"left_rocker_joint\"", "<mimic joint=\"rocker\""),
+    urdf(r'did you mean "revolute"\? one of: .*', "type=\"revolute\"", "type=\"revolut\""),
+    urdf(r"write decimal numbers in SI units", "<mass value=\"", "<mass value=\"about "),
+    urdf(r"give a vector such as 0 1 0", "<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 0 0\"/>"),
+    urdf(r"describe a rocker-bogie of six wheels", "type=\"continuous\"", "type=\"fixed\""),
+    urdf(r"let it turn as a bogie does", "left_bogie_joint\" type=\"revolute\"",
+         "left_bogie_joint\" type=\"prismatic\""),
+    urdf(r"steer the four outer wheels or all six, .*", "left_front_steering_joint\" type=\"revolute\"",
+         "left_front_steering_joint\" type=\"fixed\""),
     Row("replay nominal --trial 0 --set referee.time_limit_s=1 --out a.txt", r"name a file such as (report.html)",
         [swap("a.txt", "{1}")]),
     Row("replay nominal --trial 0 --set referee.time_limit_s=1 --out a.html --svg b --data b", r"name another file",

@@ -165,6 +165,7 @@ TEST_F(OutputTest, IsNeverAnInput) {
       {"trace", "run", "--trial", "0", "--csv", "run/trials.csv"},
       {"trace", "link.json", "--trial", "0", "--svg", "link.json"},
       {"trace", "mine", "--trial", "0", "--npz", "scenarios/mine.json"},
+      {"trace", "mine", "--trial", "0", "--mcap", "scenarios/mine.json"},
       {"replay", "run", "--trial", "0", "--data", "run/results.sqlite"},
       {"report", "run", "--out", "page.html", "--data", "./run/summary.json"},
       {"compare", "run", "run", "--csv", "run/trials.csv"},

@@ -266,9 +266,15 @@ TEST_F(CliTraces, ThoseThatAreThereAreKept) {
 // The same file whatever wrote it: resumed or not, on one thread or on two, or the single command.
 TEST_F(CliTraces, AreTheSameBytesWhateverWritesThem) {
   RunTo(0, Campaign(3, {"--traces", "all", "--threads", "2"}));
-  const CommandResult one = RunTo(0, {"trace", "run", "--trial", "2", "--npz", "one.npz"});
-  EXPECT_THAT(one.out, HasSubstr("arrays for NumPy in one.npz"));
-  EXPECT_EQ(ReadFile(work() / "one.npz"), ReadFile(work() / "run/traces/trial-000002.npz"));
+  RunTo(0, Campaign(3, {"--traces", "all", "--trace-format", "mcap", "--resume"}));
+  const CommandResult one =
+      RunTo(0, {"trace", "run", "--trial", "2", "--npz", "one.npz", "--mcap", "one.mcap"});
+  EXPECT_THAT(one.out, Says("arrays for NumPy in one.npz", "readers of MCAP in one.mcap"));
+  for (const std::string form : {"npz", "mcap"}) {
+    const std::string bytes = ReadFile(work() / ("one." + form));
+    EXPECT_FALSE(bytes.empty());
+    EXPECT_EQ(bytes, ReadFile(work() / ("run/traces/trial-000002." + form))) << form;
+  }
 }
 
 TEST_F(CliTraces, OfEveryCellOfASweep) {

@@ -107,6 +107,49 @@ TEST_F(CliTools, RoverAsUrdf) {
   EXPECT_THAT(ReadFile(work() / "rocky.urdf"), HasSubstr("<robot name=\"rover\">"));
 }
 
+// What the file does not say is listed, and may come from another rover.
+TEST_F(CliTools, RoverOfAUrdfFile) {
+  const std::string mfex = Source("scenarios/rovers/mfex.json");
+  RunTo(0, {"rover", mfex, "--out", "mine.urdf"});
+  const CommandResult read = RunTo(0, {"rover", "mine.urdf"});
+  EXPECT_THAT(read.out, StartsWith("rover of mine\n"));
+  EXPECT_THAT(read.out,
+              Says("11.5 kg", "0.0067 m/s", "stall at 2.3 Nm",
+                   "the file does not say, so that the default stays",
+                   "\n  rover.drive.ramp_s = 0.1\n", "rover.contact.stiffness_N_m = 50000"));
+  EXPECT_THAT(read.out, Not(HasSubstr("rockyard's rover has not")));
+  const CommandResult written =
+      RunTo(0, {"rover", "mine.urdf", "--set", "rover.drive.ramp_s=0.2", "--out", "mine.json"});
+  EXPECT_EQ(written.err, "  rover in mine.json\n");
+  EXPECT_THAT(written.out, Not(HasSubstr("ramp_s")));
+  const json group = json::parse(ReadFile(work() / "mine.json"));
+  EXPECT_EQ(group["drive"]["ramp_s"], 0.2);
+  EXPECT_EQ(group["geometry"]["wheel_radius_m"], 0.065);
+  EXPECT_FALSE(group.contains("contact"));
+  WriteFile(work() / "both.json", R"({"name": "both", "rover": {"extends": [")" + mfex +
+                                      R"(", "mine.json"], "drive": {"ramp_s": 0.1}}})");
+  RunTo(0, {"rover", "both.json", "--out", "both.rover.json"});
+  RunTo(0, {"rover", mfex, "--out", "mfex.rover.json"});
+  EXPECT_EQ(ReadFile(work() / "both.rover.json"), ReadFile(work() / "mfex.rover.json"));
+}
+
+TEST_F(CliTools, RoverOfAUrdfFileThatIsNone) {
+  RunTo(0, {"rover", Scenario("nominal"), "--out", "mine.urdf"});
+  std::string text = ReadFile(work() / "mine.urdf");
+  const std::string box = "<box size=\"0.4 ";
+  WriteFile(work() / "wide.urdf", text.replace(text.rfind(box), box.size(), "<box size=\"40 "));
+  const CommandResult wide = Run({"rover", "wide.urdf", "--out", "wide.json"});
+  EXPECT_EQ(wide.exit_code, 2);
+  EXPECT_THAT(wide.err, Says("wide.urdf: rover.geometry.belly_length_m", "above the largest",
+                             "collision of link \"chassis\""));
+  RunTo(0, {"rover", "wide.urdf", "--set", "rover.geometry.belly_length_m=0.4"});
+  WriteFile(work() / "none.urdf", "\n<robot><link name=\"a\"/></robot>");
+  const CommandResult none = Run({"rover", "none.urdf"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("none.urdf: has 0 wheels"));
+  EXPECT_FALSE(fs::exists(work() / "wide.json"));
+}
+
 TEST_F(CliTools, OutputsThatCannotBeMeantAreRefusedBeforeTheWork) {
   const std::vector<std::pair<Words, std::string>> refused = {
       {{"rover", Scenario("nominal"), "--out", "rover.xml"}, "does not end in .urdf"},

@@ -180,6 +180,7 @@ def prepared(rockyard, given):
     write("scene.json", {"name": "scene", "extends": str(nominal), "course": {"goal_x_m": 4.5},
                          "referee": {"time_limit_s": 2.0}, "rover": {"fidelity": "quasi_static"}})
     write("heir.json", {"name": "heir", "extends": str(given / "scene.json"), "referee": {"time_limit_s": 1.8}})
+    make("rover", given / "scene.json", "--out", "mine.urdf")
     write("sweep.json", {"name": "sweep", "scenario": str(given / "scene.json"), "trials": 2, "seed": 3, "axes": [
         {"name": "limit", "levels": [{"name": "one", "set": {"referee.time_limit_s": 1.5}}]}]})
     run = ["run", given / "scene.json", "--threads", 1, "--quiet"]
@@ -230,6 +231,7 @@ def uses_of(given):
         Use("validate", "json", "scene.json", ["validate", "@"], same=r"fingerprint \w+"),
         Use("parameters", "json", "scene.json", ["parameters", "@", "--csv"]),
         Use("rover", "json", "scene.json", ["rover", "@", "--out", "out/r.urdf"], ("r.urdf",)),
+        Use("rover, URDF", "numbers", "mine.urdf", ["rover", "@", "--out", "out/r.json"], ("r.json",)),
         Use("terrain", "json", "scene.json", ["terrain", "@", "--out", "out/t.csv"], ("t.csv",)),
         Use("trace of a scenario", "json", "scene.json", ["trace", "@", "--trial", 1, "--csv", "out/t.csv"],
             ("t.csv",)),

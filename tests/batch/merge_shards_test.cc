@@ -136,6 +136,7 @@ TEST_F(MergeTest, TwoAtOnceLeaveOneWhole) {
 }
 
 TEST_F(MergeTest, RefusesMissingAndRepeatedShards) {
+  EXPECT_THAT(ErrorOf({}), HasSubstr("shards: are none"));
   const fs::path first = MakeShard(1, 3);
   const fs::path third = MakeShard(3, 3);
   EXPECT_THAT(ErrorOf({first, third}), HasSubstr("are missing: 2/3"));

@@ -59,6 +59,17 @@ double Coverage(std::int64_t n, double rate, IntervalMethod method) {
   return coverage;
 }
 
+TEST(ExactInterval, TakesCountsThatAreNotWhole) {
+  // None of n: 1 - 0.025^(1/n), whatever n is.
+  EXPECT_NEAR(ExactInterval(0.0, 7.5).high, 1.0 - std::pow(0.025, 1.0 / 7.5), 1e-12);
+  EXPECT_NEAR(ExactInterval(7.5, 7.5).low, std::pow(0.025, 1.0 / 7.5), 1e-12);
+  const Interval whole = ProportionInterval(19, 199, 0.95, IntervalMethod::kClopperPearson);
+  EXPECT_EQ(ExactInterval(19.0, 199.0).low, whole.low);
+  EXPECT_EQ(ExactInterval(19.0, 199.0).high, whole.high);
+  EXPECT_GT(ExactInterval(19.5, 199.0).low, whole.low);
+  EXPECT_LT(ExactInterval(18.5, 199.0).high, whole.high);
+}
+
 TEST(ProportionInterval, ExactCoverage) {
   double sum = 0.0;
   double lowest = 1.0;

@@ -9,7 +9,7 @@
 
 #include "core/json_value.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 
 // What a .json file is.
 enum class ListedKind {
@@ -54,4 +54,4 @@ std::vector<ListedFile> ListScenarios(const std::filesystem::path& folder);
 // a sweep}. Must stay: keys and kinds, which src/report/README.md promises to programs.
 core::JsonValue Json(const ListedFile& file);
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

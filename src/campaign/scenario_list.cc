@@ -1,4 +1,4 @@
-#include "app/scenario_list.h"
+#include "campaign/scenario_list.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "scenario/load.h"
 #include "scenario/sweep.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -150,4 +150,4 @@ JsonValue Json(const ListedFile& file) {
   return json;
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

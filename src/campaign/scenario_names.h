@@ -1,18 +1,18 @@
-// Scenarios, sweeps and rovers by name. Every command that takes such a file takes its name too;
-// completion offers the names. Must stay: which file a word means, as scripts hold such words; no
-// record depends on how a file was found.
+// Scenarios, sweeps and rovers by name. Commands and the Python package that take such a file take
+// its name too; completion offers the names. Must stay: which file a word means, as scripts hold
+// such words; no record depends on how a file was found.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 
 // Returns the folder where scenarios are looked for: the one that the environment variable
 // ROCKYARD_SCENARIOS names, whether or not it is there; else the first that is there of `scenarios`
-// in the working directory, `../share/rockyard/scenarios` from the folder of the program, and
-// `scenarios` of the source tree whose build folder the program is in; else "scenarios".
+// in the working directory, that of the installation and that of the source tree to which the
+// program belongs, or else the Python module that this code is in; else "scenarios".
 std::filesystem::path ScenarioFolder();
 
 // Returns the file or folder that a path of the project means, "results/reference": itself where it
@@ -38,4 +38,4 @@ std::vector<std::string> ScenarioNames(Wanted wanted);
 // "gestalt/abundance".
 std::vector<std::string> ScenarioPaths(Wanted wanted);
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

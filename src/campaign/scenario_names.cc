@@ -1,5 +1,6 @@
-#include "app/scenario_names.h"
+#include "campaign/scenario_names.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,11 +11,11 @@
 #include <string_view>
 #include <system_error>
 
-#include "app/scenario_list.h"
+#include "campaign/scenario_list.h"
 #include "core/error.h"
 #include "core/text.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,6 +30,15 @@ bool IsFolder(const fs::path& path) {
 fs::path FolderOfProgram() {
   std::error_code error;
   return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+// Returns the folder of the shared library that holds this code; where it is no library, that of
+// the program.
+fs::path FolderOfModule() {
+  Dl_info info{};
+  const bool found = dladdr(&kEnding, &info) != 0 && info.dli_fname != nullptr;
+  const fs::path file = found ? info.dli_fname : "";
+  return file.extension() == ".so" ? fs::absolute(file).parent_path() : FolderOfProgram();
 }
 
 // Returns "pathfinder/nominal" of "<folder>/pathfinder/nominal.json".
@@ -164,9 +174,14 @@ fs::path ScenarioFolder() {
   const char* chosen = std::getenv("ROCKYARD_SCENARIOS");
   if (chosen != nullptr && *chosen != '\0') return chosen;
   const fs::path program = FolderOfProgram();
-  // A build folder is SOURCE/build/NAME, and the program in its folder `bin`.
-  for (const fs::path& folder : {fs::path("scenarios"), program / "../share/rockyard/scenarios",
-                                 program / "../../../scenarios"}) {
+  const fs::path module = FolderOfModule();
+  // A build folder is SOURCE/build/NAME, the program in its folder `bin`, and the module in its
+  // folder `python/rockyard`. Installed modules lie in lib/python3/dist-packages/rockyard, or have
+  // the scenarios beside them.
+  for (const fs::path& folder :
+       {fs::path("scenarios"), program / "../share/rockyard/scenarios",
+        program / "../../../scenarios", module / "scenarios",
+        module / "../../../../share/rockyard/scenarios", module / "../../../../scenarios"}) {
     if (IsFolder(folder)) return folder.lexically_normal();
   }
   return "scenarios";
@@ -213,4 +228,4 @@ std::vector<std::string> ScenarioNames(Wanted wanted) {
   return names;
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign
