@@ -185,6 +185,8 @@ def run(options):
         raise StudyError("\n".join(faults))
     rockyard = options.rockyard.resolve()
     version, commit = version_of(rockyard)
+    # Studies take the package of the same build, which they are not told by the program that notes its calls.
+    os.environ["PYTHONPATH"] = os.pathsep.join([str(rockyard.parents[1] / "python"), *filter(None, [os.environ.get("PYTHONPATH")])])
     held = lock()
     for study in wanted:
         kept = Kept(study)

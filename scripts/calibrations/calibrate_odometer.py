@@ -15,20 +15,16 @@ exits with 1 where that scenario says otherwise by more than rounding or chance 
     scripts/calibrations/calibrate_odometer.py [--set PATH=VALUE]... [--against scenarios/pathfinder/nominal.json]
 """
 
-import argparse
-import csv
 import json
 import math
 import statistics
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1] / "studies")
 import study  # noqa: E402
+from study import ROOT, ry  # noqa: E402
 
-ROOT = study.ROOT
 LEVEL_SAND = ROOT / "scenarios/pathfinder/level_sand.json"
 SCALE = "perception.dead_reckoning.distance_scale"
 VARIANCE = "sensors.encoders.physics_variance_m2_per_m"
@@ -44,38 +40,24 @@ CHANCE = 4.0  # standard errors of the gyro's gain
 ROUNDS = 2
 
 
-def drive(rockyard, settings, trials, seed):
-    """Columns of level sand runs. Raises CalledProcessError where the run fails."""
-    with tempfile.TemporaryDirectory() as folder:
-        command = [rockyard, "run", LEVEL_SAND, "--trials", trials, "--seed", seed, "--out",
-                   f"{folder}/run", "--quiet"]
-        command += [part for setting in settings for part in ("--set", setting)]
-        subprocess.run([str(part) for part in command], check=True, stdout=subprocess.DEVNULL)
-        return study.trial_columns(f"{folder}/run")
-
-
 def odometer(rockyard, settings, trials, seed):
     """Scale, physics variance and gain of the encoders, by their paths."""
-    columns = drive(rockyard, [*settings, *NO_ENCODER_ERROR], trials, seed)
+    columns = study.trials_of(rockyard, LEVEL_SAND, trials, seed, [*settings, *NO_ENCODER_ERROR])
     true, measured = columns["true_distance_m"], columns["dead_reckoned_distance_m"]
-    scale = 1.0 / statistics.mean(m / t for m, t in zip(measured, true))
-    errors = [scale * m - t for m, t in zip(measured, true)]
-    return {SCALE: scale, VARIANCE: statistics.variance(errors) / statistics.mean(true),
-            ENCODER_GAIN: scale}
+    scale = 1.0 / statistics.mean(measured / true)
+    return {SCALE: scale, VARIANCE: statistics.variance(scale * measured - true) / statistics.mean(true), ENCODER_GAIN: scale}
 
 
 def by_slope(columns):
     """Growth of the squared heading error, deg2/m, along the runs; with its standard error."""
-    growth = columns["heading_growth_deg2_per_m"]
+    growth = columns.heading_growth_deg2_per_m
     return statistics.mean(growth), statistics.stdev(growth) / math.sqrt(len(growth))
 
 
 def by_end(columns):
     """The same from the error at the end alone."""
-    squares = [error ** 2 for error in columns["heading_error_deg"]]
-    distance = statistics.mean(columns["true_distance_m"])
-    return (statistics.mean(squares) / distance,
-            statistics.stdev(squares) / math.sqrt(len(squares)) / distance)
+    squares, distance_m = columns.heading_error_deg ** 2, statistics.mean(columns.true_distance_m)
+    return statistics.mean(squares) / distance_m, statistics.stdev(squares) / math.sqrt(len(squares)) / distance_m
 
 
 def gyro_gain(rockyard, settings, trials, seed, reading=by_slope):
@@ -88,7 +70,7 @@ def gyro_gain(rockyard, settings, trials, seed, reading=by_slope):
         held = ["rover.fidelity=quasi_static", *settings,
                 f"sensors.gyro.heading_variance_deg2_per_m={PUBLISHED_DEG2_PER_M}",
                 f"{GYRO_GAIN}={gain}"]
-        growth, error = reading(drive(rockyard, held, trials, seed))
+        growth, error = reading(study.trials_of(rockyard, LEVEL_SAND, trials, seed, held))
         gain, error = (value * gain / PUBLISHED_DEG2_PER_M for value in (growth, error))
     return gain, error
 
@@ -108,18 +90,9 @@ def other_readings(rockyard, settings, found, trials, seed):
             "straight line": gyro_gain(rockyard, [*own, "sensors.gyro.scale=1"], trials, seed)}
 
 
-def values_of(rockyard, scenario):
-    """The effective values of a scenario's calibration."""
-    text = subprocess.run([str(rockyard), "parameters", str(scenario), "--csv"], check=True,
-                          capture_output=True, text=True).stdout
-    return {row["path"]: float(row["value"]) for row in csv.DictReader(text.splitlines())
-            if row["path"] in TOLERANCE}
-
-
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
+    parser = study.argument_parser(__doc__)
+    study.add_program(parser)
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE")
     parser.add_argument("--trials", type=int, default=40, help="of the odometer (default 40)")
     parser.add_argument("--gyro-trials", type=int, default=2000, help="of the gyro (default 2000)")
@@ -136,11 +109,10 @@ def main():
     if args.against is None:
         return 0
     tolerance = {**TOLERANCE, GYRO_GAIN: TOLERANCE[GYRO_GAIN] + CHANCE * error}
-    wrong = {path: value for path, value in values_of(args.rockyard, args.against).items()
-             if abs(value - found[path]) > tolerance[path]}
+    held = ry.Scenario(args.against)
+    wrong = {path: held[path] for path in TOLERANCE if abs(held[path] - found[path]) > tolerance[path]}
     for path, value in wrong.items():
-        print(f"{args.against}: {path} is {value}, calibration gives {found[path]:.6g}",
-              file=sys.stderr)
+        print(f"{args.against}: {path} is {value}, calibration gives {found[path]:.6g}", file=sys.stderr)
     return 1 if wrong else 0
 
 

@@ -13,17 +13,14 @@ SCENARIO, exits with 1 where that scenario's value gives a height outside of 7 t
                                  [--against scenarios/pathfinder/nominal.json]
 """
 
-import argparse
-import csv
+import functools
 import json
-import subprocess
 import sys
-import tempfile
-from collections import defaultdict
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1] / "studies")
-from study import ROOT, value_at  # noqa: E402
+import study  # noqa: E402
+from study import ROOT, ry  # noqa: E402
 
 HEIGHT_FACTOR = ROOT / "scenarios/hazard_detection/height_factor.json"
 POINTEDNESS = "terrain.rocks.pointedness"
@@ -51,22 +48,10 @@ def crossing(curve, level=0.5):
 
 
 def seen_from(rockyard, pointedness, settings=(), trials=640, seed=1):
-    """Height in m from which on half of the rocks are seen. CalledProcessError: the run failed."""
-    with tempfile.TemporaryDirectory() as folder:
-        command = [rockyard, "run", HEIGHT_FACTOR, "--trials", trials, "--seed", seed, "--out",
-                   f"{folder}/run", "--quiet"]
-        for setting in (*settings, f"{POINTEDNESS}={pointedness}"):
-            command += ["--set", setting]
-        subprocess.run([str(part) for part in command], check=True, stdout=subprocess.DEVNULL)
-        with open(f"{folder}/run/trials.csv", encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
-    scenes = defaultdict(float)
-    seen = defaultdict(float)
-    for row in rows:
-        height = float(row["height_m"])
-        scenes[height] += float(row["scenes"])
-        seen[height] += float(row["detected_double"])
-    return crossing([(height, seen[height] / scenes[height]) for height in sorted(scenes)])
+    """Height in m from which on half of the rocks are seen."""
+    sums = study.trials_of(rockyard, HEIGHT_FACTOR, trials, seed, [*settings, f"{POINTEDNESS}={pointedness}"]).groupby(
+        "height_m")[["scenes", "detected_double"]].sum()
+    return crossing((sums.detected_double / sums.scenes).items())
 
 
 def calibrate(height_at, target, tolerance=TOLERANCE):
@@ -84,9 +69,8 @@ def calibrate(height_at, target, tolerance=TOLERANCE):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
+    parser = study.argument_parser(__doc__)
+    study.add_program(parser)
     parser.add_argument("--heights", type=float, nargs=2, metavar="RATIO",
                         help="smallest and largest ratio of full height to diameter")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE")
@@ -99,16 +83,12 @@ def main():
     if args.heights:
         settings += [f"{path}={ratio}" for path, ratio in zip(HEIGHT_RATIOS, args.heights)]
 
-    known = {}
-
+    @functools.cache
     def height_at(pointedness):
-        if pointedness not in known:
-            known[pointedness] = seen_from(args.rockyard, pointedness, settings, args.trials,
-                                           args.seed)
-        return known[pointedness]
+        return seen_from(args.rockyard, pointedness, settings, args.trials, args.seed)
 
     if args.against is not None:
-        value = value_at(args.rockyard, args.against, POINTEDNESS)
+        value = ry.Scenario(args.against)[POINTEDNESS]
         height = height_at(value)
         print(json.dumps({POINTEDNESS: value, "seen_from_m": height}, indent=2))
         if SEEN_FROM_M[0] <= height <= SEEN_FROM_M[1]:

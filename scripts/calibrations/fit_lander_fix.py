@@ -19,17 +19,17 @@ there already are resumed; after a change of the code delete them.
         [--scenario scenarios/localization/drive_cylinder.json] [--markdown PAGE]
 """
 
-import argparse
-import csv
 import json
 import math
 import sys
-from collections import defaultdict
 from pathlib import Path
+
+import numpy as np
 
 sys.path[0] = str(Path(__file__).resolve().parents[1] / "studies")
 import study  # noqa: E402
-from calibrations import fit_visual_motion  # noqa: E402
+from study import rates  # noqa: E402
+from calibrations.fit_visual_motion import fit_logistic, fit_variance, rounded  # noqa: E402
 
 SCENARIO = study.ROOT / "scenarios/cylinder/views.json"
 ORIENTATIONS = "cylinder_sighting.orientations_deg=" + json.dumps(list(range(-165, 180, 30)))
@@ -38,7 +38,6 @@ IMAGE_WIDTH_PX = 512.0
 TAN_HALF_VIEW = math.tan(math.radians(29.33) / 2)
 RADIUS_M = 0.096
 PIXEL_RAD = 2 * TAN_HALF_VIEW / IMAGE_WIDTH_PX
-PRIOR_DEVIATION = 10.0
 NAMES = ("intercept", "width", "no_blue", "pink_aside", "light")  # of the coefficients of a chance
 BIAS_STANDARD_ERRORS = 3.0
 # Column of the errors of what was right, and its factor to radians or shares.
@@ -54,103 +53,68 @@ def width_px(distance_m):
     return IMAGE_WIDTH_PX / ((distance_m / RADIUS_M - RADIUS_M / distance_m) * TAN_HALF_VIEW)
 
 
-def features(row):
-    """Of the logistic laws."""
-    orientation = float(row["orientation_deg"])
-    return (1.0, math.log(width_px(float(row["distance_m"])) / 20), 1.0 if -180 < orientation < -90 else 0.0,
-            math.sin(2 * math.radians(orientation)),
-            math.sin(math.radians(float(row["sun_elevation_deg"]))))
+def features(rows):
+    """Of the logistic laws: a row for each of the rows."""
+    turn_deg = rows.orientation_deg
+    return np.array([np.ones(len(rows)), np.log(width_px(rows.distance_m) / 20), (-180 < turn_deg) & (turn_deg < -90),
+                     np.sin(2 * np.radians(turn_deg)), np.sin(np.radians(rows.sun_elevation_deg))]).T
 
 
-def steps(row):
+def steps(rows, name):
     """What one pixel is worth, by error."""
-    m = width_px(float(row["distance_m"]))
-    delta = math.remainder(math.radians(float(row["orientation_deg"])), math.pi / 2)
-    return {"heading": 2 / (m * math.cos(delta)), "range": 1 / m, "bearing": PIXEL_RAD}
+    m, turn = width_px(rows.distance_m), np.radians(rows.orientation_deg)
+    if name == "heading":
+        return 2 / (m * np.cos(turn - math.pi / 2 * np.round(turn / (math.pi / 2))))
+    return 1 / m if name == "range" else m * 0.0 + PIXEL_RAD
 
 
-def chance(law, f):
+def chance(law, rows):
     """By the coefficients of a logistic law."""
-    return 1 / (1 + math.exp(-sum(b * a for b, a in zip(law.values(), f))))
+    return 1 / (1 + np.exp(-features(rows) @ list(law.values())))
 
 
-def fit_chance(points):
-    """points: (features, number, happened). Coefficients by Newton's method."""
-    sums = defaultdict(lambda: [0.0, 0.0])
-    for f, n, happened in points:
-        sums[f][0] += n
-        sums[f][1] += happened
-    beta = [0.0] * len(NAMES)
-    for _ in range(200):
-        gradient = [-b / PRIOR_DEVIATION**2 for b in beta]
-        hessian = [[(1 / PRIOR_DEVIATION**2 if i == j else 0.0) for j in range(len(NAMES))] for i in range(len(NAMES))]
-        for f, (n, happened) in sums.items():
-            p = 1 / (1 + math.exp(-sum(b * a for b, a in zip(beta, f))))
-            for i in range(len(NAMES)):
-                gradient[i] += (happened - n * p) * f[i]
-                for j in range(len(NAMES)):
-                    hessian[i][j] += n * p * (1 - p) * f[i] * f[j]
-        step = fit_visual_motion.solve(hessian, gradient)
-        size = max(abs(s) for s in step)
-        beta = [b + s * min(1.0, 2.0 / max(size, 1e-30)) for b, s in zip(beta, step)]
-        if size < 1e-10:
-            break
-    return dict(zip(NAMES, (fit_visual_motion.rounded(b) for b in beta)))
+def fit_chance(rows, numbers, happened):
+    return dict(zip(NAMES, map(rounded, fit_logistic(features(rows), numbers, happened))))
 
 
-def errors_of(rows, finder, name):
-    """(step, error) of each right row, in radians or shares."""
+def right_of(rows, finder, name):
+    """The right rows, and their errors in radians or shares."""
     column, factor = ERRORS[name]
-    column = f"{finder}_right_{column.format('bias')}"
-    return [(steps(row)[name], factor * float(row[column])) for row in rows if float(row[f"{finder}_right"]) > 0]
+    right = rows[rows[f"{finder}_right"] > 0]
+    return right, factor * right[f"{finder}_right_{column.format('bias')}"]
 
 
 def fit_bias(errors):
     """The mean where it is significant, else 0."""
-    if len(errors) < 2:
-        return 0.0
-    mean = sum(e for _, e in errors) / len(errors)
-    variance = sum((e - mean)**2 for _, e in errors) / (len(errors) - 1)
-    significant = abs(mean) > BIAS_STANDARD_ERRORS * math.sqrt(variance / len(errors))
-    return mean if significant else 0.0
+    significant = len(errors) > 1 and abs(errors.mean()) > BIAS_STANDARD_ERRORS * errors.sem()
+    return errors.mean() if significant else 0.0
 
 
-def fit_deviation(errors, bias):
-    """least and pixels. With one step alone all of it is pixels."""
-    groups = defaultdict(lambda: [0, 0.0])
-    for step, error in errors:
-        groups[step][0] += 1
-        groups[step][1] += (error - bias)**2
-    if not groups:
+def fit_deviation(pixels, squares):
+    """least and pixels, of squared errors by what a pixel is worth. With one step alone all of it is pixels."""
+    groups = squares.groupby(pixels).agg(["size", "mean"])
+    if groups.empty:
         sys.exit("no right pose to fit a deviation to")
     if len(groups) == 1:
-        (step, (n, squares)), = groups.items()
-        return 0.0, math.sqrt(squares / n) / step
-    least, pixels, _ = fit_visual_motion.fit_variance(
-        [(step, 0.0, n, squares / n) for step, (n, squares) in groups.items()])
-    return least, pixels
-
-
-def is_beside(row, finder):
-    """Whether a pose that is called right points beside the cylinder."""
-    if float(row[f"{finder}_right"]) == 0:
-        return False
-    return abs(float(row[f"{finder}_right_bearing_bias_mrad"])) > 1e3 * RADIUS_M / float(row["distance_m"])
+        return 0.0, math.sqrt(groups["mean"].iloc[0]) / groups.index[0]
+    return fit_variance([(step, 0.0, n, square) for step, n, square in groups.itertuples()])[:2]
 
 
 def judged(rows, finder):
-    """The rows with those that point beside it among the wrong."""
-    return [row | {f"{finder}_wrong": 1, f"{finder}_right": 0} if is_beside(row, finder) else row for row in rows]
+    """The rows with those of right poses that point beside the cylinder among the wrong."""
+    right, bearing_mrad = rows[f"{finder}_right"], rows[f"{finder}_right_bearing_bias_mrad"]
+    beside = (right > 0) & (bearing_mrad.abs() > 1e3 * RADIUS_M / rows.distance_m)
+    return rows.assign(**{f"{finder}_wrong": rows[f"{finder}_wrong"].mask(beside, 1), f"{finder}_right": right.mask(beside, 0)})
 
 
 def check_rows(rows, finder):
     """Ends with a message where the rows are not what the fit needs."""
-    if not rows:
+    if rows.empty:
         sys.exit("no rows")
     for column in ("orientation_deg", f"{finder}_found"):
-        if column not in rows[0]:
+        if column not in rows:
             sys.exit(f"the rows have no column {column}")
-    if any(float(row["measurements"]) != 1 for row in rows):
+    if (rows.measurements != 1).any():
         sys.exit("a row is to be one measurement of one view")
 
 
@@ -158,17 +122,12 @@ def fit(rows, finder):
     """The group `cylinder` of sensors.aids.lander_fix."""
     check_rows(rows, finder)
     rows = judged(rows, finder)
-    rounded = fit_visual_motion.rounded
-
-    def count(row, what):
-        return float(row[f"{finder}_{what}"])
-
-    law = {"found": fit_chance([(features(row), 1, count(row, "found")) for row in rows]),
-           "wrong": fit_chance([(features(row), count(row, "found"), count(row, "wrong")) for row in rows])}
+    found, wrong = rows[f"{finder}_found"], rows[f"{finder}_wrong"]
+    law = {"found": fit_chance(rows, rows.measurements, found), "wrong": fit_chance(rows, found, wrong)}
     for name in ERRORS:
-        errors = errors_of(rows, finder, name)
+        right, errors = right_of(rows, finder, name)
         bias = 0.0 if name == "bearing" else fit_bias(errors)
-        least, pixels = fit_deviation(errors, bias)
+        least, pixels = fit_deviation(steps(right, name), (errors - bias) ** 2)
         if name == "range":
             law[name] = {"least": rounded(least), "pixels": rounded(pixels)}
             law["range_bias"] = rounded(bias)
@@ -176,20 +135,19 @@ def fit(rows, finder):
             law[name] = {"least_deg": rounded(math.degrees(least)), "pixels": rounded(pixels)}
         if name == "heading":
             law["heading_bias_deg"] = rounded(math.degrees(bias))
-    wrong = [row for row in rows if count(row, "wrong") > 0]
-    if wrong:
-        turn = math.sqrt(sum(float(row[f"{finder}_orientation_bias_deg"])**2 for row in wrong) / len(wrong))
-        logs = [math.log(max(1 + float(row[f"{finder}_stereo_bias"]), 0.05)) for row in wrong]
-        law["wrong_turn_deg"] = rounded(min(180.0, math.sqrt(3) * turn))
-        law["wrong_range"] = rounded(min(3.0, math.sqrt(sum(x * x for x in logs) / len(logs))))
+    wrong = rows[wrong > 0]
+    if len(wrong):
+        rms = lambda values: math.sqrt((values ** 2).mean())
+        law["wrong_turn_deg"] = rounded(min(180.0, math.sqrt(3) * rms(wrong[f"{finder}_orientation_bias_deg"])))
+        law["wrong_range"] = rounded(min(3.0, rms(np.log(np.maximum(1 + wrong[f"{finder}_stereo_bias"], 0.05)))))
     return law
 
 
-def deviation(law, name, row):
+def deviation(law, name, rows):
     """By the law, in radians or shares."""
     group = law[name]
     least = group["least"] if name == "range" else math.radians(group["least_deg"])
-    return math.hypot(least, group["pixels"] * steps(row)[name])
+    return np.hypot(least, group["pixels"] * steps(rows, name))
 
 
 def bias_of(law, name):
@@ -201,41 +159,33 @@ def bias_of(law, name):
 
 def ratios(rows, finder, law, name):
     """Squared errors of right rows in units of the law's variance: 1 on average where it is right."""
-    right = [row for row in rows if float(row[f"{finder}_right"]) > 0]
-    return [((error - bias_of(law, name)) / deviation(law, name, row))**2
-            for row, (_, error) in zip(right, errors_of(rows, finder, name))]
+    right, errors = right_of(rows, finder, name)
+    return ((errors - bias_of(law, name)) / deviation(law, name, right)) ** 2
 
 
 def share(rows, finder, law, what, of):
     """'count / of [95 % interval], share by the law'."""
-    n = sum(float(row[of]) for row in rows)
-    k = sum(float(row[f"{finder}_{what}"]) for row in rows)
+    n, k = rows[of].sum(), rows[f"{finder}_{what}"].sum()
     if n == 0:
         return "0 / 0"
-    by_law = sum(float(row[of]) * chance(law[what], features(row)) for row in rows) / n
-    low, high = study.wilson_interval(int(k), int(n))
+    by_law = (rows[of] * chance(law[what], rows)).sum() / n
+    low, high = rates.wilson_interval(k, n)
     return f"{k:.0f} / {n:.0f} [{low:.3f}, {high:.3f}], {by_law:.3f}"
 
 
 def table(rows, finder, law):
     """Rows beside the law, by distance, elevation of the sun and orientation."""
     rows = judged(rows, finder)
-    lines = ["| views | found [95 %], law | wrong of these [95 %], law | e^2 / sd^2 of heading | of range | of bearing |",
-             "|---|---|---|---|---|---|"]
 
-    def add(title, chosen):
-        cells = [share(chosen, finder, law, "found", "measurements"),
-                 share(chosen, finder, law, "wrong", f"{finder}_found")]
-        for name in ERRORS:
-            values = ratios(chosen, finder, law, name)
-            cells.append(f"{sum(values) / len(values):.2f} ({len(values)})" if values else "")
-        lines.append(f"| {title} | " + " | ".join(cells) + " |")
-
-    for column, unit in (("distance_m", "m"), ("sun_elevation_deg", "deg of sun"), ("orientation_deg", "deg of theta")):
-        for value in sorted({float(row[column]) for row in rows}):
-            add(f"{value:g} {unit}", [row for row in rows if float(row[column]) == value])
-    add("all", rows)
-    return "\n".join(lines)
+    def line(title, chosen):
+        values = [ratios(chosen, finder, law, name) for name in ERRORS]
+        return [title, share(chosen, finder, law, "found", "measurements"), share(chosen, finder, law, "wrong", f"{finder}_found"),
+                *(f"{own.mean():.2f} ({len(own)})" if len(own) else "" for own in values)]
+    lines = [line(f"{value:g} {unit}", chosen)
+             for column, unit in (("distance_m", "m"), ("sun_elevation_deg", "deg of sun"), ("orientation_deg", "deg of theta"))
+             for value, chosen in rows.groupby(column)]
+    return study.table(["views", "found [95 %], law", "wrong of these [95 %], law", "e^2 / sd^2 of heading", "of range",
+                        "of bearing"], [*lines, line("all", rows)], "---")
 
 
 def fragment(law):
@@ -253,20 +203,18 @@ def merge(into, new):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     study.add_run_arguments(parser, trials=10000, out="lander_fix")
+    study.add_page(parser)
     parser.add_argument("--finder", choices=("published", "robust"), default="published")
     parser.add_argument("--confirm", type=int, default=2, help="seed on which the fit is checked (2)")
     parser.add_argument("--scenario", type=Path, help="scenario file whose law is set")
-    parser.add_argument("--markdown", type=Path, help="file whose table `lander-fix-FINDER` is replaced")
     args = parser.parse_args()
 
     def measured(seed):
         args.seed = seed
-        folder = args.out / f"views_seed_{seed}"
-        study.run_scenario(args, SCENARIO, folder, [ORIENTATIONS] + args.set)
-        with open(folder / "trials.csv", encoding="utf-8") as file:
-            return [row for row in csv.DictReader(file) if row["outcome"] == "measured"]
+        run = study.run_scenario(args, SCENARIO, args.out / f"views_seed_{seed}", [ORIENTATIONS] + args.set)
+        return run.trials[run.trials.outcome == "measured"]
 
     rows = measured(args.seed)
     law = fit(rows, args.finder)

@@ -28,6 +28,7 @@ from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1] / "studies")
 import study  # noqa: E402
+from study import rates  # noqa: E402
 
 SCENARIO = study.ROOT / "scenarios/stereo_sensing/range.json"
 FRAGMENTS = study.ROOT / "scenarios/sensors"
@@ -52,12 +53,11 @@ class Cell:
         self.runs = runs
 
     def __getitem__(self, column):
-        return sum(run[column] for run in self.runs)
+        return self.runs[column].sum()
 
     def share(self, part, whole):
         """part / whole with its 95 % interval, runs being what is independent."""
-        return study.ratio_interval([run[part] for run in self.runs],
-                                    [run[whole] for run in self.runs])
+        return rates.share(self.runs[part], self.runs[whole])
 
     def mean(self, column, base):
         return self[column] / self[base] if self[base] else math.nan
@@ -68,10 +68,7 @@ class Cell:
 
 def cells_by(rows, *factors):
     """Cells by the values of some factors, in the order in which they come."""
-    cells = {}
-    for row in rows:
-        cells.setdefault(tuple(row[factor] for factor in factors), []).append(row)
-    return {key: Cell(runs) for key, runs in cells.items()}
+    return {key: Cell(runs) for key, runs in study.cells_of(rows, factors).items()}
 
 
 def correlations(cell):
@@ -146,29 +143,18 @@ def describe(texture, light, cell, args):
 
 def fragment(texture, settings, description, fitted):
     """The scenario that holds texture, light and the fitted errors."""
-    document = {"description": description}
-    values = {"sensors.look.soil_graininess": texture} | settings | {
-        "sensors.stereo.fidelity": "error_model"} | {
-            f"sensors.stereo.{name}": value for name, value in fitted.items()}
-    for path, value in values.items():
-        *groups, key = path.split(".")
-        group = document
-        for part in groups:
-            group = group.setdefault(part, {})
-        group[key] = value
-    return document
+    return study.nested({"sensors.look.soil_graininess": texture} | settings | {"sensors.stereo.fidelity": "error_model"} | {
+        f"sensors.stereo.{name}": value for name, value in fitted.items()}, {"description": description})
 
 
 def run(args, name, seed, settings):
     """Runs the scenario with settings, or takes the run that is there; its records pooled."""
-    args.trials = args.runs * (len(BINS) - 1)
-    folder = args.out / f"{name}-{seed}-{args.runs}"
-    held = [f"stereo_sensing.distances_m={json.dumps(BINS)}"]
-    held += [f"{path}={value}" for path, value in settings.items()]
-    seeded = argparse.Namespace(**{**vars(args), "seed": seed})
-    summary = study.run_scenario(seeded, SCENARIO, folder, held + args.set)
-    args.programs.add(study.program(summary))
-    return study.trial_rows(folder)
+    own = argparse.Namespace(**vars(args) | {"seed": seed, "trials": args.runs * (len(BINS) - 1)})
+    held = {"stereo_sensing.distances_m": json.dumps(BINS)} | settings
+    found = study.run_scenario(own, SCENARIO, args.out / f"{name}-{seed}-{args.runs}",
+                               [f"{path}={value}" for path, value in held.items()] + args.set)
+    args.programs.add(study.program(found))
+    return study.counted(found)
 
 
 def side_by_side(name, images, model):
@@ -211,28 +197,15 @@ def by_range(name, images, model):
     return rows
 
 
-def add_arguments(parser, out):
-    """What both scripts of stereo cameras take."""
-    parser.add_argument("--seed", type=int, default=1, help="seed of the looks (1)")
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--out", type=Path, default=study.ROOT / "results/runs" / out)
-    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
-                        help="held everywhere, for example perception.stereo.filters.blob_size=20")
-    parser.add_argument("--rockyard", type=Path, default=study.ROOT / "build/release/bin/rockyard")
-
-
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    add_arguments(parser, "stereo_fit")
-    parser.add_argument("--runs", type=int, default=4,
-                        help="of some looks each, of each texture, light and bin (4)")
+    parser = study.argument_parser(__doc__)
+    study.add_run_arguments(parser, None, "stereo_fit")
+    study.add_page(parser)
+    parser.add_argument("--runs", type=int, default=4, help="of some looks each, of each texture, light and bin (4)")
     parser.add_argument("--confirm", type=int, default=2, help="seed of the comparison (2)")
     parser.add_argument("--textures", default=",".join(TEXTURES), help="which, joined by commas")
     parser.add_argument("--lights", default=",".join(LIGHTS), help="which, joined by commas")
     parser.add_argument("--fragments", type=Path, default=FRAGMENTS, help="where they are written")
-    parser.add_argument("--markdown", type=Path, metavar="PAGE",
-                        help="write the tables between the marks of this page")
     args = parser.parse_args()
     for names, known in ((args.textures, TEXTURES), (args.lights, LIGHTS)):
         for name in names.split(","):
@@ -245,7 +218,7 @@ def arguments():
 def main():
     args = arguments()
     stereo = "sensors.stereo."
-    side = int(study.value_at(args.rockyard, SCENARIO, "perception.stereo.window_side_px"))
+    side = study.ry.Scenario(SCENARIO)["perception.stereo.window_side_px"]
     levels, ranges, parameters = [], [], []
     for texture in args.textures.split(","):
         for light in args.lights.split(","):
@@ -253,8 +226,7 @@ def main():
             held = {"sensors.look.soil_graininess": TEXTURES[texture]} | settings
             images = run(args, f"image-{texture}-{light}", args.seed, held)
             fitted = fit(Cell(images), side)
-            document = fragment(TEXTURES[texture], settings,
-                                describe(texture, words, Cell(images), args), fitted)
+            document = fragment(TEXTURES[texture], settings, describe(texture, words, Cell(images), args), fitted)
             path = args.fragments / f"fitted_stereo_{texture}_{light}.json"
             path.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
             parameters.append([name, *(f"{value:g}" for value in fitted.values())])
@@ -266,17 +238,12 @@ def main():
             ranges += by_range(name, unseen, model)
     note = (f"{unseen_looks:.0f} looks each, fitted on seed {args.seed}, compared on seed {args.confirm}; "
             f"made by rockyard {' and '.join(sorted(args.programs))}.")
-    tables = {
+    study.show(args, {
         "stereo_fit": study.table(["texture, light", *fitted], parameters),
         "stereo_levels": study.table(["texture, light", "what", "images", "error model"], levels),
         "stereo_noise": study.table(
             ["texture, light", "range, m", "rms error, px: images", "error model",
-             "plain pixels matched, %: images", "error model"], ranges),
-    }
-    for table, text in tables.items():
-        print(f"{table}\n\n{text}\n\n{note}\n")
-        if args.markdown:
-            study.write_table([args.markdown], table, f"{text}\n\n{note}")
+             "plain pixels matched, %: images", "error model"], ranges)}, f"\n\n{note}")
 
 
 if __name__ == "__main__":

@@ -10,15 +10,16 @@ scenarios/sensors/fitted_<light>.json: the light, and the errors as counted, wit
     scripts/calibrations/fit_stripe_errors.py --study build/test/tests/trial/stripe_error_study [--scenes 400]
 """
 
-import argparse
 import json
-import math
-import subprocess
+import sys
 from pathlib import Path
 from statistics import NormalDist
 
-ROOT = Path(__file__).resolve().parents[2]
-SCENES = ROOT / "scenarios/pathfinder/nominal.json"
+sys.path[0] = str(Path(__file__).resolve().parents[1] / "studies")
+import study  # noqa: E402
+from study import rates  # noqa: E402
+
+SCENES = study.ROOT / "scenarios/pathfinder/nominal.json"
 RIGHT_PX = 2
 
 # Where the assumptions on which images depend lie at the far ends of their study ranges.
@@ -38,15 +39,6 @@ LIGHTS = {
 }
 
 
-def wilson(count, trials, z=NormalDist().inv_cdf(0.975)):
-    """95 % score interval of a proportion (Wilson 1927)."""
-    rate = count / trials
-    centre = (rate + z * z / (2 * trials)) / (1 + z * z / trials)
-    half = z / (1 + z * z / trials) * math.sqrt(
-        rate * (1 - rate) / trials + z * z / (4 * trials * trials))
-    return (centre - half if count else 0.0), (centre + half if count < trials else 1.0)
-
-
 def column_noise(offsets):
     """Deviation of a normal variable that, rounded, is 0 as often as the offsets are."""
     total = sum(offsets)
@@ -54,14 +46,11 @@ def column_noise(offsets):
     return 0.5 / NormalDist().inv_cdf(1 - 0.5 * off / total) if off else 0.0
 
 
-def count(study, scenes, settings):
+def count(program, scenes, settings):
     """Tallies of flat ground and of rocks, summed."""
-    command = [study, SCENES, scenes] + [f"{path}={value}" for path, value in settings.items()]
-    output = subprocess.run([str(part) for part in command], check=True, capture_output=True,
-                            text=True).stdout
-    flat, rocks = (json.loads(output)[kind] for kind in ("flat", "rocks"))
-    total = {key: flat[key] + rocks[key]
-             for key in ("visible", "missed", "misplaced", "hidden", "ghosts")}
+    told = json.loads(study.run([program, SCENES, scenes, *(f"{path}={value}" for path, value in settings.items())]))
+    flat, rocks = told["flat"], told["rocks"]
+    total = {key: flat[key] + rocks[key] for key in ("visible", "missed", "misplaced", "hidden", "ghosts")}
     for key in ("visible_at", "missed_at", "offsets"):
         total[key] = [a + b for a, b in zip(flat[key], rocks[key])]
     return total
@@ -70,7 +59,7 @@ def count(study, scenes, settings):
 def describe(name, scenes, tally):
     """What was counted, in words."""
     def share(label, key, trials):
-        low, high = wilson(tally[key], trials)
+        low, high = rates.wilson_interval(tally[key], trials)
         return (f"{label} {tally[key]} of {trials} ({100 * tally[key] / trials:.2g} %, 95 % interval "
                 f"{100 * low:.2g} to {100 * high:.2g} %)")
     return (f"Errors of the geometric light stripe sensor as counted at the image level: {name}. "
@@ -83,7 +72,6 @@ def describe(name, scenes, tally):
 
 def fragment(name, settings, scenes, tally):
     """The scenario that holds the light and the fitted errors."""
-    document = {"description": describe(name, scenes, tally)}
     fitted = {
         "sensors.light_stripe.wrong_place_probability":
             round(tally["misplaced"] / tally["visible"], 6),
@@ -91,21 +79,14 @@ def fragment(name, settings, scenes, tally):
             [round(m / v, 4) for m, v in zip(tally["missed_at"], tally["visible_at"])],
         "sensors.light_stripe.column_noise_px": round(column_noise(tally["offsets"]), 3),
     }
-    for path, value in (settings | fitted).items():
-        *groups, key = path.split(".")
-        group = document
-        for part in groups:
-            group = group.setdefault(part, {})
-        group[key] = value
-    return document
+    return study.nested(settings | fitted, {"description": describe(name, scenes, tally)})
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("--study", required=True, help="path of stripe_error_study")
     parser.add_argument("--scenes", type=int, default=400, help="of each kind and light")
-    parser.add_argument("--out", type=Path, default=ROOT / "scenarios/sensors")
+    parser.add_argument("--out", type=Path, default=study.ROOT / "scenarios/sensors")
     arguments = parser.parse_args()
     for light, (name, settings) in LIGHTS.items():
         tally = count(arguments.study, arguments.scenes, settings)

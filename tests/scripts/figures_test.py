@@ -7,9 +7,9 @@ Usage: figures_test.py ROCKYARD [unittest options]. Needs Debian's matplotlib, a
 import contextlib
 import csv
 import io
-import json
 import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -17,6 +17,9 @@ import unittest
 from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
+
+import numpy as np
+import pandas
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts/studies"))
@@ -33,9 +36,21 @@ from figures import matthies1995_figure15 as figure15
 from figures import matthies1995_figure16 as figure16
 from figures import three_rock_course
 from figures.source import Source
+from rockyard import Trace
 
 ROCKYARD = None
 QUICK = ["--set", "referee.time_limit_s=1500", "--threads", "2", "--quiet"]
+
+
+def python_path(first):
+    return os.pathsep.join([str(first), os.environ["PYTHONPATH"]])
+
+
+def drive_of(**parts):
+    """A drive that knows these parts only."""
+    drive = object.__new__(howard2012.NavigatorDrive)
+    drive.__dict__.update(parts)
+    return drive
 
 
 def rows(path):
@@ -58,8 +73,7 @@ def setUpModule():
                         "--out", Path(SCRATCH.name) / name, *QUICK, *extra], check=True)
     sand = Path(SCRATCH.name) / "sand"
     subprocess.run([ROCKYARD, "run", ROOT / "scenarios/pathfinder/level_sand.json", "--trials", "41", "--out", sand,
-                    "--set", "rover.fidelity=quasi_static", "--traces", "all", "--trace-format", "csv", "--quiet"],
-                   check=True)
+                    "--set", "rover.fidelity=quasi_static", "--traces", "all", "--quiet"], check=True)
     walks = Path(SCRATCH.name) / "walks"
     subprocess.run([ROCKYARD, "run", ROOT / "scenarios/localization/straight_sand.json", "--trials", "66", "--out",
                     walks, "--set", "dead_reckoning.walks_per_run=50", "--quiet"], check=True)
@@ -112,16 +126,11 @@ class DrawnNumbers(FiguresTest):
         drawn = self.draw("matthies1995-5", "sand")
         ends = []
         for trial in range(20):
-            samples = [row for row in rows(self.root / f"sand/traces/trial-{trial:06d}.csv")
-                       if row["row"] == "sample"]
-            way = before = 0.0
-            for row in samples:  # straight along x, so that the way is x
-                way, before = float(row["true_x_m"]), way
-                if way >= 2.0:
-                    error = float(row["odometer_m"]) - way
-                    ends.append(error)
-                    break
-            self.assertLess(way - before, 0.02)
+            with np.load(self.root / f"sand/traces/trial-{trial:06d}.npz") as trace:
+                way = trace["position_m"][:, 0]  # straight along x
+                at = np.argmax(way >= 2.0)
+                ends.append(trace["believed"][at, 3] - way[at])
+            self.assertLess(way[at] - way[at - 1], 0.02)
         mean = sum(ends) / 20
         variance = sum((end - mean) ** 2 for end in ends) / 19
         # At 2 m, to a tick and to what the rover swerves.
@@ -155,10 +164,13 @@ class DrawnNumbers(FiguresTest):
         self.assertEqual(len(drawn.numbers["rocks"]), int(trial["rocks"]))
 
     def test_obstacles_are_where_scans_found_them(self):
-        trace = Source(self.root / "nominal", ROCKYARD).trace(1)
-        hazards = [(float(row["true_x_m"]), float(row["true_y_m"])) for row in trace
-                   if row["row"] == "event" and row["kind"] == "hazard"]
-        self.assertEqual(self.draw("matthies1995-16", "nominal", trial=1).numbers["hazards_true"], hazards)
+        file = self.root / "trace.csv"
+        subprocess.run([ROCKYARD, "trace", self.root / "nominal", "--trial", "1", "--csv", file], check=True,
+                       stdout=subprocess.DEVNULL)
+        hazards = [row for row in rows(file) if row["row"] == "event" and row["kind"] == "hazard"]
+        drawn = self.draw("matthies1995-16", "nominal", trial=1).numbers
+        for kind in ("true", "believed"):
+            self.assertEqual(drawn[f"hazards_{kind}"], [(float(row[f"{kind}_x_m"]), float(row[f"{kind}_y_m"])) for row in hazards])
 
     def test_rocks_are_counted_without_their_mirror_images(self):
         drawn = self.draw("matthies1995-15", "nominal", fields=3)
@@ -190,14 +202,6 @@ class DrawnNumbers(FiguresTest):
     def test_moores_law(self):
         self.assertAlmostEqual(figure15.law_per_m2(0.013, 0.23), 0.65, places=2)
         self.assertAlmostEqual(figure15.law_per_m2(0.013, 0.15), 2.0, places=1)
-
-    def test_poisson_limits(self):
-        # scipy.stats.chi2.ppf(0.025, 2 n) / 2 and chi2.ppf(0.975, 2 n + 2) / 2
-        for count, least, most in ((0, 0.0, 3.688879), (1, 0.025318, 5.571643), (5, 1.623486, 11.668332),
-                                   (50, 37.110964, 65.918767), (51, 37.972850, 67.055581),
-                                   (1000, 938.973018, 1063.952136)):
-            for found, true in zip(figure15.poisson_limits(count), (least, most)):
-                self.assertLessEqual(abs(found - true), 1e-4 * true, count)
 
     def test_counts_of_no_rock_have_an_upper_limit(self):
         axes = self.draw("matthies1995-15", "nominal", fields=1).figure.axes[0]
@@ -246,7 +250,7 @@ class DrawnNumbers(FiguresTest):
 
     def test_the_way_is_as_visual_odometry_sees_it_where_there_is_one(self):
         record = {"visual_distance_m": 15.25, "dead_reckoned_distance_m": 18.5}
-        drive = howard2012.NavigatorDrive("", [], [], [], [], [], record, "", {})
+        drive = drive_of(record=record)
         self.assertEqual(drive.way_as_seen(), "15.25 m by visual odometry")
         record["visual_distance_m"] = math.nan
         self.assertEqual(drive.way_as_seen(), "18.50 m by its wheels")
@@ -276,9 +280,9 @@ class DrawnNumbers(FiguresTest):
                 self.assertGreater(distance, 0.5)
 
     def test_a_goal_that_is_never_near_has_no_time(self):
-        drive = howard2012.NavigatorDrive("far", [0.0, 1.0], [], [], [], [], {}, "no_path", {})
-        self.assertEqual(drive.time_within_s([3.0, 0.5]), 1.0)
-        self.assertIsNone(drive.time_within_s([3.0, 0.6]))
+        drive = drive_of(time_s=np.array([0.0, 1.0]))
+        self.assertEqual(drive.time_within_s(np.array([3.0, 0.5])), 1.0)
+        self.assertIsNone(drive.time_within_s(np.array([3.0, 0.6])))
         self.assertEqual(howard2012.seconds(None), "never")
 
     def test_steering_adds_up_to_what_the_record_says(self):
@@ -309,8 +313,8 @@ class DrawnNumbers(FiguresTest):
         self.assertLess(step[0][2] - step[0][1], 0.21)
 
     def test_what_operators_turn_is_no_steering(self):
-        angles = [[0.0] * 6, [0.2] * 6, [0.0] * 6, [-0.1] * 6]
-        drive = howard2012.NavigatorDrive("", [0, 1, 2, 3], [], [], [False, False, True, False], angles, {}, "", {})
+        angles = np.array([[0.0] * 6, [0.2] * 6, [0.0] * 6, [-0.1] * 6])
+        drive = drive_of(trace={"steer_rad": angles, "set_back": np.array([False, False, True, False])})
         for turned in drive.turned_rad():
             self.assertAlmostEqual(turned, 0.3)
 
@@ -373,21 +377,21 @@ class DrawnNumbers(FiguresTest):
             self.assertAlmostEqual(got, true)
 
     def test_paths_keep_their_ends(self):
-        samples = [{"true_x_m": str(x), "true_y_m": "0"} for x in (0.0, 0.004, 0.02, 0.021)]
-        self.assertEqual(figure16.path_of(samples, "true"), [(0.0, 0.0), (0.02, 0.0), (0.021, 0.0)])
+        self.assertEqual(figure16.thinned([(x, 0.0) for x in (0.0, 0.004, 0.02, 0.021)]), [(0.0, 0.0), (0.02, 0.0), (0.021, 0.0)])
 
 
 class CommandLine(FiguresTest):
     def test_the_course_of_a_run_among_rocks(self):
-        def sample(time_s, x, true_deg, believed_deg):
-            return {"row": "sample", "kind": "drive", "time_s": str(time_s), "true_x_m": str(x),
-                    "true_y_m": "0", "true_heading_rad": str(math.radians(true_deg)), "believed_x_m": str(x),
-                    "believed_y_m": "0.1", "believed_heading_rad": str(math.radians(believed_deg))}
-        def alarm(time_s):
-            return {**sample(time_s, 0, 0, 0), "row": "event", "kind": "hazard"}
-        course = three_rock_course.Course([
-            sample(1, 0.0, 0, 0), sample(2, 0.5, 0, 1), alarm(2.5), alarm(2.7), sample(3, 0.6, 179, -177),
-            sample(4, 1.5, 0, -3), alarm(4.5), sample(5, 2.0, 0, 6)])
+        time_s, x, true_deg, believed_deg = np.array([
+            (0, 0.0, 0, 0), (1, 0.0, 0, 0), (2, 0.5, 0, 1), (2.6, 0.5, 0, 1), (3, 0.6, 179, -177), (4, 1.5, 0, -3), (5, 2.0, 0, 6)]).T
+        alarm_s = np.array([2.5, 2.7, 4.5, 4.6])
+        arrays = {"time_s": time_s, "position_m": np.transpose([x, 0 * x, 0 * x]), "heading_rad": np.radians(true_deg),
+                  "believed": np.transpose([x, 0 * x + 0.1, np.radians(believed_deg), x]), "event_time_s": alarm_s,
+                  "activity": np.array(["", "drive", "drive", "scan", "drive", "drive", "drive"]),
+                  "event_pose": np.zeros((4, 3)), "event_kind": np.array(["hazard"] * 3 + ["scan"]), "event_detail": np.array([""] * 4)}
+        file = self.root / "among_rocks.npz"
+        np.savez(file, **arrays)
+        course = three_rock_course.Course(Trace(file))
         for got, expected in zip(course.path, (0.0, 0.5, 0.6, 1.5, 2.0)):
             self.assertAlmostEqual(got, expected)
         for got, expected in zip(course.error_deg, (0, 1, 4, -3, 6)):
@@ -410,15 +414,11 @@ class CommandLine(FiguresTest):
         self.assertIn("scenarios/continuous/csad.json", text)
 
     def test_the_run_that_is_drawn_is_the_first_that_ended_like_the_published_one(self):
-        drive = lambda trial, outcome, off: {"trial": trial, "outcome": outcome, "true_goal_distance_m": off}
-        source = SimpleNamespace(path="run", drives=lambda: drives)
-        drives = [drive("0", "goal_reached", "0.9"), drive("1", "jammed", "1.4"),
-                  drive("2", "false_goal", "1.5"), drive("3", "goal_reached", "1.4")]
-        self.assertEqual(figure16.like_the_published(source), 2)
-        drives.pop(2)
-        drives.pop(2)
+        drives = pandas.DataFrame([("goal_reached", 0.9), ("jammed", 1.4), ("false_goal", 1.5), ("goal_reached", 1.4)],
+                                  columns=["outcome", "true_goal_distance_m"])
+        self.assertEqual(figure16.like_the_published(SimpleNamespace(path="run", drives=lambda: drives)), 2)
         with self.assertRaises(figure16.FigureError):
-            figure16.like_the_published(source)
+            figure16.like_the_published(SimpleNamespace(path="run", drives=lambda: drives[:2]))
 
     def test_the_same_runs_give_the_same_bytes(self):
         drawn = [(name, run, "--trial", "0") for name, run in (
@@ -432,7 +432,7 @@ class CommandLine(FiguresTest):
                  "    sys.argv[1:] = words; assert command.main() == 0")
         lines = "\n".join(" ".join([*words, "--out", "second", "--rockyard", str(ROCKYARD)]) for words in drawn)
         subprocess.run([sys.executable, "-c", again], cwd=self.root, check=True, input=lines, text=True,
-                       stdout=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": str(ROOT / "scripts/studies")})
+                       stdout=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": python_path(ROOT / "scripts/studies")})
         files = sorted(path.name for path in (self.root / "first").iterdir())
         self.assertEqual(len(files), 21)  # SVG, PNG and caption of each
         for name in files:
@@ -451,19 +451,17 @@ class CommandLine(FiguresTest):
 
     def test_what_is_wrong_is_said_in_a_line(self):
         (self.root / "empty").mkdir(exist_ok=True)
-        broken = self.root / "broken"
-        broken.mkdir(exist_ok=True)
+        broken = shutil.copytree(self.root / "nominal", self.root / "broken")
         (broken / "summary.json").write_text('{"scenario": "na', encoding="utf-8")
-        sweep = self.root / "sweep"
-        sweep.mkdir(exist_ok=True)
-        (sweep / "summary.json").write_text(json.dumps({"kind": "sweep"}), encoding="utf-8")
+        subprocess.run([ROCKYARD, "sweep", ROOT / "scenarios/sweeps/abundance.json", "--trials", "1", "--out",
+                        self.root / "sweep", "--set", "referee.time_limit_s=10", "--quiet"], check=True)
         for words, reason in ((["matthies1995-17"], "needs 1 to 2 RUN, and 0 were given"),
                               (["matthies1995-99", "nominal"], "is no figure; one of"),
                               ([], "no figure is named"),
                               (["matthies1995-17", "nowhere"], "does not exist"),
-                              (["matthies1995-17", "empty"], "finished run"),
-                              (["matthies1995-17", "broken"], "is no JSON"),
-                              (["matthies1995-17", "sweep"], "no run of one scenario"),
+                              (["matthies1995-17", "empty"], "name the folder of a run"),
+                              (["matthies1995-17", "broken"], "its summary cannot be read"),
+                              (["matthies1995-17", "sweep"], "cell"),
                               (["matthies1995-17", "scan"], "no run of drives"),
                               (["matthies1995-16", "nominal", "--trial", "99"], "trial 99"),
                               (["matthies1995-16", "nominal", "--trial", "-1"], "at least 0"),
@@ -494,7 +492,7 @@ class CommandLine(FiguresTest):
         (self.root / "shadow").mkdir(exist_ok=True)
         (self.root / "shadow/matplotlib.py").write_text("raise ImportError('no matplotlib')\n", encoding="utf-8")
         result = subprocess.run([ROOT / "scripts/studies/figures/figures.py", "--list"], text=True,
-                                env={"PYTHONPATH": str(self.root / "shadow")}, capture_output=True,
+                                env={"PYTHONPATH": python_path(self.root / "shadow")}, capture_output=True,
                                 check=False)
         self.assertEqual(result.returncode, 1)
         self.assertIn("scripts/install_dependencies.sh figures", result.stderr)

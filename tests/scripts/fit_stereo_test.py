@@ -11,6 +11,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import pandas
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts/studies"))
 
@@ -58,7 +60,7 @@ class Fits(unittest.TestCase):
                                  "plain_wrong": 50.0, "plain_error_px": 7.0, "shadow_good": 600.0,
                                  "behind_wrong_1": 6.0, "front_wrong_1": 5.0, "front_wrong_2": 10.0,
                                  "front_matched_1": 6.0}
-        fitted = fit.fit(fit.Cell([cell]), SIDE_PX)
+        fitted = fit.fit(fit.Cell(pandas.DataFrame([cell])), SIDE_PX)
         self.assertEqual(fitted["disparity_noise_px"], 0.1)
         self.assertEqual(fitted["dropout_probability"], 0.25)
         # 0.6 = 0.75 (1 - q).
@@ -72,7 +74,7 @@ class Fits(unittest.TestCase):
 
     def test_no_chance_is_negative(self):
         cell = perfect_cell() | {"plain_good": 900.0}
-        fitted = fit.fit(fit.Cell([cell]), SIDE_PX)
+        fitted = fit.fit(fit.Cell(pandas.DataFrame([cell])), SIDE_PX)
         self.assertEqual(fitted["shadow_dropout_probability"], 0.0)
 
     def test_fragment_is_a_scenario_of_texture_light_and_errors(self):
@@ -84,7 +86,7 @@ class Fits(unittest.TestCase):
 
 class Cells(unittest.TestCase):
     def test_runs_of_a_cell_add_up(self):
-        rows = [{"nearest_m": near, "good": good} for near, good in ((1, 2), (3, 4), (1, 5))]
+        rows = pandas.DataFrame([(1, 2), (3, 4), (1, 5)], columns=["nearest_m", "good"])
         cells = fit.cells_by(rows, "nearest_m")
         self.assertEqual({key: cell["good"] for key, cell in cells.items()}, {(1,): 7, (3,): 4})
 
@@ -92,7 +94,7 @@ class Cells(unittest.TestCase):
         row = {"nearest_m": 1.0, "farthest_m": 2.0, "pixels": 8.0, "matched": 5.0, "good": 4.0, "wrong": 1.0,
                "error_px": 0.04, "bias_px": 0.4, "range_m": 6.0, "range_error_m": 0.0036,
                "range_step_m": 0.16, "axis_step_m": 0.36}
-        line = stereo.table_of("range", [row]).splitlines()[-1]
+        line = stereo.table_of("range", pandas.DataFrame([row])).splitlines()[-1]
         # 0.1 px; 3 cm beside 0.1 sqrt(0.09) = 3 cm on the axis and 2 cm along the ray.
         for value in ("1 to 2", "0.100", "+0.100", "150", "3.00 | 3.00 | 2.00 | 1.50"):
             self.assertIn(f"| {value} |", line)

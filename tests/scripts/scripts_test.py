@@ -93,7 +93,7 @@ class TestScript(ScriptTest):
 
     def test_everything_by_default(self):
         self.assertEqual(self.run_script("test.sh", "--jobs", "2").returncode, 0)
-        self.assertEqual(self.called("install_dependencies.sh"), ["build mpi pages test figures"])
+        self.assertEqual(self.called("install_dependencies.sh"), ["build mpi python pages test figures"])
         self.assertEqual(self.called("ctest"), ["--preset test -j 4 -LE ^long$ --no-tests=error --output-on-failure"])
 
     def test_label_and_lint(self):
@@ -126,7 +126,7 @@ class TestScript(ScriptTest):
 
     def test_tsan_needs_its_own_packages(self):
         self.run_script("test.sh", "--preset", "tsan")
-        self.assertEqual(self.called("install_dependencies.sh"), ["build mpi pages test figures tsan"])
+        self.assertEqual(self.called("install_dependencies.sh"), ["build mpi python pages test figures tsan"])
 
     def test_the_long_tier_is_what_the_others_leave_out(self):
         self.run_script("test.sh", "--long")
@@ -324,7 +324,7 @@ class PackageList(unittest.TestCase):
         packages = [line.split(None, 2) for line in lines if line and not line.startswith("#")]
         for fields in packages:
             self.assertEqual(len(fields), 3, fields)
-            self.assertIn(fields[1], ("build", "mpi", "planetary", "pages", "test", "tsan", "figures", "clean_room"))
+            self.assertIn(fields[1], ("build", "mpi", "planetary", "pages", "test", "tsan", "figures", "python", "clean_room"))
         names = [fields[0] for fields in packages]
         self.assertEqual(len(names), len(set(names)))
 

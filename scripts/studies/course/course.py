@@ -46,8 +46,7 @@ def scenario_of(course, navigator, out):
         return path
     own = read_course(path)
     scenario = {"extends": str(BEHAVIOUR), "name": f"{own['name']}_behaviour"}
-    scenario |= {group: own[group] for group in ("terrain", "perception", "course", "referee")
-                 if group in own}
+    scenario |= {group: own[group] for group in ("terrain", "perception", "course", "referee") if group in own}
     # The base is of random rocks: the course says what stands in its way.
     scenario["terrain"].setdefault("rocks", {"kind": "none"})
     out.mkdir(parents=True, exist_ok=True)
@@ -60,27 +59,19 @@ def course_row(args, expected):
     course, navigator = expected["course"], expected["navigator"]
     print(course, navigator, file=sys.stderr)
     settings = args.set + (args.set_gestalt if navigator == "gestalt" else [])
-    folder = args.out / course / navigator
-    summary = study.run_scenario(args, scenario_of(course, navigator, args.out), folder, settings)
-    columns = study.trial_columns(folder)
-    arrived = [outcome == "goal_reached" for outcome in columns["outcome"]]
-    ratios = [ratio for ratio, there in zip(columns["path_ratio"], arrived) if there]
-    success = summary["true_success"]
+    run = study.run_scenario(args, scenario_of(course, navigator, args.out), args.out / course / navigator, settings)
+    arrived, success = run.ended("goal_reached"), run.true_success
     row = {"course": course, "navigator": navigator, "trials": len(arrived),
-           "arrivals_percent": 100.0 * sum(arrived) / len(arrived),
-           "arrivals_low": 100.0 * success["ci95"][0], "arrivals_high": 100.0 * success["ci95"][1],
-           "path_ratio": max(ratios, default=math.nan),
-           "turned_deg": max(math.degrees(turn) for turn in columns["turned_in_place_rad"])}
-    row |= {key: float(expected[key]) for key in
-            ("least_arrivals_percent", "largest_path_ratio", "most_turned_deg")}
-    row["passed"] = (row["arrivals_percent"] >= row["least_arrivals_percent"]
-                     and not row["path_ratio"] > row["largest_path_ratio"]
-                     and row["turned_deg"] <= row["most_turned_deg"])
-    ends = {end: columns["outcome"].count(end) for end in sorted(set(columns["outcome"]))
-            if end != "goal_reached"}
-    row["other_ends"] = ", ".join(f"{end} {count}" for end, count in ends.items())
-    row["program"] = study.program(summary)
-    return row
+           "arrivals_percent": 100.0 * arrived.sum() / len(arrived),
+           "arrivals_low": 100.0 * success.low, "arrivals_high": 100.0 * success.high,
+           "path_ratio": max(run.counted["path_ratio"][arrived], default=math.nan),
+           "turned_deg": max(map(math.degrees, run.counted["turned_in_place_rad"]))}
+    row |= {key: float(expected[key]) for key in ("least_arrivals_percent", "largest_path_ratio", "most_turned_deg")}
+    row["passed"] = bool(row["arrivals_percent"] >= row["least_arrivals_percent"]
+                         and not row["path_ratio"] > row["largest_path_ratio"]
+                         and row["turned_deg"] <= row["most_turned_deg"])
+    row["other_ends"] = study.others(dict(sorted(run.outcomes.items())), "goal_reached", "simulator_fault", none="")
+    return row | {"program": study.program(run)}
 
 
 def table_of(rows):
@@ -103,25 +94,22 @@ def main():
     parser.add_argument("--courses", nargs="+", choices=names, default=names, metavar="COURSE")
     parser.add_argument("--set-gestalt", action="append", default=[], metavar="PATH=VALUE",
                         help="held where GESTALT drives")
-    parser.add_argument("--markdown", type=Path, metavar="PAGE", help="write the table `courses` of this page")
-    study.add_run_arguments(parser, trials=40, out="courses")
-    parser.set_defaults(seed=SEED)
+    study.add_page(parser)
+    study.add_run_arguments(parser, trials=40, out="courses", seed=SEED)
     args = parser.parse_args()
     rows = [course_row(args, row) for row in every if row["course"] in args.courses]
     study.write_csv(args.out / "courses.csv", rows)
-    programs = ", ".join(sorted({row["program"] for row in rows}))
-    held = [*args.set, *args.set_gestalt]
+    args.set += args.set_gestalt
     text = "\n\n".join([
         table_of(rows),
         f"{sum(row['passed'] for row in rows)} of {len(rows)} passed. {args.trials} trials each, seed "
-        f"{args.seed}, Wilson's 95 % intervals; {'held: ' + ', '.join(held) + '; ' if held else ''}made by "
-        f"rockyard {programs}.\n"])
+        f"{args.seed}, Wilson's 95 % intervals; {study.held(args)}made by "
+        f"rockyard {', '.join(sorted({row['program'] for row in rows}))}.\n"])
     (args.out / "courses.md").write_text(text, encoding="utf-8")
     if args.markdown:
         study.write_table([args.markdown], "courses", text.rstrip())
     print(text)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -12,12 +12,12 @@ interval of each, and counts. The page says what falls short; no number in it is
 
 import argparse
 import csv
-import io
 import sys
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
-from study import ROOT, run, run_scenario  # noqa: E402
+import study  # noqa: E402
+from study import ROOT, run_scenario  # noqa: E402
 
 SCENARIO = ROOT / "scenarios/pathfinder/nominal.json"
 HELD_OUT = ROOT / "scenarios/pathfinder/vl2.json"
@@ -48,11 +48,6 @@ interval is printed in at least {rarely:.0%} of the samples. Lines of 30 trials 
 """
 
 
-def study(program, samples, *pools):
-    text = run([program, samples, *pools])
-    return list(csv.DictReader(io.StringIO(text)))
-
-
 def number(row, key):
     try:
         return float(row[key])
@@ -80,56 +75,47 @@ def percent(value):
     return "-" if value != value else f"{100.0 * value:.1f}"
 
 
-def line(row):
+def width_of(row):
     width = number(row, "width")
-    shown = f"{width:.2f}" if 0.0 < width < float("inf") else "-"
-    interval = f"{percent(number(row, 'coverage_low'))} .. {percent(number(row, 'coverage_high'))}"
-    return (f"| {row['pool']} | {row['kind']} | `{row['of']}` | {row['n']} | {percent(number(row, 'printed'))} "
-            f"| {percent(number(row, 'coverage'))} ({interval}) | {percent(number(row, 'missed_below'))} "
-            f"| {percent(number(row, 'missed_above'))} | {shown} |")
-
-
-HEAD = ("| pool | interval | of | n | printed % | coverage % | below % | above % | width |\n"
-        "|---|---|---|---|---|---|---|---|---|")
+    return f"{width:.2f}" if 0.0 < width < float("inf") else "-"
 
 
 def table(rows):
-    return "\n".join([HEAD] + [line(row) for row in rows])
+    share = lambda name: lambda row: percent(number(row, name))
+    return study.listed(rows, {
+        "pool": "{pool}", "interval": "{kind}", "of": "`{of}`", "n": "{n}", "printed %": share("printed"),
+        "coverage %": lambda row: f"{share('coverage')(row)} ({share('coverage_low')(row)} .. {share('coverage_high')(row)})",
+        "below %": share("missed_below"), "above %": share("missed_above"), "width": width_of}, "---")
+
+
+def of_each(rows, *key):
+    """Rows by their values of the key, sorted."""
+    found = {}
+    for row in rows:
+        found.setdefault(tuple(int(row[name]) if name == "n" else row[name] for name in key), []).append(row)
+    return dict(sorted(found.items()))
 
 
 def worst_of(rows):
     """Of each kind and size the line with the least coverage."""
-    worst = {}
-    for row in rows:
-        key = (row["kind"], int(row["n"]))
-        if key not in worst or number(row, "coverage") < number(worst[key], "coverage"):
-            worst[key] = row
-    return [worst[key] for key in sorted(worst)]
+    return [min(own, key=lambda row: number(row, "coverage")) for own in of_each(rows, "kind", "n").values()]
 
 
 def widest_of(rows):
     """Largest width of each kind and size, in one line a kind."""
-    kinds = {}
-    for row in rows:
-        width = number(row, "width")
-        if 0.0 < width < float("inf"):
-            sizes = kinds.setdefault(row["kind"], {})
-            sizes[int(row["n"])] = max(width, sizes.get(int(row["n"]), 0.0))
-    lines = ["| interval | " + " | ".join(f"n = {size}" for size in SIZES) + " |",
-             "|---|" + "---|" * len(SIZES)]
-    for kind in sorted(kinds):
-        cells = [f"{kinds[kind][size]:.2f}" if size in kinds[kind] else "-" for size in SIZES]
-        lines.append(f"| {kind} | " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+    widest = {key: max(own, key=lambda row: number(row, "width"))
+              for key, own in of_each([row for row in rows if width_of(row) != "-"], "kind", "n").items()}
+    return study.table(["interval", *(f"n = {size}" for size in SIZES)], [
+        [kind, *(width_of(widest[kind, size]) if (kind, size) in widest else "-" for size in SIZES)]
+        for kind in dict.fromkeys(kind for kind, _ in widest)], "---")
 
 
 def none_printed(rows):
-    means = [row for row in rows if row["kind"] == "mean" and int(row["n"]) in SIZES and
-             number(row, "printed") < RARELY]
-    names = {}
+    means = [row for row in rows if row["kind"] == "mean" and int(row["n"]) in SIZES and number(row, "printed") < RARELY]
+    sizes = {}
     for row in means:
-        names.setdefault((row["pool"], row["of"]), []).append(row["n"])
-    return "\n".join(f"- {pool}: `{name}` at {', '.join(sizes)}" for (pool, name), sizes in names.items())
+        sizes.setdefault((row["pool"], row["of"]), []).append(row["n"])
+    return "\n".join(f"- {pool}: `{name}` at {', '.join(own)}" for (pool, name), own in sizes.items())
 
 
 def page(rows, arguments):
@@ -137,8 +123,7 @@ def page(rows, arguments):
     short = [row for row in measured if falls_short(row)]
     control = [row for row in rows if before(row) and int(row["n"]) in SIZES]
     modes = [row for row in rows if "no coverage claimed" in row["kind"] and int(row["n"]) in SIZES]
-    rare = [row for row in rows if claimed(row) and int(row["n"]) in SIZES and
-            0.0 < number(row, "printed") < RARELY]
+    rare = [row for row in rows if claimed(row) and int(row["n"]) in SIZES and 0.0 < number(row, "printed") < RARELY]
     about = ABOUT.format(nominal=arguments.trials, sparse=arguments.sparse_trials,
                          held_out=arguments.held_out_trials, setting=SPARSE,
                          samples=arguments.samples, covered=COVERED, widest=WIDEST, rarely=RARELY,
@@ -196,8 +181,8 @@ independent, and their means are too sure.
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
+    parser = study.argument_parser(__doc__)
+    study.add_program(parser, threads=True)
     parser.add_argument("--program", type=Path, required=True, help="the built coverage_study")
     parser.add_argument("--out", type=Path, default=ROOT / "results/runs/coverage", help="pools")
     parser.add_argument("--results", type=Path, default=ROOT / "results/studies")
@@ -206,12 +191,11 @@ def main():
     parser.add_argument("--held-out-trials", type=int, default=3000)
     parser.add_argument("--samples", type=int, default=4000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--threads", type=int, default=1)
     arguments = parser.parse_args()
 
     nominal, sparse = arguments.out / "nominal", arguments.out / "sparse"
     run_scenario(arguments, SCENARIO, nominal, [FIDELITY])
-    few = argparse.Namespace(**{**vars(arguments), "trials": arguments.sparse_trials})
+    few = argparse.Namespace(**vars(arguments) | {"trials": arguments.sparse_trials})
     run_scenario(few, SCENARIO, sparse, [FIDELITY, SPARSE])
     held_out = arguments.out / "dense"
     few.trials = arguments.held_out_trials
@@ -220,15 +204,11 @@ def main():
     rows = []
     for name, pools in (("nominal", [nominal]), ("sparse", [sparse]), ("between", [nominal, sparse]),
                         ("held out", [held_out])):
-        tables = [pool / "trials.csv" for pool in pools]
-        rows += [{"pool": name, **row} for row in study(arguments.program, arguments.samples, *tables)]
-    with open(arguments.results / "coverage.csv", "w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+        told = study.run([arguments.program, arguments.samples, *(pool / "trials.csv" for pool in pools)])
+        rows += [{"pool": name, **row} for row in csv.DictReader(told.splitlines())]
+    study.write_csv(arguments.results / "coverage.csv", rows)
     (arguments.results / "coverage.md").write_text(page(rows, arguments), encoding="utf-8")
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -19,6 +19,7 @@ from statistics import median
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates, ry  # noqa: E402
 
 SCENARIOS = study.ROOT / "scenarios/cylinder"
 FINDERS = {"published": "published", "robust": "ours"}
@@ -56,7 +57,7 @@ class Sums:
         self.rows, self.finder = rows, finder
 
     def total(self, column):
-        return sum(row[column] for row in self.rows)
+        return self.rows[column].sum()
 
     def __getitem__(self, column):
         return self.total(f"{self.finder}_{column}")
@@ -78,10 +79,7 @@ class Sums:
 
 
 def groups(rows, *factors):
-    found = {}
-    for row in rows:
-        found.setdefault(tuple(row[factor] for factor in factors), []).append(row)
-    return dict(sorted(found.items()))
+    return dict(sorted(study.cells_of(rows, factors).items()))
 
 
 def is_excepted(distance_m, orientation_deg):
@@ -98,7 +96,7 @@ def cells_of(rows, finder):
 
 def share(count, total):
     """Count of a total with the exact 95 % interval of its share in per cent."""
-    low, high = study.exact_interval(int(count), int(total))
+    low, high = rates.exact_interval(count, total)
     return f"{count:.0f} of {total:.0f} ({100 * low:.1f}..{100 * high:.1f} %)"
 
 
@@ -109,10 +107,8 @@ def bias_table(rows):
         cells = cells_of(rows, finder)
         for (distance,), part in groups(rows, "distance_m").items():
             for excepted in (False, True):
-                those = [c for (d, t), c in cells.items()
-                         if d == distance and is_excepted(d, t) == excepted]
-                everything = Sums([r for r in part if is_excepted(distance, r["orientation_deg"]) == excepted],
-                                  finder)
+                those = [c for (d, t), c in cells.items() if d == distance and is_excepted(d, t) == excepted]
+                everything = Sums(part[[is_excepted(distance, t) == excepted for t in part.orientation_deg]], finder)
                 if everything.measurements == 0:
                     continue
                 turns = [c.mean("orientation", "_deg") for c in those]
@@ -159,7 +155,7 @@ def verdict_lines(rows):
     cells = cells_of(rows, "published")
     fair = [(d, c) for (d, t), c in cells.items() if d in PUBLISHED_M and not is_excepted(d, t)]
     bad_10 = [c for (d, t), c in cells.items() if d == 10.058 and is_excepted(d, t)]
-    any_15 = any(row["distance_m"] == 15.0 for row in rows)
+    any_15 = (rows.distance_m == 15.0).any()
     bad_15 = [c for (d, t), c in cells.items() if d == 15.0 and is_excepted(d, t)]
     good_10 = [c for d, c in fair if d == 10.058]
 
@@ -205,8 +201,7 @@ def exact_lines():
     yield ("app. A.2.1", "m = 17: 9.5 deg", f"{math.sqrt(2) * finest:.3f} deg",
            verdict(round(math.sqrt(2) * finest, 1) == 9.5))
     yield "app. A.2.2", "one pixel: 0.66 m", f"{d_m / 17:.3f} m", verdict(round(d_m / 17, 2) == 0.66)
-    yield ("app. A.2.2", "about 5.8 %", f"{100 / 17:.2f} %",
-           "misprint: 5.9 when rounded")
+    yield ("app. A.2.2", "about 5.8 %", f"{100 / 17:.2f} %", "misprint: 5.9 when rounded")
     for d_front, turn, step in PRINTED_LIMITS:
         holds = abs(finest_turn_deg(d_front) - turn) <= 0.011 and abs(stereo_step(d_front) / step - 1) <= 0.02
         yield ("sec. 5, table", f"{d_front:g} m: {turn:.2f} deg, {step:g}",
@@ -222,8 +217,7 @@ def errors(sums, name, suffix, scale):
     """Mean and deviation of poses that are right, of which there have to be two."""
     if sums["right"] < 2:
         return "-"
-    return (f"{scale * sums.mean(name, suffix, 'right'):+.2f} ± "
-            f"{scale * sums.spread(name, suffix, 'right'):.2f}")
+    return (f"{scale * sums.mean(name, suffix, 'right'):+.2f} ± " f"{scale * sums.spread(name, suffix, 'right'):.2f}")
 
 
 def views_table(rows):
@@ -233,7 +227,7 @@ def views_table(rows):
         cuts = [("all", rows)]
         for factor, words in (("distance_m", "{:g} m"), ("sun_elevation_deg", "sun at {:g} deg"),
                               ("clutter_level", "clutter x {:g}")):
-            if factor in rows[0]:
+            if factor in rows:
                 cuts += [(words.format(value), part) for (value,), part in groups(rows, factor).items()]
         for name, part in cuts:
             sums = Sums(part, finder)
@@ -256,15 +250,8 @@ def misses(rows):
 
 
 def content(name, rows):
-    if name == "bias":
-        return bias_table(rows)
-    if name == "limits":
-        return limits_table(rows)
-    if name == "verdicts":
-        return verdicts_table(rows)
-    if name == "green":
-        return bias_table(rows)
-    return f"{views_table(rows)}\n\n{misses(rows)}"
+    made = {"bias": bias_table, "green": bias_table, "limits": limits_table, "verdicts": verdicts_table}.get(name)
+    return made(rows) if made else f"{views_table(rows)}\n\n{misses(rows)}"
 
 
 def write_cells(rows, path):
@@ -284,18 +271,22 @@ def write_cells(rows, path):
     study.write_csv(path, lines)
 
 
-def run(args, name):
-    """The rows of a scenario, run or taken as they are, and a note on them."""
+def run(args, path, trials, folder, settings):
+    """The rows of a scenario, run or taken as they are, and a note on the program."""
+    args.trials = trials
+    if args.count_only:
+        return study.counted(ry.Run(folder)), ""
+    found = study.run_scenario(args, path, folder, settings)
+    return study.counted(found), f"; made by rockyard {study.program(found)}"
+
+
+def run_views(args, name):
+    """The rows of a scenario of the cylinder, and a note on them."""
     path = SCENARIOS / f"{name}.json"
-    folder = args.out / f"{name}-{args.seed}"
-    made = ""
-    if not args.count_only:
-        document = json.loads(path.read_text(encoding="utf-8"))
-        args.trials = document.get("trials", 180) if args.views is None or "views" not in name else args.views
-        made = f"; made by rockyard {study.program(study.run_scenario(args, path, folder, args.set))}"
-    rows = study.trial_rows(folder)
-    pairs = sum(row["measurements"] for row in rows)
-    return rows, f"{pairs:.0f} pairs of images, {len(rows)} views, seed {args.seed}{made}."
+    trials = json.loads(path.read_text(encoding="utf-8")).get("trials", 180)
+    rows, made = run(args, path, args.views if args.views and "views" in name else trials,
+                     args.out / f"{name}-{args.seed}", args.set)
+    return rows, f"{rows.measurements.sum():.0f} pairs of images, {len(rows)} views, seed {args.seed}{made}."
 
 
 def main():
@@ -309,13 +300,12 @@ def main():
     for name in args.tables.split(","):
         scenario = RUN_OF[name]
         if scenario not in runs:
-            runs[scenario] = run(args, scenario)
+            runs[scenario] = run_views(args, scenario)
             if args.studies and scenario in ("published", "green"):
                 suffix = "" if scenario == "published" else "_green"
                 write_cells(runs[scenario][0], args.studies / f"cylinder{suffix}.csv")
         rows, note = runs[scenario]
-        text = f"{content(name, rows)}\n\n{note}"
-        study.show(args, f"cylinder_{name}", text)
+        study.show(args, {f"cylinder_{name}": f"{content(name, rows)}\n\n{note}"})
 
 
 if __name__ == "__main__":

@@ -10,12 +10,12 @@ how many poses are wrong. drives: 10 m over nominal terrain (scenarios/localizat
 and <!-- end cylinder_NAME --> of a page. Delete the runs after a change of the code.
 """
 
-import math
 import sys
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates  # noqa: E402
 from cylinder import cylinder  # noqa: E402
 
 PICTURE = "cylinder_sighting.picture"
@@ -60,17 +60,12 @@ DRIVES = {
 
 
 def run(args, trials, scenario, name, settings):
-    """The folder of a run, made or taken as it is, and the program that made it."""
-    folder = args.out / f"{name.replace(' ', '_')}-{args.seed}"
-    if args.count_only:
-        return folder, ""
-    args.trials = trials
-    path = study.ROOT / f"scenarios/{scenario}.json"
-    return folder, f"; made by rockyard {study.program(study.run_scenario(args, path, folder, settings))}"
+    """The rows of a run, made or taken as it is, and a note on the program."""
+    return cylinder.run(args, study.ROOT / f"scenarios/{scenario}.json", trials,
+                        args.out / f"{name.replace(' ', '_')}-{args.seed}", settings)
 
 
 def assumption_line(name, rows):
-    """Of rows of study.trial_rows."""
     line = [name]
     for finder in cylinder.FINDERS:
         sums = cylinder.Sums(rows, finder)
@@ -84,8 +79,8 @@ def assumptions(args):
     lines, made = [], ""
     for name, values in ASSUMPTIONS.items():
         settings = [f"{PICTURE}.{path}={value}" for path, value in values.items()]
-        folder, made = run(args, args.views, "cylinder/views", name, settings)
-        lines.append(assumption_line(name, study.trial_rows(folder)))
+        rows, made = run(args, args.views, "cylinder/views", name, settings)
+        lines.append(assumption_line(name, rows))
     heads = [f"{called}: {head}" for called in cylinder.FINDERS.values()
              for head in ("found, %", "orientation error, deg", "wrong, %")]
     return study.table(["views", *heads], lines), f"{args.views} views each, seed {args.seed}{made}."
@@ -95,26 +90,22 @@ def quantile(values, share):
     return sorted(values)[min(int(share * len(values)), len(values) - 1)]
 
 
-def drive_line(name, columns):
-    """Of a run's columns (study.trial_columns)."""
-    outcomes = columns["outcome"]
-    reached = outcomes.count("goal_reached")
-    low, high = study.wilson_interval(reached, len(outcomes))
-    used, refused = (sum(columns[column]) / len(outcomes) for column in ("aids_used", "aids_gated_out"))
-    position_m, heading_deg = ([abs(value) for value in columns[column] if not math.isnan(value)]
-                               for column in ("position_error_m", "heading_error_deg"))
-    return [name, f"{100 * reached / len(outcomes):.0f} ({100 * low:.0f}..{100 * high:.0f})",
-            *(f"{quantile(values, 0.5):.2f} / {quantile(values, 0.95):.2f}" for values in (position_m, heading_deg)),
-            f"{used:.1f}", f"{refused:.2f}"]
+def drive_line(name, rows):
+    reached = rows.outcome.eq("goal_reached")
+    low, high = rates.wilson_interval(reached.sum(), len(rows))
+    errors = (rows[column].abs().dropna() for column in ("position_error_m", "heading_error_deg"))
+    return [name, f"{100 * reached.mean():.0f} ({100 * low:.0f}..{100 * high:.0f})",
+            *(" / ".join(f"{values.quantile(share, 'higher'):.2f}" for share in (0.5, 0.95)) for values in errors),
+            f"{rows.aids_used.mean():.1f}", f"{rows.aids_gated_out.mean():.2f}"]
 
 
 def drives(args):
     """The table of drives, and a note on it."""
     lines, made = [], ""
     for name, (scenario, settings) in DRIVES.items():
-        folder, made = run(args, args.drives, f"localization/{scenario}", f"drives {name}",
-                           ["rover.fidelity=quasi_static", *settings])
-        lines.append(drive_line(name, study.trial_columns(folder)))
+        rows, made = run(args, args.drives, f"localization/{scenario}", f"drives {name}",
+                         ["rover.fidelity=quasi_static", *settings])
+        lines.append(drive_line(name, rows))
     heads = ["found by", "true success, % (95 %)", "position error, m: median / 95 %", "heading error, deg: the same",
              "fixes used", "refused by the filter"]
     return study.table(heads, lines), f"{args.drives} drives each, seed {args.seed}{made}."
@@ -132,7 +123,7 @@ def main():
     args = study.parse_with_tables(parser, TABLES)
     for name in args.tables.split(","):
         table, note = TABLES[name](args)
-        study.show(args, f"cylinder_{name}", f"{table}\n\n{note}")
+        study.show(args, {f"cylinder_{name}": f"{table}\n\n{note}"})
 
 
 if __name__ == "__main__":

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Figure 5 of Matthies 1995 backwards: what twenty runs of 7 m can tell of dead reckoning on sand.
 
-Reads runs of scenarios/pathfinder/level_sand.json that kept their courses (--traces all --trace-format
-csv), cuts them into sets of twenty, estimates slopes of the error variance of every set as section 5
+Reads runs of scenarios/pathfinder/level_sand.json that kept their courses (--traces all), cuts them into sets of twenty, estimates slopes of the error variance of every set as section 5
 does, and says where the printed slopes (0.70 deg2/m, 0.0039 m2/m) lie among them. Then, without any
 run: whether an error of the odometer's scale that a run keeps could be told from noise a metre, and how
 likely footnote 4's largest error of +10 % is. Writes dead_reckoning.csv (a row a set) and
@@ -17,7 +16,6 @@ terrain.ground.slope_direction_deg=180 for down; 500 trials, seeds 25 and 26), s
 these are added: "ten runs each direction up and down the course".
 """
 
-import json
 import math
 import random
 import sys
@@ -25,6 +23,7 @@ from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates, ry  # noqa: E402
 from dead_reckoning import sand_slopes  # noqa: E402
 
 PUBLISHED = (0.70, 0.0039)  # section 5: deg2/m, m2/m
@@ -36,19 +35,9 @@ ALPHA = 0.05
 SCALE_SHARES = (0.0, 0.25, 0.5, 0.75, 0.9)
 
 
-def normal_tail(z):
-    """P(Z > z) of a standard normal Z."""
-    return 0.5 * math.erfc(z / math.sqrt(2.0))
-
-
 def any_of(chance, n=sand_slopes.RUNS):
     """That at least one of n independent events happens."""
     return -math.expm1(n * math.log1p(-chance))
-
-
-def student_tail(t, freedom):
-    """P(T > t) of Student's T for t > 0."""
-    return 0.5 * study.beta_cdf(0.5 * freedom, 0.5, freedom / (freedom + t * t))
 
 
 def linear_deviation(slope=PUBLISHED[1], length_m=LENGTH_M):
@@ -65,6 +54,7 @@ def fitted_scale(slope=PUBLISHED[1], length_m=LENGTH_M):
 def largest_chances(deviation):
     """That the largest of twenty normal errors about the mode reaches what rounds to the printed
     10 %, and the smallest what rounds to -4 %."""
+    normal_tail = lambda z: 0.5 * math.erfc(z / math.sqrt(2.0))
     return (any_of(normal_tail((MOST - ROUNDING - MODE) / deviation)),
             any_of(normal_tail((MODE - LEAST - ROUNDING) / deviation)))
 
@@ -72,7 +62,7 @@ def largest_chances(deviation):
 def heavy_tail_chance(deviation, freedom):
     """The same of the largest for Student's t of that standard deviation; freedom > 2."""
     unit = math.sqrt(freedom / (freedom - 2.0))
-    return any_of(student_tail((MOST - ROUNDING - MODE) / deviation * unit, freedom))
+    return any_of(rates.student_tail((MOST - ROUNDING - MODE) / deviation * unit, freedom))
 
 
 def grubbs_p(largest, n=sand_slopes.RUNS):
@@ -81,7 +71,7 @@ def grubbs_p(largest, n=sand_slopes.RUNS):
     room = (n - 1) ** 2 - n * largest ** 2
     if room <= 0.0:
         return 0.0
-    return min(1.0, n * student_tail(largest * math.sqrt(n * (n - 2) / room), n - 2))
+    return min(1.0, n * rates.student_tail(largest * math.sqrt(n * (n - 2) / room), n - 2))
 
 
 def largest_of_footnote(deviation, n=sand_slopes.RUNS):
@@ -124,8 +114,7 @@ def halves_correlation(runs):
     second = [end - middle for middle, end in runs]
     mean_1, mean_2 = sum(first) / len(first), sum(second) / len(second)
     cross = sum((a - mean_1) * (b - mean_2) for a, b in zip(first, second))
-    return cross / math.sqrt(sum((a - mean_1) ** 2 for a in first) *
-                             sum((b - mean_2) ** 2 for b in second))
+    return cross / math.sqrt(sum((a - mean_1) ** 2 for a in first) * sum((b - mean_2) ** 2 for b in second))
 
 
 def powers(replicates, seed):
@@ -138,7 +127,7 @@ def powers(replicates, seed):
         result[name] = []
         for share in SCALE_SHARES:
             found = sum(statistic(halves(share, rng)) > limit for _ in range(replicates))
-            result[name].append((found / replicates, *study.wilson_interval(found, replicates)))
+            result[name].append((found / replicates, *rates.wilson_interval(found, replicates)))
     return result
 
 
@@ -154,6 +143,12 @@ def slopes_of(courses):
             for values in (sand_slopes.variances(courses, which) for which in (0, 1))]
 
 
+def middle(values, digits, of_sets):
+    """Mean with its interval, and what holds 95 % of the sets."""
+    low, high = (rates.quantile(values, share) for share in (0.025, 0.975))
+    return study.with_interval(rates.mean(values), digits), f"{low:.{of_sets}f} .. {high:.{of_sets}f}"
+
+
 def slope_rows(name, slopes):
     """Rows of the table for the sets of one campaign."""
     rows = []
@@ -161,9 +156,7 @@ def slope_rows(name, slopes):
         for fit, label in ((0, "through the origin"), (1, "free line")):
             values = [each[which][fit] for each in slopes]
             below = sum(value < PUBLISHED[which] for value in values)
-            mean = study.mean_interval(values)
-            rows.append([name, NAMES[which], label, f"{len(values)}", study.with_interval(mean, 5),
-                         f"{study.quantile(values, 0.025):.4f} .. {study.quantile(values, 0.975):.4f}",
+            rows.append([name, NAMES[which], label, f"{len(values)}", *middle(values, 5, 4),
                          f"{100.0 * below / len(values):.0f} %"])
     return rows
 
@@ -172,8 +165,7 @@ def exponent_rows(name, slopes):
     rows = []
     for which, label in ((0, "heading"), (1, "distance")):
         values = [each[which][2] for each in slopes]
-        rows.append([name, label, study.with_interval(study.mean_interval(values), 2),
-                     f"{study.quantile(values, 0.025):.2f} .. {study.quantile(values, 0.975):.2f}",
+        rows.append([name, label, *middle(values, 2, 2),
                      f"{100.0 * sum(value > 1.5 for value in values) / len(values):.0f} %"])
     return rows
 
@@ -195,7 +187,7 @@ def ratio_quantiles(replicates, seed, shares=(0.5, 0.95, 0.99)):
     """Quantiles of the variance at the end over that at half the way, of noise a metre alone."""
     rng = random.Random(seed)
     ratios = [variance_ratio(halves(0.0, rng)) for _ in range(replicates)]
-    return [study.quantile(ratios, share) for share in shares]
+    return [rates.quantile(ratios, share) for share in shares]
 
 
 def power_rows(replicates, seed):
@@ -204,21 +196,15 @@ def power_rows(replicates, seed):
             for index, share in enumerate(SCALE_SHARES)]
 
 
-def campaigns(paths):
-    """(name, sets of twenty) of each campaign, and the programs that made the runs."""
-    courses = [sand_slopes.read_courses(path) for path in paths]
+def campaigns(runs):
+    """(name, sets of twenty) of each campaign."""
+    courses = [sand_slopes.read_courses(run) for run in runs]
     result = [("level", sets_of(courses[0]))]
     if len(courses) == 3:
         up, down = (sets_of(each, sand_slopes.RUNS // 2) for each in courses[1:])
         result.append(("up and down", [a + b for a, b in zip(up, down)]))
         result.append(("up", sets_of(courses[1])))
     return result
-
-
-def programs(paths):
-    """Versions and commits that made the runs."""
-    summaries = (json.loads((path / "summary.json").read_text(encoding="utf-8")) for path in paths)
-    return " and ".join(sorted({study.program(summary) for summary in summaries}))
 
 
 def page(measured, replicates, seed):
@@ -253,10 +239,10 @@ def main():
     args = parser.parse_args()
     if len(args.runs) not in (1, 3):
         parser.error("give one run, or three: level, up, down")
-    measured = [(name, [slopes_of(each) for each in sets]) for name, sets in campaigns(args.runs)]
+    runs = [ry.Run(path) for path in args.runs]
+    measured = [(name, [slopes_of(each) for each in sets]) for name, sets in campaigns(runs)]
     if not all(slopes for _, slopes in measured):
-        parser.error("a run has fewer than twenty courses: make it with --traces all --trace-format csv")
-    args.out.mkdir(parents=True, exist_ok=True)
+        parser.error("a run has fewer than twenty courses: make it with --traces all")
     study.write_csv(args.out / "dead_reckoning.csv",
                     [{"runs": name, "set": number,
                       **{f"{what}_{fit}": f"{value:.6g}"
@@ -264,13 +250,13 @@ def main():
                          for fit, value in zip(("origin", "free", "exponent"), values)}}
                      for name, slopes in measured for number, of_set in enumerate(slopes)])
     text = page(measured, args.replicates, args.seed)
+    made = study.made_by(runs).removeprefix("made ")
     head = ("# Dead reckoning on sand: what twenty runs can tell\n\nMatthies 1995, section 5, figure 5 and "
-            f"footnote 4. Made by `scripts/studies/dead_reckoning/dead_reckoning.py`; runs by rockyard {programs(args.runs)}, made as "
+            f"footnote 4. Made by `scripts/studies/dead_reckoning/dead_reckoning.py`; runs {made}, made as "
             "the first lines of the script say.\n\n")
     (args.out / "dead_reckoning.md").write_text(head + text + "\n", encoding="utf-8")
     print(text)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

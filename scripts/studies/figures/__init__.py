@@ -1,9 +1,9 @@
-"""The figures that scripts/studies/figures/figures.py can draw: one module each, found by its FIGURE.
+"""The figures that scripts/studies/figures/figures.py can draw: modules, found by their FIGURES.
 
 A new figure is a new file in this folder that defines
 
-    FIGURE = Figure(name="author1999-12", title="one line", runs="what RUN... must be",
-                    accepts=(1, 2), draw=draw)
+    FIGURES = (Figure(name="author1999-12", title="one line", runs="what RUN... must be",
+                      accepts=(1, 2), draw=draw),)
 
 where draw(sources, options) gets a Source (source.py) for each RUN and the command's options, and
 returns Drawn: the matplotlib figure, its caption, and the numbers that were drawn.
@@ -42,7 +42,5 @@ def all_figures():
     """Name: Figure, sorted by name. Needs matplotlib, as the figures do."""
     found = {}
     for module in pkgutil.iter_modules(__path__):
-        figure = getattr(importlib.import_module(f"{__name__}.{module.name}"), "FIGURE", None)
-        if figure is not None:
-            found[figure.name] = figure
+        found |= {figure.name: figure for figure in getattr(importlib.import_module(f"{__name__}.{module.name}"), "FIGURES", ())}
     return dict(sorted(found.items()))

@@ -2,8 +2,10 @@
 
 import math
 
+import numpy as np
+
 from . import Drawn, Figure, FigureError, style
-from .source import read_csv
+from .source import read_table
 
 ROWS = ("waypoint", "hazard", "merged")  # from the top, as in the paper
 GROUPS = ("backward", "forward")
@@ -15,28 +17,19 @@ BEST_VOTE = 255
 
 def votes_of(folder):
     """{'forward': [...], 'backward': [...]}: rows of votes.csv as numbers, from left to right."""
-    rows = read_csv(folder / "votes.csv")
-    votes = {group: [] for group in GROUPS}
-    for row in rows:
-        if row["kind"] in votes:
-            votes[row["kind"]].append({name: float(value) for name, value in row.items()
-                                       if name != "kind"})
+    # The highest curvature turns furthest left, which is left on the page too.
+    rows = read_table(folder / "votes.csv").sort_values("curvature_per_m", ascending=False, kind="stable")
+    votes = {group: rows[rows.kind == group].to_dict("records") for group in GROUPS}
     if not votes["forward"]:
         raise FigureError("this decision has no votes for arcs")
-    # The highest curvature turns furthest left, which is left on the page too.
-    return {group: sorted(arcs, key=lambda arc: -arc["curvature_per_m"])
-            for group, arcs in votes.items()}
+    return votes
 
 
 def elevations_of(folder):
     """{(column, row): mean elevation} of the measured points within sight, in the rover's frame."""
-    sums = {}
-    for row in read_csv(folder / "points.csv"):
-        x, y, z = (float(row[name]) for name in ("x_m", "y_m", "z_m"))
-        if abs(x) <= SIGHT_M and abs(y) <= SIGHT_M:
-            total, count = sums.get(key := (math.floor(x / CELL_M), math.floor(y / CELL_M)), (0.0, 0))
-            sums[key] = (total + z, count + 1)
-    return {key: total / count for key, (total, count) in sums.items()}
+    points = read_table(folder / "points.csv")
+    near = points[(points.x_m.abs() <= SIGHT_M) & (points.y_m.abs() <= SIGHT_M)]
+    return near.z_m.groupby([np.floor(near.x_m / CELL_M).astype(int), np.floor(near.y_m / CELL_M).astype(int)]).mean().to_dict()
 
 
 def arc_points(curvature_per_m, direction, pieces=24):
@@ -65,13 +58,12 @@ def draw(sources, options):
 
 def _draw_scene(figure, axes, votes, elevations):
     """Elevations and candidate arcs around the rover; its front is up."""
-    import numpy  # pylint: disable=import-outside-toplevel  # comes with matplotlib
     cells = int(round(SIGHT_M / CELL_M))
-    grid = numpy.full((2 * cells, 2 * cells), numpy.nan)
+    grid = np.full((2 * cells, 2 * cells), np.nan)
     for (forward, left), mean in elevations.items():
         if -cells <= forward < cells and -cells <= left < cells:
             grid[forward + cells, left + cells] = mean
-    edges = numpy.linspace(-SIGHT_M, SIGHT_M, 2 * cells + 1)
+    edges = np.linspace(-SIGHT_M, SIGHT_M, 2 * cells + 1)
     axes.set_facecolor("white")
     span = max(max(elevations.values(), default=0.0) - min(elevations.values(), default=0.0), 0.01)
     # White is what was not measured: the ramp begins above it.
@@ -98,15 +90,14 @@ def _signed(value):
 
 def _draw_ranking(figure, axes, votes):
     """Three rows of votes for each direction; candidates underlined, the choice in a box."""
-    import numpy  # pylint: disable=import-outside-toplevel
     from matplotlib.patches import Rectangle  # pylint: disable=import-outside-toplevel
     ticks, labels = [], []
     picture = None
     for block, group in enumerate(GROUPS):
         arcs = votes[group]
         bottom = block * (len(ROWS) + 1.2)
-        values = numpy.array([[arc[row] for arc in arcs] for row in reversed(ROWS)])
-        picture = axes.pcolormesh(numpy.arange(len(arcs) + 1), bottom + numpy.arange(len(ROWS) + 1),
+        values = np.array([[arc[row] for arc in arcs] for row in reversed(ROWS)])
+        picture = axes.pcolormesh(np.arange(len(arcs) + 1), bottom + np.arange(len(ROWS) + 1),
                                   values, cmap=style.RAMP, vmin=0, vmax=BEST_VOTE,
                                   edgecolors="white", linewidth=0.4)
         ticks += [bottom + i + 0.5 for i in range(len(ROWS))]
@@ -143,6 +134,6 @@ def _caption(source, options, chosen):
             "elevation that the cameras measured (white: nothing), and the arcs, in the rover's frame.")
 
 
-FIGURE = Figure(name="goldberg2002-3", title="ranking of arcs by GESTALT in one decision",
-                runs="a run with GESTALT (scenarios/gestalt); --trial and --step say which decision",
-                accepts=(1, 1), draw=draw)
+FIGURES = (Figure(name="goldberg2002-3", title="ranking of arcs by GESTALT in one decision",
+                   runs="a run with GESTALT (scenarios/gestalt); --trial and --step say which decision",
+                   accepts=(1, 1), draw=draw),)

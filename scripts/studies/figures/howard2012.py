@@ -1,7 +1,8 @@
 """What figures 6 to 8 of Howard 2012 share: one drive of several navigators on the same rocks."""
 
 import math
-from dataclasses import dataclass
+
+import numpy as np
 
 from . import FigureError, style
 
@@ -21,33 +22,26 @@ LOOKS = ((style.BLUE, "-"), (style.VERMILION, (0, (5, 1.5))), (style.GREEN, (0, 
          (style.SKY, (0, (8, 2))))
 
 
-@dataclass
 class NavigatorDrive:
-    """One trial, moment by moment."""
-    name: str
-    time_s: list
-    true_m: list         # (x, y)
-    believed_m: list     # (x, y), as localization says
-    set_back: list       # operators moved the rover by hand before this moment
-    steer_rad: list      # six angles each: left front, middle, rear, right front, middle, rear
-    record: dict         # column: value
-    outcome: str
-    terrain: dict
+    """One trial, moment by moment, of a trace (rockyard.Trace) among the rocks of `terrain`."""
 
-    def _distances(self, places, goal):
-        return [math.dist(place, goal) for place in places]
+    def __init__(self, trace, terrain):
+        self.trace, self.terrain = trace, terrain
+        self.name, self.outcome = trace.meta["scenario"], trace.meta["outcome"]
+        self.time_s = trace["time_s"]
+        self.true_m, self.believed_m = trace["position_m"][:, :2], trace["believed"][:, :2]
+        self.record = dict(zip(trace["record_names"].tolist(), trace["record"].tolist()))
 
     def believed_distances(self):
         """From the believed position to the goal as told, m: what the rover itself recorded."""
-        told = (self.record["told_goal_x_m"], self.record["told_goal_y_m"])
-        return self._distances(self.believed_m, told)
+        return distances(self.believed_m, (self.record["told_goal_x_m"], self.record["told_goal_y_m"]))
 
     def true_distances(self):
-        return self._distances(self.true_m, self.terrain["goal_m"])
+        return distances(self.true_m, self.terrain["goal_m"])
 
-    def time_within_s(self, distances, reach_m=WITHIN_M):
-        """When a list of distances first fell to `reach_m`; None where it never did."""
-        return next((t for t, distance in zip(self.time_s, distances) if distance <= reach_m), None)
+    def time_within_s(self, distances_m, reach_m=WITHIN_M):
+        """When distances first fell to `reach_m`; None where they never did."""
+        return next(iter(self.time_s[distances_m <= reach_m]), None)
 
     def way_as_seen(self):
         """What the rover takes its way to be, in words: by visual odometry, as in the paper, else by its wheels."""
@@ -57,33 +51,17 @@ class NavigatorDrive:
         return f"{seen:.2f} m by visual odometry"
 
     def turned_rad(self):
-        """Total turning of each of the six motors, to and fro alike."""
-        totals = [0.0] * 6
-        for i in range(1, len(self.steer_rad)):
-            if not self.set_back[i]:
-                for wheel, (now, before) in enumerate(zip(self.steer_rad[i], self.steer_rad[i - 1])):
-                    totals[wheel] += abs(now - before)
-        return totals
+        """Total turning of each of the six motors, to and fro alike, but for what operators turned."""
+        return abs(np.diff(self.trace["steer_rad"], axis=0))[~self.trace["set_back"][1:]].sum(axis=0)
 
 
-def load(source, trial):
-    """The drive of a run folder or of a scenario file."""
-    arrays = source.moments(trial)
-    meta = arrays["meta"]
-    if len(arrays["time_s"]) < 2:
-        raise FigureError(f"{source.path}: trial {trial} ended before it began (a simulator fault?); "
-                          "take another one with --trial")
-    return NavigatorDrive(
-        name=meta["scenario"], time_s=arrays["time_s"].tolist(),
-        true_m=arrays["position_m"][:, :2].tolist(), believed_m=arrays["believed"][:, :2].tolist(),
-        set_back=arrays["set_back"].tolist(), steer_rad=arrays["steer_rad"].tolist(),
-        record=dict(zip(arrays["record_names"].tolist(), arrays["record"].tolist())),
-        outcome=meta["outcome"], terrain=source.terrain(trial))
+def distances(places, goal):
+    return np.hypot(*(places - np.array(goal)).T)
 
 
 def load_all(sources, trial):
     """Drives on the same rocks, from the same start to the same goal."""
-    drives = [load(source, trial) for source in sources]
+    drives = [NavigatorDrive(source.trace(trial), source.terrain(trial)) for source in sources]
     names = [drive.name for drive in drives]
     for source, drive in zip(sources, drives):
         if names.count(drive.name) > 1:

@@ -28,7 +28,7 @@ def _limits(drives, terrain):
     """What holds every path, the start and the goal."""
     places = [tuple(terrain["start_m"]), tuple(terrain["goal_m"])]
     for drive in drives:
-        places += [*map(tuple, drive.believed_m), *map(tuple, drive.true_m)]
+        places += [*drive.believed_m, *drive.true_m]
     return {f"{axis}lim": (min(values) - MARGIN_M, max(values) + MARGIN_M)
             for axis, values in zip("xy", zip(*places))}
 
@@ -50,6 +50,6 @@ def _caption(drives, trial):
             "no layout is printed, by visual odometry: 14.92 m (CSOD) and 14.94 m (CSAD).")
 
 
-FIGURE = Figure(name="howard2012-6", title="paths of several navigators among the same rocks",
-                runs=howard2012.RUNS, accepts=howard2012.ACCEPTS, draw=draw,
-                defaults=howard2012.DEFAULTS)
+FIGURES = (Figure(name="howard2012-6", title="paths of several navigators among the same rocks",
+                   runs=howard2012.RUNS, accepts=howard2012.ACCEPTS, draw=draw,
+                   defaults=howard2012.DEFAULTS),)

@@ -30,6 +30,6 @@ def _caption(numbers, trial):
             f"{times}. Published, of one drive each: 287.58 s (CSOD) and 231.97 s (CSAD).")
 
 
-FIGURE = Figure(name="howard2012-7", title="distance to the goal over time, by navigator",
-                runs=howard2012.RUNS, accepts=howard2012.ACCEPTS, draw=draw,
-                defaults=howard2012.DEFAULTS)
+FIGURES = (Figure(name="howard2012-7", title="distance to the goal over time, by navigator",
+                   runs=howard2012.RUNS, accepts=howard2012.ACCEPTS, draw=draw,
+                   defaults=howard2012.DEFAULTS),)

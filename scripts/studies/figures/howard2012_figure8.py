@@ -17,11 +17,11 @@ def draw(sources, options):
         steered = [wheel for wheel, turned in enumerate(drive.turned_rad()) if turned > 0.0]
         for wheel in steered:
             colour, dash = LOOKS[wheel]
-            angles = [each[wheel] for each in drive.steer_rad]
+            angles = drive.trace["steer_rad"][:, wheel]
             axes.plot(*howard2012.curve(drive.time_s, angles), color=colour, linestyle=dash,
                       linewidth=1.1, label=WHEELS[wheel])
         axes.set(ylabel="angle (rad)", title=drive.name)
-        numbers[drive.name] = {"time_s": drive.time_s, "steer_rad": drive.steer_rad,
+        numbers[drive.name] = {"time_s": drive.time_s, "steer_rad": drive.trace["steer_rad"],
                                "steered": [WHEELS[wheel] for wheel in steered],
                                "turned_rad": drive.turned_rad(),
                                "mean_turned_rad": drive.record["steer_turned_rad"]}
@@ -41,6 +41,6 @@ def _caption(numbers, trial):
             f"motors: {totals}. Published, of one drive each: 2.03 rad (CSOD) and 0.93 rad (CSAD).")
 
 
-FIGURE = Figure(name="howard2012-8", title="steering angles over time, by navigator",
-                runs=howard2012.RUNS, accepts=howard2012.ACCEPTS, draw=draw,
-                defaults=howard2012.DEFAULTS)
+FIGURES = (Figure(name="howard2012-8", title="steering angles over time, by navigator",
+                   runs=howard2012.RUNS, accepts=howard2012.ACCEPTS, draw=draw,
+                   defaults=howard2012.DEFAULTS),)

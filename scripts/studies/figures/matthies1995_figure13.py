@@ -20,8 +20,7 @@ class Layout:
         outer, inner = sensor["outer_emitter_y_m"], sensor["inner_emitter_y_m"]
         self.emitters = [(sensor["emitter_x_m"], y) for y in (outer, inner, 0.0, -inner, -outer)]
         outer, inner = sensor["outer_stripe_y_m"], sensor["inner_stripe_y_m"]
-        self.far_points = [(self.front_m + sensor["row_ahead_m"][-1], y)
-                           for y in (outer, inner, 0.0, -inner, -outer)]
+        self.far_points = [(self.front_m + sensor["row_ahead_m"][-1], y) for y in (outer, inner, 0.0, -inner, -outer)]
         half = 0.5 * sensor["camera_separation_m"]
         self.cameras = [(sensor["camera_x_m"], y) for y in (half, -half)]
 
@@ -52,8 +51,7 @@ class Layout:
     def seen(self, camera):
         """Outline on flat ground of what a camera sees: (x, y) along the edges of its image."""
         sensor = self.sensor
-        a_most, b_most = (0.5 * sensor[f"active_{way}_m"] / sensor["focal_length_m"]
-                          for way in ("width", "height"))
+        a_most, b_most = (0.5 * sensor[f"active_{way}_m"] / sensor["focal_length_m"] for way in ("width", "height"))
         steps = [2.0 * i / EDGE_STEPS - 1.0 for i in range(EDGE_STEPS + 1)]
         edges = ([(a_most * s, -b_most) for s in steps] + [(a_most, b_most * s) for s in steps] +
                  [(-a_most * s, b_most) for s in steps] + [(-a_most, -b_most * s) for s in steps])
@@ -126,8 +124,7 @@ def draw(sources, options):
 
 def box(rear, front, half_width):
     """A closed rectangle as lists of x and of y."""
-    return ([rear, front, front, rear, rear],
-            [half_width, half_width, -half_width, -half_width, half_width])
+    return ([rear, front, front, rear, rear], [half_width, half_width, -half_width, -half_width, half_width])
 
 
 def _draw_sensor(axes, layout, drawn, far):
@@ -140,8 +137,7 @@ def _draw_sensor(axes, layout, drawn, far):
         lit = [layout.on_stripe(stripe, x) for x in (near, min(most, far))]
         axes.plot(*zip(*lit), color=style.VERMILION, linestyle=":", linewidth=1.8,
                   label="light planes; bold: light on the ground" if stripe == 0 else None)
-    axes.plot(*zip(*layout.emitters), "^", color=style.VERMILION, markersize=4.5, zorder=5,
-              label="emitters")
+    axes.plot(*zip(*layout.emitters), "^", color=style.VERMILION, markersize=4.5, zorder=5, label="emitters")
     axes.plot(*zip(*layout.cameras), "s", color=style.INK, markersize=4.5, zorder=5, label="cameras")
 
 
@@ -165,8 +161,7 @@ def _draw_published(axes, layout, width_m, sensor):
     axes.annotate(f"{100 * sensor['row_ahead_m'][-1]:.0f} cm (published)", (far_x, aside),
                   xytext=(5, -3), textcoords="offset points", fontsize=7.5, color=style.BLUE)
     axes.annotate("", (far_x, 0.5 * width_m), (far_x, far_y), arrowprops=look)
-    axes.plot([layout.front_m, far_x], [0.5 * width_m] * 2, color=style.BLUE, linewidth=0.6,
-              linestyle="--")
+    axes.plot([layout.front_m, far_x], [0.5 * width_m] * 2, color=style.BLUE, linewidth=0.6, linestyle="--")
     axes.annotate(f"{100 * (far_y - 0.5 * width_m):.0f} cm (published)", (far_x, far_y),
                   xytext=(8, -10), textcoords="offset points", fontsize=7.5, color=style.BLUE)
 
@@ -185,5 +180,5 @@ def _caption(source, sensor):
             f"{sensor['camera_pitch_deg']:.0f} deg down. Fields of view end at the edge of the drawing.")
 
 
-FIGURE = Figure(name="matthies1995-13", title="the light stripe sensor from above: what is published, what assumed",
-                runs="a run of drives with the light stripe sensor", accepts=(1, 1), draw=draw)
+FIGURES = (Figure(name="matthies1995-13", title="the light stripe sensor from above: what is published, what assumed",
+                   runs="a run of drives with the light stripe sensor", accepts=(1, 1), draw=draw),)

@@ -1,6 +1,6 @@
 """Matthies 1995, figure 15: Moore's model of rock sizes, and what two obstacles per m2 look like."""
 
-import math
+from study import rates
 
 from . import Drawn, Figure, FigureError, style
 
@@ -9,7 +9,6 @@ SMALLEST_OBSTACLE_M = 0.15      # figure 15 (b)
 ROVER_M = (0.65, 0.48)          # length and width of the Pathfinder rover, section 2
 PUBLISHED = ((0.23, 0.65), (0.15, 2.0))  # (diameter, obstacles per m2) that section 7 reads off
 DIAMETERS_M = [0.1 * 10 ** (i / 30) for i in range(31)]  # 10 cm to 1 m
-Z95 = 1.959963984540054
 
 
 def law_per_m2(k, diameter_m):
@@ -19,41 +18,18 @@ def law_per_m2(k, diameter_m):
 
 def as_made(rocks, placed_per_m2):
     """Expected rocks per m2 in fields whose sizes end somewhere and whose course has clear ends."""
-    most, least = (law_per_m2(rocks["k_per_m2"], rocks[name])
-                   for name in ("min_diameter_m", "max_diameter_m"))
-    return [placed_per_m2 * max(law_per_m2(rocks["k_per_m2"], d) - least, 0.0) / (most - least)
-            for d in DIAMETERS_M]
+    most, least = (law_per_m2(rocks["k_per_m2"], rocks[name]) for name in ("min_diameter_m", "max_diameter_m"))
+    return [placed_per_m2 * max(law_per_m2(rocks["k_per_m2"], d) - least, 0.0) / (most - least) for d in DIAMETERS_M]
 
 
 def counted(terrains):
     """(diameters of all rocks that were placed, area of the layouts in m2); no mirror images."""
-    diameters = [rock["diameter_m"] for terrain in terrains for rock in terrain["rocks"]
-                 if not rock["mirror_image"]]
+    diameters = [rock["diameter_m"] for terrain in terrains for rock in terrain["rocks"] if not rock["mirror_image"]]
     return diameters, sum(terrain["audit"]["layout_area_m2"] for terrain in terrains)
 
 
 def count_at_least(diameters, diameter_m):
     return sum(1 for each in diameters if each >= diameter_m)
-
-
-def poisson_limits(count):
-    """95 % limits of the mean of a Poisson count: exact (Garwood 1936) up to 50, above by the cubes of
-    Wilson and Hilferty 1931, which are within 0.1 % there."""
-    if count > 50:
-        def cube(n, z):
-            return n * (1.0 - 1.0 / (9.0 * n) + z / (3.0 * math.sqrt(n))) ** 3
-        return cube(count, -Z95), cube(count + 1, Z95)
-    return (_mean_where(count - 1, 0.975) if count > 0 else 0.0), _mean_where(count, 0.025)
-
-
-def _mean_where(most, share):
-    """The mean of a Poisson variable that is at most `most` with that probability, by bisection."""
-    low, high = 0.0, 200.0
-    while high - low > 1e-9 * high:
-        mean = 0.5 * (low + high)
-        at_most = sum(math.exp(k * math.log(mean) - mean - math.lgamma(k + 1)) for k in range(most + 1))
-        low, high = (mean, high) if at_most > share else (low, mean)
-    return low
 
 
 def moore_of(source):
@@ -66,8 +42,6 @@ def moore_of(source):
 
 def draw(sources, options):
     law_source, plan_source = sources[0], sources[-1]
-    for source in sources:
-        source.require_run()
     rocks = moore_of(law_source)
     terrains = [law_source.terrain(trial) for trial in range(options.fields)]
     diameters, area_m2 = counted(terrains)
@@ -78,19 +52,17 @@ def draw(sources, options):
     expected = sum(t["audit"]["expected_placed"] for t in terrains)
     made = as_made(rocks, expected / area_m2)
     _draw_law(left, law, counts, area_m2, rocks["k_per_m2"])
-    left.plot(DIAMETERS_M, made, color=style.BLUE, linestyle="--", linewidth=1.0,
-              label="what they are made to hold")
+    left.plot(DIAMETERS_M, made, color=style.BLUE, linestyle="--", linewidth=1.0, label="what they are made to hold")
     left.legend(fontsize=8, loc="lower left")
     shown = _draw_plan(right, plan)
     drawn = {"diameter_m": DIAMETERS_M, "law_per_m2": law, "area_m2": area_m2, "counts": counts,
              "made_per_m2": made, "plan": shown}
-    return Drawn(figure, _caption(law_source, plan_source, options, len(diameters), expected, area_m2,
-                                  rocks), drawn)
+    return Drawn(figure, _caption(law_source, plan_source, options, len(diameters), expected, area_m2, rocks), drawn)
 
 
 def _draw_law(axes, law, counts, area_m2, k):
     axes.plot(DIAMETERS_M, law, color=style.INK, label=f"N = {k:g} D⁻²·⁶⁶")
-    drawn = [(d, n / area_m2, [each / area_m2 for each in poisson_limits(n)])
+    drawn = [(d, n / area_m2, [each / area_m2 for each in rates.poisson_interval(n)])
              for d, n in zip(DIAMETERS_M, counts)]
     seen = [each for each in drawn if each[1] > 0.0]
     axes.errorbar([d for d, _, _ in seen], [n for _, n, _ in seen],
@@ -144,6 +116,6 @@ def _caption(law_source, plan_source, options, placed, expected, area_m2, rocks)
             f"are filled (the model says {at_15:.1f} per m2), smaller rocks outlined; rover to scale.")
 
 
-FIGURE = Figure(name="matthies1995-15", title="rock sizes of fields against Moore's model; a field",
-                runs="a run in Moore's terrain (vl2.json); a second one, if given, is shown in (b)",
-                accepts=(1, 2), draw=draw)
+FIGURES = (Figure(name="matthies1995-15", title="rock sizes of fields against Moore's model; a field",
+                   runs="a run in Moore's terrain (vl2.json); a second one, if given, is shown in (b)",
+                   accepts=(1, 2), draw=draw),)

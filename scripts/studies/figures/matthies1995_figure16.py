@@ -2,49 +2,38 @@
 
 import math
 
+import numpy as np
+import study
+
 from . import Drawn, Figure, FigureError, style
 
 # Samples nearer than this to the last one drawn add nothing that can be seen.
 LEAST_STEP_M = 0.01
 
 
-def path_of(samples, kind):
-    """(x, y) of the true or believed path, thinned."""
-    return thinned([(float(row[f"{kind}_x_m"]), float(row[f"{kind}_y_m"])) for row in samples])
-
-
 def thinned(points):
     """Without points that hardly moved; the last one stays."""
-    kept = points[:1]
+    kept = [*points[:1]]
     for point in points[1:]:
         if math.dist(point, kept[-1]) >= LEAST_STEP_M:
             kept.append(point)
-    return kept if not points or kept[-1] == points[-1] else [*kept, points[-1]]
-
-
-def places(events, kind):
-    return [(float(row[f"{kind}_x_m"]), float(row[f"{kind}_y_m"])) for row in events
-            if row[f"{kind}_x_m"] != ""]
+    return kept if tuple(kept[-1]) == tuple(points[-1]) else [*kept, points[-1]]
 
 
 def rocks_of(terrain):
     """(x, y, diameter) of every rock, mirror images too."""
-    return [(rock["center_m"][0], rock["center_m"][1], rock["diameter_m"])
-            for rock in terrain["rocks"]]
+    return [(rock["center_m"][0], rock["center_m"][1], rock["diameter_m"]) for rock in terrain["rocks"]]
 
 
 def draw(sources, options):
     source = sources[0]
     terrain = source.terrain(options.trial)
-    rows = source.trace(options.trial)
-    samples = [row for row in rows if row["row"] == "sample"]
-    if not samples:
-        raise FigureError(f"{source.path}: trial {options.trial} ended before it began (a simulator "
-                          "fault?); take another one with --trial")
-    hazards = [row for row in rows if row["row"] == "event" and row["kind"] == "hazard"]
-    drawn = {"rocks": rocks_of(terrain), "true": path_of(samples, "true"),
-             "believed": path_of(samples, "believed"), "hazards_true": places(hazards, "true"),
-             "hazards_believed": places(hazards, "believed")}
+    trace = source.trace(options.trial)
+    hazards = trace.events[trace.events.kind == "hazard"]
+    seen_at = np.searchsorted(trace["time_s"], hazards.time_s, side="right") - 1
+    true, believed = (list(map(tuple, trace[name][:, :2].tolist())) for name in ("position_m", "believed"))
+    drawn = {"rocks": rocks_of(terrain), "true": thinned(true[1:]), "believed": thinned(believed[1:]),
+             "hazards_true": list(zip(hazards.x_m, hazards.y_m)), "hazards_believed": [believed[at] for at in seen_at]}
     figure, axes = style.new_figure(8.0, 3.3)
     draw_ground(axes, terrain, drawn["rocks"])
     _draw_paths(axes, drawn)
@@ -52,7 +41,7 @@ def draw(sources, options):
         axes.plot(*place, "x", color=style.INK, markersize=9, markeredgewidth=2.2, zorder=6)
     axes.set(xlabel="x (m)", ylabel="y (m)")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, fontsize=8)
-    return Drawn(figure, _caption(source, options.trial, rows, drawn, terrain["goal_m"]), drawn)
+    return Drawn(figure, _caption(source, options.trial, trace.events.iloc[-1], drawn, terrain["goal_m"]), drawn)
 
 
 def draw_ground(axes, terrain, rocks):
@@ -74,11 +63,10 @@ def _draw_paths(axes, drawn):
             axes.plot(*zip(*drawn[name]), "o", color=colour, markersize=4.5, label=label, zorder=5)
 
 
-def _caption(source, trial, rows, drawn, goal):
-    end = rows[-1]
+def _caption(source, trial, end, drawn, goal):
     off = math.dist(drawn["true"][-1], drawn["believed"][-1])
     return (f"Map of one run in the manner of Matthies 1995, figure 16: {source.name}, seed "
-            f"{source.seed}, trial {trial}, which ended: {end['detail'] or end['kind']}. Octagons: "
+            f"{source.seed}, trial {trial}, which ended: {end.detail or end.kind}. Octagons: "
             "rocks. Solid: true path; dotted: dead-reckoned path. Filled circles: where obstacles were "
             f"detected ({len(drawn['hazards_true'])} detections). Crosses: start (left) and goal. "
             f"At the end the rover is {off:.2f} m from where it believes itself, and "
@@ -87,13 +75,14 @@ def _caption(source, trial, rows, drawn, goal):
 
 def like_the_published(source):
     """The first trial that was declared a success 1.2 to 1.6 m from the goal; the published one was at 1.4 m."""
-    for row in source.drives():
-        if row["outcome"] in ("goal_reached", "false_goal") and 1.2 <= float(row["true_goal_distance_m"]) <= 1.6:
-            return int(row["trial"])
+    drives = source.drives()
+    found = drives.index[drives.outcome.isin(study.ARRIVED) & drives.true_goal_distance_m.between(1.2, 1.6)]
+    if len(found):
+        return int(found[0])
     raise FigureError(f"{source.path}: no trial was declared a success 1.2 to 1.6 m from the goal; "
                       "name one with --trial")
 
 
-FIGURE = Figure(name="matthies1995-16", title="map of one run: rocks, true and dead-reckoned path",
-                runs="a run of drives; --trial says which of its trials", accepts=(1, 1), draw=draw,
-                chosen=like_the_published)
+FIGURES = (Figure(name="matthies1995-16", title="map of one run: rocks, true and dead-reckoned path",
+                   runs="a run of drives; --trial says which of its trials", accepts=(1, 1), draw=draw,
+                   chosen=like_the_published),)

@@ -1,7 +1,8 @@
 """Matthies 1995, figure 17: how far the rover drives."""
 
+import study
+
 from . import Drawn, Figure, FigureError, style
-from .source import numbers
 
 SHORTEST_PUBLISHED_M = 7.0  # Matthies 1995, section 7: of the 40 real runs
 STRAIGHT_M = 7.6            # section 7: from start to goal
@@ -14,16 +15,15 @@ LOOKS = ({"color": style.BLUE, "linestyle": "-"}, {"color": style.VERMILION, "li
 
 def curve(source):
     """(distance, share of runs that drove no further, its band) from distance_cdf.csv."""
-    rows = source.distance_cdf()
-    if not rows:
+    source.require_drives()
+    rows = source.table("distance_cdf.csv")
+    if rows.empty:
         raise FigureError(f"{source.path}: has no finished trials")
-    return [numbers(rows, column, source.path / "distance_cdf.csv")
-            for column in ("distance_m", "ecdf", "ecdf_low", "ecdf_high")]
+    return [rows[column].tolist() for column in ("distance_m", "ecdf", "ecdf_low", "ecdf_high")]
 
 
 def label_of(source, runs):
-    believed = "perfect localization" if source.summary.get("localization") == "oracle" \
-        else "dead reckoning"
+    believed = "perfect localization" if source.summary.get("localization") == "oracle" else "dead reckoning"
     return f"{source.name}: {runs} runs, {believed}"
 
 
@@ -40,8 +40,7 @@ def draw(sources, _options):
         axes.step(x, [0.0, *share, 1.0], where="post", label=label_of(source, len(distance)), **look)
         if len(distance) <= FEW_RUNS:
             axes.plot(distance, share, "D", color=look["color"], markersize=3.5)
-        drawn[source.name] = {"distance_m": distance, "ecdf": share, "ecdf_low": low,
-                              "ecdf_high": high}
+        drawn[source.name] = {"distance_m": distance, "ecdf": share, "ecdf_low": low, "ecdf_high": high}
         notes.append(_note(source, distance))
     _mark_published(axes)
     axes.set(xlabel="total distance travelled (m)", ylabel="share of runs that drove no further",
@@ -52,11 +51,11 @@ def draw(sources, _options):
 
 def _note(source, distance):
     """Runs that failed may have driven next to nothing."""
-    arrived = [float(row["true_distance_m"]) for row in source.drives()
-               if row["outcome"] in ("goal_reached", "false_goal")]
+    drives = source.drives()
+    arrived = drives.true_distance_m[drives.outcome.isin(study.ARRIVED)]
     text = (f"{source.name}: {len(distance)} runs, seed {source.summary['seed']}, longest "
             f"{distance[-1]:.2f} m, shortest {distance[0]:.2f} m")
-    return text + (f", shortest of those that believed to arrive {min(arrived):.2f} m" if arrived
+    return text + (f", shortest of those that believed to arrive {min(arrived):.2f} m" if len(arrived)
                    else ", none of which believed to arrive")
 
 
@@ -77,6 +76,6 @@ def _caption(notes):
             "available, so none are drawn.")
 
 
-FIGURE = Figure(name="matthies1995-17", title="distribution of the total distance over runs",
-                runs="a run of nominal.json; then, dotted, one of nominal_perfect_localization.json",
-                accepts=(1, 2), draw=draw)
+FIGURES = (Figure(name="matthies1995-17", title="distribution of the total distance over runs",
+                   runs="a run of nominal.json; then, dotted, one of nominal_perfect_localization.json",
+                   accepts=(1, 2), draw=draw),)

@@ -2,10 +2,10 @@
 
 import math
 
-from . import Drawn, Figure, FigureError, style
-from .source import read_csv
+from study import rates
 
-Z95 = 1.959963984540054
+from . import Drawn, Figure, style
+
 # name, line style, mark and colour of each of the three errors
 CURVES = (("downrange", "-", "o", style.BLUE), ("crossrange", "--", "s", style.GREEN),
           ("pan", ":", "^", style.VERMILION))
@@ -23,31 +23,28 @@ def equations(range_m, settings):
 
 def deviation(row, mean, rms):
     """Standard deviation from a column of means and one of root mean squares."""
-    return math.sqrt(max(float(row[f"rms_{rms}"]) ** 2 - float(row[f"mean_{mean}"]) ** 2, 0.0))
+    return math.sqrt(max(row[f"rms_{rms}"] ** 2 - row[f"mean_{mean}"] ** 2, 0.0))
 
 
 def measured(row):
     """{curve: (value, half of its 95 % interval)} of a cell; a standard deviation is known to its
     2 n-th root."""
-    count = float(row["found"]) * float(row["designations"])
+    count = row["found"] * row["designations"]
     downrange = deviation(row, "downrange_m", "downrange_error_m")
     crossrange = deviation(row, "crossrange_m", "crossrange_error_m")
     panned = deviation(row, "panned_crossrange_m", "panned_crossrange_error_m")
-    return {"downrange": (downrange, Z95 * downrange / math.sqrt(2.0 * count)),
-            "crossrange": (crossrange, Z95 * crossrange / math.sqrt(2.0 * count)),
-            "pan": (float(row["mean_panned_crossrange_m"]), Z95 * panned / math.sqrt(count))}
+    return {"downrange": (downrange, rates.Z95 * downrange / math.sqrt(2.0 * count)),
+            "crossrange": (crossrange, rates.Z95 * crossrange / math.sqrt(2.0 * count)),
+            "pan": (row["mean_panned_crossrange_m"], rates.Z95 * panned / math.sqrt(count))}
 
 
 def draw(sources, _options):
     source = sources[0]
-    source.require_run()
-    if source.scenario.get("experiment") != "designation":
-        raise FigureError(f"{source.path}: is no run of the experiment designation; take one of "
-                          "scenarios/localization/designation.json")
+    source.require_experiment("designation", "scenarios/localization/designation.json")
     settings = source.scenario["course"]["designation"]
-    rows = sorted(read_csv(source.path / "cells.csv"), key=lambda row: float(row["range_m"]))
-    ranges = [float(row["range_m"]) for row in rows]
-    points = [measured(row) for row in rows]
+    rows = source.table("cells.csv").sort_values("range_m", kind="stable")
+    ranges = rows.range_m.tolist()
+    points = [measured(row) for _, row in rows.iterrows()]
     lines = [0.5 * i for i in range(2 * math.ceil(ranges[-1]) + 1)]
     figure, axes = style.new_figure(5.6, 4.0)
     drawn = {"range_m": ranges}
@@ -66,14 +63,14 @@ def draw(sources, _options):
 
 
 def _caption(source, rows, settings):
-    beyond = sum(float(row["beyond"]) * float(row["designations"]) for row in rows)
+    beyond = (rows.beyond * rows.designations).sum()
     return (f"Designation error against distance, in the manner of Matthies 1995, figure 4: lines are its "
             f"equations 1 to 3, points are places triangulated in images of the lander's cameras "
-            f"({source.name}, seed {source.seed}, {float(rows[0]['designations']):.0f} goals a range; bars: "
+            f"({source.name}, seed {source.seed}, {rows.designations.iloc[0]:.0f} goals a range; bars: "
             f"95 % intervals). Operators pick goals to {settings['pixel_sd_px']:g} px and disparities are "
             f"known to {settings['disparity_sd_px']:g} px. {beyond:.0f} goals had no positive disparity. The "
             "points of the paper's own figure are not available, so none are drawn.")
 
 
-FIGURE = Figure(name="matthies1995-4", title="designation error against distance",
-                runs="a run of scenarios/localization/designation.json", accepts=(1, 1), draw=draw)
+FIGURES = (Figure(name="matthies1995-4", title="designation error against distance",
+                   runs="a run of scenarios/localization/designation.json", accepts=(1, 1), draw=draw),)

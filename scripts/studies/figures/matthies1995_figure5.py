@@ -10,9 +10,9 @@ MOST_SETS = 20           # of twenty runs each, drawn thinly beside the first
 
 def courses_of(source):
     source.require_drives()
-    courses = sand_slopes.read_courses(source.path)
+    courses = sand_slopes.read_courses(source.run)
     if not courses:
-        raise FigureError(f"{source.path}: keeps no courses; run it with --traces all --trace-format csv")
+        raise FigureError(f"{source.path}: keeps no courses; run it with --traces all")
     if len(courses) < sand_slopes.RUNS:
         raise FigureError(f"{source.path}: has {len(courses)} runs, and a set has {sand_slopes.RUNS}")
     return courses
@@ -35,10 +35,10 @@ def draw(sources, _options):
         for index, values in enumerate(curves):
             look = {"color": style.BLUE, "marker": ".", "label": f"first {sand_slopes.RUNS} runs"} \
                 if index == 0 else {"color": style.PALE, "linewidth": 0.8, "zorder": 1}
-            panel.plot(_distances(values), values, **look)
-        panel.plot(_distances(pooled), pooled, color=style.GREEN, linestyle="--",
+            panel.plot(sand_slopes.distances(values), values, **look)
+        panel.plot(sand_slopes.distances(pooled), pooled, color=style.GREEN, linestyle="--",
                    label=f"all {len(courses)} runs")
-        longest = _distances(pooled)[-1]
+        longest = sand_slopes.distances(pooled)[-1]
         panel.plot((0.0, longest), (0.0, SLOPES[which] * longest), color=style.VERMILION, linestyle=":",
                    label=f"published slope, {SLOPES[which]:g} {unit}/m")
         panel.set(xlabel="true distance travelled (m)", ylabel=f"variance of the error ({unit})",
@@ -50,10 +50,6 @@ def draw(sources, _options):
     return Drawn(figure, _caption(source, len(courses), len(sets), drawn), drawn)
 
 
-def _distances(values):
-    return [sand_slopes.STEP_M * (index + 1) for index in range(len(values))]
-
-
 def _caption(source, runs, sets, drawn):
     heading, distance = (each["slope"] for each in drawn.values())
     return ("Variance of the errors of heading and distance against true distance, in the manner of Matthies "
@@ -63,6 +59,6 @@ def _caption(source, runs, sets, drawn):
             "prints. The points of its own figure are not in the text, so none are drawn.")
 
 
-FIGURE = Figure(name="matthies1995-5", title="variance of dead-reckoning errors along runs on sand",
-                runs="a run of level_sand.json with --traces all --trace-format csv, 20 trials or more",
-                accepts=(1, 1), draw=draw)
+FIGURES = (Figure(name="matthies1995-5", title="variance of dead-reckoning errors along runs on sand",
+                   runs="a run of level_sand.json with --traces all, 20 trials or more",
+                   accepts=(1, 1), draw=draw),)

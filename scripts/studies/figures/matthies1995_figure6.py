@@ -1,9 +1,8 @@
 """Matthies 1995, figure 6: standard deviations of dead reckoning along a straight line."""
 
-import math
+import numpy as np
 
 from . import Drawn, Figure, FigureError, style
-from .source import numbers, read_csv
 
 # Section 5: (distance in m, across in m, along in m), of simulated runs.
 PANELS = ((0.70, "(a) Rocky 3.2 on sand, 0.70 deg²/m", ((10.0, 0.27, 0.20), (20.0, 0.76, 0.29))),
@@ -15,15 +14,9 @@ FURTHEST_M = 20.0  # what the text gives numbers for
 
 
 def cells_of(source):
-    source.require_run("the folder of a run of straight_sand.json")
-    path = source.path / "cells.csv"
-    if source.scenario.get("experiment") != "dead_reckoning":
-        raise FigureError(f"{source.path}: is no run of the experiment dead_reckoning")
-    rows = read_csv(path)
-    numbers(rows, HEADING, path)
-    return [{name: float(row[name]) for name in ("distance_m", "heading_variance_deg2_per_m",
-                                                 "walks", HEADING, *(column for _, column, _ in CURVES))}
-            for row in rows if float(row["scale_deviation"]) == 0.0 and float(row["rest_s"]) == 0.0]
+    source.require_experiment("dead_reckoning", "straight_sand.json")
+    rows = source.table("cells.csv")
+    return rows[(rows.scale_deviation == 0.0) & (rows.rest_s == 0.0) & (rows.distance_m <= FURTHEST_M)]
 
 
 def draw(sources, _options):
@@ -32,20 +25,19 @@ def draw(sources, _options):
     figure, axes = style.new_figure(7.0, 3.9, ncols=2)
     drawn, walks = {}, 0
     for panel, (variance, title, published) in zip(axes, PANELS):
-        rows = sorted((cell for cell in cells if math.isclose(cell["heading_variance_deg2_per_m"], variance)
-                       and cell["distance_m"] <= FURTHEST_M), key=lambda cell: cell["distance_m"])
-        if not rows:
+        rows = cells[np.isclose(cells.heading_variance_deg2_per_m, variance)].sort_values("distance_m", kind="stable")
+        if rows.empty:
             raise FigureError(f"{source.path}: has no cell of {variance:g} deg2/m")
-        walks = max(walks, int(rows[0]["walks"]))
+        walks = max(walks, int(rows.walks.iloc[0]))
         drawn[title] = _panel(panel, title, rows, published)
     return Drawn(figure, _caption(source, walks), drawn)
 
 
 def _panel(panel, title, rows, published):
-    x = [row["distance_m"] for row in rows]
+    x = rows.distance_m.tolist()
     series = {}
     for name, column, look in CURVES:
-        series[name] = [row[column] for row in rows]
+        series[name] = rows[column].tolist()
         panel.plot(x, series[name], label=f"{name} (m)", markersize=3.5, **look)
     for at, across, along in published:
         panel.plot((at, at), (across, along), "s", markerfacecolor="none", markeredgecolor=style.INK,
@@ -53,7 +45,7 @@ def _panel(panel, title, rows, published):
     panel.set(xlabel="distance (m)", ylabel="standard deviation of the position (m)", xlim=(0.0, None),
               ylim=(0.0, None))
     right = panel.twinx()
-    series["heading"] = [row[HEADING] for row in rows]
+    series["heading"] = rows[HEADING].tolist()
     right.plot(x, series["heading"], color=style.GREEN, linestyle=":", label="heading (deg, right)")
     right.set(ylim=(0.0, None), ylabel="of the heading (deg)")
     right.grid(False)
@@ -71,5 +63,5 @@ def _caption(source, walks):
             "numbers that section 5 prints; the curves of its own figure are not in the text.")
 
 
-FIGURE = Figure(name="matthies1995-6", title="standard deviations of dead reckoning by distance",
-                runs="a run of straight_sand.json", accepts=(1, 1), draw=draw)
+FIGURES = (Figure(name="matthies1995-6", title="standard deviations of dead reckoning by distance",
+                   runs="a run of straight_sand.json", accepts=(1, 1), draw=draw),)

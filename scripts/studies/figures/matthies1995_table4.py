@@ -1,7 +1,6 @@
 """Matthies 1995, table 4: dead-reckoning errors, as distributions."""
 
 from . import Drawn, Figure, FigureError, style
-from .source import numbers
 
 # Column, label, published minimum, mode and maximum of 40 runs (table 4).
 ERRORS = (("distance_error_percent", "distance error (%)", (-3.0, 4.8, 9.0)),
@@ -13,12 +12,12 @@ BINS = 24
 def draw(sources, _options):
     source = sources[0]
     rows = source.drives()
-    if not rows:
+    if rows.empty:
         raise FigureError(f"{source.path}: has no finished trials")
     figure, panels = style.new_figure(8.6, 2.9, ncols=3)
     drawn = {}
     for axes, (column, label, published) in zip(panels, ERRORS):
-        values = numbers(rows, column, source.path / "trials.csv")
+        values = rows[column].dropna().tolist()
         drawn[column] = values
         _draw_error(axes, values, label, published)
     panels[0].set_ylabel("runs")
@@ -33,8 +32,7 @@ def draw(sources, _options):
 
 
 def _draw_error(axes, values, label, published):
-    axes.hist(values, bins=BINS, color=style.SKY, edgecolor=style.BLUE, linewidth=0.5,
-              label="our runs")
+    axes.hist(values, bins=BINS, color=style.SKY, edgecolor=style.BLUE, linewidth=0.5, label="our runs")
     top = 1.12 * axes.get_ylim()[1]
     least, mode, most = published
     axes.errorbar([mode], [0.94 * top], xerr=[[mode - least], [most - mode]], fmt="D",
@@ -44,5 +42,5 @@ def _draw_error(axes, values, label, published):
     axes.grid(axis="x", visible=False)
 
 
-FIGURE = Figure(name="matthies1995-table4", title="distributions of the dead-reckoning errors",
-                runs="a run of drives (nominal.json)", accepts=(1, 1), draw=draw)
+FIGURES = (Figure(name="matthies1995-table4", title="distributions of the dead-reckoning errors",
+                   runs="a run of drives (nominal.json)", accepts=(1, 1), draw=draw),)

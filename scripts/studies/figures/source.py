@@ -1,6 +1,5 @@
-"""What a figure reads: a run folder, and what the rockyard command says of it."""
+"""What a figure reads: a run folder by the package, and what the rockyard command says of it."""
 
-import csv
 import json
 import shutil
 import subprocess
@@ -9,26 +8,18 @@ import weakref
 from functools import cached_property
 from pathlib import Path
 
+import pandas
+from study import counted, ry
+
 from . import FigureError
 
 
-def read_csv(path):
-    """Rows of a CSV file as dictionaries of text."""
+def read_table(path):
+    """A CSV file as a frame, numbers with every digit."""
     try:
-        with open(path, encoding="utf-8", newline="") as file:
-            return list(csv.DictReader(file))
+        return pandas.read_csv(path, float_precision="round_trip")
     except OSError as error:
         raise FigureError(f"{path}: cannot be read ({error.strerror}); was the run finished?") from None
-
-
-def numbers(rows, column, path=""):
-    """One column as numbers; empty fields are left out."""
-    if rows and column not in rows[0]:
-        raise FigureError(f"{path}: has no column {column}; is the run one of drives?")
-    try:
-        return [float(row[column]) for row in rows if row[column] not in ("", None)]
-    except ValueError as error:
-        raise FigureError(f"{path}: {column}: {error}") from None
 
 
 class Source:
@@ -46,40 +37,35 @@ class Source:
     def is_run(self):
         return self.path.is_dir()
 
-    def require_run(self, what="a run folder"):
+    @cached_property
+    def run(self):
         """One of a single scenario: a sweep folder has many of everything."""
         if not self.is_run:
-            raise FigureError(f"{self.path}: is a file, and this figure needs {what}")
-        if "scenario" not in self.summary:
-            raise FigureError(f"{self.path}: holds no run of one scenario (a sweep or a shard?); "
-                              "run one of its cells by itself")
+            raise FigureError(f"{self.path}: is a file, and this figure needs a run folder")
+        try:
+            return ry.Run(self.path)
+        except ry.InputError as error:
+            raise FigureError(str(error)) from None
 
     def require_drives(self):
-        self.require_run("the folder of a run of drives")
-        if "outcomes" not in self.summary:
+        if "true_success" not in self.summary:
             raise FigureError(f"{self.path}: is no run of drives, which this figure shows")
 
-    def _json(self, name):
-        path = self.path / name
-        try:
-            return json.loads(path.read_text(encoding="utf-8"))
-        except OSError as error:
-            raise FigureError(f"{path}: cannot be read ({error.strerror}); name the folder of a "
-                              "finished run") from None
-        except ValueError as error:
-            raise FigureError(f"{path}: is no JSON ({error})") from None
+    def require_experiment(self, name, example):
+        if self.scenario["experiment"] != name:
+            raise FigureError(f"{self.path}: is no run of the experiment {name}; take one of {example}")
 
-    @cached_property
+    @property
     def summary(self):
-        return self._json("summary.json")
+        try:
+            return self.run.summary
+        except (OSError, ValueError) as error:
+            raise FigureError(f"{self.path}: its summary cannot be read ({error}); was the run finished?") from None
 
-    @cached_property
+    @property
     def scenario(self):
         """Every setting of the run."""
-        document = self._json("scenario.resolved.json")
-        if not isinstance(document, dict) or "scenario" not in document:
-            raise FigureError(f"{self.path / 'scenario.resolved.json'}: holds no scenario")
-        return document["scenario"]
+        return self.run.scenario
 
     @property
     def name(self):
@@ -89,50 +75,41 @@ class Source:
     def seed(self):
         return self.scenario["seed"] if self.is_run else None
 
-    def drives(self):
-        """Rows of trials.csv without simulator faults."""
-        self.require_drives()
-        return [row for row in read_csv(self.path / "trials.csv")
-                if row.get("outcome") != "simulator_fault"]
+    def trials(self):
+        """The records as a frame, without simulator faults."""
+        return counted(self.run)
 
-    def distance_cdf(self):
+    def drives(self):
         self.require_drives()
-        return read_csv(self.path / "distance_cdf.csv")
+        return self.trials()
+
+    def table(self, name):
+        return read_table(self.path / name)
+
+    def _written(self, name, document):
+        path = self._scratch / name
+        path.write_text(document, encoding="utf-8")
+        return path
 
     def terrain(self, trial):
         """The rocks of a trial, as `rockyard terrain` tells them."""
         path = self._scratch / f"terrain-{trial}.json"
-        source = self.path
-        if self.is_run:
-            source = self._scratch / "scenario.json"
-            source.write_text(json.dumps(self.scenario), encoding="utf-8")
+        source = self._written("scenario.json", self.scenario.resolved()) if self.is_run else self.path
         self._call("terrain", source, "--trial", trial, "--out", path)
         return json.loads(path.read_text(encoding="utf-8"))
 
-    def trace(self, trial):
-        """Samples and events of a trial, run again: rows of `rockyard trace --csv`."""
-        self.require_drives()
-        path = self._scratch / f"trace-{trial}.csv"
-        self._call("trace", self.path, "--trial", trial, "--csv", path)
-        return read_csv(path)
-
-    def trace_of(self, scenario, trial):
-        """The same of a trial of any scenario, given as a document."""
-        source = self._scratch / "traced.json"
-        source.write_text(json.dumps(scenario), encoding="utf-8")
-        path = self._scratch / f"traced-{trial}.csv"
-        self._call("trace", source, "--trial", trial, "--csv", path)
-        return read_csv(path)
-
-    def moments(self, trial):
-        """Every moment of a trial, run again: the arrays of `rockyard trace --npz` (src/replay/README.md)
-        by name, of a run folder or of a scenario with its seed; `meta` as a document."""
-        import numpy  # pylint: disable=import-outside-toplevel  # comes with matplotlib
+    def trace(self, trial, scenario=None):
+        """Every moment of a trial, run again, of the run, of the file or of another scenario (a document). A file is
+        driven by the command, so that the runner of studies notes it."""
         path = self._scratch / f"trace-{trial}.npz"
-        self._call("trace", self.path, "--trial", trial, "--npz", path)
-        with numpy.load(path) as file:
-            arrays = dict(file)
-        return {**arrays, "meta": json.loads(str(arrays["meta"]))}
+        path.unlink(missing_ok=True)
+        self._call("trace", self.path if scenario is None else self._written("traced.json", json.dumps(scenario)),
+                   "--trial", trial, "--npz", path)
+        trace = ry.Trace(path)
+        if len(trace["time_s"]) < 2:
+            raise FigureError(f"{self.path}: trial {trial} ended before it began (a simulator fault?); "
+                              "take another one with --trial")
+        return trace
 
     def step(self, trial, step):
         """Folder with map.csv, votes.csv and points.csv of a decision of a map-based navigator."""
@@ -149,5 +126,4 @@ class Source:
             raise FigureError(f"{self._rockyard}: {error.strerror}; build it with "
                               "scripts/quickstart.sh, or name it with --rockyard") from None
         if result.returncode != 0:
-            raise FigureError(f"{' '.join(command[1:])}: exit code {result.returncode}\n"
-                              f"{result.stderr.strip()}")
+            raise FigureError(f"{' '.join(command[1:])}: exit code {result.returncode}\n" f"{result.stderr.strip()}")

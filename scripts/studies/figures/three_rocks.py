@@ -3,15 +3,17 @@
     scripts/studies/figures/three_rocks.py RUN
 
 Prints percentiles of the published numbers among the accepted runs, and the joint distance of the
-whole history. Needs nothing but Python.
+whole history.
 """
 
-import math
 import sys
 from pathlib import Path
 
+import numpy as np
+
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates  # noqa: E402
 
 # Matthies 1995, section 5: column, what is published. The errors along the way are signed so that
 # the turn at rock A, which the gyro underestimates, leaves a negative one.
@@ -20,22 +22,15 @@ PUBLISHED = {"after_a_deg": -5.0, "after_b_deg": 10.0, "at_c_deg": 10.0, "after_
 HISTORY = ("after_a_deg", "after_b_deg", "at_c_deg", "after_c_deg")
 
 
-def accepted(folder):
-    """Rows of the accepted runs of a run folder, numbers where they are some."""
-    rows = [row for row in study.read_csv(Path(folder) / "trials.csv") if row.get("accepted") == "1"]
-    return [{key: _number(value) for key, value in row.items()} for row in rows]
-
-
-def _number(text):
-    try:
-        return float(text)
-    except (TypeError, ValueError):
-        return text
+def accepted(run):
+    """The records of the accepted runs as a frame."""
+    rows = study.counted(run)
+    return rows[rows.accepted == 1]
 
 
 def share_below(values, published):
     """Of the values, those that tie counted half."""
-    return sum(0.5 * (value == published) + (value < published) for value in values) / len(values)
+    return np.mean(0.5 * (values == published) + (values < published))
 
 
 def joint_p(points, published):
@@ -45,42 +40,32 @@ def joint_p(points, published):
     Euclidean distance to the others. The p-value (1 + points at least as far) / (1 + points) is
     exact where the published point is one more of the sample.
     """
-    everything = [*points, published]
-    deviations = [_deviation(column) for column in zip(*everything)]
-    scaled = [[x / deviation for x, deviation in zip(point, deviations)] for point in everything]
-    distances = [sum(math.dist(point, other) for other in scaled) for point in scaled]
-    return sum(distance >= distances[-1] for distance in distances) / len(distances)
-
-
-def _deviation(values):
-    mean = sum(values) / len(values)
-    return math.sqrt(sum((value - mean) ** 2 for value in values) / (len(values) - 1)) or 1.0
+    everything = np.array([*points, published])
+    scaled = everything / np.where((spread := everything.std(axis=0, ddof=1)) > 0.0, spread, 1.0)
+    distances = np.linalg.norm(scaled[:, None] - scaled, axis=2).sum(axis=1)
+    return np.mean(distances >= distances[-1])
 
 
 def effective_size(weights):
     """Kish: the number of equal weights that would scatter as much."""
-    return sum(weights) ** 2 / sum(weight * weight for weight in weights)
+    return weights.sum() ** 2 / (weights ** 2).sum()
 
 
-def weighted_share(rows, column, published):
-    """Share of rows below, each by its chance to be accepted: one over its tries of B and of C."""
-    weights = [1.0 / (row["b_tries"] * row["c_tries"]) for row in rows]
-    below = sum(weight for weight, row in zip(weights, rows) if row[column] < published)
-    return below / sum(weights)
+def weights_of(rows):
+    """Of each its chance to be accepted: one over its tries of B and of C."""
+    return 1.0 / (rows.b_tries * rows.c_tries)
 
 
 def report(rows):
     lines = [f"{len(rows)} accepted runs"]
     for column, published in PUBLISHED.items():
-        values = [row[column] for row in rows]
-        lines.append(f"{column}: published {published}, ensemble median {study.quantile(values, 0.5):.2f}, "
-                     f"95 % {study.quantile(values, 0.025):.2f} .. {study.quantile(values, 0.975):.2f}, share below "
-                     f"{share_below(values, published):.3f}, weighted by tries "
-                     f"{weighted_share(rows, column, published):.3f}")
-    points = [[row[column] for column in HISTORY] for row in rows]
+        middle, low, high = (rates.quantile(rows[column], share) for share in (0.5, 0.025, 0.975))
+        lines.append(f"{column}: published {published}, ensemble median {middle:.2f}, 95 % {low:.2f} .. {high:.2f}, share below "
+                     f"{share_below(rows[column], published):.3f}, weighted by tries "
+                     f"{np.average(rows[column] < published, weights=weights_of(rows)):.3f}")
+    points = rows[list(HISTORY)].to_numpy()
     lines.append(f"joint p of the history: {joint_p(points, [PUBLISHED[c] for c in HISTORY]):.3f}")
-    weights = [1.0 / (row["b_tries"] * row["c_tries"]) for row in rows]
-    lines.append(f"effective size under these weights: {effective_size(weights):.1f}")
+    lines.append(f"effective size under these weights: {effective_size(weights_of(rows)):.1f}")
     return lines
 
 
@@ -88,7 +73,7 @@ def main(arguments):
     if len(arguments) != 1:
         print(__doc__, file=sys.stderr)
         return 2
-    rows = accepted(arguments[0])
+    rows = accepted(study.ry.Run(arguments[0]))
     if len(rows) < 2:
         print(f"error: {arguments[0]}: fewer than two accepted runs; run more", file=sys.stderr)
         return 2

@@ -65,8 +65,7 @@ READINGS = {
 
 # What the odometer of a rover is that believes its rims, where the terrain differs; Goldberg 2002 names
 # "Viking Lander II-type terrain", so that its scale is the one that the scenarios take.
-NO_SLIP = {"soil": "terrain.ground.soil.preset=hard_ground",
-           "rocks": "rover.contact.wheel_rock_friction=3"}
+NO_SLIP = {"soil": "terrain.ground.soil.preset=hard_ground", "rocks": "rover.contact.wheel_rock_friction=3"}
 GROUND = {
     "sand without rocks": ["terrain.rocks.kind=none"],
     "Viking Lander 2": [],
@@ -82,31 +81,26 @@ class Runs:
     """Runs of the study by their settings, each made once."""
 
     def __init__(self, args):
-        self.args, self.programs = args, set()
-
-    def folder(self, name, cell):
-        letters = lambda text: "".join(c if c.isalnum() else "_" for c in text)
-        return self.args.out / letters(name) / letters(cell)
+        self.args, self.programs, self.made = args, set(), {}
 
     def run(self, name, cell, settings=(), fidelity=QUASI_STATIC):
         print(f"{name} / {cell}", file=sys.stderr, flush=True)
+        letters = lambda text: "".join(c if c.isalnum() else "_" for c in text)
         scenario, own = CELLS[cell]
-        summary = study.run_scenario(self.args, SCENARIOS / f"{scenario}.json",
-                                     self.folder(name, cell),
-                                     [fidelity, *own, *self.args.set, *settings])
-        self.programs.add(study.program(summary))
-        return summary
+        run = study.run_scenario(self.args, SCENARIOS / f"{scenario}.json", self.args.out / letters(name) / letters(cell),
+                                 [fidelity, *own, *self.args.set, *settings])
+        self.programs.add(study.program(run))
+        self.made[name, cell] = run
+        return run
 
     def difference(self, cell, first, second):
         """Points of true success, second less first, with its interval."""
-        success, _ = study.compare(self.args.rockyard, self.folder(first, cell),
-                                   self.folder(second, cell))
+        success, _ = study.compare(self.made[first, cell], self.made[second, cell])
         return study.with_interval(success["true"][:3], 1)
 
 
-def rate(summary, kind):
-    success = summary[f"{kind}_success"]
-    return study.with_interval((success["rate"], *success["ci95"]), 1, 100.0)
+def percent(rate):
+    return study.with_interval(rate, 1, 100.0)
 
 
 def undone(names):
@@ -118,7 +112,7 @@ def changes(runs):
     for cell in CELLS:
         printed = runs.run("printed", cell, undone(CHANGES))
         chosen = runs.run("chosen", cell)
-        rows.append([f"**{cell}**", rate(printed, "true"), rate(chosen, "true")])
+        rows.append([f"**{cell}**", percent(printed.true_success), percent(chosen.true_success)])
         for name in CHANGES:
             runs.run(f"alone {name}", cell, undone(other for other in CHANGES if other != name))
             runs.run(f"without {name}", cell, CHANGES[name])
@@ -132,40 +126,34 @@ def changes(runs):
 def other_readings(runs):
     rows = []
     for cell in CELLS:
-        rows.append([f"**{cell}**, chosen", rate(runs.run("chosen", cell), "true")])
+        rows.append([f"**{cell}**, chosen", percent(runs.run("chosen", cell).true_success)])
         for name, settings in READINGS.items():
             runs.run(f"reading {name}", cell, settings)
             rows.append([name, runs.difference(cell, "chosen", f"reading {name}")])
-    return study.table(["reading", "true success (%), and the difference that it makes (points)"],
-                       rows)
+    return study.table(["reading", "true success (%), and the difference that it makes (points)"], rows)
 
 
 def odometer(runs):
     rows = []
     for name, settings in GROUND.items():
-        runs.run(f"odometer {name}", "Viking Lander 2", [RIMS, *settings])
-        columns = study.trial_columns(runs.folder(f"odometer {name}", "Viking Lander 2"))
-        ways = [(rim, true) for rim, true, end in
-                zip(columns["dead_reckoned_distance_m"], columns["true_distance_m"],
-                    columns["outcome"]) if end not in STUCK]
-        ratio = sum(rim for rim, _ in ways) / sum(true for _, true in ways)
+        run = runs.run(f"odometer {name}", "Viking Lander 2", [RIMS, *settings])
+        ways = run.counted[~run.ended(*STUCK)]
+        ratio = sum(ways["dead_reckoned_distance_m"]) / sum(ways["true_distance_m"])
         rows.append([name, str(len(ways)), f"{ratio:.4f}", f"{1.0 / ratio:.4f}"])
     return study.table(["ground", "drives that did not get stuck", "rim way over true way",
                         "distance_scale that corrects it"], rows)
 
 
 def dense_row(runs, reading, cell, fidelity):
-    name = f"{reading} {fidelity.split('=')[1]}"
-    summary = runs.run(name, cell, undone(CHANGES) if reading == "printed" else (), fidelity)
-    columns = study.trial_columns(runs.folder(name, cell))
-    moves = sum(columns["moves"])
-    percent = lambda part: f"{100.0 * part / moves:.0f}"
-    trials = len(columns["moves"])
-    ratio = sum(columns["dead_reckoned_distance_m"]) / sum(columns["true_distance_m"])
-    return [cell, fidelity.split("=")[1].replace("_", "-"), reading, rate(summary, "declared"),
-            rate(summary, "true"), study.failures(summary), f"{moves / trials:.0f}",
-            f"{sum(columns['rear_image_sets']) / trials:.1f}", percent(sum(columns["reversals"])),
-            f"{sum(columns['safeguard_stops']) / trials:.1f}", f"{100.0 * (ratio - 1.0):+.0f}"]
+    name = fidelity.split("=")[1]
+    run = runs.run(f"{reading} {name}", cell, undone(CHANGES) if reading == "printed" else (), fidelity)
+    total = lambda column: run.counted[column].sum()
+    moves, trials = total("moves"), len(run.counted)
+    ratio = total("dead_reckoned_distance_m") / total("true_distance_m")
+    return [cell, name.replace("_", "-"), reading, percent(run.declared_success), percent(run.true_success),
+            study.others(run.summary["outcomes"], *study.ARRIVED), f"{moves / trials:.0f}",
+            f"{total('rear_image_sets') / trials:.1f}", f"{100.0 * total('reversals') / moves:.0f}",
+            f"{total('safeguard_stops') / trials:.1f}", f"{100.0 * (ratio - 1.0):+.0f}"]
 
 
 def dense(runs):
@@ -184,8 +172,7 @@ def main():
     parser = study.argument_parser(__doc__)
     study.add_run_arguments(parser, trials=200, out="gestalt_study")
     study.print_tables(study.parse_with_tables(parser, TABLES), TABLES, Runs)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

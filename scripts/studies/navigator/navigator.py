@@ -16,6 +16,7 @@ from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates  # noqa: E402
 
 SCENARIOS = study.ROOT / "scenarios/gestalt"
 ROVERS = {"athena_sdm": "abundance", "rocky_3_2": "abundance_rocky_3_2"}
@@ -47,6 +48,9 @@ FEWEST_PAIRS = 5  # for an interval by the bootstrap
 MEANS = {"true_distance_m": ("distance (m)", 2, 1.0),
          "active_time_s": ("time (min)", 1, 1.0 / 60.0), "active_energy_wh": ("energy (Wh)", 2, 1.0)}
 
+# Of a mean in the file of pairs, and its member of a comparison.
+PARTS = {"n": "n", "mean_a": "first", "mean_b": "second", "difference": "difference", "ci95_low": "low", "ci95_high": "high"}
+
 
 def arms_at(abundance):
     return list(ARMS) if abundance in CROSSED else list(MAIN)
@@ -54,97 +58,71 @@ def arms_at(abundance):
 
 def drive(args, rover, abundance, arm):
     ending, settings = ARMS[arm]
-    scenario = SCENARIOS / f"{ROVERS[rover]}{ending}.json"
     name = "".join(letter if letter.isalnum() else "_" for letter in arm)
-    folder = args.out / rover / f"{abundance:g}" / name
     print(f"{rover} k {abundance:g} {arm}", file=sys.stderr)
-    summary = study.run_scenario(args, scenario, folder,
-                                 [*args.set, *settings, f"{ABUNDANCE}={abundance:g}"])
-    return folder, summary
+    return study.run_scenario(args, SCENARIOS / f"{ROVERS[rover]}{ending}.json", args.out / rover / f"{abundance:g}" / name,
+                              [*args.set, *settings, f"{ABUNDANCE}={abundance:g}"])
 
 
-def summary_row(rover, abundance, arm, folder, summary):
-    outcomes = study.trial_columns(folder)["outcome"]
-    row = {"rover": rover, "k_per_m2": abundance, "arm": arm, "trials": len(outcomes)}
-    for kind in ("declared", "true"):
-        success = summary[f"{kind}_success"]
-        row |= {kind: success["rate"], f"{kind}_low": success["ci95"][0],
-                f"{kind}_high": success["ci95"][1]}
-    failures = {outcome: outcomes.count(outcome) for outcome in sorted(set(outcomes))
-                if outcome not in ("goal_reached", "false_goal")}
-    row["failures"] = ", ".join(f"{name} {count}" for name, count in failures.items())
-    row["program"] = study.program(summary)
-    return row
+def summary_row(rover, abundance, arm, run):
+    row = {"rover": rover, "k_per_m2": abundance, "arm": arm, "trials": len(run.counted)}
+    for kind, rate in (("declared", run.declared_success), ("true", run.true_success)):
+        row |= zip((kind, f"{kind}_low", f"{kind}_high"), rate)
+    row["failures"] = study.others(dict(sorted(run.outcomes.items())), *study.ARRIVED, "simulator_fault", none="")
+    return row | {"program": study.program(run)}
 
 
-def pair_row(args, rover, abundance, pair, folders):
-    success, means = study.compare(args.rockyard, *(folders[arm] for arm in pair))
+def pair_row(rover, abundance, pair, runs):
+    success, means = study.compare(*(runs[arm] for arm in pair))
     row = {"rover": rover, "k_per_m2": abundance, "first": pair[0], "second": pair[1]}
-    for kind in ("declared", "true"):
-        points, low, high, p = success[kind]
-        row |= {f"{kind}_points": points, f"{kind}_low": low, f"{kind}_high": high, f"{kind}_p": p}
+    for kind, values in success.items():
+        row |= zip((f"{kind}_points", f"{kind}_low", f"{kind}_high", f"{kind}_p"), values)
     for trials in ("all", "arrived"):
         for column in MEANS:
-            found = means[trials, column]
-            for key in ("n", "mean_a", "mean_b", "difference", "ci95_low", "ci95_high"):
-                # A mean over no trial is no number.
-                row[f"{trials}_{column}_{key}"] = float(found[key]) if found[key] else float("nan")
+            found = means.get((trials, column), {"n": 0})
+            # A mean over no trial is no number.
+            row |= {f"{trials}_{column}_{name}": float("nan" if found.get(key) is None else found[key])
+                    for name, key in PARTS.items()}
     return row
 
 
 def adjust(pairs):
     """Holm over every test of the study."""
-    kinds = ("declared", "true")
-    adjusted = study.holm([row[f"{kind}_p"] for row in pairs for kind in kinds])
-    for index, row in enumerate(pairs):
-        for offset, kind in enumerate(kinds):
-            row[f"{kind}_holm"] = adjusted[len(kinds) * index + offset]
+    places = [(row, kind) for row in pairs for kind in ("declared", "true")]
+    for (row, kind), adjusted in zip(places, rates.holm(row[f"{kind}_p"] for row, kind in places)):
+        row[f"{kind}_holm"] = adjusted
 
 
 def rates_table(rows):
-    percent = lambda row, kind: study.with_interval(
-        [row[kind], row[f"{kind}_low"], row[f"{kind}_high"]], 0, 100.0)
-    return study.table(
-        ["rover", "k (1/m2)", "navigator, sensor", "declared (%)", "true (%)", "failures"],
-        [[row["rover"], f"{row['k_per_m2']:g}", row["arm"], percent(row, "declared"),
-          percent(row, "true"), row["failures"]] for row in rows])
+    percent = lambda kind: lambda row: study.interval_of(row, kind, 0, 100.0)
+    return study.listed(rows, {"rover": "{rover}", "k (1/m2)": "{k_per_m2:g}", "navigator, sensor": "{arm}",
+                               "declared (%)": percent("declared"), "true (%)": percent("true"), "failures": "{failures}"})
 
 
 def mean_difference(row, trials, column, digits, scale):
     """Difference of means with its interval; '-' where too few pairs are there to resample."""
     if float(row[f"{trials}_{column}_n"]) < FEWEST_PAIRS:
         return "-"
-    values = [float(row[f"{trials}_{column}_{key}"])
-              for key in ("difference", "ci95_low", "ci95_high")]
+    values = [float(row[f"{trials}_{column}_{key}"]) for key in ("difference", "ci95_low", "ci95_high")]
     return study.with_interval(values, digits, scale)
 
 
 def pairs_table(pairs, trials):
-    def mean(row, column):
-        _, digits, scale = MEANS[column]
-        return mean_difference(row, trials, column, digits, scale)
-    return study.table(
-        ["rover", "k (1/m2)", "first", "second", "true success, second less first (points)", "Holm p",
-         "n", *(name for name, *_ in MEANS.values())],
-        [[row["rover"], f"{row['k_per_m2']:g}", row["first"], row["second"],
-          f"{row['true_points']:+.0f} ({row['true_low']:+.0f}..{row['true_high']:+.0f})",
-          f"{row['true_holm']:.2g}", f"{row[f'{trials}_true_distance_m_n']:.0f}",
-          *(mean(row, column) for column in MEANS)] for row in pairs])
+    mean = lambda column, digits, scale: lambda row: mean_difference(row, trials, column, digits, scale)
+    return study.listed(pairs, {
+        "rover": "{rover}", "k (1/m2)": "{k_per_m2:g}", "first": "{first}", "second": "{second}",
+        "true success, second less first (points)": "{true_points:+.0f} ({true_low:+.0f}..{true_high:+.0f})",
+        "Holm p": "{true_holm:.2g}", "n": f"{{{trials}_true_distance_m_n:.0f}}",
+        **{name: mean(column, *rest) for column, (name, *rest) in MEANS.items()}})
 
 
 def panels(rows):
     """Declared and true success over abundance, by rover."""
-    found = []
-    for rover in dict.fromkeys(row["rover"] for row in rows):
-        for kind in ("declared", "true"):
-            series = []
-            for arm in MAIN:
-                of_arm = [row for row in rows if (row["rover"], row["arm"]) == (rover, arm)]
-                series.append((arm, [(row["k_per_m2"], *(100.0 * row[key] for key in
-                                                         (kind, f"{kind}_low", f"{kind}_high")))
-                                     for row in of_arm]))
-            found.append((f"{rover}: {kind} success (%)", series))
-    return found
+    def curve(rover, arm, kind):
+        return [(row["k_per_m2"], *(100.0 * row[key] for key in (kind, f"{kind}_low", f"{kind}_high")))
+                for row in rows if (row["rover"], row["arm"]) == (rover, arm)]
+    return [(f"{rover}: {kind} success (%)", [(arm, curve(rover, arm, kind)) for arm in MAIN])
+            for rover in dict.fromkeys(row["rover"] for row in rows) for kind in ("declared", "true")]
 
 
 def main():
@@ -155,12 +133,9 @@ def main():
     rows, pairs = [], []
     for rover in args.rovers:
         for abundance in ABUNDANCES:
-            folders = {}
-            for arm in arms_at(abundance):
-                folders[arm], summary = drive(args, rover, abundance, arm)
-                rows.append(summary_row(rover, abundance, arm, folders[arm], summary))
-            pairs += [pair_row(args, rover, abundance, pair, folders) for pair in PAIRS
-                      if set(pair) <= set(folders)]
+            runs = {arm: drive(args, rover, abundance, arm) for arm in arms_at(abundance)}
+            rows += [summary_row(rover, abundance, arm, run) for arm, run in runs.items()]
+            pairs += [pair_row(rover, abundance, pair, runs) for pair in PAIRS if set(pair) <= set(runs)]
     adjust(pairs)
     study.write_csv(args.out / "navigators.csv", rows)
     study.write_csv(args.out / "navigators_pairs.csv", pairs)
@@ -170,12 +145,11 @@ def main():
         rates_table(rows), "Pairs; means over all trials:", pairs_table(pairs, "all"),
         "The same; means over pairs in which both arrived:", pairs_table(pairs, "arrived"),
         f"{args.trials} trials a point, seed {args.seed}, 95 % intervals; Holm over "
-        f"{2 * len(pairs)} tests; {'held: ' + ', '.join(args.set) + '; ' if args.set else ''}made by "
+        f"{2 * len(pairs)} tests; {study.held(args)}made by "
         f"rockyard {programs}.\n"])
     (args.out / "navigators.md").write_text(text, encoding="utf-8")
     print(text)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -19,7 +19,6 @@ the width of VL-2's arena was set later, as the first way led out of the first o
 same sequences seen by another odometer.
 """
 
-import csv
 import json
 import math
 import shutil
@@ -30,6 +29,7 @@ from statistics import median
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates  # noqa: E402
 
 SCENARIOS = study.ROOT / "scenarios/visual_odometry"
 SEED = 20261126
@@ -94,12 +94,10 @@ COLUMNS = ("case", "trial", "pairs", "steps", "gaps", "distance_m", "end_error_m
 
 def render(args, case, trial, folder):
     """True where the trial has a route."""
-    command = [args.rockyard, "render", SCENARIOS / f"traverse_{case.camera}.json", "--out", folder, "--seed", SEED,
-               "--trial", trial, "--pairs", round(SPARE * case.way_m / case.step_m) + 20, "--step-m", case.step_m,
-               "--route", "--slip", SLIP]
-    command += [part for setting in case.settings() for part in ("--set", setting)]
     try:
-        study.run(command)
+        study.run([args.rockyard, "render", SCENARIOS / f"traverse_{case.camera}.json", "--out", folder, "--seed", SEED,
+                   "--trial", trial, "--pairs", round(SPARE * case.way_m / case.step_m) + 20, "--step-m", case.step_m,
+                   "--route", "--slip", SLIP, *study.settings(case.settings())])
     except SystemExit as failed:
         if not any(reason in str(failed) for reason in NO_ROUTE):
             raise
@@ -137,18 +135,7 @@ def run_sequence(args, case_name, trial):
 
 
 def read_rows(path):
-    if not path.exists():
-        return []
-    return study.read_csv(path)
-
-
-def append_row(path, row):
-    new = not path.exists()
-    with open(path, "a", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        if new:
-            writer.writeheader()
-        writer.writerow(row)
+    return study.read_csv(path) if path.exists() else []
 
 
 def run_case(args, name, table):
@@ -158,26 +145,9 @@ def run_case(args, name, table):
     while len(trials) < CASES[name].sequences:
         row = run_sequence(args, name, trial)
         if row:
-            append_row(table, row)
+            study.write_csv(table, [*read_rows(table), row])
             trials.append(trial)
         trial += 1
-
-
-def median_interval(values, level=0.95):
-    """The narrowest symmetric pair of order statistics that holds the median with this probability or more.
-
-    (x_r, x_n+1-r) fails with probability 2 P(B < r), B binomial of n and 1/2 (David and Nagaraja 2003, section 7.1).
-    None where even the extremes do not reach it: fewer than six values.
-    """
-    n = len(values)
-    ordered = sorted(values)
-    below, rank = 0.0, 0
-    while True:
-        below += math.comb(n, rank) * 0.5 ** n
-        if 2.0 * below > 1.0 - level:
-            break
-        rank += 1
-    return (ordered[rank - 1], ordered[n - rank]) if rank else None
 
 
 def summary(rows, name):
@@ -186,14 +156,13 @@ def summary(rows, name):
     if not mine:
         return None
     ends = [float(row["end_percent"]) for row in mine]
-    interval = median_interval(ends)
-    steps = sum(int(row["steps"]) for row in mine)
-    gaps = sum(int(row["gaps"]) for row in mine)
-    _, low, high = study.ratio_interval([int(row["gaps"]) for row in mine], [int(row["steps"]) for row in mine])
+    interval = rates.median_interval(ends)
+    gaps, steps = ([int(row[name]) for row in mine] for name in ("gaps", "steps"))
+    share, low, high = (100 * value for value in rates.share(gaps, steps))
     return [name, f"{len(mine)} of {CASES[name].sequences}", f"{CASES[name].way_m:g}",
             f"{median([float(row['distance_m']) for row in mine]):.1f}", f"{median(ends):.2f}",
-            "-" if interval is None else f"{interval[0]:.2f} to {interval[1]:.2f}", f"{max(ends):.2f}",
-            f"{gaps} of {steps}", f"{100 * gaps / steps:.1f} ({100 * low:.1f} to {100 * high:.1f})",
+            "-" if math.isnan(interval[0]) else f"{interval[0]:.2f} to {interval[1]:.2f}", f"{max(ends):.2f}",
+            f"{sum(gaps)} of {sum(steps)}", f"{share:.1f} ({low:.1f} to {high:.1f})",
             f"{median([float(row['normalized_mean']) for row in mine]):.1f}"]
 
 
@@ -211,8 +180,7 @@ def standing(args):
     study.run([args.rockyard, "render", SCENARIOS / "traverse_navcam.json", "--out", sequence, "--seed", SEED,
                "--pairs", args.standing, "--step-m", 0])
     kept = odometry(args, sequence, args.out / "path")
-    last = (args.out / "path/errors.csv").read_text(encoding="utf-8").splitlines()
-    drifts_m = [float(line.split(",")[-1]) for line in last[1:]]
+    drifts_m = [float([*row.values()][-1]) for row in study.read_csv(args.out / "path/errors.csv")]
     renewed = odometry(args, sequence, args.out / "path", "--param", "keyframe.max_way_m=0")
     end_renewed_m = renewed["errors"]["end_m"]
     shutil.rmtree(sequence)
@@ -241,8 +209,8 @@ def main():
                         help="names of cases, with ; for their commas, parted by commas; empty: none")
     parser.add_argument("--standing", type=int, default=STANDING_PAIRS, help="pairs of the standing camera; 0: none")
     parser.add_argument("--out", type=Path, default=study.ROOT / "results/runs/odometry")
-    parser.add_argument("--rockyard", type=Path, default=study.ROOT / "build/release/bin/rockyard")
-    parser.add_argument("--markdown", type=Path, help="page with the tables between markers")
+    study.add_program(parser)
+    study.add_page(parser)
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     table = args.out / "odometry_sequences.csv"
@@ -253,8 +221,7 @@ def main():
     tables = {"odometry_cases": study.table(HEADER, lines)}
     if args.standing:
         tables["odometry_standing"] = standing_table(standing(args))
-    for name, text in tables.items():
-        study.show(args, name, text)
+    study.show(args, tables)
 
 
 if __name__ == "__main__":

@@ -72,9 +72,8 @@ def with_inputs(text, document):
 
 
 def table(document):
-    lines = [[f"{entry['features']:.0f}", f"{entry['mm']:.3f}", f"{entry['deg']:.4f}", f"{entry['ms']:.1f}"]
-             for entry in document["by_features"]]
-    return study.table(["features", "rms error, mm", "deg", "ms"], lines)
+    return study.listed(document["by_features"], {"features": "{features:.0f}", "rms error, mm": "{mm:.3f}",
+                                                  "deg": "{deg:.4f}", "ms": "{ms:.1f}"})
 
 
 def measure(args):
@@ -103,8 +102,7 @@ def main():
         args.reference.write_text(with_inputs(args.reference.read_text(encoding="utf-8"), document), encoding="utf-8")
     print(json.dumps(document["hundred_pairs"]), f"\na step: {document['step_ms']:.2f} ms\n")
     print(table(document))
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -13,18 +13,14 @@ were.
 
 import csv
 import functools
-import io
 import json
-import os
 import random
-import re
-import subprocess
 import sys
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
-from study import ROOT, run  # noqa: E402
+from study import ry  # noqa: E402
 from calibrations import calibrate_profile  # noqa: E402
 from calibrations.calibrate_odometer import calibrate  # noqa: E402
 
@@ -48,28 +44,26 @@ def parse_arguments():
     parser = study.argument_parser(__doc__)
     parser.add_argument("scenarios", nargs="+", type=Path)
     parser.add_argument("--points", type=int, default=50, help="points of the design (default 50)")
-    parser.add_argument("--trials", type=int, default=40, help="trials a point (default 40)")
-    parser.add_argument("--seed", type=int, default=1, help="seed of the design and of the trials")
-    parser.add_argument("--out", type=Path, default=ROOT / "results/runs/envelope")
-    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
-                        help="held at every point, for example rover.fidelity=quasi_static")
-    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
+    study.add_run_arguments(parser, trials=40, out="envelope")
     return parser.parse_args()
 
 
-def is_valid(rockyard, scenario, setting):
-    command = [str(rockyard), "validate", str(scenario), "--set", setting]
-    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+def wrong(scenario, values):
+    """What is wrong with values in a scenario: problems, none where it is valid."""
+    try:
+        ry.Scenario(scenario, set=values)
+    except ry.InputError as error:
+        return error.problems
+    return []
 
 
 def assumed_parameters(rockyard, scenario):
     """Rows of the parameter table that the design varies; options that are invalid are left out."""
-    table = csv.DictReader(io.StringIO(run([rockyard, "parameters", scenario, "--csv"])))
+    table = csv.DictReader(study.run([rockyard, "parameters", scenario, "--csv"]).splitlines())
     rows = [row for row in table if row["origin"] == "assumed"]
     for row in rows:
-        options = row["choices"].split("|") if row["choices"] else []
-        row["options"] = [option for option in options
-                          if is_valid(rockyard, scenario, f"{row['path']}={option}")]
+        row["options"] = [option for option in filter(None, row["choices"].split("|"))
+                          if not wrong(scenario, {row["path"]: option})]
     return [row for row in rows if row["options"] or row["study_low"]]
 
 
@@ -92,11 +86,7 @@ def design(rows, points, seed):
     return [{path: values[i] for path, values in columns.items()} for i in range(points)]
 
 
-def settings(point):
-    return [part for path, value in point.items() for part in ("--set", f"{path}={value}")]
-
-
-def repaired(point, rows, rockyard, scenario, rng):
+def repaired(point, rows, scenario, rng):
     """Draws anew what contradicts other values of the point (its ranges taken one by one overlap).
 
     Where the program blames a parameter that the design does not vary, what it varies in the same group
@@ -105,26 +95,18 @@ def repaired(point, rows, rockyard, scenario, rng):
     by_path = {row["path"]: row for row in rows}
     redrawn = []
     for _ in range(100):
-        result = subprocess.run([str(rockyard), "validate", str(scenario), *settings(point)],
-                                capture_output=True, text=True, check=False)
-        if result.returncode == 0:
+        problems = wrong(scenario, point)
+        if not problems:
             return redrawn
-        blamed = re.findall(r"^error: ([a-z_A-Z0-9.]+):", result.stderr, flags=re.MULTILINE)
+        blamed = {problem.path for problem in problems}
         group = lambda path: path.rpartition(".")[0]
-        wrong = [path for path in by_path
-                 if path in blamed or group(path) in map(group, set(blamed) - set(by_path))]
-        if not wrong:
-            sys.exit(result.stderr)
-        for path in wrong:
+        again = [path for path in by_path if path in blamed or group(path) in map(group, blamed - set(by_path))]
+        if not again:
+            sys.exit("\n".join(map(str, problems)))
+        for path in again:
             point[path] = column(by_path[path], 1, rng)[0]
             redrawn.append(path)
     sys.exit(f"found no valid values for {', '.join(sorted(set(redrawn)))}")
-
-
-def pick(summary, path):
-    for key in path:
-        summary = summary[key]
-    return summary
 
 
 def spread(values):
@@ -133,14 +115,13 @@ def spread(values):
     if not ordered:
         return {}
     at = {"min": 0.0, "p05": 0.05, "median": 0.5, "p95": 0.95, "max": 1.0}
-    return {name: ordered[min(len(ordered) - 1, int(share * len(ordered)))]
-            for name, share in at.items()}
+    return {name: ordered[min(len(ordered) - 1, int(share * len(ordered)))] for name, share in at.items()}
 
 
 def pointedness(args, point, rows, rng):
     """What single rocks ask for at a point; the nearer end where they ask for none."""
     valid = dict(point)
-    repaired(valid, rows, args.rockyard, calibrate_profile.HEIGHT_FACTOR, rng)
+    repaired(valid, rows, calibrate_profile.HEIGHT_FACTOR, rng)
     values = [f"{path}={value}" for path, value in valid.items()]
 
     @functools.cache
@@ -160,8 +141,7 @@ def calibrations(args, points, rows):
     for index, point in enumerate(points[len(found):], len(found)):
         values = [f"{path}={value}" for path, value in point.items()]
         own = calibrate(args.rockyard, values, trials=20, seed=args.seed, gyro_trials=1000)[0]
-        own[calibrate_profile.POINTEDNESS] = pointedness(
-            args, point, rows, random.Random(f"{args.seed} {index}"))
+        own[calibrate_profile.POINTEDNESS] = pointedness(args, point, rows, random.Random(f"{args.seed} {index}"))
         found.append(own)
         stored.write_text(json.dumps(found) + "\n", encoding="utf-8")
     return found
@@ -172,10 +152,10 @@ def run_points(args, scenario, points, calibrated, rows, rng):
     summaries = []
     for index, (point, own) in enumerate(zip(points, calibrated)):
         valid = dict(point)  # a value may contradict this scenario and no other
-        repaired(valid, rows, args.rockyard, scenario, rng)
+        repaired(valid, rows, scenario, rng)
         folder = args.out / scenario.stem / f"{index:03d}"
         assignments = [f"{path}={value}" for path, value in {**valid, **own}.items()]
-        summaries.append(study.run_scenario(args, scenario, folder, assignments))
+        summaries.append(study.run_scenario(args, scenario, folder, assignments).summary)
         print(f"\r{scenario.stem}: {index + 1}/{len(points)}", end="", file=sys.stderr)
     print(file=sys.stderr)
     return summaries
@@ -184,12 +164,10 @@ def run_points(args, scenario, points, calibrated, rows, rng):
 def main():
     args = parse_arguments()
     held = dict(setting.split("=", 1) for setting in args.set)
-    rows = [row for row in assumed_parameters(args.rockyard, args.scenarios[0])
-            if row["path"] not in held]
+    rows = [row for row in assumed_parameters(args.rockyard, args.scenarios[0]) if row["path"] not in held]
     points = [{**point, **held} for point in design(rows, args.points, args.seed)]
     rng = random.Random(args.seed + 1)
-    redrawn = [path for point in points
-               for path in repaired(point, rows, args.rockyard, args.scenarios[0], rng)]
+    redrawn = [path for point in points for path in repaired(point, rows, args.scenarios[0], rng)]
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "design.json").write_text(json.dumps(points, indent=1) + "\n", encoding="utf-8")
     calibrated = calibrations(args, points, rows)
@@ -202,15 +180,13 @@ def main():
         print(f"\n{scenario.stem:<28} {'min':>9} {'p05':>9} {'median':>9} {'p95':>9} {'max':>9}")
         metrics = result["scenarios"].setdefault(scenario.stem, {})
         for name, path in METRICS.items():
-            values = spread([pick(summary, path) for summary in summaries])
+            values = spread([functools.reduce(dict.__getitem__, path, summary) for summary in summaries])
             metrics[name] = {"path": path, **values}
             print(f"  {name:<26} " + " ".join(f"{value:9.3f}" for value in values.values()))
         sys.stdout.flush()
         # After each scenario, so that a run that is stopped leaves those it has.
-        (args.out / "envelope.json").write_text(json.dumps(result, indent=1) + "\n",
-                                                encoding="utf-8")
-    return os.EX_OK
+        (args.out / "envelope.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -8,18 +8,17 @@ a change of the code. The whole takes some fifteen minutes of processor time.
     scripts/studies/pathfinder/pathfinder.py [--out results/runs/readme] [--tables comparison,causes,...]
 """
 
-import argparse
-import csv
+import functools
 import json
 import resource
 import shutil
-import subprocess
 import sys
 import time
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
-from study import ROOT, compare, failures, table, trial_columns, write_table  # noqa: E402
+import study as shared  # noqa: E402
+from study import ROOT, ry, table  # noqa: E402
 from calibrations.calibrate_odometer import calibrate  # noqa: E402
 from navigator import navigator  # noqa: E402
 
@@ -60,21 +59,15 @@ CAUSES = [
 # Causes that change the soil, on which the odometer is calibrated.
 SOILS = {"stiff_sand", "hard_ground"}
 FIDELITY = ["obstacles_0.28", "obstacles_0.85", "nominal", "vl2"]
-# Drives with a map: name of the run, scenario, settings.
+# Drives with a map: name of the run, scenario, settings, words.
+ORACLE = (["localization.estimator=oracle"], "the same, perfect localization")
 GESTALT = [
-    ("narrow", "gestalt_narrow_course", []),
-    ("vl2", "gestalt_viking_lander_2", []),
-    ("vl2_oracle", "gestalt_viking_lander_2", ["localization.estimator=oracle"]),
-    ("error", "gestalt_localization_error", []),
-    ("error_oracle", "gestalt_localization_error", ["localization.estimator=oracle"]),
+    ("narrow", "gestalt_narrow_course", [], "narrow_course, 5 m"),
+    ("vl2", "gestalt_viking_lander_2", [], "viking_lander_2, 17.5 m"),
+    ("vl2_oracle", "gestalt_viking_lander_2", *ORACLE),
+    ("error", "gestalt_localization_error", [], "localization_error, 7.6 m nominal"),
+    ("error_oracle", "gestalt_localization_error", *ORACLE),
 ]
-GESTALT_NAMES = {
-    "narrow": "narrow_course, 5 m",
-    "vl2": "viking_lander_2, 17.5 m",
-    "vl2_oracle": "the same, perfect localization",
-    "error": "localization_error, 7.6 m nominal",
-    "error_oracle": "the same, perfect localization",
-}
 TABLE_3_STEPS = {
     "BM_Step<FitPlanes<false>>": "fit planes",
     "BM_Step<FitPlanes<true>>": "fit planes, with their slopes",
@@ -82,7 +75,7 @@ TABLE_3_STEPS = {
     "BM_Step<PathVotes>": "path votes",
     "BM_Cycle": "a whole cycle of the map, 16384 points",
 }
-MEANS = ("mean_a", "mean_b", "difference", "ci95_low", "ci95_high")
+MEANS = ("first", "second", "difference", "low", "high")
 QUASI_STATIC = ["rover.fidelity=quasi_static"]
 # Rows of the first page, by their id in the references.
 EXCERPT = {
@@ -101,43 +94,36 @@ class Study:
     def __init__(self, rockyard, benchmark, out):
         self.rockyard, self.benchmark, self.out = rockyard, benchmark, out
 
-    def folder(self, name, scenario):
-        return self.out / name / scenario
-
     def run(self, name, scenario, trials=None, settings=()):
-        """summary.json of a run, of the scenario's own number of trials where none is given;
-        `cpu_s` is added to it."""
-        folder = self.folder(name, scenario)
+        """A run, of the scenario's own number of trials where none is given; `cpu_s` is added to it."""
+        folder = self.out / name / scenario
         cost = folder / "cpu_seconds"
         if not cost.exists():
             print(f"{name}/{scenario}", file=sys.stderr)
-            command = [self.rockyard, "run", scenario_file(scenario), "--threads", 1,
-                       "--out", folder, "--quiet", "--force"]
-            command += ["--trials", trials] if trials else []
-            command += [part for setting in settings for part in ("--set", setting)]
             before = cpu_seconds()
-            subprocess.run([str(part) for part in command], check=True)
+            self.tool("run", scenario_file(scenario), "--threads", 1, "--out", folder, "--quiet", "--force",
+                      *(["--trials", trials] if trials else []), *shared.settings(settings))
             cost.write_text(str(cpu_seconds() - before), encoding="utf-8")
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        summary["cpu_s"] = float(cost.read_text(encoding="utf-8"))
-        return summary
+        run = ry.Run(folder)
+        run.cpu_s = float(cost.read_text(encoding="utf-8"))
+        return run
 
     def published(self):
         return {name: self.run("published", name, 300) for name in PUBLISHED}
 
     def swept(self, name, trials):
         """What `rockyard sweep` prints of scenarios/sweeps/NAME.json; its folder keeps the files."""
-        folder = self.out / "sweeps" / name
         text = self.tool("sweep", SCENARIOS / "sweeps" / f"{name}.json", "--trials", trials,
-                         "--out", folder, "--resume", "--force")
-        return "```\n" + text.rsplit("  results in ", 1)[0].strip() + "\n```"
+                         "--out", self.out / "sweeps" / name, "--resume", "--force")
+        return quoted(text.rsplit("  results in ", 1)[0])
 
     def tool(self, *arguments):
-        result = subprocess.run([str(part) for part in (self.rockyard, *arguments)],
-                                capture_output=True, text=True, check=False)
-        if result.returncode not in (0, 1, 4):  # a comparison may differ or be inconclusive
-            sys.exit(result.stderr)
-        return result.stdout
+        # A comparison may differ or be inconclusive.
+        return shared.called([self.rockyard, *arguments], codes=(0, 1, 4)).stdout
+
+
+def quoted(text):
+    return f"```\n{text.strip()}\n```"
 
 
 def scenario_file(name):
@@ -153,23 +139,17 @@ def cpu_seconds():
     return usage.ru_utime + usage.ru_stime
 
 
-def rate(summary, key="declared_success"):
-    value = summary[key]
-    low, high = value["ci95"]
-    return f"{100 * value['rate']:.0f} % ({100 * low:.0f}..{100 * high:.0f})"
+def percent(rate):
+    return f"{100 * rate.rate:.0f} % ({100 * rate.low:.0f}..{100 * rate.high:.0f})"
 
 
-def trials_per_second(summary):
-    return f"{summary['trials']['completed'] / summary['cpu_s']:.3g}"
-
-
-def published_check(study):
-    study.published()
-    return study.tool("check", study.out / "published", "--against", REFERENCE)
+def trials_per_second(run):
+    return f"{run.summary['trials']['completed'] / run.cpu_s:.3g}"
 
 
 def comparison(study):
-    return f"```\n{published_check(study).strip()}\n```"
+    study.published()
+    return quoted(study.tool("check", study.out / "published", "--against", REFERENCE))
 
 
 def comparison_excerpt(study):
@@ -198,8 +178,7 @@ def first_answer(study):
 
 
 def hazards(study):
-    text = study.tool("check", hazard_runs(study), "--against", HAZARD_REFERENCE)
-    return f"```\n{text.strip()}\n```"
+    return quoted(study.tool("check", hazard_runs(study), "--against", HAZARD_REFERENCE))
 
 
 def hazard_runs(study):
@@ -214,20 +193,16 @@ def checked(study, runs, reference_file):
     """Rows of a comparison with published values, without what is only shown beside them."""
     path = study.out / f"{reference_file.stem}.csv"
     study.tool("check", runs, "--against", reference_file, "--csv", path)
-    with open(path, encoding="utf-8", newline="") as file:
-        return [row for row in csv.DictReader(file) if row["verdict"]]
+    return [row for row in shared.read_csv(path) if row["verdict"]]
 
 
 def mission(study):
     """Arithmetic of the paper; the run is there because the command wants one, and says nothing."""
     study.run("hazards", "traverse_one_hour")
-    rows = [[row["what"], row["place"], f"{float(row['published']):.4g}",
-             f"{float(row['simulated']):.4g}", "" if row["unit"] == "1" else row["unit"],
-             row["verdict"]]
-            for row in checked(study, study.folder("hazards", "traverse_one_hour"),
-                               MISSION_REFERENCE)]
-    return table(["computed, not simulated", "place", "published", "computed", "unit", "verdict"],
-                 rows)
+    return shared.listed(checked(study, study.out / "hazards/traverse_one_hour", MISSION_REFERENCE), {
+        "computed, not simulated": "{what}", "place": "{place}", "published": lambda row: f"{float(row['published']):.4g}",
+        "computed": lambda row: f"{float(row['simulated']):.4g}", "unit": lambda row: row["unit"] if row["unit"] != "1" else "",
+        "verdict": "{verdict}"})
 
 
 def verdicts(study):
@@ -237,7 +212,7 @@ def verdicts(study):
     for runs, file, title in (
             (study.out / "published", REFERENCE, "trials"),
             (hazard_runs(study), HAZARD_REFERENCE, "hazard detection"),
-            (study.folder("hazards", "traverse_one_hour"), MISSION_REFERENCE, "mission")):
+            (study.out / "hazards/traverse_one_hour", MISSION_REFERENCE, "mission")):
         counts = {}
         for row in checked(study, runs, file):
             kind = row["role"] if row["scenario"] else "computed, not simulated"
@@ -249,12 +224,9 @@ def verdicts(study):
 def reference(scenario, column, statistic):
     """The published number as printed; '-' where there is none."""
     values = json.loads(REFERENCE.read_text(encoding="utf-8"))["values"]
-    for value in values:
-        if (value["scenario"], value.get("column"), value["statistic"]) == (
-                scenario, column, statistic):
-            size = f"/{value['sample_size']}" if statistic == "outcome_count" else ""
-            return f"{value['value']}{size}"
-    return "-"
+    wanted = scenario, column, statistic
+    found = [value for value in values if (value["scenario"], value.get("column"), value["statistic"]) == wanted]
+    return "/".join(str(found[0][key]) for key in ("value", "sample_size")[:1 + (statistic == "outcome_count")]) if found else "-"
 
 
 def errors(study):
@@ -264,20 +236,17 @@ def errors(study):
     for column, name in (("heading_error_deg", "heading error (deg)"),
                          ("position_error_m", "position error (m)"),
                          ("distance_error_percent", "distance error (%)")):
-        printed = [reference("nominal", column, statistic)
-                   for statistic in ("minimum", "mode", "median", "maximum")]
-        found = [" / ".join(f"{run['dead_reckoning'][column][part]:.2f}"
+        printed = [reference("nominal", column, statistic) for statistic in ("minimum", "mode", "median", "maximum")]
+        found = [" / ".join(f"{run.summary['dead_reckoning'][column][part]:.2f}"
                             for part in ("min", "mode", "median", "max")) for run in runs]
         rows.append([name, " / ".join(printed), *found])
-    return table(["nominal, min / mode / median / max", "published", "with both inputs (300)",
-                  "without (100)"], rows)
+    return table(["nominal, min / mode / median / max", "published", "with both inputs (300)", "without (100)"], rows)
 
 
 def corridor(study):
     """Rocks along the course against the law, by placement rule."""
-    text = [study.tool("terrain", scenario_file(name), "--density", "--fields", 4000).strip()
-            for name in ("nominal", "obstacles_0.57")]
-    return "```\n" + "\n\n".join(text) + "\n```"
+    return quoted("\n\n".join(study.tool("terrain", scenario_file(name), "--density", "--fields", 4000).strip()
+                              for name in ("nominal", "obstacles_0.57")))
 
 
 def spread(study, scenario, metric):
@@ -295,65 +264,60 @@ def unmeasured(study):
     rows = []
     for scenario in UNMEASURED:
         run = study.run("unmeasured", scenario, 300)
-        columns = trial_columns(study.folder("unmeasured", scenario))
-        metres = sum(columns["true_distance_m"])
-        distance = run["distance_m"]
-        rows.append([scenario, rate(run), spread(study, scenario, "declared success rate"),
-                     rate(run, "true_success"), spread(study, scenario, "true success rate"),
+        distance, begun = run.summary["distance_m"], run.counted["hazards_begun"].sum()
+        rows.append([scenario, percent(run.declared_success), spread(study, scenario, "declared success rate"),
+                     percent(run.true_success), spread(study, scenario, "true success rate"),
                      f"{distance['median']:.1f} ({distance['p05']:.1f}..{distance['p95']:.1f})",
-                     f"{sum(columns['hazards_begun']) / metres:.2f}", failures(run)])
+                     f"{begun / run.counted['true_distance_m'].sum():.2f}", failures(run)])
     return table(["scenario, 300 trials", "declared success", "envelope (%)", "true success",
                   "envelope (%)", "distance, median (5..95 %) (m)", "avoidances begun a metre",
                   "failures"], rows)
 
 
+def failures(run):
+    return shared.others(run.summary["outcomes"], *shared.ARRIVED)
+
+
 def causes(study):
     published = study.published()
-    rows = [["as chosen (300 trials)", *(rate(published[scenario]) for scenario in BOTH)]]
+    rows = [["as chosen (300 trials)", *(percent(published[scenario].declared_success) for scenario in BOTH)]]
     for name, text, settings, scenarios in CAUSES:
         if name in SOILS:
             found, _ = calibrate(study.rockyard, settings)
             settings = settings + [f"{path}={value}" for path, value in found.items()]
-        rows.append([text, *(rate(study.run(name, scenario, 100, settings))
+        rows.append([text, *(percent(study.run(name, scenario, 100, settings).declared_success)
                              if scenario in scenarios else "-" for scenario in BOTH)])
     return table(["change", "nominal", "0.85 per m2"], rows)
 
 
 def mean_cells(row):
-    """Both means and their difference; `compare` gives no interval where a few trials decide it."""
-    a, b, difference, low, high = (f"{float(row[part]):.4g}" if row[part] else "" for part in MEANS)
+    """Both means and their difference; there is no interval where a few trials decide it."""
+    a, b, difference, low, high = ("" if row[part] is None else f"{row[part]:.4g}" for part in MEANS)
     return a, b, f"{difference} ({low}..{high})" if low and high else f"{difference} (no interval)"
 
 
 def fidelity(study):
     rows = []
     for scenario in FIDELITY:
-        multibody = "published" if scenario in PUBLISHED else "multibody"
-        runs = [study.run(multibody, scenario, 300),
+        runs = [study.run("published" if scenario in PUBLISHED else "multibody", scenario, 300),
                 study.run("quasi_static", scenario, 300, QUASI_STATIC)]
-        success, means = compare(study.rockyard, study.folder(multibody, scenario),
-                                 study.folder("quasi_static", scenario))
+        success, means = shared.compare(*runs)
         points, low, high, _ = success["declared"]
-        rows.append([f"**{scenario}**", "", "", ""])
-        rows.append(["declared success", rate(runs[0]), rate(runs[1]),
-                     f"{points:+.1f} points ({low:+.1f}..{high:+.1f})"])
-        rows.append(["true success", rate(runs[0], "true_success"), rate(runs[1], "true_success"),
-                     ""])
-        for key, text in (("true_distance_m", "distance (m)"),
-                          ("distance_error_percent", "distance error (%)"),
-                          ("heading_error_deg", "heading error (deg)"),
-                          ("position_error_m", "position error (m)"),
-                          ("scrapes", "scrapes"), ("max_tilt_deg", "largest tilt (deg)")):
-            rows.append([text, *mean_cells(means["all", key])])
+        rows += [[f"**{scenario}**", "", "", ""],
+                 ["declared success", *(percent(run.declared_success) for run in runs),
+                  f"{points:+.1f} points ({low:+.1f}..{high:+.1f})"],
+                 ["true success", *(percent(run.true_success) for run in runs), ""]]
+        rows += [[text, *mean_cells(means["all", key])] for key, text in (
+            ("true_distance_m", "distance (m)"), ("distance_error_percent", "distance error (%)"),
+            ("heading_error_deg", "heading error (deg)"), ("position_error_m", "position error (m)"),
+            ("scrapes", "scrapes"), ("max_tilt_deg", "largest tilt (deg)"))]
         rows.append(["trials per CPU-second", *(trials_per_second(run) for run in runs), ""])
-    return table(["mean over 300 trials", "multibody", "quasi-static", "paired difference (95 %)"],
-                 rows)
+    return table(["mean over 300 trials", "multibody", "quasi-static", "paired difference (95 %)"], rows)
 
 
 def speed(study):
-    published = study.published()
     return table(["scenario", "trials per CPU-second"],
-                 [[name, trials_per_second(published[name])] for name in PUBLISHED])
+                 [[name, trials_per_second(run)] for name, run in study.published().items()])
 
 
 def published_metric(scenario, path):
@@ -375,31 +339,26 @@ def envelope(study):
         for name, metric in metrics.items():
             if scenario != "nominal" and "success" not in name:
                 continue
-            value = chosen[scenario]
-            for key in metric["path"]:
-                value = value[key]
+            value = functools.reduce(dict.__getitem__, metric["path"], chosen[scenario].summary)
             rows.append([scenario, name, published_metric(scenario, metric["path"]), f"{value:.2f}",
                          *(f"{metric[part]:.2f}" for part in ("p05", "median", "p95"))])
     head = (f"{found['points']} points over {found['parameters']} assumed parameters, "
             f"{found['trials']} trials a point, {', '.join(found['held'])}\n\n")
-    return head + table(["scenario", "prediction", "published", "chosen", "envelope 5 %", "median",
-                         "95 %"], rows)
+    return head + table(["scenario", "prediction", "published", "chosen", "envelope 5 %", "median", "95 %"], rows)
 
 
 def gestalt(study):
     """The two drives of Goldberg 2002, their failures and distances, and what localization does."""
     rows = []
-    for name, scenario, settings in GESTALT:
-        summary = study.run("gestalt_" + name, scenario, 500, settings)
-        distance, speed = summary["distance_m"], summary["columns"]["net_rate_m_s"]
-        looks = trial_columns(study.folder("gestalt_" + name, scenario))
-        images, moves = sum(looks["image_sets"]), sum(looks["moves"])  # turns in place among them
-        rows.append([GESTALT_NAMES[name], rate(summary), rate(summary, "true_success"),
-                     failures(summary),
+    for name, scenario, settings, words in GESTALT:
+        run = study.run("gestalt_" + name, scenario, 500, settings)
+        distance, speed = run.summary["distance_m"], run.summary["columns"]["net_rate_m_s"]
+        # Turns in place are among the moves.
+        images, moves, reversals = (run.counted[column].sum() for column in ("image_sets", "moves", "reversals"))
+        rows.append([words, percent(run.declared_success), percent(run.true_success), failures(run),
                      " / ".join(f"{distance[key]:.1f}" for key in ("min", "median", "p95", "max")),
-                     f"{100.0 * speed['median']:.2f}", f"{images / moves:.2f}",
-                     f"{100.0 * sum(looks['reversals']) / moves:.0f}",
-                     trials_per_second(summary)])
+                     f"{100.0 * speed['median']:.2f}", f"{images / moves:.2f}", f"{100.0 * reversals / moves:.0f}",
+                     trials_per_second(run)])
     return table(["500 trials", "declared success", "true success", "failures",
                   "distance, min / median / 95 % / max (m)", "median speed (cm/s)",
                   "image sets a move", "moves the other way (%)", "trials per CPU-second"], rows)
@@ -407,20 +366,16 @@ def gestalt(study):
 
 def navigators(study):
     """Both navigators over abundance, from the study that scripts/studies/navigator/navigator.py left."""
-    with open(ROOT / "results/studies/navigators.csv", encoding="utf-8", newline="") as file:
-        runs = {(row["rover"], row["k_per_m2"], row["arm"]): row for row in csv.DictReader(file)}
-    with open(ROOT / "results/studies/navigators_pairs.csv", encoding="utf-8", newline="") as file:
-        pairs = [row for row in csv.DictReader(file)
-                 if (row["first"], row["second"]) == navigator.MAIN]
+    runs = {(row["rover"], row["k_per_m2"], row["arm"]): row for row in shared.read_csv(ROOT / "results/studies/navigators.csv")}
     rows = []
-    for row in pairs:
+    for row in shared.read_csv(ROOT / "results/studies/navigators_pairs.csv"):
+        if (row["first"], row["second"]) != navigator.MAIN:
+            continue
         both = [runs[row["rover"], row["k_per_m2"], arm] for arm in navigator.MAIN]
-        number = lambda key: float(row[key])
+        points, low, high = (float(row[f"true_{part}"]) for part in ("points", "low", "high"))
         rows.append([row["rover"], row["k_per_m2"],
-                     *(f"{100 * float(run['declared']):.0f} / {100 * float(run['true']):.0f}"
-                       for run in both),
-                     f"{number('true_points'):+.0f} ({number('true_low'):+.0f}.."
-                     f"{number('true_high'):+.0f})", f"{number('true_holm'):.2g}",
+                     *(f"{100 * float(run['declared']):.0f} / {100 * float(run['true']):.0f}" for run in both),
+                     f"{points:+.0f} ({low:+.0f}..{high:+.0f})", f"{float(row['true_holm']):.2g}",
                      paired_mean(row, "all", "true_distance_m", 1.0, 1),
                      paired_mean(row, "arrived", "true_distance_m", 1.0, 1),
                      paired_mean(row, "all", "active_time_s", 1.0 / 60.0, 0),
@@ -443,18 +398,15 @@ def navigator_speed(study):
         slow = study.run("multibody_speed", scenario, 20, ["rover.fidelity=multibody"])
         fast = study.run("quasi_static_speed", scenario, 200)
         rows.append([name, trials_per_second(slow), trials_per_second(fast)])
-    return table(["Athena SDM, 7.6 m of nominal terrain, one core", "multibody", "quasi-static"],
-                 rows)
+    return table(["Athena SDM, 7.6 m of nominal terrain, one core", "multibody", "quasi-static"], rows)
 
 
 def table_3(study):
     """Steps of GESTALT beside table 3 of Goldberg 2002; None where the benchmark is not built."""
     if not study.benchmark.exists():
         return None
-    output = subprocess.run([study.benchmark, "--benchmark_format=json"], capture_output=True,
-                            text=True, check=True).stdout
     rows = []
-    for result in json.loads(output)["benchmarks"]:
+    for result in json.loads(shared.run([study.benchmark, "--benchmark_format=json"]))["benchmarks"]:
         step, cells = TABLE_3_STEPS[result["name"].split("/")[0]], result["label"].split(" cm ")[0]
         growth = [f"{result[key]:.2f}" if key in result else "-"
                   for key in ("growth", "P3_growth", "Sparc_growth", "RAD_growth")]
@@ -479,14 +431,13 @@ def attribution(study):
     """Of the printed table the part about attribution, without the notes on equal cells below it."""
     text = study.swept("attribution", 300)
     text = text[text.index("attribution of failures"):]
-    return "```\n" + text.split("  every trial of cell")[0].rstrip() + "\n```"
+    return quoted(text.split("  every trial of cell")[0].removesuffix("```"))
 
 
 def scaling(study):
     """On a machine that does nothing else."""
-    result = subprocess.run([sys.executable, ROOT / "scripts/studies/scaling/scaling.py", "--rockyard", study.rockyard,
-                             "--out", study.out / "scaling"], capture_output=True, text=True, check=False)
-    return result.stdout.strip() if result.returncode == 0 else sys.exit(result.stderr)
+    return shared.run([sys.executable, ROOT / "scripts/studies/scaling/scaling.py", "--rockyard", study.rockyard,
+                       "--out", study.out / "scaling"]).strip()
 
 
 TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, first_answer, hazards, mission, verdicts,
@@ -496,9 +447,8 @@ TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, first_answer, 
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
+    parser = shared.argument_parser(__doc__)
+    shared.add_program(parser)
     parser.add_argument("--benchmark", type=Path,
                         default=ROOT / "build/release/tests/navigation/gestalt_benchmark",
                         help="for table_3 (target benchmarks)")
@@ -517,7 +467,7 @@ def main():
         if content is None:
             print(f"{name}: not run, left as it is", file=sys.stderr)
             continue
-        write_table(args.pages, name, content)
+        shared.write_table(args.pages, name, content)
         print(f"{name}: {time.monotonic() - started:.0f} s", file=sys.stderr)
 
 

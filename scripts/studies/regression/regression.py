@@ -12,15 +12,14 @@ regression.csv, regression_power.csv and regression.md. Pools and runs that are 
 """
 
 import argparse
-import csv
-import io
 import json
 import shutil
-import subprocess
 import sys
+from itertools import product
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
+import study  # noqa: E402
 from study import ROOT, run  # noqa: E402
 
 SWEEP = ROOT / "scenarios/sweeps/regression.json"
@@ -36,6 +35,7 @@ CHANGES = {
     "hazard threshold 5 to 6 cm": ["perception.hazard.neighbour_threshold_m=0.06"],
     "rocks kept off the mirror lines": ["terrain.rocks.mirror_line=keep_off"],
 }
+CODES = (0, 1, 4)  # no change, changed, inconclusive
 FIRST_OTHER_SEED = 101
 POOL_SEED = 424242
 POOL_TRIALS = 20000
@@ -44,11 +44,9 @@ HEAD = ("study", "seed", "exit_code", "records_changed", "primary_changed", "sec
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
-    parser.add_argument("--study", type=Path,
-                        default=ROOT / "build/release/tests/report/regression_study")
+    parser.add_argument("--study", type=Path, default=ROOT / "build/release/tests/report/regression_study")
     parser.add_argument("--baseline", type=Path, default=BASELINE)
     parser.add_argument("--reruns", type=int, default=15, help="unchanged, with other seeds (15)")
     parser.add_argument("--repeats", type=int, default=2, help="of each change, other seeds (2)")
@@ -58,16 +56,6 @@ def parse_arguments():
     parser.add_argument("--out", type=Path, default=ROOT / "results/runs/regression_study")
     parser.add_argument("--markdown", type=Path, default=ROOT / "results/studies/regression.md")
     return parser.parse_args()
-
-
-def check(args, folder):
-    """Exit code of the check, and what it says as JSON."""
-    done = subprocess.run([args.rockyard, "check", folder, "--against", args.baseline, "--json",
-                           "--allow-scenario-change"],
-                          check=False, capture_output=True, text=True)
-    if done.returncode not in (0, 1, 4):
-        sys.exit(f"{folder}: {done.stderr}")
-    return done.returncode, json.loads(done.stdout)
 
 
 def furthest(metrics):
@@ -81,19 +69,18 @@ def furthest(metrics):
 def run_and_check(args, name, seed, settings):
     folder = args.out / "campaign"
     shutil.rmtree(folder, ignore_errors=True)
-    command = [args.rockyard, "sweep", SWEEP, "--out", folder, "--quiet"]
-    command += [part for setting in settings for part in ("--set", setting)]
-    if seed is not None:
-        command += ["--seed", seed]
-    run(command)
-    code, told = check(args, folder)
+    run([args.rockyard, "sweep", SWEEP, "--out", folder, "--quiet", *study.settings(settings),
+         *(["--seed", seed] if seed is not None else [])])
+    check = study.called([args.rockyard, "check", folder, "--against", args.baseline, "--json",
+                          "--allow-scenario-change"], codes=CODES)
+    told = json.loads(check.stdout)
 
     def count(verdict, family):
         return sum(row["verdict"] == verdict and row["family"] == family for row in told["metrics"])
 
     pairs = sum(cell["records"]["pairs"] for cell in told["cells"])
     changed = sum(cell["records"]["changed"] for cell in told["cells"])
-    return dict(zip(HEAD, (name, "baseline's" if seed is None else seed, code,
+    return dict(zip(HEAD, (name, "baseline's" if seed is None else seed, check.returncode,
                            f"{changed} of {pairs}" if pairs else "-", count("changed", "primary"),
                            count("changed", "secondary"), count("inconclusive", "primary"),
                            furthest(told["metrics"]))))
@@ -106,14 +93,9 @@ def campaigns(args):
     for name, settings in CHANGES.items():
         cases += [(name, seed, settings) for seed in [None, *seeds[:args.repeats]]]
     rows = []
-    path = args.markdown.with_suffix(".csv")
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, HEAD, lineterminator="\n")
-        writer.writeheader()
-        for case in cases:
-            rows.append(run_and_check(args, *case))
-            writer.writerow(rows[-1])
-            file.flush()
+    for case in cases:
+        rows.append(run_and_check(args, *case))
+        study.write_csv(args.markdown.with_suffix(".csv"), rows)
     return rows
 
 
@@ -127,10 +109,8 @@ def pools(args):
         paths.append(folder.with_suffix(".json"))
         if paths[-1].exists():
             continue
-        command = [args.rockyard, "run", SWEEP.parent / level["scenario"], "--trials", args.pool,
-                   "--seed", POOL_SEED, "--out", folder, "--quiet"]
-        command += [part for setting in settings for part in ("--set", setting)]
-        run(command + (["--resume"] if folder.exists() else []))
+        pool = argparse.Namespace(rockyard=args.rockyard, trials=args.pool, seed=POOL_SEED)
+        study.run_scenario(pool, SWEEP.parent / level["scenario"], folder, settings, existing=["--resume"])
         run([args.rockyard, "baseline", folder, "--reason", "a pool", "--out", paths[-1]])
     return paths
 
@@ -139,9 +119,8 @@ def resample(args):
     trials = json.loads(SWEEP.read_text(encoding="utf-8"))["trials"]
     path = args.markdown.with_name("regression_power.csv")
     if not path.exists():
-        path.write_text(run([args.study, trials, args.campaigns, args.seed, *pools(args)]),
-                        encoding="utf-8")
-    return list(csv.DictReader(io.StringIO(path.read_text(encoding="utf-8"))))
+        path.write_text(run([args.study, trials, args.campaigns, args.seed, *pools(args)]), encoding="utf-8")
+    return study.read_csv(path)
 
 
 def spread(values):
@@ -150,23 +129,16 @@ def spread(values):
 
 
 def campaign_table(rows):
-    text = ("| build | seeds | runs | exit codes 0, 1, 4 | records changed | primary metrics changed "
-            "| secondary | moved furthest for its margin (first run) |\n"
-            "|---|---|---|---|---|---|---|---|\n")
-    for name in dict.fromkeys(row["study"] for row in rows):
-        for same in (True, False):
-            some = [row for row in rows
-                    if row["study"] == name and (row["seed"] == "baseline's") == same]
-            if not some:
-                continue
-            codes = ", ".join(str(sum(row["exit_code"] == code for row in some))
-                              for code in (0, 1, 4))
-            text += (f"| {name} | {'the same' if same else 'others'} | {len(some)} | {codes} "
-                     f"| {some[0]['records_changed']} "
-                     f"| {spread([row['primary_changed'] for row in some])} "
-                     f"| {spread([row['secondary_changed'] for row in some])} "
-                     f"| {some[0]['furthest']} |\n")
-    return text
+    lines = []
+    for name, same in product(dict.fromkeys(row["study"] for row in rows), (True, False)):
+        some = [row for row in rows if row["study"] == name and (row["seed"] == "baseline's") == same]
+        if some:
+            lines.append([name, "the same" if same else "others", str(len(some)),
+                          ", ".join(str(sum(row["exit_code"] == code for row in some)) for code in CODES),
+                          some[0]["records_changed"], spread([row["primary_changed"] for row in some]),
+                          spread([row["secondary_changed"] for row in some]), some[0]["furthest"]])
+    return study.table(["build", "seeds", "runs", "exit codes 0, 1, 4", "records changed", "primary metrics changed",
+                        "secondary", "moved furthest for its margin (first run)"], lines, "---") + "\n"
 
 
 def percent(row, name):
@@ -176,24 +148,17 @@ def percent(row, name):
 
 
 def alarm_table(rows):
-    text = ("| unchanged builds | campaigns | alarm, % (95 %) | of the primary family | of the secondary "
-            "| exit code 4 |\n|---|---|---|---|---|---|\n")
-    for row in rows:
-        if row["study"].startswith("unchanged"):
-            text += (f"| {row['study'].removeprefix('unchanged: ')} | {row['campaigns']} "
-                     f"| {percent(row, 'alarms')} | {row['primary_alarms']} "
-                     f"| {row['secondary_alarms']} | {row['inconclusive']} |\n")
-    return text
+    return study.listed([row for row in rows if row["study"].startswith("unchanged")], {
+        "unchanged builds": lambda row: row["study"].removeprefix("unchanged: "), "campaigns": "{campaigns}",
+        "alarm, % (95 %)": lambda row: percent(row, "alarms"), "of the primary family": "{primary_alarms}",
+        "of the secondary": "{secondary_alarms}", "exit code 4": "{inconclusive}"}, "---") + "\n"
 
 
 def power_table(rows):
-    text = ("| success 0.10 lower | rate | pairs that differ | campaigns | found, % (95 %) |\n"
-            "|---|---|---|---|---|\n")
-    for row in rows:
-        if not row["study"].startswith("unchanged"):
-            text += (f"| {row['cell']} | {row['metric']} | {float(row['discordance']):.1f} "
-                     f"| {row['campaigns']} | {percent(row, 'found')} |\n")
-    return text
+    return study.listed([row for row in rows if not row["study"].startswith("unchanged")], {
+        "success 0.10 lower": "{cell}", "rate": "{metric}",
+        "pairs that differ": lambda row: f"{float(row['discordance']):.1f}", "campaigns": "{campaigns}",
+        "found, % (95 %)": lambda row: percent(row, "found")}, "---") + "\n"
 
 
 def page(rows, power, trials, campaign_count):

@@ -12,19 +12,16 @@ Writes rover_speed_drives.csv and rover_speed_drives.svg.
 
 import math
 import sys
-from collections import defaultdict
 from dataclasses import replace
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates  # noqa: E402
 from rover_speed import model  # noqa: E402
 from rover_speed.rover_speed import WISH_M, WISH_S, WISH_SHARE  # noqa: E402
 
 SWEEP = study.ROOT / "scenarios/sweeps/rover_speed.json"
-COLUMNS = ("sim_time_s", "true_distance_m", "move_time_s", "imaging_time_s", "compute_time_s", "move_overhead_time_s",
-           "image_sets", "visual_steps", "point_turns", "position_error_m")
-ARRIVED = ("goal_reached", "false_goal")  # as the rover believes
 COURSE_M = 15.0 - 0.5                     # from the start to within the tolerance of the goal
 # What the closed form takes of each drive: rover, navigator, estimator. A look each 35 cm and a pose each 75 cm, or
 # motions of a metre (scenarios/continuous). On the move poses are computed beside looks, as on two processors, so that
@@ -51,32 +48,19 @@ def closed_form(rows, drive, profile):
     return model.M_PER_H * model.speed(rover, times, navigator, "stereo", estimator)
 
 
-def read_cells(folder):
-    """Trials by (drive, computer, rocks a square metre)."""
-    cells = defaultdict(list)
-    for levels, _, row in study.stored_trials(folder, COLUMNS):
-        cells[levels["drive"], levels["computer"], float(levels["k_per_m2"])].append(row)
-    return cells
-
-
-def summary(rows):
+def summary(trials):
     """Of the drives that arrive as they believe: speed made good, and parts of a metre of the course."""
-    arrived = [row for row in rows if row["outcome"] in ARRIVED]
-    found = {"trials": len(rows), "arrived": len(arrived)}
-    speeds = [model.M_PER_H * COURSE_M / row["sim_time_s"] for row in arrived] or [math.nan]
-    found |= {"m_per_h": study.quantile(speeds, 0.5), "low": study.quantile(speeds, 0.05), "high": study.quantile(speeds, 0.95)}
-    way_m = sum(row["true_distance_m"] for row in arrived) or math.nan
-    total = {name: sum(row[name] for row in arrived) for name in COLUMNS}
-    found["detour"] = way_m / (COURSE_M * len(arrived)) if arrived else math.nan
-    found["wheels_s_m"] = total["move_time_s"] / way_m
-    at_rest_s = total["sim_time_s"] - total["move_time_s"]
-    found["rest_s_m"] = at_rest_s / way_m
-    found["looks_m"] = total["image_sets"] / way_m
-    found["poses_m"] = total["visual_steps"] / way_m
-    found["turns_m"] = total["point_turns"] / way_m
-    shares = [row["position_error_m"] / row["true_distance_m"] for row in arrived] or [math.nan]
-    found["error_share"], found["error_share_95"] = study.quantile(shares, 0.5), study.quantile(shares, 0.95)
-    return found
+    arrived = trials[trials.outcome.isin(study.ARRIVED)]
+    found = {"trials": len(trials), "arrived": len(arrived)}
+    speeds = model.M_PER_H * COURSE_M / arrived.sim_time_s
+    found |= {name: rates.quantile(speeds, share) for name, share in (("m_per_h", 0.5), ("low", 0.05), ("high", 0.95))}
+    way_m = sum(arrived.true_distance_m) or math.nan
+    found["detour"] = way_m / (COURSE_M * len(arrived)) if len(arrived) else math.nan
+    found |= {name: sum(amount) / way_m for name, amount in (
+        ("wheels_s_m", arrived.move_time_s), ("rest_s_m", arrived.sim_time_s - arrived.move_time_s),
+        ("looks_m", arrived.image_sets), ("poses_m", arrived.visual_steps), ("turns_m", arrived.point_turns))}
+    errors = arrived.position_error_m / arrived.true_distance_m
+    return found | {"error_share": rates.quantile(errors, 0.5), "error_share_95": rates.quantile(errors, 0.95)}
 
 
 def lines_of(cells, rows):
@@ -102,42 +86,36 @@ def shown(line):
     return f"{line['m_per_h']:.3g} ({line['low']:.3g}..{line['high']:.3g}) [{line['arrived']} of {line['trials']}]"
 
 
+OF_A_DRIVE = {"drive": "{drive}", "computer": lambda line: computer_of(line["computer"]).name, "rocks, k": "{k_per_m2:g}"}
+
+
 def drives_parts(lines):
-    header = ["drive", "computer", "rocks, k", "way over course", "wheels, s/m", "at rest, s/m", "looks a metre",
-              "poses a metre", "turns in place a metre", "closed form over simulated speed"]
-    return study.table(header, [
-        [line["drive"], computer_of(line["computer"]).name, f"{line['k_per_m2']:g}", f"{line['detour']:.2f}",
-         f"{line['wheels_s_m']:.1f}", f"{line['rest_s_m']:.1f}", f"{line['looks_m']:.2f}", f"{line['poses_m']:.2f}",
-         f"{line['turns_m']:.2f}", f"{line['closed_m_per_h'] / line['m_per_h']:.2f}"]
-        for line in lines if line["arrived"] and line["computer"] in SHOWN])
+    return study.listed([line for line in lines if line["arrived"] and line["computer"] in SHOWN], OF_A_DRIVE | {
+        "way over course": "{detour:.2f}", "wheels, s/m": "{wheels_s_m:.1f}", "at rest, s/m": "{rest_s_m:.1f}",
+        "looks a metre": "{looks_m:.2f}", "poses a metre": "{poses_m:.2f}", "turns in place a metre": "{turns_m:.2f}",
+        "closed form over simulated speed": lambda line: f"{line['closed_m_per_h'] / line['m_per_h']:.2f}"})
 
 
 def drives_wish(lines):
     """Legs of the course, strung together to a day; wheels as much faster as the rover is too slow."""
-    header = ["drive", "computer", "rocks, k", "legs that arrive, %", "in three hours, m", "wheels for 675 m, cm/s",
-              "error over way, %: median (95 %)", "3 %?"]
-    lines = [line for line in lines if line["computer"] in WISHED and line["arrived"]]
-    return study.table(header, [
-        [line["drive"], computer_of(line["computer"]).name, f"{line['k_per_m2']:g}",
-         f"{100 * line['arrived'] / line['trials']:.0f}", f"{DAY_H * line['m_per_h']:.0f}",
-         f"{100 * ROVER_M_S * WISH_M / (DAY_H * line['m_per_h']):.1f}",
-         f"{100 * line['error_share']:.2g} ({100 * line['error_share_95']:.2g})",
-         "yes" if line["error_share_95"] <= WISH_SHARE else "no"] for line in lines])
+    return study.listed([line for line in lines if line["computer"] in WISHED and line["arrived"]], OF_A_DRIVE | {
+        "legs that arrive, %": lambda line: f"{100 * line['arrived'] / line['trials']:.0f}",
+        "in three hours, m": lambda line: f"{DAY_H * line['m_per_h']:.0f}",
+        "wheels for 675 m, cm/s": lambda line: f"{100 * ROVER_M_S * WISH_M / (DAY_H * line['m_per_h']):.1f}",
+        "error over way, %: median (95 %)":
+            lambda line: f"{100 * line['error_share']:.2g} ({100 * line['error_share_95']:.2g})",
+        "3 %?": lambda line: "yes" if line["error_share_95"] <= WISH_SHARE else "no"})
 
 
 def draw(path, lines):
     """m/h by abundance of the drives with vision, a diagram for each computer."""
-    panels = []
-    for profile in dict.fromkeys(line["computer"] for line in lines):
-        series = []
-        for drive in [name for name in DRIVES if name != "stops by wheels"]:
-            points = sorted((line["k_per_m2"], line["m_per_h"], line["low"], line["high"]) for line in lines
-                            if line["computer"] == profile and line["drive"] == drive)
-            closed = next(line["closed_m_per_h"] for line in lines
-                          if line["computer"] == profile and line["drive"] == drive)
-            series.append((drive, [(0.0, closed, closed, closed), *points]))
-        panels.append((f"{computer_of(profile).name}: m/h", series))
-    study.write_svg(path, panels, "k, rocks (0: closed form)")
+    def points(profile, drive):
+        own = [line for line in lines if (line["computer"], line["drive"]) == (profile, drive)]
+        return [(0.0, *[own[0]["closed_m_per_h"]] * 3),
+                *sorted((line["k_per_m2"], line["m_per_h"], line["low"], line["high"]) for line in own)]
+    study.write_svg(path, [(f"{computer_of(profile).name}: m/h", [
+        (drive, points(profile, drive)) for drive in DRIVES if drive != "stops by wheels"])
+        for profile in dict.fromkeys(line["computer"] for line in lines)], "k, rocks (0: closed form)")
 
 
 TABLES = {"drives_speed": drives_speed, "drives_parts": drives_parts, "drives_wish": drives_wish}
@@ -145,15 +123,13 @@ TABLES = {"drives_speed": drives_speed, "drives_parts": drives_parts, "drives_wi
 
 def main():
     parser = study.argument_parser(__doc__)
-    study.add_sweep_arguments(parser, "rover_speed", "write the tables between the marks of this page")
+    study.add_sweep_arguments(parser, "rover_speed")
     args = parser.parse_args()
-    study.run_sweep(args, SWEEP)
-    lines = list(lines_of(read_cells(args.sweep), model.read_times(study.ROOT / "results/studies/compute_times.csv")))
+    cells, _ = study.counted_sweep(args, SWEEP, ("drive", "computer", "k_per_m2"))
+    lines = list(lines_of(cells, model.read_times(study.ROOT / "results/studies/compute_times.csv")))
     study.write_csv(args.out / "rover_speed_drives.csv", lines)
     draw(args.out / "rover_speed_drives.svg", lines)
-    for name, make in TABLES.items():
-        text = make(lines)
-        study.show(args, name, text)
+    study.show(args, {name: make(lines) for name, make in TABLES.items()})
 
 
 if __name__ == "__main__":

@@ -22,9 +22,10 @@ processor computes everything, one after the other. Speeds go along the path: de
 slip and climbing are left out, so that (1) and (4) are what a rover gets at most.
 """
 
-import csv
 import math
 from dataclasses import dataclass, replace
+
+import study
 
 M_PER_H = 3600.0
 
@@ -147,8 +148,7 @@ FAST_CAMERAS = Range(0.1, 1 / 15, 0.2)  # 5 to 15 Hz, assumed
 
 def read_times(path):
     """Rows of compute_times.csv by profile and width."""
-    with open(path, encoding="utf-8", newline="") as file:
-        return {(row["computer"], int(row["width_px"])): row for row in csv.DictReader(file)}
+    return {(row["computer"], int(row["width_px"])): row for row in study.read_csv(path)}
 
 
 def times_of(rows, computer, cameras, end="value"):

@@ -11,7 +11,6 @@ Writes rover_speed.csv and rover_speed.svg.
     scripts/studies/rover_speed/rover_speed.py [--out FOLDER] [--markdown results/speed.md]
 """
 
-import csv
 import math
 import sys
 from pathlib import Path
@@ -153,10 +152,9 @@ def smart_lander(rows):
 
 def position_shares(path):
     """Error of the end over the way, median and 95 %, by (terrain, localization): rows of visual_odometry.csv."""
-    with open(path, encoding="utf-8", newline="") as file:
-        return {(row["terrain"], row["localization"]):
-                (float(row["error_median_m"]) / float(row["way_m"]), float(row["error_95_m"]) / float(row["way_m"]))
-                for row in csv.DictReader(file)}
+    return {(row["terrain"], row["localization"]):
+            tuple(float(row[name]) / float(row["way_m"]) for name in ("error_median_m", "error_95_m"))
+            for row in study.read_csv(path)}
 
 
 def position(shares):
@@ -198,15 +196,13 @@ TABLES = {"mer_speeds": mer_speeds, "computers": computers, "cameras": cameras, 
 def main():
     parser = study.argument_parser(__doc__)
     parser.add_argument("--out", type=Path, default=study.ROOT / "results/studies")
-    parser.add_argument("--markdown", type=Path, metavar="PAGE", help="write the tables between the marks of this page")
+    study.add_page(parser)
     args = parser.parse_args()
     rows = model.read_times(study.ROOT / "results/studies/compute_times.csv")
     study.write_csv(args.out / "rover_speed.csv", list(lines_of(rows)))
     (args.out / "rover_speed.svg").write_text(draw(rows), encoding="utf-8")
-    tables = {name: make(rows) for name, make in TABLES.items()}
-    tables["position"] = position(position_shares(study.ROOT / "results/studies/visual_odometry.csv"))
-    for name, text in tables.items():
-        study.show(args, name, text)
+    shares = position_shares(study.ROOT / "results/studies/visual_odometry.csv")
+    study.show(args, {name: make(rows) for name, make in TABLES.items()} | {"position": position(shares)})
 
 
 if __name__ == "__main__":

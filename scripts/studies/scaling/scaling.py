@@ -8,8 +8,6 @@ Run it on a machine that does nothing else.
     scripts/studies/scaling/scaling.py [--threads 1,2] [--ranks 1,2] [--trials 2000] [--rounds 3]
 """
 
-import argparse
-import json
 import os
 import resource
 import shutil
@@ -19,15 +17,14 @@ import time
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
-from study import ROOT, table  # noqa: E402
+import study  # noqa: E402
+from study import ROOT, ry, table  # noqa: E402
 
 
 def launch(args, kind, count):
     """The command that runs the trials on so many threads or ranks (of one thread each)."""
     command = [args.rockyard, "run", args.scenario, "--trials", args.trials, "--quiet",
-               "--out", args.out / f"{kind}-{count}"]
-    for setting in args.set:
-        command += ["--set", setting]
+               "--out", args.out / f"{kind}-{count}", *study.settings(args.set)]
     if kind == "threads":
         return [*command, "--threads", count]
     return ["mpirun", "--oversubscribe", "--bind-to", "none", "-n", count, *command, "--threads", 1]
@@ -44,8 +41,7 @@ def measure(args, kind, count):
     wall = time.monotonic() - start
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    return wall, cpu, summary["trial_hash"]
+    return wall, cpu, ry.Run(folder).hash
 
 
 def counts(text):
@@ -53,8 +49,7 @@ def counts(text):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("--scenario", type=Path, default=ROOT / "scenarios/pathfinder/nominal.json")
     parser.add_argument("--set", action="append", default=["rover.fidelity=quasi_static"])
     parser.add_argument("--trials", type=int, default=2000)

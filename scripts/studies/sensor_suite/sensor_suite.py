@@ -16,6 +16,7 @@ from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates  # noqa: E402
 
 SENSORS = {
     "light stripe": "perception.hazard.enabled",
@@ -27,32 +28,28 @@ SENSORS = {
 SCENARIOS = [study.ROOT / f"scenarios/mars/{name}.json" for name in ("mfex_nominal", "mfex_vl2")]
 FELT = ("contact_hazards", "tilt_hazards", "articulation_hazards", "current_hazards")
 STUCK = ("jammed", "high_centred", "tip_over")
+SUCCESS = {"declared": study.ARRIVED, "true": ("goal_reached",)}
 
 
-SUCCESS = {"declared": ("goal_reached", "false_goal"), "true": ("goal_reached",)}
-
-
-def pairs(columns, base, outcomes):
+def pairs(run, base, outcomes):
     """Trials in both runs: how many succeeded only with, and how many only without the sensors."""
-    ended, of_base = (dict(zip(each["trial"], each["outcome"])) for each in (columns, base))
-    both = [(ended[trial] in outcomes, of_base[trial] in outcomes)
-            for trial in ended if trial in of_base]
+    ended, of_base = (dict(zip(each.counted["trial"].tolist(), each.ended(*outcomes))) for each in (run, base))
+    both = [(ended[trial], of_base[trial]) for trial in ended if trial in of_base]
     return both.count((True, False)), both.count((False, True))
 
 
 def paired_tests(runs):
-    """One row per (scenario, subset) and kind of success; runs maps to the columns of the trials."""
+    """One row per (scenario, subset) and kind of success; runs by scenario and sensors."""
     tests = []
-    for (scenario, names), columns in runs.items():
+    for (scenario, names), run in runs.items():
         base = ("light stripe",) if "light stripe" in names and len(names) > 1 else ()
         if names == base:
             continue
         for kind, outcomes in SUCCESS.items():
-            gained, lost = pairs(columns, runs[scenario, base], outcomes)
-            tests.append({"scenario": scenario, "sensors": "+".join(names),
-                          "against": "+".join(base) or "none", "success": kind, "gained": gained,
-                          "lost": lost, "p": study.mcnemar(gained, lost)})
-    for test, adjusted in zip(tests, study.holm([test["p"] for test in tests])):
+            gained, lost = pairs(run, runs[scenario, base], outcomes)
+            tests.append({"scenario": scenario, "sensors": "+".join(names), "against": "+".join(base) or "none",
+                          "success": kind, "gained": gained, "lost": lost, "p": rates.mcnemar(gained, lost)})
+    for test, adjusted in zip(tests, rates.holm(test["p"] for test in tests)):
         test["holm"] = adjusted
     return tests
 
@@ -66,34 +63,23 @@ def paired_text(tests):
     text = (f"\n{len(tests)} tests by pairs (McNemar, Holm), {differ} differ at 0.05: those, and single "
             "sensors that changed any trial. Gained, lost: trials that succeed only with, or only "
             "without what is added.\n\n")
-    return text + study.table(
-        ["scenario", "sensors", "against", "success", "gained", "lost", "p", "Holm"],
-        [[test["scenario"], test["sensors"], test["against"], test["success"], str(test["gained"]),
-          str(test["lost"]), f"{test['p']:.2g}", f"{test['holm']:.2g}"]
-         for test in sorted(tests, key=lambda test: test["p"]) if shown(test)]) + "\n"
+    return text + study.listed(sorted(filter(shown, tests), key=lambda test: test["p"]), {
+        **{name: f"{{{name}}}" for name in ("scenario", "sensors", "against", "success", "gained", "lost")},
+        "p": "{p:.2g}", "Holm": "{holm:.2g}"}) + "\n"
 
 
-def share(columns, outcomes):
-    """Share of the trials that ended so, in per cent, as text."""
-    ended = [outcome in outcomes for outcome in columns["outcome"]]
-    return f"{100.0 * sum(ended) / len(ended):.0f}"
-
-
-def measures(summary, columns):
+def measures(run):
+    rows = run.counted
+    mean = lambda values: rates.mean(values, least=0.0)
     return {
-        "declared success (%)": (100.0 * summary["declared_success"]["rate"],
-                                 *(100.0 * end for end in summary["declared_success"]["ci95"])),
-        "true success (%)": (100.0 * summary["true_success"]["rate"],
-                             *(100.0 * end for end in summary["true_success"]["ci95"])),
-        "hazards driven onto unseen (%)": tuple(
-            100.0 * value
-            for value in study.ratio_interval(columns["hazards_missed"], columns["hazards_met"])),
-        "scrapes a trial": study.mean_interval(columns["scrapes"]),
-        "felt a trial": study.mean_interval([sum(felt) for felt in
-                                             zip(*(columns[name] for name in FELT))]),
-        "energy (Wh)": study.mean_interval(columns["energy_wh"]),
-        "scan energy (Wh)": study.mean_interval(columns["scan_energy_wh"]),
-        "time (min)": study.mean_interval([time / 60.0 for time in columns["sim_time_s"]]),
+        "declared success (%)": [100.0 * value for value in run.declared_success],
+        "true success (%)": [100.0 * value for value in run.true_success],
+        "hazards driven onto unseen (%)": [100.0 * value for value in rates.share(rows["hazards_missed"], rows["hazards_met"])],
+        "scrapes a trial": mean(rows["scrapes"]),
+        "felt a trial": mean(sum(rows[name] for name in FELT)),
+        "energy (Wh)": mean(rows["energy_wh"]),
+        "scan energy (Wh)": mean(rows["scan_energy_wh"]),
+        "time (min)": mean(rows["sim_time_s"] / 60.0),
     }
 
 
@@ -112,39 +98,33 @@ def parse_arguments():
 
 def main():
     args = parse_arguments()
-    held = ["rover.fidelity=quasi_static", *args.set]
+    args.set = ["rover.fidelity=quasi_static", *args.set]
     rows, lines, runs = [], [], {}
     for scenario in args.scenarios:
         for suite in sorted(subsets(), key=lambda each: sum(each.values())):
             names = [name for name, on in suite.items() if on]
             folder = args.out / scenario.stem / ("_".join(names).replace(" ", "") or "none")
             switches = [f"{SENSORS[name]}={str(on).lower()}" for name, on in suite.items()]
-            summary = study.run_scenario(args, scenario, folder, [*held, *switches])
-            columns = study.trial_columns(folder)
-            runs[scenario.stem, tuple(names)] = columns
-            found = measures(summary, columns)
+            run = runs[scenario.stem, tuple(names)] = study.run_scenario(args, scenario, folder, [*args.set, *switches])
+            found = measures(run)
             row = {"scenario": scenario.stem, "suite": "+".join(names) or "none",
-                   "program": study.program(summary), "trials": len(columns["outcome"])}
+                   "program": study.program(run), "trials": len(run.counted)}
             for name, values in found.items():
-                row.update(zip((name, f"{name} low", f"{name} high"), values))
+                row |= zip((name, f"{name} low", f"{name} high"), values)
             rows.append(row)
-            lines.append([scenario.stem, row["suite"],
-                          *(study.with_interval(values, 1) for values in found.values()),
-                          share(columns, STUCK), share(columns, ("no_path",))])
+            lines.append([scenario.stem, row["suite"], *(study.with_interval(values, 1) for values in found.values()),
+                          *(f"{100.0 * run.ended(*ends).mean():.0f}" for ends in (STUCK, ("no_path",)))])
             print(f"\r{scenario.stem}: {len(rows)} subsets", end="", file=sys.stderr)
         print(file=sys.stderr)
     study.write_csv(args.out / "sensor_suite.csv", rows)
     tests = paired_tests(runs)
     study.write_csv(args.out / "sensor_suite_pairs.csv", tests)
     text = study.table(["scenario", "sensors", *found, "stuck or tipped (%)", "no path (%)"], lines)
-    programs = ", ".join(sorted({row["program"] for row in rows}))
-    text += (f"\n\n{args.trials} trials a subset, seed {args.seed}, 95 % intervals; held: "
-             f"{', '.join(held)}; made by rockyard {programs}.\n")
-    text += paired_text(tests)
+    text += (f"\n\n{args.trials} trials a subset, seed {args.seed}, 95 % intervals; {study.held(args)}"
+             f"{study.made_by(runs.values(), ', ')}.\n") + paired_text(tests)
     (args.out / "sensor_suite.md").write_text(text, encoding="utf-8")
     print(text)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

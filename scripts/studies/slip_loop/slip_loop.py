@@ -10,17 +10,16 @@ Writes slip_closed_loop.csv.
     scripts/studies/slip_loop/slip_loop.py [--sweep FOLDER] [--out FOLDER] [--markdown results/visual_odometry.md]
 """
 
-import math
 import sys
 from collections import defaultdict
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates  # noqa: E402
 
 SWEEP = study.ROOT / "scenarios/sweeps/slip_closed_loop.json"
-COLUMNS = ("position_error_m", "true_distance_m", "true_goal_distance_m", "dead_reckoned_distance_m", "sim_time_s",
-           "energy_wh", "visual_steps", "slip_alarms", "false_slip_alarms", "first_slip_alarm_m", "slip_onset_m")
+MEANS = ("true_distance_m", "true_goal_distance_m", "sim_time_s", "energy_wh", "visual_steps", "slip_alarms")
 STUCK = ("jammed", "high_centred")
 AXES = ("hollows", "navigator", "check")
 UNCHECKED = "vision unchecked"
@@ -29,61 +28,33 @@ ENDINGS = {"reached": ("goal_reached",), "false_goal": ("false_goal",), "stuck":
            "slip_stop": ("excessive_slip",), "no_path": ("no_path",)}
 
 
-def read_cells(folder):
-    """Trials by (hollows, navigator, check): rows by their number."""
-    cells = defaultdict(dict)
-    for levels, trial, row in study.stored_trials(folder, COLUMNS):
-        cells[tuple(levels[name] for name in AXES)][trial] = row
-    return cells
-
-
-def delays(rows):
-    """True way from the onset of slip to the first alarm, of drives that have both: m."""
-    return [row["first_slip_alarm_m"] - row["slip_onset_m"] for row in rows
-            if not math.isnan(row["first_slip_alarm_m"] + row["slip_onset_m"])]
-
-
-def per_100_m(counts, ways_m):
-    """Events in 100 m, with the 95 % interval by the normal approximation over trials."""
-    rate = sum(counts) / sum(ways_m)
-    n = len(counts)
-    variance = sum((count - rate * way)**2 for count, way in zip(counts, ways_m)) * n / max(n - 1, 1)
-    half = study.Z95 * math.sqrt(variance) / sum(ways_m)
-    return 100 * rate, 100 * max(rate - half, 0.0), 100 * (rate + half)
-
-
-def summary(rows):
-    count = len(rows)
-    found = {"trials": count}
-    for name, outcomes in ENDINGS.items():
-        found[name] = sum(row["outcome"] in outcomes for row in rows) / count
+def summary(trials):
+    """Of a frame; delays are the true way from the onset of slip to the first alarm, of drives that have both."""
+    count = len(trials)
+    ends = {name: int(trials.outcome.isin(outcomes).sum()) for name, outcomes in ENDINGS.items()}
+    found = {"trials": count} | {name: ended / count for name, ended in ends.items()}
     found["other"] = 1.0 - sum(found[name] for name in ENDINGS)
-    found["reached_low"], found["reached_high"] = study.wilson_interval(round(found["reached"] * count), count)
-    found["stuck_low"], found["stuck_high"] = study.wilson_interval(round(found["stuck"] * count), count)
-    errors = [row["position_error_m"] for row in rows]
-    found |= {"error_median_m": study.quantile(errors, 0.5), "error_95_m": study.quantile(errors, 0.95)}
-    for name in ("true_distance_m", "true_goal_distance_m", "sim_time_s", "energy_wh", "visual_steps", "slip_alarms"):
-        found[name] = sum(row[name] for row in rows) / count
-    ways = delays(rows)
-    found["onsets"] = sum(not math.isnan(row["slip_onset_m"]) for row in rows)
-    found["onsets_alarmed"] = len(ways)
-    found["delay_median_m"], found["delay_90_m"] = (
-        (study.quantile(ways, 0.5), study.quantile(ways, 0.9)) if ways else (math.nan, math.nan))
-    found["vain_100_m"], found["vain_100_m_low"], found["vain_100_m_high"] = per_100_m(
-        [row["false_slip_alarms"] for row in rows], [row["true_distance_m"] for row in rows])
-    found["stopped_in_vain"] = sum(row["outcome"] == "excessive_slip" and math.isnan(row["slip_onset_m"])
-                                   for row in rows)
+    for name in ("reached", "stuck"):
+        found[f"{name}_low"], found[f"{name}_high"] = rates.wilson_interval(ends[name], count)
+    errors, delays = trials.position_error_m, (trials.first_slip_alarm_m - trials.slip_onset_m).dropna()
+    found |= {"error_median_m": rates.quantile(errors, 0.5), "error_95_m": rates.quantile(errors, 0.95)}
+    found |= {name: sum(trials[name]) / count for name in MEANS}
+    found |= {"onsets": int(trials.slip_onset_m.notna().sum()), "onsets_alarmed": len(delays),
+              "delay_median_m": rates.quantile(delays, 0.5), "delay_90_m": rates.quantile(delays, 0.9)}
+    vain, low, high = rates.ratio_of_sums(trials.false_slip_alarms, trials.true_distance_m)
+    found |= {"vain_100_m": 100 * vain, "vain_100_m_low": 100 * max(low, 0.0), "vain_100_m_high": 100 * high}
+    found["stopped_in_vain"] = int((trials.outcome.eq("excessive_slip") & trials.slip_onset_m.isna()).sum())
     return found
 
 
-def paired(rows, unchecked):
+def paired(trials, unchecked):
     """Against the same trials without a check: freed of being stuck, newly stuck, lost and won arrivals."""
-    both = [(rows[i], unchecked[i]) for i in rows if i in unchecked]
-    pairs = [((a["outcome"] in STUCK, a["outcome"] == "goal_reached"),
-              (b["outcome"] in STUCK, b["outcome"] == "goal_reached")) for a, b in both]
-    return {"freed": sum(b[0] and not a[0] for a, b in pairs), "newly_stuck": sum(a[0] and not b[0] for a, b in pairs),
-            "arrivals_lost": sum(b[1] and not a[1] for a, b in pairs),
-            "arrivals_won": sum(a[1] and not b[1] for a, b in pairs)}
+    both = trials.merge(unchecked, on="trial", suffixes=("", "_unchecked"))
+    stuck, before = both.outcome.isin(STUCK), both.outcome_unchecked.isin(STUCK)
+    reached, once = both.outcome.eq("goal_reached"), both.outcome_unchecked.eq("goal_reached")
+    return {name: int(pairs.sum()) for name, pairs in (
+        ("freed", before & ~stuck), ("newly_stuck", stuck & ~before), ("arrivals_lost", once & ~reached),
+        ("arrivals_won", reached & ~once))}
 
 
 def grouped(rows):
@@ -102,8 +73,7 @@ def endings_table(rows):
         cells = [by_hollow[name] for name in hollows]
         lines.append(
             [f"{navigator}, {check}"] +
-            [", ".join(f"{100 * row[part]:.0f}" for part in ("reached", "false_goal", "stuck", "slip_stop", "no_path"))
-             for row in cells] +
+            [", ".join(f"{100 * row[part]:.0f}" for part in ENDINGS) for row in cells] +
             [", ".join(f"{row['error_median_m']:.2f} ({row['error_95_m']:.2f})" for row in cells),
              ", ".join(f"{row['true_goal_distance_m']:.1f}" for row in cells)])
     ends = "reached, believed only, stuck, stopped for slip, no way on, %"
@@ -132,26 +102,20 @@ def alarms_table(rows):
 
 
 def count(cells):
-    rows = []
-    for key, trials in cells.items():
-        rows.append(dict(zip(AXES, key)) | summary(list(trials.values())) |
-                    paired(trials, cells[(*key[:2], UNCHECKED)]))
-    return rows
+    return [dict(zip(AXES, key)) | summary(trials) | paired(trials, cells[*key[:2], UNCHECKED])
+            for key, trials in cells.items()]
 
 
 def main():
     parser = study.argument_parser(__doc__)
-    study.add_sweep_arguments(parser, "slip_closed_loop",
-                              "write the tables between the marks slip_endings and slip_alarms of this page")
+    study.add_sweep_arguments(parser, "slip_closed_loop")
     args = parser.parse_args()
-    cells, note = study.counted_sweep(args, SWEEP, read_cells)
+    cells, note = study.counted_sweep(args, SWEEP, AXES)
     rows = count(cells)
-    args.out.mkdir(parents=True, exist_ok=True)
     study.write_csv(args.out / "slip_closed_loop.csv",
                     [{name: round(value, 5) if isinstance(value, float) else value for name, value in row.items()}
                      for row in rows])
-    for name, text in {"slip_endings": endings_table(rows), "slip_alarms": alarms_table(rows)}.items():
-        study.show(args, name, text + note)
+    study.show(args, {"slip_endings": endings_table(rows), "slip_alarms": alarms_table(rows)}, note)
 
 
 if __name__ == "__main__":

@@ -9,13 +9,12 @@ them. --markdown writes the tables between <!-- begin stereo_NAME --> and <!-- e
     scripts/studies/stereo/stereo.py [--share 1] [--seed 1] [--tables range,rocks,texture,sun,baseline] [--markdown PAGE]
 """
 
-import json
 import sys
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
-from calibrations.fit_stereo_errors import HEIGHTS, Cell, add_arguments, cells_by, percent  # noqa: E402
+from calibrations.fit_stereo_errors import HEIGHTS, cells_by, percent  # noqa: E402
 
 SCENARIOS = study.ROOT / "scenarios/stereo_sensing"
 # Name of the table: factor, its heading, how its values are written.
@@ -29,20 +28,11 @@ FACTORS = {
 SCALES = {"baseline_m": 100.0}
 
 
-def trials_of(path):
-    """The number of runs of a scenario, or of the one that it extends."""
-    document = json.loads(path.read_text(encoding="utf-8"))
-    return document.get("trials") or trials_of(path.parent / document["extends"])
-
-
 def run(args, name):
     """Runs a table's scenario, or takes the run that is there."""
     path = SCENARIOS / f"{name}.json"
-    args.trials = max(1, round(trials_of(path) * args.share))
-    folder = args.out / f"{name}-{args.seed}-{args.trials}"
-    summary = study.run_scenario(args, path, folder, args.set)
-    args.programs.add(study.program(summary))
-    return study.trial_rows(folder)
+    args.trials = max(1, round(study.ry.Scenario(path)["trials"] * args.share))
+    return study.run_scenario(args, path, args.out / f"{name}-{args.seed}-{args.trials}", args.set)
 
 
 def error_row(cell):
@@ -89,17 +79,15 @@ def rocks_of(rows):
 
 def main():
     parser = study.argument_parser(__doc__)
-    add_arguments(parser, "stereo")
+    study.add_run_arguments(parser, None, "stereo")
     parser.add_argument("--share", type=float, default=1.0, help="of the scenarios' runs (1)")
     args = study.parse_with_tables(parser, FACTORS)
-    args.programs = set()
+    runs = []
     for name in args.tables.split(","):
-        rows = run(args, name)
-        note = (f"{Cell(rows)['looks']:.0f} looks, seed {args.seed}; "
-                f"{'held: ' + ', '.join(args.set) + '; ' if args.set else ''}"
-                f"made by rockyard {' and '.join(sorted(args.programs))}.")
-        text = rocks_of(rows) if name == "rocks" else table_of(name, rows)
-        study.show(args, f"stereo_{name}", f"{text}\n\n{note}")
+        runs.append(run(args, name))
+        rows = study.counted(runs[-1])
+        note = f"{rows.looks.sum():.0f} looks, seed {args.seed}; {study.held(args)}{study.made_by(runs)}."
+        study.show(args, {f"stereo_{name}": f"{rocks_of(rows) if name == 'rocks' else table_of(name, rows)}\n\n{note}"})
 
 
 if __name__ == "__main__":

@@ -14,10 +14,12 @@ CPU-seconds. --markdown writes the tables between <!-- begin NAME --> and <!-- e
 
 import json
 import sys
+from itertools import product
 from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates  # noqa: E402
 
 SCENARIOS = study.ROOT / "scenarios/gestalt"
 FITTED = study.ROOT / "scenarios/sensors/fitted_stereo_middle_noon.json"
@@ -59,52 +61,37 @@ class Runs:
         asked = args.cells.split(",")
         self.cells = [name for name, scenario in CELLS.items() if scenario in asked]
 
-    def folder(self, cell, level):
-        name = "".join(c if c.isalnum() else "_" for c in level)
-        return self.args.out / f"seed{self.args.seed}" / CELLS[cell] / name
-
-    def run(self, cell, level):
-        print(f"{cell}: {level}", file=sys.stderr, flush=True)
-        summary = study.run_scenario(self.args, SCENARIOS / f"{CELLS[cell]}.json",
-                                     self.folder(cell, level), self.levels[level] + self.args.set)
-        self.programs.add(study.program(summary))
-        return summary
-
-    def differences(self, cell, level):
-        """Success of the level less that of images, in points, and means by column."""
-        return study.compare(self.args.rockyard, self.folder(cell, IMAGES), self.folder(cell, level))
-
-
-def rate(summary, kind):
-    success = summary[f"{kind}_success"]
-    return study.with_interval((success["rate"], *success["ci95"]), 1, 100.0)
+    def __iter__(self):
+        """Cell, level and run."""
+        for cell, level in product(self.cells, self.levels):
+            print(f"{cell}: {level}", file=sys.stderr, flush=True)
+            name = "".join(c if c.isalnum() else "_" for c in level)
+            run = study.run_scenario(
+                self.args, SCENARIOS / f"{CELLS[cell]}.json", self.args.out / f"seed{self.args.seed}" / CELLS[cell] / name,
+                self.levels[level] + self.args.set)
+            self.programs.add(study.program(run))
+            yield cell, level, run
 
 
 def levels_table(runs):
     rows = []
-    for cell in runs.cells:
-        for level in runs.levels:
-            summary = runs.run(cell, level)
-            row = [cell, level, rate(summary, "declared"), rate(summary, "true")]
-            if level == IMAGES:
-                rows.append([*row, "", "", ""])
-                continue
-            success, _ = runs.differences(cell, level)
-            rows.append([*row, study.with_interval(success["declared"][:3], 1),
-                         study.with_interval(success["true"][:3], 1), f"{success['true'][3]:.2g}"])
+    for cell, level, run in runs:
+        row = [cell, level, *(study.with_interval(rate, 1, 100.0) for rate in (run.declared_success, run.true_success))]
+        if level == IMAGES:
+            images = run
+            rows.append([*row, "", "", ""])
+            continue
+        success, _ = study.compare(images, run)
+        rows.append([*row, *(study.with_interval(success[kind][:3], 1) for kind in ("declared", "true")),
+                     f"{success['true'][3]:.2g}"])
     return study.table(["terrain", "level", "declared (%)", "true (%)",
                         "declared, less images (points)", "true, less images (points)", "p"], rows)
 
 
 def course_table(runs):
-    rows = []
-    for cell in runs.cells:
-        for level in runs.levels:
-            runs.run(cell, level)
-            columns = study.trial_columns(runs.folder(cell, level))
-            rows.append([cell, level] + [study.with_interval(study.mean_interval(columns[name]), digits)
-                                         for name, _, digits in COURSE])
-    return study.table(["terrain", "level"] + [title for _, title, _ in COURSE], rows)
+    return study.table(["terrain", "level"] + [title for _, title, _ in COURSE], [
+        [cell, level, *(study.with_interval(rates.mean(run.counted[name], least=0.0), digits) for name, _, digits in COURSE)]
+        for cell, level, run in runs])
 
 
 TABLES = {"levels": levels_table, "course": course_table}
@@ -114,11 +101,9 @@ def main():
     parser = study.argument_parser(__doc__)
     study.add_run_arguments(parser, trials=100, out="stereo_levels")
     parser.add_argument("--cells", default=",".join(CELLS.values()), help="which, joined by commas")
-    parser.add_argument("--fitted", type=study.Path, default=FITTED,
-                        help="scenario fragment with the fitted error model")
+    parser.add_argument("--fitted", type=Path, default=FITTED, help="scenario fragment with the fitted error model")
     study.print_tables(study.parse_with_tables(parser, TABLES), TABLES, Runs)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -14,13 +14,15 @@ Prints two tables; --csv also writes the first one for programs.
 """
 
 import argparse
-import array
 import csv
 import json
 import math
 import sys
 import tempfile
+from itertools import product
 from pathlib import Path
+
+import numpy as np
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
@@ -35,88 +37,54 @@ BANDS_M = ((1.5, 2.0), (2.0, 3.0), (3.0, 4.5))
 BUILD = study.ROOT / "build/test"
 
 
-def read_pfm(path):
-    """(width, height, values row by row from above) of a grey PFM file."""
-    with open(path, "rb") as file:
-        if file.readline().strip() != b"Pf":
-            sys.exit(f"{path} is no grey PFM file")
-        width, height = map(int, file.readline().split())
-        scale = float(file.readline())
-        values = array.array("f")
-        values.frombytes(file.read(4 * width * height))
-    if (scale < 0) != (sys.byteorder == "little"):
-        values.byteswap()
-    rows = [values[row * width:(row + 1) * width] for row in range(height)]
-    return width, height, [value for row in reversed(rows) for value in row]
-
-
-def truth_at(level, width, height, truth):
+def truth_at(level, truth):
     """Disparities at a level, px of it; NaN where the square shows more than one surface."""
     side = 1 << level
-    reduced = []
-    for y in range(height >> level):
-        for x in range(width >> level):
-            square = [truth[(y * side + k) * width + x * side + i]
-                      for k in range(side) for i in range(side)]
-            mean = sum(square) / len(square)
-            flat = math.isfinite(mean) and max(square) - min(square) < side
-            reduced.append(mean / side if flat else math.nan)
-    return reduced
+    rows, columns = (length // side for length in truth.shape)
+    squares = truth[:rows * side, :columns * side].reshape(rows, side, columns, side)
+    flat = squares.max(axis=(1, 3)) - squares.min(axis=(1, 3)) < side
+    return np.where(flat, squares.mean(axis=(1, 3)) / side, math.nan)
 
 
 def range_m(disparity_px, level):
     return FOCAL_PX / (1 << level) * BASELINE_M / disparity_px
 
 
-class Tally:
-    """Of one level and band: pixels seen, matched, wrong, and squared errors of the rest."""
-
-    def __init__(self):
-        self.known = self.matched = self.wrong = 0
-        self.range_squares = self.disparity_squares = 0.0
-
-    def add(self, level, found, true):
-        self.known += 1
-        if not math.isfinite(found) or found <= 0:
-            return
-        self.matched += 1
-        if abs(found - true) > 1:
-            self.wrong += 1
-            return
-        self.disparity_squares += (found - true) ** 2
-        self.range_squares += (range_m(found, level) - range_m(true, level)) ** 2
-
-    def row(self, level, band):
-        right = max(self.matched - self.wrong, 1)
-        return {"level": level, "near_m": band[0], "far_m": band[1], "pixels": self.known,
-                "matched": self.matched / max(self.known, 1), "wrong": self.wrong / max(self.matched, 1),
-                "disparity_rms_px": math.sqrt(self.disparity_squares / right),
-                "range_rms_mm": 1000 * math.sqrt(self.range_squares / right)}
+def row_of(level, band, found, true):
+    """Of one level and band, by found and true disparities: pixels, shares matched and wrong, errors of the rest."""
+    matched = np.isfinite(found) & (found > 0)
+    right = matched & (abs(found - true) <= 1)
+    rms = lambda errors: math.sqrt((errors ** 2).sum() / max(len(errors), 1))
+    found, true, pixels, matches = found[right], true[right], len(true), matched.sum()
+    return {"level": level, "near_m": band[0], "far_m": band[1], "pixels": pixels,
+            "matched": matches / max(pixels, 1), "wrong": (matches - right.sum()) / max(matches, 1),
+            "disparity_rms_px": rms(found - true),
+            "range_rms_mm": 1000 * rms(range_m(found, level) - range_m(true, level))}
 
 
 def measure(args):
     """Rows by level and band, over all pairs."""
-    tallies = {(level, band): Tally() for level in LEVELS for band in BANDS_M}
+    pixels = {level: [] for level in LEVELS}
     with tempfile.TemporaryDirectory() as folder:
-        for pair in range(args.pairs):
+        for pair, level in product(range(args.pairs), LEVELS):
             stem = Path(folder) / f"pair{pair}"
-            study.run([args.render_pair, args.scenario, stem, f"columns={COLUMNS}", f"trial={pair}",
-                       f"view_deg={VIEW_DEG}", f"baseline_m={BASELINE_M}"])
-            width, height, truth = read_pfm(f"{stem}_disparity.pfm")
-            for level in LEVELS:
-                out = Path(f"{stem}_{level}")
-                study.run([args.rockyard, "stereo", f"{stem}_left.png", f"{stem}_right.png", "--out", out,
-                           "--param", f"pyramid_level={level}", "--param", "correlator.min_disparity_px=0",
-                           "--param", f"correlator.disparities={DISPARITIES >> level}",
-                           "--param", f"filters.blob_min_px={max(100 >> 2 * level, 1)}"])
-                found = read_pfm(out / "disparity.pfm")[2]
-                for measured, true in zip(found, truth_at(level, width, height, truth)):
-                    if not math.isfinite(true) or true <= 0:
-                        continue
-                    for band in BANDS_M:
-                        if band[0] <= range_m(true, level) < band[1]:
-                            tallies[level, band].add(level, measured, true)
-    return [tallies[level, band].row(level, band) for band in BANDS_M for level in LEVELS]
+            if level == 0:
+                study.run([args.render_pair, args.scenario, stem, f"columns={COLUMNS}", f"trial={pair}",
+                           f"view_deg={VIEW_DEG}", f"baseline_m={BASELINE_M}"])
+                truth = study.read_portable(f"{stem}_disparity.pfm")
+            out = Path(f"{stem}_{level}")
+            study.run([args.rockyard, "stereo", f"{stem}_left.png", f"{stem}_right.png", "--out", out,
+                       "--param", f"pyramid_level={level}", "--param", "correlator.min_disparity_px=0",
+                       "--param", f"correlator.disparities={DISPARITIES >> level}",
+                       "--param", f"filters.blob_min_px={max(100 >> 2 * level, 1)}"])
+            found, true = study.read_portable(out / "disparity.pfm"), truth_at(level, truth)
+            pixels[level].append(np.array([found, true])[:, true > 0])
+    rows = []
+    for band, level in product(BANDS_M, LEVELS):
+        found, true = np.concatenate(pixels[level], axis=1)
+        within = (band[0] <= range_m(true, level)) & (range_m(true, level) < band[1])
+        rows.append(row_of(level, band, found[within], true[within]))
+    return rows
 
 
 def match_times(sides, name):
@@ -126,27 +94,21 @@ def match_times(sides, name):
 
 
 def print_errors(rows):
-    print("| range | level | matched | wrong (%) | rms of disparity (px of the level) | rms of range (mm) "
-          "| over the level before |\n| --- | --- | --- | --- | --- | --- | --- |")
-    before = None
-    for row in rows:
-        ratio = "" if row["level"] == 0 else f"{row['range_rms_mm'] / before:.2f}"
-        before = row["range_rms_mm"]
-        print(f"| {row['near_m']} .. {row['far_m']} m | {row['level']} | {row['matched']:.2f} "
-              f"| {100 * row['wrong']:.2f} | {row['disparity_rms_px']:.3f} | {row['range_rms_mm']:.1f} "
-              f"| {ratio} |")
+    def line(row, before):
+        ratio = "" if row["level"] == 0 else f"{row['range_rms_mm'] / before['range_rms_mm']:.2f}"
+        return [f"{row['near_m']} .. {row['far_m']} m", str(row["level"]), f"{row['matched']:.2f}", f"{100 * row['wrong']:.2f}",
+                f"{row['disparity_rms_px']:.3f}", f"{row['range_rms_mm']:.1f}", ratio]
+    print(study.table(["range", "level", "matched", "wrong (%)", "rms of disparity (px of the level)", "rms of range (mm)",
+                       "over the level before"], map(line, rows, [None, *rows])))
 
 
 def print_times(measured):
     cases = {case["name"]: case["sides"] for case in measured["cases"]}
     names = [side["name"] for side in cases["level_0"]]
-    print("| time of a level over that of the next | "
-          + " | ".join(name.replace("AVX3", "AVX-512") for name in names) + " |")
-    print("| --- |" + " --- |" * len(names))
-    for level in LEVELS[1:]:
-        ratios = [match_times(cases[f"level_{level - 1}"], name) / match_times(cases[f"level_{level}"], name)
-                  for name in names]
-        print(f"| {level - 1} over {level} | " + " | ".join(f"{ratio:.1f}" for ratio in ratios) + " |")
+    print(study.table(["time of a level over that of the next", *(name.replace("AVX3", "AVX-512") for name in names)], [
+        [f"{level - 1} over {level}", *(
+            f"{match_times(cases[f'level_{level - 1}'], name) / match_times(cases[f'level_{level}'], name):.1f}"
+            for name in names)] for level in LEVELS[1:]]))
 
 
 def main():
@@ -170,8 +132,7 @@ def main():
     text = args.times.read_text(encoding="utf-8") if args.times else study.run([args.benchmark])
     print()
     print_times(json.loads(text))
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -57,24 +57,21 @@ def sides_of(measured, case):
 
 def print_speedups(sides):
     vectors = [name for name in sides if name not in ("unoptimized", "optimized")]
-    print("| function | paper | " + " | ".join(f"{name} over optimized C++" for name in vectors)
-          + " | " + " | ".join(f"{name} over unoptimized" for name in vectors) + " |")
-    print("| --- | --- |" + " --- |" * (2 * len(vectors)))
-    for name, stages, printed in SPEEDUPS:
-        ratios = [f"{speedup(sides, scalar, vector, stages):.1f}"
-                  for scalar in ("optimized", "unoptimized") for vector in vectors]
-        print(f"| {name} | {printed} | " + " | ".join(ratios) + " |")
+    print(study.table(["function", "paper", *(f"{name} over {scalar}" for scalar in ("optimized C++", "unoptimized")
+                                              for name in vectors)], [
+        [name, printed, *(f"{speedup(sides, scalar, vector, stages):.1f}"
+                          for scalar in ("optimized", "unoptimized") for vector in vectors)]
+        for name, stages, printed in SPEEDUPS]))
     rates = ", ".join(f"{name} {side['pairs_per_s']:.0f}" for name, side in sides.items())
     print(f"\nPairs a second (paper: just over 20): {rates}.\n")
 
 
 def print_shares(sides):
     sum_s = sum(time_s for _, _, time_s in TABLE_2)
-    print("| row of table 2 | paper | " + " | ".join(sides) + " |")
-    print("| --- | --- |" + " --- |" * len(sides))
-    for name, stages, time_s in TABLE_2:
-        shares = [f"{100 * share(side, stages):.1f}" if stages else "none" for side in sides.values()]
-        print(f"| {name} (%) | {100 * time_s / sum_s:.1f} | " + " | ".join(shares) + " |")
+    print(study.table(["row of table 2", "paper", *sides], [
+        [f"{name} (%)", f"{100 * time_s / sum_s:.1f}",
+         *(f"{100 * share(side, stages):.1f}" if stages else "none" for side in sides.values())]
+        for name, stages, time_s in TABLE_2]))
 
 
 def main():
@@ -85,15 +82,13 @@ def main():
                         default=study.ROOT / "build/test/tests/vision/stereo_speedup_benchmark")
     parser.add_argument("--times", type=Path, help="what the benchmark printed before")
     args = parser.parse_args()
-    text = (args.times.read_text(encoding="utf-8") if args.times
-            else study.run([args.benchmark, args.rounds]))
+    text = (args.times.read_text(encoding="utf-8") if args.times else study.run([args.benchmark, args.rounds]))
     if args.json:
         args.json.write_text(text, encoding="utf-8")
     measured = json.loads(text)
     print_speedups(sides_of(measured, "section_3"))
     print_shares(sides_of(measured, "table_2"))
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,31 +1,40 @@
-"""What the studies share: running a scenario with settings, tables, intervals, curves."""
+"""What the studies share: the package of the build (`ry`), running a scenario with settings, tables, curves."""
 
 import argparse
 import csv
-import json
 import math
 import re
-import sqlite3
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
-from .drawing import write_svg  # noqa: F401
-from .intervals import (Z95, beta_cdf, exact_interval, holm, mcnemar, mean_interval, quantile,  # noqa: F401
-                        ratio_interval, signed_mean_interval, wilson_interval)
+import numpy as np
 
-ROOT = Path(__file__).resolve().parents[3]
+from .drawing import write_svg  # noqa: F401
+from .package import ROOT, ry
+
 sys.path.append(str(ROOT / "scripts"))  # studies use the package `calibrations`
+rates = ry.rates
+ARRIVED = ("goal_reached", "false_goal")  # as the rover believes
+
+
+def called(command, codes=(0,)):
+    """Runs a command and returns what `subprocess.run` does; ends with its message where its exit code is none of these."""
+    result = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
+    if result.returncode not in codes:
+        sys.exit(f"{' '.join(map(str, command))}\nexit code {result.returncode}\n{result.stderr}{result.stdout}")
+    return result
 
 
 def run(command):
-    """Runs a command; ends with its message if it fails."""
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True,
-                            check=False)
-    if result.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}\nexit code {result.returncode}\n"
-                 f"{result.stderr}{result.stdout}")
-    return result.stdout
+    """What a command prints; ends with its message if it fails."""
+    return called(command).stdout
+
+
+def settings(values):
+    """PATH=VALUE settings as words of a command."""
+    return [part for setting in values for part in ("--set", setting)]
 
 
 def argument_parser(text):
@@ -33,140 +42,148 @@ def argument_parser(text):
     return argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
-def add_run_arguments(parser, trials, out):
-    parser.add_argument("--trials", type=int, default=trials, help=f"trials a point ({trials})")
-    parser.add_argument("--seed", type=int, default=1, help="seed of the trials")
-    parser.add_argument("--threads", type=int, default=1)
+def add_program(parser, threads=False):
+    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
+    if threads:
+        parser.add_argument("--threads", type=int, default=1)
+
+
+def add_page(parser):
+    parser.add_argument("--markdown", type=Path, metavar="PAGE", help="write the tables between the marks of this page")
+
+
+def add_run_arguments(parser, trials, out, seed=1):
+    add_program(parser, threads=True)
+    if trials:
+        parser.add_argument("--trials", type=int, default=trials, help=f"trials a point ({trials})")
+    parser.add_argument("--seed", type=int, default=seed, help="seed of the trials")
     parser.add_argument("--out", type=Path, default=ROOT / "results/runs" / out)
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
                         help="held at every point, for example rover.fidelity=multibody")
-    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
 
 
-def add_sweep_arguments(parser, name, markdown_help):
+def add_sweep_arguments(parser, name):
     """Arguments of a study that counts one sweep, which it makes or goes on with (run_sweep)."""
-    parser.add_argument("--threads", type=int, default=1)
+    add_program(parser, threads=True)
+    add_page(parser)
     parser.add_argument("--sweep", type=Path, default=ROOT / "results/runs" / name,
                         help="folder of the sweep, made or gone on with")
     parser.add_argument("--out", type=Path, default=ROOT / "results/studies")
-    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
-    parser.add_argument("--markdown", type=Path, metavar="PAGE", help=markdown_help)
     parser.add_argument("--count-only", action="store_true", help="the sweep is there: count it")
 
 
-def run_sweep(args, sweep):
-    """Runs the sweep into its folder, or goes on with what is there, unless it is only to be counted."""
-    if args.count_only:
-        return
-    command = [args.rockyard, "sweep", sweep, "--out", args.sweep, "--threads", args.threads, "--quiet"]
-    run(command + (["--resume", "--force"] if args.sweep.exists() else []))
+def run_sweep(args, sweep, folder=None):
+    """Runs the sweep into a folder, or goes on with what is there, unless it is only to be counted; the folder."""
+    folder = folder or args.sweep
+    if not args.count_only:
+        command = [args.rockyard, "sweep", sweep, "--out", folder, "--threads", args.threads, "--quiet"]
+        run(command + (["--resume", "--force"] if folder.exists() else []))
+    return folder
 
 
-def counted_sweep(args, sweep, read_cells):
-    """Cells that `read_cells` finds in the sweep, run before, and what is noted below its tables."""
-    run_sweep(args, sweep)
-    cells = read_cells(args.sweep)
+def counted_sweep(args, sweep, axes):
+    """The trials of a sweep, run before, as frames by their levels, and what is noted below its tables."""
+    found = ry.Sweep(run_sweep(args, sweep))
+    cells = cells_of(counted(found), axes)
     if not cells:
         sys.exit(f"{args.sweep}: holds no trial")
-    made = program(json.loads((args.sweep / "summary.json").read_text(encoding="utf-8")))
-    return cells, f"\n\n{len(next(iter(cells.values())))} trials a cell; made by rockyard {made}."
+    return cells, f"\n\n{len(next(iter(cells.values())))} trials a cell; made by rockyard {program(found)}."
 
 
-def stored_trials(folder, columns):
-    """The trials of a sweep that are no faults: levels by axis, number, and a row of these columns and the outcome."""
-    path = Path(folder).resolve() / "results.sqlite"
-    store = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
-    names = dict(store.execute("select cell, name from cells"))
-    wanted = ", ".join(f'"{name}"' for name in columns)
-    for cell, trial, outcome, *values in store.execute(
-            f"select campaign_cell, trial, outcome, {wanted} from trials "
-            "where outcome != 'simulator_fault' order by campaign_cell, trial"):
-        levels = dict(part.split("=", 1) for part in names[cell].split(","))
-        row = {name: math.nan if value is None else float(value) for name, value in zip(columns, values)}
-        yield levels, trial, row | {"outcome": outcome}
+def counted(run_or_sweep):
+    """The trials that are no faults as a frame; those of a sweep with their levels along its axes."""
+    return run_or_sweep.trials[run_or_sweep.trials.outcome != "simulator_fault"]
 
 
-def run_scenario(args, scenario, folder, settings):
-    """Runs a scenario with PATH=VALUE settings into a folder, or goes on with a run that is there."""
-    command = [args.rockyard, "run", scenario, "--trials", args.trials, "--seed", args.seed,
-               "--out", folder, "--quiet"]
-    command += [part for setting in settings for part in ("--set", setting)]
-    if getattr(args, "threads", None):
-        command += ["--threads", args.threads]
-    if Path(folder).exists():
-        command += ["--resume", "--force"]
-    run(command)
-    return json.loads((Path(folder) / "summary.json").read_text(encoding="utf-8"))
+def cells_of(trials, axes):
+    """Frames of trials by their values of some columns, in the order in which these come."""
+    cells = trials.groupby(list(axes) if len(axes) > 1 else axes[0], sort=False)
+    return {key if isinstance(key, tuple) else (key,): cell for key, cell in cells}
 
 
-def value_at(rockyard, scenario, path):
-    """The effective value of a parameter in a scenario."""
-    rows = csv.DictReader(run([rockyard, "parameters", scenario, "--csv"]).splitlines())
-    return next(float(row["value"]) for row in rows if row["path"] == path)
+def run_scenario(args, scenario, folder, values, existing=("--resume", "--force")):
+    """Runs a scenario with PATH=VALUE settings into a folder, or goes on with a run that is there; that run.
 
-
-def compare(rockyard, first, second):
-    """What `rockyard compare` says of two run folders.
-
-    Success: difference in points with its interval, McNemar's p, for "declared" and "true"; means: rows
-    of its CSV by (trials, column), where trials are "all" or "arrived".
+    It is run by the command, as the runner of studies notes its calls.
     """
-    path = Path(second) / "compared.csv"
-    text = run([rockyard, "compare", first, second, "--csv", path])
-    number = r"([+-][\d.]+)"
-    found = re.findall(rf"B - A {number} points \(95 % interval {number} .. {number}\)\n"
-                       r".*?p = (\S+)", text)
-    success = {kind: tuple(float(part) for part in parts)
-               for kind, parts in zip(("declared", "true"), found)}
-    return success, {(row["trials"], row["column"]): row for row in read_csv(path)}
+    options = {"--trials": args.trials, "--seed": args.seed, "--out": folder, "--threads": getattr(args, "threads", None)}
+    run([args.rockyard, "run", scenario, "--quiet", *(existing if Path(folder).exists() else ()),
+         *(part for option, value in options.items() if value is not None for part in (option, value)),
+         *settings(values)])
+    return ry.Run(folder)
 
 
-# Columns of trials.csv that hold words (report/run_files.cc).
-TEXT_COLUMNS = ("outcome", "cause", "detail")
+def trials_of(rockyard, scenario, trials, seed, values):
+    """The trials of a run that is not kept, as a frame without simulator faults."""
+    with tempfile.TemporaryDirectory() as folder:
+        args = argparse.Namespace(rockyard=rockyard, trials=trials, seed=seed)
+        return counted(run_scenario(args, scenario, f"{folder}/run", values))
 
 
-def trial_columns(folder):
-    """The columns of trials.csv as lists, simulator faults left out.
+def compare(first, second):
+    """What a comparison of two runs or their folders says.
 
-    Those of TEXT_COLUMNS are text; a number that is undefined is NaN.
+    Success: difference in points with its interval and McNemar's p for "declared" and "true", rounded as
+    `rockyard compare` prints them; means: rows by (trials, column), where trials are "all" or "arrived".
     """
-    rows = [row for row in read_csv(Path(folder) / "trials.csv") if row["outcome"] != "simulator_fault"]
-    columns = {name: [row[name] for row in rows] for name in (rows[0] if rows else {})}
-    return {name: values if name in TEXT_COLUMNS else [float(value or "nan") for value in values]
-            for name, values in columns.items()}
+    found = ry.compare(first, second).json["comparison"]
+    success = {row["what"].split()[0]: (*(round(100.0 * row[key], 1) for key in ("difference", "low", "high")),
+                                        float(f"{row['p']:.3g}")) for row in found["successes"]}
+    return success, {(row["trials"], row["name"]): row for row in found["columns"]}
 
 
-def trial_rows(folder):
-    """The same numbers as a dictionary for each trial."""
-    numbers = {name: values for name, values in trial_columns(folder).items() if name not in TEXT_COLUMNS}
-    return [dict(zip(numbers, values)) for values in zip(*numbers.values())]
+def nested(values, document):
+    """The document with values by paths, as groups within groups."""
+    for path, value in values.items():
+        *groups, key = path.split(".")
+        group = document
+        for part in groups:
+            group = group.setdefault(part, {})
+        group[key] = value
+    return document
 
 
-def failures(summary):
-    """Outcomes that are no arrival, with their counts."""
-    outcomes = {name: count for name, count in summary["outcomes"].items()
-                if count and name not in ("goal_reached", "false_goal")}
-    return ", ".join(f"{name} {count}" for name, count in outcomes.items()) or "-"
+def others(outcomes, *but, none="-"):
+    """Outcomes with their counts, by name; `but`: what is left out."""
+    return ", ".join(f"{name} {count}" for name, count in outcomes.items() if count and name not in but) or none
 
 
-def program(summary):
-    """Version and commit of the program that made a run."""
-    made = summary.get("provenance", {})
+def program(run_or_sweep):
+    """Version and commit of the program that made a run or a sweep."""
+    made = run_or_sweep.summary.get("provenance", {})
     return f"{made.get('version', '?')} {made.get('commit', '?')}"
 
 
+def made_by(runs, joined=" and "):
+    """The programs that made runs, in words."""
+    return f"made by rockyard {joined.join(sorted({program(run) for run in runs}))}"
+
+
 def with_interval(values, digits, scale=1.0):
-    """ "value (low..high)" of a (value, low, high)."""
-    if any(math.isnan(value) for value in values):
+    """ "value (low..high)" of a rate or a (value, low, high)."""
+    values = tuple(values)
+    if not all(map(math.isfinite, values)):
         return "-"
     # Without the sign of a zero that rounding leaves.
     value, low, high = (round(scale * value, digits) + 0.0 for value in values)
     return f"{value:.{digits}f} ({low:.{digits}f}..{high:.{digits}f})"
 
 
-def table(header, rows):
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+def table(header, rows, rule=" --- "):
+    """Of Markdown; rows and header are lists of texts."""
+    lines = ["| " + " | ".join(line) + " |" for line in (header, *rows)]
+    return "\n".join([lines[0], "|" + "|".join([rule] * len(header)) + "|", *lines[1:]])
+
+
+def listed(rows, columns, rule=" --- "):
+    """A table of rows by what is shown of each: by head a format of its members, or a function of it."""
+    return table(list(columns), [[shown(row) if callable(shown) else shown.format_map(row) for shown in columns.values()]
+                                 for row in rows], rule)
+
+
+def interval_of(row, name, digits, scale=1.0):
+    """Of a row with NAME, NAME_low and NAME_high."""
+    return with_interval([row[name], row[f"{name}_low"], row[f"{name}_high"]], digits, scale)
 
 
 def read_csv(path):
@@ -177,10 +194,20 @@ def read_csv(path):
 
 def write_csv(path, rows):
     """Rows are dictionaries with equal keys."""
+    path.parent.mkdir(parents=True, exist_ok=True)
     with open(path, "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
+
+
+def read_portable(path):
+    """The pixels of a PGM or PFM file, rows from above."""
+    magic, size, most, data = Path(path).read_bytes().split(b"\n", 3)
+    columns, rows = (int(part) for part in size.split())
+    if magic == b"P5":
+        return np.frombuffer(data, np.uint8).reshape(rows, columns).astype(float)
+    return np.frombuffer(data, "<f4" if float(most) < 0 else ">f4").reshape(rows, columns)[::-1].astype(float)
 
 
 def write_table(pages, name, content):
@@ -197,18 +224,18 @@ def write_table(pages, name, content):
         sys.exit(f"no page has a table {name}")
 
 
-def show(args, name, text):
-    """Prints a table, and writes it between its marks on the page of the arguments, if that names one."""
-    print(f"{name}\n\n{text}\n", flush=True)
-    if args.markdown:
-        write_table([args.markdown], name, text)
+def show(args, tables, note=""):
+    """Prints tables by name, and writes them between their marks on the page of the arguments, if that names one."""
+    for name, text in tables.items():
+        print(f"{name}\n\n{text}{note}\n", flush=True)
+        if args.markdown:
+            write_table([args.markdown], name, text + note)
 
 
 def parse_with_tables(parser, tables):
     """Adds --tables and --markdown to the arguments and parses them; refuses names of no table."""
     parser.add_argument("--tables", default=",".join(tables), help="which, joined by commas")
-    parser.add_argument("--markdown", type=Path, metavar="PAGE",
-                        help="write the tables between the marks of this page")
+    add_page(parser)
     args = parser.parse_args()
     for name in args.tables.split(","):
         if name not in tables:
@@ -216,7 +243,12 @@ def parse_with_tables(parser, tables):
     return args
 
 
-def print_tables(args, tables, make_runs, note=""):
+def held(args):
+    """What was held at every point, in words for a note."""
+    return f"held: {', '.join(args.set)}; " if args.set else ""
+
+
+def print_tables(args, tables, make_runs):
     """Makes the tables asked for, each with what it was run with, and writes them to the page.
 
     `tables` are functions by name of what `make_runs(args)` gives, which knows its `programs`.
@@ -224,7 +256,6 @@ def print_tables(args, tables, make_runs, note=""):
     for name in args.tables.split(","):
         runs = make_runs(args)
         text = tables[name](runs)
-        held = f"held: {', '.join(args.set)}; " if args.set else ""
-        text += (f"\n\n{args.trials} trials each, seed {args.seed}; {note}{held}made by rockyard "
-                 f"{' and '.join(sorted(runs.programs))}.")
-        show(args, name, text)
+        note = (f"\n\n{args.trials} trials each, seed {args.seed}; {held(args)}made by rockyard "
+                f"{' and '.join(sorted(runs.programs))}.")
+        show(args, {name: text}, note)

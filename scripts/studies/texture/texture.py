@@ -14,43 +14,33 @@ DIR holds msl_navcam_image and mars_pancam_stereo_pair. With --rockyard, stereo 
 pair, its rows aligned, and on rendered pairs.
 """
 
-import argparse
-import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
 import matplotlib.image
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[3]
+sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
+import study  # noqa: E402
+
 SIDE = 128
 NAVCAM = "msl_navcam_image/NRB_701383954RAS_F0933408NCAM00200M1.IMG"
 PANCAM = "mars_pancam_stereo_pair"
 # Label of 24 records of 2048 bytes (SOURCE.txt), then 1024 x 1024 numbers of 16 bits.
 NAVCAM_OFFSET = 24 * 2048
 # Upper left corners (row, column) of the parts.
-NAVCAM_PARTS = {"Navcam, gravel 1": (110, 300), "Navcam, gravel 2": (880, 480),
-                "Navcam, gravel 3": (600, 130)}
+NAVCAM_PARTS = {"Navcam, gravel 1": (110, 300), "Navcam, gravel 2": (880, 480), "Navcam, gravel 3": (600, 130)}
 PANCAM_PARTS = {"Pancam, drift 1": (580, 200), "Pancam, drift 2": (640, 330),
                 "Pancam, dark drift": (880, 330), "Pancam, pebbles": (170, 430)}
 GRAININESS = (0.0, 0.25, 0.5, 0.75, 1.0)
 # Sun, rocks, camera of the rendered pictures: the Navcam's pixels and the sun of its image (7.8
 # degrees, its label), and those of a higher sun; rocks of the law beside none.
-LOOKS = {"sun at 8 degrees": (8, 0.0), "sun at 8 degrees, rocks": (8, 0.05),
-         "sun at 40 degrees": (40, 0.0)}
+LOOKS = {"sun at 8 degrees": (8, 0.0), "sun at 8 degrees, rocks": (8, 0.05), "sun at 40 degrees": (40, 0.0)}
 CAMERA = (0.82, 512, 45, 1.9, 0.1)  # mrad, columns, pitch, height, baseline
 # As the Pancam sees drift: disparities grow by a third of a pixel from row to row.
 PAIR = (0.28, 900, 17, 1.5, 0.5)
 PAIR_FIRST = 220
-
-
-def read_portable(path):
-    """The pixels of a PGM or PFM file, rows from above."""
-    magic, size, most, data = Path(path).read_bytes().split(b"\n", 3)
-    columns, rows = (int(part) for part in size.split())
-    if magic == b"P5":
-        return np.frombuffer(data, np.uint8).reshape(rows, columns).astype(float)
-    return np.frombuffer(data, "<f4").reshape(rows, columns)[::-1].astype(float)
 
 
 def read_navcam(path):
@@ -115,25 +105,20 @@ def row_of(name, part, is_radiance):
 
 
 def render(pictures, out, graininess, sun_deg, rocks, camera=CAMERA):
-    subprocess.run([str(x) for x in (pictures, out, graininess, sun_deg, rocks, *camera)],
-                   check=True)
+    study.run([pictures, out, graininess, sun_deg, rocks, *camera])
 
 
 def matched(rockyard, left, right, folder, first, *options):
     """Which pixels of the left image have one of 240 disparities from the first on."""
-    settings = ("--param", f"correlator.min_disparity_px={first}",
-                "--param", "correlator.disparities=240")
-    command = (rockyard, "stereo", left, right, "--out", folder, *settings, *options)
-    subprocess.run([str(x) for x in command], check=True, capture_output=True)
-    return np.isfinite(read_portable(Path(folder) / "disparity.pfm"))
+    study.run([rockyard, "stereo", left, right, "--out", folder, "--param", f"correlator.min_disparity_px={first}",
+               "--param", "correlator.disparities=240", *options])
+    return np.isfinite(study.read_portable(Path(folder) / "disparity.pfm"))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = study.argument_parser(__doc__)
     parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--pictures", type=Path,
-                        default=ROOT / "build/test/tests/rendering/soil_pictures")
+    parser.add_argument("--pictures", type=Path, default=study.ROOT / "build/test/tests/rendering/soil_pictures")
     parser.add_argument("--rockyard", type=Path)
     options = parser.parse_args()
     print("| ground | slope | contrast | below 16 px | skew |\n|---|---|---|---|---|")
@@ -148,10 +133,9 @@ def main():
             for graininess in GRAININESS:
                 out = Path(folder) / f"{sun_deg}_{rocks}_{graininess}"
                 render(options.pictures, out, graininess, sun_deg, rocks)
-                image = read_portable(f"{out}_left.pfm")
+                image = study.read_portable(f"{out}_left.pfm")
                 # The middle half, in quarters: four parts.
-                parts = [part_of(image, corner) for corner in
-                         ((128, 128), (128, 256), (256, 128), (256, 256))]
+                parts = [part_of(image, corner) for corner in ((128, 128), (128, 256), (256, 128), (256, 256))]
                 slopes = np.mean([slope(part) for part in parts])
                 means = np.mean([moments(part) for part in parts], axis=0)
                 print(f"| rendered, {graininess:g}, {look} | {slopes:.2f} | {means[0]:.3f} | "
@@ -159,8 +143,7 @@ def main():
         if options.rockyard:
             print("\n| pair | pixels with a disparity |\n|---|---|")
             real = options.data / PANCAM
-            seen = matched(options.rockyard, real / "4l.png", real / "4r.png",
-                           Path(folder) / "real", -120, "--align")
+            seen = matched(options.rockyard, real / "4l.png", real / "4r.png", Path(folder) / "real", -120, "--align")
             print(f"| Pancam | {seen.mean():.2f} |")
             for name, corner in PANCAM_PARTS.items():
                 print(f"| {name} | {part_of(seen, corner).mean():.2f} |")

@@ -14,21 +14,20 @@ from pathlib import Path
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
+from study import rates  # noqa: E402
 
 THRESHOLD = "perception.hazard.neighbour_threshold_m"
 SCENARIOS = [study.ROOT / f"scenarios/pathfinder/{name}.json" for name in ("nominal", "vl2")]
-# Name, digits, scale, value with interval from the summary and the columns of the trials.
+# Name, digits, scale, value with interval of a run.
 MEASURES = [
-    ("declared success (%)", 1, 100.0,
-     lambda s, c: (s["declared_success"]["rate"], *s["declared_success"]["ci95"])),
-    ("true success (%)", 1, 100.0,
-     lambda s, c: (s["true_success"]["rate"], *s["true_success"]["ci95"])),
-    ("true distance (m)", 2, 1.0, lambda s, c: study.mean_interval(c["true_distance_m"])),
-    ("scrapes a trial", 2, 1.0, lambda s, c: study.mean_interval(c["scrapes"])),
-    ("hazards met a trial", 2, 1.0, lambda s, c: study.mean_interval(c["hazards_met"])),
+    ("declared success (%)", 1, 100.0, lambda run: run.declared_success),
+    ("true success (%)", 1, 100.0, lambda run: run.true_success),
+    ("true distance (m)", 2, 1.0, lambda run: rates.mean(run.counted["true_distance_m"], least=0.0)),
+    ("scrapes a trial", 2, 1.0, lambda run: rates.mean(run.counted["scrapes"], least=0.0)),
+    ("hazards met a trial", 2, 1.0, lambda run: rates.mean(run.counted["hazards_met"], least=0.0)),
     ("hazards driven onto unseen (%)", 2, 100.0,
-     lambda s, c: study.ratio_interval(c["hazards_missed"], c["hazards_met"])),
-    ("time (min)", 1, 1.0 / 60.0, lambda s, c: study.mean_interval(c["sim_time_s"])),
+     lambda run: rates.share(run.counted["hazards_missed"], run.counted["hazards_met"])),
+    ("time (min)", 1, 1.0 / 60.0, lambda run: rates.mean(run.counted["sim_time_s"], least=0.0)),
 ]
 DRAWN = ("declared success (%)", "true success (%)", "true distance (m)", "scrapes a trial",
          "hazards driven onto unseen (%)")
@@ -48,43 +47,34 @@ def parse_arguments():
 
 def main():
     args = parse_arguments()
-    held = ["rover.fidelity=quasi_static", *args.set]
-    rows, series = [], {name: [] for name in DRAWN}
+    args.set = ["rover.fidelity=quasi_static", *args.set]
+    rows, lines, runs, series = [], [], [], {name: {} for name in DRAWN}
     for scenario in args.scenarios:
-        curves = {name: [] for name in DRAWN}
         for threshold_cm in range(args.low, args.high + 1):
-            folder = args.out / scenario.stem / f"{threshold_cm:02d}"
-            summary = study.run_scenario(args, scenario, folder,
-                                         [*held, f"{THRESHOLD}={threshold_cm / 100}"])
-            columns = study.trial_columns(folder)
-            row = {"scenario": scenario.stem, "threshold_cm": threshold_cm,
-                   "program": study.program(summary), "trials": len(columns["outcome"])}
-            cells = {}
-            for name, digits, scale, measure in MEASURES:
-                values = measure(summary, columns)
-                cells[name] = study.with_interval(values, digits, scale)
-                for part, value in zip(("", " low", " high"), values):
-                    row[name + part] = scale * value
-                if name in curves:
-                    curves[name].append((threshold_cm, *(scale * value for value in values)))
-            rows.append((row, cells))
             print(f"\r{scenario.stem}: {threshold_cm} cm", end="", file=sys.stderr)
+            runs.append(run := study.run_scenario(args, scenario, args.out / scenario.stem / f"{threshold_cm:02d}",
+                                                  [*args.set, f"{THRESHOLD}={threshold_cm / 100}"]))
+            row = {"scenario": scenario.stem, "threshold_cm": threshold_cm, "program": study.program(run),
+                   "trials": len(run.counted)}
+            line = [scenario.stem, str(threshold_cm)]
+            for name, digits, scale, measure in MEASURES:
+                values = [scale * value for value in measure(run)]
+                line.append(study.with_interval(values, digits))
+                row |= zip((name, f"{name} low", f"{name} high"), values)
+                if name in series:
+                    series[name].setdefault(scenario.stem, []).append((threshold_cm, *values))
+            rows.append(row)
+            lines.append(line)
         print(file=sys.stderr)
-        for name in DRAWN:
-            series[name].append((scenario.stem, curves[name]))
-    study.write_csv(args.out / "threshold.csv", [row for row, _ in rows])
-    names = [name for name, *_ in MEASURES]
-    text = study.table(["scenario", "t_dh (cm)", *names],
-                       [[row["scenario"], str(row["threshold_cm"]), *(cells[name] for name in names)]
-                        for row, cells in rows])
-    programs = ", ".join(sorted({row["program"] for row, _ in rows}))
-    text += (f"\n\n{args.trials} trials a point, seed {args.seed}, 95 % intervals; held: "
-             f"{', '.join(held)}; made by rockyard {programs}.\n")
+    study.write_csv(args.out / "threshold.csv", rows)
+    text = study.table(["scenario", "t_dh (cm)", *(name for name, *_ in MEASURES)], lines)
+    text += (f"\n\n{args.trials} trials a point, seed {args.seed}, 95 % intervals; {study.held(args)}"
+             f"{study.made_by(runs, ', ')}.\n")
     (args.out / "threshold.md").write_text(text, encoding="utf-8")
-    study.write_svg(args.out / "threshold.svg", list(series.items()), "t_dh (cm)")
+    study.write_svg(args.out / "threshold.svg", [(name, list(curves.items())) for name, curves in series.items()],
+                    "t_dh (cm)")
     print(text)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,16 +1,24 @@
 """Counts of the study of continuous driving, on numbers made by hand."""
 
-import math
-import tempfile
 import unittest
 
-from context import write_store
+from context import frame, np
 from continuous import continuous as study
 
 
 def drive(outcome=study.ARRIVED, time_s=300.0, **values):
-    row = {name: 1.0 for name in study.COLUMNS} | {"sim_time_s": time_s, "visual_distance_m": 15.0} | values
-    return row | {"speed_cm_s": 100.0 * row["visual_distance_m"] / row["sim_time_s"], "outcome": outcome}
+    return (dict.fromkeys((*study.SHOWN, *study.PLANS), 1.0) | {"sim_time_s": time_s, "visual_distance_m": 15.0} | values
+            | {"outcome": outcome})
+
+
+def trials_of(fields, names=("k_per_m2", "trial")):
+    """A frame of trials; fields are drives by cycle, by their key."""
+    return frame(dict(zip(names, key if isinstance(key, tuple) else (key,))) | {"cycle": cycle} | row
+                 for key, cycles in fields.items() for cycle, row in cycles.items())
+
+
+def wide(fields, names=("k_per_m2", "trial")):
+    return study.fields_of(trials_of(fields, names), *names)
 
 
 def field(stop=600.0, csod=300.0, csad=240.0, lost=None, steering=0.5):
@@ -30,29 +38,31 @@ class Counts(unittest.TestCase):
             self.assertAlmostEqual(100 * values["visual_distance_m"] / values["sim_time_s"], values["speed_cm_s"], places=2)
 
     def test_places(self):
-        self.assertEqual(study.place([1.0, 2.0, 3.0, 4.0], 2.5), (0.5, 1.0))
-        share, chance = study.place([1.0] * 99, 0.5)
+        self.assertEqual(study.place(np.array([1.0, 2.0, 3.0, 4.0]), 2.5), (0.5, 1.0))
+        share, chance = study.place(np.ones(99), 0.5)
         self.assertEqual(share, 0.0)
         self.assertAlmostEqual(chance, 0.02)
         # The other side counts alike.
-        self.assertEqual(study.place([1.0] * 99, 1.5)[1], chance)
+        self.assertEqual(study.place(np.ones(99), 1.5)[1], chance)
 
     def test_only_fields_in_which_all_arrive_are_compared(self):
-        fields = {(0.01, 0): field(), (0.01, 1): field(lost="csod"), (0.01, 2): field(lost="stop_and_look")}
-        self.assertEqual(list(study.shared_arrivals(fields)), [(0.01, 0)])
-        self.assertEqual(list(study.shared_arrivals(fields, study.CYCLES[1:])), [(0.01, 0), (0.01, 2)])
+        fields = wide({(0.01, 0): field(), (0.01, 1): field(lost="csod"), (0.01, 2): field(lost="stop_and_look")})
+        self.assertEqual(list(study.shared_arrivals(fields).index), [(0.01, 0)])
+        self.assertEqual(list(study.shared_arrivals(fields, study.MOVING).index), [(0.01, 0), (0.01, 2)])
 
     def test_gains_are_shares_of_the_first_time(self):
-        fields = {(0.01, 0): field(), (0.01, 1): field(csod=400.0, csad=300.0)}
-        for found, wanted in zip(study.gains(fields, "csod", "csad"), (0.2, 0.25), strict=True):
+        fields = wide({(0.01, 0): field(), (0.01, 1): field(csod=400.0, csad=300.0)})
+        for found, wanted in zip(study.gains(fields, *study.MOVING), (0.2, 0.25), strict=True):
             self.assertAlmostEqual(found, wanted)
-        self.assertEqual(study.differences(fields, "sim_time_s", "csod", "csad"), [-60.0, -100.0])
-        self.assertEqual(study.ratios(fields, "steer_turned_rad", "csod", "csad"), [0.5, 0.5])
+        self.assertEqual(list(study.ratios(fields, "steer_turned_rad", *study.MOVING)), [0.5, 0.5])
+        fields["steer_turned_rad", "csod"] = [0.0, 2.0]
+        self.assertEqual(list(study.ratios(fields, "steer_turned_rad", *study.MOVING)), [0.25])
+        self.assertAlmostEqual(fields.speed_cm_s.csod[0.01, 0], 5.0)
 
     def test_the_paired_table_counts_who_arrives_alone(self):
         fields = {(0.01, i): field(csad=240.0 + i) for i in range(4)}
         fields |= {(0.01, 4): field(lost="csod"), (0.01, 5): field(lost="csod"), (0.01, 6): field(lost="csad")}
-        text = study.paired_table(fields)
+        text = study.paired_table(wide(fields))
         self.assertIn("over the 4 fields", text)
         self.assertIn("csad alone arrives in 2 fields, csod alone in 1", text)
 
@@ -61,13 +71,14 @@ class Counts(unittest.TestCase):
                 for cycle, time_s in zip(study.CYCLES, (400.0, 300.0, 240.0))}
         far = {cycle: row | {"visual_distance_m": 15.2} for cycle, row in near.items()}
         half = near | {"csad": far["csad"]}
-        self.assertEqual(list(study.alike({0: near, 1: far, 2: half})), [0])
-        self.assertIn("In the 2 fields", study.alike_text({0: near, 3: near}))
-        self.assertIn("csad gains 20.0 (20.0..20.0) %; medians csod 300 s", study.alike_text({0: near, 3: near}))
-        self.assertIn("No field", study.alike_text({1: far}))
+        self.assertEqual(list(study.alike(wide({0: near, 1: far, 2: half}, ["trial"])).index), [0])
+        both = wide({0: near, 3: near}, ["trial"])
+        self.assertIn("In the 2 fields", study.alike_text(both))
+        self.assertIn("csad gains 20.0 (20.0..20.0) %; medians csod 300 s", study.alike_text(both))
+        self.assertIn("No field", study.alike_text(wide({1: far}, ["trial"])))
 
     def test_tables_have_a_line_for_each_cycle_and_abundance(self):
-        fields = {(k, i): field(csod=300.0 + i) for k in (0.004, 0.01) for i in range(3)}
+        fields = wide({(k, i): field(csod=300.0 + i) for k in (0.004, 0.01) for i in range(3)})
         self.assertEqual(len(study.drives_table(fields).split("\n\n")[0].splitlines()), 2 + 3)
         self.assertEqual(len(study.strata_table(fields).splitlines()), 2 + 2)
         plans = study.plans_table(fields).splitlines()
@@ -75,8 +86,9 @@ class Counts(unittest.TestCase):
         self.assertIn("| csad | 1.0 | 1.00 | 1.00 | 1.00 | 1.0 | 1000.0 (1000.0) |", plans[3])
 
     def test_maps_mark_what_holds_the_published_ratio(self):
-        cells = {(20.0, 0.5): {i: field(csad=300 * (1 - study.GAIN) + i - 1, steering=0.9 + 0.01 * i) for i in range(3)},
-                 (90.0, 0.5): {i: field(csad=280.0 + i) for i in range(3)}}
+        cells = {("20", 0.5): {i: field(csad=300 * (1 - study.GAIN) + i - 1, steering=0.9 + 0.01 * i) for i in range(3)},
+                 ("90", 0.5): {i: field(csad=280.0 + i) for i in range(3)}}
+        cells = {levels: trials_of(fields, ["trial"]) for levels, fields in cells.items()}
         rows = study.map_rows(cells)
         self.assertEqual([row["arrivals"] for row in rows], [3, 3])
         lines = study.map_table(rows).splitlines()
@@ -85,8 +97,8 @@ class Counts(unittest.TestCase):
         self.assertEqual([name for name, _ in study.map_panels(rows)[0][1]], ["20 deg/s", "90 deg/s", "published"])
 
     def test_choices_are_held_against_what_is_assumed(self):
-        base = {0: drive(), 1: drive("jammed"), 2: drive(), 3: drive()}
-        other = {0: drive(time_s=330.0), 1: drive(), 2: drive("no_path"), 3: drive(time_s=330.0)}
+        base = frame([drive(), drive("jammed"), drive(), drive()])
+        other = frame([drive(time_s=330.0), drive(), drive("no_path"), drive(time_s=330.0)])
         cells = {(cycle, name): trials for cycle in study.CYCLES[1:]
                  for name, trials in ((study.AS_ASSUMED, base), ("slower", other))}
         rows = study.choice_rows(cells)
@@ -94,15 +106,3 @@ class Counts(unittest.TestCase):
         self.assertEqual((slower["arrived"], slower["won"], slower["lost"]), (3, 1, 1))
         self.assertAlmostEqual(slower["time"], 1.1)
         self.assertIn("| slower | 3 of 4 (+1, -1) | 1.10 (1.10..1.10) |", study.choices_table(rows))
-
-    def test_fields_are_read_by_abundance_and_number(self):
-        with tempfile.TemporaryDirectory() as folder:
-            values = [200.0 if name == "sim_time_s" else 14.0 for name in study.COLUMNS]
-            values[study.COLUMNS.index("plan_start_error_m")] = None
-            write_store(folder, (1, "cycle=csad,k_per_m2=0.013"), study.COLUMNS, [
-                (trial, outcome, values) for trial, outcome in enumerate((study.ARRIVED, "simulator_fault"))])
-            fields = study.read_fields(folder)
-        self.assertEqual(list(fields), [(0.013, 0)])
-        row = fields[0.013, 0]["csad"]
-        self.assertAlmostEqual(row["speed_cm_s"], 7.0)
-        self.assertTrue(math.isnan(row["plan_start_error_m"]))

@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from context import ROOT
+from context import ROOT, frame
 from cylinder import cylinder
 from cylinder import effects
 
@@ -24,7 +24,7 @@ def row(distance, orientation, errors_deg, stereo=0.0, wrong=0, measurements=Non
 
 
 def verdicts(rows):
-    return {line[1]: line[3] for line in cylinder.verdict_lines(rows)}
+    return {line[1]: line[3] for line in cylinder.verdict_lines(frame(rows))}
 
 
 class Counting(unittest.TestCase):
@@ -34,7 +34,7 @@ class Counting(unittest.TestCase):
             self.assertAlmostEqual(cylinder.stereo_step(d_m) / step, 1.0, delta=0.01)
 
     def test_means_and_spreads_are_those_of_the_measurements(self):
-        sums = cylinder.Sums([row(1.829, 0, [1.0, 2.0]), row(1.829, 0, [6.0])], "published")
+        sums = cylinder.Sums(frame([row(1.829, 0, [1.0, 2.0]), row(1.829, 0, [6.0])]), "published")
         self.assertAlmostEqual(sums.mean("orientation", "_deg"), 3.0)
         self.assertAlmostEqual(sums.spread("orientation", "_deg"), math.sqrt(7.0))
 
@@ -75,14 +75,15 @@ class Effects(unittest.TestCase):
                  "published_right_orientation_bias_deg": error, "published_right_orientation_error_deg": error ** 2,
                  "robust_found": 0.0, "robust_wrong": 0.0, "robust_right": 0.0}
                 for wrong, error in ((0.0, 2.0), (0.0, 4.0), (1.0, 0.0), (0.0, 3.0))]
-        self.assertEqual(effects.assumption_line("as assumed", rows),
+        self.assertEqual(effects.assumption_line("as assumed", frame(rows)),
                          ["as assumed", "100", "+3.00 ± 1.00", "25.0", "0", "-", "0.0"])
 
     def test_drives_are_counted_by_where_they_truly_end(self):
-        columns = {"outcome": ["goal_reached"] * 3 + ["false_goal"], "aids_used": [4.0, 4.0, 3.0, 1.0],
-                   "aids_gated_out": [0.0, 1.0, 0.0, 1.0], "position_error_m": [0.1, 0.2, math.nan, 0.9],
-                   "heading_error_deg": [-8.0, 1.0, 2.0, 3.0]}
-        self.assertEqual(effects.drive_line("ours", columns),
+        names = ("outcome", "aids_used", "aids_gated_out", "position_error_m", "heading_error_deg")
+        rows = frame(dict(zip(names, row)) for row in (
+            ("goal_reached", 4.0, 0.0, 0.1, -8.0), ("goal_reached", 4.0, 1.0, 0.2, 1.0),
+            ("goal_reached", 3.0, 0.0, math.nan, 2.0), ("false_goal", 1.0, 1.0, 0.9, 3.0)))
+        self.assertEqual(effects.drive_line("ours", rows),
                          ["ours", "75 (30..95)", "0.20 / 0.90", "3.00 / 8.00", "3.0", "0.50"])
 
     def test_every_drive_is_a_scenario_that_is_there(self):

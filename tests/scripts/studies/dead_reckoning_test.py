@@ -3,42 +3,45 @@
 import contextlib
 import csv
 import io
-import json
 import math
 import random
 import sys
 import tempfile
 import unittest
-import unittest.mock
 from pathlib import Path
+from unittest import mock
 
-from context import ROOT
+from context import ROOT, np, run_of, study
 from dead_reckoning import dead_reckoning as sand
 from dead_reckoning import sand_slopes
-import study
+
+ry = study.ry
 
 PAGE = (ROOT / "results/studies/dead_reckoning.md").read_text(encoding="utf-8")
 
 
-def sample(x, y=0.0, heading=0.0, believed=0.0, odometer=0.0, row="sample"):
-    return {"row": row, "true_x_m": str(x), "true_y_m": str(y), "true_heading_rad": str(heading),
-            "believed_heading_rad": str(believed), "odometer_m": str(odometer)}
+def trace(x, y, heading, believed, odometer):
+    """Arrays as rockyard.Trace has them, of lists over moments."""
+    none = np.zeros(len(x))
+    arrays = {"position_m": np.transpose([x, y, none]), "heading_rad": np.array(heading),
+              "believed": np.transpose([x, y, believed, odometer])}
+    return arrays | {"heading_error_rad": ry.traces.DERIVED["heading_error_rad"](arrays)}
 
 
 class Slopes(unittest.TestCase):
     def test_errors_are_interpolated_between_samples(self):
-        rows = [sample(0.1, 0.0, 0.0, 0.01, 0.12), sample(0.0, row="event"), sample(0.4, 0.4, 3.13, -3.13, 0.7)]
         # 0.1 m, then 0.5 m more: 0.35 m is half of it.
-        course = sand_slopes.course_of(rows, step_m=0.35)
+        moments = trace([0.1, 0.1, 0.4], [0.0, 0.0, 0.4], [0.0, 0.0, 3.13], [0.01, 0.01, -3.13], [0.12, 0.12, 0.7])
+        course = sand_slopes.course_of(moments, step_m=0.35)
         self.assertEqual(len(course), 1)
         turn = 2.0 * math.pi - 6.26
         self.assertAlmostEqual(course[0][0], math.degrees(0.5 * (0.01 + turn)))
         self.assertAlmostEqual(course[0][1], 0.5 * (0.02 + 0.1))
 
     def test_variances_are_about_the_mean_where_all_runs_go(self):
-        courses = [[(1.0, 5.0), (2.0, 5.0)], [(3.0, 5.0), (6.0, 5.0), (9.0, 9.0)]]
-        self.assertEqual(sand_slopes.variances(courses, 0), [2.0, 8.0])
-        self.assertEqual(sand_slopes.variances(courses, 1), [0.0, 0.0])
+        courses = [np.array([(1.0, 5.0), (2.0, 5.0)]), np.array([(3.0, 5.0), (6.0, 5.0), (9.0, 9.0)])]
+        self.assertEqual(list(sand_slopes.variances(courses, 0)), [2.0, 8.0])
+        self.assertEqual(list(sand_slopes.variances(courses, 1)), [0.0, 0.0])
 
     def test_slopes_of_known_curves(self):
         x = [sand_slopes.STEP_M * (i + 1) for i in range(28)]
@@ -51,18 +54,16 @@ class Slopes(unittest.TestCase):
         self.assertGreater(sand_slopes.slope_free(square), sand_slopes.slope_through_origin(square))
 
     def test_a_scale_error_has_the_slope_that_is_fitted_to_it(self):
-        step = 0.001
-        values = [(sand.fitted_scale() * step * (i + 1)) ** 2 for i in range(7000)]
-        self.assertAlmostEqual(sand_slopes.slope_through_origin(values, step) / 0.0039, 1.0, places=3)
+        values = (sand.fitted_scale() * sand_slopes.distances(range(28))) ** 2
+        # Of 28 points of 7 m: 3 (n (n + 1) / 2)^2 / (n (n + 1) (2 n + 1) / 6) of the step, in place of 3/4 of the length.
+        self.assertAlmostEqual(sand_slopes.slope_through_origin(values) / 0.0039, 29 / 28 * 28 / 28.5, places=9)
         self.assertAlmostEqual((sand.linear_deviation() * 7.0) ** 2, 0.0039 * 7.0)
 
 
 class Chances(unittest.TestCase):
     def test_tails(self):
-        self.assertAlmostEqual(sand.normal_tail(1.959964), 0.025, places=7)
-        # Tables of Student's t: 5 % one-sided.
-        self.assertAlmostEqual(sand.student_tail(2.353363, 3), 0.05, places=6)
-        self.assertAlmostEqual(sand.student_tail(1.734064, 18), 0.05, places=6)
+        # 1.959964 deviations to the largest error: 2.5 %.
+        self.assertAlmostEqual(sand.largest_chances(0.093 / 1.959964)[0], 1.0 - 0.975 ** 20, places=6)
         self.assertAlmostEqual(sand.any_of(0.01, 20), 1.0 - 0.99 ** 20)
 
     def test_a_heavy_tail_goes_over_into_the_normal_one(self):
@@ -121,33 +122,25 @@ class Powers(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
-    def write_run(self, folder, runs, heading=0.70, distance=0.0039):
-        """Courses that are walks of known variance a metre."""
-        rng = random.Random(11)
-        traces = folder / "traces"
-        traces.mkdir(parents=True)
-        (folder / "summary.json").write_text(json.dumps({"provenance": {"version": "1", "commit": "c"}}))
-        for trial in range(runs):
-            error_deg = error_m = 0.0
-            with open(traces / f"trial-{trial:06d}.csv", "w", encoding="utf-8", newline="") as file:
-                writer = csv.DictWriter(file, fieldnames=list(sample(0.0)))
-                writer.writeheader()
-                for step in range(1, 71):
-                    error_deg += rng.gauss(0.0, math.sqrt(0.1 * heading))
-                    error_m += rng.gauss(0.0, math.sqrt(0.1 * distance))
-                    writer.writerow(sample(0.1 * step, believed=math.radians(error_deg),
-                                           odometer=0.1 * step + error_m))
+    def courses(self, run, heading=0.70, distance=0.0039):
+        """Courses that are walks of known variance a metre, as many as the folder says."""
+        rng, x = np.random.default_rng(11), 0.1 * np.arange(1, 71)
+        walk = lambda variance: np.cumsum(rng.normal(0.0, math.sqrt(0.1 * variance), 70))
+        return [sand_slopes.course_of(trace(x, 0.0 * x, 0.0 * x, np.radians(walk(heading)), x + walk(distance)))
+                for _ in range(int(run.folder.name))]
+
+    def study(self, out, *runs):
+        open_run = lambda folder: run_of([{"outcome": "no_path"}], folder, provenance={"version": "1", "commit": "c"})
+        words = ["study", *runs, "--out", str(out), "--replicates", "100"]
+        with (mock.patch.object(sys, "argv", words), mock.patch.object(ry, "Run", open_run),
+              mock.patch.object(sand_slopes, "read_courses", self.courses)):
+            return sand.main()
 
     def test_it_gives_back_the_slopes_of_known_walks(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            self.write_run(folder / "level", 205)
-            self.write_run(folder / "other", 20)
-            words = ["study", *(str(folder / each) for each in ("level", "other", "other")), "--out", name,
-                     "--replicates", "100"]
-            with unittest.mock.patch.object(sys, "argv", words), \
-                    contextlib.redirect_stdout(io.StringIO()) as out:
-                self.assertEqual(sand.main(), 0)
+            with contextlib.redirect_stdout(io.StringIO()) as out:
+                self.study(folder, "205", "20", "20")
             with open(folder / "dead_reckoning.csv", encoding="utf-8", newline="") as file:
                 rows = list(csv.DictReader(file))
             self.assertEqual([row["runs"] for row in rows], ["level"] * 10 + ["up and down"] * 2 + ["up"])
@@ -165,15 +158,11 @@ class Study(unittest.TestCase):
         self.assertEqual([row[-1] for row in rows], ["75 %"] * 4)
         self.assertEqual(rows[0][5], "0.5000 .. 0.8700")  # 92.5 % of the way from the third to the last
         self.assertEqual([row[-1] for row in sand.exponent_rows("level", [below, above])], ["50 %", "0 %"])
-        self.assertEqual(study.quantile([4.0, 0.0, 1.0], 1.0), 4.0)
-        self.assertAlmostEqual(study.quantile([4.0, 0.0, 1.0], 0.75), 2.5)
 
     def test_too_few_courses_are_refused(self):
         with tempfile.TemporaryDirectory() as name:
-            self.write_run(Path(name) / "few", 3)
-            with unittest.mock.patch.object(sys, "argv", ["study", str(Path(name) / "few"), "--out", name]), \
-                    contextlib.redirect_stderr(io.StringIO()) as err, self.assertRaises(SystemExit):
-                sand.main()
+            with contextlib.redirect_stderr(io.StringIO()) as err, self.assertRaises(SystemExit):
+                self.study(name, "3")
             self.assertIn("fewer than twenty courses", err.getvalue())
 
     def test_the_page_holds_what_needs_no_runs(self):
@@ -190,4 +179,4 @@ class Study(unittest.TestCase):
             self.assertRegex(PAGE, rf"\| level \| {what} .*through the origin \| 100 \|.*\| {below} % \|")
             # Where the printed slopes lie: well inside of what sets of twenty scatter.
             self.assertTrue(10 < below < 90, what)
-            self.assertGreater(study.mean_interval(values)[2], sand.PUBLISHED[which])
+            self.assertGreater(study.rates.mean(values)[2], sand.PUBLISHED[which])

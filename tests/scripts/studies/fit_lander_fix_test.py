@@ -1,10 +1,10 @@
 """The fit of the lander's law on rows whose law is known."""
 
-import math
-import random
 import unittest
 
-import context  # noqa: F401  (where studies are)
+import pandas
+
+from context import np
 from calibrations import fit_lander_fix
 
 LAW = {
@@ -22,21 +22,18 @@ LAW = {
 
 def made(number, seed, law):
     """Rows of a finder whose law is known."""
-    rng = random.Random(seed)
-    rows = []
-    for _ in range(number):
-        row = {"distance_m": rng.choice((2, 3, 4.5, 7, 10, 15)), "orientation_deg": rng.choice(range(-165, 180, 30)),
-               "sun_elevation_deg": rng.choice((10, 30, 60)), "measurements": 1, "outcome": "measured"}
-        f = fit_lander_fix.features(row)
-        found = rng.random() < fit_lander_fix.chance(law["found"], f)
-        wrong = found and rng.random() < fit_lander_fix.chance(law["wrong"], f)
-        row |= {"x_found": found, "x_wrong": wrong, "x_right": found and not wrong}
-        turn = rng.uniform(-1, 1) * law["wrong_turn_deg"] if wrong else 0.0
-        row |= {"x_orientation_bias_deg": turn, "x_stereo_bias": math.exp(rng.gauss(0, law["wrong_range"])) - 1}
-        for name, (column, factor) in fit_lander_fix.ERRORS.items():
-            error = fit_lander_fix.bias_of(law, name) + rng.gauss(0, fit_lander_fix.deviation(law, name, row))
-            row[f"x_right_{column.format('bias')}"] = error / factor
-        rows.append(row)
+    rng = np.random.default_rng(seed)
+    rows = pandas.DataFrame({"distance_m": rng.choice([2, 3, 4.5, 7, 10, 15], number),
+                             "orientation_deg": rng.choice(range(-165, 180, 30), number),
+                             "sun_elevation_deg": rng.choice([10, 30, 60], number), "measurements": 1})
+    found = rng.random(number) < fit_lander_fix.chance(law["found"], rows)
+    wrong = found & (rng.random(number) < fit_lander_fix.chance(law["wrong"], rows))
+    rows = rows.assign(x_found=found * 1.0, x_wrong=wrong * 1.0, x_right=(found & ~wrong) * 1.0,
+                       x_orientation_bias_deg=wrong * rng.uniform(-1, 1, number) * law["wrong_turn_deg"],
+                       x_stereo_bias=np.expm1(rng.normal(0, law["wrong_range"], number)))
+    for name, (column, factor) in fit_lander_fix.ERRORS.items():
+        errors = fit_lander_fix.bias_of(law, name) + rng.normal(0, fit_lander_fix.deviation(law, name, rows))
+        rows[f"x_right_{column.format('bias')}"] = errors / factor
     return rows
 
 
@@ -67,24 +64,24 @@ class Fits(unittest.TestCase):
         other = made(12000, 4, LAW)
         for name in fit_lander_fix.ERRORS:
             values = fit_lander_fix.ratios(other, "x", self.law, name)
-            self.assertAlmostEqual(sum(values) / len(values), 1.0, delta=0.09, msg=name)
+            self.assertAlmostEqual(values.mean(), 1.0, delta=0.09, msg=name)
 
     def test_control_rows_of_another_law_are_told_apart(self):
         wider = LAW | {"heading": {"least_deg": 1.2, "pixels": 0.72}}
         values = fit_lander_fix.ratios(made(12000, 4, wider), "x", self.law, "heading")
-        self.assertGreater(sum(values) / len(values), 1.3)
+        self.assertGreater(values.mean(), 1.3)
 
     def test_a_pose_beside_the_cylinder_is_wrong(self):
-        row = next(r for r in made(100, 6, LAW) if r["x_right"])
-        edge = 1e3 * fit_lander_fix.RADIUS_M / row["distance_m"]
-        for bearing, wrong in ((0.99 * edge, 0), (1.01 * edge, 1), (-1.01 * edge, 1)):
-            found = fit_lander_fix.judged([row | {"x_right_bearing_bias_mrad": bearing}], "x")[0]
-            self.assertEqual((int(found["x_wrong"]), int(found["x_right"])), (wrong, 1 - wrong))
+        rows = made(100, 6, LAW)
+        rows = rows[rows.x_right > 0]
+        edge = 1e3 * fit_lander_fix.RADIUS_M / rows.distance_m
+        for factor, wrong in ((0.99, 0), (1.01, 1), (-1.01, 1)):
+            found = fit_lander_fix.judged(rows.assign(x_right_bearing_bias_mrad=factor * edge), "x")
+            self.assertEqual((set(found.x_wrong), set(found.x_right)), ({wrong}, {1 - wrong}))
 
     def test_rows_that_cannot_be_fitted_end_it(self):
         rows = made(10, 5, LAW)
-        without = [{k: v for k, v in row.items() if k != "orientation_deg"} for row in rows]
-        for bad in ([], without, [rows[0] | {"measurements": 2}]):
+        for bad in (rows[:0], rows.drop(columns="orientation_deg"), rows.assign(measurements=2)):
             with self.assertRaises(SystemExit):
                 fit_lander_fix.fit(bad, "x")
 

@@ -1,25 +1,26 @@
-"""Counting of the study of localization, on cells made by hand and on a store made by hand."""
+"""Counting of the study of localization, on cells made by hand."""
 
 import math
-import tempfile
 import unittest
 
-from context import write_store
+from context import frame
 from localization import localization
+
+COLUMNS = ("position_error_m", "heading_error_deg", "believed_position_sd_m", "aids_used", "aids_gated_out", "aids_in_doubt")
 
 
 def trial(goal_m, outcome="goal_reached", nees=math.nan):
     inside = math.nan if math.isnan(nees) else float(nees <= 7.815)
-    return {name: 0.0 for name in localization.COLUMNS} | {
+    return dict.fromkeys(COLUMNS, 0.0) | {
         "true_goal_distance_m": goal_m, "outcome": outcome, "pose_nees": nees, "inside_95": inside}
 
 
 def cells():
     place = ("nominal", "10 m")
     return {
-        (*place, "dead reckoning"): [trial(0.1), trial(0.5), trial(1.0), trial(2.0)],
-        (*place, "all"): [trial(0.1, nees=1.0), trial(0.1, nees=9.0), trial(0.5, nees=2.0),
-                          trial(0.7, "jammed", nees=50.0)],
+        (*place, "dead reckoning"): frame([trial(0.1), trial(0.5), trial(1.0), trial(2.0)]),
+        (*place, "all"): frame([trial(0.1, nees=1.0), trial(0.1, nees=9.0), trial(0.5, nees=2.0),
+                                trial(0.7, "jammed", nees=50.0)]),
     }
 
 
@@ -48,19 +49,10 @@ class Counting(unittest.TestCase):
 
     def test_the_longest_distance_ends_where_one_before_fell_short(self):
         near, middle, far = ([trial(0.1)] * 2, [trial(9.0)] * 2, [trial(0.1)] * 2)
-        course = {("nominal", distance, "dead reckoning"): rows
+        course = {("nominal", distance, "dead reckoning"): frame(rows)
                   for distance, rows in (("3 m", near), ("5 m", middle), ("10 m", far))}
         text = localization.day_table(course, localization.reach_rows(course))
         self.assertIn("| nominal | dead reckoning | 3 m | 3 m |", text)
 
-    def test_a_store_is_read_by_the_names_of_its_cells(self):
-        with tempfile.TemporaryDirectory() as folder:
-            values = [0.5] + [None] * (len(localization.COLUMNS) - 1)
-            write_store(folder, (0, "k_per_m2=0.013,distance_m=5 m,aids=sun"), localization.COLUMNS,
-                        [(1, "jammed", values), (0, "simulator_fault", values)])
-            read = localization.read_cells(folder)
-        self.assertEqual(list(read), [("Viking Lander 2", "5 m", "sun")])
-        (row,) = read["Viking Lander 2", "5 m", "sun"]
-        self.assertEqual(row["outcome"], "jammed")
-        self.assertEqual(row["true_goal_distance_m"], 0.5)
-        self.assertTrue(math.isnan(row["pose_nees"]))
+    def test_cells_have_the_names_of_their_terrain(self):
+        self.assertEqual(list(localization.named({(0.013, "5 m", "sun"): frame([trial(0.5)])})), [("Viking Lander 2", "5 m", "sun")])

@@ -4,7 +4,7 @@ import math
 import random
 import unittest
 
-import context  # noqa: F401  (where studies are)
+from context import frame
 from calibrations import fit_visual_motion
 from odometry import odometry
 from odometry_speed import odometry_speed as speed
@@ -17,13 +17,6 @@ def line(end_percent, gaps=0, steps=100, case="navcam"):
 
 
 class Counting(unittest.TestCase):
-    def test_the_interval_of_a_median_is_that_of_the_tables(self):
-        # Ranks of 95 % intervals, of any table of the sign test: 1 of 6, 2 of 10, 6 of 20.
-        for count, rank in ((6, 1), (10, 2), (20, 6)):
-            values = list(range(1, count + 1))
-            self.assertEqual(odometry.median_interval(values[::-1]), (rank, count + 1 - rank))
-        self.assertIsNone(odometry.median_interval([1, 2, 3, 4, 5]))
-
     def test_a_case_is_summed_up_over_its_sequences(self):
         rows = [line(0.5, 3), line(1.5), line(1.0, 1, 200), line(9.0, case="hazcam")]
         found = odometry.summary(rows, "navcam")
@@ -97,9 +90,9 @@ class Fits(unittest.TestCase):
 
 class Counts(unittest.TestCase):
     def rows(self, outcomes):
-        return [{"outcome": outcome, "position_error_m": float(i), "true_distance_m": 10.0, "sim_time_s": 100.0,
-                 "energy_wh": 2.0, "visual_steps": 10.0, "visual_failures": 1.0, "trial": i}
-                for i, outcome in enumerate(outcomes)]
+        return frame([{"outcome": outcome, "position_error_m": float(i), "true_distance_m": 10.0, "sim_time_s": 100.0,
+                       "energy_wh": 2.0, "visual_steps": 10.0, "visual_failures": 1.0}
+                      for i, outcome in enumerate(outcomes)])
 
     def test_summary(self):
         found = visual_odometry.summary(self.rows(["goal_reached", "false_goal", "goal_reached", "no_path",
@@ -110,7 +103,7 @@ class Counts(unittest.TestCase):
         self.assertEqual(found["failed"], 0.1)
 
     def test_no_steps_have_no_rate(self):
-        rows = [row | {"visual_steps": 0.0, "visual_failures": 0.0} for row in self.rows(["goal_reached"])]
+        rows = self.rows(["goal_reached"]).assign(visual_steps=0.0, visual_failures=0.0)
         self.assertTrue(math.isnan(visual_odometry.summary(rows)["failed"]))
 
     def test_images_by_cell(self):

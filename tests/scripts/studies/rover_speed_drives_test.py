@@ -4,22 +4,25 @@ import csv
 import math
 import unittest
 
-from context import ROOT
+from context import ROOT, frame
 from rover_speed import drives
 from rover_speed import model
 
 
+COLUMNS = ("sim_time_s", "true_distance_m", "move_time_s", "image_sets", "visual_steps", "point_turns", "position_error_m")
+
+
 def drive(outcome="goal_reached", **values):
-    return {name: 0.0 for name in drives.COLUMNS} | values | {"outcome": outcome}
+    return dict.fromkeys(COLUMNS, 0.0) | values | {"outcome": outcome}
 
 
 class Counts(unittest.TestCase):
     def test_speed_is_made_good_over_the_course(self):
-        found = drives.summary([drive(sim_time_s=1000.0, true_distance_m=16.0, move_time_s=300.0, image_sets=40.0,
+        found = drives.summary(frame([drive(sim_time_s=1000.0, true_distance_m=16.0, move_time_s=300.0, image_sets=40.0,
                                       position_error_m=0.16),
                                 drive("false_goal", sim_time_s=2000.0, true_distance_m=24.0, move_time_s=500.0,
                                       image_sets=60.0, visual_steps=8.0, position_error_m=0.72),
-                                drive("jammed", sim_time_s=9.0, true_distance_m=1.0, position_error_m=9.0)])
+                                drive("jammed", sim_time_s=9.0, true_distance_m=1.0, position_error_m=9.0)]))
         self.assertEqual((found["trials"], found["arrived"]), (3, 2))
         self.assertAlmostEqual(found["m_per_h"], 0.5 * (14.5 * 3.6 + 14.5 * 1.8))
         self.assertAlmostEqual(found["detour"], 20.0 / 14.5)
@@ -31,7 +34,7 @@ class Counts(unittest.TestCase):
         self.assertAlmostEqual(found["error_share_95"], 0.029)
 
     def test_nobody_arrives(self):
-        found = drives.summary([drive("no_path", sim_time_s=9.0)])
+        found = drives.summary(frame([drive("no_path", sim_time_s=9.0)]))
         self.assertEqual(found["arrived"], 0)
         self.assertTrue(math.isnan(found["m_per_h"]))
 
@@ -44,10 +47,10 @@ class Counts(unittest.TestCase):
 
     def test_tables_have_a_line_for_each_drive_and_computer(self):
         rows = model.read_times(ROOT / "results/studies/compute_times.csv")
-        cells = {("stops by wheels", "athena_2012", k): [drive(sim_time_s=1000.0, true_distance_m=16.0)]
+        cells = {("stops by wheels", "athena_2012", k): frame([drive(sim_time_s=1000.0, true_distance_m=16.0)])
                  for k in (0.002, 0.02)}
-        cells["stops by vision", "mer_rad6000", 0.002] = [drive("jammed")]
-        cells["stops by vision", "mer_rad6000", 0.02] = [drive("jammed")]
+        cells["stops by vision", "mer_rad6000", 0.002] = frame([drive("jammed")])
+        cells["stops by vision", "mer_rad6000", 0.02] = frame([drive("jammed")])
         lines = list(drives.lines_of(cells, rows))
         self.assertEqual(len(drives.drives_speed(lines).splitlines()), 2 + 2)
         self.assertIn("- [0 of 1]", drives.drives_speed(lines))

@@ -31,9 +31,10 @@ print(json.dumps({"fingerprint": made(text), "trial_hash": made(text, bits, tria
                   "provenance": {"cpu_level": "v4"}}))
 """
 SCRIPT = f"#!{sys.executable} -IS" + """
-import subprocess, sys, time
+import os, subprocess, sys, time
 from pathlib import Path
 page, rockyard = sys.argv[1:3]
+Path("build/python_path").write_text(os.environ["PYTHONPATH"])
 Path(page).write_text("# Half\\n")
 if Path("build/slow").exists():
     time.sleep(600)
@@ -124,6 +125,10 @@ class Runner(unittest.TestCase):
         else:
             shutil.rmtree(self.root)
             shutil.copytree(made, self.root)
+
+    def test_studies_take_the_package_of_the_build(self):
+        self.assertEqual(self.call("run", "one")[0], 0)
+        self.assertEqual(self.read("build/python_path").split(os.pathsep)[0], str(self.root / "build/release/python"))
 
     def test_a_page_without_a_stamp_must_say_so_with_the_build_that_it_names(self):
         code, said, _ = self.call("check")

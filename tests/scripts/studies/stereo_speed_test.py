@@ -1,18 +1,16 @@
 """The studies of stereo: their pages hold what they print of the stored figures, and errors of ranges are
 counted as their definition says."""
 
-import array
 import contextlib
 import csv
 import io
 import json
 import math
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-from context import ROOT
+from context import ROOT, np, study
 from stereo_speedup import pyramid
 from stereo_speedup import stereo_speedup
 
@@ -74,20 +72,17 @@ class ErrorTest(unittest.TestCase):
     def test_pfm_is_read_from_below(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "image.pfm"
-            values = array.array("f", [3.0, 4.0, 1.0, 2.0])
-            scale = b"-1\n" if sys.byteorder == "little" else b"1\n"
-            path.write_bytes(b"Pf\n2 2\n" + scale + values.tobytes())
-            self.assertEqual(pyramid.read_pfm(path), (2, 2, [1.0, 2.0, 3.0, 4.0]))
-            values.byteswap()
-            path.write_bytes(b"Pf\n2 2\n" + (b"1\n" if sys.byteorder == "little" else b"-1\n") + values.tobytes())
-            self.assertEqual(pyramid.read_pfm(path), (2, 2, [1.0, 2.0, 3.0, 4.0]))
+            for scale, kind in ((b"-1", "<f4"), (b"1", ">f4")):
+                path.write_bytes(b"Pf\n2 2\n" + scale + b"\n" + np.array([3.0, 4.0, 1.0, 2.0], kind).tobytes())
+                self.assertEqual(study.read_portable(path).tolist(), [[1.0, 2.0], [3.0, 4.0]])
+            path.write_bytes(b"P5\n3 1\n255\n\x00\x0a\xff")
+            self.assertEqual(study.read_portable(path).tolist(), [[0.0, 10.0, 255.0]])
 
     def test_truth_of_a_level_is_the_mean_in_its_pixels(self):
-        truth = [4.0, 5.0, 8.0, 20.0, 4.0, 5.0, 8.0, 8.0]
-        reduced = pyramid.truth_at(1, 4, 2, truth)
-        self.assertEqual(reduced[0], 2.25)
-        self.assertTrue(math.isnan(reduced[1]))  # two surfaces
-        self.assertTrue(math.isnan(pyramid.truth_at(1, 2, 2, [4.0, math.nan, 4.0, 4.0])[0]))
+        reduced = pyramid.truth_at(1, np.array([[4.0, 5.0, 8.0, 20.0], [4.0, 5.0, 8.0, 8.0]]))
+        self.assertEqual(reduced[0, 0], 2.25)
+        self.assertTrue(math.isnan(reduced[0, 1]))  # two surfaces
+        self.assertTrue(math.isnan(pyramid.truth_at(1, np.array([[4.0, math.nan], [4.0, 4.0]]))[0, 0]))
 
     def test_range_does_not_depend_on_the_level(self):
         focal_px = 256 / math.tan(math.radians(22.5))
@@ -97,17 +92,11 @@ class ErrorTest(unittest.TestCase):
     def test_one_error_in_pixels_of_the_level_is_twice_the_range_error(self):
         errors = []
         for level in (0, 1):
-            true = 60.0 / 2 ** level
-            tally = pyramid.Tally()
-            for sign in (-1, 1):
-                tally.add(level, true + 0.01 * sign, true)
-            errors.append(tally.row(level, (1.5, 2.0))["range_rms_mm"])
+            true = np.full(2, 60.0 / 2 ** level)
+            errors.append(pyramid.row_of(level, (1.5, 2.0), true + [-0.01, 0.01], true)["range_rms_mm"])
         self.assertAlmostEqual(errors[1] / errors[0], 2.0, places=5)
 
     def test_wrong_and_missing_matches_are_counted_apart(self):
-        tally = pyramid.Tally()
-        for found in (10.5, 12.0, math.nan, math.inf, -1.0):
-            tally.add(0, found, 10.0)
-        row = tally.row(0, (1.5, 2.0))
+        row = pyramid.row_of(0, (1.5, 2.0), np.array([10.5, 12.0, math.nan, math.inf, -1.0]), np.full(5, 10.0))
         self.assertEqual((row["pixels"], row["matched"], row["wrong"]), (5, 0.4, 0.5))
         self.assertAlmostEqual(row["disparity_rms_px"], 0.5)
