@@ -60,6 +60,7 @@ class WheelOdometry final : public localization::Estimator {
     if (!update.mirrored) estimate_.covariance = messages::PoseCovariance::Zero();
   }
 
+  using Estimator::Update;  // of motions, which are of no interest
   // Takes a place as if it were measured now, though the rover went on since.
   localization::AidUse Update(const messages::PoseFix& fix) override {
     const bool place = fix.measured[kX] && fix.measured[kY];

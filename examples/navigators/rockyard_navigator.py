@@ -56,12 +56,15 @@ def look(direction="ahead"):
     return {"look": direction}
 
 def rest(period_s):
+    """Stands so long."""
     return {"motion": {"kind": "stop"}, "until": {"period_s": period_s}}
 
 def arrived():
+    """Says that the goal is reached, which ends the drive."""
     return {"status": "arrived"}
 
 def gave_up():
+    """Says that there is no way, which ends the drive."""
     return {"status": "gave_up"}
 
 
@@ -119,21 +122,25 @@ def _answer(cls, navigator, ask):
     return (navigator.overlay() if ask.type == "overlay" else {}), navigator
 
 
+def reply(cls, navigator, text, show=traceback.print_exc):
+    """Returns the text of the answer to a message, and the navigator that the next one is for. `show` is
+    called where the navigator raises something."""
+    try:
+        ask = json.loads(text, object_hook=Values, parse_constant=lambda _: None)
+        answer, navigator = _answer(cls, navigator, ask)
+        return json.dumps({**answer, "id": ask.id}, allow_nan=False).encode(), navigator
+    except Exception as error:  # the drive ends with its text
+        show()
+        at = traceback.extract_tb(error.__traceback__)[-1]
+        told = f"{type(error).__name__}: {error} ({at.filename}:{at.lineno})"
+        return json.dumps({"error": told}).encode(), navigator
+
+
 def run(cls):
     """Serves the navigator until rockyard closes its end."""
     navigator = None
     with open(3, "rb") as requests, open(4, "wb") as answers:
         while len(size := requests.read(4)) == 4:
-            text = requests.read(struct.unpack("<I", size)[0])
-            try:
-                ask = json.loads(text, object_hook=Values, parse_constant=lambda _: None)
-                answer, navigator = _answer(cls, navigator, ask)
-                answer = {**answer, "id": ask.id}
-                data = json.dumps(answer, allow_nan=False).encode()
-            except Exception as error:  # the drive ends with its text
-                traceback.print_exc()
-                at = traceback.extract_tb(error.__traceback__)[-1]
-                told = f"{type(error).__name__}: {error} ({at.filename}:{at.lineno})"
-                data = json.dumps({"error": told}).encode()
+            data, navigator = reply(cls, navigator, requests.read(struct.unpack("<I", size)[0]))
             answers.write(struct.pack("<I", len(data)) + data)
             answers.flush()

@@ -27,7 +27,8 @@ def faults_of(page, build):
             (folder / name).symlink_to(ROOT / name)
         (folder / "build").mkdir()
         (folder / "build/release").symlink_to(build)
-        environment = dict(os.environ, PATH=f"{build / 'bin'}{os.pathsep}{os.environ['PATH']}")
+        environment = dict(os.environ, PATH=f"{build / 'bin'}{os.pathsep}{os.environ['PATH']}",
+                           PYTHONPATH=str(build / "python"), MPLBACKEND="Agg")
         return list(snippets.faults_of(page, folder, environment, sys.executable))
 
 

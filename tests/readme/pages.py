@@ -26,7 +26,7 @@ FILE_COLUMN = {"file", "files"}
 def pages_of(root):
     """The pages whose links are checked."""
     found = sorted(root.glob("*.md"))
-    for folder in ("docs", "results", "scenarios", "scripts", "src", "terrain", "tests"):
+    for folder in ("docs", "examples", "results", "scenarios", "scripts", "src", "terrain", "tests"):
         found += sorted(page for page in (root / folder).rglob("*.md")
                         if "node_modules" not in page.parts and not page.is_relative_to(root / "results/runs"))
     return found
