@@ -1,8 +1,6 @@
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -29,12 +27,12 @@ using campaign::WorkResult;
 
 // What running a scenario and running a sweep take alike.
 struct RunOptions {
-  std::filesystem::path source;
+  std::string source;
   std::vector<std::string> overrides;
   std::vector<std::string> ablations;
   std::optional<std::int64_t> trials;
   std::optional<std::int64_t> seed;
-  std::filesystem::path folder;
+  std::string folder;
   std::string existing;
   std::string shard;
   int threads = 0;
@@ -156,12 +154,15 @@ void BindRuns(py::module_& module) {
     return WithoutLock(
         [&] { return campaign::SettingsOf({.libraries = libraries, .processes = processes}); });
   });
-  module.def("merge", [](const std::vector<std::filesystem::path>& shards,
-                         const std::filesystem::path& folder, bool partial) {
-    return Told(WithoutLock([&] {
-      return api::Merge({.shards = shards, .folder = folder, .partial = partial, .observer = {}});
-    }));
-  });
+  module.def("merge",
+             [](const std::vector<std::string>& shards, const std::string& folder, bool partial) {
+               return Told(WithoutLock([&] {
+                 return api::Merge({.shards = {shards.begin(), shards.end()},
+                                    .folder = folder,
+                                    .partial = partial,
+                                    .observer = {}});
+               }));
+             });
 }
 
 }  // namespace
@@ -170,9 +171,8 @@ void BindCampaigns(py::module_& module) {
   BindRuns(module);
   module.def(
       "report",
-      [](const std::vector<std::string>& runs, const std::string& cell,
-         const std::filesystem::path& page, const std::string& title, std::size_t replays,
-         std::size_t tracks) {
+      [](const std::vector<std::string>& runs, const std::string& cell, const std::string& page,
+         const std::string& title, std::size_t replays, std::size_t tracks) {
         api::ReportRequest request{.runs = runs,
                                    .cell = cell,
                                    .page = page,
@@ -193,27 +193,25 @@ void BindCampaigns(py::module_& module) {
   const auto found = [](const api::Finding& finding) {
     return py::make_tuple(static_cast<int>(finding.outcome), finding.json);
   };
-  module.def("check", [found](const std::vector<std::string>& runs,
-                              const std::filesystem::path& reference, const std::string& cell) {
+  module.def("check", [found](const std::vector<std::string>& runs, const std::string& reference,
+                              const std::string& cell) {
     return found(WithoutLock(
         [&] { return api::Check({.runs = runs, .reference = reference, .cell = cell}); }));
   });
-  module.def("compare",
-             [found](const std::filesystem::path& first, const std::filesystem::path& second,
-                     const std::string& cell, const std::string& second_cell) {
-               return found(WithoutLock([&] {
-                 return api::Compare(
-                     {.first = first, .second = second, .cell = cell, .second_cell = second_cell});
-               }));
-             });
-  module.def("write_baseline",
-             [](const std::vector<std::string>& runs, const std::filesystem::path& file,
-                const std::string& name, const std::string& reason) {
-               WithoutLock([&] {
-                 api::WriteBaseline({.runs = runs, .file = file, .name = name, .reason = reason});
-                 return 0;
-               });
-             });
+  module.def("compare", [found](const std::string& first, const std::string& second,
+                                const std::string& cell, const std::string& second_cell) {
+    return found(WithoutLock([&] {
+      return api::Compare(
+          {.first = first, .second = second, .cell = cell, .second_cell = second_cell});
+    }));
+  });
+  module.def("write_baseline", [](const std::vector<std::string>& runs, const std::string& file,
+                                  const std::string& name, const std::string& reason) {
+    WithoutLock([&] {
+      api::WriteBaseline({.runs = runs, .file = file, .name = name, .reason = reason});
+      return 0;
+    });
+  });
   module.def("replay", [](const std::string& source, const std::string& cell, std::uint32_t trial,
                           const std::string& page, const std::string& plan) {
     campaign::ReplayRequest request{

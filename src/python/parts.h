@@ -1,5 +1,7 @@
 // The parts of the module, each in the file of its name; module.cc puts them together. What they
 // bind is private to the package: rockyard/*.py is what users see, and _core.pyi says the types.
+// Paths come as texts: pybind11's reader of paths calls Python, and takes an interrupt there for a
+// wrong type.
 #pragma once
 
 #include <pybind11/numpy.h>

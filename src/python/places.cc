@@ -1,10 +1,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -107,9 +105,9 @@ void BindPlaces(py::module_& module) {
       .def("rocks", &RocksOf);
   module.def(
       "images",
-      [](const std::filesystem::path& scenario, std::optional<std::uint64_t> seed,
-         std::uint32_t trial, std::optional<double> x_m, std::optional<double> y_m,
-         std::optional<double> heading_rad, bool behind) {
+      [](const std::string& scenario, std::optional<std::uint64_t> seed, std::uint32_t trial,
+         std::optional<double> x_m, std::optional<double> y_m, std::optional<double> heading_rad,
+         bool behind) {
         return TakeImages({.scenario = scenario,
                            .overrides = {},
                            .seed = seed,

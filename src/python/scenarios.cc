@@ -1,7 +1,5 @@
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -54,7 +52,7 @@ void BindScenarios(py::module_& module) {
       .def(py::init())
       .def_static(
           "load",
-          [](const std::filesystem::path& path, const std::vector<std::string>& overrides,
+          [](const std::string& path, const std::vector<std::string>& overrides,
              const OpenScenario& defaults) {
             const py::gil_scoped_release released;
             return OpenScenario{api::Scenario::Load(path, overrides, defaults.values),
@@ -64,7 +62,7 @@ void BindScenarios(py::module_& module) {
       .def_static(
           "parse",
           [](const std::string& text, const std::vector<std::string>& overrides,
-             const std::filesystem::path& folder, const OpenScenario& defaults) {
+             const std::string& folder, const OpenScenario& defaults) {
             const py::gil_scoped_release released;
             return OpenScenario{api::Scenario::Parse(text, overrides, folder, defaults.values),
                                 defaults.program};

@@ -1,5 +1,4 @@
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -27,7 +26,7 @@ namespace fs = std::filesystem;
 
 // What is known of a run, or of the first cell of a sweep where none is wanted, but for its
 // records.
-py::dict HeadOf(const fs::path& folder, const std::string& wanted) {
+py::dict HeadOf(const std::string& folder, const std::string& wanted) {
   std::optional<batch::CampaignIdentity> campaign;
   std::vector<std::string> builds;
   std::int64_t planned = 0;
@@ -84,7 +83,7 @@ py::tuple RecordsOf(const campaign::StoredRun& run) {
 }
 
 // Returns the stored record of a trial; nothing where it is pending.
-std::optional<truth::Record> StoredRecord(const fs::path& folder, const std::string& cell,
+std::optional<truth::Record> StoredRecord(const std::string& folder, const std::string& cell,
                                           std::int64_t trial, truth::RecordSchema& schema) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
   schema = store.identity().schema;
@@ -96,7 +95,7 @@ std::optional<truth::Record> StoredRecord(const fs::path& folder, const std::str
 
 // Drives a trial of a run again. Returns the bytes of its trace, whether the record is the stored
 // one (None: none is stored), and where it is not.
-py::tuple TraceOf(const fs::path& folder, const std::string& cell, const OpenScenario& defaults,
+py::tuple TraceOf(const std::string& folder, const std::string& cell, const OpenScenario& defaults,
                   std::uint32_t trial, const std::string& format) {
   std::string bytes;
   std::optional<bool> repeats;
@@ -128,7 +127,7 @@ void BindStores(py::module_& module) {
     return py::tuple(names);
   }();
   module.def("head", &HeadOf);
-  module.def("read_records", [](const fs::path& folder, const std::string& cell) {
+  module.def("read_records", [](const std::string& folder, const std::string& cell) {
     const campaign::StoredRun run = [&] {
       const py::gil_scoped_release released;
       return campaign::ReadRun(folder, cell);
@@ -138,7 +137,7 @@ void BindStores(py::module_& module) {
     return py::make_tuple(RecordsOf(run), details, batch::TrialHash(run.records));
   });
   // All cells at once, as opening a campaign costs more than its records.
-  module.def("read_campaign", [](const fs::path& folder) {
+  module.def("read_campaign", [](const std::string& folder) {
     const std::vector<campaign::StoredRun> runs = [&] {
       const py::gil_scoped_release released;
       return campaign::ReadCampaign(folder);

@@ -262,7 +262,7 @@ def merge(shards: "Iterable[str | PathLike[str] | Run]", folder: "str | PathLike
 def load(folder: "str | PathLike[str]", deciders: "Decider | Iterable[Decider]" = ()) -> "Run | Sweep":
     """Opens the folder of a run or of a sweep. `deciders`: what it was driven with, to drive it again. Where a type
     checker has to know which it is: Run(folder), Sweep(folder)."""
-    head, kinds = _core.head(folder, ""), tuple(_listed(deciders))
+    head, kinds = _core.head(str(folder), ""), tuple(_listed(deciders))
     return Sweep(folder, kinds, head) if head["is_sweep"] else Run(folder, "", kinds, head)
 
 

@@ -86,7 +86,7 @@ def read(folder: Path, cell: str, columns: list[str]) -> Told:
             return Told(np.load(file, mmap_mode="r"), kept["hash"], kept["sentences"], kept["sentence"])
     except (OSError, ValueError, KeyError, TypeError):
         pass  # none, half of one, or something else by its name
-    arrays, details, digest = _core.read_records(folder, cell)
+    arrays, details, digest = _core.read_records(str(folder), cell)
     sentences = sorted(set(details))
     place_of = {detail: place for place, detail in enumerate(sentences)}
     told = Told(structured(*arrays, columns), digest, sentences, [place_of[detail] for detail in details])

@@ -48,7 +48,7 @@ class Run:
                  _head: "dict[str, Any] | None" = None) -> None:
         self.folder = Path(folder)
         self._deciders = deciders
-        self._head = _head or _core.head(self.folder, cell)
+        self._head = _head or _core.head(str(self.folder), cell)
         if self._head["is_sweep"] and not cell:
             raise InputError([Problem(str(folder), "is a sweep", "open it by load(), or name a cell")])
         self.cell: str = self._head["name"]
@@ -278,7 +278,7 @@ class Trial:
     def _driven(self, form: str) -> bytes:
         made = Scenario(None, deciders=self.run._deciders)
         with self.run._knowing():
-            data, repeats, differences = _core.trace(self.run.folder, self.run.cell, made._core, self.index, form)
+            data, repeats, differences = _core.trace(str(self.run.folder), self.run.cell, made._core, self.index, form)
         if repeats is False:
             raise InputError([Problem(f"trial {self.index}", each, "use the program that made the run")
                               for each in differences])
@@ -335,7 +335,7 @@ class Sweep:
                  _head: "dict[str, Any] | None" = None) -> None:
         self.folder = Path(folder)
         self._deciders = deciders
-        head = _head or _core.head(self.folder, "")
+        head = _head or _core.head(str(self.folder), "")
         if not head["is_sweep"]:
             raise InputError([Problem(str(folder), "is the folder of a run", "use load(folder) or Run(folder)")])
         self.names: list[str] = head["cells"]
@@ -378,7 +378,7 @@ class Sweep:
     def trials(self) -> "pandas.DataFrame":
         """All trials of all cells, tidy: the levels along the axes, then the columns of Run.trials."""
         pandas = need("pandas", "python3-pandas", "Sweep.trials")
-        columns, cells = _core.read_campaign(self.folder)
+        columns, cells = _core.read_campaign(str(self.folder))
         names = [name for name, _, _ in columns]
         frames = []
         for cell, (trials, outcomes, values) in zip(self.summary["cells"], cells):
