@@ -40,8 +40,11 @@ TEST(UrdfNames, NamesWhatRockyardsRoverHasNot) {
                   Says("\"mesh\"", "nor 5 more"), Says("\"transmission\"", "is not read"),
                   Says("collision of link \"mast\"", "neither of the two largest boxes"),
                   Says("fork\"", "makes mass.wheel_kg 1.9, where others make it 1.5"),
-                  Says("link \"base_link\"", "a solid box"), Says("main_arm\"", "a flat bar"),
-                  Says("rear_arm\"", "a flat bar"), Says("link \"l_", "a solid cylinder"),
+                  Says("link \"base_link\"",
+                       "(1.18, 2.5, 2.32) kg m2: rockyard takes those of a solid box"),
+                  Says("main_arm\"", "a flat bar"), Says("rear_arm\"", "a flat bar"),
+                  Says("link \"l_",
+                       "(0.0066, 0.0108, 0.0066) kg m2: rockyard takes those of a solid cylinder"),
                   Says("line 27: joint \"shoulder\"", "does not move in rockyard")));
 }
 
@@ -151,6 +154,21 @@ TEST(UrdfNames, BothRockersMayFollowABar) {
     <limit lower="-1" upper="1" effort="0" velocity="1"/></joint></robot>)");
   EXPECT_THAT(Read(text).not_taken, Not(Contains(Says("main_pivot", ""))));
   EXPECT_THAT(Read(text).not_taken, Contains(Says("bar_turns", "does not move")));
+}
+
+// The right rocker follows what follows the left one twice as fast.
+TEST(UrdfNames, ADifferentialMayBeAChain) {
+  const std::string bar = R"(<link name="bar"/><joint name="bar_turns" type="revolute">
+    <parent link="base_link"/><child link="bar"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="0" velocity="1"/>
+    <mimic joint="l_main_pivot" multiplier="2"/></joint></robot>)";
+  const auto with_ratio = [&](const std::string& ratio) {
+    const std::string text = Replaced(ForeignUrdf(), kRight,
+                                      "<mimic joint=\"bar_turns\" multiplier=\"" + ratio + "\"/>");
+    return Read(Replaced(text, "</robot>", bar)).not_taken;
+  };
+  EXPECT_THAT(with_ratio("0.5"), Not(Contains(Says("r_main_pivot", ""))));
+  EXPECT_THAT(with_ratio("1"), Contains(Says("r_main_pivot", "turns -2 times as fast")));
 }
 
 TEST(UrdfNames, AChassisOfOneBoxGetsAPanel) {

@@ -130,6 +130,14 @@ INSTANTIATE_TEST_SUITE_P(
                 "rpy=\"0 1.5707963267948966 0\"", "a.urdf", "has 5 wheels"},
         Refused{"four_on_a_side", "xyz=\"0.225 0.12 -0.18\"", "xyz=\"0.225 -1.12 -0.18\"", "a.urdf",
                 "has 2 wheels on the left and 4 on the right"},
+        Refused{"wheel_with_a_joint", "</robot>",
+                R"(<joint name="a" type="revolute"><parent link="l_front_tyre"/><child link="a"/>
+                   </joint><link name="a"/></robot>)",
+                "a.urdf", "has 5 wheels"},
+        Refused{"fork_with_a_joint", "</robot>",
+                R"(<joint name="a" type="revolute"><parent link="l_front_fork"/><child link="a"/>
+                   </joint><link name="a"/></robot>)",
+                "a.urdf: line ", "steers more than one wheel, or carries more"},
         Refused{"slider", "name=\"l_rear_pivot\" type=\"revolute\"",
                 "name=\"l_rear_pivot\" type=\"prismatic\"", "a.urdf: line ",
                 "carries two wheels and does not turn about y"},
