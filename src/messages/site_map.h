@@ -20,7 +20,7 @@ struct SiteMap {
   /// map has none.
   std::vector<double> height_m;
   double height_sd_m = 0.0;  ///< stated error of a height, one standard deviation
-  /// Share of each cell that rocks cover, 0 to 1; empty where the map has none.
+  /// Share of each cell that rocks large enough for it cover, 0 to 1; empty where the map has none.
   std::vector<double> rock_share;
 
   /// Return the place of a cell in the lists. Requires 0 <= ix < nx and 0 <= iy < ny.

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <vector>
+
+#include "terrain/rock.h"
 
 namespace rockyard::trial {
 namespace {
@@ -15,16 +19,37 @@ struct CellSum {
   int on_rock = 0;
 };
 
-CellSum SampleCell(const terrain::Terrain& terrain, double x0_m, double y0_m, double cell_m) {
+// Returns the rocks that may reach into a cell and are large enough to be told apart.
+std::vector<terrain::RockShape> RocksSeen(const terrain::Terrain& terrain, double x0_m, double y0_m,
+                                          const SiteMapParams& params) {
+  const double half_m = 0.5 * params.cell_m;
+  std::vector<int> near;
+  terrain.RocksNear(x0_m + half_m, y0_m + half_m, std::numbers::sqrt2 * half_m, near);
+  std::vector<terrain::RockShape> seen;
+  for (const int index : near) {
+    const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
+    if (rock.diameter_m >= params.min_rock_m) seen.emplace_back(rock);
+  }
+  return seen;
+}
+
+CellSum SampleCell(const terrain::Terrain& terrain, double x0_m, double y0_m,
+                   const SiteMapParams& params) {
   CellSum sum;
-  const double step_m = cell_m / kSamplesPerSide;
+  const double step_m = params.cell_m / kSamplesPerSide;
+  const std::vector<terrain::RockShape> rocks = RocksSeen(terrain, x0_m, y0_m, params);
   for (int iy = 0; iy < kSamplesPerSide; ++iy) {
     for (int ix = 0; ix < kSamplesPerSide; ++ix) {
       const double x_m = x0_m + (ix + 0.5) * step_m;
       const double y_m = y0_m + (iy + 0.5) * step_m;
       const double height_m = terrain.Height(x_m, y_m);
       sum.height_m += height_m / (kSamplesPerSide * kSamplesPerSide);
-      if (height_m > terrain.ground().Height(x_m, y_m)) ++sum.on_rock;
+      const double ground_m = terrain.ground().Height(x_m, y_m);
+      if (std::any_of(rocks.begin(), rocks.end(), [&](const terrain::RockShape& rock) {
+            return rock.Top(x_m, y_m) > ground_m;
+          })) {
+        ++sum.on_rock;
+      }
     }
   }
   return sum;
@@ -64,7 +89,7 @@ std::shared_ptr<const messages::SiteMap> MakeSiteMap(const CourseParams& course,
     for (int ix = 0; ix < map->nx; ++ix) {
       // A map that lies off by the shift shows at a place what is truly a shift away.
       const CellSum sum = SampleCell(terrain, map->x0_m + ix * map->step_m - shift_x_m,
-                                     map->y0_m + iy * map->step_m - shift_y_m, map->step_m);
+                                     map->y0_m + iy * map->step_m - shift_y_m, params);
       if (heights) {
         map->height_m.push_back(sum.height_m + core::SampleNormal(errors, 0.0, params.height_sd_m));
       }

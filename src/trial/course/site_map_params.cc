@@ -24,6 +24,10 @@ void SiteMapParams::Visit(core::FieldVisitor& v) {
               "a lander is found in images from orbit to about a cell", {0.0, 100.0}, {0.0, 2.0}));
   v.Real("margin_m", margin_m,
          Setting("how far the map reaches beyond start, waypoints and goal", {0.0, 1000.0}));
+  v.Real("min_rock_m", min_rock_m,
+         Setting("diameter of the smallest rocks that it tells apart; images from orbit resolve "
+                 "rocks of 1.5 m (Golombek et al. 2008)",
+                 {0.0, 100.0}));
 }
 
 }  // namespace rockyard::trial

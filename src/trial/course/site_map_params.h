@@ -18,6 +18,7 @@ struct SiteMapParams {
   double height_sd_m = 0.2;
   double shift_sd_m = 0.5;
   double margin_m = 10.0;
+  double min_rock_m = 0.0;
 
   void Visit(core::FieldVisitor& v);
 };

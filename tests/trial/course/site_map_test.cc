@@ -74,6 +74,23 @@ TEST(SiteMapTest, NoneIsNone) {
   EXPECT_EQ(MakeSiteMap(CourseParams{}, Rocks(), kKey), nullptr) << "the default";
 }
 
+// From orbit only large rocks are told apart: the dome of 0.6 m has no share, but raises heights.
+TEST(SiteMapTest, SmallRocksAreNotToldApart) {
+  CourseParams course = Course();
+  const messages::SiteMap all = MapOf(course, Rocks());
+  course.site_map.min_rock_m = 0.61;
+  const messages::SiteMap large = MapOf(course, Rocks());
+  EXPECT_EQ(large.height_m, all.height_m);
+  const std::size_t small_rock = all.Index(6, 1);  // the cell from (4, -1) on
+  EXPECT_GT(all.rock_share[small_rock], 0.0);
+  EXPECT_EQ(large.rock_share[small_rock], 0.0);
+  const std::size_t large_rock = all.Index(3, 2);  // from (1, 0) on
+  EXPECT_GT(all.rock_share[large_rock], 0.0);
+  EXPECT_EQ(large.rock_share[large_rock], all.rock_share[large_rock]);
+  course.site_map.min_rock_m = 0.6;
+  EXPECT_EQ(MapOf(course, Rocks()).rock_share, all.rock_share);
+}
+
 TEST(SiteMapTest, AKindHoldsWhatItIsNamedFor) {
   const messages::SiteMap both = MapOf(Course(SiteMapKind::kBoth), Rocks());
   const messages::SiteMap elevation = MapOf(Course(SiteMapKind::kElevation), Rocks());
