@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "terrain/relief.h"
-#include "terrain/roughness_spline.h"
+#include "terrain/relief_spline.h"
 
 namespace rockyard::terrain {
 namespace {
@@ -41,13 +43,26 @@ Ground::Ground(const GroundParams& params, core::TrialKey key)
   if (params.HasDepressions()) {
     depressions_ =
         std::make_shared<const DepressionField>(ListDepressions(params.ditches, params.pits));
-  } else if (roughness_) {
-    spline_ = std::make_shared<const RoughnessSpline>(roughness_);
   }
+  if (params.elevation.IsGiven()) {
+    spline_ = params.elevation.surface->Of(params.elevation);
+    // Roughness is another one in every trial, the model alone is shared by all.
+    if (roughness_) {
+      spline_ = std::make_shared<const ReliefSpline>(spline_->model(), std::move(roughness_));
+    }
+  } else if (roughness_ && !depressions_) {
+    spline_ = std::make_shared<const ReliefSpline>(nullptr, roughness_);
+  }
+  is_plane_ = !roughness_ && !spline_ && !depressions_;
 }
 
 ReliefSample Ground::ReliefAt(double x_m, double y_m) const {
-  ReliefSample sum = roughness_ ? roughness_->Sample(x_m, y_m) : ReliefSample{};
+  ReliefSample sum;
+  if (roughness_) {
+    sum = roughness_->Sample(x_m, y_m);
+  } else if (spline_) {
+    sum = spline_->Sample(x_m, y_m);
+  }
   if (!depressions_) return sum;
   const ReliefSample down = depressions_->Sample(x_m, y_m);
   sum.height_m += down.height_m;
@@ -61,10 +76,12 @@ bool Ground::DepressionsReach(double x_m, double y_m, double radius_m) const {
 }
 
 // Depressions reach no higher than the ground around them.
-Ground::Bounds Ground::ReliefBounds() const {
-  Bounds bounds;
+ReliefBounds Ground::Bounds() const {
+  ReliefBounds bounds;
   if (roughness_) {
-    bounds = {roughness_->MaxHeight(), roughness_->MaxSlope(), roughness_->MaxCurvature()};
+    bounds = roughness_->bounds();
+  } else if (spline_) {
+    bounds = spline_->bounds();
   }
   if (depressions_) {
     bounds.slope += depressions_->MaxSlope();
@@ -77,8 +94,7 @@ math::Vector3 Ground::Normal(double x_m, double y_m, RayWay way) const {
   // The surface z = h(x, y) has the normal (-dh/dx, -dh/dy, 1), up to its length.
   math::Vector3 normal(-slope_x_, -slope_y_, 1.0);
   if (!IsPlane()) {
-    const ReliefSample sample =
-        way == RayWay::kSpline && spline_ ? spline_->Sample(x_m, y_m) : ReliefAt(x_m, y_m);
+    const ReliefSample sample = BySpline(way) ? spline_->Sample(x_m, y_m) : ReliefAt(x_m, y_m);
     normal.x() -= sample.slope_x;
     normal.y() -= sample.slope_y;
   }
@@ -114,7 +130,7 @@ std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,
             plane_rate + relief.slope_x * direction_W.x() + relief.slope_y * direction_W.y()};
   };
   // Above the highest that the relief can be there is nothing to meet.
-  const Bounds bounds = ReliefBounds();
+  const ReliefBounds bounds = Bounds();
   const double free_gap = plane_gap - bounds.height_m;
   if (free_gap > 0.0 && free_gap > plane_rate * max_distance_m) return std::nullopt;
   double above = free_gap > 0.0 ? free_gap / plane_rate : 0.0;

@@ -1,6 +1,6 @@
-// The ground between the rocks: a plane with a slope, optional fractal roughness, ditches and pits,
-// and its soil. Terrain asks it for all users of its rays; wheels ask it directly where they touch
-// the ground.
+// The ground between the rocks: a plane with a slope, an optional elevation model, fractal
+// roughness, ditches and pits, and its soil. Terrain asks it for all users of its rays; wheels ask
+// it directly where they touch the ground.
 #pragma once
 
 #include <memory>
@@ -14,12 +14,12 @@
 namespace rockyard::terrain {
 
 class RoughnessField;   // smooth height field, see relief.h
-class RoughnessSpline;  // the same for many rays, see roughness_spline.h
+class ReliefSpline;     // an elevation model, and roughness for many rays, see relief_spline.h
 class DepressionField;  // ditches and pits, see relief.h
 
 // How a ray finds rough ground. Both ways lead to the same point within 1e-9 m. kMarch has the bits
 // that drives are recorded with; kSpline, which pictures use, takes a thirtieth of its time. Ground
-// with ditches or pits is always marched over.
+// with ditches or pits is always marched over; other ground on an elevation model never is.
 enum class RayWay { kMarch, kSpline };
 
 // An immutable ground. Queries are const and thread-safe; copies share roughness and depressions.
@@ -27,8 +27,8 @@ class Ground {
  public:
   Ground();  // flat, z = 0
   // Makes the plane through the origin that rises by tan(slope) along the slope direction, plus
-  // roughness where its RMS is positive, less the ditches and pits. Only roughness draws, from
-  // Purpose::kGroundRoughness.
+  // elevation model and roughness where there are such, less the ditches and pits. Only roughness
+  // draws, from Purpose::kGroundRoughness.
   Ground(const GroundParams& params, core::TrialKey key);
 
   // Returns the height above the world's z = 0 plane, m.
@@ -43,7 +43,7 @@ class Ground {
     return depressions_ != nullptr && DepressionsReach(x_m, y_m, radius_m);
   }
   // Returns whether the ground is one plane, so that contacts and rays have closed forms.
-  bool IsPlane() const { return roughness_ == nullptr && depressions_ == nullptr; }
+  bool IsPlane() const { return is_plane_; }
   const SoilParams& soil() const { return soil_; }
 
   // Returns the distance along the unit ray to the ground, at most max_distance_m; 0 where the
@@ -53,10 +53,10 @@ class Ground {
   // itself is bracketed to 1e-12 m.
   std::optional<double> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                 double max_distance_m, RayWay way = RayWay::kMarch) const {
-    if (way == RayWay::kSpline && spline_) {
-      return SplineRay(origin_W, direction_W, max_distance_m);
+    if (!IsPlane()) {
+      return BySpline(way) ? SplineRay(origin_W, direction_W, max_distance_m)
+                           : MarchRay(origin_W, direction_W, max_distance_m);
     }
-    if (!IsPlane()) return MarchRay(origin_W, direction_W, max_distance_m);
     const double gap_m = Gap(origin_W);
     if (gap_m <= 0.0) return 0.0;
     const double descent =
@@ -71,15 +71,13 @@ class Ground {
                                  double max_distance_m) const;
   std::optional<double> SplineRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                   double max_distance_m) const;
+  bool BySpline(RayWay way) const {
+    return spline_ && !depressions_ && (way == RayWay::kSpline || !roughness_);
+  }
   bool DepressionsReach(double x_m, double y_m, double radius_m) const;
-  // Upper bounds over all points of the relief.
-  struct Bounds {
-    double height_m = 0.0;
-    double slope = 0.0;
-    double curvature_per_m = 0.0;
-  };
-  Bounds ReliefBounds() const;
-  // Returns what roughness and depressions add to the plane.
+  // Returns upper bounds over all points of what the plane carries.
+  ReliefBounds Bounds() const;
+  // Returns what model, roughness and depressions add to the plane.
   ReliefSample ReliefAt(double x_m, double y_m) const;
   // Returns the height of a point above the ground, m.
   double Gap(const math::Vector3& p_W) const { return p_W.z() - Height(p_W.x(), p_W.y()); }
@@ -87,8 +85,10 @@ class Ground {
   SoilParams soil_;
   double slope_x_ = 0.0;  // dz/dx
   double slope_y_ = 0.0;  // dz/dy
-  std::shared_ptr<const RoughnessField> roughness_;
-  std::shared_ptr<const RoughnessSpline> spline_;  // only with roughness and without depressions
+  bool is_plane_ = true;
+  std::shared_ptr<const RoughnessField> roughness_;  // only without a model
+  // Of the model, with roughness or without; of roughness alone where there are no depressions.
+  std::shared_ptr<const ReliefSpline> spline_;
   std::shared_ptr<const DepressionField> depressions_;
 };
 

@@ -78,7 +78,7 @@ constexpr int kMaxOctaves = 12;
 constexpr double kSplineMeanSquare = 151.0 / 315.0;
 
 // Weights of the four uniform cubic B-splines over a cell, and their derivatives by t, t in [0, 1)
-// of the cell; CellSplines of roughness_spline.cc must be the same. With s = 1 - t they are
+// of the cell; CellSplines of relief_spline.cc must be the same. With s = 1 - t they are
 //   s^3/6,  (4 - 6 t^2 + 3 t^3)/6,  (4 - 6 s^2 + 3 s^3)/6,  t^3/6,   and sum to 1.
 struct SplineWeights {
   std::array<double, 4> value;
@@ -125,37 +125,16 @@ RoughnessField::RoughnessField(double rms_m, double hurst, double longest_wavele
   }
 }
 
-// The derivative of a B-spline is a B-spline of the coefficients' differences over the spacing, and
-// a B-spline lies within the hull of its coefficients.
 void RoughnessField::AddBounds(const Octave& octave) {
-  double height = 0.0, along_x = 0.0, along_y = 0.0, bend_x = 0.0, bend_y = 0.0, twist = 0.0;
-  const auto at = [&octave](int column, int row) {
-    // The lattice is periodic: the bounds of one period hold everywhere.
-    const int index = row % kNodes * kNodes + column % kNodes;
-    return octave.coefficients_m[static_cast<std::size_t>(index)];
-  };
-  const auto grow = [](double& bound, double value) { bound = std::max(bound, std::abs(value)); };
-  for (int row = 0; row < kNodes; ++row) {
-    for (int column = 0; column < kNodes; ++column) {
-      const double here = at(column, row);
-      const double right = at(column + 1, row);
-      const double above = at(column, row + 1);
-      grow(height, here);
-      // First differences bound the slope (over spacing), second differences the curvature (over
-      // its square), the mixed one the twist.
-      grow(along_x, right - here);
-      grow(along_y, above - here);
-      grow(bend_x, at(column + 2, row) - 2.0 * right + here);
-      grow(bend_y, at(column, row + 2) - 2.0 * above + here);
-      grow(twist, at(column + 1, row + 1) - right - above + here);
-    }
-  }
-  const double spacing_m = octave.spacing_m;
-  max_height_m_ += height;
-  max_slope_ += std::hypot(along_x, along_y) / spacing_m;
-  // The norm of the matrix of second derivatives is no larger than its Frobenius norm.
-  max_curvature_per_m_ +=
-      std::hypot(std::hypot(bend_x, bend_y), std::numbers::sqrt2 * twist) / (spacing_m * spacing_m);
+  // The lattice is periodic: the bounds of one period hold everywhere.
+  const ReliefBounds bounds =
+      BoundsOfSplines(kNodes, kNodes, octave.spacing_m, [&octave](int column, int row) {
+        const int index = row % kNodes * kNodes + column % kNodes;
+        return octave.coefficients_m[static_cast<std::size_t>(index)];
+      });
+  bounds_.height_m += bounds.height_m;
+  bounds_.slope += bounds.slope;
+  bounds_.curvature_per_m += bounds.curvature_per_m;
 }
 
 void RoughnessField::AddOctave(const Octave& octave, double x_m, double y_m, ReliefSample& sum) {

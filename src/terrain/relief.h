@@ -1,12 +1,14 @@
 // What the ground has beside its plane, fractal roughness, ditches and pits, and where a ray
-// crosses it. Ground puts them together; roughness_spline.h tells the same roughness for images.
+// crosses it. Ground puts them together; relief_spline.h tells the same roughness for images.
 // Records of drives on such ground depend on the bits of samples and of bounds, as rays step by
 // both.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "core/random.h"
@@ -20,6 +22,42 @@ struct ReliefSample {
   double slope_x = 0.0;  // dz/dx
   double slope_y = 0.0;  // dz/dy
 };
+
+// Upper bounds over all points of a relief.
+struct ReliefBounds {
+  double height_m = 0.0;
+  double slope = 0.0;            // magnitude
+  double curvature_per_m = 0.0;  // magnitude of the second derivative in any direction
+};
+
+// Returns bounds of a bicubic B-spline on a lattice from its coefficients, m, `at`(column, row) for
+// column and row from 0 on, and two more each. The derivative of a B-spline is a B-spline of the
+// coefficients' differences over the spacing, and a B-spline lies within the hull of its
+// coefficients.
+template <typename Coefficient>
+ReliefBounds BoundsOfSplines(int columns, int rows, double spacing_m, const Coefficient& at) {
+  double height = 0.0, along_x = 0.0, along_y = 0.0, bend_x = 0.0, bend_y = 0.0, twist = 0.0;
+  const auto grow = [](double& bound, double value) { bound = std::max(bound, std::abs(value)); };
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const double here = at(column, row);
+      const double right = at(column + 1, row);
+      const double above = at(column, row + 1);
+      grow(height, here);
+      // First differences bound the slope (over spacing), second differences the curvature (over
+      // its square), the mixed one the twist.
+      grow(along_x, right - here);
+      grow(along_y, above - here);
+      grow(bend_x, at(column + 2, row) - 2.0 * right + here);
+      grow(bend_y, at(column, row + 2) - 2.0 * above + here);
+      grow(twist, at(column + 1, row + 1) - right - above + here);
+    }
+  }
+  // The norm of the matrix of second derivatives is no larger than its Frobenius norm.
+  return {height, std::hypot(along_x, along_y) / spacing_m,
+          std::hypot(std::hypot(bend_x, bend_y), std::numbers::sqrt2 * twist) /
+              (spacing_m * spacing_m)};
+}
 
 // How a ray nears the ground at one of its points.
 struct Approach {
@@ -121,14 +159,11 @@ class RoughnessField {
   // Returns height and slopes at a point; it costs about 30 ns per octave.
   ReliefSample Sample(double x_m, double y_m) const;
 
-  // These are upper bounds of the magnitudes anywhere: of the height, m, of the slope, and of the
-  // second derivative in any direction, 1/m. Rays step by them: a bound that is too small lets rays
-  // through crests, one that is too large costs steps.
-  double MaxHeight() const { return max_height_m_; }
-  double MaxSlope() const { return max_slope_; }
-  double MaxCurvature() const { return max_curvature_per_m_; }
+  // Returns upper bounds of the magnitudes anywhere. Rays step by them: a bound that is too small
+  // lets rays through crests, one that is too large costs steps.
+  const ReliefBounds& bounds() const { return bounds_; }
 
-  // These give the octaves to RoughnessSpline, the longest one first: the spacing of the lattice,
+  // These give the octaves to ReliefSpline, the longest one first: the spacing of the lattice,
   // half of that of the octave before, and the coefficient, m, of the B-spline that is centred on
   // the node at (column, row) * spacing.
   static constexpr int kNodes = 64;
@@ -151,9 +186,7 @@ class RoughnessField {
   void AddBounds(const Octave& octave);
 
   std::vector<Octave> octaves_;
-  double max_height_m_ = 0.0;
-  double max_slope_ = 0.0;
-  double max_curvature_per_m_ = 0.0;
+  ReliefBounds bounds_;
 };
 
 }  // namespace rockyard::terrain

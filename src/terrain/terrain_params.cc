@@ -1,5 +1,7 @@
 #include "terrain/terrain_params.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,13 +33,51 @@ bool CountAreaFits(const RockFieldParams& rocks, const ArenaParams& arena) {
          rocks.count_area_width_m <= width_m + kTolerance_m;
 }
 
+constexpr core::Bounds kWavelengths_m{0.2, 100.0};
+
+// The roughness of a model is summed with it on one lattice (relief_spline.h).
+void RequireNestedLattices(const GroundParams& ground, core::FieldVisitor& v) {
+  if (!ground.elevation.IsGiven() || ground.roughness_rms_m == 0.0) return;
+  const double octaves = std::log2(ground.roughness_wavelength_m / ground.elevation.cell_m);
+  const double nearest_m = ground.elevation.cell_m * std::exp2(std::round(octaves));
+  v.Require("roughness_wavelength_m",
+            std::abs(ground.roughness_wavelength_m / nearest_m - 1.0) < 1e-9,
+            "is not the cell of the elevation model times a power of two",
+            fmt::format("use {:.10g}", nearest_m));
+}
+
+// Beyond its edges a model knows nothing. The area is that of DrivableBounds (arena.h), which holds
+// the layout.
+void RequireArenaOnModel(const TerrainParams& p, core::FieldVisitor& v) {
+  const ElevationParams& model = p.ground.elevation;
+  if (!model.IsGiven() || !model.IsSound()) return;
+  const ArenaParams& arena = p.arena;
+  const double margin_m = arena.kind == ArenaKind::kOpen ? arena.open_margin_m : 0.0;
+  double half_width_m = 0.5 * arena.width_m + margin_m;
+  if (arena.kind == ArenaKind::kVirtualUnfolded) {
+    half_width_m = (1.0 + 2.0 * static_cast<double>(arena.unfolded_strips)) * arena.MirrorLine();
+  }
+  const double west_m = arena.x_min_m - margin_m;
+  const double east_m = arena.x_min_m + arena.length_m + margin_m;
+  const auto at = [&model](std::int64_t node) { return static_cast<double>(node) * model.cell_m; };
+  v.Require("arena", model.Holds(west_m, east_m, -half_width_m, half_width_m),
+            fmt::format(
+                "reaches from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) m, beyond the elevation model, "
+                "which has heights from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) m",
+                west_m, -half_width_m, east_m, half_width_m, at(-model.origin_column),
+                at(-model.origin_row), at(model.columns - 1 - model.origin_column),
+                at(model.rows() - 1 - model.origin_row)),
+            "use a smaller length_m, width_m or open_margin_m, another x_min_m, or a larger crop");
+}
+
 // Caps end on level ground and are held by nothing below it.
 void RequireGroundOfCaps(const TerrainParams& p, core::FieldVisitor& v) {
   const bool caps = p.rocks.kind != RockFieldKind::kNone && p.rocks.pointedness > 0.0;
   v.Require("rocks.pointedness", !caps || p.ground.IsLevel(),
             "is above 0 on ground that is not level: pointed rocks have a flat base, under which a "
             "gap would open",
-            "use 0, or ground.slope_deg 0, ground.roughness_rms_m 0 and no ditches or pits");
+            "use 0, or ground.slope_deg 0, ground.roughness_rms_m 0, no elevation model and no "
+            "ditches or pits");
   v.Require("rocks.pointedness", !caps || p.rocks.mobility == RockMobility::kFixed,
             "is above 0 with movable rocks: the soil's hold is known for ellipsoids only",
             "use 0, or rocks.mobility fixed");
@@ -70,6 +110,26 @@ bool HasSoundLists(const TerrainParams& p) {
 }
 
 }  // namespace
+
+void GroundParams::Visit(core::FieldVisitor& v) {
+  v.Angle("slope_deg", slope_rad, core::Setting("inclination of the ground plane", {0.0, 45.0}));
+  v.Angle("slope_direction_deg", slope_direction_rad,
+          core::Setting("uphill direction, from +x towards +y", {-360.0, 360.0}));
+  v.Group("elevation", elevation, "heights of a place, which the plane carries");
+  v.Real("roughness_rms_m", roughness_rms_m,
+         core::Setting("root mean square height of the fractal roughness; 0 leaves a plane",
+                       {0.0, 0.5}));
+  v.Real("hurst_exponent", hurst_exponent,
+         core::Assumed("Hurst exponent of the roughness", "no effect at the default RMS of 0",
+                       {0.05, 1.0}, {0.5, 1.0}));
+  v.Real("roughness_wavelength_m", roughness_wavelength_m,
+         core::Assumed("longest wavelength of the roughness", "no effect at the default RMS of 0",
+                       kWavelengths_m, {1.0, 8.0}));
+  RequireNestedLattices(*this, v);
+  v.Group("ditches", ditches, "straight trenches with round ends, one by one");
+  v.Group("pits", pits, "round holes, one by one");
+  v.Group("soil", soil, "what the ground does to wheels");
+}
 
 void ArenaParams::Visit(core::FieldVisitor& v) {
   v.Choice(
@@ -137,6 +197,7 @@ void TerrainParams::Visit(core::FieldVisitor& v) {
   v.Group("arena", arena, "extent and edges");
   RequireGroundOfCaps(*this, v);
   if (HasSoundLists(*this)) RequireRocksBesideDepressions(*this, v);
+  RequireArenaOnModel(*this, v);
   v.Require("rocks.count_area_length_m",
             rocks.kind != RockFieldKind::kUniformCount || CountAreaFits(rocks, arena),
             "puts the count area outside the arena, or outside the strip between the mirror lines",

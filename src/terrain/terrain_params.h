@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/fields.h"
+#include "terrain/elevation_params.h"
 #include "terrain/rock_params.h"
 #include "terrain/soil_params.h"
 
@@ -95,10 +96,11 @@ struct ArenaParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// The plane, its roughness, ditches and pits, and its soil.
+// The plane, what it carries, elevation model, roughness, ditches and pits, and its soil.
 struct GroundParams {
   double slope_rad = 0.0;
   double slope_direction_rad = 0.0;
+  ElevationParams elevation{};
   double roughness_rms_m = 0.0;
   double hurst_exponent = 0.8;
   double roughness_wavelength_m = 2.0;
@@ -108,25 +110,11 @@ struct GroundParams {
 
   bool HasDepressions() const { return !ditches.x_m.empty() || !pits.x_m.empty(); }
   // Returns whether the ground is level everywhere.
-  bool IsLevel() const { return slope_rad == 0.0 && roughness_rms_m == 0.0 && !HasDepressions(); }
-
-  void Visit(core::FieldVisitor& v) {
-    v.Angle("slope_deg", slope_rad, core::Setting("inclination of the ground plane", {0.0, 45.0}));
-    v.Angle("slope_direction_deg", slope_direction_rad,
-            core::Setting("uphill direction, from +x towards +y", {-360.0, 360.0}));
-    v.Real("roughness_rms_m", roughness_rms_m,
-           core::Setting("root mean square height of the fractal roughness; 0 leaves a plane",
-                         {0.0, 0.5}));
-    v.Real("hurst_exponent", hurst_exponent,
-           core::Assumed("Hurst exponent of the roughness", "no effect at the default RMS of 0",
-                         {0.05, 1.0}, {0.5, 1.0}));
-    v.Real("roughness_wavelength_m", roughness_wavelength_m,
-           core::Assumed("longest wavelength of the roughness", "no effect at the default RMS of 0",
-                         {0.2, 100.0}, {1.0, 8.0}));
-    v.Group("ditches", ditches, "straight trenches with round ends, one by one");
-    v.Group("pits", pits, "round holes, one by one");
-    v.Group("soil", soil, "what the ground does to wheels");
+  bool IsLevel() const {
+    return slope_rad == 0.0 && !elevation.IsGiven() && roughness_rms_m == 0.0 && !HasDepressions();
   }
+
+  void Visit(core::FieldVisitor& v);
 };
 
 // The `terrain` group of a scenario.

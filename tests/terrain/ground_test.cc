@@ -117,12 +117,12 @@ TEST(RoughnessFieldTest, BoundsHoldEverywhere) {
     curvature = std::max(
         curvature, std::hypot(ahead.slope_x - at.slope_x, ahead.slope_y - at.slope_y) / kStep_m);
   }
-  EXPECT_LE(height, field.MaxHeight());
-  EXPECT_LE(slope, field.MaxSlope());
-  EXPECT_LE(curvature, field.MaxCurvature());
-  EXPECT_GT(height, 0.1 * field.MaxHeight());
-  EXPECT_GT(slope, 0.1 * field.MaxSlope());
-  EXPECT_GT(curvature, 0.1 * field.MaxCurvature());
+  EXPECT_LE(height, field.bounds().height_m);
+  EXPECT_LE(slope, field.bounds().slope);
+  EXPECT_LE(curvature, field.bounds().curvature_per_m);
+  EXPECT_GT(height, 0.1 * field.bounds().height_m);
+  EXPECT_GT(slope, 0.1 * field.bounds().slope);
+  EXPECT_GT(curvature, 0.1 * field.bounds().curvature_per_m);
 }
 
 TEST_F(RoughGroundTest, AnotherTrialHasAnotherGround) {

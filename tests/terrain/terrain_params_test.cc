@@ -93,6 +93,20 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{R"({"arena": {"mirror_margin_m": 1.9}})", "arena.mirror_margin_m", "0.5 m"},
         BadInput{R"({"arena": {"mirror_margin_m": 1.5}})", "arena.mirror_margin_m", "wider"},
         BadInput{R"({"ground": {"slope_deg": 46}})", "ground.slope_deg", "45"},
+        BadInput{R"({"ground": {"elevation": {"heights_m": [1]}}})", "ground.elevation.columns",
+                 "is 0"},
+        BadInput{R"({"ground": {"elevation": {"columns": 4, "heights_m": [0,0,0,0, 0,0,0,0,
+                     0,0,0,0, 0,0,0]}}})",
+                 "ground.elevation.heights_m", "full rows"},
+        BadInput{R"({"ground": {"elevation": {"columns": 4, "heights_m": [0,0,0,0, 0,0,0,0,
+                     0,0,0,0]}}})",
+                 "ground.elevation.heights_m", "4 x 4"},
+        BadInput{R"({"ground": {"elevation": {"columns": 4, "origin_row": 4, "heights_m":
+                     [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,0]}}})",
+                 "ground.elevation.origin_row", "beyond the last row"},
+        BadInput{R"({"ground": {"elevation": {"columns": 4, "origin_column": 4, "heights_m":
+                     [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,0]}}})",
+                 "ground.elevation.origin_column", "beyond the last column"},
         BadInput{R"({"ground": {"pits": {"x_m": [1], "y_m": [1], "diameter_m": [1]}}})",
                  "ground.pits.depth_m", "has 0 entries"},
         BadInput{R"({"ground": {"ditches": {"x_m": [2], "y_m": [0], "direction_deg": [0],
@@ -111,6 +125,44 @@ TEST(TerrainParamsTest, KilometresAreValidWhereTheirRocksAreNotTooMany) {
                          "rocks": {"kind": "uniform_count", "count": 1000, "count_area_x_m": 0,
                                    "count_area_length_m": 900}})"),
             "");
+}
+
+// A level model of 25 x 13 nodes, 1 m apart, with the origin at (4, 6), and what is asked of it.
+std::string OnModel(const std::string& ground, const std::string& rest) {
+  std::string heights = "0";
+  for (int i = 1; i < 25 * 13; ++i) heights += ",0";
+  return R"({"ground": {"elevation": {"columns": 25, "origin_column": 4, "origin_row": 6,
+             "heights_m": [)" +
+         heights + "]}" + ground + "}" + rest + "}";
+}
+
+TEST(TerrainParamsTest, AModelHoldsTheArenaWithItsMargin) {
+  const std::string open = R"(, "arena": {"kind": "open", "length_m": 12, "width_m": 4)";
+  EXPECT_EQ(Problems(OnModel("", open + R"(, "open_margin_m": 2})")), "");
+  // Rocks are laid on the margin, too: 2.1 m of it reach to x = -4.1 m.
+  EXPECT_THAT(Problems(OnModel("", open + R"(, "open_margin_m": 2.1})")),
+              HasSubstr("arena: reaches from (-4.1, -4.1) to (12.1, 4.1) m, beyond the "
+                        "elevation model, which has heights from (-4, -6) to (20, 6) m"));
+  EXPECT_EQ(Problems(OnModel("", R"(, "arena": {"width_m": 12, "mirror_margin_m": 4})")), "");
+  EXPECT_THAT(Problems(OnModel("", R"(, "arena": {"width_m": 12.1, "mirror_margin_m": 4})")),
+              HasSubstr("beyond the elevation model"));
+  EXPECT_THAT(
+      Problems(OnModel("", R"(, "arena": {"kind": "virtual_unfolded", "unfolded_strips": 3})")),
+      HasSubstr("beyond the elevation model"));
+}
+
+TEST(TerrainParamsTest, RoughnessNestsWithTheCellsOfAModel) {
+  for (const char* wavelength_m : {"0.25", "1", "4"}) {
+    EXPECT_EQ(
+        Problems(OnModel(
+            std::string(R"(, "roughness_rms_m": 0.01, "roughness_wavelength_m": )") + wavelength_m,
+            "")),
+        "");
+  }
+  EXPECT_THAT(Problems(OnModel(R"(, "roughness_rms_m": 0.01, "roughness_wavelength_m": 1.5)", "")),
+              HasSubstr("power of two"));
+  // Without roughness its wavelength says nothing.
+  EXPECT_EQ(Problems(OnModel(R"(, "roughness_wavelength_m": 1.5)", "")), "");
 }
 
 TEST(TerrainParamsTest, PointedRocksNeedLevelGroundAndFixedRocksOnlyWhereTheyStand) {

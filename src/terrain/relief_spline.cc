@@ -1,4 +1,4 @@
-#include "terrain/roughness_spline.h"
+#include "terrain/relief_spline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,13 @@
 #include <numbers>
 #include <utility>
 
+#include "core/check.h"
+
 namespace rockyard::terrain {
 namespace {
+
+// A factor by which a power of two that was rounded down counts as one.
+constexpr double kRoundingUp = 1.0 + 1e-9;
 
 // Parts of a line shorter than this are not divided.
 constexpr double kShortest_m = 1e-3;
@@ -102,36 +107,79 @@ std::optional<double> FirstCrossing(const At& at, const Part& part, double bend_
 
 }  // namespace
 
-RoughnessSpline::RoughnessSpline(std::shared_ptr<const RoughnessField> field)
-    : field_(std::move(field)) {
-  const int finest = field_->octaves() - 1;
-  cells_per_m_ = 1.0 / field_->Spacing(finest);
-  // The longest octave repeats after 64 nodes, one page, and so does the sum.
-  static_assert(RoughnessField::kNodes == kPage);
-  const int pages = 1 << finest;
-  page_mask_ = pages - 1;
-  pages_ = std::vector<std::atomic<const Page*>>(static_cast<std::size_t>(pages) * pages);
+ReliefSpline::ReliefSpline(std::shared_ptr<const ElevationModel> model,
+                           std::shared_ptr<const RoughnessField> roughness)
+    : model_(std::move(model)), roughness_(std::move(roughness)) {
+  EXPECT(model_ || roughness_);
+  const double cell_m = model_ ? model_->cell_m() : roughness_->Spacing(0);
+  double coarsest_m = cell_m;
+  if (model_) {
+    bounds_ = model_->bounds();
+  }
+  if (roughness_) {
+    bounds_.height_m += roughness_->bounds().height_m;
+    bounds_.slope += roughness_->bounds().slope;
+    bounds_.curvature_per_m += roughness_->bounds().curvature_per_m;
+    const int finer = std::ilogb(cell_m / roughness_->Spacing(0) * kRoundingUp);
+    model_level_ = std::max(0, -finer);
+    roughness_level_ = std::max(0, finer);
+    coarsest_m = std::ldexp(cell_m, model_level_);
+    EXPECT(std::abs(std::ldexp(roughness_->Spacing(0), roughness_level_) / coarsest_m - 1.0) <
+           1e-9);
+    finest_ = roughness_level_ + roughness_->octaves() - 1;
+  }
+  if (model_) finest_ = std::max(finest_, model_level_);
+  cells_per_m_ = roughness_ && !model_ ? 1.0 / roughness_->Spacing(finest_)
+                                       : std::ldexp(1.0, finest_) / coarsest_m;
+  if (model_) {
+    // The model with two cells around it, from where on it is level.
+    const auto page_of = [&](std::int64_t node) {
+      return (node * (std::int64_t{1} << (finest_ - model_level_))) >> kPageShift;
+    };
+    near_.first_column = page_of(model_->first_column() - 2);
+    near_.first_row = page_of(model_->first_row() - 2);
+    near_.columns = page_of(model_->last_column() + 2) - near_.first_column + 1;
+    near_.rows = page_of(model_->last_row() + 2) - near_.first_row + 1;
+  } else {
+    // The longest octave repeats after 64 nodes, one page, and so does the sum.
+    static_assert(RoughnessField::kNodes == kPage);
+    near_.columns = std::int64_t{1} << finest_;
+    near_.rows = near_.columns;
+  }
+  pages_ = std::vector<std::atomic<const Page*>>(static_cast<std::size_t>(near_.columns) *
+                                                 static_cast<std::size_t>(near_.rows));
 }
 
-RoughnessSpline::~RoughnessSpline() {
+ReliefSpline::~ReliefSpline() {
   for (const auto& page : pages_) delete page.load();
 }
 
-RoughnessSpline::Nodes RoughnessSpline::NodesOf(int octave, std::int64_t page_column,
-                                                std::int64_t page_row) const {
+ReliefSpline::Nodes ReliefSpline::NodesOf(int level, std::int64_t page_column,
+                                          std::int64_t page_row) const {
   Nodes nodes(std::size_t{kNodes} * kNodes);
-  double* out = nodes.data();
-  for (int row = -1; row < kNodes - 1; ++row) {
-    for (int column = -1; column < kNodes - 1; ++column) {
-      *out++ = field_->Coefficient(octave, page_column * kPage + column, page_row * kPage + row);
+  const auto add = [&](const auto& coefficient) {
+    double* out = nodes.data();
+    for (int row = -1; row < kNodes - 1; ++row) {
+      for (int column = -1; column < kNodes - 1; ++column) {
+        *out++ += coefficient(page_column * kPage + column, page_row * kPage + row);
+      }
     }
+  };
+  const int octave = level - roughness_level_;
+  if (roughness_ && octave >= 0 && octave < roughness_->octaves()) {
+    add([&](std::int64_t column, std::int64_t row) {
+      return roughness_->Coefficient(octave, column, row);
+    });
   }
-  if (octave == 0) return nodes;
-  const Nodes above = NodesOf(octave - 1, page_column >> 1, page_row >> 1);
+  if (model_ && level == model_level_) {
+    add([this](std::int64_t column, std::int64_t row) { return model_->Coefficient(column, row); });
+  }
+  if (level == 0) return nodes;
+  const Nodes above = NodesOf(level - 1, page_column >> 1, page_row >> 1);
   const std::int64_t left = (page_column & 1) * kPage / 2;
   const std::int64_t down = (page_row & 1) * kPage / 2;
   std::array<double, kNodes> line{};
-  out = nodes.data();
+  double* out = nodes.data();
   for (int row = -1; row < kNodes - 1; ++row) {
     // Arithmetic shift: rounds negative numbers down.
     const double* middle = above.data() + (down + (row >> 1) + 1) * kNodes;
@@ -147,7 +195,7 @@ RoughnessSpline::Nodes RoughnessSpline::NodesOf(int octave, std::int64_t page_co
 
 // A polynomial lies within the hull of its control points, and so do its derivatives. Their control
 // points are 6 times the second differences along an axis, 9 times the mixed differences.
-RoughnessSpline::Bounds RoughnessSpline::BoundsOf(const Nodes& nodes_m, int column, int row) const {
+ReliefSpline::Bounds ReliefSpline::BoundsOf(const Nodes& nodes_m, int column, int row) const {
   std::array<std::array<double, 4>, 4> along{};  // by row of nodes
   for (int i = 0; i < 4; ++i) {
     const double* n = nodes_m.data() + (row + i) * kNodes + column;
@@ -178,14 +226,10 @@ RoughnessSpline::Bounds RoughnessSpline::BoundsOf(const Nodes& nodes_m, int colu
   return {height_m, bend * cells_per_m_ * cells_per_m_};
 }
 
-const RoughnessSpline::Page& RoughnessSpline::PageAt(std::int64_t page_column,
-                                                     std::int64_t page_row) const {
-  const std::int64_t column = page_column & page_mask_;
-  const std::int64_t row = page_row & page_mask_;
-  auto& place = pages_[static_cast<std::size_t>(row * (page_mask_ + 1) + column)];
-  if (const Page* page = place.load(std::memory_order_acquire)) return *page;
+std::unique_ptr<ReliefSpline::Page> ReliefSpline::MakePage(std::int64_t column,
+                                                           std::int64_t row) const {
   auto made = std::make_unique<Page>();
-  made->nodes_m = NodesOf(field_->octaves() - 1, column, row);
+  made->nodes_m = NodesOf(finest_, column, row);
   made->highest_m.fill(-std::numeric_limits<double>::infinity());
   for (int y = 0; y < kPage; ++y) {
     for (int x = 0; x < kPage; ++x) {
@@ -195,18 +239,41 @@ const RoughnessSpline::Page& RoughnessSpline::PageAt(std::int64_t page_column,
       highest_m = std::max(highest_m, bounds.height_m);
     }
   }
+  return made;
+}
+
+const ReliefSpline::Page& ReliefSpline::FarPage(std::int64_t column, std::int64_t row) const {
+  const std::lock_guard lock(far_mutex_);
+  std::unique_ptr<const Page>& page = far_pages_[{column, row}];
+  if (!page) page = MakePage(column, row);
+  return *page;
+}
+
+const ReliefSpline::Page& ReliefSpline::PageAt(std::int64_t page_column,
+                                               std::int64_t page_row) const {
+  std::int64_t column = page_column - near_.first_column;
+  std::int64_t row = page_row - near_.first_row;
+  if (!model_) {
+    column &= near_.columns - 1;
+    row &= near_.rows - 1;
+  } else if (column < 0 || column >= near_.columns || row < 0 || row >= near_.rows) {
+    return FarPage(page_column, page_row);
+  }
+  auto& place = pages_[static_cast<std::size_t>(row * near_.columns + column)];
+  if (const Page* page = place.load(std::memory_order_acquire)) return *page;
+  auto made = MakePage(near_.first_column + column, near_.first_row + row);
   // Another thread may have made the same one meanwhile.
   const Page* there = nullptr;
   if (!place.compare_exchange_strong(there, made.get())) return *there;
   return *made.release();
 }
 
-RoughnessSpline::Cell RoughnessSpline::CellAt(std::int64_t column, std::int64_t row) const {
-  return {&PageAt(column >> 6, row >> 6), static_cast<int>(column & (kPage - 1)),
+ReliefSpline::Cell ReliefSpline::CellAt(std::int64_t column, std::int64_t row) const {
+  return {&PageAt(column >> kPageShift, row >> kPageShift), static_cast<int>(column & (kPage - 1)),
           static_cast<int>(row & (kPage - 1))};
 }
 
-ReliefSample RoughnessSpline::SampleIn(const Cell& cell, double u, double v) const {
+ReliefSample ReliefSpline::SampleIn(const Cell& cell, double u, double v) const {
   const CellSplines x(u);
   const CellSplines y(v);
   ReliefSample sum;
@@ -226,7 +293,7 @@ ReliefSample RoughnessSpline::SampleIn(const Cell& cell, double u, double v) con
   return sum;
 }
 
-ReliefSample RoughnessSpline::Sample(double x_m, double y_m) const {
+ReliefSample ReliefSpline::Sample(double x_m, double y_m) const {
   const double u = x_m * cells_per_m_;
   const double v = y_m * cells_per_m_;
   const double column = std::floor(u);
@@ -235,10 +302,9 @@ ReliefSample RoughnessSpline::Sample(double x_m, double y_m) const {
                   u - column, v - row);
 }
 
-std::optional<double> RoughnessSpline::FirstBelow(const SightLine& line,
-                                                  double max_distance_m) const {
-  // Above the highest that the roughness can be there is nothing to meet.
-  const double over = line.height_m - field_->MaxHeight();
+std::optional<double> ReliefSpline::FirstBelow(const SightLine& line, double max_distance_m) const {
+  // Above the highest that the relief can be there is nothing to meet.
+  const double over = line.height_m - bounds_.height_m;
   if (over > 0.0 && over > line.descent * max_distance_m) return std::nullopt;
   double from = over > 0.0 ? over / line.descent : 0.0;
   const double end = over <= 0.0 && line.descent < 0.0

@@ -1,6 +1,6 @@
 // The roughness as one spline against its octaves, and rays by it against rays that march.
 
-#include "terrain/roughness_spline.h"
+#include "terrain/relief_spline.h"
 
 #include <gtest/gtest.h>
 
@@ -19,11 +19,11 @@ using math::Vector3;
 
 constexpr core::TrialKey kKey{21, 4};
 
-TEST(RoughnessSpline, IsTheSumOfTheOctaves) {
+TEST(ReliefSpline, IsTheSumOfTheOctaves) {
   // Five octaves, and the one that is its own finest.
   for (const double wavelength_m : {2.0, 0.2}) {
     const auto field = std::make_shared<const RoughnessField>(0.03, 0.7, wavelength_m, kKey);
-    const RoughnessSpline spline(field);
+    const ReliefSpline spline(nullptr, field);
     core::RandomStream stream({1, 1}, core::Purpose::kTest);
     for (int i = 0; i < 3000; ++i) {
       // On both sides of zero, and beyond where the lattice repeats.
@@ -45,7 +45,7 @@ Ground RoughGround(double rms_m, double slope_rad) {
 
 // Rays from above the ground in all directions, many of them flat, over ground of steep crests. A
 // crest that is cut over less than 1 mm either way may miss; none of these rays does so.
-TEST(RoughnessSpline, RaysMeetTheSamePoint) {
+TEST(ReliefSpline, RaysMeetTheSamePoint) {
   for (const double rms_m : {0.01, 0.15}) {
     const Ground ground = RoughGround(rms_m, 0.1);
     core::RandomStream stream({2, 1}, core::Purpose::kTest);
@@ -74,14 +74,14 @@ TEST(RoughnessSpline, RaysMeetTheSamePoint) {
   }
 }
 
-TEST(RoughnessSpline, NormalsAreTheSame) {
+TEST(ReliefSpline, NormalsAreTheSame) {
   const Ground ground = RoughGround(0.05, 0.2);
   for (const double x_m : {-3.3, 0.0, 7.77}) {
     EXPECT_LT((ground.Normal(x_m, 1.0, RayWay::kSpline) - ground.Normal(x_m, 1.0)).norm(), 1e-11);
   }
 }
 
-TEST(RoughnessSpline, RaysStraightDownUpAndFromBelow) {
+TEST(ReliefSpline, RaysStraightDownUpAndFromBelow) {
   const Ground ground = RoughGround(0.05, 0.0);
   const Vector3 above(1.23, -4.5, 2.0);
   const double height_m = ground.Height(1.23, -4.5);
@@ -96,7 +96,7 @@ TEST(RoughnessSpline, RaysStraightDownUpAndFromBelow) {
 }
 
 // Ground with a pit is marched over either way.
-TEST(RoughnessSpline, PitsAreMet) {
+TEST(ReliefSpline, PitsAreMet) {
   GroundParams params{
       .roughness_rms_m = 0.01,
       .pits = {
@@ -107,7 +107,7 @@ TEST(RoughnessSpline, PitsAreMet) {
             ground.CastRay(above, -Vector3::UnitZ(), 10.0));
 }
 
-TEST(RoughnessSpline, ThreadsSeeTheSamePages) {
+TEST(ReliefSpline, ThreadsSeeTheSamePages) {
   const Ground ground = RoughGround(0.02, 0.0);
   std::vector<std::vector<double>> seen(4);
   std::vector<std::thread> threads;
