@@ -15,6 +15,8 @@
 #include "report/trial_outcomes.h"
 #include "scenario/load.h"
 #include "terrain/arena.h"
+#include "terrain/contours.h"
+#include "terrain/ground.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::campaign {
@@ -165,6 +167,25 @@ std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run) {
   return scenario::ListParameters(*scenario);
 }
 
+// Adds what the map shows of an elevation model, which is the same in every trial; roughness is
+// not.
+void AddContours(const terrain::TerrainParams& terrain, report::PageCourse& shown) {
+  constexpr int kMostHeights = 20;
+  constexpr int kCells = 4000;
+  if (!terrain.ground.elevation.IsGiven()) return;
+  terrain::GroundParams smooth = terrain.ground;
+  smooth.roughness_rms_m = 0.0;
+  const terrain::ContourMap map = terrain::Contours(
+      terrain::Ground(smooth, {}), terrain::DrivableBounds(terrain.arena), kMostHeights, kCells);
+  shown.contour_interval_m = map.interval_m;
+  for (const terrain::Contour& contour : map.lines) {
+    report::PageContour& line = shown.contours.emplace_back(contour.height_m);
+    for (const terrain::CoursePoint& point : contour.line) {
+      line.line.push_back({point.x_m, point.y_m});
+    }
+  }
+}
+
 std::optional<report::PageCourse> CourseOf(const StoredRun& run) {
   if (truth::IsMeasurement(run.schema)) return std::nullopt;
   const auto scenario = ScenarioOf(run);
@@ -176,7 +197,9 @@ std::optional<report::PageCourse> CourseOf(const StoredRun& run) {
                            .goal = {course.goal_x_m, course.goal_y_m},
                            .goal_radius_m = course.goal_radius_m,
                            .waypoints = course.waypoints.Places(),
-                           .mirror_lines_m = {}};
+                           .mirror_lines_m = {},
+                           .contours = {}};
+  AddContours(scenario->drive.terrain, shown);
   if (arena.kind == terrain::ArenaKind::kVirtualReflected) {
     shown.mirror_lines_m = {-arena.MirrorLine(), arena.MirrorLine()};
   }

@@ -36,6 +36,12 @@ namespace rockyard::report {
 
 // What all drives of a run share, as the report page draws them from above: world frame, whole
 // centimetres in the page's data.
+// A line of one height of the ground.
+struct PageContour {
+  double height_m = 0.0;
+  std::vector<messages::Goal> line;
+};
+
 struct PageCourse {
   std::string rover;  // its name; "" where its shape is that of no rover that is known
   math::Pose2 start;
@@ -43,6 +49,8 @@ struct PageCourse {
   double goal_radius_m = 0.0;
   std::vector<messages::Goal> waypoints;  // true, in the order of driving
   std::vector<double> mirror_lines_m;     // y at which operators reflect the rover; mostly none
+  std::vector<PageContour> contours;      // of an elevation model; mostly none
+  double contour_interval_m = 0.0;
 };
 
 struct PageRock {

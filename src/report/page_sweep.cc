@@ -244,11 +244,20 @@ std::string Rocks(const std::vector<PageRock>& rocks) {
 }  // namespace
 
 std::string PageCourseJson(const PageCourse& course) {
-  return ObjectText("rover", course.rover, "start",
-                    Json{PlaceJson({course.start.x_m, course.start.y_m})}, "goal",
-                    Json{PlaceJson(course.goal)}, "goal_radius_m", course.goal_radius_m,
-                    "waypoints", Json{JsonList(course.waypoints, PlaceJson)}, "mirror_lines_m",
-                    Json{JsonList(course.mirror_lines_m, JsonNumber)});
+  const auto contour = [](const PageContour& each) {
+    std::vector<std::string> numbers;
+    for (const messages::Goal& point : each.line) {
+      AddCentimetres(point.x_m, numbers);
+      AddCentimetres(point.y_m, numbers);
+    }
+    return ObjectText("height_m", each.height_m, "line_cm", Json{JsonList(numbers)});
+  };
+  return ObjectText(
+      "rover", course.rover, "start", Json{PlaceJson({course.start.x_m, course.start.y_m})}, "goal",
+      Json{PlaceJson(course.goal)}, "goal_radius_m", course.goal_radius_m, "waypoints",
+      Json{JsonList(course.waypoints, PlaceJson)}, "mirror_lines_m",
+      Json{JsonList(course.mirror_lines_m, JsonNumber)}, "contours",
+      Json{JsonList(course.contours, contour)}, "contour_interval_m", course.contour_interval_m);
 }
 
 std::string PageTracksJson(std::span<const PageTrack> tracks) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "terrain/arena.h"
+#include "terrain/contours.h"
 #include "terrain/field_export.h"
 #include "terrain/rock.h"
 
@@ -155,6 +156,24 @@ void DrawRock(const Rock& rock, int index, std::string& svg) {
       grey, index, rock.diameter_m, rock.height_m);
 }
 
+// Draws the ground of a model: every fifth contour is bolder.
+void DrawContours(const Ground& ground, const Rectangle& area, std::string& svg) {
+  constexpr int kMostHeights = 25;
+  constexpr int kCells = 10000;
+  const ContourMap map = Contours(ground, area, kMostHeights, kCells);
+  for (const Contour& contour : map.lines) {
+    const bool bold = std::lround(contour.height_m / map.interval_m) % 5 == 0;
+    svg += "<polyline points=\"";
+    for (const CoursePoint& p : contour.line) {
+      fmt::format_to(std::back_inserter(svg), "{:.2f},{:.2f} ", p.x_m, -p.y_m);
+    }
+    fmt::format_to(std::back_inserter(svg),
+                   "\" fill=\"none\" stroke=\"#a65\" stroke-width=\"{}\"><title>{:.6g} m</title>"
+                   "</polyline>\n",
+                   bold ? "0.03" : "0.012", contour.height_m);
+  }
+}
+
 Rectangle Union(const Rectangle& a, const Rectangle& b) {
   return {std::min(a.x_min_m, b.x_min_m), std::max(a.x_max_m, b.x_max_m),
           std::min(a.y_min_m, b.y_min_m), std::max(a.y_max_m, b.y_max_m)};
@@ -187,6 +206,7 @@ std::string ToSvg(const Field& field, const TerrainParams& params, const Course&
   const Rectangle all = DrivableBounds(params.arena);
   std::string svg = SvgHead(overlay.elements.empty() ? all : Union(all, overlay.area));
   DrawRectangle(all, "fill=\"#f4e6d8\"", svg);
+  if (params.ground.elevation.IsGiven()) DrawContours(field.terrain.ground(), all, svg);
   int index = 0;
   for (const Rock& rock : field.terrain.rocks()) DrawRock(rock, index++, svg);
   DrawRectangle(ArenaBounds(params.arena), "fill=\"none\" stroke=\"#444\" stroke-width=\"0.03\"",

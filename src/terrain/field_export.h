@@ -34,8 +34,9 @@ struct SvgOverlay {
 };
 
 // Returns a plan view, x to the right and y up, 1 unit = 1 m: rocks as octagons of their outlines
-// (like Matthies 1995 fig. 16), darker the higher; start and goal as crosses; arena and mirror
-// lines. The view shows the drivable bounds and the area of the overlay.
+// (like Matthies 1995 fig. 16), darker the higher; contours of an elevation model; start and goal
+// as crosses; arena and mirror lines. The view shows the drivable bounds and the area of the
+// overlay.
 std::string ToSvg(const Field& field, const TerrainParams& params, const Course& course,
                   const SvgOverlay& overlay = {});
 

@@ -390,10 +390,13 @@ TEST(PageTracks, TheCourseIsWhereDrivesLead) {
                           .goal = {7.6, -0.25},
                           .goal_radius_m = 0.65,
                           .waypoints = {{3.0, 4.0}},
-                          .mirror_lines_m = {-1.1, 1.1}};
+                          .mirror_lines_m = {-1.1, 1.1},
+                          .contours = {{-0.5, {{1.0, 2.0}, {1.254, -2.0}}}},
+                          .contour_interval_m = 0.5};
   EXPECT_EQ(json::parse(PageCourseJson(course)), json::parse(R"({"rover": "R \"2\"",
     "start": [0.5, 1], "goal": [7.6, -0.25], "goal_radius_m": 0.65, "waypoints": [[3, 4]],
-    "mirror_lines_m": [-1.1, 1.1]})"));
+    "mirror_lines_m": [-1.1, 1.1], "contours": [{"height_m": -0.5, "line_cm": [100, 200, 125, -200]}],
+    "contour_interval_m": 0.5})"));
 }
 
 TEST(PageEndings, CountOutcomesWithTheirDetailsMostFirst) {

@@ -72,6 +72,9 @@ export interface Course {
   waypoints: [number, number][];
   /** y of the lines at which operators reflect the rover. */
   mirror_lines_m: number[];
+  /** Of an elevation model: x, y, x, y ... in whole centimetres. */
+  contours: { height_m: number; line_cm: number[] }[];
+  contour_interval_m: number;
 }
 
 export interface Track {

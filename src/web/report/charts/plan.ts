@@ -31,11 +31,11 @@ interface PlanSpec {
 
 export interface Box { x0: number; x1: number; y0: number; y1: number }
 
+const places = (numbers_cm: number[]) =>
+  Array.from({ length: numbers_cm.length / 2 }, (_, i): Place => [numbers_cm[2 * i]! / 100, numbers_cm[2 * i + 1]! / 100]);
+
 /** The lines of a track, m. */
-export function trackLines(track: Track): Place[][] {
-  return track.pieces_cm.map((numbers) =>
-    Array.from({ length: numbers.length / 2 }, (_, i): Place => [numbers[2 * i]! / 100, numbers[2 * i + 1]! / 100]));
-}
+export const trackLines = (track: Track): Place[][] => track.pieces_cm.map(places);
 
 /** What holds start, goal and all these places, with a border. */
 export function boxOf(course: Course, places: Place[]): Box {
@@ -115,6 +115,18 @@ function courseElements({ course, box }: PlanSpec, frame: Frame): SVGElement[] {
   ];
 }
 
+// Every fifth contour is bolder. What lies beyond the box is cut off.
+function contourElements({ course }: PlanSpec, { at, left, width, height }: Frame): SVGElement {
+  const lines = course.contours.map(({ height_m, line_cm }) => {
+    const bold = Math.round(height_m / course.contour_interval_m) % 5 === 0;
+    const points = places(line_cm).map((place) => at(place).map((each) => each.toFixed(1)).join(",")).join(" ");
+    return svg("polyline", { points, class: bold ? "plan-contour plan-bold" : "plan-contour" },
+      svg("title", {}, `${number(height_m)} m`));
+  });
+  const size = { width: Math.max(width, 1), height: Math.max(height, 1) };
+  return svg("svg", { x: left, y: 0, ...size, viewBox: `${left} 0 ${size.width} ${size.height}`, style: "overflow: hidden" }, ...lines);
+}
+
 // Many marks on a narrow page are small, so that they leave something of each other.
 const markSize = (width: number) => Math.min(1, Math.max(0.5, Math.round(width / 70) / 10));
 
@@ -131,5 +143,5 @@ export function drawPlan(spec: PlanSpec, width: number, mostHeight: number): SVG
       outcomeLines(outcome, lines.filter((line) => line.length > 1).map((line) => line.map(frame.at)), spec.lineWidth),
       outcomeMarks(outcome, ends.map(frame.at), ends.length > 1 ? markSize(width) : 1)));
   return svg("svg", { width: w, height: h, viewBox: `0 0 ${w} ${h}`, class: "plan" },
-    ...(spec.axes ? axisElements(spec, frame) : []), ...rocks, ...courseElements(spec, frame), ...layers);
+    ...(spec.course.contours.length > 0 ? [contourElements(spec, frame)] : []), ...(spec.axes ? axisElements(spec, frame) : []), ...rocks, ...courseElements(spec, frame), ...layers);
 }

@@ -23,7 +23,9 @@ function caption(run: Run): string {
   const ends = `A mark is where a drive truly ended, of ${counted((run.trials?.trial ?? []).length, "trial")}.`;
   const course = "The cross is the start, the circle what counts as the goal" +
     (run.course!.mirror_lines_m.length > 0 ? ", a dashed line where operators set the rover back: a path goes on there at another place." : ".");
-  const part = partOfTrials([run], "Drawn are");
+  const ground = run.course!.contours.length > 0
+    ? ` Thin lines are heights of the ground, ${number(run.course!.contour_interval_m)} m apart, every fifth bolder.` : "";
+  const part = `${ground.trim()} ${partOfTrials([run], "Drawn are")}`.trim();
   if (tracks === 0) return `${ends} ${course} No paths were driven for this page (--tracks). ${part}`;
   const others = tracks > first ? `, and of ${counted(tracks - first, "other")} with a replay` : "";
   return `${ends} Lines are true paths: of ${number(first)} of the first trials, whatever became of them${others}, to 2 cm. ${course} ${part}`;
