@@ -135,10 +135,14 @@ class LevelScales {
 double ShareOfTerrain(const terrain::TerrainParams& terrain) {
   constexpr double kLess = 0.136;
   constexpr double kVikingLander2_per_m2 = 0.013;
+  constexpr double kVikingLander2_cover = 0.176;
   const terrain::RockFieldKind rocks = terrain.rocks.kind;
   if (!terrain.ground.IsLevel() || rocks == terrain::RockFieldKind::kListed) return 1.0 - kLess;
   if (rocks == terrain::RockFieldKind::kNone) return 1.0;
-  return 1.0 - kLess * std::min(1.0, terrain.rocks.k_per_m2 / kVikingLander2_per_m2);
+  const double abundance = rocks == terrain::RockFieldKind::kGolombek
+                               ? terrain.rocks.cover / kVikingLander2_cover
+                               : terrain.rocks.k_per_m2 / kVikingLander2_per_m2;
+  return 1.0 - kLess * std::min(1.0, abundance);
 }
 
 // Doubts the scale of the odometer; 1 is the wheels' own distance. Navigators that keep away from

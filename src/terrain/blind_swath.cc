@@ -32,12 +32,11 @@ double MeanExtent(const RockFieldParams& rocks) {
 }
 
 // Returns the integral of D^power over the share of the law at or above low_m: (1 - Cdf(low)) times
-// the mean of the law cut there. Kinds other than moore and uniform_count never come here: they
-// have no RocksPerM2.
+// the mean of the law cut there. Kinds without RocksPerM2 never come here.
 double UpperMoment(const RockFieldParams& rocks, double power, double low_m) {
   RockFieldParams upper = rocks;
   double kept = 1.0;
-  if (rocks.kind == RockFieldKind::kMoore) {
+  if (rocks.FollowsLaw()) {
     // No rock of the law is so large.
     if (low_m >= rocks.max_diameter_m) return 0.0;
     kept = 1.0 - MakeSizeLaw(rocks)->Cdf(low_m);
@@ -85,7 +84,7 @@ std::optional<double> FirstContact(const Rock& rock, double y_m, double half_wid
 
 double BlindContactsPerM(const RockFieldParams& rocks, const BlindSwath& swath) {
   const double per_m2 = rocks.RocksPerM2();
-  if (per_m2 <= 0.0) return 0.0;
+  if (per_m2 <= 0.0 || rocks.kind == RockFieldKind::kListed) return 0.0;
   // 1 / lambda = n (W P(D >= D_min) + g E[D; D >= D_min]).
   return per_m2 * (swath.width_m * UpperMoment(rocks, 0.0, swath.min_diameter_m) +
                    MeanExtent(rocks) * UpperMoment(rocks, 1.0, swath.min_diameter_m));

@@ -34,8 +34,8 @@ struct BlindSwath {
 // swath in diameters: 1 for round rocks. For an ellipse of axis ratio q at any yaw it is the
 // perimeter over that of the circle around the ellipse (Cauchy); g averages it over q, which
 // rock_layout.cc draws uniformly. All is closed form but g, which two nested Simpson rules give to
-// 1e-10. Returns 0 for fields without a law. P holds without overlap rule, clear zones and arena
-// edges: rules that keep rocks apart shift the distances.
+// 1e-10. Returns 0 for fields without a law and for listed rocks. P holds without clusters, overlap
+// rule, clear zones and arena edges: rules that keep rocks apart shift the distances.
 double BlindContactsPerM(const RockFieldParams& rocks, const BlindSwath& swath);
 
 // Returns the x, in W, at which the front, moving from x0_m on, first touches an obstacle; infinite

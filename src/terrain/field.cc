@@ -43,31 +43,43 @@ double MeanPowerOutsideClearZones(const RockSizeLaw& law, double power, double r
   return law.MeanPower(power) - zones * std::numbers::pi * removed / area_m2;
 }
 
-void AddExpectations(const TerrainParams& params, const Course& course, FieldAudit& audit) {
+// Adds what the law of the random rocks lets expect.
+void AddRandom(const TerrainParams& params, const Course& course, FieldAudit& audit) {
   const std::unique_ptr<RockSizeLaw> law = MakeSizeLaw(params.rocks);
   if (!law) return;
   // Mean number: density times area.
-  audit.expected_drawn = params.rocks.RocksPerM2() * audit.layout_area_m2;
+  const double drawn = params.rocks.RocksPerM2() * audit.layout_area_m2;
   double placed_share = 1.0;
   double mean_square_m2 = law->MeanPower(2.0);
-  // Only Moore rocks are dropped in clear zones; exact counts are drawn again elsewhere.
-  if (params.rocks.kind == RockFieldKind::kMoore) {
+  // Only rocks of a law are dropped in clear zones; exact counts are drawn again elsewhere.
+  if (params.rocks.FollowsLaw()) {
     const double r = params.rocks.clear_radius_m;
     const auto zones = static_cast<double>(course.Points().size());
     placed_share = MeanPowerOutsideClearZones(*law, 0.0, r, zones, audit.layout_area_m2);
     mean_square_m2 = MeanPowerOutsideClearZones(*law, 2.0, r, zones, audit.layout_area_m2);
   }
-  audit.expected_placed = audit.expected_drawn * placed_share;
+  audit.expected_drawn += drawn;
+  audit.expected_placed += drawn * placed_share;
   // Cover per area: pi/4 E[D^2] times the number of rocks.
-  audit.expected_cover =
-      0.25 * std::numbers::pi * audit.expected_drawn * mean_square_m2 / audit.layout_area_m2;
+  audit.expected_cover += 0.25 * std::numbers::pi * drawn * mean_square_m2 / audit.layout_area_m2;
+}
+
+// Adds the listed rocks, of which all are there.
+void AddListed(const ListedRocksParams& listed, FieldAudit& audit) {
+  for (const double diameter_m : listed.diameter_m) {
+    audit.expected_drawn += 1.0;
+    audit.expected_placed += 1.0;
+    audit.expected_cover +=
+        0.25 * std::numbers::pi * diameter_m * diameter_m / audit.layout_area_m2;
+  }
 }
 
 FieldAudit AuditLayout(const TerrainParams& params, const Course& course,
                        const RockLayout& layout) {
   FieldAudit audit;
   audit.layout_area_m2 = params.LayoutArea();
-  AddExpectations(params, course, audit);
+  AddRandom(params, course, audit);
+  if (params.rocks.kind == RockFieldKind::kListed) AddListed(params.rocks.listed, audit);
   audit.drawn = layout.drawn;
   audit.dropped_in_clear_zones = layout.dropped_in_clear_zones;
   audit.dropped_for_overlap = layout.dropped_for_overlap;
@@ -148,7 +160,7 @@ bool Within(const Rectangle& inner, const Rectangle& outer) {
          outer.Contains(inner.x_max_m, inner.y_max_m);
 }
 
-// Returns the bounds of Moore's classes: those of the law, and .2, .3 and .5 m between them.
+// Returns the bounds of a law's classes: those of the law, and .2, .3 and .5 m between them.
 std::vector<double> ClassBounds(const RockFieldParams& rocks) {
   std::vector<double> bounds{rocks.min_diameter_m};
   for (const double bound_m : {0.2, 0.3, 0.5}) {
@@ -175,7 +187,10 @@ double AreaNear(const Rectangle& area, double x_m, double y_m, double radius_m) 
 std::vector<CorridorClass> ExpectedInCorridor(const TerrainParams& params, const Course& course) {
   const RockFieldParams& rocks = params.rocks;
   const std::unique_ptr<RockSizeLaw> law = MakeSizeLaw(rocks);
-  if (!law || course.start_y_m != course.goal_y_m || !course.waypoints.empty()) return {};
+  if (!law || rocks.kind == RockFieldKind::kListed || course.start_y_m != course.goal_y_m ||
+      !course.waypoints.empty()) {
+    return {};
+  }
   const bool exact = rocks.kind == RockFieldKind::kUniformCount;
   const Rectangle layout = exact ? CountArea(rocks) : LayoutBounds(params);
   const Rectangle corridor = CorridorOf(course);

@@ -28,10 +28,10 @@ inline constexpr double kBellyHeight_m = 0.13;
 struct FieldAudit {
   double layout_area_m2 = 0.0;
 
-  // Rocks of the law: the mean of a Poisson distribution for moore, exact for uniform_count.
+  // Rocks of the law: the mean of a Poisson distribution for laws of Mars, exact for uniform_count.
   double expected_drawn = 0.0;
   int drawn = 0;
-  int dropped_in_clear_zones = 0;  // moore only: uniform_count places them elsewhere
+  int dropped_in_clear_zones = 0;  // uniform_count places them elsewhere
   int dropped_for_overlap = 0;
   int relocated = 0;  // placed, but not where first drawn
   // `placed` is `drawn` less both kinds of dropped rocks, expected_placed its mean if no overlap
@@ -60,13 +60,13 @@ struct Field {
 // Builds the field of one trial. Records depend on the streams and on the order of rocks. Rock i
 // draws its mark, diameter, position and shape from streams of its own (kRockMark, kRockSize,
 // kRockPlacement, kRockShape; substream i), and the reference count comes from kRockCount; so no
-// choice about one rock shifts another. Fields that differ only in k_per_m2 nest: the rocks of the
-// smaller field come first in the list of the larger one, with the same position, size and shape.
-// Virtual arenas list the rocks of the strip first, then their images. A goal rock must be the last
-// of all, as the referee finds it by that; the audit leaves it out. README.md of this folder has
-// the equations and the bias of each overlap rule. Throws core::UserError where start, waypoints or
-// goal lie outside the arena, std::runtime_error where an exact count finds no place. Cost: about
-// 0.1 ms for the nominal virtual arena.
+// choice about one rock shifts another. Fields that differ only in k_per_m2 or cover nest: the
+// rocks of the smaller field come first in the list of the larger one, with the same position, size
+// and shape. Virtual arenas list the rocks of the strip first, then their images. A goal rock must
+// be the last of all, as the referee finds it by that; the audit leaves it out. README.md of this
+// folder has the equations and the bias of each overlap rule. Throws core::UserError where start,
+// waypoints or goal lie outside the arena, std::runtime_error where an exact count finds no place.
+// Cost: about 0.1 ms for the nominal virtual arena.
 Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& course);
 
 // Half the width of the corridor about the straight course, m: a rover 0.48 m wide and what its
@@ -89,13 +89,13 @@ double AreaNear(const Rectangle& area, double x_m, double y_m, double radius_m);
 // positions uniform over the layout area, no rock in a clear zone. Overlap and line rule of the
 // parameters do not count, so that a rule that pushes rocks about shows as a difference. With C the
 // corridor, A the layout area, Z(D) the two clear zones grown by the radius D/2 of a rock:
-//   moore:          integral of n(D) (|C| - |C and Z(D)|) dD, as rocks drawn in the zones are
+//   laws of Mars:   integral of n(D) (|C| - |C and Z(D)|) dD, as rocks drawn in the zones are
 //                   dropped, for .1 to .2, .2 to .3, .3 to .5, .5 to 1 m and what exceeds these;
 //   uniform_count:  count times the mean of (|C| - |C and Z(D)|) / (|A| - |A and Z(D)|), as they
 //                   are drawn again, in one class.
-// The numbers are good to 1e-5 of themselves. Returns nothing where there is no law, where the
-// course does not lead straight along x, where its clear zones meet, or where the corridor leaves
-// the layout area (uniform_count: the count area).
+// The numbers are good to 1e-5 of themselves. Returns nothing where there is no law, for listed
+// rocks, where the course does not lead straight along x, where its clear zones meet, or where the
+// corridor leaves the layout area (uniform_count: the count area).
 std::vector<CorridorClass> ExpectedInCorridor(const TerrainParams& params, const Course& course);
 
 // Adds the rocks whose centres lie in the corridor of the course to their classes.

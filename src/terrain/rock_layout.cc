@@ -9,7 +9,9 @@
 #include <stdexcept>
 
 #include "core/random.h"
+#include "math/angles.h"
 #include "terrain/arena.h"
+#include "terrain/marked_field.h"
 #include "terrain/rock.h"
 #include "terrain/rock_size_law.h"
 
@@ -20,36 +22,11 @@ namespace {
 using core::Purpose;
 using core::RandomStream;
 
-// Attempts to place one rock before it is given up: moore drops it, an exact count is an error.
+// Attempts to place one rock before it is given up: laws drop it, an exact count is an error.
 constexpr int kMaxAttempts = 1000;
 // Substream of the first rock outside the count area, so that the rocks inside keep their streams
 // when the count changes. Must stay above every count that parameters allow.
 constexpr std::uint32_t kFirstOutsideCount = 1u << 20;
-
-// A rock of the marked reference field; it belongs to every field with k > mark * k_reference.
-struct MarkedRock {
-  double mark;
-  std::uint32_t substream;
-};
-
-std::vector<MarkedRock> DrawMarkedField(const TerrainParams& params, core::TrialKey key) {
-  RandomStream counts(key, Purpose::kRockCount);
-  const auto reference_count = static_cast<std::uint32_t>(
-      core::SamplePoisson(counts, params.rocks.ReferenceRocksPerM2() * params.LayoutArea()));
-  // Thinning: a Poisson number with mean n A, of which each is kept with probability k / k_ref, is
-  // a Poisson number with mean n A k / k_ref.
-  const double kept_share = params.rocks.k_per_m2 / params.rocks.k_reference_per_m2;
-  std::vector<MarkedRock> kept;
-  for (std::uint32_t i = 0; i < reference_count; ++i) {
-    const double mark = RandomStream(key, Purpose::kRockMark, i).Uniform();
-    if (mark < kept_share) kept.push_back({mark, i});
-  }
-  // The order must be that of the marks: the field of a smaller k is then a prefix of that of a
-  // larger k, whatever the overlap rule drops or moves.
-  std::sort(kept.begin(), kept.end(),
-            [](const MarkedRock& a, const MarkedRock& b) { return a.mark < b.mark; });
-  return kept;
-}
 
 // Returns a rock at the origin with random size, shape and yaw. Records depend on the order of its
 // draws. Width ratio and yaw must stay uniform: blind_swath.h has its closed form by them.
@@ -85,9 +62,11 @@ class LayoutBuilder {
   LayoutBuilder(const TerrainParams& params, core::TrialKey key, const Course& course)
       : params_(params.rocks),
         key_(key),
-        law_(MakeSizeLaw(params.rocks)),
+        law_(MakeReferenceSizeLaw(params.rocks)),
         placement_(LayoutBounds(params), course, params.rocks.clear_radius_m,
-                   LineToKeepOff(params)) {}
+                   LineToKeepOff(params)) {
+    if (params_.FollowsLaw() && params_.clusters_per_m2 > 0.0) clusters_.emplace(params, key);
+  }
 
   // Places rock `substream` at random in `area`, outside `hole` if there is one. Where
   // `drop_in_clear_zones`, a rock that is first drawn into a clear zone is dropped, which leaves
@@ -122,13 +101,26 @@ class LayoutBuilder {
     return false;
   }
 
+  // Adds a rock that stands where it is given. Those that are placed later keep off it, where the
+  // overlap rule lets them.
+  void AddGiven(const Rock& rock) {
+    ++layout_.drawn;
+    placement_.Add({rock.center_W.x(), rock.center_W.y(), 0.5 * rock.diameter_m});
+    layout_.rocks.push_back(rock);
+  }
+
   RockLayout Take() { return std::move(layout_); }
 
  private:
-  // Returns a place uniform in the area less the hole, by rejection.
-  static Disc DrawPosition(RandomStream& stream, const Rectangle& area, const Rectangle* hole,
-                           double radius_m) {
+  // Returns a place by the clusters, where there are any; otherwise one that is uniform in the area
+  // less the hole, by rejection.
+  Disc DrawPosition(RandomStream& stream, const Rectangle& area, const Rectangle* hole,
+                    double radius_m) const {
     Disc disc{0.0, 0.0, radius_m};
+    if (clusters_) {
+      const CoursePoint place = clusters_->Draw(stream);
+      return {place.x_m, place.y_m, radius_m};
+    }
     do {
       disc.x_m = core::SampleUniform(stream, area.x_min_m, area.x_max_m);
       disc.y_m = core::SampleUniform(stream, area.y_min_m, area.y_max_m);
@@ -140,23 +132,21 @@ class LayoutBuilder {
   core::TrialKey key_;
   std::unique_ptr<RockSizeLaw> law_;
   Placement placement_;
+  std::optional<RockClusters> clusters_;
   RockLayout layout_;
 };
 
-RockLayout LayOutMoore(const TerrainParams& params, core::TrialKey key, const Course& course) {
-  LayoutBuilder builder(params, key, course);
+void LayOutLaw(const TerrainParams& params, core::TrialKey key, LayoutBuilder& builder) {
   const Rectangle area = LayoutBounds(params);
-  // Each rock is placed by its own streams and by those before it alone: fields of growing k nest.
-  for (const MarkedRock& marked : DrawMarkedField(params, key)) {
-    builder.Place(marked.substream, area, nullptr, true);
+  // Each rock is placed by its own streams and by those before it alone: fields nest.
+  for (const std::uint32_t substream : RocksOfField(params, key)) {
+    builder.Place(substream, area, nullptr, true);
   }
-  return builder.Take();
 }
 
 // Lays out exactly `count` rocks in the count area; the rest of the layout area, if any, is filled
 // at the same density, to the nearest whole rock.
-RockLayout LayOutExactCount(const TerrainParams& params, core::TrialKey key, const Course& course) {
-  LayoutBuilder builder(params, key, course);
+void LayOutExactCount(const TerrainParams& params, LayoutBuilder& builder) {
   const Rectangle inside = CountArea(params.rocks);
   const Rectangle all = LayoutBounds(params);
   // The rest of the layout area gets the count area's density, rounded to a whole number of rocks.
@@ -174,45 +164,52 @@ RockLayout LayOutExactCount(const TerrainParams& params, core::TrialKey key, con
   if (!complete) {
     throw std::runtime_error("no place without overlap for every rock of an exact count");
   }
-  return builder.Take();
 }
 
-RockLayout LayOutList(const RockFieldParams& params) {
-  const ListedRocksParams& list = params.listed;
-  RockLayout layout;
-  for (std::size_t i = 0; i < list.x_m.size(); ++i) {
-    layout.rocks.push_back(
-        GivenRock(params, {list.x_m[i], list.y_m[i]}, list.diameter_m[i], list.height_m[i]));
-  }
-  layout.drawn = static_cast<int>(layout.rocks.size());
-  return layout;
+// Returns a rock of which a share `buried` of the full height 2 c is below the ground: h =
+// 2 c (1 - buried).
+Rock ListedRock(const ListedRocksParams& list, std::size_t i, const RockFieldParams& params) {
+  const double buried = list.buried_share.empty() ? params.burial_mean : list.buried_share[i];
+  const RockOutline outline{.diameter_m = list.diameter_m[i],
+                            .width_ratio = list.width_ratio.empty() ? 1.0 : list.width_ratio[i],
+                            .half_height_m = 0.5 * list.height_m[i] / (1.0 - buried),
+                            .height_m = list.height_m[i]};
+  Rock rock = ShapeRock(outline, params.pointedness);
+  rock.center_W.head<2>() << list.x_m[i], list.y_m[i];
+  if (!list.yaw_deg.empty()) rock.yaw_rad = math::DegToRad(list.yaw_deg[i]);
+  return rock;
 }
 
 }  // namespace
 
-// The buried share of the full height 2 c is below the ground: h = 2 c (1 - burial).
 Rock GivenRock(const RockFieldParams& params, const CoursePoint& place, double diameter_m,
                double height_m) {
-  const RockOutline outline{.diameter_m = diameter_m,
-                            .half_height_m = 0.5 * height_m / (1.0 - params.burial_mean),
-                            .height_m = height_m};
-  Rock rock = ShapeRock(outline, params.pointedness);
-  rock.center_W.head<2>() << place.x_m, place.y_m;
-  return rock;
+  const ListedRocksParams one{
+      .x_m = {place.x_m}, .y_m = {place.y_m}, .diameter_m = {diameter_m}, .height_m = {height_m}};
+  return ListedRock(one, 0, params);
 }
 
 RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Course& course) {
-  switch (params.rocks.kind) {
+  const RockFieldParams& rocks = params.rocks;
+  LayoutBuilder builder(params, key, course);
+  if (rocks.kind == RockFieldKind::kListed) {
+    for (std::size_t i = 0; i < rocks.listed.x_m.size(); ++i) {
+      builder.AddGiven(ListedRock(rocks.listed, i, rocks));
+    }
+  }
+  switch (rocks.RandomKind()) {
     case RockFieldKind::kNone:
+    case RockFieldKind::kListed:
       break;
     case RockFieldKind::kMoore:
-      return LayOutMoore(params, key, course);
+    case RockFieldKind::kGolombek:
+      LayOutLaw(params, key, builder);
+      break;
     case RockFieldKind::kUniformCount:
-      return LayOutExactCount(params, key, course);
-    case RockFieldKind::kListed:
-      return LayOutList(params.rocks);
+      LayOutExactCount(params, builder);
+      break;
   }
-  return {};
+  return builder.Take();
 }
 
 namespace {

@@ -29,9 +29,10 @@ struct RockLayout {
 Rock GivenRock(const RockFieldParams& params, const CoursePoint& place, double diameter_m,
                double height_m);
 
-// Returns the rocks in the order in which they were placed: by mark for moore, by number for
-// uniform_count, by place in the list for listed. A rock's fate must depend on earlier rocks only:
-// then a field of smaller k is a prefix of a field of larger k under every overlap rule.
+// Returns the rocks in the order in which they were placed: as marked_field.h says for
+// laws, by number for uniform_count, by place in the list for listed. A rock's fate must depend on
+// earlier rocks only: then a field of smaller k or cover is a prefix of one of a larger one under
+// every overlap rule.
 RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Course& course);
 
 // A rock's outline for the purpose of placement: the circle around its longest horizontal axis, so

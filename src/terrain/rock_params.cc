@@ -1,6 +1,8 @@
 #include "terrain/rock_params.h"
 
-#include <cmath>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <numbers>
 #include <string>
@@ -35,7 +37,7 @@ void RequireLength(std::string_view name, const std::vector<double>& list, std::
 // sequential placement of equal discs jams, so that every rock finds a place.
 constexpr double kLargestCountCover = 0.25;
 
-void VisitMoore(RockFieldParams& p, core::FieldVisitor& v) {
+void VisitLaws(RockFieldParams& p, core::FieldVisitor& v) {
   v.Real("k_per_m2", p.k_per_m2,
          Published("moore: number of rocks per m2 with diameters of at least 1 m",
                    "Matthies 1995 sec. 7: 0.00415 nominal, 0.013 Viking Lander 2", {0.0, 0.1}));
@@ -45,12 +47,25 @@ void VisitMoore(RockFieldParams& p, core::FieldVisitor& v) {
                  {1e-6, 0.1}));
   v.Require("k_per_m2", p.k_per_m2 <= p.k_reference_per_m2, "is larger than k_reference_per_m2",
             "raise k_reference_per_m2 to at least k_per_m2 in every field of the comparison");
+  v.Real("cover", p.cover,
+         Published("golombek: share of the ground under rocks of all sizes, k of the law",
+                   "0.069 Viking Lander 1 and 0.176 Viking Lander 2 (Golombek and Rapp 1997, as "
+                   "others quote it), 0.19 Mars Pathfinder (Golombek et al. 2003), 0.01 to 0.04 "
+                   "InSight (Golombek et al. 2020)",
+                   {0.001, 0.5}));
+  v.Real("cover_reference", p.cover_reference,
+         Setting("golombek: cover of the marked field that is thinned down to cover; fields that "
+                 "share it nest",
+                 {0.001, 0.5}));
+  v.Require("cover", p.cover <= p.cover_reference, "is larger than cover_reference",
+            "raise cover_reference to at least cover in every field of the comparison");
   v.Real("min_diameter_m", p.min_diameter_m,
-         Assumed("moore: smallest rock; the law overestimates rocks below 14 cm",
+         Assumed("moore, golombek: smallest rock; Moore's law overestimates rocks below 14 cm",
                  "Matthies 1995 sec. 7 quotes coverage from 0.1 m", {0.02, 2.0}, {0.05, 0.14}));
-  v.Real("max_diameter_m", p.max_diameter_m,
-         Assumed("moore: largest rock", "largest rock near Viking Lander 2, Matthies 1995 fig. 14",
-                 {0.03, 5.0}, {0.5, 1.5}));
+  v.Real(
+      "max_diameter_m", p.max_diameter_m,
+      Assumed("moore, golombek: largest rock",
+              "largest rock near Viking Lander 2, Matthies 1995 fig. 14", {0.03, 5.0}, {0.5, 1.5}));
   v.Require("max_diameter_m", p.max_diameter_m > p.min_diameter_m,
             "is not larger than min_diameter_m", "use a larger max_diameter_m");
 }
@@ -83,6 +98,23 @@ void VisitUniform(RockFieldParams& p, core::FieldVisitor& v) {
             "would cover more than a quarter of the count area, so that some rocks might find no "
             "place without overlap",
             "use fewer or smaller rocks, or a larger count area");
+}
+
+// What listed rocks ask of the rest of the field.
+void RequireListed(const RockFieldParams& p, core::FieldVisitor& v) {
+  if (p.kind != RockFieldKind::kListed) return;
+  const std::vector<double>& buried = p.listed.buried_share;
+  v.Require("listed.buried_share",
+            p.pointedness == 0.0 || std::all_of(buried.begin(), buried.end(),
+                                                [](double share) { return share <= 0.5; }),
+            "buries more than half of some rocks, of which pointed ones have no shape",
+            "use shares of at most 0.5, or a pointedness of 0");
+  if (p.listed.rest == RestOfRocks::kNone || p.listed.diameter_m.empty()) return;
+  const double smallest_m =
+      *std::min_element(p.listed.diameter_m.begin(), p.listed.diameter_m.end());
+  v.Require("max_diameter_m", p.max_diameter_m <= smallest_m,
+            "lets listed.rest lay rocks as large as listed ones, which would count them twice",
+            fmt::format("use at most {:g}, the smallest of listed.diameter_m", smallest_m));
 }
 
 void VisitShape(RockFieldParams& p, core::FieldVisitor& v) {
@@ -153,43 +185,47 @@ void ListedRocksParams::Visit(core::FieldVisitor& v) {
   v.Reals("diameter_m", diameter_m, ListOfRocks("listed: diameter of every rock", {0.02, 5.0}));
   v.Reals("height_m", height_m,
           ListOfRocks("listed: height of every rock above the ground", {0.01, 5.0}));
+  v.Reals("buried_share", buried_share,
+          ListOfRocks("listed: share of every rock's full height that is buried; an empty list: "
+                      "burial_mean",
+                      {0.0, 0.95}));
+  v.Reals("width_ratio", width_ratio,
+          ListOfRocks("listed: shorter over longer horizontal axis of every rock; an empty list: "
+                      "round rocks",
+                      {0.1, 1.0}));
+  v.Reals("yaw_deg", yaw_deg,
+          ListOfRocks("listed: direction of every longer axis, from +x towards +y; an empty list: "
+                      "0",
+                      {-360.0, 360.0}));
+  v.Choice("rest", rest,
+           Setting("listed: the law whose rocks, from min_diameter_m to max_diameter_m, lie beside "
+                   "the listed ones, which are the larger ones"));
   RequireLength("y_m", y_m, x_m.size(), v);
   RequireLength("diameter_m", diameter_m, x_m.size(), v);
   RequireLength("height_m", height_m, x_m.size(), v);
+  if (!buried_share.empty()) RequireLength("buried_share", buried_share, x_m.size(), v);
+  if (!width_ratio.empty()) RequireLength("width_ratio", width_ratio, x_m.size(), v);
+  if (!yaw_deg.empty()) RequireLength("yaw_deg", yaw_deg, x_m.size(), v);
 }
 
-double MooreNumberPerM2(double k_per_m2, double diameter_m) {
-  return k_per_m2 * std::pow(diameter_m, -kMooreExponent);
-}
-
-double RockFieldParams::RocksPerM2() const {
-  switch (kind) {
-    case RockFieldKind::kNone:
-    case RockFieldKind::kListed:
-      return 0.0;
-    case RockFieldKind::kMoore:
-      return MooreNumberPerM2(k_per_m2, min_diameter_m) -
-             MooreNumberPerM2(k_per_m2, max_diameter_m);
-    case RockFieldKind::kUniformCount:
-      return static_cast<double>(count) / (count_area_length_m * count_area_width_m);
-  }
-  return 0.0;
-}
-
-double RockFieldParams::ReferenceRocksPerM2() const {
-  if (kind != RockFieldKind::kMoore) return RocksPerM2();
-  return MooreNumberPerM2(k_reference_per_m2, min_diameter_m) -
-         MooreNumberPerM2(k_reference_per_m2, max_diameter_m);
+bool ListedRocksParams::IsSound() const {
+  const auto fits = [this](const std::vector<double>& list, bool may_be_empty) {
+    return list.size() == x_m.size() || (may_be_empty && list.empty());
+  };
+  return fits(y_m, false) && fits(diameter_m, false) && fits(height_m, false) &&
+         fits(buried_share, true) && fits(width_ratio, true) && fits(yaw_deg, true);
 }
 
 void RockFieldParams::Visit(core::FieldVisitor& v) {
   v.Choice("kind", kind,
-           Setting("none, moore: random sizes and counts, uniform_count: an exact count of similar "
-                   "rocks, listed: those of the group of that name"));
-  VisitMoore(*this, v);
+           Setting("none, moore and golombek: random counts and sizes by a law of Mars, "
+                   "uniform_count: an exact count of similar rocks, listed: those of the group of "
+                   "that name"));
+  VisitLaws(*this, v);
   VisitUniform(*this, v);
   VisitShape(*this, v);
   v.Group("listed", listed, "rocks one by one, for kind listed");
+  RequireListed(*this, v);
   v.Choice("overlap", overlap,
            Assumed("what happens to a rock that overlaps one placed before it",
                    "rocks do not interpenetrate; relocate keeps the counts of the law"));
@@ -202,6 +238,24 @@ void RockFieldParams::Visit(core::FieldVisitor& v) {
                 "one with its image, keep_off treats it as overlapping one placed before it",
                 "Matthies 1995 sec. 7: random across the central 2.2 m of the course width, and "
                 "mirror-image periodic beyond that"));
+  v.Real("clusters_per_m2", clusters_per_m2,
+         Setting("moore, golombek: number of clusters per m2 about which all rocks lie, each rock "
+                 "about one of them; 0: no clusters, rocks lie anywhere",
+                 {0.0, 10.0}));
+  v.Real("cluster_radius_m", cluster_radius_m,
+         Assumed("moore, golombek: standard deviation of rocks from the middle of their cluster, "
+                 "along x and along y",
+                 "no effect without clusters; no published value was at hand", {0.05, 50.0},
+                 {0.3, 3.0}));
+  // A cluster covers about 4 pi radius^2: the density at its middle over that area holds it all.
+  constexpr double kFullestCluster = 0.25;
+  v.Require("cluster_radius_m",
+            overlap == OverlapRule::kAllow ||
+                LawCover() <= kFullestCluster * clusters_per_m2 * 4.0 * std::numbers::pi *
+                                  cluster_radius_m * cluster_radius_m ||
+                clusters_per_m2 == 0.0,
+            "packs more rocks into a cluster than find a place without overlap",
+            "use a larger cluster_radius_m, a larger clusters_per_m2 or overlap allow");
   v.Real("clear_radius_m", clear_radius_m,
          Assumed("no rock reaches nearer than this to the start or the goal",
                  "half the rover's diagonal is 0.40 m", {0.0, 5.0}, {0.42, 0.8}));

@@ -23,20 +23,24 @@ struct RockHoldingParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// Rocks of a field of kind listed. Each list has one entry for every rock. The rocks are round, the
-// same in every trial, and share burial_mean and pointedness of the field; overlap, clear zones and
-// shape ratios do not apply to them.
+// Which law of Mars lays rocks beside listed ones.
+enum class RestOfRocks { kNone, kMoore, kGolombek };
+
+// Rocks of a field of kind listed, the same in every trial. Each list has one entry for every rock;
+// the last three may be empty. The rocks share the pointedness of the field; overlap, clear zones
+// and shape ratios do not apply to them.
 struct ListedRocksParams {
   std::vector<double> x_m;  // centres, in the world frame
   std::vector<double> y_m;
-  std::vector<double> diameter_m;
-  std::vector<double> height_m;  // above the ground
+  std::vector<double> diameter_m;      // longest horizontal axis
+  std::vector<double> height_m;        // above the ground
+  std::vector<double> buried_share{};  // of the full height; empty: burial_mean of the field
+  std::vector<double> width_ratio{};   // shorter over longer horizontal axis; empty: round
+  std::vector<double> yaw_deg{};       // of the longest axis, from +x towards +y; empty: 0
+  RestOfRocks rest = RestOfRocks::kNone;
 
-  // Returns whether all lists are as long as each other.
-  bool IsSound() const {
-    return y_m.size() == x_m.size() && diameter_m.size() == x_m.size() &&
-           height_m.size() == x_m.size();
-  }
+  // Returns whether all lists are as long as they have to be.
+  bool IsSound() const;
   void Visit(core::FieldVisitor& v);
 };
 
@@ -48,12 +52,25 @@ inline constexpr double kMooreExponent = 2.66;
 // k is the number per m2 at 1 m (its unit is m^0.66). The number is zero for an infinite diameter.
 double MooreNumberPerM2(double k_per_m2, double diameter_m);
 
+// Returns the decay q of the law below, 1/m: 1.79 + 0.152 / cover.
+double GolombekDecayPerM(double cover);
+// Returns the number of rocks per m2 and m of diameter by Golombek and Rapp's law: rocks of
+// diameter_m and more cover the share F(D) = k exp(-q D) of the ground, k the cover of all rocks
+// (Golombek and Rapp 1997, JGR 102(E2); Golombek et al. 2003, JGR 108(E12) 8086). With round rocks
+// n(D) = -F'(D) / (pi D^2 / 4). It grows with the cover at every diameter.
+double GolombekDensity(double cover, double diameter_m);
+// Returns the number per m2 of rocks with diameters of at least diameter_m by that law: the
+// integral of n, (4 / pi) k q E2(q D) / D, E2(x) = exp(-x) - x E1(x). It has no bound as D goes to
+// 0.
+double GolombekNumberPerM2(double cover, double diameter_m);
+
 // Where rocks come from.
 enum class RockFieldKind {
   kNone,
   kMoore,         // Poisson counts, diameters from Moore's law between two explicit bounds
   kUniformCount,  // an exact count, diameters uniform between two bounds
   kListed,        // those of a list, the same in every trial
+  kGolombek,      // Poisson counts, diameters from Golombek and Rapp's law between two bounds
 };
 
 // What happens to a rock that overlaps an earlier one.
@@ -78,6 +95,8 @@ struct RockFieldParams {
 
   double k_per_m2 = 0.00415;
   double k_reference_per_m2 = 0.02;
+  double cover = 0.069;
+  double cover_reference = 0.4;
   double min_diameter_m = 0.1;
   double max_diameter_m = 1.0;
 
@@ -98,17 +117,32 @@ struct RockFieldParams {
 
   OverlapRule overlap = OverlapRule::kRelocate;
   LineRule mirror_line = LineRule::kMerge;
+  double clusters_per_m2 = 0.0;
+  double cluster_radius_m = 1.0;
   ListedRocksParams listed{};
   double clear_radius_m = 0.5;
   RockMobility mobility = RockMobility::kFixed;
   RockHoldingParams holding{};
 
-  // Returns the expected number of rocks per m2 of the layout area, before clear zones and overlap;
-  // 0 for listed rocks, which follow no law.
+  // Returns where the random rocks come from: for listed rocks the law that lays the rest, or
+  // kNone.
+  RockFieldKind RandomKind() const;
+  // Returns whether counts and diameters of the random rocks follow a law of Mars: Poisson counts,
+  // thinned from a reference field.
+  bool FollowsLaw() const {
+    const RockFieldKind random = RandomKind();
+    return random == RockFieldKind::kMoore || random == RockFieldKind::kGolombek;
+  }
+  // Returns the expected number of random rocks per m2 of the layout area, before clear zones and
+  // overlap.
   double RocksPerM2() const;
-  // Returns that number for the reference field, which is thinned down to k; for exact counts it is
-  // RocksPerM2.
+  // Returns that number for the reference field, which is thinned down to k or cover; for exact
+  // counts it is RocksPerM2.
   double ReferenceRocksPerM2() const;
+
+  // Returns the share of the layout area under random rocks that follow a law, overlap not counted;
+  // 0 for others.
+  double LawCover() const;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -117,8 +151,12 @@ struct RockFieldParams {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::terrain::RockFieldKind> {
-  static constexpr std::array<std::string_view, 4> kNames{"none", "moore", "uniform_count",
-                                                          "listed"};
+  static constexpr std::array<std::string_view, 5> kNames{"none", "moore", "uniform_count",
+                                                          "listed", "golombek"};
+};
+template <>
+struct rockyard::core::EnumNames<rockyard::terrain::RestOfRocks> {
+  static constexpr std::array<std::string_view, 3> kNames{"none", "moore", "golombek"};
 };
 template <>
 struct rockyard::core::EnumNames<rockyard::terrain::OverlapRule> {

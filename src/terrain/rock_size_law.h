@@ -38,6 +38,24 @@ class MooreSizeLaw : public RockSizeLaw {
   double number_at_max_;
 };
 
+// Golombek and Rapp's law of that cover truncated to [min_m, max_m].
+class GolombekSizeLaw : public RockSizeLaw {
+ public:
+  GolombekSizeLaw(double cover, double min_m, double max_m);
+  double Diameter(double probability) const override;
+  double Cdf(double diameter_m) const override;
+  // The power must be whole and at least 0.
+  double MeanPower(double power) const override;
+
+ private:
+  double cover_;
+  double decay_per_m_;
+  double min_m_;
+  double max_m_;
+  double number_at_min_;  // of the law, per m2
+  double number_at_max_;
+};
+
 // Diameters are uniform between min_m and max_m.
 class UniformSizeLaw : public RockSizeLaw {
  public:
@@ -51,7 +69,10 @@ class UniformSizeLaw : public RockSizeLaw {
   double max_m_;
 };
 
-// Returns the law that the parameters name; kNone and kListed have none (nullptr).
+// Returns the law of the random rocks (RandomKind); kNone has none (nullptr).
 std::unique_ptr<RockSizeLaw> MakeSizeLaw(const RockFieldParams& params);
+// Returns the law of the reference field, by which rocks are drawn before thinning: another one for
+// kGolombek, whose sizes depend on the cover.
+std::unique_ptr<RockSizeLaw> MakeReferenceSizeLaw(const RockFieldParams& params);
 
 }  // namespace rockyard::terrain

@@ -205,11 +205,20 @@ void TerrainParams::Visit(core::FieldVisitor& v) {
   // Written so that what is no number fails too.
   v.Require("rocks.min_diameter_m", ExpectedRocks() <= kMaxRocks,
             "asks for more than 50000 rocks with the present arena",
-            "use a larger min_diameter_m, a smaller k_per_m2 or a smaller arena");
+            "use a larger min_diameter_m, a smaller k_per_m2 or cover, or a smaller arena");
+  v.Require("rocks.clusters_per_m2",
+            !rocks.FollowsLaw() || rocks.clusters_per_m2 == 0.0 ||
+                rocks.clusters_per_m2 * LayoutArea() >= 1.0,
+            "lets expect less than one cluster in the layout area, with all rocks of the field",
+            "use 0 for rocks without clusters, or a larger number");
+  const bool golombek = rocks.RandomKind() == RockFieldKind::kGolombek;
   v.Require(
-      "rocks.k_reference_per_m2", rocks.ReferenceRocksPerM2() * LayoutArea() <= kMaxReferenceRocks,
+      golombek ? "rocks.cover_reference" : "rocks.k_reference_per_m2",
+      rocks.ReferenceRocksPerM2() * LayoutArea() <= kMaxReferenceRocks,
       "asks for more than a million rocks before thinning",
-      "use a k_reference_per_m2 nearer to k_per_m2, a larger min_diameter_m or a smaller arena");
+      golombek ? "use a cover_reference nearer to cover, a larger min_diameter_m or a smaller arena"
+               : "use a k_reference_per_m2 nearer to k_per_m2, a larger min_diameter_m or a "
+                 "smaller arena");
 }
 
 namespace {

@@ -42,6 +42,22 @@ TEST(SweepFilesTest, AbundanceVariesAbundanceAlone) {
   EXPECT_EQ(sweep.fit_axis, 0u);
 }
 
+// InSight's range, Viking Lander 1 and 2, Mars Pathfinder: scenarios/sites/README.md.
+TEST(SweepFilesTest, SitesVaryTheCoverAlone) {
+  const Sweep sweep = LoadSweep(kSweeps / "sites.json");
+  std::vector<double> covers;
+  std::set<std::uint64_t> rest;
+  for (const SweepCell& cell : sweep.cells) {
+    Scenario scenario = cell.scenario;
+    EXPECT_EQ(scenario.drive.terrain.rocks.kind, terrain::RockFieldKind::kGolombek);
+    covers.push_back(scenario.drive.terrain.rocks.cover);
+    scenario.drive.terrain.rocks.cover = 0.069;
+    rest.insert(Fingerprint(scenario));
+  }
+  EXPECT_EQ(covers, (std::vector{0.01, 0.04, 0.069, 0.176, 0.19}));
+  EXPECT_EQ(rest.size(), 1u);
+}
+
 // Sand, half of nominal terrain, nominal, twice it, Viking Lander 2: Matthies 1995, section 7.
 TEST(SweepFilesTest, DeadReckoningIsSweptOverAbundanceDistanceAndItsErrors) {
   const Sweep abundance = LoadSweep(kSweeps / "dead_reckoning_abundance.json");

@@ -51,8 +51,11 @@ double ByQuadrature(const RockFieldParams& rocks, const BlindSwath& swath) {
   double sum = 0.0;
   for (int i = 0; i < kSlices; ++i) {
     const double d_m = low_m + (i + 0.5) * step_m;
-    const double density =
-        rocks.k_per_m2 * kMooreExponent * std::pow(d_m, -kMooreExponent - 1.0);  // -dN/dD
+    const double q = 1.79 + 0.152 / rocks.cover;
+    const double density =  // -dN/dD
+        rocks.kind == RockFieldKind::kMoore
+            ? rocks.k_per_m2 * kMooreExponent * std::pow(d_m, -kMooreExponent - 1.0)
+            : 4.0 / std::numbers::pi * rocks.cover * q * std::exp(-q * d_m) / (d_m * d_m);
     sum += (swath.width_m + d_m) * density * step_m;
   }
   return sum;
@@ -80,12 +83,18 @@ double LeastX_m(const Rock& rock) {
 
 TEST(BlindSwathTest, ClosedFormEqualsQuadrature) {
   RockFieldParams rocks{.min_width_ratio = 1.0, .max_width_ratio = 1.0};
-  for (const double min_m : {0.0, 0.1, 0.2, 0.5}) {
-    const BlindSwath swath{kRoverWidth_m, min_m};
-    const double expected = ByQuadrature(rocks, swath);
-    EXPECT_NEAR(BlindContactsPerM(rocks, swath), expected, 1e-7 * expected) << min_m;
+  for (const RockFieldKind law : {RockFieldKind::kMoore, RockFieldKind::kGolombek}) {
+    rocks.kind = law;
+    for (const double min_m : {0.0, 0.1, 0.2, 0.5}) {
+      const BlindSwath swath{kRoverWidth_m, min_m};
+      const double expected = ByQuadrature(rocks, swath);
+      EXPECT_NEAR(BlindContactsPerM(rocks, swath), expected, 1e-7 * expected) << min_m;
+    }
+    EXPECT_EQ(BlindContactsPerM(rocks, {kRoverWidth_m, 1.0}), 0.0);
   }
-  EXPECT_EQ(BlindContactsPerM(rocks, {kRoverWidth_m, 1.0}), 0.0);
+  rocks.kind = RockFieldKind::kListed;
+  rocks.listed.rest = RestOfRocks::kGolombek;
+  EXPECT_EQ(BlindContactsPerM(rocks, {kRoverWidth_m, 0.1}), 0.0);
 }
 
 TEST(BlindSwathTest, UniformRocksOfOneSizeNeedNoIntegral) {

@@ -26,28 +26,35 @@ std::vector<Rock> LayoutRocks(const Field& field) {
   return {rocks.begin(), rocks.begin() + field.audit.placed};
 }
 
-class NestingTest : public testing::TestWithParam<std::tuple<ArenaKind, OverlapRule>> {};
+class NestingTest
+    : public testing::TestWithParam<std::tuple<RockFieldKind, ArenaKind, OverlapRule, double>> {};
 
-INSTANTIATE_TEST_SUITE_P(ArenasAndRules, NestingTest,
-                         testing::Combine(testing::Values(ArenaKind::kOpen,
-                                                          ArenaKind::kVirtualUnfolded,
-                                                          ArenaKind::kVirtualReflected),
-                                          testing::Values(OverlapRule::kAllow, OverlapRule::kReject,
-                                                          OverlapRule::kRelocate)));
+// Two clusters per m2, or none.
+INSTANTIATE_TEST_SUITE_P(
+    LawsArenasAndRules, NestingTest,
+    testing::Combine(testing::Values(RockFieldKind::kMoore, RockFieldKind::kGolombek),
+                     testing::Values(ArenaKind::kOpen, ArenaKind::kVirtualUnfolded,
+                                     ArenaKind::kVirtualReflected),
+                     testing::Values(OverlapRule::kAllow, OverlapRule::kReject,
+                                     OverlapRule::kRelocate),
+                     testing::Values(0.0, 2.0)));
 
 TEST_P(NestingTest, FieldsOfGrowingAbundanceContainEachOther) {
   TerrainParams params;
-  std::tie(params.arena.kind, params.rocks.overlap) = GetParam();
+  std::tie(params.rocks.kind, params.arena.kind, params.rocks.overlap,
+           params.rocks.clusters_per_m2) = GetParam();
+  const bool moore = params.rocks.kind == RockFieldKind::kMoore;
   for (std::uint32_t trial = 0; trial < 5; ++trial) {
     std::vector<Rock> smaller;
-    for (const double k : {0.0, 0.001, kNominalK, 0.008, kVikingLander2K, 0.02}) {
-      params.rocks.k_per_m2 = k;
+    // Covers of a hundredth of a percent to all of the reference, as for k.
+    for (const double k : {0.0001, 0.001, kNominalK, 0.008, kVikingLander2K, 0.02}) {
+      (moore ? params.rocks.k_per_m2 : params.rocks.cover) = moore ? k : 20.0 * k;
       const std::vector<Rock> larger = LayoutRocks(BuildField(params, {31, trial}, {}));
       ASSERT_GE(larger.size(), smaller.size());
       EXPECT_TRUE(std::equal(smaller.begin(), smaller.end(), larger.begin(), SameRock)) << k;
       smaller = larger;
     }
-    EXPECT_GT(smaller.size(), 100u);
+    EXPECT_GT(smaller.size(), 60u);
   }
 }
 
@@ -56,6 +63,15 @@ TEST(NestingTest, AnotherReferenceIsAnotherField) {
   TerrainParams params;
   const std::vector<Rock> with = LayoutRocks(BuildField(params, {31, 0}, {}));
   params.rocks.k_reference_per_m2 = 0.03;
+  const std::vector<Rock> without = LayoutRocks(BuildField(params, {31, 0}, {}));
+  EXPECT_FALSE(std::equal(with.begin(), with.end(), without.begin(), without.end(), SameRock));
+}
+
+TEST(NestingTest, AnotherReferenceCoverIsAnotherField) {
+  TerrainParams params;
+  params.rocks.kind = RockFieldKind::kGolombek;
+  const std::vector<Rock> with = LayoutRocks(BuildField(params, {31, 0}, {}));
+  params.rocks.cover_reference = 0.3;
   const std::vector<Rock> without = LayoutRocks(BuildField(params, {31, 0}, {}));
   EXPECT_FALSE(std::equal(with.begin(), with.end(), without.begin(), without.end(), SameRock));
 }

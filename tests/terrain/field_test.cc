@@ -212,7 +212,7 @@ TEST(ListedRocksTest, StandAsListed) {
   const Field field = BuildField(TwoRocks(), {1, 0}, {});
   ASSERT_EQ(field.terrain.rocks().size(), 2u);
   EXPECT_EQ(field.audit.placed, 2);
-  EXPECT_EQ(field.audit.expected_drawn, 0.0);
+  EXPECT_EQ(field.audit.expected_drawn, 2.0);
   const Rock& first = field.terrain.rocks()[0];
   EXPECT_EQ(first.center_W.x(), 1.5);
   EXPECT_EQ(first.center_W.y(), 0.25);
@@ -240,6 +240,97 @@ TEST(ListedRocksTest, StayWhereTheyArePut) {
   params.rocks.listed.x_m[1] = 1.6;
   params.rocks.listed.y_m[1] = 0.25;
   EXPECT_EQ(BuildField(params, {1, 0}, {}).audit.placed, 2);
+}
+
+TEST(ListedRocksTest, HaveTheirOwnBurialWidthAndYaw) {
+  TerrainParams params = TwoRocks();
+  params.ground.slope_rad = 0.2;
+  params.rocks.listed.buried_share = {0.5, 0.25};
+  params.rocks.listed.width_ratio = {0.5, 0.8};
+  params.rocks.listed.yaw_deg = {30.0, -60.0};
+  const Field field = BuildField(params, {1, 0}, {});
+  const Rock& first = field.terrain.rocks()[0];
+  EXPECT_EQ(first.semi_axes_m.y(), 0.1);
+  EXPECT_NEAR(first.semi_axes_m.z(), 0.3, 1e-12);  // half of the full height stands out
+  EXPECT_NEAR(first.yaw_rad, std::numbers::pi / 6.0, 1e-15);
+  const Rock& second = field.terrain.rocks()[1];
+  EXPECT_NEAR(second.semi_axes_m.y(), 0.24, 1e-15);
+  EXPECT_NEAR(second.semi_axes_m.z(), 0.2 / 1.5, 1e-12);
+  EXPECT_NEAR(second.yaw_rad, -std::numbers::pi / 3.0, 1e-15);
+  // They stand on the slope, which rises along x.
+  for (const Rock& rock : field.terrain.rocks()) {
+    const double ground_m = std::tan(0.2) * rock.center_W.x();
+    EXPECT_NEAR(rock.center_W.z() + rock.semi_axes_m.z() - ground_m, rock.height_m, 1e-12);
+  }
+}
+
+TEST(ListedRocksTest, ListsOfShapesThatSayTheDefaultsChangeNothing) {
+  TerrainParams params = TwoRocks();
+  const Field plain = BuildField(params, {1, 0}, {});
+  params.rocks.listed.buried_share = {params.rocks.burial_mean, params.rocks.burial_mean};
+  params.rocks.listed.width_ratio = {1.0, 1.0};
+  params.rocks.listed.yaw_deg = {0.0, 0.0};
+  const Field told = BuildField(params, {1, 0}, {});
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(plain.terrain.rocks()[i].semi_axes_m, told.terrain.rocks()[i].semi_axes_m);
+    EXPECT_EQ(plain.terrain.rocks()[i].center_W, told.terrain.rocks()[i].center_W);
+    EXPECT_EQ(plain.terrain.rocks()[i].yaw_rad, told.terrain.rocks()[i].yaw_rad);
+  }
+}
+
+// The rest is the field that its law lays by itself, but for the rocks that listed ones displace.
+class RestOfRocksTest : public testing::TestWithParam<std::pair<RestOfRocks, RockFieldKind>> {
+ protected:
+  TerrainParams Params(OverlapRule overlap) const {
+    TerrainParams params = TwoRocks();
+    params.rocks.listed.rest = GetParam().first;
+    params.rocks.max_diameter_m = 0.4;
+    params.rocks.overlap = overlap;
+    return params;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(BothLaws, RestOfRocksTest,
+                         testing::Values(std::pair{RestOfRocks::kMoore, RockFieldKind::kMoore},
+                                         std::pair{RestOfRocks::kGolombek,
+                                                   RockFieldKind::kGolombek}));
+
+TEST_P(RestOfRocksTest, LiesBesideTheListedRocks) {
+  TerrainParams params = Params(OverlapRule::kAllow);
+  const Field field = BuildField(params, {11, 0}, {});
+  params.rocks.kind = GetParam().second;
+  const Field alone = BuildField(params, {11, 0}, {});
+  ASSERT_EQ(field.audit.placed, alone.audit.placed + 2);
+  EXPECT_EQ(field.terrain.rocks()[0].diameter_m, 0.4);
+  EXPECT_EQ(field.terrain.rocks()[1].diameter_m, 0.6);
+  for (std::size_t i = 0; i < alone.terrain.rocks().size(); ++i) {
+    EXPECT_EQ(field.terrain.rocks()[i + 2].center_W, alone.terrain.rocks()[i].center_W);
+  }
+  EXPECT_NEAR(field.audit.expected_drawn, alone.audit.expected_drawn + 2.0, 1e-9);
+  EXPECT_NEAR(field.audit.expected_placed, alone.audit.expected_placed + 2.0, 1e-9);
+  EXPECT_NEAR(field.audit.expected_cover - alone.audit.expected_cover,
+              0.25 * std::numbers::pi * (0.16 + 0.36) / field.audit.layout_area_m2, 1e-12);
+  EXPECT_TRUE(ExpectedInCorridor(Params(OverlapRule::kAllow), {}).empty());
+}
+
+TEST_P(RestOfRocksTest, KeepsOffTheListedRocks) {
+  const auto overlaps = [&](OverlapRule rule) {
+    int count = 0;
+    for (std::uint32_t trial = 0; trial < 40; ++trial) {
+      const Field field = BuildField(Params(rule), {12, trial}, {});
+      const auto rocks = field.terrain.rocks();
+      for (std::size_t i = 2; i < rocks.size(); ++i) {
+        for (std::size_t j = 0; j < 2; ++j) {
+          const double apart_m = (rocks[i].center_W - rocks[j].center_W).head<2>().norm();
+          count += apart_m < 0.5 * (rocks[i].diameter_m + rocks[j].diameter_m) ? 1 : 0;
+        }
+      }
+    }
+    return count;
+  };
+  EXPECT_EQ(overlaps(OverlapRule::kRelocate), 0);
+  EXPECT_EQ(overlaps(OverlapRule::kReject), 0);
+  EXPECT_GT(overlaps(OverlapRule::kAllow), 0);
 }
 
 // A list as long as the longest that is allowed, a metre apart.

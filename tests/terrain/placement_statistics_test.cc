@@ -88,14 +88,23 @@ TEST(PlacementTest, PositionsAreUniformUpToTheMirrorLines) {
 }
 
 // Without an overlap rule, clear zones thin the field by exactly what their area says.
-TEST(PlacementTest, ClearZonesRemoveTheirShare) {
-  for (const ArenaKind kind : {ArenaKind::kVirtualReflected, ArenaKind::kOpen}) {
-    const Totals totals = Sum(MooreIn(kind, kVikingLander2K, OverlapRule::kAllow), 72, 150);
-    const double sigma = std::sqrt(totals.expected_placed);
-    EXPECT_NEAR(totals.placed, totals.expected_placed, 3.3 * sigma);
-    EXPECT_GT(std::abs(totals.placed - totals.expected_drawn), 5.0 * sigma);  // negative control
-    EXPECT_NEAR(totals.disc_cover / totals.expected_cover, 1.0, 0.05);
-  }
+class ClearZoneTest : public testing::TestWithParam<std::tuple<ArenaKind, RockFieldKind>> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    ArenasAndLaws, ClearZoneTest,
+    testing::Combine(testing::Values(ArenaKind::kVirtualReflected, ArenaKind::kOpen),
+                     testing::Values(RockFieldKind::kMoore, RockFieldKind::kGolombek)));
+
+TEST_P(ClearZoneTest, RemovesItsShare) {
+  TerrainParams params = MooreIn(std::get<0>(GetParam()), kVikingLander2K, OverlapRule::kAllow);
+  params.rocks.kind = std::get<1>(GetParam());
+  params.rocks.cover = kVikingLander2Cover;
+  params.arena.open_margin_m = 0.0;
+  const Totals totals = Sum(params, 72, 150);
+  const double sigma = std::sqrt(totals.expected_placed);
+  EXPECT_NEAR(totals.placed, totals.expected_placed, 3.3 * sigma);
+  EXPECT_GT(std::abs(totals.placed - totals.expected_drawn), 5.0 * sigma);  // negative control
+  EXPECT_NEAR(totals.disc_cover / totals.expected_cover, 1.0, 0.05);
 }
 
 // The same with two clear zones more, 3.3 deviations; what start and goal alone would leave lies
@@ -233,12 +242,27 @@ TEST(ExpectedInCorridorTest, IsEmptyWhereThereIsNoLawOrNoCorridor) {
 
 // Poisson positions: every class holds what the law says.
 TEST(CorridorTest, MergedFieldsWithoutOverlapRuleFollowTheLaw) {
-  const std::vector<CorridorClass> classes = Count(Nominal(OverlapRule::kAllow), 92, 4000);
-  ASSERT_EQ(classes.size(), kClasses.size());
-  for (std::size_t i = 0; i < classes.size(); ++i) {
-    EXPECT_EQ(classes[i].to_m, kClasses[i]);
-    EXPECT_GT(PoissonP(classes[i].observed, classes[i].expected), kAlpha) << i;
+  TerrainParams params = Nominal(OverlapRule::kAllow);
+  for (const RockFieldKind law : {RockFieldKind::kMoore, RockFieldKind::kGolombek}) {
+    params.rocks.kind = law;
+    const std::vector<CorridorClass> classes = Count(params, 92, 4000);
+    ASSERT_EQ(classes.size(), kClasses.size());
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+      EXPECT_EQ(classes[i].to_m, kClasses[i]);
+      EXPECT_GT(PoissonP(classes[i].observed, classes[i].expected), kAlpha) << i;
+    }
   }
+}
+
+// Negative control: the other law's expectations, at as many rocks of a decimetre.
+TEST(CorridorTest, OneLawIsNotTheOther) {
+  TerrainParams golombek = Nominal(OverlapRule::kAllow);
+  golombek.rocks.kind = RockFieldKind::kGolombek;
+  TerrainParams moore = Nominal(OverlapRule::kAllow);
+  moore.rocks.k_per_m2 *= golombek.rocks.RocksPerM2() / moore.rocks.RocksPerM2();
+  const std::vector<CorridorClass> found = Count(golombek, 92, 1000);
+  const std::vector<CorridorClass> expected = ExpectedInCorridor(moore, {});
+  EXPECT_LT(PoissonP(found[1].observed, 1000 * expected[1].expected), kRejects);
 }
 
 // Relocation moves rocks of nominal terrain by what other rocks ask, which is little: less than

@@ -16,7 +16,7 @@ constexpr auto& Problems = core::ProblemsOf<TerrainParams>;
 
 TEST(TerrainParamsTest, EveryArenaAndFieldKindIsValidWithDefaults) {
   for (const char* arena : {"open", "walled", "virtual_unfolded", "virtual_reflected"}) {
-    for (const char* rocks : {"none", "moore", "uniform_count"}) {
+    for (const char* rocks : {"none", "moore", "golombek", "uniform_count"}) {
       const std::string json = std::string(R"({"arena": {"kind": ")") + arena +
                                R"("}, "rocks": {"kind": ")" + rocks + R"("}})";
       EXPECT_EQ(Problems(json), "") << json;
@@ -58,6 +58,25 @@ INSTANTIATE_TEST_SUITE_P(
     Inputs, BadTerrainTest,
     testing::Values(
         BadInput{R"({"rocks": {"k_per_m2": 0.03}})", "rocks.k_per_m2", "k_reference_per_m2"},
+        BadInput{R"({"rocks": {"clusters_per_m2": 0.03}})", "rocks.clusters_per_m2",
+                 "less than one cluster"},
+        BadInput{R"({"rocks": {"clusters_per_m2": 1, "cluster_radius_m": 0.1}})",
+                 "rocks.cluster_radius_m", "more rocks into a cluster"},
+        BadInput{R"({"rocks": {"cover": 0.41}})", "rocks.cover", "cover_reference"},
+        BadInput{R"({"rocks": {"kind": "golombek", "min_diameter_m": 0.02, "cover": 0.001},
+                     "arena": {"kind": "walled", "length_m": 200, "width_m": 200}})",
+                 "rocks.cover_reference", "million"},
+        BadInput{R"({"rocks": {"kind": "listed", "max_diameter_m": 0.4, "listed": {
+                     "rest": "golombek", "x_m": [3, 4], "y_m": [1, 1], "diameter_m": [0.5, 0.3],
+                     "height_m": [0.2, 0.2]}}})",
+                 "rocks.max_diameter_m", "use at most 0.3"},
+        BadInput{R"({"rocks": {"kind": "listed", "pointedness": 0.5, "burial_mean": 0.3,
+                     "listed": {"x_m": [3], "y_m": [1], "diameter_m": [0.5], "height_m": [0.2],
+                     "buried_share": [0.6]}}})",
+                 "rocks.listed.buried_share", "more than half"},
+        BadInput{R"({"rocks": {"kind": "listed", "listed": {"x_m": [3], "y_m": [1],
+                     "diameter_m": [0.5], "height_m": [0.2], "yaw_deg": [1, 2]}}})",
+                 "rocks.listed.yaw_deg", "has 2 entries where x_m has 1"},
         BadInput{R"({"rocks": {"min_diameter_m": 0.5, "max_diameter_m": 0.4}})",
                  "rocks.max_diameter_m", "not larger"},
         BadInput{R"({"rocks": {"min_diameter_m": 0.02}, "arena": {"kind": "open",
@@ -171,6 +190,25 @@ TEST(TerrainParamsTest, PointedRocksNeedLevelGroundAndFixedRocksOnlyWhereTheySta
                          "ground": {"slope_deg": 10, "roughness_rms_m": 0.01}})"),
             "");
   EXPECT_EQ(Problems(R"({"rocks": {"mobility": "movable"}, "ground": {"slope_deg": 10}})"), "");
+}
+
+TEST(TerrainParamsTest, ClustersThatHoldTheirRocksAreValid) {
+  // 4.7 % of the ground under rocks: 0.047 m2 a cluster, which fill a quarter of 4 pi (0.123 m)^2.
+  EXPECT_EQ(Problems(R"({"rocks": {"clusters_per_m2": 1, "cluster_radius_m": 0.124}})"), "");
+  EXPECT_NE(Problems(R"({"rocks": {"clusters_per_m2": 1, "cluster_radius_m": 0.121}})"), "");
+  EXPECT_EQ(Problems(R"({"rocks": {"clusters_per_m2": 1, "cluster_radius_m": 0.1,
+                                   "overlap": "allow"}})"),
+            "");
+  EXPECT_EQ(Problems(R"({"rocks": {"kind": "uniform_count", "clusters_per_m2": 0.01}})"), "");
+}
+
+TEST(TerrainParamsTest, LawCoverIsThatOfTheLaws) {
+  EXPECT_NEAR(PlainMoore(kVikingLander2K).rocks.LawCover(),
+              MooreCoveredFraction(kVikingLander2K, 0.1, 1.0), 1e-12);
+  const double q = 1.79 + 0.152 / 0.069;
+  EXPECT_NEAR(PlainGolombek(0.069).rocks.LawCover(), 0.069 * (std::exp(-0.1 * q) - std::exp(-q)),
+              1e-15);
+  EXPECT_EQ(ExactCount(5, ArenaKind::kOpen).rocks.LawCover(), 0.0);
 }
 
 TEST(TerrainParamsTest, UnusedCountAreaDoesNotHinderMooreFields) {

@@ -16,6 +16,14 @@ inline TerrainParams PlainMoore(double k_per_m2) {
       .arena = {.kind = ArenaKind::kOpen, .open_margin_m = 0.0}};
 }
 
+// Golombek and Rapp's law on the same arena.
+inline TerrainParams PlainGolombek(double cover) {
+  TerrainParams params = PlainMoore(0.0);
+  params.rocks.kind = RockFieldKind::kGolombek;
+  params.rocks.cover = cover;
+  return params;
+}
+
 // Moore's law in an arena of the default size, with its clear zones.
 inline TerrainParams MooreIn(ArenaKind arena, double k_per_m2, OverlapRule overlap,
                              LineRule line = LineRule::kMerge) {
@@ -36,6 +44,8 @@ inline double MooreCoveredFraction(double k_per_m2, double low_m, double high_m)
   return 0.25 * std::numbers::pi * per_m2 * MooreSizeLaw(low_m, high_m).MeanPower(2.0);
 }
 
+inline constexpr double kVikingLander1Cover = 0.069;  // Golombek and Rapp 1997
+inline constexpr double kVikingLander2Cover = 0.176;
 inline constexpr double kNominalK = 0.00415;  // Matthies 1995 sec. 7
 inline constexpr double kVikingLander2K = 0.013;
 

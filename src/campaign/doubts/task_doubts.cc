@@ -78,6 +78,8 @@ void DoubtField(Values& s) {
   if (s.Is("terrain.rocks.kind", "moore")) {
     s.AtMost("terrain.rocks.k_per_m2", 0.06, "a field of rocks: Viking Lander 2 has 0.013",
              "state the number of rocks of a metre and more per m2");
+  }
+  if (s.drive.terrain.rocks.FollowsLaw()) {
     s.AtMost("terrain.rocks.min_diameter_m", 3.0 * clearance_m,
              fmt::format("a belly {:g} m above the ground: it meets smaller ones", clearance_m),
              "begin with rocks that the belly clears");
