@@ -1,8 +1,6 @@
 #include "image_files/gdal_raster.h"
 
 #ifdef ROCKYARD_GDAL
-#include <cpl_error.h>
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <gdal.h>
 #include <gdal_frmts.h>
@@ -16,6 +14,8 @@
 #include "image_files/raw_image.h"
 #endif
 
+#include "image_files/gdal_library.h"
+
 namespace rockyard::image_files {
 
 #ifdef ROCKYARD_GDAL
@@ -23,9 +23,6 @@ namespace {
 
 // The functions of the library that are used here, of the types in its headers.
 struct Gdal {
-  decltype(&::CPLGetErrorHandlerUserData) error_user = nullptr;
-  decltype(&::CPLPopErrorHandler) pop_errors = nullptr;
-  decltype(&::CPLPushErrorHandlerEx) push_errors = nullptr;
   decltype(&::GDALClose) close = nullptr;
   decltype(&::GDALGetDataTypeName) type_name = nullptr;
   decltype(&::GDALGetRasterBand) band = nullptr;
@@ -40,34 +37,23 @@ struct Gdal {
   decltype(&::GDALRegister_VICAR) register_vicar = nullptr;
 };
 
-// Whether the library has the function, whose address is then set.
-template <typename Function>
-bool Find(void* library, const char* name, Function& function) {
-  function = reinterpret_cast<Function>(dlsym(library, name));
-  return function != nullptr;
-}
-
-// Loads the library and makes no drivers known but those of planetary images: a label can name
+// Returns the functions and makes no drivers known but those of planetary images: a label can name
 // further files, and what reads them.
 std::optional<Gdal> LoadGdal() {
-  void* library = dlopen(ROCKYARD_GDAL, RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) return std::nullopt;
+  if (GdalLibrary() == nullptr) return std::nullopt;
   Gdal gdal;
-  const bool complete = Find(library, "CPLGetErrorHandlerUserData", gdal.error_user) &&
-                        Find(library, "CPLPopErrorHandler", gdal.pop_errors) &&
-                        Find(library, "CPLPushErrorHandlerEx", gdal.push_errors) &&
-                        Find(library, "GDALClose", gdal.close) &&
-                        Find(library, "GDALGetDataTypeName", gdal.type_name) &&
-                        Find(library, "GDALGetRasterBand", gdal.band) &&
-                        Find(library, "GDALGetRasterCount", gdal.bands) &&
-                        Find(library, "GDALGetRasterDataType", gdal.data_type) &&
-                        Find(library, "GDALGetRasterXSize", gdal.width) &&
-                        Find(library, "GDALGetRasterYSize", gdal.height) &&
-                        Find(library, "GDALOpenEx", gdal.open) &&
-                        Find(library, "GDALRasterIO", gdal.read) &&
-                        Find(library, "GDALRegister_PDS", gdal.register_pds) &&
-                        Find(library, "GDALRegister_PDS4", gdal.register_pds4) &&
-                        Find(library, "GDALRegister_VICAR", gdal.register_vicar);
+  const bool complete = FindFunction("GDALClose", gdal.close) &&
+                        FindFunction("GDALGetDataTypeName", gdal.type_name) &&
+                        FindFunction("GDALGetRasterBand", gdal.band) &&
+                        FindFunction("GDALGetRasterCount", gdal.bands) &&
+                        FindFunction("GDALGetRasterDataType", gdal.data_type) &&
+                        FindFunction("GDALGetRasterXSize", gdal.width) &&
+                        FindFunction("GDALGetRasterYSize", gdal.height) &&
+                        FindFunction("GDALOpenEx", gdal.open) &&
+                        FindFunction("GDALRasterIO", gdal.read) &&
+                        FindFunction("GDALRegister_PDS", gdal.register_pds) &&
+                        FindFunction("GDALRegister_PDS4", gdal.register_pds4) &&
+                        FindFunction("GDALRegister_VICAR", gdal.register_vicar);
   if (!complete) return std::nullopt;
   gdal.register_pds();
   gdal.register_pds4();
@@ -75,34 +61,10 @@ std::optional<Gdal> LoadGdal() {
   return gdal;
 }
 
-// Loaded once and kept: the library cannot be unloaded safely.
-const std::optional<Gdal>& Library() {
+const std::optional<Gdal>& ImageFunctions() {
   static const std::optional<Gdal> gdal = LoadGdal();
   return gdal;
 }
-
-// While an object lives, GDAL prints nothing in this thread; its first failure is kept.
-class KeptErrors {
- public:
-  explicit KeptErrors(const Gdal& gdal) : gdal_(gdal) { gdal_.push_errors(Keep, this); }
-  ~KeptErrors() { gdal_.pop_errors(); }
-  KeptErrors(const KeptErrors&) = delete;
-  KeptErrors& operator=(const KeptErrors&) = delete;
-
-  std::string first() const { return first_.empty() ? "GDAL does not say why" : first_; }
-  bool any() const { return !first_.empty(); }
-
- private:
-  static void CPL_STDCALL Keep(CPLErr level, CPLErrorNum, const char* message) {
-    auto& self = *static_cast<KeptErrors*>(Library()->error_user());
-    if (level < CE_Failure || !self.first_.empty()) return;
-    self.first_ = message;
-    std::replace(self.first_.begin(), self.first_.end(), '\n', ' ');
-  }
-
-  const Gdal& gdal_;
-  std::string first_;
-};
 
 // 0: samples that are not read.
 int BitsOf(GDALDataType type) {
@@ -122,7 +84,7 @@ int BitsOf(GDALDataType type) {
 class GdalFile {
  public:
   GdalFile(const Gdal& gdal, const std::filesystem::path& path, const char* driver)
-      : gdal_(gdal), name_(path.string()), errors_(gdal) {
+      : gdal_(gdal), name_(path.string()) {
     const std::array<const char*, 2> drivers{driver, nullptr};
     const std::array<const char*, 1> none{nullptr};  // of options, and of files beside it
     dataset_ = gdal.open(name_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
@@ -184,27 +146,23 @@ class GdalFile {
 
   const Gdal& gdal_;
   std::string name_;
-  KeptErrors errors_;
+  GdalErrors errors_;
   GDALDatasetH dataset_ = nullptr;
 };
 
 Raster ReadRaster(const std::filesystem::path& path, const char* driver,
                   const ImageLimits& limits) {
-  return GdalFile(*Library(), path, driver).Read(limits);
+  return GdalFile(*ImageFunctions(), path, driver).Read(limits);
 }
 
 }  // namespace
 
 RasterSupport FindGdal() {
-  if (Library()) return {ReadRaster, ""};
-  return {nullptr, fmt::format("install the library {} (Debian's libgdal32)", ROCKYARD_GDAL)};
+  if (ImageFunctions()) return {ReadRaster, ""};
+  return {nullptr, GdalRemedy()};
 }
 #else
-RasterSupport FindGdal() {
-  return {nullptr,
-          "install Debian's libgdal-dev (scripts/install_dependencies.sh planetary) and build "
-          "rockyard anew with -DROCKYARD_GDAL=ON, which is the default"};
-}
+RasterSupport FindGdal() { return {nullptr, GdalRemedy()}; }
 #endif
 
 }  // namespace rockyard::image_files

@@ -1,8 +1,4 @@
 // Samples of planetary images (GDAL, an optional part of the build), for ReadPlanetary.
-//
-// GDAL is loaded when the first planetary image is read, not linked: it brings a hundred libraries,
-// which would add some 40 ms and 30 MB to every start of the program, and the Debian package works
-// with or without it.
 #pragma once
 
 #include <cstdint>
