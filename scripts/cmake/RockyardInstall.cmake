@@ -127,7 +127,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-if(ROCKYARD_GDAL AND GDAL_FOUND)  # loaded when a planetary image is read, so that no link asks for it
+if(ROCKYARD_GDAL AND GDAL_FOUND)  # loaded when a planetary image or an elevation model is read, so that no link asks for it
   set(CPACK_DEBIAN_PACKAGE_SUGGESTS libgdal32)
 endif()
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)

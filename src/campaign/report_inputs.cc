@@ -167,6 +167,22 @@ std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run) {
   return scenario::ListParameters(*scenario);
 }
 
+// Returns the part of the arena around the course where most paths lead.
+terrain::Rectangle MapArea(const terrain::ArenaParams& arena, const report::PageCourse& course) {
+  constexpr double kBeside_m = 4.0;
+  terrain::Rectangle area = terrain::DrivableBounds(arena);
+  std::vector<messages::Goal> places = course.waypoints;
+  places.push_back(course.goal);
+  places.push_back({course.start.x_m, course.start.y_m});
+  const auto [west, east] = std::ranges::minmax(places, {}, &messages::Goal::x_m);
+  const auto [south, north] = std::ranges::minmax(places, {}, &messages::Goal::y_m);
+  area.x_min_m = std::max(area.x_min_m, west.x_m - kBeside_m);
+  area.x_max_m = std::min(area.x_max_m, east.x_m + kBeside_m);
+  area.y_min_m = std::max(area.y_min_m, south.y_m - kBeside_m);
+  area.y_max_m = std::min(area.y_max_m, north.y_m + kBeside_m);
+  return area;
+}
+
 // Adds what the map shows of an elevation model, which is the same in every trial; roughness is
 // not.
 void AddContours(const terrain::TerrainParams& terrain, report::PageCourse& shown) {
@@ -176,7 +192,7 @@ void AddContours(const terrain::TerrainParams& terrain, report::PageCourse& show
   terrain::GroundParams smooth = terrain.ground;
   smooth.roughness_rms_m = 0.0;
   const terrain::ContourMap map = terrain::Contours(
-      terrain::Ground(smooth, {}), terrain::DrivableBounds(terrain.arena), kMostHeights, kCells);
+      terrain::Ground(smooth, {}), MapArea(terrain.arena, shown), kMostHeights, kCells);
   shown.contour_interval_m = map.interval_m;
   for (const terrain::Contour& contour : map.lines) {
     report::PageContour& line = shown.contours.emplace_back(contour.height_m);

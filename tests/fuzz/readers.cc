@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,11 +19,13 @@
 #include "campaign/odometry/pair_reader.h"
 #include "campaign/odometry/path_journal.h"
 #include "campaign/odometry/pose_text.h"
+#include "campaign/site/rock_catalogue.h"
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "core/test_folder.h"
+#include "image_files/elevation_raster.h"
 #include "image_files/float_files.h"
 #include "image_files/planetary.h"
 #include "image_files/png_bytes.h"
@@ -242,6 +247,33 @@ void ReadUrdf(std::string_view bytes) {
   }
 }
 
+// The last corner of an elevation model. What its numbers are is free.
+void ReadElevation(std::string_view bytes) {
+  constexpr std::int64_t kCorner = 64;
+  const MemoryFile file(bytes);
+  const auto raster = image_files::OpenElevation(file.path());
+  const image_files::RasterInfo& info = raster->info();
+  const std::int64_t rows = std::min(info.rows, kCorner);
+  const std::int64_t columns = std::min(info.columns, kCorner);
+  if (raster->Read({info.rows - rows, info.columns - columns, rows, columns}).size() !=
+      static_cast<std::size_t>(rows * columns)) {
+    throw std::logic_error("an elevation model that is none");
+  }
+  if (raster->HasFrame()) raster->ToGeographic(std::array{image_files::MapPoint{}});
+}
+
+// Rocks that are read have sizes, and places where these are asked for.
+void ReadCatalogue(std::string_view bytes) {
+  const MemoryFile file(bytes);
+  const campaign::RockCatalogue found = campaign::ReadCatalogue({.file = file.path()});
+  const bool good =
+      found.placed && !found.rocks.empty() &&
+      std::ranges::all_of(found.rocks, [](const campaign::CatalogueRock& rock) {
+        return std::isfinite(rock.x) && std::isfinite(rock.y) && rock.diameter_m > 0.0;
+      });
+  if (!good) throw std::logic_error("a catalogue that is none");
+}
+
 constexpr Reader kReaders[] = {
     {"json", ReadJson},
     {"scenario", ReadScenario},
@@ -267,6 +299,8 @@ constexpr Reader kReaders[] = {
        image_files::ReadDisparity(MemoryFile(bytes).path(), 1.0, kSmall);
      }},
     {"urdf", ReadUrdf},
+    {"elevation", ReadElevation},
+    {"catalogue", ReadCatalogue},
 };
 
 }  // namespace

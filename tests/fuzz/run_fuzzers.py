@@ -27,9 +27,9 @@ SLOW = ("scenario", "sweep", "urdf")  # a resolved scenario has a thousand param
 LONGEST = {"image": 16384, "reference": 16384, "scenario": 16384, "sweep": 16384, "urdf": 40960}  # bytes; 4096 of the others
 # What turns bytes into values or refusals, of all that the readers call.
 SOURCES = ("campaign/odometry/pair_reader.cc", "campaign/odometry/path_journal.cc",
-           "campaign/odometry/pose_text.cc", "core/field_archive.cc", "core/files.cc", "core/json_file.cc",
-           "core/json_parse.cc", "core/text.cc", "image_files/float_files.cc", "image_files/header_text.cc",
-           "image_files/jpeg_reader.cc", "image_files/planetary.cc", "image_files/png_reader.cc",
+           "campaign/odometry/pose_text.cc", "campaign/site/rock_catalogue.cc", "campaign/site/rock_table.cc", "core/field_archive.cc", "core/files.cc", "core/json_file.cc",
+           "core/json_parse.cc", "core/text.cc", "image_files/elevation_raster.cc", "image_files/float_files.cc", "image_files/header_text.cc",
+           "image_files/jpeg_reader.cc", "image_files/npy_raster.cc", "image_files/planetary.cc", "image_files/png_reader.cc",
            "image_files/pnm_reader.cc", "image_files/read_image.cc", "report/baseline.cc",
            "report/comparison_reference.cc", "rover/urdf_reader/urdf_arms.cc", "rover/urdf_reader/urdf_bodies.cc",
            "rover/urdf_reader/urdf_body.cc", "rover/urdf_reader/urdf_elements.cc", "rover/urdf_reader/urdf_joints.cc",

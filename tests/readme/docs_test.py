@@ -14,7 +14,7 @@ import snippets
 
 ROOT = Path(__file__).resolve().parents[2]
 COPIED = ("scenarios", "results/reference", "results/baselines")
-LINKED = ("examples", "scripts", "tests")
+LINKED = ("examples", "scripts", "terrain", "tests")
 
 
 def faults_of(page, build):

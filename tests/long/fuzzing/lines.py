@@ -43,7 +43,7 @@ SMALL = {"--fields": ["1", "2", "0", "-1", "x"], "--threads": ["1", "2", "0", "4
          "--max-trials": ["1", "2", "30", "0", "x"], "--pilots": ["0", "1", "-1", "x"],
          "--replays": ["0", "1", "1001", "x"], "--block": ["1", "2", "25", "0", "x"]}
 MADE = {"--out", "--csv", "--svg", "--npz", "--mcap", "--junit", "--data"}
-FOUND = {"--against", "--cell", "--cell-b"}
+FOUND = {"--against", "--cell", "--cell-b", "--dem", "--fit", "--rocks"}
 
 
 class Command:
