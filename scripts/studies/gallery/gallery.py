@@ -42,6 +42,11 @@ def commands(rockyard):
            "mars.html"]
     yield [rockyard, "replay", str(ROOT / "scenarios/gestalt/viking_lander_2.json"), "--trial", "0", "--out",
            "gestalt.html"]
+    wall = str(ROOT / "scenarios/sites/crater_wall.json")
+    yield [rockyard, "run", wall, "--trials", "40", "--out", "wall"]
+    yield [rockyard, "report", "wall"]
+    yield [rockyard, "replay", "wall", "--trial", "3", "--out", "wall.html"]
+    yield [rockyard, "render", wall, "--out", "look"]
 
 
 def shots(folder):
@@ -58,6 +63,8 @@ def shots(folder):
         shot("mars.html", "mars", seek=0.55),
         shot("gestalt.html", "gestalt", seek=0.3),
         shot("gestalt.html", "plan", seek=1.0, keys=["6"]),
+        shot("wall/report.html#map", "site"),
+        shot("wall.html", "site_replay", seek=0.4),
         {**shot("mars.html", "film", seek=0.0, frames=FRAMES), "width": 1100, "height": 900},
     ]
 
@@ -84,6 +91,7 @@ def main():
             subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         subprocess.run(["node", str(ROOT / "scripts/studies/gallery/screenshots.mjs"), arguments.web, arguments.chromium],
                        input=json.dumps(shots(folder)), text=True, check=True)
+        shutil.copy(folder / "look/left.png", folder / "site_view.png")
         film = sorted(folder.glob("film-*.png"))
         for picture in sorted(set(folder.glob("*.png")) - set(film)):
             small(picture, WIDTH).save(out / f"{picture.stem}.webp", quality=QUALITY, method=6)

@@ -38,7 +38,8 @@ for (const shot of JSON.parse(readFileSync(0, "utf8"))) {
   const { width, height, scheme = "light" } = shot;
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, reducedMotion: "reduce" });
   const page = await context.newPage();
-  await page.goto(pathToFileURL(shot.page).href);
+  const [file, anchor = ""] = shot.page.split("#");
+  await page.goto(`${pathToFileURL(file).href}#${anchor}`);
   await page.waitForFunction(() => window.rockyardReplay || document.querySelector("main h1"));
   await take(page, shot);
   await context.close();

@@ -274,6 +274,25 @@ def unmeasured(study):
                   "failures"], rows)
 
 
+def rocks_unknown(study):
+    """Rates at Viking Lander 2 over what is not known of its rocks, and how far each unknown moves them."""
+    study.swept("viking_lander_2", 250)
+    sweep = ry.Sweep(study.out / "sweeps/viking_lander_2")
+    cells, unknowns = sweep.cells, sweep.axes
+    kinds = ["declared_success", "true_success"]
+    rows = []
+    for unknown in unknowns:
+        for level, group in cells.groupby(unknown, sort=False):
+            rows.append([unknown.replace("_", " "), level if isinstance(level, str) else f"{level:.2g}",
+                         *(shares(group[kind]) for kind in kinds)])
+    rows.append(["all", f"{len(cells)} cells", *(shares(cells[kind]) for kind in kinds)])
+    return table(["unknown", "level", "declared success (%): mean, lowest and highest cell", "true success (%)"], rows)
+
+
+def shares(rates):
+    return f"{100 * rates.mean():.1f} ({100 * rates.min():.1f}..{100 * rates.max():.1f})"
+
+
 def failures(run):
     return shared.others(run.summary["outcomes"], *shared.ARRIVED)
 
@@ -441,7 +460,7 @@ def scaling(study):
 
 
 TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, first_answer, hazards, mission, verdicts,
-                                 errors, envelope, corridor, unmeasured, causes, fidelity, speed,
+                                 errors, envelope, corridor, unmeasured, rocks_unknown, causes, fidelity, speed,
                                  gestalt, navigators, navigator_speed, table_3,
                                  abundance_sweep, navigator_sweep, attribution, scaling)}
 
