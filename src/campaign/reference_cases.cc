@@ -16,6 +16,7 @@
 #include "campaign/output_folder.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/json_text.h"
 #include "report/atomic_file.h"
 #include "report/comparison_reference.h"

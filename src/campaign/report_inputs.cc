@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "batch/run_folder.h"
 #include "campaign/output_folder.h"
@@ -195,10 +196,11 @@ void AddContours(const terrain::TerrainParams& terrain, report::PageCourse& show
       terrain::Ground(smooth, {}), MapArea(terrain.arena, shown), kMostHeights, kCells);
   shown.contour_interval_m = map.interval_m;
   for (const terrain::Contour& contour : map.lines) {
-    report::PageContour& line = shown.contours.emplace_back(contour.height_m);
+    report::PageContour line{.height_m = contour.height_m, .line = {}};
     for (const terrain::CoursePoint& point : contour.line) {
       line.line.push_back({point.x_m, point.y_m});
     }
+    shown.contours.push_back(std::move(line));
   }
 }
 
