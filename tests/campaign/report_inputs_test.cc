@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,6 +16,7 @@
 #include "scenario/scenario.h"
 #include "scenario/shipped.h"
 #include "sensing/stereo_view.h"
+#include "terrain/ground.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -72,6 +75,31 @@ TEST(WorstTrials, OfSeveralCellsTheFurthestFromTheGoalComeFirst) {
   EXPECT_EQ(worst[0].record.trial, 2u);
   EXPECT_EQ(worst[1].record.trial, 3u);
   EXPECT_EQ(worst[2].record.trial, 1u);
+}
+
+// The map of a place shows heights around the course, roughness apart, every trial the same ones.
+TEST(CourseOf, AnElevationModelHasItsContours) {
+  StoredRun run;
+  const scenario::Scenario site = scenario::Shipped("sites/crater_wall");
+  run.identity.resolved = scenario::ResolvedJson(site);
+  const auto course = CourseOf(run);
+  ASSERT_TRUE(course);
+  ASSERT_GT(course->contours.size(), 5u);
+  EXPECT_GT(course->contour_interval_m, 0.0);
+  terrain::GroundParams smooth = site.drive.terrain.ground;
+  smooth.roughness_rms_m = 0.0;
+  const terrain::Ground ground(smooth, {});
+  double farthest_m = 0.0;
+  for (const report::PageContour& contour : course->contours) {
+    for (const messages::Goal& point : contour.line) {
+      // A rough ground would be off by its 0.03 m.
+      ASSERT_NEAR(ground.Height(point.x_m, point.y_m), contour.height_m, 0.015);
+      farthest_m = std::max(farthest_m, std::abs(point.y_m));
+    }
+  }
+  EXPECT_NEAR(farthest_m, 4.0, 0.05) << "4 m beside the course, though the arena is wider";
+  run.identity.resolved = scenario::ResolvedJson(scenario::Shipped("pathfinder/nominal"));
+  EXPECT_THAT(CourseOf(run)->contours, testing::IsEmpty());
 }
 
 // The scene of a decision against the simulation that it was taken in.

@@ -209,6 +209,16 @@ TEST(ElevationModel, IsSharedUntilItChanges) {
   const ElevationParams copy = params;
   EXPECT_EQ(params.surface->Of(params), copy.surface->Of(copy));
   const auto before = params.surface->Of(params);
+  const auto differs = [&](const auto& change) {
+    ElevationParams changed = params;
+    change(changed);
+    EXPECT_NE(changed.surface->Of(changed), before);
+    EXPECT_NE(params.surface->Of(params), nullptr);
+  };
+  differs([](ElevationParams& p) { p.cell_m = 0.25; });
+  differs([](ElevationParams& p) { p.origin_column += 1; });
+  differs([](ElevationParams& p) { p.origin_row += 1; });
+  differs([](ElevationParams& p) { p.columns = p.rows(); });
   params.heights_m[17] += 0.5;
   EXPECT_NE(params.surface->Of(params), before);
   EXPECT_NEAR(GroundOn(params).Height(-5.0 + 17 * 0.5, -4.0), params.heights_m[17], 1e-12);
