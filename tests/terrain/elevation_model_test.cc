@@ -152,10 +152,11 @@ GroundParams RoughModel(double cell_m, double wavelength_m) {
   return params;
 }
 
-// Model and roughness are one spline, whichever lattice is the finer one.
+// Model and roughness are one spline, whichever lattice is the finer one, and where a wavelength
+// was typed with ten digits.
 TEST(ElevationModel, CarriesRoughness) {
   for (const auto& [cell_m, wavelength_m] :
-       {std::pair{0.5, 1.0}, {1.0, 0.5}, {0.25, 4.0}, {0.5, 0.25}}) {
+       {std::pair{0.5, 1.0}, {1.0, 0.5}, {0.25, 4.0}, {0.03125, 0.25}, {0.5, 1.0 + 4e-10}}) {
     const GroundParams rough = RoughModel(cell_m, wavelength_m);
     const Ground ground(rough, kKey);
     GroundParams model = rough;
@@ -168,9 +169,35 @@ TEST(ElevationModel, CarriesRoughness) {
       const double x_m = SampleUniform(stream, -30.0, 30.0);
       const double y_m = SampleUniform(stream, -30.0, 30.0);
       ASSERT_NEAR(ground.Height(x_m, y_m),
-                  smooth.Height(x_m, y_m) + field.Sample(x_m, y_m).height_m, 1e-12);
+                  smooth.Height(x_m, y_m) + field.Sample(x_m, y_m).height_m, 1e-8);
     }
   }
+}
+
+// Rays over ground with pits step by them.
+TEST(ElevationModel, BoundsHold) {
+  const GroundParams rough = RoughModel(0.5, 1.0);
+  const ReliefSpline spline(
+      rough.elevation.surface->Of(rough.elevation)->model(),
+      std::make_shared<const RoughnessField>(0.02, rough.hurst_exponent, 1.0, kKey));
+  constexpr double kStep_m = 1e-4;
+  ReliefBounds seen;
+  for (int i = 0; i < 20000; ++i) {
+    const double x_m = -6.0 + 0.07 * (i % 200);
+    const double y_m = -5.0 + 0.1 * (i / 200);
+    const ReliefSample at = spline.Sample(x_m, y_m);
+    const ReliefSample ahead = spline.Sample(x_m + kStep_m, y_m);
+    seen.height_m = std::max(seen.height_m, at.height_m);
+    seen.slope = std::max(seen.slope, std::hypot(at.slope_x, at.slope_y));
+    seen.curvature_per_m =
+        std::max(seen.curvature_per_m,
+                 std::hypot(ahead.slope_x - at.slope_x, ahead.slope_y - at.slope_y) / kStep_m);
+  }
+  EXPECT_LE(seen.height_m, spline.bounds().height_m);
+  EXPECT_LE(seen.slope, spline.bounds().slope);
+  EXPECT_LE(seen.curvature_per_m, spline.bounds().curvature_per_m);
+  EXPECT_GT(seen.slope, 0.2 * spline.bounds().slope);
+  EXPECT_GT(seen.curvature_per_m, 0.1 * spline.bounds().curvature_per_m);
 }
 
 // With a pit the same ground is marched over by bounds of the whole. Rays that both find meet it at
@@ -210,10 +237,10 @@ TEST(ElevationModel, IsSharedUntilItChanges) {
   EXPECT_EQ(params.surface->Of(params), copy.surface->Of(copy));
   const auto before = params.surface->Of(params);
   const auto differs = [&](const auto& change) {
+    const auto own = params.surface->Of(params);
     ElevationParams changed = params;
     change(changed);
-    EXPECT_NE(changed.surface->Of(changed), before);
-    EXPECT_NE(params.surface->Of(params), nullptr);
+    EXPECT_NE(changed.surface->Of(changed), own);
   };
   differs([](ElevationParams& p) { p.cell_m = 0.25; });
   differs([](ElevationParams& p) { p.origin_column += 1; });
