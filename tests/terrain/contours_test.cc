@@ -13,6 +13,12 @@ namespace {
 
 constexpr Rectangle kArea{-4.0, 6.0, -3.0, 3.0};
 
+bool IsOnEdge(const CoursePoint& p) {
+  const double inside_m = std::min(
+      {p.x_m - kArea.x_min_m, kArea.x_max_m - p.x_m, p.y_m - kArea.y_min_m, kArea.y_max_m - p.y_m});
+  return std::abs(inside_m) < 1e-9;
+}
+
 bool IsClosed(const Contour& contour) {
   const CoursePoint& first = contour.line.front();
   const CoursePoint& last = contour.line.back();
@@ -50,6 +56,9 @@ TEST(Contours, OfHillsCloseAboutTops) {
   std::size_t closed = 0;
   for (const Contour& contour : map.lines) {
     closed += IsClosed(contour) ? 1 : 0;
+    if (!IsClosed(contour)) {
+      EXPECT_TRUE(IsOnEdge(contour.line.front()) && IsOnEdge(contour.line.back()));
+    }
     heights.insert(std::lround(contour.height_m / map.interval_m));
     for (const CoursePoint& p : contour.line) {
       ASSERT_NEAR(Hills(p.x_m, p.y_m), contour.height_m, 0.003);
