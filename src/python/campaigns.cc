@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -81,25 +82,26 @@ py::tuple Told(const WorkResult& result) {
       py::make_tuple(result.trials.planned, result.trials.finished, result.trials.faults));
 }
 
-// Does the work while Python listens.
+// Does the work of a request, which it owns, while Python listens.
 WorkResult Awaited(
     const CampaignRequest& request,
     const std::function<WorkResult(const campaign::RunObserver&, const campaign::Stop&)>& work,
     const py::object& progress) {
-  WorkResult result;
+  const auto result = std::make_shared<WorkResult>();
   const bool decides = !request.program.empty();  // Python, in workers too
+  const bool forks = decides && request.containment.supervisor;
   Await(
-      [&](const Contact& contact) {
-        std::optional<ForksWithPython> forks;
-        if (decides && request.containment.supervisor) forks.emplace();
+      [result, forks, work](const Contact& contact) {
+        std::optional<ForksWithPython> with_python;
+        if (forks) with_python.emplace();
         campaign::RunObserver observer;
-        observer.trials = [&](const batch::Progress& told, campaign::Moment) {
+        observer.trials = [&contact](const batch::Progress& told, campaign::Moment) {
           contact.SetProgress(told.finished, told.planned);
         };
-        result = work(observer, {.wanted = [&contact] { return contact.stop_wanted(); }});
+        *result = work(observer, {.wanted = [&contact] { return contact.stop_wanted(); }});
       },
       progress);
-  return result;
+  return std::move(*result);
 }
 
 // Returns what a function without progress gives, without the interpreter's lock meanwhile.
@@ -132,7 +134,7 @@ void BindRuns(py::module_& module) {
                                        .campaign = RequestOf(options, defaults)};
     return Told(Awaited(
         request.campaign,
-        [&](const auto& observer, const auto& stop) {
+        [request](const auto& observer, const auto& stop) {
           return campaign::Run(request, observer, stop);
         },
         progress));
@@ -143,7 +145,7 @@ void BindRuns(py::module_& module) {
                                          .campaign = RequestOf(options, defaults)};
     return Told(Awaited(
         request.campaign,
-        [&](const auto& observer, const auto& stop) {
+        [request](const auto& observer, const auto& stop) {
           return campaign::RunSweep(request, observer, stop);
         },
         progress));
@@ -179,14 +181,14 @@ void BindCampaigns(py::module_& module) {
                                    .title = title,
                                    .replays = replays,
                                    .tracks = tracks};
-        WorkResult result;
+        const auto result = std::make_shared<WorkResult>();
         Await(
-            [&](const Contact& contact) {
+            [result, request](const Contact& contact) mutable {
               request.stop = [&contact] { return contact.stop_wanted(); };
-              result = api::Report(request);
+              *result = api::Report(request);
             },
             py::none());
-        return Told(result);
+        return Told(*result);
       },
       py::arg("runs"), py::arg("cell"), py::arg("page"), py::arg("title"), py::arg("replays"),
       py::arg("tracks"));

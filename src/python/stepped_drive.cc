@@ -2,7 +2,9 @@
 
 #include <cxxabi.h>
 
+#include <boost/context/preallocated.hpp>
 #include <boost/context/protected_fixedsize_stack.hpp>
+#include <boost/context/stack_context.hpp>
 #include <cstring>
 #include <string_view>
 #include <utility>
@@ -11,7 +13,7 @@
 #include "navigation/navigator_fault.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/common_interface_defs.h>
+#include <sanitizer/asan_interface.h>
 #define ROCKYARD_STACKS_ARE_WATCHED 1
 #endif
 
@@ -35,6 +37,13 @@ void EnterStack([[maybe_unused]] void* kept, [[maybe_unused]] StackPlace* from) 
   StackPlace unused;
   StackPlace& left = from == nullptr ? unused : *from;
   __sanitizer_finish_switch_fiber(kept, &left.bottom, &left.bytes);
+#endif
+}
+
+// Tells it that a stack is no more: others may get its memory.
+void ForgetStack([[maybe_unused]] const StackPlace& stack) {
+#if defined(ROCKYARD_STACKS_ARE_WATCHED)
+  __asan_unpoison_memory_region(stack.bottom, stack.bytes);
 #endif
 }
 
@@ -66,15 +75,20 @@ void SteppedDrive::Begin(const experiments::Experiment& experiment, std::uint64_
   abandoned_ = false;
   record_.reset();
   thrown_ = nullptr;
+  boost::context::protected_fixedsize_stack stacks(kStackBytes);
+  const boost::context::stack_context stack = stacks.allocate();
+  own_stack_ = {static_cast<const char*>(stack.sp) - stack.size, stack.size};
   drive_ = boost::context::fiber(std::allocator_arg,
-                                 boost::context::protected_fixedsize_stack(kStackBytes),
+                                 boost::context::preallocated(stack.sp, stack.size, stack), stacks,
                                  [this, &experiment, seed, trial](boost::context::fiber&& caller) {
+                                   EnterStack(nullptr, &caller_stack_);
                                    caller_ = std::move(caller);
                                    try {
                                      record_ = experiment.Run(seed, trial);
                                    } catch (...) {
                                      thrown_ = std::current_exception();
                                    }
+                                   LeaveStack(nullptr, caller_stack_);
                                    return std::move(caller_);
                                  });
   Resume();
@@ -101,6 +115,7 @@ void SteppedDrive::Resume() {
   LeaveStack(&kept, own_stack_);
   drive_ = std::move(drive_).resume();
   EnterStack(kept, nullptr);
+  if (!drive_) ForgetStack(own_stack_);
   handled_ = ExchangeHandled(handled);
   running = outer;
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -122,19 +123,27 @@ void EndWork() {
   }
 }
 
-void Await(const std::function<void(const Contact&)>& work, const py::object& progress) {
-  const Contact contact;
+void Await(std::function<void(const Contact&)> work, const py::object& progress) {
+  // What both threads use, on no stack.
+  struct Job {
+    std::function<void(const Contact&)> work;
+    Contact contact;
+    End end;
+  };
+  const auto job = std::make_shared<Job>();
+  job->work = std::move(work);
+  const Contact& contact = job->contact;
+  End& end = job->end;
   const Noted noted(contact);
   const pid_t process = getpid();
-  End end;
-  std::thread thread([&] {
+  std::thread thread([job] {
     std::exception_ptr thrown;
     try {
-      work(contact);
+      job->work(job->contact);
     } catch (...) {
       thrown = std::current_exception();
     }
-    end.Come(thrown);
+    job->end.Come(thrown);
   });
   std::optional<py::error_already_set> raised;
   std::pair<std::int64_t, std::int64_t> shown{-1, -1};

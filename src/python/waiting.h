@@ -29,8 +29,7 @@ class Contact {
   }
 
  private:
-  friend void Await(const std::function<void(const Contact&)>& work,
-                    const pybind11::object& progress);
+  friend void Await(std::function<void(const Contact&)> work, const pybind11::object& progress);
   struct Shared {
     std::atomic<bool> stop = false;
     std::atomic<std::int64_t> finished = 0;
@@ -58,6 +57,9 @@ void EndWork();
 // Ctrl-C, `progress`) asks the work to end early, and is raised once it has: what was finished is
 // stored then. What the work throws is thrown. The thread is new for each work, as OpenMP's threads
 // belong to the thread that has started them, and a fork has none of both.
-void Await(const std::function<void(const Contact&)>& work, const pybind11::object& progress);
+//
+// The work must own all that it uses. A supervised worker is a fork of the work's thread, and the C
+// library gives the stacks of threads that a fork lacks, the caller's among them, to its new ones.
+void Await(std::function<void(const Contact&)> work, const pybind11::object& progress);
 
 }  // namespace rockyard::python
