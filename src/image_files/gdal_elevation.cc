@@ -219,31 +219,22 @@ class GdalElevation final : public ElevationRaster {
     Functions()->set_projected(local.get(), "local");
     Functions()->set_azimuthal(local.get(), around.latitude_deg, around.longitude_deg, 0.0, 0.0);
     Functions()->set_axes(local.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    std::vector<double> x;
-    std::vector<double> y;
-    for (const LocalPoint& point : points) {
-      x.push_back(point.east_m);
-      y.push_back(point.north_m);
-    }
-    Transform(local.get(), frame_.get(), x, y, errors);
-    std::vector<MapPoint> map;
-    for (std::size_t i = 0; i < x.size(); ++i) map.push_back({x[i], y[i]});
-    return map;
+    std::vector<MapPoint> places;
+    places.reserve(points.size());
+    for (const LocalPoint& point : points) places.push_back({point.east_m, point.north_m});
+    Transform(local.get(), frame_.get(), places, errors);
+    return places;
   }
 
   std::vector<GeoPoint> ToGeographic(std::span<const MapPoint> points) const override {
     const GdalErrors errors;
     if (!geographic_) FailFrame(errors);
-    std::vector<double> x;
-    std::vector<double> y;
-    for (const MapPoint& point : points) {
-      x.push_back(point.x);
-      y.push_back(point.y);
-    }
-    Transform(frame_.get(), geographic_.get(), x, y, errors);
-    std::vector<GeoPoint> places;
-    for (std::size_t i = 0; i < x.size(); ++i) places.push_back({y[i], x[i]});
-    return places;
+    std::vector<MapPoint> places(points.begin(), points.end());
+    Transform(frame_.get(), geographic_.get(), places, errors);
+    std::vector<GeoPoint> found;
+    found.reserve(places.size());
+    for (const MapPoint& place : places) found.push_back({place.y, place.x});
+    return found;
   }
 
  private:
@@ -254,14 +245,22 @@ class GdalElevation final : public ElevationRaster {
                     "name the part by --crop ROW,COLUMN,ROWS,COLUMNS and --crs map");
   }
 
-  void Transform(OGRSpatialReferenceH from, OGRSpatialReferenceH to, std::vector<double>& x,
-                 std::vector<double>& y, const GdalErrors& errors) const {
+  // Takes the places, first and second axis, from one frame to another.
+  void Transform(OGRSpatialReferenceH from, OGRSpatialReferenceH to, std::vector<MapPoint>& places,
+                 const GdalErrors& errors) const {
     const Way way(Functions()->new_way(from, to));
     if (!way) FailFrame(errors);
+    std::vector<double> x;
+    std::vector<double> y;
+    for (const MapPoint& place : places) {
+      x.push_back(place.x);
+      y.push_back(place.y);
+    }
     const int all =
         Functions()->go(way.get(), static_cast<int>(x.size()), x.data(), y.data(), nullptr);
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (all == 0 || !std::isfinite(x[i]) || !std::isfinite(y[i])) FailFrame(errors);
+      places[i] = {x[i], y[i]};
     }
   }
 

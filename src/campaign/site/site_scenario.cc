@@ -175,6 +175,11 @@ SiteFigures FiguresOf(SiteElevation elevation, std::optional<double> resolution_
   if (figures.roughness) {
     constexpr double kTenThousand = 10000.0;
     constexpr double kRoughest_m = 0.5;  // of terrain.ground.roughness_rms_m
+    if (figures.roughness->rms_m > kRoughest_m) {
+      elevation.notes.push_back(
+          fmt::format("the roughness below its resolution, {:.3g} m, is cut to {:g} m",
+                      figures.roughness->rms_m, kRoughest_m));
+    }
     figures.roughness->rms_m =
         std::min(Rounded(figures.roughness->rms_m, kTenThousand), kRoughest_m);
     figures.roughness->hurst = Rounded(figures.roughness->hurst, kThousand);

@@ -67,18 +67,18 @@ class ArmReader {
 
   void ReadBars() {
     std::vector<ToldValue> bars_m;
-    std::vector<ToldValue> stubs_m;
+    std::vector<ToldValue> short_bars_m;
     for (const UrdfPlacedShape& placed : shapes_) {
       const UrdfShape& shape = *placed.shape;
       const bool bar = IsArm(placed.body) && shape.kind == UrdfShapeKind::kCylinder &&
                        !AreAlong(placed.X_RS.linear().col(2), Vector3::UnitY());
       if (!bar) continue;
       const bool slender = shape.length_m > kSlender * shape.radius_m;
-      (slender ? bars_m : stubs_m).push_back({shape.radius_m, shape.place});
+      (slender ? bars_m : short_bars_m).push_back({shape.radius_m, shape.place});
       used_.insert(&shape);
     }
     draft_.CarryLength("geometry.arm_radius_m", draft_.params.geometry.arm_radius_m,
-                       bars_m.empty() ? stubs_m : bars_m);
+                       bars_m.empty() ? short_bars_m : bars_m);
   }
 
   // Returns how far a place is from a wheel's axle along x, in wheel radii.

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "campaign/site/site_files.h"
 #include "core/json_file.h"
@@ -214,6 +216,22 @@ TEST_F(SiteRocksTest, TheLawGoesOnBelowTheSmallest) {
 TEST_F(SiteRocksTest, OutsideAltogetherIsRefused) {
   EXPECT_THAT(ProblemsOf([&] { MakeSiteScenario(WithRocks("x,y,d\n300,0,1\n", false)); })[0].reason,
               HasSubstr("none of whose rocks"));
+}
+
+TEST_F(SiteScenarioTest, RoughnessBeyondWhatAScenarioMayHaveIsCutAndTold) {
+  const auto told = [&](double height_m) {
+    SiteElevation elevation;
+    elevation.grid = {1.0, 40, 40, {}};
+    for (int i = 0; i < 1600; ++i) {
+      elevation.grid.heights_m.push_back(height_m * std::sin(7.0 * i * i));
+    }
+    return FiguresOf(std::move(elevation), std::nullopt);
+  };
+  const SiteFigures rough = told(5.0);
+  ASSERT_TRUE(rough.roughness);
+  EXPECT_EQ(rough.roughness->rms_m, 0.5);
+  EXPECT_THAT(rough.elevation.notes, Contains(HasSubstr("is cut to 0.5 m")));
+  EXPECT_THAT(told(0.05).elevation.notes, testing::IsEmpty());
 }
 
 }  // namespace
