@@ -306,6 +306,16 @@ void AddSiteOptions(CLI::App& command, SiteOptions& o) {
   command.add_option("--max-diameter", o.max_diameter_m, "up to which it is complete, m")
       ->check(CLI::Range(0.0, 100.0))
       ->needs(fit);
+  // One trial of a scenario, and tables of one, are other questions.
+  for (CLI::Option* site : {dem, rocks, fit}) {
+    for (const char* other : {"--seed", "--trial", "--blind-swath", "--density", "--fields"}) {
+      site->excludes(command.get_option(other));
+    }
+  }
+  for (CLI::Option* table : {scan, fit}) {
+    table->excludes(command.get_option("--out"))->excludes(command.get_option("--set"));
+  }
+  for (const char* part : {"--crop", "--at"}) scan->excludes(command.get_option(part));
 }
 
 }  // namespace rockyard::app

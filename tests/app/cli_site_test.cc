@@ -55,6 +55,21 @@ TEST_F(CliSites, NothingIsOverwritten) {
   EXPECT_FALSE(fs::exists(work() / "site.svg"));
 }
 
+TEST_F(CliSites, WhatWouldBeIgnoredIsRefused) {
+  const std::vector<std::string> site{"terrain", "--dem", "place.npy", "--cell", "1"};
+  const auto refused = [&](std::vector<std::string> more, const std::string& pair) {
+    more.insert(more.begin(), site.begin(), site.end());
+    EXPECT_THAT(RunTo(2, more).err, HasSubstr(pair));
+  };
+  refused({"--trial", "3", "--out", "site.json"}, "--trial excludes --dem");
+  refused({"--seed", "3", "--out", "site.json"}, "--seed excludes --dem");
+  refused({"--density"}, "--density excludes --dem");
+  refused({"--scan-sites", "--out", "site.json"}, "--out excludes --scan-sites");
+  EXPECT_THAT(RunTo(2, {"terrain", "--fit", "rocks.csv", "--out", "site.json"}).err,
+              HasSubstr("--out excludes --fit"));
+  EXPECT_FALSE(fs::exists(work() / "site.json"));
+}
+
 TEST_F(CliSites, PartsOfAModel) {
   RunTo(0, {"terrain", "nominal", "--dem", "place.npy", "--cell", "1", "--crop", "10,5,30,31",
             "--start", "-8,3", "--goal", "9,-2", "--no-roughness", "--out", "crop.json"});
