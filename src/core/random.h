@@ -74,6 +74,7 @@ enum class Purpose : std::uint32_t {
   kNavigator = 58,  // the seed of a navigator's own generator (NavigatorSetup::random_seed)
   kSiteMap = 59,    // the error of the map of the site
   kRockCluster = 60,
+  kSoil = 61,
 };
 
 // Returns the raw Philox 4x32-10 bijection of one counter under one key.

@@ -30,6 +30,15 @@ void VisitWheels(RoverGeometryParams& p, core::FieldVisitor& v) {
          Published("wheel radius, cleats included", kRocky32, {0.02, 0.5}));
   v.Real("wheel_width_m", p.wheel_width_m,
          Assumed("wheel width", kRocky7, {0.01, 0.5}, {0.06, 0.08}));
+  v.Real("lug_height_m", p.lug_height_m,
+         Assumed("height of the cleats, for laws of stresses over the rim; 0: a smooth rim",
+                 "no drawing of Rocky 3.2 shows it; wheels of MFEX had cleats of about 1 cm",
+                 {0.0, 0.1}, {0.003, 0.01}));
+  v.Integer("lug_count", p.lug_count,
+            Assumed("cleats around a wheel",
+                    "closer than five heights, they hold the soil between "
+                    "them: more do not matter",
+                    {0, 1000}, {9, 30}));
   v.Real("wheelbase_m", p.wheelbase_m,
          Assumed("distance from the front to the rear axle, centred",
                  "the outer wheels end at the overall length", {0.1, 5.0}, {0.46, 0.52}));

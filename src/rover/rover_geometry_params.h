@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "core/fields.h"
@@ -31,6 +32,8 @@ struct RoverGeometryParams {
   double belly_clearance_m = 0.13;
   double wheel_radius_m = 0.065;
   double wheel_width_m = 0.08;
+  double lug_height_m = 0.01;
+  std::int64_t lug_count = 18;
   double wheelbase_m = 0.52;
   double middle_wheel_x_m = 0.0;
   SteeredWheels steered_wheels = SteeredWheels::kCorners;

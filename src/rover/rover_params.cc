@@ -10,7 +10,6 @@
 
 #include "messages/wheels.h"
 #include "rover/rover_layout_params.h"
-#include "rover/wheel_rut_params.h"
 
 namespace rockyard::rover {
 
@@ -68,7 +67,8 @@ void QuasiStaticParams::Visit(core::FieldVisitor& v) {
   v.Angle("settle_turn_deg", settle_turn_rad,
           Setting("turn between two settled poses", {0.1, 15.0}));
   v.Real("rock_settle_share", rock_settle_share,
-         Setting("share of both while a rock or a wall bears a part of the rover", {0.05, 1.0}));
+         Setting("share of both while a rock or a wall bears a part of the rover, and on soil into "
+                 "which wheels take more way to dig than settle_distance_m", {0.05, 1.0}));
 }
 
 void RoverMassParams::Visit(core::FieldVisitor& v) {
@@ -221,8 +221,13 @@ ComRange StandingComRange(const RoverParams& params) {
   return range;
 }
 
+WheelOnSoil MakeWheelOnSoil(const RoverParams& params, const terrain::SoilParams& soil) {
+  return {soil, RimShapeOf(params.geometry), params.physics.gravity_m_s2,
+          params.mass.total_kg * params.physics.gravity_m_s2};
+}
+
 double SteepestHeldSlope_rad(const RoverParams& params, const terrain::SoilParams& soil) {
-  const WheelRut wheel(soil, params.geometry.wheel_radius_m, params.geometry.wheel_width_m);
+  const WheelOnSoil wheel = MakeWheelOnSoil(params, soil);
   const double level_N = params.mass.total_kg * params.physics.gravity_m_s2 /
                          static_cast<double>(messages::kWheelCount);
   // The pull grows with the slope and what the soil bears shrinks with the load, so that their
@@ -231,7 +236,7 @@ double SteepestHeldSlope_rad(const RoverParams& params, const terrain::SoilParam
   double slides_rad = 0.5 * std::numbers::pi;
   for (int i = 0; i < 60; ++i) {
     const double slope_rad = 0.5 * (held_rad + slides_rad);
-    const double bears_N = wheel.LargestTraction_N(level_N * std::cos(slope_rad));
+    const double bears_N = wheel.Under(level_N * std::cos(slope_rad), 0.0).traction_N;
     (level_N * std::sin(slope_rad) <= bears_N ? held_rad : slides_rad) = slope_rad;
   }
   return held_rad;

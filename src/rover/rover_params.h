@@ -13,6 +13,7 @@
 #include "math/angles.h"
 #include "messages/wheels.h"
 #include "rover/rover_geometry_params.h"
+#include "rover/wheel_law_params.h"
 #include "terrain/soil_params.h"
 
 namespace rockyard::rover {
@@ -100,10 +101,13 @@ struct ComRange {
 // `params` does not matter.
 ComRange StandingComRange(const RoverParams& params);
 
+// Returns what the soil does to a wheel of the rover, for loads up to its weight.
+WheelOnSoil MakeWheelOnSoil(const RoverParams& params, const terrain::SoilParams& soil);
+
 // Returns the inclination in [0, pi/2] at which the pull down the slope reaches what the soil bears
 // across a braked wheel, whatever the rover's heading:
 //   tan(slope) = T_max(N) / N,   N = W cos(slope) / 6,
-// with each wheel under the mean load (T_max: wheel_rut_params.h). Wheels that point up or down the
+// with each wheel under the mean load (T_max: wheel_law_params.h). Wheels that point up or down the
 // slope hold more, by their resistance R.
 double SteepestHeldSlope_rad(const RoverParams& params, const terrain::SoilParams& soil);
 

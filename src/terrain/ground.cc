@@ -7,6 +7,7 @@
 
 #include "terrain/relief.h"
 #include "terrain/relief_spline.h"
+#include "terrain/soil_draw.h"
 
 namespace rockyard::terrain {
 namespace {
@@ -32,7 +33,7 @@ double SafeStep(const Approach& now, double bend_per_m) {
 Ground::Ground() = default;
 
 Ground::Ground(const GroundParams& params, core::TrialKey key)
-    : soil_(params.soil),
+    : soil_(params.soil.spread.enabled ? DrawSoil(params.soil, key) : params.soil),
       // z = tan(slope) (x cos(direction) + y sin(direction)).
       slope_x_(std::tan(params.slope_rad) * std::cos(params.slope_direction_rad)),
       slope_y_(std::tan(params.slope_rad) * std::sin(params.slope_direction_rad)) {

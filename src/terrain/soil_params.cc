@@ -6,6 +6,31 @@ namespace {
 using core::Assumed;
 using core::Setting;
 
+// Which law takes the quantities below.
+void VisitLaw(SoilParams& p, core::FieldVisitor& v) {
+  v.Choice("law", p.law,
+           Assumed("law of a wheel on soil: bekker, a rut by its load and Janosi and Hanamoto's "
+                   "traction; wong_reece, stresses over the rim; resistive_force, granular "
+                   "resistive force theory; intrusion, its pressure with friction at the rim",
+                   "judged on wheels that no law was fitted to: results/wheel_soil.md"));
+  v.Choice(
+      "pressure", p.pressure,
+      Assumed(
+          "pressure under a sinking wheel, not for bekker: plate, by exponent and moduli; "
+          "density, of a granular soil by density, friction angle and gravity",
+          "plates where soil was pressed; density, for sojourner_soil, sojourner_drift and grc_1, "
+          "where only that is known"));
+  v.Real(
+      "density_kg_m3", p.density_kg_m3,
+      Assumed(
+          "bulk density, with pressure density",
+          "landscaping_sand 1600, mars_drift 1150, both unmeasured: dry sand, loose 1450 to dense "
+          "1750, drift lighter; sojourner_soil 1550 and sojourner_drift 1250, of the soils "
+          "that Sojourner dug into as others quote Moore et al. 1999; grc_1 1660, the "
+          "loosest of three pairs of density and friction angle (Hu et al. 2024)",
+          {100.0, 5000.0}, {1450.0, 1750.0}));
+}
+
 // Pressure against sinkage (Bekker).
 void VisitSinkage(SoilParams& p, core::FieldVisitor& v) {
   v.Real("sinkage_exponent", p.sinkage_exponent,
@@ -31,14 +56,18 @@ void VisitShear(SoilParams& p, core::FieldVisitor& v) {
       "cohesion_Pa", p.cohesion_Pa,
       Assumed("cohesion c of the soil in shear (Mohr-Coulomb)",
               "landscaping_sand 1.3 kPa: LETE sand, Wong 2008 table 2.3 (loose dry sand 1.04 kPa); "
-              "mars_drift 1.6 kPa: drift at Viking 1, Moore et al. 1987; hard_ground 0, assumed",
+              "mars_drift 1.6 kPa: drift at Viking 1, Moore et al. 1987; hard_ground 0, assumed; "
+              "sojourner_soil 0.24 and sojourner_drift 0.3 kPa as others quote Moore et al. 1999; "
+              "grc_1 0, a simulant of washed sands",
               {0.0, 1e6}, {0.0, 1500.0}));
   v.Angle(
       "friction_angle_deg", p.friction_angle_rad,
       Assumed(
           "angle of internal shearing resistance phi (Mohr-Coulomb)",
           "landscaping_sand 31.1: LETE sand, Wong 2008 table 2.3 (loose dry sand 28, dense sand to "
-          "38); mars_drift 18: drift at Viking 1, Moore et al. 1987; hard_ground 38.66, assumed",
+          "38); mars_drift 18: drift at Viking 1, Moore et al. 1987; hard_ground 38.66, assumed; "
+          "sojourner_soil 36.5 (34 to 39) and sojourner_drift 27 (26 to 28), Moore et al. 1999 as "
+          "others quote it; grc_1 33.4 (Hu et al. 2024)",
           {0.0, 60.0}, {28.0, 38.0}));
   v.Real("shear_modulus_m", p.shear_modulus_m,
          Assumed("shear deformation modulus K of Janosi and Hanamoto 1961; 0: no slip below the "
@@ -48,6 +77,23 @@ void VisitShear(SoilParams& p, core::FieldVisitor& v) {
                  "plates on sand, 10 to 25 mm (Wong 2008 sec. 2.4); hard_ground 0, assumed. "
                  "Studied from a cleat's few mm to the most that plates show",
                  {0.0, 0.2}, {0.002, 0.025}));
+}
+
+// A soil of which strength and density are known: its pressure is that of a granular soil.
+SoilParams Granular(SoilPreset preset, double density_kg_m3, double friction_deg,
+                    double cohesion_Pa) {
+  SoilParams soil;
+  soil.preset = preset;
+  soil.pressure = SoilPressure::kDensity;
+  soil.density_kg_m3 = density_kg_m3;
+  soil.friction_angle_rad = math::DegToRad(friction_deg);
+  soil.cohesion_Pa = cohesion_Pa;
+  // Without plates: Bekker's law takes those of loose dry sand, as for mars_drift.
+  soil.sinkage_exponent = 1.1;
+  soil.cohesive_modulus_N_per_mn1 = 0.99e3;
+  soil.frictional_modulus_N_per_mn2 = 1528.43e3;
+  soil.shear_modulus_m = 0.010;
+  return soil;
 }
 
 }  // namespace
@@ -70,7 +116,39 @@ void SlipSinkageParams::Visit(core::FieldVisitor& v) {
                  {1e-3, 10.0}, {0.02, 0.4}));
 }
 
+void SoilSpreadParams::Visit(core::FieldVisitor& v) {
+  constexpr std::string_view kScatter =
+      "no statistics of one place known: about what presets for one kind of sand differ by";
+  v.Boolean("enabled", enabled,
+            Setting("each trial draws its soil about the values above; exponent and friction angle "
+                    "normal, the others log-normal"));
+  v.Angle("friction_angle_deg", friction_angle_rad,
+          Assumed("standard deviation of the friction angle",
+                  "sets of one simulant by its density differ by 5 deg (GRC-1: 33.4 to 38.4)",
+                  {0.0, 20.0}, {1.0, 4.0}));
+  v.Real(
+      "exponent", exponent,
+      Assumed("standard deviation of the sinkage exponent",
+              "what nine plate tests on one bed of sand scatter by, 0.09, goes with their moduli",
+              {0.0, 1.0}, {0.0, 0.09}));
+  v.Real("log_modulus", log_modulus,
+         Assumed("standard deviation of the logarithm of both moduli",
+                 "pressure 10 mm deep in nine plate tests on one bed of sand (Pavlov, CMU)",
+                 {0.0, 3.0}, {0.2, 0.6}));
+  v.Real("log_cohesion", log_cohesion,
+         Assumed("standard deviation of the logarithm of the cohesion", kScatter, {0.0, 3.0},
+                 {0.3, 1.0}));
+  v.Real("log_shear_modulus", log_shear_modulus,
+         Assumed("standard deviation of the logarithm of the shear modulus", kScatter, {0.0, 3.0},
+                 {0.2, 0.8}));
+  v.Real("log_density", log_density,
+         Assumed("standard deviation of the logarithm of the density", kScatter, {0.0, 1.0},
+                 {0.02, 0.06}));
+}
+
 SoilParams MakeSoil(SoilPreset preset) {
+  SoilParams soil;
+  soil.preset = preset;
   switch (preset) {
     case SoilPreset::kLandscapingSand:
       break;
@@ -78,12 +156,32 @@ SoilParams MakeSoil(SoilPreset preset) {
       // Strength of the drift material at the Viking 1 site (Moore et al. 1987: 1.6 kPa, 18 deg);
       // pressure-sinkage of loose dry sand (Wong 2008 table 2.3, Land Locomotion Laboratory),
       // since nobody has pressed a plate into it.
-      return {preset, 1.1, 0.99e3, 1528.43e3, 1600.0, math::DegToRad(18.0), 0.010, {}};
+      soil.sinkage_exponent = 1.1;
+      soil.cohesive_modulus_N_per_mn1 = 0.99e3;
+      soil.frictional_modulus_N_per_mn2 = 1528.43e3;
+      soil.cohesion_Pa = 1600.0;
+      soil.friction_angle_rad = math::DegToRad(18.0);
+      soil.shear_modulus_m = 0.010;
+      soil.density_kg_m3 = 1150.0;
+      break;
     case SoilPreset::kHardGround:
       // Coulomb friction of 0.8 and next to no sinkage: a wheel of 30 N sinks by some 10 um.
-      return {preset, 1.0, 0.0, 1e11, 0.0, math::DegToRad(38.66), 0.0, {}};
+      soil.law = WheelLaw::kBekker;
+      soil.sinkage_exponent = 1.0;
+      soil.cohesive_modulus_N_per_mn1 = 0.0;
+      soil.frictional_modulus_N_per_mn2 = 1e11;
+      soil.cohesion_Pa = 0.0;
+      soil.friction_angle_rad = math::DegToRad(38.66);
+      soil.shear_modulus_m = 0.0;
+      break;
+    case SoilPreset::kSojournerSoil:
+      return Granular(preset, 1550.0, 36.5, 240.0);
+    case SoilPreset::kSojournerDrift:
+      return Granular(preset, 1250.0, 27.0, 300.0);
+    case SoilPreset::kGrc1:
+      return Granular(preset, 1660.0, 33.4, 0.0);
   }
-  return {};
+  return soil;
 }
 
 void SoilParams::Visit(core::FieldVisitor& v) {
@@ -93,12 +191,20 @@ void SoilParams::Visit(core::FieldVisitor& v) {
                    "the arena held landscaping sand with crushed brick (Matthies 1995 sec. 2)"));
   if (preset != before) {
     const SlipSinkageParams kept = slip_sinkage;
+    const SoilSpreadParams kept_spread = spread;
     *this = MakeSoil(preset);
     slip_sinkage = kept;
+    spread = kept_spread;
   }
+  VisitLaw(*this, v);
   VisitSinkage(*this, v);
   VisitShear(*this, v);
   v.Group("slip_sinkage", slip_sinkage, "wheels that slip dig in");
+  v.Require("slip_sinkage.enabled", !slip_sinkage.enabled || law == WheelLaw::kBekker,
+            "is part of the law bekker, and law is another",
+            "set law to bekker, or leave slip_sinkage out: by the other laws wheels that slip dig "
+            "in without it");
+  v.Group("spread", spread, "the soil differs from trial to trial");
 }
 
 }  // namespace rockyard::terrain

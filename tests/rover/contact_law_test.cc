@@ -151,7 +151,7 @@ TEST(SlipStep, StiffSlipDiesWithoutRinging) {
 
 // A step that is short against the decay takes forces halfway, one that is long at its end.
 TEST(SlipStep, TakesForcesHalfwayInShortStepsAndLastInLongOnes) {
-  const ContactLaws laws = LawsOf({});
+  const ContactLaws laws = LawsOf(BekkerSoil());
   const WheelSlip fast = SlipOf(kRim_m_s, 0.02);
   EXPECT_NEAR(StepOf(laws, {fast, fast, 1e-6}).theta, 0.5, 1e-3);
   const WheelSlip slow = SlipOf(1e-6, 1e-7);
@@ -178,7 +178,7 @@ TEST(SlipStep, SteadySlipHasTheTractionOfTheCurve) {
 // A wheel that comes to speed has the traction of its mean slip and rim speed, in a step so short
 // that its middle counts.
 TEST(SlipStep, AChangingSlipCountsHalfway) {
-  const ContactLaws laws = LawsOf({});
+  const ContactLaws laws = LawsOf(BekkerSoil());
   constexpr double kDuration_s = 1e-7;
   const SlipChange change{SlipOf(0.05, 0.04), SlipOf(0.15, 0.02), kDuration_s};
   const WheelSlip mean = SlipOf(0.1, 0.03);
@@ -189,11 +189,12 @@ TEST(SlipStep, AChangingSlipCountsHalfway) {
 // Soil that shears without deformation (K = 0), a wheel that stands, and soil without strength have
 // no slip that friction could answer to: it holds within its bound, as Coulomb's does.
 TEST(SlipStep, HoldsWhereSlipMeansNothing) {
-  terrain::SoilParams rigid{.shear_modulus_m = 0.0};
-  terrain::SoilParams weak{.cohesion_Pa = 0.0, .friction_angle_rad = 0.0};
+  terrain::SoilParams rigid{.law = terrain::WheelLaw::kBekker, .shear_modulus_m = 0.0};
+  terrain::SoilParams weak{
+      .law = terrain::WheelLaw::kBekker, .cohesion_Pa = 0.0, .friction_angle_rad = 0.0};
   struct Case {
     const char* name;
-    terrain::SoilParams soil;
+    terrain::SoilParams soil = BekkerSoil();
     WheelSlip slip;
   };
   for (const Case& c : {Case{"K = 0", rigid, SlipOf(kRim_m_s, 0.03)},
@@ -212,10 +213,14 @@ TEST(SlipStep, HoldsWhereSlipMeansNothing) {
 constexpr double kRadius_m = 0.065;
 constexpr double kWidth_m = 0.08;
 
+WheelOnSoil OnSoil(const terrain::SoilParams& soil, double max_N) {
+  return {soil, {.radius_m = kRadius_m, .width_m = kWidth_m}, 9.81, max_N};
+}
+
 class PresetSoil : public testing::TestWithParam<terrain::SoilPreset> {
  protected:
-  const terrain::SoilParams params_ = terrain::MakeSoil(GetParam());
-  const WheelSoil soil_{params_, kRadius_m, kWidth_m};
+  const terrain::SoilParams params_ = BekkerSoil(GetParam());
+  const BekkerWheel soil_{params_, kRadius_m, kWidth_m};
 };
 
 constexpr terrain::SoilPreset kPresets[] = {terrain::SoilPreset::kLandscapingSand,
@@ -229,14 +234,15 @@ INSTANTIATE_TEST_SUITE_P(Presets, PresetSoilTable, testing::ValuesIn(kPresets));
 // 30 N, by a desk calculator: b k = 990 + 0.08 * 1528430 = 123264.4,
 //   z = (90 / (1.9 * 123264.4 * sqrt(0.13)))^(1 / 1.6), R = 123264.4 z^2.1 / 2.1,
 //   l = 0.065 acos(1 - z / 0.065), T_max = 0.08 l 1040 + 30 tan(28 deg), u = 0.2 l / 0.01.
-TEST(WheelSoil, HandValuesOfDrySand) {
-  const terrain::SoilParams dry_sand{.sinkage_exponent = 1.1,
+TEST(BekkerWheel, HandValuesOfDrySand) {
+  const terrain::SoilParams dry_sand{.law = terrain::WheelLaw::kBekker,
+                                     .sinkage_exponent = 1.1,
                                      .cohesive_modulus_N_per_mn1 = 0.99e3,
                                      .frictional_modulus_N_per_mn2 = 1528.43e3,
                                      .cohesion_Pa = 1040.0,
                                      .friction_angle_rad = math::DegToRad(28.0),
                                      .shear_modulus_m = 0.010};
-  const WheelSoil soil(dry_sand, kRadius_m, kWidth_m);
+  const BekkerWheel soil(dry_sand, kRadius_m, kWidth_m);
   EXPECT_NEAR(soil.Sinkage_m(30.0), 0.013877, 1e-6);
   EXPECT_NEAR(soil.Resistance_N(30.0), 7.3697, 1e-3);
   EXPECT_NEAR(soil.ContactLength_m(30.0), 0.04327, 1e-5);
@@ -275,10 +281,9 @@ TEST_P(PresetSoil, SlipPerShareIsThatOfTheLaw) {
   const ShareTable shares;
   if (params_.shear_modulus_m == 0.0) return;
   for (const double load_N : {1.0, 30.0}) {
-    const Rut rut = soil_.RutUnder(load_N);
     for (double slip = 1e-6; slip < 1.0; slip *= 1.7) {
       const double tau = soil_.TractionShare(slip, load_N);
-      EXPECT_NEAR(soil_.SlipPerShare(slip, rut, shares) * tau / slip, 1.0, 2e-6);
+      EXPECT_NEAR(SlipPerShare(slip, soil_.ShearRatio(load_N), shares) * tau / slip, 1.0, 2e-6);
     }
   }
 }
@@ -309,19 +314,19 @@ TEST_P(PresetSoil, Limits) {
   EXPECT_LE(soil_.ContactLength_m(1e9), std::numbers::pi * kRadius_m + 1e-12);
   // Small slip: tau = u / 2.
   const Rut rut = soil_.RutUnder(30.0);
-  EXPECT_NEAR(soil_.SlipPerShare(0.0, rut, ShareTable()),
+  EXPECT_NEAR(SlipPerShare(0.0, soil_.ShearRatio(30.0), ShareTable()),
               2.0 * params_.shear_modulus_m / rut.contact_length_m, 1e-12);
 }
 
-TEST(WheelSoil, PresetsDifferAsTheirNamesSay) {
+TEST(BekkerWheel, PresetsDifferAsTheirNamesSay) {
   const auto sinkage_m = [](terrain::SoilPreset preset) {
-    return WheelSoil(terrain::MakeSoil(preset), kRadius_m, kWidth_m).Sinkage_m(30.0);
+    return BekkerWheel(BekkerSoil(preset), kRadius_m, kWidth_m).Sinkage_m(30.0);
   };
   EXPECT_LT(sinkage_m(terrain::SoilPreset::kHardGround), 2e-5);
   EXPECT_GT(sinkage_m(terrain::SoilPreset::kLandscapingSand), 5e-4);
   EXPECT_GT(sinkage_m(terrain::SoilPreset::kMarsDrift),
             3.0 * sinkage_m(terrain::SoilPreset::kLandscapingSand));
-  const WheelSoil hard(terrain::MakeSoil(terrain::SoilPreset::kHardGround), kRadius_m, kWidth_m);
+  const BekkerWheel hard(BekkerSoil(terrain::SoilPreset::kHardGround), kRadius_m, kWidth_m);
   EXPECT_NEAR(hard.LargestTraction_N(30.0), 0.8 * 30.0, 0.01);
   EXPECT_EQ(hard.TractionShare(1e-9, 30.0), 1.0);
 }
@@ -329,9 +334,9 @@ TEST(WheelSoil, PresetsDifferAsTheirNamesSay) {
 // The table against the laws it interpolates, from a hundredth of its range on.
 TEST_P(PresetSoilTable, IsWithinAPerCentOfTheLaws) {
   constexpr double kMax_N = 300.0;
-  const WheelSoilTable table(soil_, kMax_N);
+  const WheelSoilTable table(OnSoil(params_, kMax_N), kMax_N);
   for (double load_N = 0.01 * kMax_N; load_N < kMax_N; load_N *= 1.013) {
-    const SoilAnswer answer = table.At(load_N);
+    const SoilAnswer answer = table.At(load_N, 0.0);
     const Rut rut = soil_.RutUnder(load_N);
     EXPECT_NEAR(answer.sinkage_m, rut.sinkage_m, 0.01 * rut.sinkage_m) << load_N;
     EXPECT_NEAR(answer.stiffness_N_m, rut.stiffness_N_m, 0.01 * rut.stiffness_N_m) << load_N;
@@ -341,9 +346,9 @@ TEST_P(PresetSoilTable, IsWithinAPerCentOfTheLaws) {
 }
 
 TEST(WheelSoilTable, RefusesALoadThatIsNoNumber) {
-  const WheelSoilTable table(WheelSoil({}, kRadius_m, kWidth_m), 300.0);
-  EXPECT_THROW(table.At(std::numeric_limits<double>::quiet_NaN()), std::runtime_error);
-  EXPECT_EQ(table.At(0.0).traction_N, 0.0);
+  const WheelSoilTable table(OnSoil(BekkerSoil(), 300.0), 300.0);
+  EXPECT_THROW(table.At(std::numeric_limits<double>::quiet_NaN(), 0.0), std::runtime_error);
+  EXPECT_EQ(table.At(0.0, 0.0).traction_N, 0.0);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Fidelity kFidelities[] = {Fidelity::kMultibody, Fidelity::kQuasiStatic};
 
-terrain::SoilParams Sand() { return terrain::MakeSoil(terrain::SoilPreset::kLandscapingSand); }
+terrain::SoilParams Sand() { return BekkerSoil(terrain::SoilPreset::kLandscapingSand); }
 
 truth::RoverState Driven(terrain::Terrain terrain, Fidelity fidelity, double time_s) {
   const RoverParams params = WithFidelity(fidelity);
@@ -48,7 +48,8 @@ TEST(OnElevationModel, StancesOnHillsConverge) {
   for (const Fidelity fidelity : kFidelities) {
     const auto stance = [&](double cell_m, const math::Pose2& X_WR) {
       const RoverOn rover(
-          terrain::Terrain(terrain::GroundOn(terrain::Sampled(terrain::Hills, cell_m)), {}, {}),
+          terrain::Terrain(terrain::GroundOn(terrain::Sampled(terrain::Hills, cell_m), Sand()), {},
+                           {}),
           WithFidelity(fidelity), X_WR);
       RunFor(*rover, kBraked, 0.2);
       return rover->state().X_WR.matrix().eval();

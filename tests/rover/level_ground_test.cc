@@ -266,7 +266,7 @@ class BrakedBody {
 
   const RoverParams params_;
   const Weights weights_;
-  const WheelSoil soil_;
+  const BekkerWheel soil_;
   const double soil_exponent_;
   Multibody body_;
   JointSpaceInertia inertia_;
@@ -314,8 +314,8 @@ TEST(Energy, NeverGrowsFromADropToTheRest) {
   for (const double rate_Hz : {60.0, 240.0}) {
     const double bound_J = 2e-3 * std::pow(60.0 / rate_Hz, 2.0);
     for (const terrain::SoilParams& soil :
-         {RigidGround(0.8), terrain::MakeSoil(terrain::SoilPreset::kLandscapingSand),
-          terrain::MakeSoil(terrain::SoilPreset::kMarsDrift)}) {
+         {RigidGround(0.8), BekkerSoil(terrain::SoilPreset::kLandscapingSand),
+          BekkerSoil(terrain::SoilPreset::kMarsDrift)}) {
       SCOPED_TRACE(testing::Message()
                    << rate_Hz << " Hz, sinkage exponent " << soil.sinkage_exponent);
       const double step_s = 1.0 / rate_Hz;

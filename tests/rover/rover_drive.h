@@ -7,6 +7,7 @@
 #include "messages/commands.h"
 #include "rover/rover.h"
 #include "rover/rover_layout_params.h"
+#include "rover/soil_reference.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::rover {
@@ -76,11 +77,11 @@ class RoverOn {
 
 inline terrain::Terrain FlatTerrain(std::vector<terrain::Rock> rocks = {},
                                     std::vector<terrain::Wall> walls = {}) {
-  return {terrain::Ground(), std::move(rocks), std::move(walls)};
+  return {terrain::Ground({.soil = BekkerSoil()}, {}), std::move(rocks), std::move(walls)};
 }
 
 inline terrain::Terrain SlopeTerrain(double slope_rad, double direction_rad,
-                                     const terrain::SoilParams& soil = {}) {
+                                     const terrain::SoilParams& soil = BekkerSoil()) {
   terrain::GroundParams params{
       .slope_rad = slope_rad, .slope_direction_rad = direction_rad, .soil = soil};
   return {terrain::Ground(params, {}), {}, {}};
@@ -104,14 +105,17 @@ inline terrain::Rock MakeRock(double x_m, double y_m, double center_z_m, double 
 }
 
 // A vertical step across the way, 1.2 m deep: flat ellipsoids stacked so densely that a wheel meets
-// a wall with ripples of 0.1 mm and a sharp upper edge 1 cm below the flat top.
-inline terrain::Terrain StepTerrain(double height_m, const terrain::SoilParams& soil = {}) {
+// a wall with ripples of 0.1 mm and a sharp upper edge `edge_m` below the flat top.
+inline std::vector<terrain::Rock> StepRocks(double height_m, double edge_m = 0.01) {
   std::vector<terrain::Rock> rocks;
-  for (double z = height_m - 0.01; z > 0.0; z -= 0.006) {
-    rocks.push_back(MakeRock(1.2, 0.0, z, 0.6, 2.0, 0.01));
+  for (double z = height_m - edge_m; z > 0.0; z -= 0.6 * edge_m) {
+    rocks.push_back(MakeRock(1.2, 0.0, z, 0.6, 2.0, edge_m));
   }
-  terrain::GroundParams ground{.soil = soil};
-  return {terrain::Ground(ground, {}), std::move(rocks), {}};
+  return rocks;
+}
+inline terrain::Terrain StepTerrain(double height_m, const terrain::SoilParams& soil = BekkerSoil(),
+                                    double edge_m = 0.01) {
+  return {terrain::Ground({.soil = soil}, {}), StepRocks(height_m, edge_m), {}};
 }
 
 inline void RunFor(Rover& rover, const messages::WheelCommand& command, double time_s) {

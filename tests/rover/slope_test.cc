@@ -55,7 +55,7 @@ TEST(Slope, SoilHoldsUpToItsLargestTraction) {
   for (const terrain::SoilPreset preset :
        {terrain::SoilPreset::kLandscapingSand, terrain::SoilPreset::kMarsDrift,
         terrain::SoilPreset::kHardGround}) {
-    const terrain::SoilParams soil = terrain::MakeSoil(preset);
+    const terrain::SoilParams soil = BekkerSoil(preset);
     const SoilReference reference{soil};
     const double held = SteepestHeldSlope_rad(params, soil);
     const double load_N = Weights(params).total_N * std::cos(held) / 6.0;
@@ -69,7 +69,7 @@ TEST(Slope, SoilHoldsUpToItsLargestTraction) {
 TEST(Slope, BrakedRoverStaysUpToWhatTheSoilHolds) {
   for (const terrain::SoilPreset preset :
        {terrain::SoilPreset::kLandscapingSand, terrain::SoilPreset::kMarsDrift}) {
-    const terrain::SoilParams soil = terrain::MakeSoil(preset);
+    const terrain::SoilParams soil = BekkerSoil(preset);
     const double held = SteepestHeldSlope_rad({}, soil);
     for (const double excess_deg : {-1.0, 1.0}) {
       const terrain::Terrain terrain =
@@ -155,11 +155,13 @@ TEST(Slope, TipsOverForwardAndBackwardAtTheStaticAngle) {
 
 // Firm enough for 30 deg.
 terrain::SoilParams FirmSoil() {
-  return terrain::SoilParams{.friction_angle_rad = math::DegToRad(45.0), .shear_modulus_m = 0.002};
+  return terrain::SoilParams{.law = terrain::WheelLaw::kBekker,
+                             .friction_angle_rad = math::DegToRad(45.0),
+                             .shear_modulus_m = 0.002};
 }
 
 struct SlipCase {
-  terrain::SoilParams soil;
+  terrain::SoilParams soil = BekkerSoil();
   double slope_deg = 10.0;
   double speed_m_s = 0.15;
   double rate_Hz = 60.0;
@@ -190,8 +192,9 @@ void ExpectSlipOfTheCurve(const SlipCase& c) {
       << c.gravity_m_s2 << " m/s2";
 }
 
-TEST(Slip, FollowsTheCurveOfTheDefaultSand) {
-  for (const double slope_deg : {0.0, 5.0, 10.0, 15.0, 18.0}) ExpectSlipOfTheCurve({{}, slope_deg});
+TEST(Slip, FollowsTheCurveOfLandscapingSand) {
+  for (const double slope_deg : {0.0, 5.0, 10.0, 15.0, 18.0})
+    ExpectSlipOfTheCurve({BekkerSoil(), slope_deg});
 }
 
 TEST(Slip, FollowsTheCurveOfFirmSoilUpTo30Degrees) {
@@ -203,22 +206,21 @@ TEST(Slip, FollowsTheCurveOfFirmSoilUpTo30Degrees) {
 TEST(Slip, DoesNotDependOnSpeedOrStep) {
   for (const double speed_m_s : {0.0067, 0.05, 0.15}) {
     for (const double rate_Hz : {60.0, 120.0}) {
-      ExpectSlipOfTheCurve({{}, 12.0, speed_m_s, rate_Hz});
+      ExpectSlipOfTheCurve({BekkerSoil(), 12.0, speed_m_s, rate_Hz});
     }
   }
 }
 
 TEST(Slip, FollowsTheCurveUnderMarsGravity) {
-  ExpectSlipOfTheCurve({{}, 10.0, 0.15, 60.0, 3.72});
-  ExpectSlipOfTheCurve(
-      {terrain::MakeSoil(terrain::SoilPreset::kMarsDrift), 5.0, 0.0067, 60.0, 3.72});
+  ExpectSlipOfTheCurve({BekkerSoil(), 10.0, 0.15, 60.0, 3.72});
+  ExpectSlipOfTheCurve({BekkerSoil(terrain::SoilPreset::kMarsDrift), 5.0, 0.0067, 60.0, 3.72});
 }
 
 // Near the largest traction a little more pull takes much more slip; wheels that share one slip
 // must not take turns in pulling for that.
 TEST(Slip, WheelsPullSteadilyNearTheLargestTraction) {
   const RoverParams params;
-  terrain::SoilParams soil{.shear_modulus_m = 0.001};
+  terrain::SoilParams soil{.law = terrain::WheelLaw::kBekker, .shear_modulus_m = 0.001};
   const RoverOn rover(SlopeTerrain(math::DegToRad(26.0), 0.0, soil), params);
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
   RunFor(*rover, command, 4.0);

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "messages/wheels.h"
+#include "rover/wheel_soil.h"
 #include "terrain/soil_params.h"
 
 namespace rockyard::rover {
@@ -27,8 +28,33 @@ inline double Integrate(double b, const std::function<double(double)>& f) {
   return sum * b / kCells;
 }
 
+// A preset's soil by Bekker's law, whose closed form this file has.
+inline terrain::SoilParams BekkerSoil(
+    terrain::SoilPreset preset = terrain::SoilPreset::kLandscapingSand) {
+  terrain::SoilParams soil = terrain::MakeSoil(preset);
+  soil.law = terrain::WheelLaw::kBekker;
+  return soil;
+}
+
+// What the rover makes of Bekker's law under one wheel.
+class BekkerWheel : public WheelRut {
+ public:
+  BekkerWheel(const terrain::SoilParams& soil, double radius_m, double width_m)
+      : WheelRut(soil, radius_m, width_m), shear_modulus_m_(soil.shear_modulus_m) {}
+
+  double ShearRatio(double load_N) const { return ContactLength_m(load_N) / shear_modulus_m_; }
+  double TractionShare(double slip, double load_N) const {
+    if (slip <= 0.0) return 0.0;
+    if (shear_modulus_m_ == 0.0) return 1.0;
+    return ShareOfRatio(slip * ShearRatio(load_N)).value;
+  }
+
+ private:
+  double shear_modulus_m_;
+};
+
 struct SoilReference {
-  terrain::SoilParams soil;
+  terrain::SoilParams soil = BekkerSoil();
   double radius_m = 0.065;
   double width_m = 0.08;
 

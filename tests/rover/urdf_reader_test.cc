@@ -38,11 +38,12 @@ std::vector<std::string> Paths(const std::vector<core::ParameterInfo>& parameter
   return paths;
 }
 
-// What no URDF file says of a rover: how its contacts behave, how its motion is computed, where it
-// drives, and how its motors start.
+// What no URDF file says of a rover: the cleats of its wheels, how its contacts behave, how its
+// motion is computed, where it drives, and how its motors start.
 bool IsBeyondUrdf(const std::string& path) {
-  return path == "fidelity" || path == "drive.ramp_s" || path.starts_with("contact.") ||
-         path.starts_with("physics.") || path.starts_with("quasi_static.");
+  return path == "fidelity" || path == "drive.ramp_s" || path.starts_with("geometry.lug_") ||
+         path.starts_with("contact.") || path.starts_with("physics.") ||
+         path.starts_with("quasi_static.");
 }
 
 // The group of a rover file without what no URDF file says.
@@ -50,6 +51,7 @@ std::string Sayable(const RoverParams& params) {
   core::JsonValue group = core::WriteParams(params);
   for (const char* key : {"fidelity", "contact", "physics", "quasi_static"}) group.Erase(key);
   group.Find("drive")->Erase("ramp_s");
+  for (const char* key : {"lug_height_m", "lug_count"}) group.Find("geometry")->Erase(key);
   return core::DumpJson(group);
 }
 
@@ -91,7 +93,7 @@ TEST(UrdfReader, WhatIsReadAndWhatIsLeftOutAreAllParametersOfARover) {
   }
   EXPECT_EQ(Paths(reading.left_out), expected);
   EXPECT_EQ(reading.places.size() + expected.size(), table.parameters().size());
-  EXPECT_EQ(core::Abbreviate(reading.left_out[1].value), "0.1") << "drive.ramp_s, the default";
+  EXPECT_EQ(core::Abbreviate(reading.left_out[3].value), "0.1") << "drive.ramp_s, the default";
 }
 
 // The rover of foreign_urdf.h, by hand.

@@ -10,6 +10,7 @@
 #include "campaign/doubts/setting_doubts.h"
 #include "experiments/hazard_detection/hazard_detection_params.h"
 #include "math/angles.h"
+#include "rover/rover_params.h"
 #include "terrain/soil_params.h"
 
 namespace rockyard::campaign {
@@ -230,14 +231,9 @@ void DoubtTraction(Values& s) {
   s.AtLeast("rover.contact.stiffness_N_m", weight_N / 6.0 / (0.2 * radius_m),
             fmt::format("a load of {:.3g} N a wheel", weight_N / 6.0),
             "use a stiffness for this mass");
-  // Bekker's pressure under a sixth of the weight, on a patch as long as the radius.
-  const double wide_m = s("rover.geometry.wheel_width_m");
-  const double modulus = s("terrain.ground.soil.cohesive_modulus_N_per_mn1") / wide_m +
-                         s("terrain.ground.soil.frictional_modulus_N_per_mn2");
-  const double pressure_Pa = weight_N / 6.0 / (wide_m * radius_m);
-  const double sinkage_m = modulus > 0.0 ? std::pow(pressure_Pa / modulus,
-                                                    1.0 / s("terrain.ground.soil.sinkage_exponent"))
-                                         : 0.0;
+  const terrain::SoilParams& soil = s.drive.terrain.ground.soil;
+  const double sinkage_m =
+      rover::MakeWheelOnSoil(s.drive.rover, soil).Under(weight_N / 6.0, 0.0).sinkage_m;
   s.Doubt(sinkage_m > 0.5 * radius_m, "terrain.ground.soil",
           fmt::format("wheels of {:g} m sink {:.2g} m into it", 2.0 * radius_m, sinkage_m),
           "check the units of its moduli: N, not kN");
@@ -246,11 +242,13 @@ void DoubtTraction(Values& s) {
   // Presets as they are, held against gravity: the bound lies between Mars, 3.72, and Earth, 9.81,
   // as kBetweenMarsAndEarth_m_s2 in scenario_doubts.cc.
   constexpr double kBetween_m_s2 = 6.0;
-  const terrain::SoilParams& soil = s.drive.terrain.ground.soil;
   const terrain::SoilParams as_it_is = terrain::MakeSoil(soil.preset);
-  const bool own = soil.cohesive_modulus_N_per_mn1 != as_it_is.cohesive_modulus_N_per_mn1 ||
+  const bool own = soil.density_kg_m3 != as_it_is.density_kg_m3 ||
+                   soil.cohesive_modulus_N_per_mn1 != as_it_is.cohesive_modulus_N_per_mn1 ||
                    soil.frictional_modulus_N_per_mn2 != as_it_is.frictional_modulus_N_per_mn2;
-  const bool of_mars = soil.preset == terrain::SoilPreset::kMarsDrift;
+  const bool of_mars = soil.preset == terrain::SoilPreset::kMarsDrift ||
+                       soil.preset == terrain::SoilPreset::kSojournerSoil ||
+                       soil.preset == terrain::SoilPreset::kSojournerDrift;
   s.Doubt(!own && of_mars == (gravity_m_s2 > kBetween_m_s2), "terrain.ground.soil.preset",
           fmt::format("{} under {:g} m/s2", of_mars ? "the soil of Mars" : "the sand of an arena",
                       gravity_m_s2),

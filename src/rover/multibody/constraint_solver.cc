@@ -25,7 +25,7 @@ ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::Soi
       iterations_(params.physics.solver_iterations),
       wheel_radius_m_(params.geometry.wheel_radius_m),
       mean_load_N_(params.mass.total_kg * params.physics.gravity_m_s2 / messages::kWheelCount),
-      sinkage_(soil.slip_sinkage),
+      sinkage_(soil, laws_.soil(), params.geometry.wheel_radius_m, mean_load_N_),
       step_s_(params.physics.step_s) {
   // The differential bar turns one rocker back by what the other turns: sum of the rates 0.
   differential_.J[6 + kLeftRocker] = 1.0;
@@ -49,6 +49,7 @@ void ConstraintSolver::Clear() {
   // The contacts' impulses are forgotten with the contacts.
   for (Row& row : motors_) row.impulse = 0.0;
   sinkage_.Clear();
+  slip_.fill(0.0);
 }
 
 // Every row starts from its last impulse, then the sweeps go through joints, motors and contacts.
@@ -181,9 +182,10 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
   if (contact_count_ == contacts_.size()) contacts_.emplace_back();
   ContactRows& rows = contacts_[contact_count_++];
   rows.contact = &contact;
-  // Laws are those at the loads of the last step, fixed within this one.
+  // Laws are those at the loads of the last step, and at the slip that wheels will have dug in for
+  // midway, fixed within this one.
   const bool wheel = part.kind == truth::BodyPart::kWheel;
-  const double dug_slip = wheel ? sinkage_.dug_slip(static_cast<std::size_t>(contact.part)) : 0.0;
+  const double dug_slip = wheel ? DugSlip(static_cast<std::size_t>(contact.part)) : 0.0;
   rows.law = laws_.Of(part, contact, step_s_, dug_slip);
   rows.normal.rock = rows.along.rock = rows.across.rock = rock;
   StartNormal(mass_inverse, part, body, rows);
@@ -191,6 +193,7 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
   rows.motor = nullptr;
   if (wheel) StartDriven(rows);
   StartDrag(mass_inverse, part, body, rows);
+  StartSide(rows);
 }
 
 // A spring and damper side by side, solved implicitly: with the separating speed v at the end of
@@ -264,26 +267,46 @@ void ConstraintSolver::StartDrag(const DofMatrix& mass_inverse, const Part& part
   Start(mass_inverse, rows.drag);
 }
 
+// The soil at the side face of a wheel holds it until its own bound is reached, beside the
+// friction.
+void ConstraintSolver::StartSide(ContactRows& rows) {
+  rows.side.impulse = rows.contact->side_Ns;
+  if (rows.law.side_ratio == 0.0) return;
+  // The row of the friction across, but for its bounds.
+  Row& side = rows.side;
+  side.J = rows.across.J;
+  side.response = rows.across.response;
+  side.diagonal = rows.across.diagonal;
+  velocity_ += side.impulse * side.response;
+}
+
 void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
   Contact& contact = *rows.contact;
   contact.impulse_Ns = {rows.normal.impulse, rows.along.impulse, rows.across.impulse};
   contact.drag_Ns = rows.drag.impulse;
+  contact.side_Ns = rows.side.impulse;
 }
 
-// Wheels dig by their slip at the end of the step; a wheel that turns off the soil has no slip and
+double ConstraintSolver::DugSlip(std::size_t wheel) const {
+  if (!sinkage_.enabled()) return 0.0;
+  return sinkage_.After(wheel, slip_[wheel], 0.5 * step_s_ * RimSpeed(wheel, before_));
+}
+
+// Wheels dig by their mean slip over the step; a wheel that turns off the soil has no slip and
 // leaves its hole.
 void ConstraintSolver::Dig() {
+  const DofVector mean = 0.5 * (before_ + velocity_);
   messages::PerWheel<double> slip_m_s{};
   for (std::size_t i = 0; i < contact_count_; ++i) {
     const ContactRows& rows = contacts_[i];
     if (!rows.law.slips || rows.normal.impulse <= 0.0) continue;
     double& largest_m_s = slip_m_s[static_cast<std::size_t>(rows.contact->part)];
-    largest_m_s = std::max(largest_m_s, ContactVelocity(rows, velocity_).norm());
+    largest_m_s = std::max(largest_m_s, ContactVelocity(rows, mean).norm());
   }
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
-    const double rim_m_s =
-        std::abs(velocity_[6 + kFirstWheel + static_cast<int>(i)]) * wheel_radius_m_;
-    if (rim_m_s > 0.0) sinkage_.Roll(i, slip_m_s[i] / rim_m_s, rim_m_s * step_s_);
+    const double rim_m_s = RimSpeed(i, mean);
+    slip_[i] = rim_m_s > 0.0 ? slip_m_s[i] / rim_m_s : 0.0;
+    if (rim_m_s > 0.0) sinkage_.Roll(i, slip_[i], rim_m_s * step_s_);
   }
 }
 
@@ -303,12 +326,10 @@ double ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
     // Friction after the normal: its bound is that of the normal impulse of this sweep.
     Relax(rows.normal);
     RelaxFriction(rows);
-    if (rows.law.drag_ratio > 0.0) {
-      // |p_drag| <= (R / N) p_n.
-      rows.drag.high = rows.law.drag_ratio * rows.normal.impulse;
-      rows.drag.low = -rows.drag.high;
-      Relax(rows.drag);
-    }
+    // |p_drag| <= (R / N) p_n, |p_side| <= (B / N) p_n.
+    const double normal_Ns = rows.normal.impulse;
+    if (rows.law.drag_ratio > 0.0) RelaxWithin(rows.law.drag_ratio * normal_Ns, rows.drag);
+    if (rows.law.side_ratio > 0.0) RelaxWithin(rows.law.side_ratio * normal_Ns, rows.side);
   }
   if (loose_rocks != nullptr) loose_rocks->Hold();
   return largest_change_Ns_;
@@ -337,8 +358,18 @@ void ConstraintSolver::Relax(Row& row) {
   Apply(std::clamp(row.impulse + Residual(row) / row.diagonal, row.low, row.high), row);
 }
 
+void ConstraintSolver::RelaxWithin(double most_Ns, Row& row) {
+  row.high = most_Ns;
+  row.low = -most_Ns;
+  Relax(row);
+}
+
+double ConstraintSolver::RimSpeed(std::size_t wheel, const DofVector& velocity) const {
+  return std::abs(velocity[6 + kFirstWheel + static_cast<int>(wheel)]) * wheel_radius_m_;
+}
+
 double ConstraintSolver::RimSpeed(const ContactRows& rows, const DofVector& velocity) const {
-  return std::abs(velocity[6 + kFirstWheel + rows.contact->part]) * wheel_radius_m_;
+  return RimSpeed(static_cast<std::size_t>(rows.contact->part), velocity);
 }
 
 Eigen::Vector2d ConstraintSolver::ContactVelocity(const ContactRows& rows,

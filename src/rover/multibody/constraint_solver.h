@@ -71,7 +71,7 @@ class ConstraintSolver {
   struct ContactRows {
     Contact* contact = nullptr;
     ContactLaw law;
-    Row normal, along, across, drag;
+    Row normal, along, across, drag, side;
     FrictionBlock friction;  // of along and across, without the softness of the slip
     SlipStep slip;           // in the last sweep
     WheelSlip slip_from;     // at the beginning of the step
@@ -99,7 +99,10 @@ class ConstraintSolver {
                      ContactRows& rows);
   void StartDrag(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
                  ContactRows& rows);
+  void StartSide(ContactRows& rows);
   void KeepForNextStep(const ContactRows& rows) const;
+  double DugSlip(std::size_t wheel) const;
+  double RimSpeed(std::size_t wheel, const DofVector& velocity) const;
   void Dig();
 
   // Makes one sweep over all rows. Returns the largest change of an impulse, N s or N m s of
@@ -112,6 +115,8 @@ class ConstraintSolver {
   // Gives the row the impulse that satisfies it, within its bounds, with all other rows as they
   // are.
   void Relax(Row& row);
+  // Relaxes a row whose impulse is at most `most_Ns` in either direction.
+  void RelaxWithin(double most_Ns, Row& row);
   void RelaxFriction(ContactRows& rows);
   void StartDriven(ContactRows& rows);
   void RelaxDrivenFriction(const Eigen::Vector2d& lack_m_s, ContactRows& rows);
@@ -131,6 +136,7 @@ class ConstraintSolver {
   const double mean_load_N_;
 
   SlipSinkage sinkage_;
+  messages::PerWheel<double> slip_{};  // of the last step, on soil
   double step_s_;
   std::array<double, kStops> stop_angle_rad_{};
   DofVector velocity_ = DofVector::Zero();

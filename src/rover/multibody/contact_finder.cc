@@ -38,6 +38,7 @@ void ContactFinder::ScaleImpulses(double ratio) {
   for (Contact& contact : contacts_) {
     for (double& impulse_Ns : contact.impulse_Ns) impulse_Ns *= ratio;
     contact.drag_Ns *= ratio;
+    contact.side_Ns *= ratio;
   }
 }
 

@@ -36,11 +36,12 @@ struct Contact {
   math::Vector3 near_W = math::Vector3::Zero();  // nearest point of the rock
   std::array<double, 3> impulse_Ns{};            // of the last step: along n_W, along_W, across_W
   double drag_Ns = 0.0;                          // of the last step: of the motion resistance
+  double side_Ns = 0.0;                          // and of the soil at the side face
 
   bool IsSoil() const { return other == kGround || other == kGroundAhead; }
   void Forget() {
     impulse_Ns = {};
-    drag_Ns = 0.0;
+    drag_Ns = side_Ns = 0.0;
   }
 };
 

@@ -58,7 +58,7 @@ std::array<double, 2> FrictionBlock::Solve(const std::array<double, 2>& b, doubl
 
 ContactLaws::ContactLaws(const RoverParams& params, const terrain::SoilParams& soil)
     : params_(params.contact),
-      soil_(soil, params.geometry.wheel_radius_m, params.geometry.wheel_width_m),
+      soil_(MakeWheelOnSoil(params, soil)),
       gravity_m_s2_(params.physics.gravity_m_s2) {}
 
 ContactLaw ContactLaws::Of(const Part& part, const Contact& contact, double step_s,
@@ -78,17 +78,19 @@ ContactLaw ContactLaws::Of(const Part& part, const Contact& contact, double step
 ContactLaw ContactLaws::OnSoil(double load_N, double dug_slip) const {
   ContactLaw law;
   law.slips = true;
-  law.rut = soil_.RutUnder(load_N, dug_slip);
+  law.load_N = load_N;
+  law.soil = soil_.Under(load_N, dug_slip);
   // The soil's sinkage z(N) in series with the contact's own spring k_c, along the tangent at this
   // load:
   //   1/k = 1 / (dN/dz) + 1 / k_c,   d_0 = z + N / k_c - N / k (there the tangent has no force).
-  law.stiffness_N_m = 1.0 / (1.0 / law.rut.stiffness_N_m + 1.0 / params_.stiffness_N_m);
+  law.stiffness_N_m = 1.0 / (1.0 / law.soil.stiffness_N_m + 1.0 / params_.stiffness_N_m);
   law.rest_depth_m =
-      law.rut.sinkage_m + load_N / params_.stiffness_N_m - load_N / law.stiffness_N_m;
+      law.soil.sinkage_m + load_N / params_.stiffness_N_m - load_N / law.stiffness_N_m;
   // Mohr and Coulomb's T_max and Bekker's R as ratios to the load, which the solver multiplies by
   // the normal impulse of the moment.
-  law.friction = law.rut.largest_traction_N / load_N;
-  law.drag_ratio = law.rut.resistance_N / load_N;
+  law.friction = law.soil.traction_N / load_N;
+  law.drag_ratio = law.soil.resistance_N / load_N;
+  law.side_ratio = law.soil.side_N / load_N;
   return law;
 }
 
@@ -100,17 +102,17 @@ SlipStep ContactLaws::StepOfSlip(const ContactLaw& law, const SlipChange& change
   // A wheel that stands does not creep.
   if (rim_m_s == 0.0) return {};
   // Soil without strength has no traction to build up.
-  if (law.rut.largest_traction_N <= 0.0) return {};
+  if (law.soil.traction_N <= 0.0) return {};
   const double v_m_s = (theta * to.v_m_s + (1.0 - theta) * from.v_m_s).norm();
   // Slip speed v = |omega r| i is to come with the friction tau T_max (Janosi and Hanamoto 1961):
   //   c = v / (tau T_max h) = |omega r| (i / tau) / (T_max h).
   // c at the slip of the last sweep settles after a few sweeps, as i and tau grow together. c at
   // the traction of the last sweep would make wheels that share a slip take turns in pulling.
   const double slip = std::min(v_m_s / rim_m_s, 1.0);
-  const double softness = rim_m_s * soil_.SlipPerShare(slip, law.rut, shares_) /
-                          (law.rut.largest_traction_N * change.duration_s);
+  const double softness = rim_m_s * SlipPerShare(slip, law.soil.shear_ratio, shares_) /
+                          (law.soil.traction_N * change.duration_s);
   // z = h / T = 1 / (c m); soil without shear deformation answers at once.
-  const double softness_times_mass = softness * law.rut.load_N / gravity_m_s2_;
+  const double softness_times_mass = softness * law.load_N / gravity_m_s2_;
   return {softness, (1.0 + 3.0 * softness_times_mass) / (1.0 + 6.0 * softness_times_mass)};
 }
 

@@ -50,8 +50,11 @@ struct ContactLaw {
   double rest_depth_m = 0.0;
   double friction = 0.0;    // largest friction over load
   double drag_ratio = 0.0;  // motion resistance over load
+  double side_ratio = 0.0;  // resistance of a wheel's side face over load
   bool slips = false;       // a wheel on soil: friction comes with slip
-  Rut rut{};                // where it slips: the rut at the load of the last step
+  // Where it slips: the load of the last step, and the answer of the soil to it.
+  double load_N = 0.0;
+  SoilAnswer soil{};
 };
 
 // Rim speed of a wheel, m/s, and the velocity of its contact over the soil, along and across, m/s.
@@ -99,6 +102,7 @@ class ContactLaws {
   // rover that stops every 6.5 cm would lose a third of a millimetre more each time at 60 Hz.
   SlipStep StepOfSlip(const ContactLaw& law, const SlipChange& change, double theta) const;
 
+  const WheelOnSoil& soil() const { return soil_; }
   // Returns the damping of every contact.
   double damping_Ns_m() const { return params_.damping_Ns_m; }
 
@@ -106,7 +110,7 @@ class ContactLaws {
   ContactLaw OnSoil(double load_N, double dug_slip) const;
 
   const RoverContactParams params_;
-  const WheelSoil soil_;
+  const WheelOnSoil soil_;
   const ShareTable shares_;
   const double gravity_m_s2_;
 };

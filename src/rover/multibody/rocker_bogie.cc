@@ -237,7 +237,11 @@ void RockerBogie::UpdateContacts(const DofVector& velocity) {
     if (part.kind == truth::BodyPart::kWheel) {
       const auto wheel = static_cast<std::size_t>(contact.part);
       state_.wheel_load_N[wheel] += force_N;
-      if (contact.IsSoil()) state_.wheel_sinkage_m[wheel] = std::max(0.0, -contact.gap_m);
+      // The soil's share of the penetration; the rest is that of the contact's spring.
+      const double spring_m = force_N / params_.contact.stiffness_N_m;
+      if (contact.IsSoil()) {
+        state_.wheel_sinkage_m[wheel] = std::max(0.0, -contact.gap_m - spring_m);
+      }
       continue;
     }
     DofVector along, across;

@@ -50,9 +50,11 @@ SideVector OfSide(const LinkageVector& rates, std::size_t side) {
 
 QuasiStaticBalance::QuasiStaticBalance(const RoverParams& params, const terrain::SoilParams& soil)
     : contact_params_(params.contact),
-      sinkage_(soil.slip_sinkage),
-      soil_(WheelSoil(soil, params.geometry.wheel_radius_m, params.geometry.wheel_width_m),
-            params.mass.total_kg * params.physics.gravity_m_s2, soil.slip_sinkage.enabled),
+      soil_(MakeWheelOnSoil(params, soil), params.mass.total_kg * params.physics.gravity_m_s2),
+      sinkage_(soil, soil_.soil(), params.geometry.wheel_radius_m,
+               params.mass.total_kg * params.physics.gravity_m_s2 / messages::kWheelCount),
+      lags_(sinkage_.enabled() && (soil.law == terrain::WheelLaw::kBekker ||
+                                   sinkage_.length_m() > params.quasi_static.settle_distance_m)),
       wheel_radius_m_(params.geometry.wheel_radius_m),
       stall_torque_Nm_(params.drive.stall_torque_Nm),
       stop_rad_{params.geometry.rocker_limit_rad, params.geometry.bogie_limit_rad,
@@ -129,7 +131,7 @@ void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive
 void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) const {
   row.creep_m_s = kRockCreep * row.reference_m_s;
   const double load_N = contact.traction_load_N;
-  row.shear_ratio = row.resistance_N = 0.0;
+  row.shear_ratio = row.resistance_N = row.side_N = 0.0;
   row.motor_bound = false;
   // Settling: no rim turns, and contacts are without traction.
   if (row.reference_m_s == 0.0) {
@@ -142,6 +144,7 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
     row.shear_ratio = row.rim_m_s != 0.0 ? soil.shear_ratio : 0.0;
     row.u_per_speed_s_m = row.shear_ratio / row.reference_m_s;
     row.resistance_N = soil.resistance_N;
+    row.side_N = soil.side_N;
   } else if (contact.IsWheel() && contact.other >= 0) {
     row.max_N = contact_params_.wheel_rock_friction * load_N;
     row.motor_bound = row.max_N > row.stall_N;
@@ -241,16 +244,22 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
   if (contact.IsSoil()) AddResistance(w, row);
 }
 
-// Adds the motion resistance, against the axle's motion along the wheel: the wheel has to overcome
-// it by traction.
+// Adds the motion resistance, against the axle's motion along the wheel, which has to overcome it
+// by traction, and what the soil does to the side face of a wheel that slides across.
 void QuasiStaticBalance::AddResistance(const SideVector& rates, Row& row) {
-  const double v_m_s = row.axle.dot(rates);
+  row.k_axle = AddBounded(row.resistance_N, row.axle, rates, row);
+  row.k_side = row.side_N > 0.0 ? AddBounded(row.side_N, row.across, rates, row) : 0.0;
+}
+
+// F v / sqrt(v^2 + v_c^2), the smooth sign of v, and its derivative as in TractionOf.
+double QuasiStaticBalance::AddBounded(double force_N, const SideVector& direction,
+                                      const SideVector& rates, const Row& row) {
+  const double v_m_s = direction.dot(rates);
   const double creep_m_s = kResistanceCreep * row.reference_m_s;
-  // R v / sqrt(v^2 + v_c^2), the smooth sign of v, and its derivative as in TractionOf.
   const double root2 = v_m_s * v_m_s + creep_m_s * creep_m_s;
-  const double per_speed = row.resistance_N / std::sqrt(root2);
-  equations_.AddForce(row.side, -per_speed * v_m_s * row.axle);
-  row.k_axle = per_speed * creep_m_s * creep_m_s / root2;
+  const double per_speed = force_N / std::sqrt(root2);
+  equations_.AddForce(row.side, -per_speed * v_m_s * direction);
+  return per_speed * creep_m_s * creep_m_s / root2;
 }
 
 // Adds minus the derivative of the contact's force by the rates, at the last evaluation: h k n n'
@@ -262,7 +271,9 @@ void QuasiStaticBalance::AddStiffness(const RestingContact& contact, const Row& 
   equations_.AddStiffness(row.side, k_n * row.normal, row.normal,
                           row.k_aa * row.along + row.k_ab * row.across, row.along,
                           row.k_ab * row.along + row.k_bb * row.across, row.across);
-  if (contact.IsSoil()) equations_.AddStiffness(row.side, row.k_axle, row.axle);
+  if (!contact.IsSoil()) return;
+  equations_.AddStiffness(row.side, row.k_axle, row.axle);
+  if (row.k_side > 0.0) equations_.AddStiffness(row.side, row.k_side, row.across);
 }
 
 void QuasiStaticBalance::AddStops(const LinkageVector& rates) {
@@ -395,11 +406,13 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
         (rims_turn_ || IsBalanced())) {
       rates += change;
       Finish(change, contacts);
+      FollowSlips();
       return iteration;
     }
     tangent_ = IsSmall(change, kTangentRange * speed_m_s_);
     rates = Search(rates, change, drop, contacts);
   }
+  FollowSlips();
   return kMaxIterations;
 }
 
@@ -426,19 +439,33 @@ messages::PerWheel<double> QuasiStaticBalance::SoilSlips() const {
   return slips;
 }
 
-void QuasiStaticBalance::Dig(const messages::PerWheel<double>& rim_way_m) {
-  if (!sinkage_.enabled()) return;
+void QuasiStaticBalance::Dig(const messages::PerWheel<double>& rim_way_m, double way) {
+  if (!lags_) return;
   const messages::PerWheel<double> slip = SoilSlips();
-  for (std::size_t i = 0; i < slip.size(); ++i) sinkage_.Roll(i, slip[i], rim_way_m[i]);
+  for (std::size_t i = 0; i < slip.size(); ++i) {
+    // A slip along the wheel: 1 - v / (omega r), with v as much longer or shorter as the way.
+    const double now = way == 1.0 ? slip[i] : std::abs(1.0 - way * (1.0 - slip[i]));
+    sinkage_.Roll(i, now, rim_way_m[i]);
+  }
 }
 
-bool QuasiStaticBalance::HasDugIn() const {
-  if (!sinkage_.enabled()) return true;
-  const messages::PerWheel<double> slip = SoilSlips();
+bool QuasiStaticBalance::IsDugIn(const messages::PerWheel<double>& slip) const {
   for (std::size_t i = 0; i < slip.size(); ++i) {
     if (std::abs(slip[i] - sinkage_.dug_slip(i)) >= kDugIn) return false;
   }
   return true;
+}
+
+bool QuasiStaticBalance::HasDugIn() const {
+  if (!sinkage_.enabled()) return true;
+  return lags_ ? IsDugIn(SoilSlips()) : dug_in_;
+}
+
+void QuasiStaticBalance::FollowSlips() {
+  if (!sinkage_.enabled() || lags_ || !rims_turn_) return;
+  const messages::PerWheel<double> slip = SoilSlips();
+  dug_in_ = IsDugIn(slip);
+  for (std::size_t i = 0; i < slip.size(); ++i) sinkage_.Set(i, slip[i]);
 }
 
 SteadyDrive QuasiStaticBalance::Steady(const LinkageVector& rates) const {

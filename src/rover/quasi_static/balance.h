@@ -73,9 +73,13 @@ class QuasiStaticBalance {
   // falls back, no further than to rest.
   messages::PerWheel<double> TurnShares() const;
 
-  // Lets the wheels turn by these ways of their rims, at the slips of the last solution: wheels on
-  // soil dig in, or come out again (SlipSinkage), which the next solution sees.
-  void Dig(const messages::PerWheel<double>& rim_way_m);
+  // Lets the wheels turn by these ways of their rims while the rover makes `way` times the way that
+  // it makes in the last solution: wheels on soil dig in, or come out again (SlipSinkage), which
+  // the next solution sees. Where that takes less way than lies between two balances, wheels have
+  // dug in for the slips of the last solution instead.
+  void Dig(const messages::PerWheel<double>& rim_way_m, double way);
+  // Returns whether digging in takes more way than lies between two balances.
+  bool lags() const { return lags_; }
   // Returns whether the wheels have dug in for the slips of the last solution, as always without
   // slip sinkage: the next solution of the same drive on the same ground is then the same.
   bool HasDugIn() const;
@@ -108,6 +112,7 @@ class QuasiStaticBalance {
     double u_per_speed_s_m = 0.0;  // of the slip speed, where the shear ratio is not 0
     double creep_m_s = 0.0;        // slip speed at 0.7 of Coulomb's friction
     double resistance_N = 0.0;
+    double side_N = 0.0;  // largest force on the side face
     // These are of the last evaluation: slip, what the rim is slower than told, forces, and the
     // stiffness across the normal and of the motion resistance, N s/m.
     bool acts = false;
@@ -115,7 +120,7 @@ class QuasiStaticBalance {
     double yield_m_s = 0.0;
     double along_N = 0.0, across_N = 0.0;
     double k_aa = 0.0, k_ab = 0.0, k_bb = 0.0;
-    double k_axle = 0.0;
+    double k_axle = 0.0, k_side = 0.0;
   };
   // Traction of a row at a slip speed.
   struct Traction {
@@ -140,6 +145,10 @@ class QuasiStaticBalance {
   void GiveWay(double along_m_s, double across_m_s, Row& row) const;
   void FollowLoad(RestingContact& contact, Row& row);
   void AddResistance(const SideVector& rates, Row& row);
+  // Adds a force of at most force_N against the motion along a direction; returns minus its
+  // derivative by the speed.
+  double AddBounded(double force_N, const SideVector& direction, const SideVector& rates,
+                    const Row& row);
   void AddStiffness(const RestingContact& contact, const Row& row);
   void AddStops(const LinkageVector& rates);
   // Returns the rates on the way from `rates` by `change` where the forces balance along it, near
@@ -147,12 +156,16 @@ class QuasiStaticBalance {
   LinkageVector Search(const LinkageVector& rates, const LinkageVector& change, double drop,
                        std::vector<RestingContact>& contacts);
   void Finish(const LinkageVector& change, std::vector<RestingContact>& contacts) const;
+  bool IsDugIn(const messages::PerWheel<double>& slip) const;
+  void FollowSlips();
   bool IsSmall(const LinkageVector& change, double speed_m_s) const;
   bool IsBalanced() const;
 
   const RoverContactParams contact_params_;
-  SlipSinkage sinkage_;
   const WheelSoilTable soil_;
+  SlipSinkage sinkage_;
+  const bool lags_;     // digging in takes more way than lies between two balances
+  bool dug_in_ = true;  // whether the last solution took the slips that it found
   const ShareTable share_;
   const double wheel_radius_m_;
   const double stall_torque_Nm_;

@@ -286,7 +286,9 @@ double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_ra
   const double time_s = turn_rad_s * way_s > max_rad ? max_rad / turn_rad_s : way_s;
   // Where the wheels are steered on from tick to tick, a stretch ends with its set points: half of
   // a longer stretch ahead the heading would not be that of the way driven by them.
-  return std::min(IsBorneByObstacles() ? params_.quasi_static.rock_settle_share * time_s : time_s,
+  // Soil that takes more way to be dug into than a stretch changes within it.
+  const bool changes = IsBorneByObstacles() || balance_.lags();
+  return std::min(changes ? params_.quasi_static.rock_settle_share * time_s : time_s,
                   (1.0 + kOutlasts) * held_s_);
 }
 
@@ -312,13 +314,14 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   stretch_.steer_rad = state_.steer_rad;
   met_steer_rad_ = state_.steer_rad;
   const double reach_m = kReach_m + params_.quasi_static.settle_distance_m;
-  if (same_drive && steady_ && !contacts_.MayMeetObstacle(posture_.p_WR, reach_m)) return RollOn();
+  const bool goes_on = same_drive && steady_ && balance_.HasDugIn();
+  if (goes_on && !contacts_.MayMeetObstacle(posture_.p_WR, reach_m)) return RollOn();
   const LinkageVector last_rates = rates_;
   if (same_drive) rates_ = ExpectedRates();
   last_rates_ = last_rates;
   const double lead_s = LookAhead(similar_drive ? 0.5 * stretch_.duration_s : 0.0);
   const bool stands_level = StandsLevel();
-  if (same_drive && steady_ && stands_level && MeetsNothing(last_rates, lead_s)) {
+  if (goes_on && stands_level && MeetsNothing(last_rates, lead_s)) {
     rates_ = last_rates;
     return RollOn();
   }
@@ -435,6 +438,7 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
 void QuasiStaticRover::Roll(const MotorRates& rates,
                             const messages::PerWheel<double>& commanded_rad_s) {
   standing_ = false;
+  way_share_ = 1.0;
   GoOn(rates, commanded_rad_s);
   messages::PerWheel<double> rim_way_m{};
   for (std::size_t i = 0; i < kWheelCount; ++i) {
@@ -443,7 +447,8 @@ void QuasiStaticRover::Roll(const MotorRates& rates,
     state_.wheel_angle_rad[i] += turn_rad;
     rim_way_m[i] = std::abs(turn_rad) * params_.geometry.wheel_radius_m;
   }
-  balance_.Dig(rim_way_m);
+  // Where the rover starts and stops its way falls behind that of its rims, or runs ahead of it.
+  balance_.Dig(rim_way_m, way_share_);
 }
 
 void QuasiStaticRover::GoOn(const MotorRates& rates,
@@ -482,6 +487,8 @@ void QuasiStaticRover::RollBetween(const MotorRates& rates) {
 
 void QuasiStaticRover::Follow(const RimShares& rims) {
   double way_s = progress_.Advance(rims.from, rims.to, step_s());
+  const double rims_s = 0.5 * step_s() * (rims.from + rims.to);
+  way_share_ = rims_s > 0.0 ? way_s / rims_s : 1.0;
   // A step may end this stretch and use up others; what is left of its way lies within the last
   // stretch.
   while (stretch_.elapsed_s + way_s >= stretch_.duration_s) {
@@ -545,7 +552,11 @@ void QuasiStaticRover::UpdateForces() {
     if (contact.IsWheel()) {
       const auto wheel = static_cast<std::size_t>(contact.part);
       state_.wheel_load_N[wheel] += contact.load_N;
-      if (contact.IsSoil()) state_.wheel_sinkage_m[wheel] = std::max(0.0, contact.depth_m);
+      // The soil's share of the penetration; the rest is that of the contact's spring.
+      const double spring_m = contact.load_N / params_.contact.stiffness_N_m;
+      if (contact.IsSoil()) {
+        state_.wheel_sinkage_m[wheel] = std::max(0.0, contact.depth_m - spring_m);
+      }
     } else {
       state_.contacts.push_back({contact.kind, std::max(contact.other, -1), contact.load_N,
                                  contact.sliding_speed_m_s, contact.n_W.z(),

@@ -102,7 +102,9 @@ class QuasiStaticRover final : public Rover {
   Stretch stretch_;
   messages::PerWheel<double> turn_share_{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  // of the stretch
   messages::PerWheel<double> met_steer_rad_{};  // at the last look for contacts
-  double held_s_ = 0.0;                         // as the set points say (messages/commands.h)
+  // The way of the rover over that of its rims in the present step, in shares of the steady motion.
+  double way_share_ = 1.0;
+  double held_s_ = 0.0;  // as the set points say (messages/commands.h)
   LinkageVector rates_ = LinkageVector::Zero();
   LinkageVector last_rates_ = LinkageVector::Zero();     // of the stretch before the present one
   LinkageVector held_rates_ = LinkageVector::Zero();     // of the last balance at rest

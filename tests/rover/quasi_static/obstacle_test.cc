@@ -108,7 +108,8 @@ Stalled StalledWheels(Fidelity fidelity, const terrain::Terrain& terrain, double
 // right, the rear wheels that stand show their stall torque, as in the multibody.
 TEST(QuasiStaticMotor, AStalledWheelShowsItsStallTorqueUnderASideForce) {
   terrain::GroundParams ground{.slope_rad = math::DegToRad(3.0),
-                               .slope_direction_rad = math::DegToRad(90.0)};
+                               .slope_direction_rad = math::DegToRad(90.0),
+                               .soil = BekkerSoil()};
   const terrain::Terrain terrain(terrain::Ground(ground, {}),
                                  {MakeRock(0.7, 0.0, 0.0, 0.2, 2.0, 0.6)}, {});
   for (const Fidelity fidelity : {Fidelity::kQuasiStatic, Fidelity::kMultibody}) {

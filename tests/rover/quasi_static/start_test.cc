@@ -144,7 +144,7 @@ TEST(QuasiStaticStart, StartsDownhillLikeTheMultibody) {
 // On a slope that soft soil does not carry it up, the rover starts to slide back while its wheels
 // turn forward: against them, not with them.
 TEST(QuasiStaticStart, StartsToSlideBackLikeTheMultibody) {
-  terrain::SoilParams soft{.shear_modulus_m = 0.03};
+  terrain::SoilParams soft{.law = terrain::WheelLaw::kBekker, .shear_modulus_m = 0.03};
   const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(18.0), kUphill, soft);
   for (const double ramp_s : {0.0, 0.1}) {
     const double multibody_m = WayOfStart(Fidelity::kMultibody, ramp_s, terrain, 0.2);
