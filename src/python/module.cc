@@ -13,7 +13,9 @@ PYBIND11_MODULE(_core, module) {
   python::BindCampaigns(module);
   python::BindStores(module);
   python::BindPlaces(module);
+  python::BindMobility(module);
   python::BindRates(module);
+  python::BindWheels(module);
   python::BindEnvironment(module);
   // While there still is an interpreter for the threads that wait.
   pybind11::module_::import("atexit").attr("register")(module.attr("end_work"));

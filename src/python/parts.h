@@ -23,7 +23,9 @@ void BindEstimators(pybind11::module_& module);   // Scenario.add_estimator
 void BindCampaigns(pybind11::module_& module);    // run, sweep, merge, report, check, compare
 void BindStores(pybind11::module_& module);       // records, traces
 void BindPlaces(pybind11::module_& module);       // terrain, images
+void BindMobility(pybind11::module_& module);     // slopes and steps of a rover
 void BindRates(pybind11::module_& module);        // rates, intervals, tests
+void BindWheels(pybind11::module_& module);       // one wheel on soil
 void BindEnvironment(pybind11::module_& module);  // drives whose navigator is the caller
 
 // A scenario with the navigators and estimators that Python has added.

@@ -26,7 +26,9 @@ from .rates import Rate, rate
 from .records import OUTCOMES
 from .runs import Run, Sweep, Trial, report
 from .scenario import Scenario, scenarios, sweeps
+from .slopes import Mobility, mobility
 from .traces import Trace
+from .wheels import Wheel
 
 if _TYPE_CHECKING:
     from . import plot as plot
@@ -34,9 +36,10 @@ if _TYPE_CHECKING:
 __version__: str = _core.version
 __all__ = [
     "Check", "Comparison", "Environment", "Environments", "Estimator", "Images", "InputError", "MachineError",
-    "MissingPart", "Navigator", "OUTCOMES", "Place", "Problem", "Rate", "Run", "Scenario", "Sweep", "TooManyFaults",
-    "Trace", "Trial", "UnknownName", "WorkError", "as_process", "check", "compare", "estimate", "images", "load", "merge", "parameter", "plot",
-    "rate", "report", "run", "scenarios", "sweep", "sweeps", "write_baseline"]
+    "MissingPart", "Mobility", "Navigator", "OUTCOMES", "Place", "Problem", "Rate", "Run", "Scenario", "Sweep",
+    "TooManyFaults", "Trace", "Trial", "UnknownName", "Wheel", "WorkError", "as_process", "check", "compare", "estimate",
+    "images", "load", "merge", "mobility", "parameter", "plot", "rate", "report", "run", "scenarios", "sweep", "sweeps",
+    "write_baseline"]
 
 
 def __getattr__(name: str) -> object:
