@@ -33,6 +33,7 @@ void AddCalibrateCommand(CLI::App& app);
 void AddStereoCommand(CLI::App& app);
 void AddVoCommand(CLI::App& app, ExitCode& exit_code);
 void AddCylinderCommand(CLI::App& app, ExitCode& exit_code);
+void AddMobilityCommand(CLI::App& app, ExitCode& exit_code);
 void AddTerrainCommand(CLI::App& app);
 void AddTraceCommand(CLI::App& app, ExitCode& exit_code);
 void AddValidateCommand(CLI::App& app);

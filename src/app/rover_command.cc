@@ -13,8 +13,8 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_files.h"
-#include "app/rover_source.h"
 #include "campaign/output_folder.h"
+#include "campaign/rover_source.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "math/angles.h"
@@ -95,7 +95,7 @@ std::string Loads(const rover::RoverParams& params) {
 
 void ShowRover(const RoverOptions& options) {
   CheckOut(options.out);
-  const RoverSource source = LoadRover(options.scenario, options.overrides);
+  const campaign::RoverSource source = campaign::LoadRover(options.scenario, options.overrides);
   if (options.out.empty()) {
     Print(fmt::format("rover of {}\n", report::Printable(source.name)) + Dimensions(source.params) +
           MassesAndMotors(source.params) + Loads(source.params));
@@ -104,7 +104,7 @@ void ShowRover(const RoverOptions& options) {
   } else {
     WriteNamedFile("rover", options.out, core::DumpJson(source.group));
   }
-  if (source.reading) Print(LeftOutText(source));
+  if (source.reading) Print(campaign::LeftOutText(source));
 }
 
 }  // namespace

@@ -221,7 +221,9 @@ bool Draws(const MomentsRequest& request) { return request.scan || request.step;
 std::string_view OptionOf(const MomentsRequest& request) {
   return request.scan ? "--scan" : "--step";
 }
-std::string_view KindOf(const MomentsRequest& request) { return request.scan ? "scan" : "step"; }
+std::string_view WordOfMoment(const MomentsRequest& request) {
+  return request.scan ? "scan" : "step";
+}
 std::int64_t NumberOf(const MomentsRequest& request) {
   return request.scan ? *request.scan : request.step.value_or(0);
 }
@@ -237,7 +239,7 @@ struct MomentTrial {
 
 fs::path MomentFolder(const MomentsRequest& request, const TrialSource& source) {
   if (!request.folder.empty()) return request.folder;
-  return fmt::format("{}-{}{}", DefaultStem(request.trial, source), KindOf(request),
+  return fmt::format("{}-{}{}", DefaultStem(request.trial, source), WordOfMoment(request),
                      NumberOf(request));
 }
 
@@ -363,11 +365,12 @@ std::string WhyNoImages(const scenario::Scenario& scenario) {
 core::UserError Missing(const MomentsRequest& request, const MomentsResult& result,
                         const truth::Record& record) {
   const std::int64_t there = request.scan ? result.scans : result.steps;
-  return {std::string(OptionOf(request)),
-          fmt::format("{} {} does not occur in this trial", KindOf(request), NumberOf(request)),
-          fmt::format("the trial has {} {}s{}; --list in place of {} lists them", there,
-                      KindOf(request), truth::IsFault(record) ? " until its simulator fault" : "",
-                      OptionOf(request))};
+  return {
+      std::string(OptionOf(request)),
+      fmt::format("{} {} does not occur in this trial", WordOfMoment(request), NumberOf(request)),
+      fmt::format("the trial has {} {}s{}; --list in place of {} lists them", there,
+                  WordOfMoment(request), truth::IsFault(record) ? " until its simulator fault" : "",
+                  OptionOf(request))};
 }
 
 Outcome Draw(const MomentsRequest& request, const TrialSource& source, const MomentTrial& replayed,

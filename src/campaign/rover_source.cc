@@ -1,4 +1,4 @@
-#include "app/rover_source.h"
+#include "campaign/rover_source.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 #include "report/line_text.h"
 #include "scenario/load.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,7 +50,11 @@ scenario::Scenario ScenarioOfGroup(const fs::path& file, const core::JsonValue& 
 }
 
 RoverSource OfScenario(const scenario::Scenario& scenario) {
-  return {scenario.name, scenario.drive.rover, core::WriteParams(scenario.drive.rover), {}};
+  return {scenario.name,
+          scenario.drive.rover,
+          core::WriteParams(scenario.drive.rover),
+          {},
+          scenario.drive.terrain.ground.soil};
 }
 
 RoverSource OfUrdf(const fs::path& file, const std::vector<std::string>& overrides) {
@@ -59,8 +63,10 @@ RoverSource OfUrdf(const fs::path& file, const std::vector<std::string>& overrid
                                    file.string());
   source.name = file.stem().string();
   try {
-    source.params =
-        ScenarioOfGroup(file, source.reading->group, overrides, source.group).drive.rover;
+    const scenario::Scenario scenario =
+        ScenarioOfGroup(file, source.reading->group, overrides, source.group);
+    source.params = scenario.drive.rover;
+    source.soil = scenario.drive.terrain.ground.soil;
   } catch (const core::MachineError&) {
     throw;
   } catch (const core::UserError& error) {
@@ -87,14 +93,14 @@ const core::JsonValue* At(const core::JsonValue& value, std::string_view path) {
 }  // namespace
 
 RoverSource LoadRover(const std::string& word, const std::vector<std::string>& overrides) {
-  const fs::path file = campaign::ScenarioFile(word, campaign::Wanted::kRover);
+  const fs::path file = ScenarioFile(word, Wanted::kRover);
   std::error_code error;
   if (fs::is_directory(file, error)) {
-    return OfScenario(campaign::LoadScenarioFrom(file, overrides));
+    return OfScenario(LoadScenarioFrom(file, overrides));
   }
   if (IsXmlFile(file)) return OfUrdf(file, overrides);
   const core::JsonValue group = core::LoadJsonFile(file);
-  if (!campaign::IsGroup(group)) return OfScenario(campaign::LoadScenarioFrom(file, overrides));
+  if (!IsGroup(group)) return OfScenario(LoadScenarioFrom(file, overrides));
   core::JsonValue changed;
   return OfScenario(ScenarioOfGroup(file, group, overrides, changed));
 }
@@ -115,4 +121,4 @@ std::string LeftOutText(const RoverSource& source) {
   return report::Wrapped(text);
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

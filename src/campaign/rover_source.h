@@ -1,5 +1,5 @@
-// The rover that the command `rover` is asked for: of a scenario, of a rover file, or of a URDF
-// file.
+// The rover that the commands `rover` and `mobility` are asked for: of a scenario, of a rover file,
+// or of a URDF file.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,9 @@
 #include "core/json_value.h"
 #include "rover/rover_params.h"
 #include "rover/urdf_reader/urdf_reader.h"
+#include "terrain/soil_params.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 
 struct RoverSource {
   std::string name;  // of the scenario, or of the file without its extension
@@ -19,6 +20,7 @@ struct RoverSource {
   // file those that the file or --set tells.
   core::JsonValue group;
   std::optional<rover::UrdfReading> reading;  // of a URDF file
+  terrain::SoilParams soil = {};              // of the scenario; what --set says of it alone
 };
 
 // Returns the rover that `word` means (ScenarioFile), with "PATH=VALUE" overrides applied. A rover
@@ -30,4 +32,4 @@ RoverSource LoadRover(const std::string& word, const std::vector<std::string>& o
 // Returns what of a URDF file is not taken, and which parameters keep their defaults, for people.
 std::string LeftOutText(const RoverSource& source);
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign
