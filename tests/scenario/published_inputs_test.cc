@@ -65,7 +65,6 @@ constexpr Tie kTies[] = {
      2.2},
     {"obstacles.density_2.0", 1, "pathfinder/obstacles_2.0", "terrain.rocks.count_area_length_m",
      2.2},
-    {"rover.step", 1, "pathfinder/nominal", "rover.geometry.wheel_radius_m", 2.0},
     {"drift.mfex_heading", 0, "pathfinder/nominal", "sensors.gyro.heading_variance_deg2_per_m"},
     {"drift.mfex_heading", 1, "pathfinder/nominal", "rover.drive.speed_m_s", 100.0},
     {"drift.fig6a.along_10m", 2, "pathfinder/nominal",
