@@ -68,7 +68,8 @@ void QuasiStaticParams::Visit(core::FieldVisitor& v) {
           Setting("turn between two settled poses", {0.1, 15.0}));
   v.Real("rock_settle_share", rock_settle_share,
          Setting("share of both while a rock or a wall bears a part of the rover, and on soil into "
-                 "which wheels take more way to dig than settle_distance_m", {0.05, 1.0}));
+                 "which wheels take more way to dig than settle_distance_m",
+                 {0.05, 1.0}));
 }
 
 void RoverMassParams::Visit(core::FieldVisitor& v) {

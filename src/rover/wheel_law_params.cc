@@ -55,9 +55,10 @@ class SlipCurve {
     while (at_ + 2 < nodes_.size() && nodes_[at_ + 1].log_load < log_load) ++at_;
     const Node& a = nodes_[at_];
     const Node& b = nodes_[at_ + 1];
-    // A load beyond the deepest node stays there; one below the first follows its power law.
-    const double s = std::min((log_load - a.log_load) / (b.log_load - a.log_load), 1.0);
-    const double inside = std::max(s, 0.0);
+    // Loads below the first node and beyond the deepest follow their power laws; the forces of a
+    // wheel that is deeper than its axle are those at the axle.
+    const double s = (log_load - a.log_load) / (b.log_load - a.log_load);
+    const double inside = std::clamp(s, 0.0, 1.0);
     const double sinkage_m = std::exp(Mix(a.log_sinkage, b.log_sinkage, s));
     const double slope = (b.log_load - a.log_load) / (b.log_sinkage - a.log_sinkage);
     return {sinkage_m, slope * load_N / sinkage_m, load_N * Mix(a.pull, b.pull, inside),

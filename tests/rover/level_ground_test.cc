@@ -207,9 +207,7 @@ class BrakedBody {
   BrakedBody(const RoverParams& params, const terrain::Terrain& terrain)
       : params_(params),
         weights_(params),
-        soil_(terrain.ground().soil(), params.geometry.wheel_radius_m,
-              params.geometry.wheel_width_m),
-        soil_exponent_(terrain.ground().soil().sinkage_exponent),
+        soil_(MakeWheelOnSoil(params, terrain.ground().soil())),
         body_(params),
         inertia_(params),
         finder_(params.geometry, terrain),
@@ -256,18 +254,26 @@ class BrakedBody {
   double Speed() const { return body_.Velocity().norm(); }
 
  private:
-  // Integral of the load N over the depth z(N) + N / k, with N ~ z^(n + 1/2).
+  // Integral of the load N over the depth z(N) + N / k.
   double SoilEnergy_J(double depth_m) const {
     const double k = params_.contact.stiffness_N_m;
-    const double load_N = Bisect(
-        0.0, k * depth_m, [&](double load) { return soil_.Sinkage_m(load) + load / k - depth_m; });
-    return load_N * soil_.Sinkage_m(load_N) / (soil_exponent_ + 1.5) + 0.5 * load_N * load_N / k;
+    const auto sinkage_m = [&](double load) {
+      return load > 0.0 ? soil_.Under(load, 0.0).sinkage_m : 0.0;
+    };
+    const double load_N =
+        Bisect(0.0, k * depth_m, [&](double load) { return sinkage_m(load) + load / k - depth_m; });
+    // int N dz = N z - int z dN, by the midpoint rule.
+    constexpr int kCells = 40;
+    double rest_J = 0.0;
+    for (int i = 0; i < kCells; ++i) {
+      rest_J += sinkage_m(load_N * (i + 0.5) / kCells) * load_N / kCells;
+    }
+    return load_N * sinkage_m(load_N) - rest_J + 0.5 * load_N * load_N / k;
   }
 
   const RoverParams params_;
   const Weights weights_;
-  const BekkerWheel soil_;
-  const double soil_exponent_;
+  const WheelOnSoil soil_;
   Multibody body_;
   JointSpaceInertia inertia_;
   ContactFinder finder_;
@@ -314,8 +320,8 @@ TEST(Energy, NeverGrowsFromADropToTheRest) {
   for (const double rate_Hz : {60.0, 240.0}) {
     const double bound_J = 2e-3 * std::pow(60.0 / rate_Hz, 2.0);
     for (const terrain::SoilParams& soil :
-         {RigidGround(0.8), BekkerSoil(terrain::SoilPreset::kLandscapingSand),
-          BekkerSoil(terrain::SoilPreset::kMarsDrift)}) {
+         {RigidGround(0.8), terrain::MakeSoil(terrain::SoilPreset::kLandscapingSand),
+          terrain::MakeSoil(terrain::SoilPreset::kMarsDrift)}) {
       SCOPED_TRACE(testing::Message()
                    << rate_Hz << " Hz, sinkage exponent " << soil.sinkage_exponent);
       const double step_s = 1.0 / rate_Hz;

@@ -2,10 +2,13 @@
 // as CSV; scripts/studies/steps/steps.py makes tables of it.
 //
 //   steps_study steps | changes | rocks | statics | pull
+//   steps_study frictions ROVER.json
 #include <cstdio>
 #include <functional>
 #include <string_view>
 
+#include "core/archive.h"
+#include "core/json_file.h"
 #include "rover/climb.h"
 #include "rover/step_statics.h"
 #include "rover/wheel_soil.h"
@@ -215,7 +218,28 @@ void PrintPull() {
   for (const WheelLaw law : kLaws) print("landscaping_sand", Name(law), Sand(law));
 }
 
-int Main(std::string_view part) {
+// Which steps of one to three wheel radii a rover climbs by the friction of its wheels on rock.
+void PrintFrictions(const char* file) {
+  RoverParams rover;
+  core::ReadParams(core::LoadJsonFile(file), rover);
+  ForEachGround([&](const char* ground, const char* law, Course course) {
+    const Fidelity fidelity = course.params.fidelity;
+    course.params = rover;
+    course.params.fidelity = fidelity;
+    for (const double friction : {0.6, 0.7, 0.8, 0.9, 1.0}) {
+      course.params.contact.wheel_rock_friction = friction;
+      std::printf("%s,%s,%s,%.1f", ground, law, Name(fidelity), friction);
+      for (const double radii : {1.0, 2.0, 3.0}) {
+        const End end = Try(course, Step(radii * rover.geometry.wheel_radius_m));
+        std::printf(",%s", end.up ? "up" : end.stopped);
+      }
+      std::puts("");
+      std::fflush(stdout);
+    }
+  });
+}
+
+int Main(std::string_view part, const char* file) {
   constexpr const char* kLargest = "obstacle,change,ground,law,fidelity,largest_m,stopped";
   if (part == "steps" || part == "changes" || part == "rocks") std::puts(kLargest);
   if (part == "steps") {
@@ -230,6 +254,9 @@ int Main(std::string_view part) {
   } else if (part == "pull") {
     std::puts("ground,law,pull,pull_of_twice");
     PrintPull();
+  } else if (part == "frictions") {
+    std::puts("ground,law,fidelity,friction,one_radius,two_radii,three_radii");
+    PrintFrictions(file);
   } else {
     return 2;
   }
@@ -239,4 +266,6 @@ int Main(std::string_view part) {
 }  // namespace
 }  // namespace rockyard::rover
 
-int main(int count, char** words) { return rockyard::rover::Main(count == 2 ? words[1] : ""); }
+int main(int count, char** words) {
+  return rockyard::rover::Main(count > 1 ? words[1] : "", count > 2 ? words[2] : "");
+}

@@ -25,7 +25,6 @@ RoverParams MfexOnMars(double time_scale) {
                  .chassis_com_z_m = 0.17};
   params.drive.stall_torque_Nm = 2.3;
   params.drive.steer_rate_rad_s = math::DegToRad(6.0);
-  params.contact.wheel_rock_friction = 0.9;
   params.contact.stiffness_N_m = 30000.0;
   params.contact.damping_Ns_m = 480.0;
   params.physics.gravity_m_s2 = 3.72;

@@ -75,10 +75,10 @@ TEST(AblationsTest, ChangesResolvedDocumentsAndOthersAlike) {
         R"({"terrain": {"rocks": {"k_per_m2": 0.00415, "pointedness": 0.8675}},
             "course": {"goal_x_m": 7.6},
             "referee": {"no_path_time_s": 0, "time_limit_s": 0}, "energy": {"battery_wh": 0},
-            "sensors": {"gyro": {"level_sand_gain": 1.25},
-                        "encoders": {"physics_variance_m2_per_m": 1.9e-06,
-                                     "level_sand_gain": 0.9201}},
-            "perception": {"dead_reckoning": {"distance_scale": 0.9201}}})",
+            "sensors": {"gyro": {"level_sand_gain": 1.16},
+                        "encoders": {"physics_variance_m2_per_m": 5.8e-07,
+                                     "level_sand_gain": 0.9951}},
+            "perception": {"dead_reckoning": {"distance_scale": 0.9951}}})",
         "test");
     ApplyAblation(resolved, ablation.name);
     ApplyAblation(written, ablation.name);

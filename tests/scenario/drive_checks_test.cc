@@ -117,22 +117,24 @@ TEST(CentreOfMassTest, IsNotAskedForWithoutAChassis) {
               OneProblem("rover.mass.total_kg"));
 }
 
-// Sand under a wheel's mean load at 33 deg, 27.4 N: T_max / N = 0.653 = tan 33.15 deg.
+// Bekker's law of sand under a wheel's mean load at 33 deg, 27.4 N: T_max / N = 0.653 = tan 33.15
+// deg.
 TEST(SteepGroundTest, IsRefusedWhereTheSoilDoesNotHoldTheRover) {
   const std::string slope = "terrain.ground.slope_deg=";
   const std::string round = "terrain.rocks.pointedness=0";  // pointed ones want level ground
-  EXPECT_TRUE(ProblemsOf("nominal", {round, slope + "33.1"}, "pathfinder").empty());
+  const std::string bekker = "terrain.ground.soil.law=bekker";
+  EXPECT_TRUE(ProblemsOf("nominal", {round, bekker, slope + "33.1"}, "pathfinder").empty());
   for (const std::string steep : {"33.2", "45"}) {
     EXPECT_THAT(
-        ProblemsOf("nominal", {round, slope + steep}, "pathfinder"),
+        ProblemsOf("nominal", {round, bekker, slope + steep}, "pathfinder"),
         OneProblem("terrain.ground.slope_deg",
                    "is steeper than the 33.1 deg up to which this soil holds this rover, braked",
                    "use at most 33.1 deg, or a soil of more friction or cohesion"));
   }
   const std::string hard = "terrain.ground.soil.preset=hard_ground";
-  EXPECT_TRUE(ProblemsOf("nominal", {round, slope + "38", hard}, "pathfinder").empty());
+  EXPECT_TRUE(ProblemsOf("nominal", {round, bekker, slope + "38", hard}, "pathfinder").empty());
   const std::string drift = "terrain.ground.soil.preset=mars_drift";
-  EXPECT_FALSE(ProblemsOf("nominal", {round, slope + "30", drift}, "pathfinder").empty());
+  EXPECT_FALSE(ProblemsOf("nominal", {round, bekker, slope + "30", drift}, "pathfinder").empty());
 }
 
 // Inertia tells from 0.2 m/s on for wheels of 65 mm on Earth; only the multibody has all of it.

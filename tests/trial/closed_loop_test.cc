@@ -204,11 +204,11 @@ TEST(ClosedLoopTest, SoilThatBearsNothingEmbedsTheRover) {
   for (const std::string fidelity : {"multibody", "quasi_static"}) {
     const auto run = [&](const std::string& modulus) {
       return RunTrial(
-          Pathfinder("level_sand",
-                     {"rover.fidelity=" + fidelity, "terrain.ground.soil.sinkage_exponent=1",
-                      "terrain.ground.soil.cohesive_modulus_N_per_mn1=0",
-                      "terrain.ground.soil.frictional_modulus_N_per_mn2=" + modulus,
-                      "referee.time_limit_s=60"}),
+          Pathfinder("level_sand", {"rover.fidelity=" + fidelity, "terrain.ground.soil.law=bekker",
+                                    "terrain.ground.soil.sinkage_exponent=1",
+                                    "terrain.ground.soil.cohesive_modulus_N_per_mn1=0",
+                                    "terrain.ground.soil.frictional_modulus_N_per_mn2=" + modulus,
+                                    "referee.time_limit_s=60"}),
           {1, 0});
     };
     // 33 N on a wheel of 8 x 13 cm: by N = 2/3 b k sqrt(D) z^1.5, 1.5 cm, 3.5 cm and 14 cm.
@@ -327,10 +327,15 @@ TEST(MirrorLine, OnlyADrivingRoverIsReflected) {
 
 // In this trial the rover comes to rest on a rock at the line, steers, and slides back to the
 // heading from which it was turned. Turned at every tick it could never finish steering, nor the
-// trial end. With the stretches for which it was found; with others the rover takes another way.
+// trial end. With the stretches and the soil for which it was found; with others the rover takes
+// another way.
 TEST(MirrorLine, ARoverThatWasTurnedDrivesBeforeItIsTurnedAgain) {
   const auto [result, trace] = RunTraced(
-      Pathfinder("vl2", {"rover.fidelity=quasi_static", "rover.quasi_static.rock_settle_share=1"}),
+      Pathfinder("vl2", {"rover.fidelity=quasi_static", "rover.quasi_static.rock_settle_share=1",
+                         "terrain.ground.soil.law=bekker", "sensors.gyro.level_sand_gain=1.25",
+                         "sensors.encoders.physics_variance_m2_per_m=1.9e-6",
+                         "sensors.encoders.level_sand_gain=0.9201",
+                         "perception.dead_reckoning.distance_scale=0.9201"}),
       1342, 77);
   EXPECT_EQ(result.outcome, truth::TrialOutcome::kNoPath);
   std::optional<double> last_s;

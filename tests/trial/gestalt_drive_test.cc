@@ -103,7 +103,7 @@ TEST(GestaltDriveTest, TimeAndEnergyAddUp) {
 
 TEST(GestaltDriveTest, TracesAndWatchersChangeNothing) {
   const DriveParams drive = Gestalt("abundance");
-  for (std::uint32_t index = 0; index < 3; ++index) {
+  for (std::uint32_t index = 3; index < 6; ++index) {
     const core::TrialKey key{1, index};
     const DriveResult plain = RunTrial(drive, key);
     truth::Trace trace;
@@ -317,9 +317,9 @@ TEST(GestaltMoveTest, TheOverheadChangesTimeAndEnergyAlone) {
   EXPECT_EQ(with.true_distance_m, without.true_distance_m);
   EXPECT_EQ(with.moves, without.moves);
   EXPECT_EQ(with.compute_time_s, without.compute_time_s);
-  EXPECT_NEAR(with.sim_time_s - without.sim_time_s, 7.3 * with.moves, 1e-6);
+  EXPECT_NEAR(with.sim_time_s - without.sim_time_s, 7.4 * with.moves, 1e-6);
   const double base_W = 3.77 + 0.80;  // Matthies 1995, table 1
-  EXPECT_NEAR(with.energy_wh - without.energy_wh, 7.3 * with.moves * base_W / 3600.0, 1e-9);
+  EXPECT_NEAR(with.energy_wh - without.energy_wh, 7.4 * with.moves * base_W / 3600.0, 1e-9);
 }
 
 // Along a slope of s a rover that takes the ground to be flat is wrong by -d tan(s); one that knows

@@ -123,7 +123,8 @@ bool IsSwallowed(double sinkage_m, double wheel_radius_m, const std::string& fid
   const double modulus = 1.5 * kLoad_N / (0.08 * std::sqrt(2.0 * 0.065) * std::pow(sinkage_m, 1.5));
   const DriveResult result = RunTrial(
       Pathfinder("level_sand",
-                 {"rover.fidelity=" + fidelity, "terrain.ground.soil.sinkage_exponent=1",
+                 {"rover.fidelity=" + fidelity, "terrain.ground.soil.law=bekker",
+                  "terrain.ground.soil.sinkage_exponent=1",
                   "terrain.ground.soil.cohesive_modulus_N_per_mn1=0",
                   "terrain.ground.soil.frictional_modulus_N_per_mn2=" + std::to_string(modulus),
                   "rover.geometry.wheel_radius_m=" + std::to_string(wheel_radius_m),
@@ -243,7 +244,7 @@ class NoticingRoverTest : public testing::TestWithParam<const char*> {
 
 // Its motors cannot turn its wheels.
 TEST_P(NoticingRoverTest, GivesUpBeforeTheRefereeCallsItJammed) {
-  const Overrides weak{"rover.drive.stall_torque_Nm=0.05"};
+  const Overrides weak{"rover.drive.stall_torque_Nm=0.01"};
   const DriveResult off = Drive("off", weak);
   EXPECT_EQ(off.outcome, TrialOutcome::kJammed) << off.detail;
   EXPECT_EQ(off.record.stuck_noticed, 0.0);

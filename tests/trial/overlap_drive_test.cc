@@ -399,7 +399,8 @@ TEST(OverlapDrive, VisualOdometryIsWaitedForWhereItMayNotOverlap) {
       DriveParams drive =
           WeaverDrive(weaver, {},
                       {"localization.estimator=witness", "sensors.gyro.accumulates_at_rest=true",
-                       "clock.compute.computer=msl_rad750", "clock.compute.acquisition_s=0.5"},
+                       "clock.compute.computer=msl_rad750", "clock.compute.acquisition_s=0.5",
+                       "terrain.ground.soil.law=bekker"},
                       witness);
       drive.clock.overlap.imaging = images;
       drive.clock.overlap.computing = computes;

@@ -35,7 +35,7 @@ DriveResult DriveUp(double slope_deg, const Overrides& more = {}) {
 }
 
 TEST(SlipDrive, EndsWhereItSlipsTooMuch) {
-  const DriveResult steep = DriveUp(17.0);
+  const DriveResult steep = DriveUp(23.0);
   EXPECT_EQ(steep.detail, kEndedBySlip);
   EXPECT_EQ(steep.outcome, TrialOutcome::kExcessiveSlip);
   EXPECT_EQ(steep.record.slip_alarms, 1.0);
@@ -78,7 +78,7 @@ TEST(SlipDrive, BacksOffWhereThatIsTheReaction) {
 
 // Who gives up by an alarm does so for the slip, whatever else makes it give up.
 TEST(SlipDrive, GivesUpForTheSlip) {
-  const DriveResult stop = DriveUp(17.0);
+  const DriveResult stop = DriveUp(23.0);
   const DriveResult as_stuck = DriveUp(
       17.0, {"navigation.on_board_stuck.reaction=give_up", "navigation.on_slip.reaction=as_stuck"});
   EXPECT_EQ(as_stuck.outcome, TrialOutcome::kExcessiveSlip);
@@ -97,7 +97,7 @@ TEST(SlipDrive, PlansAnewAsOftenAsItMay) {
     return DriveUp(17.0, {"navigation.on_slip.reaction=replan",
                           "navigation.on_slip.max_alarms=" + std::to_string(most)});
   };
-  EXPECT_THAT(Differences(replans(0), DriveUp(17.0)), testing::IsEmpty());
+  EXPECT_THAT(Differences(replans(0), DriveUp(23.0)), testing::IsEmpty());
   const DriveResult twice = replans(2);
   EXPECT_EQ(twice.outcome, TrialOutcome::kExcessiveSlip);
   EXPECT_EQ(twice.record.slip_alarms, 3.0);

@@ -113,7 +113,14 @@ TEST(MirrorLineTest, BackingOffDoesNotLeadAcross) {
   constexpr double kTick_m = 0.15 / 20.0;
   constexpr double kSlip_m = 0.02;
   const DriveParams drive = Pathfinder(
-      "nominal", kQuasiStatic + kContact + kBlind + Overrides{"terrain.rocks.k_per_m2=0.013"});
+      "nominal",
+      kQuasiStatic + kContact + kBlind +
+          Overrides{"terrain.rocks.k_per_m2=0.013", "terrain.ground.soil.law=bekker",
+                    "sensors.gyro.level_sand_gain=1.25", "sensors.encoders.level_sand_gain=0.9201",
+                    "sensors.encoders.physics_variance_m2_per_m="
+                    "1.9e-6",
+                    "perception.dead_reckoning.distance_scale="
+                    "0.9201"});
   double farthest_m = 0.0;
   for (const std::uint32_t index : {7U, 29U}) {
     for (const truth::TraceSample& sample : RunTraced(drive, index).trace.samples) {

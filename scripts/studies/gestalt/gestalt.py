@@ -51,7 +51,7 @@ CHANGES = {
         f"{MAP}.step_reference=level", f"{MAP}.tests.pitch=false"],
     "an arc on which a hazard was felt is vetoed": [f"{DRIVE}.veto_felt=false"],
     "odometer calibrated in Viking Lander 2 terrain": [
-        "perception.dead_reckoning.distance_scale=0.9465"],
+        "perception.dead_reckoning.distance_scale=0.995"],
 }
 READINGS = {
     "six point turns to either side": ["navigation.gestalt.arcs.num_point_turns=6"],

@@ -174,11 +174,11 @@ class RoverCase:
 
 # Spirit and Opportunity. 3.7 cm/s is the fastest straight drive that was ever commanded (Guinness World Records 2022,
 # "Land speed record on Mars", which has 5 cm/s for the wheels); 75 cm are the longest motion with GESTALT and visual
-# odometry (Howard 2012 section 1). Assumed: nothing at rest beside the looks, at most the 7.3 s a move of the Athena
+# odometry (Howard 2012 section 1). Assumed: nothing at rest beside the looks, at most the 7.4 s a move of the Athena
 # SDM; steps of 35 cm (Goldberg 2002 section 4) to 75 cm; no time for steering, at most 1.5 s.
 MER = RoverCase("MER's rover",
                 Rover(0.037, 0.75, 0.75),
-                Rover(0.037, 0.35, 0.6, overhead_s=7.3, steering_s=1.5),
+                Rover(0.037, 0.35, 0.6, overhead_s=7.4, steering_s=1.5),
                 Rover(0.05, 0.75, 0.75))
 
 # Athena of 2012: 7 cm/s at most (Howard 2012 section 3). Assumed: motions of 75 cm (35 to 75), planned anew after half

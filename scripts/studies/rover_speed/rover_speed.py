@@ -81,7 +81,7 @@ def published_speeds(rows):
     stripe = model.M_PER_H * model.speed(STRIPE_ROVER, model.Times(0, 0, 0, 0), "stop", "stripe")
     return (
         ("MER, blind", 124.0, "Howard 2012 sec. 1", mer("blind", "wheels"),
-         "3.7 cm/s (3.7 to 5) of the wheels, nothing at rest (7.3 s a move of 35 cm)"),
+         "3.7 cm/s (3.7 to 5) of the wheels, nothing at rest (7.4 s a move of 35 cm)"),
         ("MER, AutoNav by wheels", 36.0, "Howard 2012 sec. 1", mer("stop", "wheels"),
          "a look each 75 cm (35 to 75): images 8.97 s (0.5 to 10), stereo 27 s (24 to 30), map 6.6 s (to 21)"),
         ("MER, visual odometry without AutoNav", 10.0, "Howard 2012 sec. 1", mer("blind", "vision"),

@@ -93,12 +93,9 @@ std::vector<std::string> SoilNames(const MobilityRequest& request) {
 terrain::SoilParams SoilOf(const MobilityRequest& request, const terrain::SoilParams& own,
                            const std::string& name) {
   if (name == kOwnSoil) return own;
-  const JsonValue all = core::WriteParams(own);
   JsonValue document = JsonValue::Object();
   document.Set("preset", JsonValue(name));
-  for (const std::string_view kept : {"law", "pressure", "slip_sinkage", "spread"}) {
-    document.Set(kept, *all.Find(kept));
-  }
+  document.Set("spread", *core::WriteParams(own).Find("spread"));
   for (const std::string& assignment : request.overrides) {
     if (!assignment.starts_with(kSoilPath)) continue;
     const std::string rest = assignment.substr(kSoilPath.size());

@@ -73,8 +73,8 @@ struct MobilityResult {
 // Called by several threads, one at a time.
 using MobilityProgress = std::function<void(std::size_t done, std::size_t planned)>;
 
-// Drives all of it. The soil of preset NAME has that preset's values, with law, pressure, slip
-// sinkage and spread of the scenario, and then what the overrides say of terrain.ground.soil. The
+// Drives all of it. The soil of preset NAME has that preset's values, its law among them, with the
+// spread of the scenario, and then what the overrides say of terrain.ground.soil. The
 // draws of a soil are terrain::DrawSoil with the seed and numbers from 0, the same for all cases.
 // What comes back does not depend on the threads. Cost: 3 soils, 26 slopes and 20 draws take about
 // 20 s of one processor, four fifths of it for steps. Throws core::UserError for all that is wrong

@@ -93,8 +93,8 @@ struct ComputeParams {
            core::Calibrated(
                "time at rest that every move takes beyond the motion of its wheels, whichever "
                "computer and navigator: command, brakes, settling; at the power of computing",
-               "0 for a rover that moves on at once; 7.3 s for the Athena SDM: 15 s a move "
-               "(Goldberg 2002 table 2) less the 7.66 s that the simulated rover's wheels turn for "
+               "0 for a rover that moves on at once; 7.4 s for the Athena SDM: 15 s a move "
+               "(Goldberg 2002 table 2) less the 7.62 s that the simulated rover's wheels turn for "
                "35 cm of level sand",
                {0.0, 3600.0}));
     v.Real("visual_cpu_s", visual_cpu_s,

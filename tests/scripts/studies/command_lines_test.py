@@ -215,7 +215,7 @@ class GestaltStudy(StudyTest):
     # A setting that undoes each choice, in the order of the script.
     UNDONE = ("max_turn_share=2", "max_bogie_deg=30", "backward_arcs=below_threshold",
               "point_turns=below_min_vote", "step_reference=level", "veto_felt=false",
-              "distance_scale=0.9465")
+              "distance_scale=0.995")
     NAMES = ("true_distance_m", "dead_reckoned_distance_m", "moves", "rear_image_sets", "reversals", "safeguard_stops")
     summary = SUMMARY | {"outcomes": {"jammed": 1}}
     rows = [trial(0, "goal_reached", 8, 9, 10, 2, 1, 0, names=NAMES), trial(1, "no_path", 2, 2.5, 10, 4, 3, 1, names=NAMES),
