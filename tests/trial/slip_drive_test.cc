@@ -61,14 +61,14 @@ TEST(SlipDrive, GoesByItsLimit) {
   const DriveResult strict = DriveUp(10.0, {"perception.visual_odometry.slip_check.limit=0.02"});
   EXPECT_EQ(strict.detail, kEndedBySlip);
   const DriveResult unchecked =
-      DriveUp(17.0, {"perception.visual_odometry.slip_check.enabled=false"});
+      DriveUp(23.0, {"perception.visual_odometry.slip_check.enabled=false"});
   EXPECT_NE(unchecked.detail, kEndedBySlip);
   EXPECT_TRUE(std::isnan(unchecked.record.largest_slip));
 }
 
 // Once in a drive, up a slope that is as steep everywhere.
 TEST(SlipDrive, BacksOffWhereThatIsTheReaction) {
-  const DriveResult backs = DriveUp(17.0, {"navigation.on_board_stuck.reaction=back_off",
+  const DriveResult backs = DriveUp(23.0, {"navigation.on_board_stuck.reaction=back_off",
                                            "navigation.on_slip.reaction=as_stuck"});
   EXPECT_EQ(backs.outcome, TrialOutcome::kExcessiveSlip);
   EXPECT_EQ(backs.record.slip_alarms, 2.0);
@@ -80,12 +80,12 @@ TEST(SlipDrive, BacksOffWhereThatIsTheReaction) {
 TEST(SlipDrive, GivesUpForTheSlip) {
   const DriveResult stop = DriveUp(23.0);
   const DriveResult as_stuck = DriveUp(
-      17.0, {"navigation.on_board_stuck.reaction=give_up", "navigation.on_slip.reaction=as_stuck"});
+      23.0, {"navigation.on_board_stuck.reaction=give_up", "navigation.on_slip.reaction=as_stuck"});
   EXPECT_EQ(as_stuck.outcome, TrialOutcome::kExcessiveSlip);
   EXPECT_EQ(as_stuck.record.slip_alarms, 1.0);
   EXPECT_NEAR(as_stuck.record.true_distance_m, stop.record.true_distance_m, 0.03);
   const DriveResult exhausted =
-      DriveUp(17.0, {"navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=100",
+      DriveUp(23.0, {"navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=100",
                      "navigation.pathfinder.vehicle_reaction.progress_m=10",
                      "navigation.pathfinder.vehicle_reaction.max_repeats=1"});
   EXPECT_EQ(exhausted.outcome, TrialOutcome::kExcessiveSlip);
@@ -94,7 +94,7 @@ TEST(SlipDrive, GivesUpForTheSlip) {
 
 TEST(SlipDrive, PlansAnewAsOftenAsItMay) {
   const auto replans = [](int most) {
-    return DriveUp(17.0, {"navigation.on_slip.reaction=replan",
+    return DriveUp(23.0, {"navigation.on_slip.reaction=replan",
                           "navigation.on_slip.max_alarms=" + std::to_string(most)});
   };
   EXPECT_THAT(Differences(replans(0), DriveUp(23.0)), testing::IsEmpty());
@@ -109,7 +109,7 @@ TEST(SlipDrive, PlansAnewAsOftenAsItMay) {
 // taken and compared with nothing.
 TEST(SlipDrive, ComparesNothingWithImagesFromBeforeAnAlarm) {
   const DriveResult drive =
-      DriveUp(17.0, {"navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=2",
+      DriveUp(23.0, {"navigation.on_slip.reaction=replan", "navigation.on_slip.max_alarms=2",
                      "clock.compute.computer=mer_rad6000", "clock.compute.acquisition_s=10"});
   ASSERT_EQ(drive.record.slip_alarms, 3.0);
   EXPECT_NEAR(drive.record.imaging_time_s, 10.0 * (drive.record.visual_steps + 1.0 + 2.0), 1e-6);
