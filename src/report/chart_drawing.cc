@@ -179,6 +179,7 @@ class Plot {
     Stretches(curve, banded, [&](const std::vector<ChartPoint>& stretch) {
       if (stretch.size() < 2) return;
       std::vector<SvgPoint> outline;
+      outline.reserve(2 * stretch.size());
       for (const ChartPoint& p : stretch) outline.push_back({X(p.x), Y(p.high)});
       for (std::size_t i = stretch.size(); i-- > 0;) {
         outline.push_back({X(stretch[i].x), Y(stretch[i].low)});
@@ -194,6 +195,7 @@ class Plot {
     Stretches(curve, there, [&](const std::vector<ChartPoint>& stretch) {
       if (stretch.empty()) return;
       std::vector<SvgPoint> line;
+      line.reserve(stretch.size());
       for (const ChartPoint& p : stretch) line.push_back({X(p.x), Y(p.y)});
       svg += SvgPolyline(
           line,
@@ -229,6 +231,7 @@ class Plot {
     std::stable_sort(ends.begin(), ends.end(),
                      [](const End& a, const End& b) { return a.y < b.y; });
     std::vector<double> wanted;
+    wanted.reserve(ends.size());
     for (const End& end : ends) wanted.push_back(end.y);
     const std::vector<double> places = Apart(wanted, top_ + 4.0, top_ + kPlotHeight - 2.0);
     std::string svg;
@@ -316,7 +319,8 @@ std::string ChartSheetSvg(const ChartSheet& sheet) {
   const double cell_height = kTitleRoom + kPlotHeight + kFootRoom;
   const double head = 40.0 + 17.0 * static_cast<double>(sheet.lines.size());
   const std::size_t cells = sheet.charts.size() + sheet.bars.size();
-  const auto rows = static_cast<double>((cells + kColumns - 1) / kColumns);
+  const std::size_t row_count = (cells + kColumns - 1) / kColumns;
+  const auto rows = static_cast<double>(row_count);
   const double width = 2.0 * kSheetMargin + kColumns * cell_width;
   const double height = head + rows * cell_height + kSheetMargin;
   std::string svg = fmt::format(
@@ -331,7 +335,8 @@ std::string ChartSheetSvg(const ChartSheet& sheet) {
   }
   for (std::size_t i = 0; i < cells; ++i) {
     const double left = kSheetMargin + static_cast<double>(i % kColumns) * cell_width + kAxisRoom;
-    const double top = head + static_cast<double>(i / kColumns) * cell_height + kTitleRoom;
+    const std::size_t row = i / kColumns;
+    const double top = head + static_cast<double>(row) * cell_height + kTitleRoom;
     svg += i < sheet.charts.size()
                ? Plot(sheet.charts[i], left, top).Draw()
                : DrawBars(sheet.bars[i - sheet.charts.size()], label_room, left, top);

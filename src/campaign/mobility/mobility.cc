@@ -14,6 +14,7 @@
 #include "campaign/mobility/step_drive.h"
 #include "core/archive.h"
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/provenance.h"
 #include "core/text.h"
 #include "math/angles.h"
@@ -74,7 +75,7 @@ void CheckSlopes(const std::vector<double>& slopes_deg) {
 std::vector<std::string> SoilNames(const MobilityRequest& request) {
   if (request.soils.empty()) return {"landscaping_sand", "mars_drift", "hard_ground"};
   std::vector<std::string_view> known(PresetNames::kNames.begin(), PresetNames::kNames.end());
-  known.push_back(kOwnSoil);
+  known.emplace_back(kOwnSoil);
   for (std::size_t i = 0; i < request.soils.size(); ++i) {
     const std::string& name = request.soils[i];
     if (std::ranges::find(known, name) == known.end()) {

@@ -65,7 +65,7 @@ double Cell(const JsonValue& cell) { return cell.IsNumber() ? cell.number() : kN
 
 class ChartMaker {
  public:
-  ChartMaker(const MobilityResult& result)
+  explicit ChartMaker(const MobilityResult& result)
       : result_(result),
         styles_(StylesOf(result)),
         slopes_(SlopeTable(result)),
