@@ -11,7 +11,8 @@ namespace {
 using terrain::SoilPressure;
 using terrain::WheelLaw;
 
-// Points of the midpoint rule over the arc in the soil: loads within 1e-3 of 400 points.
+// Points of the midpoint rule over the arc in the soil: loads within 0.15 % of those of 400 points,
+// pull and traction within 0.7 % of the load.
 constexpr int kPoints = 20;
 
 // Generic coefficients of resistive force theory, over the stress on a level plate that sinks (Li,

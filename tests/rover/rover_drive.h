@@ -147,4 +147,29 @@ struct Weights {
   }
 };
 
+// Slip, torques and sinkage of a steady climb.
+struct SlopeClimb {
+  double slip = 0.0;
+  double torque_Nm = 0.0;  // of all wheels
+  double sinkage_m = 0.0;  // mean
+  messages::PerWheel<double> load_N{};
+};
+
+inline SlopeClimb SteadyClimb(const RoverParams& params, double slope_deg,
+                              const terrain::SoilParams& soil, double first_s = 12.0) {
+  const RoverOn rover(SlopeTerrain(math::DegToRad(slope_deg), 0.0, soil), params);
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  RunFor(*rover, command, first_s);
+  const math::Vector3 from = rover->state().X_WR.translation();
+  RunFor(*rover, command, 4.0);
+  const truth::RoverState& state = rover->state();
+  SlopeClimb climb{.load_N = state.wheel_load_N};
+  climb.slip = 1.0 - (state.X_WR.translation() - from).norm() / 0.6;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    climb.torque_Nm += state.motor_torque_Nm[i];
+    climb.sinkage_m += state.wheel_sinkage_m[i] / 6.0;
+  }
+  return climb;
+}
+
 }  // namespace rockyard::rover

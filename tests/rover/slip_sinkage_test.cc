@@ -156,31 +156,6 @@ TEST(SlipSinkageState, StandsStillWithTheWheelAndWhereItIsOff) {
   EXPECT_EQ(off.dug_slip(0), 0.0);
 }
 
-// Slip, torques and sinkage of a steady climb.
-struct Climb {
-  double slip = 0.0;
-  double torque_Nm = 0.0;  // of all wheels
-  double sinkage_m = 0.0;  // mean
-  messages::PerWheel<double> load_N{};
-};
-
-Climb SteadyClimb(const RoverParams& params, double slope_deg, const terrain::SoilParams& soil,
-                  double first_s = 12.0) {
-  const RoverOn rover(SlopeTerrain(math::DegToRad(slope_deg), 0.0, soil), params);
-  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
-  RunFor(*rover, command, first_s);
-  const math::Vector3 from = rover->state().X_WR.translation();
-  RunFor(*rover, command, 4.0);
-  const truth::RoverState& state = rover->state();
-  Climb climb{.load_N = state.wheel_load_N};
-  climb.slip = 1.0 - (state.X_WR.translation() - from).norm() / 0.6;
-  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
-    climb.torque_Nm += state.motor_torque_Nm[i];
-    climb.sinkage_m += state.wheel_sinkage_m[i] / 6.0;
-  }
-  return climb;
-}
-
 // Where sum tau(i) T_max = W sin(slope) + sum R(n_0 + n_1 i).
 double ClosedFormSlip(const terrain::SoilParams& soil, double pull_N,
                       const messages::PerWheel<double>& load_N) {
@@ -196,7 +171,7 @@ TEST_P(SlipSinkageRover, ClimbsAtTheSlipOfTheClosedForm) {
   const RoverParams params = WithFidelity(GetParam());
   const terrain::SoilParams soil = Digging();
   for (const double slope_deg : {0.0, 5.0, 10.0}) {
-    const Climb climb = SteadyClimb(params, slope_deg, soil);
+    const SlopeClimb climb = SteadyClimb(params, slope_deg, soil);
     const double pull_N = Weights(params).total_N * std::sin(math::DegToRad(slope_deg));
     const double slip = ClosedFormSlip(soil, pull_N, climb.load_N);
     EXPECT_NEAR(climb.slip, slip, 0.01 + 0.02 * slip) << slope_deg;
@@ -224,7 +199,7 @@ TEST_P(SlipSinkageRover, SlipsMoreTheMoreASlipDigs) {
 TEST_P(SlipSinkageRover, IsEmbeddedWhereItWouldClimb) {
   const RoverParams params = WithFidelity(GetParam());
   EXPECT_LT(SteadyClimb(params, 18.0, BekkerSoil()).slip, 0.8);
-  const Climb climb = SteadyClimb(params, 18.0, Digging());
+  const SlopeClimb climb = SteadyClimb(params, 18.0, Digging());
   EXPECT_GT(climb.slip, 0.95);
   EXPECT_GT(climb.sinkage_m, 0.007);
 }

@@ -25,31 +25,6 @@ terrain::SoilParams Intrusion(terrain::SoilPreset preset) {
   return soil;
 }
 
-// What a steady climb shows.
-struct Climb {
-  double slip = 0.0;
-  double torque_Nm = 0.0;  // of all wheels
-  double sinkage_m = 0.0;  // mean
-  messages::PerWheel<double> load_N{};
-};
-
-Climb SteadyClimb(const RoverParams& params, double slope_deg, double direction_rad,
-                  const terrain::SoilParams& soil) {
-  const RoverOn rover(SlopeTerrain(math::DegToRad(slope_deg), direction_rad, soil), params);
-  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
-  RunFor(*rover, command, 10.0);
-  const math::Vector3 from = rover->state().X_WR.translation();
-  RunFor(*rover, command, 2.0);
-  const truth::RoverState& state = rover->state();
-  Climb climb{.load_N = state.wheel_load_N};
-  climb.slip = 1.0 - (state.X_WR.translation() - from).norm() / 0.3;
-  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
-    climb.torque_Nm += state.motor_torque_Nm[i];
-    climb.sinkage_m += state.wheel_sinkage_m[i] / 6.0;
-  }
-  return climb;
-}
-
 // The slip at which six wheels of that load pull with that force, 1 where they cannot.
 struct ClosedForm {
   WheelOnSoil wheel;
@@ -80,7 +55,7 @@ TEST_P(StressLaw, ClimbsAtTheSlipOfTheClosedForm) {
   for (const terrain::SoilParams& soil : {Intrusion(terrain::SoilPreset::kLandscapingSand),
                                           Intrusion(terrain::SoilPreset::kMarsDrift), Granular()}) {
     for (const double slope_deg : {0.0, 5.0, 10.0, 15.0, 20.0}) {
-      const Climb climb = SteadyClimb(params, slope_deg, 0.0, soil);
+      const SlopeClimb climb = SteadyClimb(params, slope_deg, soil);
       const ClosedForm form{MakeWheelOnSoil(params, soil), climb.load_N};
       const double pull_N = Weights(params).total_N * std::sin(math::DegToRad(slope_deg));
       const double slip = form.Slip(pull_N);
