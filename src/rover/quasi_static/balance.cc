@@ -211,10 +211,17 @@ void QuasiStaticBalance::GiveWay(double along_m_s, double across_m_s, Row& row) 
   row.k_bb = tangent_ ? per_speed * creep2 / root2 : per_speed;
 }
 
-void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact, Row& row) {
+QuasiStaticBalance::Speeds QuasiStaticBalance::SpeedsOf(const Row& row, const SideVector& rates) {
+  return {row.normal.dot(rates), row.along.dot(rates), row.across.dot(rates),
+          row.soil ? row.axle.dot(rates) : 0.0};
+}
+
+void QuasiStaticBalance::SetForces(const Speeds& speed, RestingContact& contact, Row& row) const {
   row.acts = false;
+  row.slip_m_s = row.yield_m_s = row.along_N = row.across_N = row.axle_N = 0.0;
+  row.k_aa = row.k_ab = row.k_bb = row.k_axle = 0.0;
   // Penetration at the end of the step; N = k (depth - rest).
-  contact.depth_m = -row.gap_m - step_s_ * row.normal.dot(w);
+  contact.depth_m = -row.gap_m - step_s_ * speed.normal;
   contact.load_N = row.stiffness_N_m * (contact.depth_m - row.rest_m);
   contact.sliding_speed_m_s = 0.0;
   // An open contact has no force. In the first evaluation a contact that bore load before keeps its
@@ -223,84 +230,80 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
     contact.load_N = 0.0;
     return;
   }
-  // Tractions do not follow the loads of the first evaluation, whose rates are only guessed.
-  if (contact.load_N > 0.0 && !first_) FollowLoad(contact, row);
   row.acts = true;
-  if (row.max_N == 0.0) {
-    equations_.AddForce(row.side, contact.load_N * row.normal);
-    return;
-  }
+  if (row.max_N == 0.0) return;
   // Slip velocity s: the rim's minus that of the axle's point over the ground. The force on the
   // rover is along s.
-  const double along = row.rim_m_s - row.along.dot(w);
-  const double across = -row.across.dot(w);
+  const double along = row.rim_m_s - speed.along;
+  const double across = -speed.across;
   AcrossTheNormal(along, across, row);
   if (row.motor_bound && std::abs(row.along_N) > row.stall_N) GiveWay(along, across, row);
   contact.sliding_speed_m_s = row.slip_m_s;
-  equations_.AddForce(
-      row.side, contact.load_N * row.normal + row.along_N * row.along + row.across_N * row.across);
-  if (!contact.IsWheel()) return;
-  torque_Nm_[static_cast<std::size_t>(contact.part)] += row.arm_m * row.along_N;
-  if (contact.IsSoil()) AddResistance(w, row);
-}
-
-// Adds the motion resistance, against the axle's motion along the wheel, which has to overcome it
-// by traction, and what the soil does to the side face of a wheel that slides across.
-void QuasiStaticBalance::AddResistance(const SideVector& rates, Row& row) {
-  row.k_axle = AddBounded(row.resistance_N, row.axle, rates, row);
-  row.k_side = row.side_N > 0.0 ? AddBounded(row.side_N, row.across, rates, row) : 0.0;
+  if (!row.soil) return;
+  // The motion resistance is against the axle's motion along the wheel, which has to overcome it by
+  // traction; beside it, what the soil does to the side face of a wheel that slides across.
+  const Bounded axle = Against(speed.axle, row.resistance_N, row);
+  row.axle_N = axle.force_N;
+  row.k_axle = axle.stiffness;
+  if (row.side_N <= 0.0) return;
+  const Bounded side = Against(speed.across, row.side_N, row);
+  row.across_N += side.force_N;
+  row.k_bb += side.stiffness;
 }
 
 // F v / sqrt(v^2 + v_c^2), the smooth sign of v, and its derivative as in TractionOf.
-double QuasiStaticBalance::AddBounded(double force_N, const SideVector& direction,
-                                      const SideVector& rates, const Row& row) {
-  const double v_m_s = direction.dot(rates);
+QuasiStaticBalance::Bounded QuasiStaticBalance::Against(double speed_m_s, double force_N,
+                                                        const Row& row) {
   const double creep_m_s = kResistanceCreep * row.reference_m_s;
-  const double root2 = v_m_s * v_m_s + creep_m_s * creep_m_s;
+  const double root2 = speed_m_s * speed_m_s + creep_m_s * creep_m_s;
   const double per_speed = force_N / std::sqrt(root2);
-  equations_.AddForce(row.side, -per_speed * v_m_s * direction);
-  return per_speed * creep_m_s * creep_m_s / root2;
+  return {-per_speed * speed_m_s, per_speed * creep_m_s * creep_m_s / root2};
 }
 
-// Adds minus the derivative of the contact's force by the rates, at the last evaluation: h k n n'
-// along the normal, and K_aa, K_ab, K_bb in the tangent plane.
-void QuasiStaticBalance::AddStiffness(const RestingContact& contact, const Row& row) {
-  if (!row.acts) return;
-  const double k_n = step_s_ * row.stiffness_N_m;
-  if (row.max_N == 0.0) return equations_.AddStiffness(row.side, k_n, row.normal);
-  equations_.AddStiffness(row.side, k_n * row.normal, row.normal,
-                          row.k_aa * row.along + row.k_ab * row.across, row.along,
-                          row.k_ab * row.along + row.k_bb * row.across, row.across);
-  if (!contact.IsSoil()) return;
-  equations_.AddStiffness(row.side, row.k_axle, row.axle);
-  if (row.k_side > 0.0) equations_.AddStiffness(row.side, row.k_side, row.across);
+// Beyond a stop a spring turns the joint back: torque -k (|angle| - stop) sign(angle).
+double QuasiStaticBalance::StopTorque_Nm(int dof, double rate) const {
+  const auto i = static_cast<std::size_t>(dof - kRockerDof);
+  const double angle_rad = i == 0 ? posture_.rocker_rad : posture_.bogie_rad[i - 1];
+  const double end_rad = angle_rad + step_s_ * rate;
+  const double beyond_rad = std::max(0.0, std::abs(end_rad) - stop_rad_[i]);
+  return -std::copysign(stop_stiffness_Nm_ * beyond_rad, end_rad);
 }
 
-void QuasiStaticBalance::AddStops(const LinkageVector& rates) {
-  const std::array<double, 3> angle_rad{posture_.rocker_rad, posture_.bogie_rad[0],
-                                        posture_.bogie_rad[1]};
-  for (int i = 0; i < 3; ++i) {
-    const int dof = kRockerDof + i;
-    const double end_rad = angle_rad[static_cast<std::size_t>(i)] + step_s_ * rates[dof];
-    // Beyond a stop a spring turns the joint back: torque -k (|angle| - stop) sign(angle).
-    const double beyond_rad = std::abs(end_rad) - stop_rad_[static_cast<std::size_t>(i)];
-    if (beyond_rad <= 0.0) continue;
-    equations_.AddAt(dof, -std::copysign(stop_stiffness_Nm_ * beyond_rad, end_rad),
-                     step_s_ * stop_stiffness_Nm_);
-  }
-}
-
-void QuasiStaticBalance::Evaluate(const LinkageVector& rates,
-                                  std::vector<RestingContact>& contacts) {
-  // F(w) = Q_gravity - D w + contacts + stops; D is the start of minus its derivative.
+// F(w) = Q_gravity - D w + contacts + stops, and minus its derivative: D, h k n n' along the
+// normals, and K_aa, K_ab, K_bb in the tangent planes.
+void QuasiStaticBalance::Assemble(const LinkageVector& rates,
+                                  const std::vector<RestingContact>& contacts) {
   equations_.Reset(gravity_ - damping_.cwiseProduct(rates), damping_);
-  torque_Nm_.fill(0.0);
-  traction_lags_ = false;
-  const std::array<SideVector, 2> side_rates{OfSide(rates, 0), OfSide(rates, 1)};
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    AddForces(side_rates[rows_[i].side], contacts[i], rows_[i]);
+    const Row& row = rows_[i];
+    if (!row.acts) continue;
+    const double k_n = step_s_ * row.stiffness_N_m;
+    if (row.max_N == 0.0) {
+      equations_.AddForce(row.side, contacts[i].load_N * row.normal);
+      equations_.AddStiffness(row.side, k_n, row.normal);
+      continue;
+    }
+    SideVector force =
+        contacts[i].load_N * row.normal + row.along_N * row.along + row.across_N * row.across;
+    if (row.soil) force += row.axle_N * row.axle;
+    equations_.AddForce(row.side, force);
+    equations_.AddStiffness(row.side, k_n * row.normal, row.normal,
+                            row.k_aa * row.along + row.k_ab * row.across, row.along,
+                            row.k_ab * row.along + row.k_bb * row.across, row.across);
+    if (row.soil) equations_.AddStiffness(row.side, row.k_axle, row.axle);
   }
-  AddStops(rates);
+  for (int dof = kRockerDof; dof < kLinkageDof; ++dof) {
+    const double torque_Nm = StopTorque_Nm(dof, rates[dof]);
+    if (torque_Nm != 0.0) equations_.AddAt(dof, torque_Nm, step_s_ * stop_stiffness_Nm_);
+  }
+}
+
+double QuasiStaticBalance::MotorTorque_Nm(std::size_t wheel) const {
+  double torque_Nm = 0.0;
+  for (const Row& row : rows_) {
+    if (row.acts && row.wheel == wheel) torque_Nm += row.arm_m * row.along_N;
+  }
+  return torque_Nm;
 }
 
 // The linear velocity counts as it is, each of the six angular rates by the speed that it would
@@ -316,44 +319,67 @@ bool QuasiStaticBalance::IsBalanced() const {
 }
 
 // Traction follows load by bounded steps: loads of a first guess can be far off.
-void QuasiStaticBalance::FollowLoad(RestingContact& contact, Row& row) {
-  const double change_N = contact.load_N - contact.traction_load_N;
-  if (std::abs(change_N) < kLoadTolerance * mean_load_N_) return;
+void QuasiStaticBalance::FollowLoads(std::vector<RestingContact>& contacts) {
+  traction_lags_ = false;
   const double max_N = kLoadStep * mean_load_N_;
-  contact.traction_load_N += std::clamp(change_N, -max_N, max_N);
-  SetTraction(contact, row);
-  if (std::abs(change_N) > max_N) traction_lags_ = true;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    RestingContact& contact = contacts[i];
+    const double change_N = contact.load_N - contact.traction_load_N;
+    if (contact.load_N <= 0.0 || std::abs(change_N) < kLoadTolerance * mean_load_N_) continue;
+    contact.traction_load_N += std::clamp(change_N, -max_N, max_N);
+    SetTraction(contact, rows_[i]);
+    SetForces(rows_[i].speed, contact, rows_[i]);
+    if (std::abs(change_N) > max_N) traction_lags_ = true;
+  }
 }
 
 // Lets a last small change of the rates move the loads along the springs; the tractions stay.
-void QuasiStaticBalance::Finish(const LinkageVector& change,
-                                std::vector<RestingContact>& contacts) const {
+void QuasiStaticBalance::Finish(std::vector<RestingContact>& contacts) const {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (contacts[i].load_N <= 0.0) continue;
-    const double deeper_m = -step_s_ * rows_[i].normal.dot(OfSide(change, rows_[i].side));
+    const double deeper_m = -step_s_ * rows_[i].change.normal;
     contacts[i].depth_m += deeper_m;
     contacts[i].load_N = std::max(0.0, contacts[i].load_N + rows_[i].stiffness_N_m * deeper_m);
     contacts[i].traction_load_N = contacts[i].load_N;
   }
 }
 
+// Along the change every speed is linear in its share, so that contacts are evaluated by their
+// speeds alone, without the space of the rates.
+double QuasiStaticBalance::EvaluateAlong(const LinkageVector& rates, const LinkageVector& change,
+                                         double share, std::vector<RestingContact>& contacts) {
+  double slope =
+      (gravity_ - damping_.cwiseProduct(LinkageVector(rates + share * change))).dot(change);
+  for (int dof = kRockerDof; dof < kLinkageDof; ++dof) {
+    slope += StopTorque_Nm(dof, rates[dof] + share * change[dof]) * change[dof];
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    Row& row = rows_[i];
+    const Speeds& from = row.speed;
+    const Speeds& by = row.change;
+    SetForces({from.normal + share * by.normal, from.along + share * by.along,
+               from.across + share * by.across, from.axle + share * by.axle},
+              contacts[i], row);
+    slope += contacts[i].load_N * by.normal + row.along_N * by.along + row.across_N * by.across +
+             row.axle_N * by.axle;
+  }
+  return slope;
+}
+
 // With its tractions given, the function is convex and F is minus its gradient, so F . change falls
 // along the way. Where it has turned its sign, the minimum lies before, and a secant through the
 // bracket says where (an end that stays counts half, as in the Illinois rule).
-LinkageVector QuasiStaticBalance::Search(const LinkageVector& rates, const LinkageVector& change,
-                                         double drop, std::vector<RestingContact>& contacts) {
-  LinkageVector next = rates + change;
-  Evaluate(next, contacts);
+double QuasiStaticBalance::Search(const LinkageVector& rates, const LinkageVector& change,
+                                  double drop, std::vector<RestingContact>& contacts) {
   double low = 0.0;
   double high = 1.0;
   double slope_low = drop;
-  double slope_high = equations_.force().dot(change);
-  if (slope_high >= -kOvershoot * drop) return next;
+  double slope_high = EvaluateAlong(rates, change, 1.0, contacts);
+  if (slope_high >= -kOvershoot * drop) return 1.0;
+  double share = 1.0;
   for (int cut = 0; cut < kMaxCuts; ++cut) {
-    const double share = low + (high - low) * slope_low / (slope_low - slope_high);
-    next = rates + share * change;
-    Evaluate(next, contacts);
-    const double slope = equations_.force().dot(change);
+    share = low + (high - low) * slope_low / (slope_low - slope_high);
+    const double slope = EvaluateAlong(rates, change, share, contacts);
     if (std::abs(slope) <= kOvershoot * drop) break;
     if (slope > 0.0) {
       low = share;
@@ -365,7 +391,7 @@ LinkageVector QuasiStaticBalance::Search(const LinkageVector& rates, const Linka
       slope_low *= 0.5;
     }
   }
-  return next;
+  return share;
 }
 
 int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
@@ -392,25 +418,41 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     SetTraction(contact, rows_[i]);
   }
   first_ = true;
+  traction_lags_ = false;
   // The last rates of a drive that goes on, or of a rover at rest, are a good start.
   tangent_ = drive.lead_s > 0.0 || (!rims_turn_ && drive.freedom == Freedom::kAll);
-  Evaluate(rates, contacts);
+  // Tractions do not follow the loads of the first evaluation, whose rates are only guessed.
+  const std::array<SideVector, 2> side_rates{OfSide(rates, 0), OfSide(rates, 1)};
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    Row& row = rows_[i];
+    row.speed = SpeedsOf(row, side_rates[row.side]);
+    SetForces(row.speed, contacts[i], row);
+  }
   first_ = false;
   // Newton's method: (D - dF/dw) change = F, until the change is small and no traction waits for
   // its load.
   for (int iteration = 1; iteration < kMaxIterations; ++iteration) {
-    for (std::size_t i = 0; i < contacts.size(); ++i) AddStiffness(contacts[i], rows_[i]);
+    Assemble(rates, contacts);
     const LinkageVector change = equations_.Solve();
-    const double drop = equations_.force().dot(change);
+    const std::array<SideVector, 2> side_change{OfSide(change, 0), OfSide(change, 1)};
+    for (Row& row : rows_) row.change = SpeedsOf(row, side_change[row.side]);
     if (tangent_ && !traction_lags_ && IsSmall(change, kSettledChange * speed_m_s_) &&
         (rims_turn_ || IsBalanced())) {
       rates += change;
-      Finish(change, contacts);
+      Finish(contacts);
       FollowSlips();
       return iteration;
     }
     tangent_ = IsSmall(change, kTangentRange * speed_m_s_);
-    rates = Search(rates, change, drop, contacts);
+    const double share = Search(rates, change, equations_.force().dot(change), contacts);
+    rates += share * change;
+    for (Row& row : rows_) {
+      row.speed = {row.speed.normal + share * row.change.normal,
+                   row.speed.along + share * row.change.along,
+                   row.speed.across + share * row.change.across,
+                   row.speed.axle + share * row.change.axle};
+    }
+    FollowLoads(contacts);
   }
   FollowSlips();
   return kMaxIterations;

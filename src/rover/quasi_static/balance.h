@@ -87,13 +87,19 @@ class QuasiStaticBalance {
   void ForgetHoles() { sinkage_.Clear(); }
 
   // Returns a motor's torque about the axle in the last solution, positive where it drives forward.
-  double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
+  double MotorTorque_Nm(std::size_t wheel) const;
 
  private:
+  // Velocities of a contact's point along the directions of its row, m/s.
+  struct Speeds {
+    double normal = 0.0, along = 0.0, across = 0.0, axle = 0.0;
+  };
   // A contact as the iterations see it: directions in the space of the rates.
   struct Row {
     SideVector normal, along, across;
     SideVector axle;  // wheel on soil: `along` at the axle, where the motion resistance acts
+    Speeds speed;     // at the rates at hand
+    Speeds change;    // by the last step of Newton's method, whole
     std::size_t side = 0;
     std::size_t wheel = 0;  // where the contact is a wheel's
     bool loaded = false;    // whether the contact bore load in the last balance
@@ -119,8 +125,14 @@ class QuasiStaticBalance {
     double slip_m_s = 0.0;
     double yield_m_s = 0.0;
     double along_N = 0.0, across_N = 0.0;
+    double axle_N = 0.0;  // motion resistance
     double k_aa = 0.0, k_ab = 0.0, k_bb = 0.0;
-    double k_axle = 0.0, k_side = 0.0;
+    double k_axle = 0.0;
+  };
+  // A force and minus its derivative by the speed.
+  struct Bounded {
+    double force_N;
+    double stiffness;
   };
   // Traction of a row at a slip speed.
   struct Traction {
@@ -136,26 +148,28 @@ class QuasiStaticBalance {
   void SetTraction(const RestingContact& contact, Row& row) const;
   Traction TractionOf(const Row& row, double speed_m_s) const;
 
-  // Evaluates all forces at the given rates, and their derivatives.
-  void Evaluate(const LinkageVector& rates, std::vector<RestingContact>& contacts);
-  void AddForces(const SideVector& rates, RestingContact& contact, Row& row);
+  static Speeds SpeedsOf(const Row& row, const SideVector& rates);
+  // Evaluates the forces of a contact, and their derivatives, at its speeds.
+  void SetForces(const Speeds& speed, RestingContact& contact, Row& row) const;
   // Set slip, forces and stiffness of a row whose rim slips at that velocity: with the rim as fast
   // as told (AcrossTheNormal), and where the motor cannot hold that rate (GiveWay).
   void AcrossTheNormal(double along_m_s, double across_m_s, Row& row) const;
   void GiveWay(double along_m_s, double across_m_s, Row& row) const;
-  void FollowLoad(RestingContact& contact, Row& row);
-  void AddResistance(const SideVector& rates, Row& row);
-  // Adds a force of at most force_N against the motion along a direction; returns minus its
-  // derivative by the speed.
-  double AddBounded(double force_N, const SideVector& direction, const SideVector& rates,
-                    const Row& row);
-  void AddStiffness(const RestingContact& contact, const Row& row);
-  void AddStops(const LinkageVector& rates);
-  // Returns the rates on the way from `rates` by `change` where the forces balance along it, near
-  // enough, with all forces evaluated there. `drop` is F . change at its beginning.
-  LinkageVector Search(const LinkageVector& rates, const LinkageVector& change, double drop,
+  // Returns a force of at most force_N against a motion.
+  static Bounded Against(double speed_m_s, double force_N, const Row& row);
+  void FollowLoads(std::vector<RestingContact>& contacts);
+  // Sums what acts at the rates at hand into the equations.
+  void Assemble(const LinkageVector& rates, const std::vector<RestingContact>& contacts);
+  // Returns the torque of a stop at the rate of one of the last three coordinates.
+  double StopTorque_Nm(int dof, double rate) const;
+  // Evaluates all contacts at this share of the change; returns the slope F . change there.
+  double EvaluateAlong(const LinkageVector& rates, const LinkageVector& change, double share,
                        std::vector<RestingContact>& contacts);
-  void Finish(const LinkageVector& change, std::vector<RestingContact>& contacts) const;
+  // Returns the share of the change where the forces balance along it, near enough, with all
+  // contacts evaluated there. `drop` is F . change at its beginning.
+  double Search(const LinkageVector& rates, const LinkageVector& change, double drop,
+                std::vector<RestingContact>& contacts);
+  void Finish(std::vector<RestingContact>& contacts) const;
   bool IsDugIn(const messages::PerWheel<double>& slip) const;
   void FollowSlips();
   bool IsSmall(const LinkageVector& change, double speed_m_s) const;
@@ -185,9 +199,8 @@ class QuasiStaticBalance {
   std::vector<Row> rows_;
   bool first_ = false;    // in the first evaluation: contacts that bore load before count as closed
   bool tangent_ = false;  // whether tractions are taken along their tangent, not along their chord
-  bool traction_lags_ = false;  // whether a traction lagged behind its load in the last evaluation
+  bool traction_lags_ = false;  // whether a traction still lags behind its load
   LinkageEquations equations_;
-  messages::PerWheel<double> torque_Nm_{};
 };
 
 }  // namespace rockyard::rover
