@@ -216,7 +216,7 @@ QuasiStaticBalance::Speeds QuasiStaticBalance::SpeedsOf(const Row& row, const Si
           row.soil ? row.axle.dot(rates) : 0.0};
 }
 
-void QuasiStaticBalance::SetForces(const Speeds& speed, RestingContact& contact, Row& row) const {
+void QuasiStaticBalance::SetForces(const Speeds& speed, RestingContact& contact, Row& row) {
   row.acts = false;
   row.slip_m_s = row.yield_m_s = row.along_N = row.across_N = row.axle_N = 0.0;
   row.k_aa = row.k_ab = row.k_bb = row.k_axle = 0.0;
@@ -230,6 +230,8 @@ void QuasiStaticBalance::SetForces(const Speeds& speed, RestingContact& contact,
     contact.load_N = 0.0;
     return;
   }
+  // Tractions do not follow the loads of the first evaluation, whose rates are only guessed.
+  if (contact.load_N > 0.0 && !first_) FollowLoad(contact, row);
   row.acts = true;
   if (row.max_N == 0.0) return;
   // Slip velocity s: the rim's minus that of the axle's point over the ground. The force on the
@@ -319,18 +321,13 @@ bool QuasiStaticBalance::IsBalanced() const {
 }
 
 // Traction follows load by bounded steps: loads of a first guess can be far off.
-void QuasiStaticBalance::FollowLoads(std::vector<RestingContact>& contacts) {
-  traction_lags_ = false;
+void QuasiStaticBalance::FollowLoad(RestingContact& contact, Row& row) {
+  const double change_N = contact.load_N - contact.traction_load_N;
+  if (std::abs(change_N) < kLoadTolerance * mean_load_N_) return;
   const double max_N = kLoadStep * mean_load_N_;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    RestingContact& contact = contacts[i];
-    const double change_N = contact.load_N - contact.traction_load_N;
-    if (contact.load_N <= 0.0 || std::abs(change_N) < kLoadTolerance * mean_load_N_) continue;
-    contact.traction_load_N += std::clamp(change_N, -max_N, max_N);
-    SetTraction(contact, rows_[i]);
-    SetForces(rows_[i].speed, contact, rows_[i]);
-    if (std::abs(change_N) > max_N) traction_lags_ = true;
-  }
+  contact.traction_load_N += std::clamp(change_N, -max_N, max_N);
+  SetTraction(contact, row);
+  if (std::abs(change_N) > max_N) traction_lags_ = true;
 }
 
 // Lets a last small change of the rates move the loads along the springs; the tractions stay.
@@ -348,6 +345,7 @@ void QuasiStaticBalance::Finish(std::vector<RestingContact>& contacts) const {
 // speeds alone, without the space of the rates.
 double QuasiStaticBalance::EvaluateAlong(const LinkageVector& rates, const LinkageVector& change,
                                          double share, std::vector<RestingContact>& contacts) {
+  traction_lags_ = false;
   double slope =
       (gravity_ - damping_.cwiseProduct(LinkageVector(rates + share * change))).dot(change);
   for (int dof = kRockerDof; dof < kLinkageDof; ++dof) {
@@ -421,7 +419,6 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   traction_lags_ = false;
   // The last rates of a drive that goes on, or of a rover at rest, are a good start.
   tangent_ = drive.lead_s > 0.0 || (!rims_turn_ && drive.freedom == Freedom::kAll);
-  // Tractions do not follow the loads of the first evaluation, whose rates are only guessed.
   const std::array<SideVector, 2> side_rates{OfSide(rates, 0), OfSide(rates, 1)};
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Row& row = rows_[i];
@@ -452,7 +449,6 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
                    row.speed.across + share * row.change.across,
                    row.speed.axle + share * row.change.axle};
     }
-    FollowLoads(contacts);
   }
   FollowSlips();
   return kMaxIterations;

@@ -150,14 +150,14 @@ class QuasiStaticBalance {
 
   static Speeds SpeedsOf(const Row& row, const SideVector& rates);
   // Evaluates the forces of a contact, and their derivatives, at its speeds.
-  void SetForces(const Speeds& speed, RestingContact& contact, Row& row) const;
+  void SetForces(const Speeds& speed, RestingContact& contact, Row& row);
   // Set slip, forces and stiffness of a row whose rim slips at that velocity: with the rim as fast
   // as told (AcrossTheNormal), and where the motor cannot hold that rate (GiveWay).
   void AcrossTheNormal(double along_m_s, double across_m_s, Row& row) const;
   void GiveWay(double along_m_s, double across_m_s, Row& row) const;
   // Returns a force of at most force_N against a motion.
   static Bounded Against(double speed_m_s, double force_N, const Row& row);
-  void FollowLoads(std::vector<RestingContact>& contacts);
+  void FollowLoad(RestingContact& contact, Row& row);
   // Sums what acts at the rates at hand into the equations.
   void Assemble(const LinkageVector& rates, const std::vector<RestingContact>& contacts);
   // Returns the torque of a stop at the rate of one of the last three coordinates.
