@@ -80,6 +80,8 @@ void QuasiStaticBalance::MakeRow(const Linkage& linkage, const Drive& drive,
   row.rest_m = row.rim_m_s = row.arm_m = 0.0;
   row.reference_m_s = rim_speed_m_s_;
   row.loaded = contact.load_N > 0.0;
+  row.foretold_along_N = contact.traction_N[0];
+  row.foretold_across_N = contact.traction_N[1];
   row.soil = false;
   Vector3 along_W = linkage.axle_W(static_cast<std::size_t>(contact.IsWheel() ? contact.part : 0))
                         .cross(contact.n_W);
@@ -174,22 +176,36 @@ QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row,
   return {per_speed, per_speed * creep2 / root2};
 }
 
-// With g(v) = F(v) / v, the derivatives of F_along = g a and F_across = g b are
-//   K_aa = g + c a^2,  K_ab = c a b,  K_bb = g + c b^2,  c = (F' - g) / v^2.
-// Away from the solution only g is kept, the chord: it is never less than the tangent, so the step
-// is safe.
+// With g(v) = F(v) / v the derivative of F = g v is g I + c v v', c = (F' - g) / v^2. Near a wheel
+// that sticks F bends so much that Newton's method would overshoot it again and again. One of the
+// two v is therefore that at which the traction would be as the last step of Newton's method
+// foretold (Chan, Golub and Mulet 1999): 0 where nothing is foretold, so that g alone is left, the
+// chord, which is never less than the tangent; v itself in the solution.
 void QuasiStaticBalance::AcrossTheNormal(double along_m_s, double across_m_s, Row& row) const {
   const double v_m_s = std::sqrt(along_m_s * along_m_s + across_m_s * across_m_s);
-  const Traction traction = TractionOf(row, v_m_s);
-  const double bend =
-      tangent_ && v_m_s > 0.0 ? (traction.slope - traction.per_speed) / (v_m_s * v_m_s) : 0.0;
+  const Traction at = TractionOf(row, v_m_s);
   row.slip_m_s = v_m_s;
-  row.yield_m_s = 0.0;
-  row.along_N = traction.per_speed * along_m_s;
-  row.across_N = traction.per_speed * across_m_s;
-  row.k_aa = traction.per_speed + bend * along_m_s * along_m_s;
-  row.k_ab = bend * along_m_s * across_m_s;
-  row.k_bb = traction.per_speed + bend * across_m_s * across_m_s;
+  row.traction = {at.per_speed * along_m_s, at.per_speed * across_m_s, at.per_speed, 0.0,
+                  at.per_speed};
+  const double a_N = row.foretold_along_N;
+  const double b_N = row.foretold_across_N;
+  const double foretold_N = std::sqrt(a_N * a_N + b_N * b_N);
+  if (v_m_s == 0.0 || foretold_N == 0.0) return;
+  // No faster than v, so that the derivative stays positive.
+  const double per_force = std::min(1.0 / at.per_speed, v_m_s / foretold_N);
+  const double bend = (at.slope - at.per_speed) / (v_m_s * v_m_s) * per_force;
+  row.traction.k_aa += bend * a_N * along_m_s;
+  row.traction.k_bb += bend * b_N * across_m_s;
+  row.traction.k_ab = 0.5 * bend * (a_N * across_m_s + b_N * along_m_s);
+}
+
+void QuasiStaticBalance::Foretell(double share, Row& row) {
+  const Tangential& from = row.before;
+  const Speeds& change = row.change;
+  row.foretold_along_N =
+      from.along_N - share * (from.k_aa * change.along + from.k_ab * change.across);
+  row.foretold_across_N =
+      from.across_N - share * (from.k_ab * change.along + from.k_bb * change.across);
 }
 
 // The rim falls back until the ground asks for the stall force S along it. The slip is then large
@@ -204,11 +220,9 @@ void QuasiStaticBalance::GiveWay(double along_m_s, double across_m_s, Row& row) 
   const double left_m_s = std::min(std::abs(along_m_s), row.stall_N / per_speed);
   row.slip_m_s = std::sqrt(left_m_s * left_m_s + across_m_s * across_m_s);
   row.yield_m_s = along_m_s - std::copysign(left_m_s, along_m_s);
-  row.along_N = std::copysign(row.stall_N, along_m_s);
-  row.across_N = per_speed * across_m_s;
-  row.k_aa = tangent_ ? 0.0 : row.stall_N / std::abs(along_m_s);
-  row.k_ab = 0.0;
-  row.k_bb = tangent_ ? per_speed * creep2 / root2 : per_speed;
+  row.traction = {std::copysign(row.stall_N, along_m_s), per_speed * across_m_s,
+                  near_ ? 0.0 : row.stall_N / std::abs(along_m_s), 0.0,
+                  near_ ? per_speed * creep2 / root2 : per_speed};
 }
 
 QuasiStaticBalance::Speeds QuasiStaticBalance::SpeedsOf(const Row& row, const SideVector& rates) {
@@ -218,8 +232,9 @@ QuasiStaticBalance::Speeds QuasiStaticBalance::SpeedsOf(const Row& row, const Si
 
 void QuasiStaticBalance::SetForces(const Speeds& speed, RestingContact& contact, Row& row) {
   row.acts = false;
-  row.slip_m_s = row.yield_m_s = row.along_N = row.across_N = row.axle_N = 0.0;
-  row.k_aa = row.k_ab = row.k_bb = row.k_axle = 0.0;
+  row.slip_m_s = row.yield_m_s = 0.0;
+  row.traction = {};
+  row.axle_N = row.k_axle = row.face_N = row.k_face = 0.0;
   // Penetration at the end of the step; N = k (depth - rest).
   contact.depth_m = -row.gap_m - step_s_ * speed.normal;
   contact.load_N = row.stiffness_N_m * (contact.depth_m - row.rest_m);
@@ -239,7 +254,7 @@ void QuasiStaticBalance::SetForces(const Speeds& speed, RestingContact& contact,
   const double along = row.rim_m_s - speed.along;
   const double across = -speed.across;
   AcrossTheNormal(along, across, row);
-  if (row.motor_bound && std::abs(row.along_N) > row.stall_N) GiveWay(along, across, row);
+  if (row.motor_bound && std::abs(row.traction.along_N) > row.stall_N) GiveWay(along, across, row);
   contact.sliding_speed_m_s = row.slip_m_s;
   if (!row.soil) return;
   // The motion resistance is against the axle's motion along the wheel, which has to overcome it by
@@ -249,8 +264,8 @@ void QuasiStaticBalance::SetForces(const Speeds& speed, RestingContact& contact,
   row.k_axle = axle.stiffness;
   if (row.side_N <= 0.0) return;
   const Bounded side = Against(speed.across, row.side_N, row);
-  row.across_N += side.force_N;
-  row.k_bb += side.stiffness;
+  row.face_N = side.force_N;
+  row.k_face = side.stiffness;
 }
 
 // F v / sqrt(v^2 + v_c^2), the smooth sign of v, and its derivative as in TractionOf.
@@ -277,7 +292,8 @@ void QuasiStaticBalance::Assemble(const LinkageVector& rates,
                                   const std::vector<RestingContact>& contacts) {
   equations_.Reset(gravity_ - damping_.cwiseProduct(rates), damping_);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Row& row = rows_[i];
+    Row& row = rows_[i];
+    row.before = row.traction;
     if (!row.acts) continue;
     const double k_n = step_s_ * row.stiffness_N_m;
     if (row.max_N == 0.0) {
@@ -285,13 +301,15 @@ void QuasiStaticBalance::Assemble(const LinkageVector& rates,
       equations_.AddStiffness(row.side, k_n, row.normal);
       continue;
     }
-    SideVector force =
-        contacts[i].load_N * row.normal + row.along_N * row.along + row.across_N * row.across;
+    const Tangential& at = row.traction;
+    SideVector force = contacts[i].load_N * row.normal + at.along_N * row.along +
+                       (at.across_N + row.face_N) * row.across;
     if (row.soil) force += row.axle_N * row.axle;
     equations_.AddForce(row.side, force);
     equations_.AddStiffness(row.side, k_n * row.normal, row.normal,
-                            row.k_aa * row.along + row.k_ab * row.across, row.along,
-                            row.k_ab * row.along + row.k_bb * row.across, row.across);
+                            at.k_aa * row.along + at.k_ab * row.across, row.along,
+                            at.k_ab * row.along + (at.k_bb + row.k_face) * row.across,
+                            row.across);
     if (row.soil) equations_.AddStiffness(row.side, row.k_axle, row.axle);
   }
   for (int dof = kRockerDof; dof < kLinkageDof; ++dof) {
@@ -303,7 +321,7 @@ void QuasiStaticBalance::Assemble(const LinkageVector& rates,
 double QuasiStaticBalance::MotorTorque_Nm(std::size_t wheel) const {
   double torque_Nm = 0.0;
   for (const Row& row : rows_) {
-    if (row.acts && row.wheel == wheel) torque_Nm += row.arm_m * row.along_N;
+    if (row.acts && row.wheel == wheel) torque_Nm += row.arm_m * row.traction.along_N;
   }
   return torque_Nm;
 }
@@ -331,8 +349,10 @@ void QuasiStaticBalance::FollowLoad(RestingContact& contact, Row& row) {
 }
 
 // Lets a last small change of the rates move the loads along the springs; the tractions stay.
-void QuasiStaticBalance::Finish(std::vector<RestingContact>& contacts) const {
+void QuasiStaticBalance::Finish(std::vector<RestingContact>& contacts) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
+    Foretell(1.0, rows_[i]);
+    contacts[i].traction_N = {rows_[i].foretold_along_N, rows_[i].foretold_across_N};
     if (contacts[i].load_N <= 0.0) continue;
     const double deeper_m = -step_s_ * rows_[i].change.normal;
     contacts[i].depth_m += deeper_m;
@@ -358,8 +378,8 @@ double QuasiStaticBalance::EvaluateAlong(const LinkageVector& rates, const Linka
     SetForces({from.normal + share * by.normal, from.along + share * by.along,
                from.across + share * by.across, from.axle + share * by.axle},
               contacts[i], row);
-    slope += contacts[i].load_N * by.normal + row.along_N * by.along + row.across_N * by.across +
-             row.axle_N * by.axle;
+    slope += contacts[i].load_N * by.normal + row.traction.along_N * by.along +
+             (row.traction.across_N + row.face_N) * by.across + row.axle_N * by.axle;
   }
   return slope;
 }
@@ -418,7 +438,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   first_ = true;
   traction_lags_ = false;
   // The last rates of a drive that goes on, or of a rover at rest, are a good start.
-  tangent_ = drive.lead_s > 0.0 || (!rims_turn_ && drive.freedom == Freedom::kAll);
+  near_ = drive.lead_s > 0.0 || (!rims_turn_ && drive.freedom == Freedom::kAll);
   const std::array<SideVector, 2> side_rates{OfSide(rates, 0), OfSide(rates, 1)};
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Row& row = rows_[i];
@@ -433,17 +453,18 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     const LinkageVector change = equations_.Solve();
     const std::array<SideVector, 2> side_change{OfSide(change, 0), OfSide(change, 1)};
     for (Row& row : rows_) row.change = SpeedsOf(row, side_change[row.side]);
-    if (tangent_ && !traction_lags_ && IsSmall(change, kSettledChange * speed_m_s_) &&
+    if (near_ && !traction_lags_ && IsSmall(change, kSettledChange * speed_m_s_) &&
         (rims_turn_ || IsBalanced())) {
       rates += change;
       Finish(contacts);
       FollowSlips();
       return iteration;
     }
-    tangent_ = IsSmall(change, kTangentRange * speed_m_s_);
+    near_ = IsSmall(change, kTangentRange * speed_m_s_);
     const double share = Search(rates, change, equations_.force().dot(change), contacts);
     rates += share * change;
     for (Row& row : rows_) {
+      Foretell(share, row);
       row.speed = {row.speed.normal + share * row.change.normal,
                    row.speed.along + share * row.change.along,
                    row.speed.across + share * row.change.across,

@@ -94,6 +94,11 @@ class QuasiStaticBalance {
   struct Speeds {
     double normal = 0.0, along = 0.0, across = 0.0, axle = 0.0;
   };
+  // Force across the normal, and minus its derivative by the velocity of the contact's point.
+  struct Tangential {
+    double along_N = 0.0, across_N = 0.0;
+    double k_aa = 0.0, k_ab = 0.0, k_bb = 0.0;
+  };
   // A contact as the iterations see it: directions in the space of the rates.
   struct Row {
     SideVector normal, along, across;
@@ -124,10 +129,12 @@ class QuasiStaticBalance {
     bool acts = false;
     double slip_m_s = 0.0;
     double yield_m_s = 0.0;
-    double along_N = 0.0, across_N = 0.0;
-    double axle_N = 0.0;  // motion resistance
-    double k_aa = 0.0, k_ab = 0.0, k_bb = 0.0;
-    double k_axle = 0.0;
+    Tangential traction;
+    double axle_N = 0.0, k_axle = 0.0;  // motion resistance
+    double face_N = 0.0, k_face = 0.0;  // on the side face, across
+    Tangential before;                  // `traction` where the last step of Newton's method began
+    // The traction that this step foretold.
+    double foretold_along_N = 0.0, foretold_across_N = 0.0;
   };
   // A force and minus its derivative by the speed.
   struct Bounded {
@@ -148,6 +155,8 @@ class QuasiStaticBalance {
   void SetTraction(const RestingContact& contact, Row& row) const;
   Traction TractionOf(const Row& row, double speed_m_s) const;
 
+  // Takes the traction that a share of the last step foretold, within what the ground can hold.
+  static void Foretell(double share, Row& row);
   static Speeds SpeedsOf(const Row& row, const SideVector& rates);
   // Evaluates the forces of a contact, and their derivatives, at its speeds.
   void SetForces(const Speeds& speed, RestingContact& contact, Row& row);
@@ -169,7 +178,7 @@ class QuasiStaticBalance {
   // contacts evaluated there. `drop` is F . change at its beginning.
   double Search(const LinkageVector& rates, const LinkageVector& change, double drop,
                 std::vector<RestingContact>& contacts);
-  void Finish(std::vector<RestingContact>& contacts) const;
+  void Finish(std::vector<RestingContact>& contacts);
   bool IsDugIn(const messages::PerWheel<double>& slip) const;
   void FollowSlips();
   bool IsSmall(const LinkageVector& change, double speed_m_s) const;
@@ -198,7 +207,7 @@ class QuasiStaticBalance {
   LinkageVector damping_;
   std::vector<Row> rows_;
   bool first_ = false;    // in the first evaluation: contacts that bore load before count as closed
-  bool tangent_ = false;  // whether tractions are taken along their tangent, not along their chord
+  bool near_ = false;   // whether the last change of the rates was small
   bool traction_lags_ = false;  // whether a traction still lags behind its load
   LinkageEquations equations_;
 };

@@ -137,6 +137,7 @@ void QuasiStaticContacts::Add(const RestingContact& contact) {
     if (before.part == contact.part && before.other == contact.other) {
       contacts_.back().load_N = before.load_N;
       contacts_.back().traction_load_N = before.traction_load_N;
+      contacts_.back().traction_N = before.traction_N;
       return;
     }
   }

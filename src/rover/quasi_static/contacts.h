@@ -27,6 +27,8 @@ struct RestingContact {
   double load_N = 0.0;
   // The load that traction is taken from; it follows load_N from iteration to iteration.
   double traction_load_N = 0.0;
+  // Along and across the wheel, in the last balance; a contact that goes on starts from it, too.
+  std::array<double, 2> traction_N{};
   double sliding_speed_m_s = 0.0;
   double depth_m = 0.0;  // penetration at the end of the step, in the last balance
 
