@@ -72,53 +72,60 @@ QuasiStaticBalance::QuasiStaticBalance(const RoverParams& params, const terrain:
 }
 
 void QuasiStaticBalance::MakeRow(const Linkage& linkage, const Drive& drive,
-                                 const LinkageVector& rates, const RestingContact& contact,
+                                 const LinkageVector& rates, RestingContact& contact,
                                  Row& row) const {
-  const PointJacobian J = linkage.Jacobian(contact.body, contact.p_W);
+  const PointMotion motion = linkage.MotionOf(contact.body, contact.p_W);
   row.side = Linkage::SideOf(contact.body);
   row.stiffness_N_m = contact_params_.stiffness_N_m;
   row.rest_m = row.rim_m_s = row.arm_m = 0.0;
   row.reference_m_s = rim_speed_m_s_;
   row.loaded = contact.load_N > 0.0;
+  row.soil = contact.IsSoil();
   row.foretold_along_N = contact.traction_N[0];
   row.foretold_across_N = contact.traction_N[1];
-  row.soil = false;
-  Vector3 along_W = linkage.axle_W(static_cast<std::size_t>(contact.IsWheel() ? contact.part : 0))
-                        .cross(contact.n_W);
+  const Vector3 axle_W =
+      linkage.axle_W(static_cast<std::size_t>(contact.IsWheel() ? contact.part : 0));
+  Vector3 along_W = axle_W.cross(contact.n_W);
   // axle x normal is the rolling direction; a wheel met at its side face has none.
   if (along_W.squaredNorm() < 1e-6) along_W = contact.n_W.unitOrthogonal();
   along_W.normalize();
   // Rows in the space of the rates: row . w is the velocity of the contact point along that
   // direction.
-  row.normal = J.transpose() * contact.n_W;
-  row.along = J.transpose() * along_W;
-  row.across = J.transpose() * contact.n_W.cross(along_W);
+  row.directions.col(kNormal) = motion.Along(contact.n_W);
+  row.directions.col(kAlong) = motion.Along(along_W);
+  row.directions.col(kAcross) = motion.Along(contact.n_W.cross(along_W));
+  if (row.soil) {
+    row.directions.col(kAxle) =
+        linkage.MotionOf(contact.body, linkage.body(contact.body).p_WB).Along(along_W);
+  } else {
+    row.directions.col(kAxle).setZero();
+  }
+  row.speed = row.directions.transpose() * OfSide(rates, row.side);
   // The contact was found lead_s ahead at these rates; its gap changes at the rate n . J w, so this
   // is the gap at the beginning of the step.
-  row.gap_m = contact.gap_m - drive.lead_s * row.normal.dot(OfSide(rates, row.side));
-  if (contact.IsWheel()) MakeWheelRow(linkage, drive, contact, row);
-  if (contact.IsSoil()) {
-    row.axle =
-        linkage.Jacobian(contact.body, linkage.body(contact.body).p_WB).transpose() * along_W;
+  row.gap_m = contact.gap_m - drive.lead_s * row.speed[kNormal];
+  if (contact.IsWheel()) {
+    MakeWheelRow(drive, contact, axle_W.cross(contact.p_W - linkage.wheel_W(contact.part)).norm(), row);
+  } else {
+    SetTraction(contact, row);
   }
 }
 
-void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive,
-                                      const RestingContact& contact, Row& row) const {
+void QuasiStaticBalance::MakeWheelRow(const Drive& drive, RestingContact& contact, double arm_m,
+                                      Row& row) const {
   const auto wheel = static_cast<std::size_t>(contact.part);
   row.wheel = wheel;
-  const Vector3 axle_W = linkage.axle_W(wheel);
   const double rate_rad_s = drive.rate_rad_s[wheel];
   // The rim's velocity against the axle at the contact is omega axle x arm: backwards, against
   // `along`, for a wheel that rolls forward. The motor feels a force along it by the same arm.
-  row.arm_m = axle_W.cross(contact.p_W - linkage.wheel_W(wheel)).norm();
+  row.arm_m = arm_m;
   row.rim_m_s = rate_rad_s * row.arm_m;
   // A contact at the axle itself asks nothing of the motor.
   row.stall_N = stall_torque_Nm_ / std::max(row.arm_m, kLeastArm * wheel_radius_m_);
   row.reference_m_s = std::max(std::abs(rate_rad_s) * wheel_radius_m_,
                                (rims_turn_ ? kMinReference : 1.0) * rim_speed_m_s_);
-  row.soil = contact.IsSoil();
-  if (!row.soil) return;
+  if (contact.traction_load_N == 0.0) contact.traction_load_N = mean_load_N_;
+  if (!row.soil) return SetTraction(contact, row);
   // The sinkage curve in series with the contact's own spring, along its tangent at the last load.
   const double load_N = contact.load_N > 0.0 ? contact.load_N : mean_load_N_;
   const SoilAnswer soil = soil_.At(load_N, sinkage_.dug_slip(wheel));
@@ -128,31 +135,33 @@ void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive
   // depth
   //   rest = z(N_0) + N_0 / k - N_0 / k_row.
   row.rest_m = soil.sinkage_m + load_N / k - load_N / row.stiffness_N_m;
+  if (contact.traction_load_N != load_N) return SetTraction(contact, row);
+  SetSoilTraction(soil, row);
 }
 
 void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) const {
-  row.creep_m_s = kRockCreep * row.reference_m_s;
   const double load_N = contact.traction_load_N;
+  if (row.soil) return SetSoilTraction(soil_.At(load_N, sinkage_.dug_slip(row.wheel)), row);
+  row.creep_m_s = kRockCreep * row.reference_m_s;
   row.shear_ratio = row.resistance_N = row.side_N = 0.0;
-  row.motor_bound = false;
+  const bool wheel_on_rock = contact.IsWheel() && contact.other >= 0;
+  row.max_N = load_N * (wheel_on_rock ? contact_params_.wheel_rock_friction
+                                      : contact_params_.body_rock_friction);
   // Settling: no rim turns, and contacts are without traction.
-  if (row.reference_m_s == 0.0) {
-    row.max_N = 0.0;
-  } else if (contact.IsSoil()) {
-    const SoilAnswer soil = soil_.At(load_N, sinkage_.dug_slip(row.wheel));
-    row.max_N = soil.traction_N;
-    row.motor_bound = row.max_N > row.stall_N;
-    // A braked wheel holds up to its traction, without the creep of one that turns.
-    row.shear_ratio = row.rim_m_s != 0.0 ? soil.shear_ratio : 0.0;
-    row.u_per_speed_s_m = row.shear_ratio / row.reference_m_s;
-    row.resistance_N = soil.resistance_N;
-    row.side_N = soil.side_N;
-  } else if (contact.IsWheel() && contact.other >= 0) {
-    row.max_N = contact_params_.wheel_rock_friction * load_N;
-    row.motor_bound = row.max_N > row.stall_N;
-  } else {
-    row.max_N = contact_params_.body_rock_friction * load_N;
-  }
+  if (row.reference_m_s == 0.0) row.max_N = 0.0;
+  row.motor_bound = wheel_on_rock && row.max_N > row.stall_N;
+}
+
+void QuasiStaticBalance::SetSoilTraction(const SoilAnswer& soil, Row& row) const {
+  row.creep_m_s = kRockCreep * row.reference_m_s;
+  const bool settles = row.reference_m_s == 0.0;
+  row.max_N = settles ? 0.0 : soil.traction_N;
+  row.motor_bound = row.max_N > row.stall_N;
+  // A braked wheel holds up to its traction, without the creep of one that turns.
+  row.shear_ratio = row.rim_m_s != 0.0 ? soil.shear_ratio : 0.0;
+  row.u_per_speed_s_m = settles ? 0.0 : row.shear_ratio / row.reference_m_s;
+  row.resistance_N = settles ? 0.0 : soil.resistance_N;
+  row.side_N = settles ? 0.0 : soil.side_N;
 }
 
 QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row,
@@ -203,9 +212,9 @@ void QuasiStaticBalance::Foretell(double share, Row& row) {
   const Tangential& from = row.before;
   const Speeds& change = row.change;
   row.foretold_along_N =
-      from.along_N - share * (from.k_aa * change.along + from.k_ab * change.across);
+      from.along_N - share * (from.k_aa * change[kAlong] + from.k_ab * change[kAcross]);
   row.foretold_across_N =
-      from.across_N - share * (from.k_ab * change.along + from.k_bb * change.across);
+      from.across_N - share * (from.k_ab * change[kAlong] + from.k_bb * change[kAcross]);
 }
 
 // The rim falls back until the ground asks for the stall force S along it. The slip is then large
@@ -225,18 +234,13 @@ void QuasiStaticBalance::GiveWay(double along_m_s, double across_m_s, Row& row) 
                   near_ ? per_speed * creep2 / root2 : per_speed};
 }
 
-QuasiStaticBalance::Speeds QuasiStaticBalance::SpeedsOf(const Row& row, const SideVector& rates) {
-  return {row.normal.dot(rates), row.along.dot(rates), row.across.dot(rates),
-          row.soil ? row.axle.dot(rates) : 0.0};
-}
-
 void QuasiStaticBalance::SetForces(const Speeds& speed, RestingContact& contact, Row& row) {
   row.acts = false;
   row.slip_m_s = row.yield_m_s = 0.0;
   row.traction = {};
   row.axle_N = row.k_axle = row.face_N = row.k_face = 0.0;
   // Penetration at the end of the step; N = k (depth - rest).
-  contact.depth_m = -row.gap_m - step_s_ * speed.normal;
+  contact.depth_m = -row.gap_m - step_s_ * speed[kNormal];
   contact.load_N = row.stiffness_N_m * (contact.depth_m - row.rest_m);
   contact.sliding_speed_m_s = 0.0;
   // An open contact has no force. In the first evaluation a contact that bore load before keeps its
@@ -251,21 +255,27 @@ void QuasiStaticBalance::SetForces(const Speeds& speed, RestingContact& contact,
   if (row.max_N == 0.0) return;
   // Slip velocity s: the rim's minus that of the axle's point over the ground. The force on the
   // rover is along s.
-  const double along = row.rim_m_s - speed.along;
-  const double across = -speed.across;
+  const double along = row.rim_m_s - speed[kAlong];
+  const double across = -speed[kAcross];
   AcrossTheNormal(along, across, row);
   if (row.motor_bound && std::abs(row.traction.along_N) > row.stall_N) GiveWay(along, across, row);
   contact.sliding_speed_m_s = row.slip_m_s;
   if (!row.soil) return;
   // The motion resistance is against the axle's motion along the wheel, which has to overcome it by
   // traction; beside it, what the soil does to the side face of a wheel that slides across.
-  const Bounded axle = Against(speed.axle, row.resistance_N, row);
+  const Bounded axle = Against(speed[kAxle], row.resistance_N, row);
   row.axle_N = axle.force_N;
   row.k_axle = axle.stiffness;
   if (row.side_N <= 0.0) return;
-  const Bounded side = Against(speed.across, row.side_N, row);
+  const Bounded side = Against(speed[kAcross], row.side_N, row);
   row.face_N = side.force_N;
   row.k_face = side.stiffness;
+}
+
+// The forces along the directions of a row.
+QuasiStaticBalance::Speeds QuasiStaticBalance::Forces(const RestingContact& contact,
+                                                      const Row& row) {
+  return {contact.load_N, row.traction.along_N, row.traction.across_N + row.face_N, row.axle_N};
 }
 
 // F v / sqrt(v^2 + v_c^2), the smooth sign of v, and its derivative as in TractionOf.
@@ -296,21 +306,15 @@ void QuasiStaticBalance::Assemble(const LinkageVector& rates,
     row.before = row.traction;
     if (!row.acts) continue;
     const double k_n = step_s_ * row.stiffness_N_m;
-    if (row.max_N == 0.0) {
-      equations_.AddForce(row.side, contacts[i].load_N * row.normal);
-      equations_.AddStiffness(row.side, k_n, row.normal);
-      continue;
-    }
     const Tangential& at = row.traction;
-    SideVector force = contacts[i].load_N * row.normal + at.along_N * row.along +
-                       (at.across_N + row.face_N) * row.across;
-    if (row.soil) force += row.axle_N * row.axle;
-    equations_.AddForce(row.side, force);
-    equations_.AddStiffness(row.side, k_n * row.normal, row.normal,
-                            at.k_aa * row.along + at.k_ab * row.across, row.along,
-                            at.k_ab * row.along + (at.k_bb + row.k_face) * row.across,
-                            row.across);
-    if (row.soil) equations_.AddStiffness(row.side, row.k_axle, row.axle);
+    const SideVectors& A = row.directions;
+    equations_.AddForce(row.side, A * Forces(contacts[i], row));
+    SideVectors P;
+    P.col(kNormal) = k_n * A.col(kNormal);
+    P.col(kAlong) = at.k_aa * A.col(kAlong) + at.k_ab * A.col(kAcross);
+    P.col(kAcross) = at.k_ab * A.col(kAlong) + (at.k_bb + row.k_face) * A.col(kAcross);
+    P.col(kAxle) = row.k_axle * A.col(kAxle);
+    equations_.AddStiffness(row.side, P, A);
   }
   for (int dof = kRockerDof; dof < kLinkageDof; ++dof) {
     const double torque_Nm = StopTorque_Nm(dof, rates[dof]);
@@ -354,7 +358,7 @@ void QuasiStaticBalance::Finish(std::vector<RestingContact>& contacts) {
     Foretell(1.0, rows_[i]);
     contacts[i].traction_N = {rows_[i].foretold_along_N, rows_[i].foretold_across_N};
     if (contacts[i].load_N <= 0.0) continue;
-    const double deeper_m = -step_s_ * rows_[i].change.normal;
+    const double deeper_m = -step_s_ * rows_[i].change[kNormal];
     contacts[i].depth_m += deeper_m;
     contacts[i].load_N = std::max(0.0, contacts[i].load_N + rows_[i].stiffness_N_m * deeper_m);
     contacts[i].traction_load_N = contacts[i].load_N;
@@ -373,13 +377,8 @@ double QuasiStaticBalance::EvaluateAlong(const LinkageVector& rates, const Linka
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Row& row = rows_[i];
-    const Speeds& from = row.speed;
-    const Speeds& by = row.change;
-    SetForces({from.normal + share * by.normal, from.along + share * by.along,
-               from.across + share * by.across, from.axle + share * by.axle},
-              contacts[i], row);
-    slope += contacts[i].load_N * by.normal + row.traction.along_N * by.along +
-             (row.traction.across_N + row.face_N) * by.across + row.axle_N * by.axle;
+    SetForces(row.speed + share * row.change, contacts[i], row);
+    slope += Forces(contacts[i], row).dot(row.change);
   }
   return slope;
 }
@@ -431,20 +430,13 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   rows_.resize(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     RestingContact& contact = contacts[i];
-    if (contact.IsWheel() && contact.traction_load_N == 0.0) contact.traction_load_N = mean_load_N_;
     MakeRow(linkage, drive, rates, contact, rows_[i]);
-    SetTraction(contact, rows_[i]);
   }
   first_ = true;
   traction_lags_ = false;
   // The last rates of a drive that goes on, or of a rover at rest, are a good start.
   near_ = drive.lead_s > 0.0 || (!rims_turn_ && drive.freedom == Freedom::kAll);
-  const std::array<SideVector, 2> side_rates{OfSide(rates, 0), OfSide(rates, 1)};
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    Row& row = rows_[i];
-    row.speed = SpeedsOf(row, side_rates[row.side]);
-    SetForces(row.speed, contacts[i], row);
-  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) SetForces(rows_[i].speed, contacts[i], rows_[i]);
   first_ = false;
   // Newton's method: (D - dF/dw) change = F, until the change is small and no traction waits for
   // its load.
@@ -452,7 +444,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     Assemble(rates, contacts);
     const LinkageVector change = equations_.Solve();
     const std::array<SideVector, 2> side_change{OfSide(change, 0), OfSide(change, 1)};
-    for (Row& row : rows_) row.change = SpeedsOf(row, side_change[row.side]);
+    for (Row& row : rows_) row.change = row.directions.transpose() * side_change[row.side];
     if (near_ && !traction_lags_ && IsSmall(change, kSettledChange * speed_m_s_) &&
         (rims_turn_ || IsBalanced())) {
       rates += change;
@@ -465,10 +457,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     rates += share * change;
     for (Row& row : rows_) {
       Foretell(share, row);
-      row.speed = {row.speed.normal + share * row.change.normal,
-                   row.speed.along + share * row.change.along,
-                   row.speed.across + share * row.change.across,
-                   row.speed.axle + share * row.change.axle};
+      row.speed += share * row.change;
     }
   }
   FollowSlips();
@@ -537,8 +526,9 @@ SteadyDrive QuasiStaticBalance::Steady(const LinkageVector& rates) const {
     lump.traction_N += max_N;
     // Backwards is along, too: all speeds count the way that the rim turns.
     lump.rim_m_s += max_N * std::abs(row.rim_m_s);
-    lump.along_m_s += max_N * std::copysign(row.along.dot(w), row.along.dot(w) * row.rim_m_s);
-    lump.across_m_s += max_N * std::abs(row.across.dot(w));
+    const double along_m_s = row.directions.col(kAlong).dot(w);
+    lump.along_m_s += max_N * std::copysign(along_m_s, along_m_s * row.rim_m_s);
+    lump.across_m_s += max_N * std::abs(row.directions.col(kAcross).dot(w));
     lump.shear_ratio += max_N * row.shear_ratio;
   }
   for (WheelLump* lump : {&drive.soil, &drive.rock}) {

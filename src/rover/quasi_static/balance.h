@@ -90,10 +90,10 @@ class QuasiStaticBalance {
   double MotorTorque_Nm(std::size_t wheel) const;
 
  private:
-  // Velocities of a contact's point along the directions of its row, m/s.
-  struct Speeds {
-    double normal = 0.0, along = 0.0, across = 0.0, axle = 0.0;
-  };
+  // Velocities of a contact's point along the directions of its row, m/s: normal, along the wheel,
+  // across it, and for a wheel on soil along it at the axle, where the motion resistance acts.
+  using Speeds = Eigen::Vector4d;
+  static constexpr int kNormal = 0, kAlong = 1, kAcross = 2, kAxle = 3;
   // Force across the normal, and minus its derivative by the velocity of the contact's point.
   struct Tangential {
     double along_N = 0.0, across_N = 0.0;
@@ -101,10 +101,9 @@ class QuasiStaticBalance {
   };
   // A contact as the iterations see it: directions in the space of the rates.
   struct Row {
-    SideVector normal, along, across;
-    SideVector axle;  // wheel on soil: `along` at the axle, where the motion resistance acts
-    Speeds speed;     // at the rates at hand
-    Speeds change;    // by the last step of Newton's method, whole
+    SideVectors directions;
+    Speeds speed;   // at the rates at hand
+    Speeds change;  // by the last step of Newton's method, whole
     std::size_t side = 0;
     std::size_t wheel = 0;  // where the contact is a wheel's
     bool loaded = false;    // whether the contact bore load in the last balance
@@ -149,21 +148,22 @@ class QuasiStaticBalance {
 
   messages::PerWheel<double> SoilSlips() const;  // of the last solution, in [0, 1]
   void MakeRow(const Linkage& linkage, const Drive& drive, const LinkageVector& rates,
-               const RestingContact& contact, Row& row) const;
-  void MakeWheelRow(const Linkage& linkage, const Drive& drive, const RestingContact& contact,
-                    Row& row) const;
+               RestingContact& contact, Row& row) const;
+  void MakeWheelRow(const Drive& drive, RestingContact& contact, double arm_m, Row& row) const;
+  // Take the traction from the contact's load, on soil from the answer to it.
   void SetTraction(const RestingContact& contact, Row& row) const;
+  void SetSoilTraction(const SoilAnswer& soil, Row& row) const;
   Traction TractionOf(const Row& row, double speed_m_s) const;
 
   // Takes the traction that a share of the last step foretold, within what the ground can hold.
   static void Foretell(double share, Row& row);
-  static Speeds SpeedsOf(const Row& row, const SideVector& rates);
   // Evaluates the forces of a contact, and their derivatives, at its speeds.
   void SetForces(const Speeds& speed, RestingContact& contact, Row& row);
   // Set slip, forces and stiffness of a row whose rim slips at that velocity: with the rim as fast
   // as told (AcrossTheNormal), and where the motor cannot hold that rate (GiveWay).
   void AcrossTheNormal(double along_m_s, double across_m_s, Row& row) const;
   void GiveWay(double along_m_s, double across_m_s, Row& row) const;
+  static Eigen::Vector4d Forces(const RestingContact& contact, const Row& row);
   // Returns a force of at most force_N against a motion.
   static Bounded Against(double speed_m_s, double force_N, const Row& row);
   void FollowLoad(RestingContact& contact, Row& row);

@@ -149,30 +149,25 @@ bool Linkage::OnBogie(int body) const {
          (body >= kFirstWheel && on_bogie_[static_cast<std::size_t>(body - kFirstWheel)]);
 }
 
-PointJacobian Linkage::Jacobian(int body, const Vector3& p_W) const {
+PointMotion Linkage::MotionOf(int body, const Vector3& p_W) const {
   // v = v_R + w x r + rates of rocker and bogie times y x (lever from that pivot), all in W. All
   // pivots are about the chassis' y axis, whatever their angles.
-  const Vector3 r = p_W - chassis_.p_WB;
-  PointJacobian J;
-  J << 1, 0, 0, 0, r.z(), -r.y(), 0, 0,  //
-      0, 1, 0, -r.z(), 0, r.x(), 0, 0,   //
-      0, 0, 1, r.y(), -r.x(), 0, 0, 0;
-  if (body == kChassis) return J;
+  PointMotion motion{p_W - chassis_.p_WB, Vector3::Zero(), Vector3::Zero()};
+  if (body == kChassis) return motion;
   const std::size_t side = SideOf(body);
   const Vector3 y_W = chassis_.R_WB.col(1);
-  J.col(6) = RockerSign(side) * y_W.cross(p_W - bodies_[kLeftRocker + side].p_WB);
-  if (OnBogie(body)) J.col(7) = y_W.cross(p_W - bodies_[kLeftBogie + side].p_WB);
-  return J;
+  motion.rocker_W = RockerSign(side) * y_W.cross(p_W - bodies_[kLeftRocker + side].p_WB);
+  if (OnBogie(body)) motion.bogie_W = y_W.cross(p_W - bodies_[kLeftBogie + side].p_WB);
+  return motion;
 }
 
 LinkageVector Linkage::Gravity() const {
   LinkageVector force = LinkageVector::Zero();
   for (const Lump& lump : lumps_) {
     const Frame& frame = body(lump.body);
-    // Principle of virtual work: Q = J' (0, 0, -weight), that is minus the weight times the row of
-    // v_z.
+    // Principle of virtual work: the weight does work along v_z.
     const SideVector f =
-        -lump.weight_N * Jacobian(lump.body, frame.p_WB + frame.R_WB * lump.p_B).row(2).transpose();
+        MotionOf(lump.body, frame.p_WB + frame.R_WB * lump.p_B).Along({0.0, 0.0, -lump.weight_N});
     force.head<7>() += f.head<7>();
     force[kFirstBogieDof + static_cast<int>(SideOf(lump.body))] += f[7];
   }
@@ -190,17 +185,15 @@ void LinkageEquations::AddForce(std::size_t side, const SideVector& f) {
   force_[kFirstBogieDof + static_cast<int>(side)] += f[kShared];
 }
 
-void LinkageEquations::AddStiffness(std::size_t side, double k, const SideVector& a) {
-  side_stiffness_[side] += (k * a).lazyProduct(a.transpose());
-}
-
-void LinkageEquations::AddStiffness(std::size_t side, const SideVector& p, const SideVector& a,
-                                    const SideVector& q, const SideVector& b, const SideVector& r,
-                                    const SideVector& c) {
-  // Whole columns are summed, not the lower triangle alone: the processor takes several rows at a
-  // time.
-  SideMatrix& stiffness = side_stiffness_[side];
-  for (int j = 0; j < stiffness.cols(); ++j) stiffness.col(j) += a[j] * p + b[j] * q + c[j] * r;
+// Loops over the lower triangle go by pairs of rows, as the processor takes them.
+void LinkageEquations::AddStiffness(std::size_t side, const SideVectors& P, const SideVectors& A) {
+  SideMatrix& K = side_stiffness_[side];
+  for (int j = 0; j < K.cols(); ++j) {
+    for (int i = j & ~1; i < K.rows(); i += 2) {
+      K.col(j).segment<2>(i) += P.col(0).segment<2>(i) * A(j, 0) + P.col(1).segment<2>(i) * A(j, 1) +
+                                P.col(2).segment<2>(i) * A(j, 2) + P.col(3).segment<2>(i) * A(j, 3);
+    }
+  }
 }
 
 void LinkageEquations::AddAt(int dof, double force, double stiffness) {
@@ -208,41 +201,46 @@ void LinkageEquations::AddAt(int dof, double force, double stiffness) {
   diagonal_[dof] += stiffness;
 }
 
-// Returns the system with the force as the last entry of each row. Row 7 of a side is its bogie,
-// which is row 7 (left) or 8 (right) of the system. The two bogies share no term, so that entry
-// (8, 7) is zero.
-LinkageEquations::Rows LinkageEquations::Augmented() const {
-  const auto& [left, right] = side_stiffness_;
-  constexpr int kLeft = kFirstBogieDof;
-  constexpr int kRight = kFirstBogieDof + 1;
-  Rows rows;
-  for (int i = 0; i < kShared; ++i) {
-    rows[i].head<kShared>() = left.col(i).head<kShared>() + right.col(i).head<kShared>();
-    rows[i].tail<3>() << left(kShared, i), right(kShared, i), force_[i];
-  }
-  rows[kLeft].head<kShared>() = left.col(kShared).head<kShared>();
-  rows[kLeft].tail<3>() << left(kShared, kShared), 0.0, force_[kLeft];
-  rows[kRight].head<kShared>() = right.col(kShared).head<kShared>();
-  rows[kRight].tail<3>() << 0.0, right(kShared, kShared), force_[kRight];
-  for (int i = 0; i < kLinkageDof; ++i) rows[i][i] += diagonal_[i];
-  return rows;
-}
-
-// Gauss's elimination, which needs no pivots as the matrix is positive definite. Whole rows are
-// subtracted, zeros as well: loops of one length are faster than half the work in loops of many.
+// Cholesky's L D L' of a positive definite matrix, without pivots. The two bogies share no term and
+// go first; what is left is that of the coordinates that both sides have, with the force as row 7.
 LinkageVector LinkageEquations::Solve() const {
-  Rows rows = Augmented();
-  LinkageVector inverse;
-  for (int j = 0; j < kLinkageDof; ++j) {
-    inverse[j] = 1.0 / rows[j][j];
-    for (int i = j + 1; i < kLinkageDof; ++i) rows[i] -= rows[i][j] * inverse[j] * rows[j];
+  SideMatrix K = side_stiffness_[0] + side_stiffness_[1];
+  K.row(kShared).head<kShared>() = force_.head<kShared>().transpose();
+  std::array<Eigen::Matrix<double, kShared, 1>, 2> bogie;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const int dof = kFirstBogieDof + static_cast<int>(side);
+    const SideMatrix& of_side = side_stiffness_[side];
+    const double inverse = 1.0 / (of_side(kShared, kShared) + diagonal_[dof]);
+    SideVector row;
+    row << of_side.row(kShared).head<kShared>().transpose(), force_[dof];
+    bogie[side] = inverse * row.head<kShared>();
+    for (int j = 0; j < kShared; ++j) {
+      for (int i = j & ~1; i < K.rows(); i += 2) {
+        K.col(j).segment<2>(i) -= row.segment<2>(i) * bogie[side][j];
+      }
+    }
   }
-  // From the last row up: x_j = (f_j - sum over k > j of U_jk x_k) / U_jj.
   LinkageVector x;
-  for (int j = kLinkageDof - 1; j >= 0; --j) {
-    double rest = rows[j][kLinkageDof];
-    for (int k = j + 1; k < kLinkageDof; ++k) rest -= rows[j][k] * x[k];
-    x[j] = rest * inverse[j];
+  for (int j = 0; j < kShared; ++j) K(j, j) += diagonal_[j];
+  for (int j = 0; j < kShared; ++j) {
+    x[j] = 1.0 / K(j, j);
+    for (int k = j + 1; k < kShared; ++k) {
+      const double share = K(k, j) * x[j];
+      for (int i = k & ~1; i < K.rows(); i += 2) {
+        K.col(k).segment<2>(i) -= K.col(j).segment<2>(i) * share;
+      }
+    }
+  }
+  // From the last row up: x_j = (f_j - sum over k > j of L_kj x_k) / D_j.
+  for (int j = kShared - 1; j >= 0; --j) {
+    double rest = K(kShared, j);
+    for (int k = j + 1; k < kShared; ++k) rest -= K(k, j) * x[k];
+    x[j] *= rest;
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    const int dof = kFirstBogieDof + static_cast<int>(side);
+    x[dof] = force_[dof] / (side_stiffness_[side](kShared, kShared) + diagonal_[dof]) -
+             bogie[side].dot(x.head<kShared>());
   }
   return x;
 }

@@ -25,7 +25,22 @@ using LinkageVector = Eigen::Matrix<double, kLinkageDof, 1>;
 
 // The eight rates that move the points of one side: the six of the chassis, the rocker, the bogie.
 using SideVector = Eigen::Matrix<double, 8, 1>;
-using PointJacobian = Eigen::Matrix<double, 3, 8>;
+// Four vectors of such, as columns.
+using SideVectors = Eigen::Matrix<double, 8, 4>;
+
+// How a point of a body moves with the rates of its side, all in W.
+struct PointMotion {
+  math::Vector3 lever_W;   // from R's origin
+  math::Vector3 rocker_W;  // velocity by the rocker's rate
+  math::Vector3 bogie_W;   // velocity by the bogie's rate
+
+  // Returns the row with row . rates = d . v.
+  SideVector Along(const math::Vector3& d_W) const {
+    SideVector row;
+    row << d_W, lever_W.cross(d_W), rocker_W.dot(d_W), bogie_W.dot(d_W);
+    return row;
+  }
+};
 
 // Where the linkage is, by its nine coordinates.
 struct Posture {
@@ -72,9 +87,8 @@ class Linkage {
 
   // Returns the side of a body, 0 left, 1 right; 0 for the chassis.
   static std::size_t SideOf(int body);
-  // Returns J with v = J rates for a point fixed to a body, all in W; wheels do not spin. Its
-  // columns are the rates of SideVector.
-  PointJacobian Jacobian(int body, const math::Vector3& p_W) const;
+  // Returns how a point moves that is fixed to a body; wheels do not spin.
+  PointMotion MotionOf(int body, const math::Vector3& p_W) const;
 
   // Returns the generalized force of gravity, N and N m.
   LinkageVector Gravity() const;
@@ -110,11 +124,8 @@ class LinkageEquations {
 
   // Adds a force that acts on one side's rates.
   void AddForce(std::size_t side, const SideVector& f);
-  // Adds k a a'.
-  void AddStiffness(std::size_t side, double k, const SideVector& a);
-  // Adds p a' + q b' + r c', a symmetric sum.
-  void AddStiffness(std::size_t side, const SideVector& p, const SideVector& a, const SideVector& q,
-                    const SideVector& b, const SideVector& r, const SideVector& c);
+  // Adds P A', a symmetric sum.
+  void AddStiffness(std::size_t side, const SideVectors& P, const SideVectors& A);
   // Adds a force and its stiffness to one coordinate.
   void AddAt(int dof, double force, double stiffness);
 
@@ -124,10 +135,7 @@ class LinkageEquations {
   LinkageVector Solve() const;
 
  private:
-  using SideMatrix = Eigen::Matrix<double, 8, 8>;
-  using Rows = std::array<Eigen::Matrix<double, kLinkageDof + 1, 1>, kLinkageDof>;
-
-  Rows Augmented() const;
+  using SideMatrix = Eigen::Matrix<double, 8, 8>;  // its lower triangle
 
   LinkageVector force_;
   LinkageVector diagonal_;
