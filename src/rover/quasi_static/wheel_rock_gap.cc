@@ -25,7 +25,10 @@ constexpr double kLeastBend = 1e-6;
 constexpr double kLeastSquare_m2 = 1e-18;
 // Longest step on the sphere, rad.
 constexpr double kLongestStep_rad = 0.5;
-// Sine of the angle between normal and axle below which the disc counts as seen edge-on.
+// Cosines of the angle between normal and axle between which a normal is one at the rim's edge.
+constexpr double kOnEdge = 1e-3;
+constexpr double kOnFace = 0.99;
+// Sine of that angle below which the disc counts as seen edge-on.
 constexpr double kMinSine = 0.02;
 
 // The convex body that is rock plus disc: supports of both and the offset between their centres.
@@ -208,6 +211,41 @@ double Separation(const WheelShape& wheel, const Vector3& offset_W, const Vector
          wheel.core_half_width_m * std::abs(t) - wheel.margin_m;
 }
 
+// Goes on from a normal at one edge of the rim; returns false where it is at none, or does not end
+// at that edge.
+bool StayOnEdge(const Pair& pair, double half_width_m, Vector3& n) {
+  const double t = n.dot(pair.axle_W);
+  if (std::abs(t) < kOnEdge || std::abs(t) > kOnFace) return false;
+  const Vector3 face_W = std::copysign(1.0, t) * pair.axle_W;
+  Pair edge = pair;
+  edge.offset_W -= half_width_m * face_W;
+  if (TouchesFace(edge, face_W)) return false;
+  Vector3 found = n;
+  AlignOnEdge(edge, found);
+  if (found.dot(face_W) <= 0.0) return false;
+  n = found;
+  return true;
+}
+
+// Finds the best n from any start: in the plane of the disc first. Where the pull exceeds the half
+// width, the rim does not lie flat on the rock: the rim's edge on that side touches it, or the side
+// face, where the rock's point with the face's normal lies over the face.
+void Align(const Pair& pair, const WheelShape& wheel, Vector3& n) {
+  const double pull_m = AlignInPlane(pair, n);
+  if (std::abs(pull_m) <= wheel.core_half_width_m) return;
+  const Vector3 face_W = std::copysign(1.0, pull_m) * pair.axle_W;
+  Pair edge = pair;
+  edge.offset_W -= wheel.core_half_width_m * face_W;
+  const auto separation_m = [&](const Vector3& along_W) {
+    return Separation(wheel, pair.offset_W, pair.axle_W, *pair.rock, along_W);
+  };
+  if (TouchesFace(edge, face_W) && separation_m(face_W) > separation_m(n)) {
+    n = face_W;
+  } else {
+    AlignOnEdge(edge, n);
+  }
+}
+
 }  // namespace
 
 // Must agree with AddWheels (part_shapes.cc).
@@ -283,22 +321,8 @@ WheelRockGap FindGap(const WheelShape& wheel, const Vector3& center_W, const Vec
   if (result.gap_m > reach_m) return result;
 
   Vector3& n = result.n_W;
-  Pair pair{offset_W, axle_W, wheel.core_radius_m, wheel.margin_m, &rock};
-  const double pull_m = AlignInPlane(pair, n);
-  // Where the pull exceeds the half width, the rim does not lie flat on the rock: the rim's edge on
-  // that side touches it, or the side face, where the rock's point with the face's normal lies over
-  // the face.
-  if (std::abs(pull_m) > wheel.core_half_width_m) {
-    const double across_m = pull_m > 0.0 ? -wheel.core_half_width_m : wheel.core_half_width_m;
-    pair.offset_W += across_m * axle_W;
-    const Vector3 face_W = pull_m > 0.0 ? axle_W : Vector3(-axle_W);
-    const double before_m = Separation(wheel, offset_W, axle_W, rock, n);
-    if (TouchesFace(pair, face_W) && Separation(wheel, offset_W, axle_W, rock, face_W) > before_m) {
-      n = face_W;
-    } else {
-      AlignOnEdge(pair, n);
-    }
-  }
+  const Pair pair{offset_W, axle_W, wheel.core_radius_m, wheel.margin_m, &rock};
+  if (!StayOnEdge(pair, wheel.core_half_width_m, n)) Align(pair, wheel, n);
   result.gap_m = Separation(wheel, offset_W, axle_W, rock, n);
   const Support support(rock, offset_W, n);
   // The rock's support point, moved along n by the gap, lies on the wheel.
