@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rover/ground_touches.h"
 
@@ -57,11 +58,11 @@ QuasiStaticContacts::QuasiStaticContacts(const RoverGeometryParams& params,
     const Part& part = parts_[i];
     if (part.meets != Meets::kRocks) continue;
     if (bodies_.empty() || bodies_.back().body != part.body) {
-      bodies_.push_back({part.body, placed_parts_.size(), placed_parts_.size(), part.center_B});
+      bodies_.push_back({part.body, rock_parts_.size(), rock_parts_.size(), part.center_B});
     }
-    placed_parts_.push_back({i});
+    rock_parts_.push_back(i);
     BodyParts& body = bodies_.back();
-    body.last = placed_parts_.size();
+    body.last = rock_parts_.size();
     // The ball is about the centre of the body's first part, and holds all of its parts.
     body.radius_m =
         std::max(body.radius_m, (part.center_B - body.center_B).norm() + part.bounding_radius_m);
@@ -85,6 +86,8 @@ void QuasiStaticContacts::Gather(const Vector3& p_WR) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
     rocks_.push_back({index, RockSupport(rock), RockBody(rock), {}, {}});
   }
+  clear_until_m_.assign(rocks_.size() * bodies_.size(), 0.0);
+  for (BodyParts& body : bodies_) body.way_m = 0.0;
   gathered_at_W_ = p_WR;
   gathered_ = true;
 }
@@ -218,45 +221,56 @@ void QuasiStaticContacts::MeetBody(const Linkage& linkage, double reach_m) {
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     lowest_m = std::min(lowest_m, linkage.wheel_W(i).z() - hub_radius_m_ - reach_m);
   }
-  bool placed = false;
+  PlaceBodies(linkage);
+  auto clear_until_m = clear_until_m_.begin();
   for (const NearRock& rock : rocks_) {
-    if (rock.support.top_W_m() < lowest_m) continue;
-    const double far_m = reach_R_m_ + rock.support.bounding_radius_m() + reach_m;
-    if ((rock.support.center_W() - chassis.p_WB).head<2>().squaredNorm() > far_m * far_m) continue;
-    if (!placed) PlaceParts(linkage);
-    placed = true;
+    if (rock.support.top_W_m() < lowest_m) {
+      clear_until_m += static_cast<std::ptrdiff_t>(bodies_.size());
+      continue;
+    }
     for (const BodyParts& body : bodies_) {
-      const double near_m = body.radius_m + rock.support.bounding_radius_m() + reach_m;
-      if ((rock.support.center_W() - body.center_W).squaredNorm() > near_m * near_m) continue;
-      for (std::size_t i = body.first; i < body.last; ++i) {
-        MeetPart(linkage, placed_parts_[i], reach_m, rock);
+      double& until_m = *clear_until_m++;
+      if (body.way_m + reach_m < until_m) continue;
+      const Vector3 offset_W = rock.support.center_W() - body.center_W;
+      const double near_m = body.radius_m + rock.support.bounding_radius_m();
+      double gap_m = std::numeric_limits<double>::infinity();
+      if (offset_W.squaredNorm() > (near_m + reach_m) * (near_m + reach_m)) {
+        gap_m = offset_W.norm() - near_m;
+      } else {
+        for (std::size_t i = body.first; i < body.last; ++i) {
+          gap_m = std::min(gap_m, MeetPart(linkage, rock_parts_[i], reach_m, rock));
+        }
       }
+      until_m = body.way_m + gap_m;
     }
   }
 }
 
-// Finds how low the parts are that rocks can touch, beside the wheels, and where their bodies are,
-// once for all rocks.
-void QuasiStaticContacts::PlaceParts(const Linkage& linkage) {
-  for (PlacedPart& placed : placed_parts_) {
-    const Part& part = parts_[placed.index];
-    placed.lowest_m = LowestPoint(part, linkage.body(part.body));
-  }
+// Finds where the bodies with parts are, and how far their points have gone: a turn moves a point
+// by no more than its distance from the centre times the change of the axes.
+void QuasiStaticContacts::PlaceBodies(const Linkage& linkage) {
   for (BodyParts& body : bodies_) {
     const Linkage::Frame& frame = linkage.body(body.body);
-    body.center_W = frame.p_WB + frame.R_WB * body.center_B;
+    const Vector3 center_W = frame.p_WB + frame.R_WB * body.center_B;
+    body.way_m +=
+        (center_W - body.center_W).norm() + body.radius_m * (frame.R_WB - body.R_WB).norm();
+    body.center_W = center_W;
+    body.R_WB = frame.R_WB;
   }
 }
 
-void QuasiStaticContacts::MeetPart(const Linkage& linkage, const PlacedPart& placed, double reach_m,
-                                   const NearRock& rock) {
-  if (placed.lowest_m - rock.support.top_W_m() > reach_m) return;
-  const Part& part = parts_[placed.index];
+double QuasiStaticContacts::MeetPart(const Linkage& linkage, std::size_t index, double reach_m,
+                                     const NearRock& rock) {
+  const Part& part = parts_[index];
   const Linkage::Frame& frame = linkage.body(part.body);
   const Vector3 center_W = frame.p_WB + frame.R_WB * part.center_B;
+  const double above_m = LowestPoint(part, frame) - rock.support.top_W_m();
+  if (above_m > reach_m) return above_m;
   const double far_m = part.bounding_radius_m + reach_m + rock.support.bounding_radius_m();
-  if ((center_W - rock.support.center_W()).squaredNorm() > far_m * far_m) return;
-  if (Separation(part, frame, center_W, rock.support) > reach_m) return;
+  const double away2_m2 = (center_W - rock.support.center_W()).squaredNorm();
+  if (away2_m2 > far_m * far_m) return std::sqrt(away2_m2) - far_m + reach_m;
+  const double apart_m = Separation(part, frame, center_W, rock.support);
+  if (apart_m > reach_m) return apart_m;
   SurfacePoint surface = rock.body.Nearest(center_W);
   Vector3 core_W = center_W;
   // Alternating projections onto core and rock, see ContactFinder::MeetRock.
@@ -268,14 +282,15 @@ void QuasiStaticContacts::MeetPart(const Linkage& linkage, const PlacedPart& pla
     if ((surface.point_W - before_W).squaredNorm() < kResting_m * kResting_m) break;
   }
   const double gap_m = surface.distance_m - part.margin_m;
-  if (gap_m > reach_m) return;
-  Add({.part = static_cast<int>(placed.index),
+  if (gap_m > reach_m) return gap_m;
+  Add({.part = static_cast<int>(index),
        .other = rock.index,
        .body = part.body,
        .kind = part.kind,
        .gap_m = gap_m,
        .p_W = core_W - part.margin_m * surface.normal_W,
        .n_W = surface.normal_W});
+  return gap_m;
 }
 
 // Tests corners of chassis and panel against walls and, unless a rover stands upright on a plane,

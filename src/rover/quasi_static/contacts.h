@@ -67,12 +67,7 @@ class QuasiStaticContacts {
     messages::PerWheel<bool> known{};                  // whether wheel_normal_W is set
   };
 
-  // A part of the body in the posture at hand.
-  struct PlacedPart {
-    std::size_t index = 0;
-    double lowest_m = 0.0;  // z in W
-  };
-  // The placed parts `first` to `last` - 1, which belong to one body, and a ball that holds them.
+  // The parts rock_parts_[first] to [last - 1], which belong to one body, and a ball that holds them.
   struct BodyParts {
     int body = kChassis;
     std::size_t first = 0;
@@ -80,6 +75,8 @@ class QuasiStaticContacts {
     math::Vector3 center_B;
     double radius_m = 0.0;
     math::Vector3 center_W = math::Vector3::Zero();  // in the posture at hand
+    Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
+    double way_m = 0.0;  // at most so far has any of its points gone since the rocks were gathered
   };
 
   void Gather(const math::Vector3& p_WR);
@@ -91,9 +88,9 @@ class QuasiStaticContacts {
   void MeetGround(const Linkage& linkage, std::size_t wheel, double reach_m);
   void MeetRock(const Linkage& linkage, std::size_t wheel, double reach_m, NearRock& rock);
   void MeetBody(const Linkage& linkage, double reach_m);
-  void PlaceParts(const Linkage& linkage);
-  void MeetPart(const Linkage& linkage, const PlacedPart& placed, double reach_m,
-                const NearRock& rock);
+  void PlaceBodies(const Linkage& linkage);
+  // Returns the gap between a part and a rock, or a lower bound of it beyond reach_m.
+  double MeetPart(const Linkage& linkage, std::size_t index, double reach_m, const NearRock& rock);
   void MeetCorners(const Linkage& linkage, double reach_m);
   void Add(const RestingContact& contact);
 
@@ -104,8 +101,10 @@ class QuasiStaticContacts {
   const double hub_radius_m_;
   std::vector<int> near_;
   std::vector<NearRock> rocks_;
-  std::vector<PlacedPart> placed_parts_;
+  std::vector<std::size_t> rock_parts_;  // those of parts_ beside the wheels that rocks can touch
   std::vector<BodyParts> bodies_;
+  // By rock, and for each by body: its way_m up to which none of its parts comes near the rock.
+  std::vector<double> clear_until_m_;
   math::Vector3 gathered_at_W_ = math::Vector3::Zero();
   bool gathered_ = false;
   std::vector<RestingContact> contacts_;
