@@ -73,18 +73,19 @@ struct FinishedOf {
 // Numbers of threads for which the preview of a sweep tells the cost.
 constexpr std::array<int, 4> kThreadCounts{1, 2, 4, 16};
 
+std::string MemoryText(std::int64_t memory_B) {
+  return fmt::format("{:.3g} MB", 1e-6 * static_cast<double>(memory_B));
+}
+
 std::string CostText(const campaign::DryRun& told, std::string_view at_most) {
   const batch::PilotCost& pilot = told.pilot;
   const double count = static_cast<double>(told.pending);
   const double total_s = count * pilot.mean_s;
-  // What the pilots leave open of the mean, and the scatter of the trials to come.
-  const double error_s =
-      std::sqrt(pilot.variance_s2 * count * (1.0 + count / static_cast<double>(pilot.trials)));
   return fmt::format(
       "  cost {}{:.3g} CPU seconds, give or take {:.2g}: {:.3g} s a trial in {} pilot trials; "
-      "about "
-      "{:.3g} s on {} threads\n",
-      at_most, total_s, error_s, pilot.mean_s, pilot.trials, total_s / told.threads, told.threads);
+      "about {:.3g} s and {} on {} threads\n",
+      at_most, total_s, std::sqrt(pilot.VarianceOf(count)), pilot.mean_s, pilot.trials,
+      total_s / told.threads, MemoryText(told.memory_B), told.threads);
 }
 
 // Returns the line about traces; empty where none are asked for. It names rules, as which trials
@@ -113,8 +114,11 @@ std::string CostText(const campaign::CampaignCost& cost, const campaign::Planned
     text += fmt::format("{} with {} thread{}{}", CostDuration(cost.total_s / threads), threads,
                         threads == 1 ? "" : "s", threads == kThreadCounts.back() ? "\n" : ", ");
   }
-  return text + fmt::format("    (as many cores as threads; the slowest pilot took {})\n",
-                            CostDuration(cost.slowest_s));
+  return text + fmt::format(
+                    "    (as many cores as threads; the slowest pilot took {}; {}, and {} for each "
+                    "further thread)\n",
+                    CostDuration(cost.slowest_s), MemoryText(cost.memory_B),
+                    MemoryText(cost.thread_B));
 }
 
 }  // namespace

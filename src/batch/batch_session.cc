@@ -1,9 +1,12 @@
 #include "batch/batch_session.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <ctime>
+#include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,7 +15,6 @@
 #include "batch/supervisor.h"
 #include "batch/trial_hash.h"
 #include "core/check.h"
-#include "statistics/sample_statistics.h"
 
 namespace rockyard::batch {
 namespace {
@@ -126,22 +128,33 @@ double ThreadCpu_s() {
 
 }  // namespace
 
-PilotCost RunPilots(const experiments::Experiment& experiment, std::uint64_t seed, int trials) {
-  const CellWork work{&experiment, seed};
-  statistics::Moments cost;
-  std::vector<truth::Record> records;
-  for (int trial = 0; trial < trials; ++trial) {
-    const double begin_s = ThreadCpu_s();
-    records.push_back(RunTrial(std::span(&work, 1), {0, trial}).record);
-    cost.Add(ThreadCpu_s() - begin_s);
+std::int64_t PeakMemory_B() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return std::int64_t{1024} * used.ru_maxrss;
+}
+
+double Pilots::Run(int trials) {
+  const std::int64_t before_B = PeakMemory_B();
+  const double begin_s = ThreadCpu_s();
+  for (int i = 0; i < trials; ++i) {
+    const double start_s = ThreadCpu_s();
+    records_.push_back(RunTrial(std::span(&work_, 1), {0, std::ssize(records_)}).record);
+    cost_s_.Add(ThreadCpu_s() - start_s);
   }
+  memory_B_ += PeakMemory_B() - before_B;
+  return ThreadCpu_s() - begin_s;
+}
+
+PilotCost Pilots::cost() const {
   PilotCost pilot;
-  pilot.trials = trials;
-  pilot.hash = TrialHash(records);
-  if (trials == 0) return pilot;
-  pilot.mean_s = cost.mean();
-  pilot.slowest_s = cost.max();
-  if (trials > 1) pilot.variance_s2 = cost.variance();
+  pilot.trials = std::ssize(records_);
+  pilot.hash = TrialHash(records_);
+  pilot.memory_B = memory_B_;
+  if (records_.empty()) return pilot;
+  pilot.mean_s = cost_s_.mean();
+  pilot.slowest_s = cost_s_.max();
+  if (pilot.trials > 1) pilot.variance_s2 = cost_s_.variance();
   return pilot;
 }
 

@@ -7,11 +7,14 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "batch/executor.h"
 #include "batch/result_store.h"
 #include "batch/work_plan.h"
 #include "experiments/experiment.h"
+#include "statistics/sample_statistics.h"
+#include "truth/record.h"
 
 namespace rockyard::batch {
 
@@ -55,11 +58,34 @@ struct PilotCost {
   double variance_s2 = 0.0;  // unbiased; 0 below two trials
   double slowest_s = 0.0;
   std::string hash;  // of the records; by it dry runs find cells that do not differ
+  // By how much the largest resident memory of the process grew: what one thread takes.
+  std::int64_t memory_B = 0;
+
+  // Returns the variance of the CPU time of that many trials as told by these, s^2.
+  double VarianceOf(double count) const {
+    return trials == 0 ? 0.0 : variance_s2 * count * (1.0 + count / static_cast<double>(trials));
+  }
 };
 
-// Runs trials 0 .. trials-1 on this thread and keeps nothing of them but their cost and their hash.
-// The costs are measured times, which differ from run to run. A trial that throws ends there, as a
+// First trials of a cell, run on this thread; nothing is kept of them but their cost and their
+// hash. The costs are measured, and differ from run to run. A trial that throws ends there, as a
 // simulator fault, but for failures of the machine, which go on to the caller (RunTrial).
-PilotCost RunPilots(const experiments::Experiment& experiment, std::uint64_t seed, int trials);
+class Pilots {
+ public:
+  Pilots(const experiments::Experiment& experiment, std::uint64_t seed)
+      : work_{&experiment, seed} {}
+  // Runs the next trials; returns the CPU time that they took, s.
+  double Run(int trials);
+  PilotCost cost() const;
+
+ private:
+  CellWork work_;
+  statistics::Moments cost_s_;
+  std::vector<truth::Record> records_;
+  std::int64_t memory_B_ = 0;
+};
+
+// Returns the largest resident memory of the process so far, bytes.
+std::int64_t PeakMemory_B();
 
 }  // namespace rockyard::batch

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -26,6 +28,11 @@ namespace rockyard::campaign {
 namespace {
 
 constexpr int kPilots = 3;
+// Pilots go on until the standard error of the cost is this share of it, by so many of them that it
+// can be told, within this CPU time.
+constexpr double kSure = 0.1;
+constexpr std::int64_t kToTellScatter = 12;
+constexpr double kPilotTime_s = 20.0;
 
 // Returns how many trials of the run in the folder are stored that would go on; 0 where none would.
 std::int64_t StoredTrials(const OpenRequest& request) {
@@ -33,6 +40,45 @@ std::int64_t StoredTrials(const OpenRequest& request) {
                        request.existing == ExistingRun::kResumeOrSetAside;
   if (!goes_on || !batch::ResultStore::HasBegun(request.folder)) return 0;
   return static_cast<std::int64_t>(batch::ResultStore::Read(request.folder).Finished().size());
+}
+
+// What a campaign keeps of each trial: its values, twice while they are reported.
+std::int64_t Records_B(std::int64_t trials, std::size_t columns) {
+  return 2 * trials * static_cast<std::int64_t>(columns * sizeof(double));
+}
+
+// Runs pilots of cells for what all planned trials cost.
+std::vector<batch::PilotCost> CostsOf(std::vector<batch::Pilots>& cells,
+                                      const std::vector<double>& planned,
+                                      std::optional<int> trials) {
+  std::vector<batch::PilotCost> costs;
+  double spent_s = 0.0;
+  for (batch::Pilots& cell : cells) {
+    spent_s += cell.Run(trials.value_or(kPilots));
+    costs.push_back(cell.cost());
+  }
+  while (!trials && spent_s < kPilotTime_s) {
+    double total_s = 0.0;
+    double variance_s2 = 0.0;
+    std::int64_t run = 0;
+    std::size_t widest = 0;
+    double most_s2 = 0.0;
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+      const double open_s2 = costs[i].VarianceOf(planned[i]);
+      total_s += planned[i] * costs[i].mean_s;
+      variance_s2 += open_s2;
+      run += costs[i].trials;
+      // A cell whose trials were all run is known.
+      if (static_cast<double>(costs[i].trials) >= planned[i] || open_s2 <= most_s2) continue;
+      most_s2 = open_s2;
+      widest = i;
+    }
+    if (most_s2 == 0.0) break;
+    if (run >= kToTellScatter && variance_s2 <= kSure * kSure * total_s * total_s) break;
+    spent_s += cells[widest].Run(1);
+    costs[widest] = cells[widest].cost();
+  }
+  return costs;
 }
 
 }  // namespace
@@ -51,9 +97,14 @@ DryRun Rehearse(const CampaignRequest& request, const CampaignPlan& plan) {
               .pending = 0,
               .pilot = {},
               .threads = batch::ThreadCount({.threads = request.containment.threads}),
+              .memory_B = 0,
               .traces = request.traces.retention()};
   told.pending = std::max<std::int64_t>(told.planned.total - told.stored, 0);
-  told.pilot = batch::RunPilots(*experiment, static_cast<std::uint64_t>(scenario.seed), kPilots);
+  std::vector<batch::Pilots> pilots;
+  pilots.emplace_back(*experiment, static_cast<std::uint64_t>(scenario.seed));
+  told.pilot = CostsOf(pilots, {static_cast<double>(told.pending)}, {}).front();
+  told.memory_B = batch::PeakMemory_B() + (told.threads - 1) * told.pilot.memory_B +
+                  Records_B(told.planned.total, experiment->schema().size());
   return told;
 }
 
@@ -127,6 +178,8 @@ JsonValue CostOf(const CampaignCost& cost) {
   if (cost.standard_error_s) {
     json.Set("cpu_s_standard_error", JsonValue(*cost.standard_error_s));
   }
+  json.Set("memory_B", JsonValue(cost.memory_B));
+  json.Set("memory_B_per_further_thread", JsonValue(cost.thread_B));
   return json;
 }
 
@@ -205,7 +258,8 @@ CampaignCost ExpectedCost(const PlannedTrials& planned,
     cost.slowest_s = std::max(cost.slowest_s, pilot.slowest_s);
     // N trials predicted by the mean of n pilots: their scatter is N s^2, the variance by that mean
     // N^2 s^2 / n.
-    variance += pilot.variance_s2 * trials * (1.0 + trials / static_cast<double>(pilot.trials));
+    variance += pilot.VarianceOf(trials);
+    cost.thread_B = std::max(cost.thread_B, pilot.memory_B);
     scatter = scatter || pilot.trials > 1;
   }
   if (measured_trials == 0.0) return cost;
@@ -217,23 +271,36 @@ CampaignCost ExpectedCost(const PlannedTrials& planned,
 
 }  // namespace
 
-std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep, int trials) {
-  std::vector<batch::PilotCost> pilots(sweep.cells.size());
-  if (trials == 0) return pilots;
+std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep,
+                                        const std::vector<std::int64_t>& planned,
+                                        std::optional<int> trials) {
+  std::vector<batch::PilotCost> costs(sweep.cells.size());
+  if (trials == 0) return costs;
   const std::size_t stride = (sweep.cells.size() + kMaxPilotCells - 1) / kMaxPilotCells;
+  std::vector<std::unique_ptr<const experiments::Experiment>> experiments;
+  std::vector<batch::Pilots> pilots;
+  std::vector<double> counts;
   for (std::size_t i = 0; i < sweep.cells.size(); i += stride) {
-    const auto experiment = experiments::MakeExperiment(sweep.cells[i].scenario.experiment,
-                                                        sweep.cells[i].scenario.drive);
-    pilots[i] = batch::RunPilots(*experiment, sweep.seed, trials);
+    const scenario::Scenario& scenario = sweep.cells[i].scenario;
+    experiments.push_back(experiments::MakeExperiment(scenario.experiment, scenario.drive));
+    pilots.emplace_back(*experiments.back(), sweep.seed);
+    counts.push_back(static_cast<double>(planned[i]));
   }
-  return pilots;
+  const std::vector<batch::PilotCost> found = CostsOf(pilots, counts, trials);
+  for (std::size_t i = 0; i < found.size(); ++i) costs[i * stride] = found[i];
+  return costs;
 }
 
 SweepPlan WriteSweepPlan(const Sweep& sweep, const SweepPlanOptions& options) {
   const fs::path folder = FolderOf(sweep, options);
   CheckPlanFolder(folder);
-  const std::vector<batch::PilotCost> pilots = RunPilots(sweep, options.pilots);
+  const std::vector<batch::PilotCost> pilots =
+      RunPilots(sweep, options.trials.cells, options.pilots);
   CampaignCost cost = ExpectedCost(options.trials, pilots);
+  const scenario::Scenario& first = sweep.cells.front().scenario;
+  const auto experiment = experiments::MakeExperiment(first.experiment, first.drive);
+  cost.memory_B =
+      batch::PeakMemory_B() + Records_B(options.trials.total, experiment->schema().size());
   std::string json = PlanJson(sweep, options.trials, pilots, cost);
   MakeFolder(folder);
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {

@@ -23,18 +23,23 @@ struct DryRun {
   PlannedTrials planned;
   std::int64_t stored = 0;   // of a run in the folder that would go on
   std::int64_t pending = 0;  // at most, where a rule may end it before
-  batch::PilotCost pilot;    // of three trials of the first cell
+  batch::PilotCost pilot;    // of the first cell
   int threads = 1;
+  std::int64_t memory_B = 0;  // of the run, resident
   TraceRetention traces;  // which trials are driven twice
 };
 
 // Returns what a run would do; writes nothing. Throws core::UserError where the request or the
-// folder forbids the run, as RunCampaign would tell it. Cost: three trials.
+// folder forbids the run, as RunCampaign would tell it. Cost: three trials, and more (RunPilots).
 DryRun Rehearse(const CampaignRequest& request, const CampaignPlan& plan);
 
-// Runs the first `trials` trials of every cell, or, where there are more than a hundred cells, of
-// 50 to 100 of them, evenly spread; with the seed of the campaign, on this thread.
-std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep, int trials);
+// Runs first trials of every cell, or, where there are more than a hundred cells, of 50 to 100 of
+// them, evenly spread; with the seed of the campaign, on this thread. `trials` of each; without it
+// three, and then more of the cells that leave most open, until twelve tell that the standard error
+// of the whole cost is below a tenth of it, or the pilots have taken 20 s of CPU time. `planned` is by cell.
+std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep,
+                                        const std::vector<std::int64_t>& planned,
+                                        std::optional<int> trials);
 
 struct CampaignCost {
   std::int64_t pilots = 0;
@@ -44,13 +49,15 @@ struct CampaignCost {
   // cost as much as the mean of these. Absent where each cell had one pilot, which tells of no
   // scatter.
   std::optional<double> standard_error_s = {};
-  double slowest_s = 0.0;  // pilot
+  double slowest_s = 0.0;    // pilot
+  std::int64_t memory_B = 0;  // of the campaign on one thread, resident
+  std::int64_t thread_B = 0;  // of each further thread
 };
 
 struct SweepPlanOptions {
   std::filesystem::path folder;  // empty: results/runs/<name>-seed<seed>-plan
   PlannedTrials trials;          // of the cells of the sweep
-  int pilots = 3;                // trials of each cell that are run for their cost; 0: none
+  std::optional<int> pilots;     // trials of each cell that are run for their cost; 0: none
 };
 
 // What WriteSweepPlan wrote.

@@ -169,7 +169,7 @@ WorkResult RunSweep(const SweepRequest& request, const RunObserver& observer, co
   });
 }
 
-core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, int pilots,
+core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, std::optional<int> pilots,
                                            const Observer& observer) {
   return core::Attempt([&] {
     Journal journal(observer);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,9 +50,9 @@ struct SweepRehearsal {
   SweepPlan plan;
 };
 
-// Returns what RunSweep would do and cost, by that many pilots of each cell, and writes it into the
-// folder of the request (WriteSweepPlan), which is no folder of a campaign.
-core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, int pilots,
+// Returns what RunSweep would do and cost, by that many pilots of each cell (RunPilots), and writes
+// it into the folder of the request (WriteSweepPlan), which is no folder of a campaign.
+core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, std::optional<int> pilots,
                                            const Observer& observer = {});
 
 struct MergeRequest {

@@ -152,7 +152,9 @@ TEST_F(SmallRuns, ARehearsalWritesNothing) {
   ASSERT_TRUE(told.ok());
   EXPECT_EQ(told->planned.total, 40);
   EXPECT_EQ(told->pending, 40);
-  EXPECT_EQ(told->pilot.trials, 3);
+  EXPECT_GE(told->pilot.trials, 12);
+  EXPECT_LE(told->pilot.trials, 40);
+  EXPECT_GT(told->memory_B, 1'000'000);
   EXPECT_TRUE(told->traces.failures);
   EXPECT_FALSE(std::filesystem::exists(Path("a")));
 }
