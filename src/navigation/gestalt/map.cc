@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "core/check.h"
 
@@ -15,6 +16,12 @@ constexpr std::int64_t kMaxPoints = math::kExactPoints;  // of a cell
 constexpr double kFarthest_m = 1e6;
 
 double Clamped(double x_m) { return std::clamp(x_m, -kFarthest_m, kFarthest_m); }
+
+// Returns the largest whole number that is not above x, which must fit one.
+std::int64_t FloorOf(double x) {
+  const auto toward_0 = static_cast<std::int64_t>(x);
+  return toward_0 - static_cast<std::int64_t>(x < static_cast<double>(toward_0));
+}
 
 }  // namespace
 
@@ -37,8 +44,7 @@ GestaltMap::GestaltMap(const GestaltMapParams& params)
 GestaltMap::LatticeCell GestaltMap::LatticeAt(double x_m, double y_m) const {
   const GestaltGridParams& grid = params_.grid;
   // floor((x - x0) / step): the lattice goes on beyond the bounds x0 .. xN, which give its phase.
-  return {static_cast<std::int64_t>(std::floor((x_m - grid.x0_m) / grid.xstep_m)),
-          static_cast<std::int64_t>(std::floor((y_m - grid.y0_m) / grid.ystep_m))};
+  return {FloorOf((x_m - grid.x0_m) / grid.xstep_m), FloorOf((y_m - grid.y0_m) / grid.ystep_m)};
 }
 
 double GestaltMap::CentreX_m(std::int64_t i) const {
@@ -59,11 +65,6 @@ void GestaltMap::MeasureDistances(LatticeCell first) {
     const double distance = CentreY_m(first.y + static_cast<std::int64_t>(j)) - rover_y_m_;
     squares_y_m2_[j] = distance * distance;
   }
-}
-
-bool GestaltMap::InWindow(LatticeCell cell) const {
-  return cell.x >= cells_.first_x() && cell.x < cells_.first_x() + cells_.nx() &&
-         cell.y >= cells_.first_y() && cell.y < cells_.first_y() + cells_.ny();
 }
 
 // Keeps the box of cells that may hold something: loops need not visit the rest of the window.
@@ -113,32 +114,56 @@ void GestaltMap::DropOldCells(LatticeCell first) {
   }
 }
 
-void GestaltMap::AddPoint(const math::Vector3& p_WP_W) {
-  const LatticeCell at = LatticeAt(p_WP_W.x(), p_WP_W.y());
-  if (!InWindow(at)) return;
-  const int ix = static_cast<int>(at.x - cells_.first_x());
-  const int iy = static_cast<int>(at.y - cells_.first_y());
-  if (!IsNear(ix, iy)) return;
-  MapCell& cell = cells_.At(ix, iy);
-  cell.last_cycle = cycle_;
-  // Beyond this number sums could run over 2^64; the cell counts as seen all the same.
-  if (cell.moments.count() >= kMaxPoints) return;
-  cell.moments.AddPoint(math::ToMomentUnits(p_WP_W.x()), math::ToMomentUnits(p_WP_W.y()),
-                        math::ToMomentUnits(p_WP_W.z()));
-  GrowBox(ix, iy);
-}
-
-void GestaltMap::Add(const messages::PointCloud& cloud, const math::Transform& X_WR) {
+// Where a point falls is as good as random to a processor that guesses branches: none is taken here
+// by where a point lies.
+std::size_t GestaltMap::Sift(std::span<const math::Vector3> points_R, const math::Transform& X_WR,
+                             Batch& batch) const {
+  const GestaltGridParams& grid = params_.grid;
+  const double farthest_m2 = params_.grid_dist_timeout_m * params_.grid_dist_timeout_m;
   const double z_R = X_WR.translation().z();
-  for (const math::Vector3& p_RP_R : cloud.points_R) {
+  std::size_t kept = 0;
+  for (const math::Vector3& p_RP_R : points_R) {
     // The believed pose takes points from R into the map's frame (map.h).
     const math::Vector3 p_WP_W = X_WR * p_RP_R;
     // Written so that coordinates that are not numbers fail. Heights are bounded so that the exact
     // sums of a cell cannot run over.
-    const bool sound =
-        std::abs(p_WP_W.x()) <= 2.0 * kFarthest_m && std::abs(p_WP_W.y()) <= 2.0 * kFarthest_m &&
-        std::abs(p_WP_W.z() - z_R) <= kLargestHeight_m && std::abs(p_WP_W.z()) <= kFarthest_m;
-    if (sound) AddPoint(p_WP_W);
+    const bool sound = (std::abs(p_WP_W.x()) <= 2.0 * kFarthest_m) &
+                       (std::abs(p_WP_W.y()) <= 2.0 * kFarthest_m) &
+                       (std::abs(p_WP_W.z() - z_R) <= kLargestHeight_m) &
+                       (std::abs(p_WP_W.z()) <= kFarthest_m);
+    // What is not sound may be no number or fit no whole one: it counts as at the phase.
+    const double x_m = sound ? p_WP_W.x() : grid.x0_m;
+    const double y_m = sound ? p_WP_W.y() : grid.y0_m;
+    const auto ix = static_cast<std::uint64_t>(
+        FloorOf((x_m - grid.x0_m) / grid.xstep_m) - cells_.first_x());
+    const auto iy = static_cast<std::uint64_t>(
+        FloorOf((y_m - grid.y0_m) / grid.ystep_m) - cells_.first_y());
+    const bool within = sound & (ix < squares_x_m2_.size()) & (iy < squares_y_m2_.size());
+    const std::size_t column = within ? ix : 0;
+    const std::size_t row = within ? iy : 0;
+    batch[kept] = {p_WP_W, static_cast<int>(column), static_cast<int>(row)};
+    const bool near = squares_x_m2_[column] + squares_y_m2_[row] <= farthest_m2;
+    kept += static_cast<std::size_t>(within & near);
+  }
+  return kept;
+}
+
+void GestaltMap::Add(const messages::PointCloud& cloud, const math::Transform& X_WR) {
+  Batch batch;
+  const std::span<const math::Vector3> points_R(cloud.points_R);
+  for (std::size_t first = 0; first < points_R.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, points_R.size() - first);
+    const std::size_t kept = Sift(points_R.subspan(first, count), X_WR, batch);
+    for (const PlacedPoint& point : std::span(batch).first(kept)) {
+      MapCell& cell = cells_.At(point.ix, point.iy);
+      cell.last_cycle = cycle_;
+      // Beyond this number sums could run over 2^64; the cell counts as seen all the same.
+      if (cell.moments.count() >= kMaxPoints) continue;
+      cell.moments.AddPoint(math::ToMomentUnits(point.p_WP_W.x()),
+                            math::ToMomentUnits(point.p_WP_W.y()),
+                            math::ToMomentUnits(point.p_WP_W.z()));
+      GrowBox(point.ix, point.iy);
+    }
   }
 }
 

@@ -3,8 +3,10 @@
 // map_differential_test.cc holds it to a plain reference.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "math/pose.h"
@@ -63,6 +65,14 @@ class GestaltMap {
     std::int64_t x;
     std::int64_t y;
   };
+  // A point and the cell of the window that it falls into.
+  struct PlacedPoint {
+    math::Vector3 p_WP_W;
+    int ix;
+    int iy;
+  };
+  static constexpr std::size_t kBatch = 128;
+  using Batch = std::array<PlacedPoint, kBatch>;
 
   LatticeCell LatticeAt(double x_m, double y_m) const;
   // Return the centre of a column or row of the lattice, m.
@@ -76,10 +86,11 @@ class GestaltMap {
   }
   // Measures the distances for a window whose first cell is `first`.
   void MeasureDistances(LatticeCell first);
-  bool InWindow(LatticeCell cell) const;
   // Empties what does not belong into a window whose first cell is `first`.
   void DropOldCells(LatticeCell first);
-  void AddPoint(const math::Vector3& p_WP_W);
+  // Puts the points that the map takes into `batch`, in their order, and returns how many they are.
+  std::size_t Sift(std::span<const math::Vector3> points_R, const math::Transform& X_WR,
+                   Batch& batch) const;
   void GrowBox(int ix, int iy);
 
   GestaltMapParams params_;
