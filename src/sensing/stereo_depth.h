@@ -6,8 +6,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -41,6 +43,21 @@ inline void JumpDistances(std::span<const double> row_px, double jump_px,
   for (std::size_t column = size; column-- > 0;) {
     distance = column + 1 < size && jumps(column + 1) ? 1 : distance + 1;
     if (distance < distance_px[column]) distance_px[column] = distance;
+  }
+}
+
+// Sets `beside` to whether a jump, as JumpDistances finds it, is `reach` columns away or less. Both
+// spans have the same length.
+inline void MarkJumps(std::span<const double> row_px, double jump_px, std::int64_t reach,
+                      std::span<std::uint8_t> beside) {
+  std::fill(beside.begin(), beside.end(), std::uint8_t{0});
+  const auto size = static_cast<std::int64_t>(row_px.size());
+  for (std::int64_t column = 1; column < size; ++column) {
+    const auto at = static_cast<std::size_t>(column);
+    if (!(std::abs(row_px[at] - row_px[at - 1]) >= jump_px)) continue;
+    const auto first = static_cast<std::size_t>(std::max<std::int64_t>(column - reach, 0));
+    const auto end = static_cast<std::size_t>(std::min(column + reach, size));
+    for (std::size_t i = first; i < end; ++i) beside[i] = 1;
   }
 }
 

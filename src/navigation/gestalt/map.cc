@@ -127,17 +127,16 @@ std::size_t GestaltMap::Sift(std::span<const math::Vector3> points_R, const math
     const math::Vector3 p_WP_W = X_WR * p_RP_R;
     // Written so that coordinates that are not numbers fail. Heights are bounded so that the exact
     // sums of a cell cannot run over.
-    const bool sound = (std::abs(p_WP_W.x()) <= 2.0 * kFarthest_m) &
-                       (std::abs(p_WP_W.y()) <= 2.0 * kFarthest_m) &
-                       (std::abs(p_WP_W.z() - z_R) <= kLargestHeight_m) &
-                       (std::abs(p_WP_W.z()) <= kFarthest_m);
+    const bool sound =
+        (std::abs(p_WP_W.x()) <= 2.0 * kFarthest_m) & (std::abs(p_WP_W.y()) <= 2.0 * kFarthest_m) &
+        (std::abs(p_WP_W.z() - z_R) <= kLargestHeight_m) & (std::abs(p_WP_W.z()) <= kFarthest_m);
     // What is not sound may be no number or fit no whole one: it counts as at the phase.
     const double x_m = sound ? p_WP_W.x() : grid.x0_m;
     const double y_m = sound ? p_WP_W.y() : grid.y0_m;
-    const auto ix = static_cast<std::uint64_t>(
-        FloorOf((x_m - grid.x0_m) / grid.xstep_m) - cells_.first_x());
-    const auto iy = static_cast<std::uint64_t>(
-        FloorOf((y_m - grid.y0_m) / grid.ystep_m) - cells_.first_y());
+    const auto ix =
+        static_cast<std::uint64_t>(FloorOf((x_m - grid.x0_m) / grid.xstep_m) - cells_.first_x());
+    const auto iy =
+        static_cast<std::uint64_t>(FloorOf((y_m - grid.y0_m) / grid.ystep_m) - cells_.first_y());
     const bool within = sound & (ix < squares_x_m2_.size()) & (iy < squares_y_m2_.size());
     const std::size_t column = within ? ix : 0;
     const std::size_t row = within ? iy : 0;
