@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "rendering/occlusion.h"
 
@@ -51,6 +53,7 @@ RockOutline::RockOutline(const terrain::RockShape& shape, const Vector3& center_
   const Vector3 e1 = shape.Map(view_W.along_row);
   const Vector3 e2 = shape.Map(view_W.along_column);
   outside_1_ = q.squaredNorm() - 1.0;
+  inverse_outside_1_ = 1.0 / outside_1_;
   b0_ = -q.dot(e0);
   b1_ = -q.dot(e1);
   b2_ = -q.dot(e2);
@@ -86,14 +89,14 @@ void RockOutline::FindRows(int rows) {
 }
 
 RowCut RockOutline::Row(double row) const {
-  RowCut cut{.quadratic = a_,
-             .linear = d0_ + d1_ * row,
-             .constant = f0_ + (2.0 * f1_ + f2_ * row) * row,
-             .approach_0 = b0_ + b2_ * row,
-             .approach_1 = b1_,
-             .inverse_outside_1 = 1.0 / outside_1_,
-             .span = {},
-             .exact = true};
+  RowCut cut{{.quadratic = a_,
+              .linear = d0_ + d1_ * row,
+              .constant = f0_ + (2.0 * f1_ + f2_ * row) * row,
+              .approach_0 = b0_ + b2_ * row,
+              .approach_1 = b1_,
+              .inverse_outside_1 = inverse_outside_1_},
+             {},
+             true};
   // The quadratic opens upwards: the columns that meet the rock have no two ends.
   if (a_ >= 0.0) {
     cut.span = {-kEverywhere, kEverywhere};
@@ -180,20 +183,18 @@ void StereoScene::AddRock(const RockOutline& outline, DepthImage& image) const {
     const RowCut cut = outline.Row(row);
     const Columns seen(cut.span, view_W_.columns);
     if (seen.count() == 0) continue;
-    auto pixels = image.row(row).segment(seen.first, seen.count()).transpose();
+    double* pixels = &image(row, 0);
     // The outline is no ellipse in this row, and its span no bound: pixel by pixel.
     if (!cut.exact) {
-      for (int i = 0; i < seen.count(); ++i) {
-        pixels[i] = std::max(pixels[i], cut.InverseDepth(seen.first + i));
+      for (int column = seen.first; column <= seen.last; ++column) {
+        pixels[column] = std::max(pixels[column], cut.InverseDepth(column));
       }
       continue;
     }
     // 1/Z = (B + sqrt(B^2 - K |e|^2)) / K, the larger of the two roots: where the ray enters the
     // rock. B is linear in the column, the discriminant quadratic (RockOutline).
-    const auto c = columns_.segment(seen.first, seen.count());
-    const auto discriminant = (cut.quadratic * c + 2.0 * cut.linear) * c + cut.constant;
-    pixels = pixels.max((cut.approach_0 + cut.approach_1 * c + discriminant.max(0.0).sqrt()) *
-                        cut.inverse_outside_1);
+    RaiseToRock(cut, static_cast<std::size_t>(seen.first), static_cast<std::size_t>(seen.count()),
+                pixels);
   }
 }
 
@@ -232,8 +233,9 @@ void StereoScene::HideFromRightEye(DepthImage& inverse_depths) const {
     return;
   }
   if (!terrain_.ground().IsPlane()) HideBehindGround(inverse_depths);
+  const double slack_m = OcclusionSlack_m();
   for (const Candidate& rock : rocks_) {
-    HideBehind({rock.shape, rock.center_W, view_W_, view_W_.right_eye}, inverse_depths);
+    HideBehind({rock.shape, rock.center_W, view_W_, view_W_.right_eye}, slack_m, inverse_depths);
   }
   // d = f b / Z columns further left in the right image, whose pixels end half a column before 0.
   const double scale_px_m = view_W_.focal_px * view_W_.baseline_m;
@@ -246,23 +248,42 @@ void StereoScene::HideFromRightEye(DepthImage& inverse_depths) const {
 // The left image's column c of disparity d is the right image's column c - d. A rock with the span
 // [a, b] there can therefore hide columns from a to b + f b / Z of its own nearest point: what it
 // hides is farther, with smaller d. Distances along the right eye's ray are compared, |e| Z.
-void StereoScene::HideBehind(const RockOutline& outline_right, DepthImage& image) const {
+void StereoScene::HideBehind(const RockOutline& outline_right, double slack_m,
+                             DepthImage& image) const {
   const double scale_px_m = view_W_.focal_px * view_W_.baseline_m;
+  std::vector<int>& columns = found_columns_;
+  columns.resize(static_cast<std::size_t>(view_W_.columns) + 8);
   for (int row = outline_right.first_row(); row <= outline_right.last_row(); ++row) {
     const RowCut cut = outline_right.Row(row);
     const double shift_px = cut.exact ? scale_px_m * cut.NearestInverseDepth() : 0.0;
     const Columns behind({cut.span.first, cut.span.last + shift_px}, view_W_.columns);
-    for (int column = behind.first; column <= behind.last; ++column) {
+    if (behind.count() == 0) continue;
+    const std::size_t found =
+        FindBehindRock(cut, scale_px_m, slack_m, static_cast<std::size_t>(behind.first),
+                       static_cast<std::size_t>(behind.count()), &image(row, 0), columns.data());
+    for (const int column : std::span(columns).first(found)) {
       double& pixel = image(row, column);
-      if (pixel <= 0.0) continue;
       const double column_right = column - scale_px_m * pixel;
       const double rock = cut.InverseDepth(column_right);
-      if (rock <= pixel) continue;
       const double length = view_W_.Ray(column_right, row).norm();
       // 1/Z of the rock against that of the point, as distances along the ray.
       if (length / rock <= length / pixel - rendering::kOcclusionMargin_m) pixel = 0.0;
     }
   }
+}
+
+// Inverse depths p behind a rock of inverse depth k have |e| / k <= |e| / p - margin, hence
+//   k - p >= margin k p / |e| > margin p^2 / |e|.
+// |e| is largest in a corner of the image; half of the margin leaves room for rounding. Columns of
+// the right image outside of it are dropped afterwards, whatever is found for them.
+double StereoScene::OcclusionSlack_m() const {
+  double longest = 0.0;
+  for (const double row : {0.0, view_W_.rows - 1.0}) {
+    for (const double column : {-1.0, static_cast<double>(view_W_.columns)}) {
+      longest = std::max(longest, view_W_.Ray(column, row).norm());
+    }
+  }
+  return 0.5 * rendering::kOcclusionMargin_m / longest;
 }
 
 // What hides a point from the right eye, if the left eye sees it, lies to the right of the point in
