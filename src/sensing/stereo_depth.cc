@@ -1,7 +1,9 @@
 #include "sensing/stereo_depth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
@@ -25,6 +27,36 @@ struct Columns {
         last(static_cast<int>(std::floor(std::clamp(span.last, -1.0, columns - 1.0)))) {}
 
   int count() const { return std::max(last - first + 1, 0); }
+};
+
+// The four planes through the eyes within which a pair sees, a pixel beyond its outermost ones. A
+// plane's normal points inwards.
+class FieldOfView {
+ public:
+  explicit FieldOfView(const StereoView& view_W) : view_W_(view_W) {
+    const auto corner = [&](double column, double row) { return view_W.Ray(column, row); };
+    const double right = view_W.columns;
+    const double bottom = view_W.rows;
+    const std::array<Vector3, 4> corners = {corner(-1.0, -1.0), corner(right, -1.0),
+                                            corner(right, bottom), corner(-1.0, bottom)};
+    const Vector3 middle = corner(0.5 * (right - 1.0), 0.5 * (bottom - 1.0));
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vector3 normal = corners[i].cross(corners[(i + 1) % corners.size()]).normalized();
+      normals_[i] = normal.dot(middle) > 0.0 ? normal : Vector3(-normal);
+    }
+  }
+
+  // Returns false where neither eye can see anything of a ball.
+  bool MayHold(const Vector3& center_W, double radius_m) const {
+    return std::all_of(normals_.begin(), normals_.end(), [&](const Vector3& normal) {
+      return std::max(normal.dot(center_W - view_W_.eye),
+                      normal.dot(center_W - view_W_.right_eye)) >= -radius_m;
+    });
+  }
+
+ private:
+  const StereoView& view_W_;
+  std::array<Vector3, 4> normals_;
 };
 
 }  // namespace
@@ -121,9 +153,10 @@ StereoScene::StereoScene(const terrain::Terrain& terrain, const StereoView& view
   std::vector<int> near;
   // Both eyes are served by the rocks around the left one.
   terrain.RocksNear(view_W.eye.x(), view_W.eye.y(), max_range_m, near);
-  rocks_.reserve(near.size());
+  const FieldOfView sides(view_W);
   for (const int index : near) {
     const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
+    if (!sides.MayHold(rock.center_W, rock.semi_axes_m.maxCoeff())) continue;
     rocks_.push_back({terrain::RockShape(rock), rock.center_W});
   }
 }
