@@ -10,8 +10,8 @@
 
 namespace rockyard::core {
 
-// z(t), the standard normal number that is exceeded with probability t, from kLeast to below 1/2. It
-// solves z'' = z z'^2 with z(1/2) = 0, z'(1/2) = -sqrt(2 pi), as z' = -sqrt(2 pi) exp(z^2 / 2).
+// z(t), the standard normal number that is exceeded with probability t, from kLeast to below 1/2.
+// It solves z'' = z z'^2 with z(1/2) = 0, z'(1/2) = -sqrt(2 pi), as z' = -sqrt(2 pi) exp(z^2 / 2).
 // Each of 16 pieces between two powers of two has its Taylor polynomial about its middle. The
 // series converges within the distance to t = 0, which is 33 times the piece's half width or more:
 // what is cut off is smaller than rounding. Only sums, products and quotients make it, so that its

@@ -114,55 +114,45 @@ void GestaltMap::DropOldCells(LatticeCell first) {
   }
 }
 
-// Where a point falls is as good as random to a processor that guesses branches: none is taken here
-// by where a point lies.
-std::size_t GestaltMap::Sift(std::span<const math::Vector3> points_R, const math::Transform& X_WR,
-                             Batch& batch) const {
+PointSieve GestaltMap::Sieve() const {
   const GestaltGridParams& grid = params_.grid;
-  const double farthest_m2 = params_.grid_dist_timeout_m * params_.grid_dist_timeout_m;
-  const double z_R = X_WR.translation().z();
-  std::size_t kept = 0;
-  for (const math::Vector3& p_RP_R : points_R) {
-    // The believed pose takes points from R into the map's frame (map.h).
-    const math::Vector3 p_WP_W = X_WR * p_RP_R;
-    // Written so that coordinates that are not numbers fail. Heights are bounded so that the exact
-    // sums of a cell cannot run over.
-    const bool sound =
-        (std::abs(p_WP_W.x()) <= 2.0 * kFarthest_m) & (std::abs(p_WP_W.y()) <= 2.0 * kFarthest_m) &
-        (std::abs(p_WP_W.z() - z_R) <= kLargestHeight_m) & (std::abs(p_WP_W.z()) <= kFarthest_m);
-    // What is not sound may be no number or fit no whole one: it counts as at the phase.
-    const double x_m = sound ? p_WP_W.x() : grid.x0_m;
-    const double y_m = sound ? p_WP_W.y() : grid.y0_m;
-    const auto ix =
-        static_cast<std::uint64_t>(FloorOf((x_m - grid.x0_m) / grid.xstep_m) - cells_.first_x());
-    const auto iy =
-        static_cast<std::uint64_t>(FloorOf((y_m - grid.y0_m) / grid.ystep_m) - cells_.first_y());
-    const bool within = sound & (ix < squares_x_m2_.size()) & (iy < squares_y_m2_.size());
-    const std::size_t column = within ? ix : 0;
-    const std::size_t row = within ? iy : 0;
-    batch[kept] = {p_WP_W, static_cast<int>(column), static_cast<int>(row)};
-    const bool near = squares_x_m2_[column] + squares_y_m2_[row] <= farthest_m2;
-    kept += static_cast<std::size_t>(within & near);
-  }
-  return kept;
+  return {.x = {.origin_m = grid.x0_m,
+                .step_m = grid.xstep_m,
+                .rover_m = rover_x_m_,
+                .first = static_cast<double>(cells_.first_x()),
+                .cells = static_cast<double>(cells_.nx()),
+                .wrap = static_cast<double>(cells_.wrap_x())},
+          .y = {.origin_m = grid.y0_m,
+                .step_m = grid.ystep_m,
+                .rover_m = rover_y_m_,
+                .first = static_cast<double>(cells_.first_y()),
+                .cells = static_cast<double>(cells_.ny()),
+                .wrap = static_cast<double>(cells_.wrap_y())},
+          .largest_xy_m = 2.0 * kFarthest_m,
+          .largest_z_m = kFarthest_m,
+          .largest_height_m = kLargestHeight_m,
+          .largest_square_m2 = params_.grid_dist_timeout_m * params_.grid_dist_timeout_m};
 }
 
+// The believed pose takes points from R into the map's frame (map.h).
 void GestaltMap::Add(const messages::PointCloud& cloud, const math::Transform& X_WR) {
-  Batch batch;
-  const std::span<const math::Vector3> points_R(cloud.points_R);
-  for (std::size_t first = 0; first < points_R.size(); first += kBatch) {
-    const std::size_t count = std::min(kBatch, points_R.size() - first);
-    const std::size_t kept = Sift(points_R.subspan(first, count), X_WR, batch);
-    for (const PlacedPoint& point : std::span(batch).first(kept)) {
-      MapCell& cell = cells_.At(point.ix, point.iy);
+  const PointSieve sieve = Sieve();
+  SiftedPoints sifted;
+  std::span<const math::Vector3> rest_R(cloud.points_R);
+  while (!rest_R.empty()) {
+    const auto points_R = rest_R.first(std::min(rest_R.size(), SiftedPoints::kMost));
+    rest_R = rest_R.subspan(points_R.size());
+    Sift(sieve, points_R, X_WR, sifted);
+    if (sifted.count == 0) continue;
+    for (const std::size_t i : std::span(sifted.taken).first(sifted.count)) {
+      MapCell& cell = cells_.InSlot(static_cast<std::size_t>(sifted.slots[i]));
       cell.last_cycle = cycle_;
       // Beyond this number sums could run over 2^64; the cell counts as seen all the same.
       if (cell.moments.count() >= kMaxPoints) continue;
-      cell.moments.AddPoint(math::ToMomentUnits(point.p_WP_W.x()),
-                            math::ToMomentUnits(point.p_WP_W.y()),
-                            math::ToMomentUnits(point.p_WP_W.z()));
-      GrowBox(point.ix, point.iy);
+      cell.moments.AddPoint(sifted.x[i], sifted.y[i], sifted.z[i]);
     }
+    GrowBox(static_cast<int>(sifted.first_x), static_cast<int>(sifted.first_y));
+    GrowBox(static_cast<int>(sifted.last_x), static_cast<int>(sifted.last_y));
   }
 }
 

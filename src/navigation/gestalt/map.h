@@ -3,10 +3,8 @@
 // map_differential_test.cc holds it to a plain reference.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "math/pose.h"
@@ -16,6 +14,7 @@
 #include "navigation/gestalt/goodness_grid.h"
 #include "navigation/gestalt/map_params.h"
 #include "navigation/gestalt/planes.h"
+#include "navigation/gestalt/point_sieve.h"
 #include "navigation/gestalt/traversability.h"
 
 namespace rockyard::navigation {
@@ -65,14 +64,6 @@ class GestaltMap {
     std::int64_t x;
     std::int64_t y;
   };
-  // A point and the cell of the window that it falls into.
-  struct PlacedPoint {
-    math::Vector3 p_WP_W;
-    int ix;
-    int iy;
-  };
-  static constexpr std::size_t kBatch = 128;
-  using Batch = std::array<PlacedPoint, kBatch>;
 
   LatticeCell LatticeAt(double x_m, double y_m) const;
   // Return the centre of a column or row of the lattice, m.
@@ -88,9 +79,8 @@ class GestaltMap {
   void MeasureDistances(LatticeCell first);
   // Empties what does not belong into a window whose first cell is `first`.
   void DropOldCells(LatticeCell first);
-  // Puts the points that the map takes into `batch`, in their order, and returns how many they are.
-  std::size_t Sift(std::span<const math::Vector3> points_R, const math::Transform& X_WR,
-                   Batch& batch) const;
+  // Returns which points the map takes, and where it puts them.
+  PointSieve Sieve() const;
   void GrowBox(int ix, int iy);
 
   GestaltMapParams params_;
