@@ -2,12 +2,14 @@
 
 #include <Random123/philox.h>
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "core/check.h"
+#include "core/normal_pieces.h"
 
 namespace rockyard::core {
 
@@ -87,9 +89,22 @@ double NormalQuantile(double p) {
   return std::numbers::sqrt2 * boost::math::erf_inv(central, InDouble());
 }
 
+namespace {
+
+// Returns NormalQuantile(p) to rounding.
+double PiecewiseQuantile(double p) {
+  static const NormalPieces kPieces;
+  // Exact: uniform numbers have 53 bits behind the point.
+  const double beyond = std::min(p, 1.0 - p);
+  if (beyond < NormalPieces::kLeast) return NormalQuantile(p);
+  return std::copysign(kPieces.Exceeded(beyond), p - 0.5);
+}
+
+}  // namespace
+
 double SampleNormal(RandomStream& stream, double mean, double standard_deviation) {
   EXPECT(standard_deviation >= 0.0);
-  return mean + standard_deviation * NormalQuantile(stream.Uniform());
+  return mean + standard_deviation * PiecewiseQuantile(stream.Uniform());
 }
 
 double SampleExponential(RandomStream& stream, double mean) {

@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "core/random.h"
+#include "rendering/philox_lanes.h"
 
 namespace rockyard::rendering {
 
@@ -24,23 +25,38 @@ std::vector<float> MakeTable() {
   return table;
 }
 
-const std::vector<float>& Table() {
-  static const std::vector<float> kTable = MakeTable();
-  return kTable;
+constexpr int kOffset = 1 << 15;
+
+// Returns the counter's word of a block. Row and block share it, 16 bits each, both counted from
+// -2^15.
+std::uint32_t CounterOf(int row, int block_column) {
+  EXPECT(row >= -kOffset && row < kOffset);
+  EXPECT(block_column >= -kOffset && block_column < kOffset);
+  return (static_cast<std::uint32_t>(row + kOffset) << 16) |
+         static_cast<std::uint32_t>(block_column + kOffset);
 }
 
 }  // namespace
 
-std::array<float, PixelNoise::kBlock> PixelNoise::Block(int row, int block_column) const {
-  constexpr int kOffset = 1 << 15;
-  EXPECT(row >= -kOffset && row < kOffset);
-  EXPECT(block_column >= -kOffset && block_column < kOffset);
+std::span<const float, kCells> PixelNoise::NumbersOfCells() {
+  static const std::vector<float> kTable = MakeTable();
+  return std::span<const float, kCells>(kTable);
+}
+
+void PixelNoise::Cells(int row, int first_block, std::span<std::uint16_t> cells) const {
+  if (cells.empty()) return;
+  const std::size_t blocks = cells.size() / kBlock;
+  EXPECT(cells.size() % kBlock == 0 && first_block + static_cast<int>(blocks) <= kOffset);
   std::array<std::uint32_t, 4> counter = counter_;
-  // Row and block share one word of the counter, 16 bits each, both counted from -2^15.
-  counter[0] = (static_cast<std::uint32_t>(row + kOffset) << 16) |
-               static_cast<std::uint32_t>(block_column + kOffset);
+  counter[0] = CounterOf(row, first_block);
+  PhiloxHalves(counter, key_, cells);
+}
+
+std::array<float, PixelNoise::kBlock> PixelNoise::Block(int row, int block_column) const {
+  std::array<std::uint32_t, 4> counter = counter_;
+  counter[0] = CounterOf(row, block_column);
   const auto bits = core::Philox4x32(counter, key_);
-  const std::vector<float>& table = Table();
+  const std::span<const float, kCells> table = NumbersOfCells();
   std::array<float, kBlock> numbers{};
   for (std::size_t i = 0; i < bits.size(); ++i) {
     // Two numbers of 16 bits from each of the block's four words.

@@ -1,8 +1,12 @@
 #include "sensing/stereo_depth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "rendering/occlusion.h"
 
@@ -23,6 +27,36 @@ struct Columns {
         last(static_cast<int>(std::floor(std::clamp(span.last, -1.0, columns - 1.0)))) {}
 
   int count() const { return std::max(last - first + 1, 0); }
+};
+
+// The four planes through the eyes within which a pair sees, a pixel beyond its outermost ones. A
+// plane's normal points inwards.
+class FieldOfView {
+ public:
+  explicit FieldOfView(const StereoView& view_W) : view_W_(view_W) {
+    const auto corner = [&](double column, double row) { return view_W.Ray(column, row); };
+    const double right = view_W.columns;
+    const double bottom = view_W.rows;
+    const std::array<Vector3, 4> corners = {corner(-1.0, -1.0), corner(right, -1.0),
+                                            corner(right, bottom), corner(-1.0, bottom)};
+    const Vector3 middle = corner(0.5 * (right - 1.0), 0.5 * (bottom - 1.0));
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vector3 normal = corners[i].cross(corners[(i + 1) % corners.size()]).normalized();
+      normals_[i] = normal.dot(middle) > 0.0 ? normal : Vector3(-normal);
+    }
+  }
+
+  // Returns false where neither eye can see anything of a ball.
+  bool MayHold(const Vector3& center_W, double radius_m) const {
+    return std::all_of(normals_.begin(), normals_.end(), [&](const Vector3& normal) {
+      return std::max(normal.dot(center_W - view_W_.eye),
+                      normal.dot(center_W - view_W_.right_eye)) >= -radius_m;
+    });
+  }
+
+ private:
+  const StereoView& view_W_;
+  std::array<Vector3, 4> normals_;
 };
 
 }  // namespace
@@ -51,6 +85,7 @@ RockOutline::RockOutline(const terrain::RockShape& shape, const Vector3& center_
   const Vector3 e1 = shape.Map(view_W.along_row);
   const Vector3 e2 = shape.Map(view_W.along_column);
   outside_1_ = q.squaredNorm() - 1.0;
+  inverse_outside_1_ = 1.0 / outside_1_;
   b0_ = -q.dot(e0);
   b1_ = -q.dot(e1);
   b2_ = -q.dot(e2);
@@ -86,14 +121,14 @@ void RockOutline::FindRows(int rows) {
 }
 
 RowCut RockOutline::Row(double row) const {
-  RowCut cut{.quadratic = a_,
-             .linear = d0_ + d1_ * row,
-             .constant = f0_ + (2.0 * f1_ + f2_ * row) * row,
-             .approach_0 = b0_ + b2_ * row,
-             .approach_1 = b1_,
-             .inverse_outside_1 = 1.0 / outside_1_,
-             .span = {},
-             .exact = true};
+  RowCut cut{{.quadratic = a_,
+              .linear = d0_ + d1_ * row,
+              .constant = f0_ + (2.0 * f1_ + f2_ * row) * row,
+              .approach_0 = b0_ + b2_ * row,
+              .approach_1 = b1_,
+              .inverse_outside_1 = inverse_outside_1_},
+             {},
+             true};
   // The quadratic opens upwards: the columns that meet the rock have no two ends.
   if (a_ >= 0.0) {
     cut.span = {-kEverywhere, kEverywhere};
@@ -118,9 +153,10 @@ StereoScene::StereoScene(const terrain::Terrain& terrain, const StereoView& view
   std::vector<int> near;
   // Both eyes are served by the rocks around the left one.
   terrain.RocksNear(view_W.eye.x(), view_W.eye.y(), max_range_m, near);
-  rocks_.reserve(near.size());
+  const FieldOfView sides(view_W);
   for (const int index : near) {
     const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
+    if (!sides.MayHold(rock.center_W, rock.semi_axes_m.maxCoeff())) continue;
     rocks_.push_back({terrain::RockShape(rock), rock.center_W});
   }
 }
@@ -180,20 +216,18 @@ void StereoScene::AddRock(const RockOutline& outline, DepthImage& image) const {
     const RowCut cut = outline.Row(row);
     const Columns seen(cut.span, view_W_.columns);
     if (seen.count() == 0) continue;
-    auto pixels = image.row(row).segment(seen.first, seen.count()).transpose();
+    double* pixels = &image(row, 0);
     // The outline is no ellipse in this row, and its span no bound: pixel by pixel.
     if (!cut.exact) {
-      for (int i = 0; i < seen.count(); ++i) {
-        pixels[i] = std::max(pixels[i], cut.InverseDepth(seen.first + i));
+      for (int column = seen.first; column <= seen.last; ++column) {
+        pixels[column] = std::max(pixels[column], cut.InverseDepth(column));
       }
       continue;
     }
     // 1/Z = (B + sqrt(B^2 - K |e|^2)) / K, the larger of the two roots: where the ray enters the
     // rock. B is linear in the column, the discriminant quadratic (RockOutline).
-    const auto c = columns_.segment(seen.first, seen.count());
-    const auto discriminant = (cut.quadratic * c + 2.0 * cut.linear) * c + cut.constant;
-    pixels = pixels.max((cut.approach_0 + cut.approach_1 * c + discriminant.max(0.0).sqrt()) *
-                        cut.inverse_outside_1);
+    RaiseToRock(cut, static_cast<std::size_t>(seen.first), static_cast<std::size_t>(seen.count()),
+                pixels);
   }
 }
 
@@ -232,8 +266,9 @@ void StereoScene::HideFromRightEye(DepthImage& inverse_depths) const {
     return;
   }
   if (!terrain_.ground().IsPlane()) HideBehindGround(inverse_depths);
+  const double slack_m = OcclusionSlack_m();
   for (const Candidate& rock : rocks_) {
-    HideBehind({rock.shape, rock.center_W, view_W_, view_W_.right_eye}, inverse_depths);
+    HideBehind({rock.shape, rock.center_W, view_W_, view_W_.right_eye}, slack_m, inverse_depths);
   }
   // d = f b / Z columns further left in the right image, whose pixels end half a column before 0.
   const double scale_px_m = view_W_.focal_px * view_W_.baseline_m;
@@ -246,23 +281,42 @@ void StereoScene::HideFromRightEye(DepthImage& inverse_depths) const {
 // The left image's column c of disparity d is the right image's column c - d. A rock with the span
 // [a, b] there can therefore hide columns from a to b + f b / Z of its own nearest point: what it
 // hides is farther, with smaller d. Distances along the right eye's ray are compared, |e| Z.
-void StereoScene::HideBehind(const RockOutline& outline_right, DepthImage& image) const {
+void StereoScene::HideBehind(const RockOutline& outline_right, double slack_m,
+                             DepthImage& image) const {
   const double scale_px_m = view_W_.focal_px * view_W_.baseline_m;
+  std::vector<int>& columns = found_columns_;
+  columns.resize(static_cast<std::size_t>(view_W_.columns) + 8);
   for (int row = outline_right.first_row(); row <= outline_right.last_row(); ++row) {
     const RowCut cut = outline_right.Row(row);
     const double shift_px = cut.exact ? scale_px_m * cut.NearestInverseDepth() : 0.0;
     const Columns behind({cut.span.first, cut.span.last + shift_px}, view_W_.columns);
-    for (int column = behind.first; column <= behind.last; ++column) {
+    if (behind.count() == 0) continue;
+    const std::size_t found =
+        FindBehindRock(cut, scale_px_m, slack_m, static_cast<std::size_t>(behind.first),
+                       static_cast<std::size_t>(behind.count()), &image(row, 0), columns.data());
+    for (const int column : std::span(columns).first(found)) {
       double& pixel = image(row, column);
-      if (pixel <= 0.0) continue;
       const double column_right = column - scale_px_m * pixel;
       const double rock = cut.InverseDepth(column_right);
-      if (rock <= pixel) continue;
       const double length = view_W_.Ray(column_right, row).norm();
       // 1/Z of the rock against that of the point, as distances along the ray.
       if (length / rock <= length / pixel - rendering::kOcclusionMargin_m) pixel = 0.0;
     }
   }
+}
+
+// Inverse depths p behind a rock of inverse depth k have |e| / k <= |e| / p - margin, hence
+//   k - p >= margin k p / |e| > margin p^2 / |e|.
+// |e| is largest in a corner of the image; half of the margin leaves room for rounding. Columns of
+// the right image outside of it are dropped afterwards, whatever is found for them.
+double StereoScene::OcclusionSlack_m() const {
+  double longest = 0.0;
+  for (const double row : {0.0, view_W_.rows - 1.0}) {
+    for (const double column : {-1.0, static_cast<double>(view_W_.columns)}) {
+      longest = std::max(longest, view_W_.Ray(column, row).norm());
+    }
+  }
+  return 0.5 * rendering::kOcclusionMargin_m / longest;
 }
 
 // What hides a point from the right eye, if the left eye sees it, lies to the right of the point in

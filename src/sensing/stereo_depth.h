@@ -6,13 +6,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "math/pose.h"
+#include "sensing/stereo_lanes.h"
 #include "sensing/stereo_view.h"
 #include "terrain/rock.h"
 #include "terrain/terrain.h"
@@ -44,6 +47,21 @@ inline void JumpDistances(std::span<const double> row_px, double jump_px,
   }
 }
 
+// Sets `beside` to whether a jump, as JumpDistances finds it, is `reach` columns away or less. Both
+// spans have the same length.
+inline void MarkJumps(std::span<const double> row_px, double jump_px, std::int64_t reach,
+                      std::span<std::uint8_t> beside) {
+  std::fill(beside.begin(), beside.end(), std::uint8_t{0});
+  const auto size = static_cast<std::int64_t>(row_px.size());
+  for (std::int64_t column = 1; column < size; ++column) {
+    const auto at = static_cast<std::size_t>(column);
+    if (!(std::abs(row_px[at] - row_px[at - 1]) >= jump_px)) continue;
+    const auto first = static_cast<std::size_t>(std::max<std::int64_t>(column - reach, 0));
+    const auto end = static_cast<std::size_t>(std::min(column + reach, size));
+    for (std::size_t i = first; i < end; ++i) beside[i] = 1;
+  }
+}
+
 // Returns the first column on the other side of the jump that JumpDistances found `distance_px`
 // columns from `column`, with the same jump_px. Of two jumps at the same distance the right one
 // counts.
@@ -63,13 +81,7 @@ struct ColumnSpan {
 };
 
 // The cut of an image row through a rock: quadratics in the column.
-struct RowCut {
-  double quadratic = 0.0;  // discriminant = (quadratic c + 2 linear) c + constant
-  double linear = 0.0;
-  double constant = 0.0;
-  double approach_0 = 0.0;  // approach = approach_0 + approach_1 c
-  double approach_1 = 0.0;
-  double inverse_outside_1 = 0.0;
+struct RowCut : RockRow {
   // The columns within which the row can meet the rock. Where `exact`, all of them meet it.
   ColumnSpan span;
   bool exact = true;
@@ -107,7 +119,8 @@ class RockOutline {
  private:
   void FindRows(int rows);
 
-  double outside_1_;     // K
+  double outside_1_;  // K
+  double inverse_outside_1_;
   double b0_, b1_, b2_;  // B = b0 + c b1 + r b2
   double a_;             // factor of c^2 in the discriminant
   double d0_, d1_;       // factors of 2 c and of 2 c r
@@ -154,7 +167,8 @@ class StereoScene {
   void AddRock(const RockOutline& outline, DepthImage& image) const;
   void AddRoughGround(DepthImage& image) const;
   void DropFarther(DepthImage& image) const;
-  void HideBehind(const RockOutline& outline_right, DepthImage& image) const;
+  void HideBehind(const RockOutline& outline_right, double slack_m, DepthImage& image) const;
+  double OcclusionSlack_m() const;
   void HideBehindGround(DepthImage& image) const;
 
   const terrain::Terrain& terrain_;
@@ -162,6 +176,7 @@ class StereoScene {
   double max_range_m_;
   std::vector<Candidate> rocks_;
   Eigen::ArrayXd columns_;  // 0, 1, 2, ...
+  mutable std::vector<int> found_columns_;
 };
 
 }  // namespace rockyard::sensing

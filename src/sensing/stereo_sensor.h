@@ -35,21 +35,25 @@ class StereoMatcher {
              const PixelFlags& shaded = {}) const;
 
  private:
-  void AddNoise(core::TrialKey key, std::uint32_t look, DepthImage& seen) const;
-  void Mismatch(core::TrialKey key, std::uint32_t look, const DepthImage& all,
-                DepthImage& seen) const;
+  class Draws;
+
+  void MatchRow(const Draws& draws, int row, const DepthImage& all, DepthImage& seen,
+                const PixelFlags& shaded) const;
+  void AddNoise(const Draws& draws, int row, std::span<double> row_px) const;
+  void Mismatch(const Draws& draws, int row, std::span<const double> all_px,
+                std::span<double> row_px) const;
   void MismatchEdge(std::span<const double> row_px, std::size_t column, int jump,
                     double& pixel) const;
-  void DropMargins(DepthImage& seen) const;
-  void DropOut(core::TrialKey key, std::uint32_t look, const DepthImage& all,
-               const PixelFlags& shaded, DepthImage& seen) const;
+  void DropMargins(bool edge_row, std::span<double> row_px) const;
+  void DropOut(const Draws& draws, int row, std::span<const double> all_px,
+               std::span<const bool> shaded, std::span<double> row_px) const;
 
   StereoParams params_;
   float mismatch_quantile_;  // standard normal numbers below it are wrong matches
   // Numbers from mismatch_quantile_ up to this one, beside a jump, match the other surface.
   float edge_mismatch_quantile_;
-  // Numbers below it drop out: [beside a jump][in shadow].
-  std::array<std::array<float, 2>, 2> dropout_quantiles_;
+  // So many of the least cells of PixelNoise drop out: [beside a jump][in shadow].
+  std::array<std::array<std::uint32_t, 2>, 2> dropout_cells_;
 };
 
 // The sensor. It gives one point for each pixel of the left image for which all of the following

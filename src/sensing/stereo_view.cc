@@ -1,7 +1,13 @@
 #include "sensing/stereo_view.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <utility>
+#include <vector>
+
+#include "sensing/stereo_lanes.h"
 
 namespace rockyard::sensing {
 
@@ -59,16 +65,32 @@ messages::PointCloud PointsOf(const StereoParams& params, const StereoView& view
                               const DepthImage& inverse_depths, std::int64_t look_number,
                               messages::LookDirection direction) {
   messages::PointCloud cloud{.number = look_number, .direction = direction, .points_R = {}};
-  cloud.points_R.reserve(static_cast<std::size_t>(inverse_depths.size()));
+  const auto columns = static_cast<std::size_t>(view_R.columns);
+  constexpr std::size_t kRoom = 8;  // what PlacePoints asks for
+  std::array<std::vector<double>, 3> placed;
+  placed.fill(std::vector<double>(columns + kRoom));
+  std::vector<Vector3> points_R(static_cast<std::size_t>(inverse_depths.size()) + 1);
+  std::size_t count = 0;
   for (int row = 0; row < view_R.rows; ++row) {
-    for (int column = 0; column < view_R.columns; ++column) {
-      const double inverse_depth = inverse_depths(row, column);
-      if (inverse_depth <= 0.0) continue;
-      // Pixel (c, r) at depth Z: eye + Z e(c, r), in R.
-      const Vector3 p_RoP_R = view_R.eye + view_R.Ray(column, row) / inverse_depth;
-      if (IsWanted(params, p_RoP_R, direction)) cloud.points_R.push_back(p_RoP_R);
+    const double* pixels = &inverse_depths(row, 0);
+    // Pixel (c, r) at depth Z: eye + Z e(c, r), in R.
+    for (const Eigen::Index i : {0, 1, 2}) {
+      const RowRays rays{view_R.eye[i], view_R.first[i], view_R.along_row[i],
+                         row * view_R.along_column[i]};
+      PlacePoints(rays, pixels, columns, placed[static_cast<std::size_t>(i)].data());
+    }
+    for (std::size_t column = 0; column < columns; ++column) {
+      // What is no point is overwritten by the next one: a branch would be guessed wrong often.
+      points_R[count] = {placed[0][column], placed[1][column], placed[2][column]};
+      count += static_cast<std::size_t>(pixels[column] > 0.0);
     }
   }
+  points_R.resize(count);
+  if (params.field_of_view != StereoFieldOfView::kFull) {
+    std::erase_if(points_R,
+                  [&](const Vector3& p_RoP_R) { return !IsWanted(params, p_RoP_R, direction); });
+  }
+  cloud.points_R = std::move(points_R);
   return cloud;
 }
 

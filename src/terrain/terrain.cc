@@ -122,7 +122,10 @@ void Terrain::BuildGrid() {
       }
     }
   };
+  first_cells_.clear();
   for (const Rock& rock : rocks_) {
+    const CellRange cells = CellsOf(rock.center_W.x(), rock.center_W.y(), FootprintRadius(rock));
+    first_cells_.push_back({cells.first_x, cells.first_y});
     for_each_cell(rock, [this](std::size_t cell) { ++cell_start_[cell + 1]; });
   }
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
@@ -154,7 +157,11 @@ void Terrain::RocksNear(double x_m, double y_m, double radius_m, std::vector<int
   for (int iy = cells.first_y; iy <= cells.last_y; ++iy) {
     for (int ix = cells.first_x; ix <= cells.last_x; ++ix) {
       for (const int index : RocksOfCell(ix, iy)) {
-        const Rock& rock = rocks_[static_cast<std::size_t>(index)];
+        const auto at = static_cast<std::size_t>(index);
+        // A rock stands in every cell that its box touches: it is taken in the first of them.
+        if (ix != std::max(cells.first_x, first_cells_[at].x)) continue;
+        if (iy != std::max(cells.first_y, first_cells_[at].y)) continue;
+        const Rock& rock = rocks_[at];
         const double dx = rock.center_W.x() - x_m;
         const double dy = rock.center_W.y() - y_m;
         // Both discs meet: a superset, since outlines are ellipses.
@@ -164,8 +171,6 @@ void Terrain::RocksNear(double x_m, double y_m, double radius_m, std::vector<int
     }
   }
   std::sort(out.begin(), out.end());
-  // A rock stands in every cell that its box touches, so it can be found more than once.
-  out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
 // Walls come first, then the ground no farther than the nearest wall.

@@ -140,6 +140,11 @@ class Terrain {
   int grid_ny_ = 0;
   std::vector<int> cell_start_;
   std::vector<int> cell_rocks_;
+  // The cell with the least column and row of those that each rock stands in.
+  struct GridCell {
+    int x, y;
+  };
+  std::vector<GridCell> first_cells_;
 };
 
 }  // namespace rockyard::terrain

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/normal_pieces.h"
 #include "core/random.h"
 #include "core/statistical_checks.h"
 
@@ -73,6 +74,25 @@ TEST(DistributionsTest, NormalIsTheInverseOfTheDistribution) {
         std::numbers::sqrt2_v<long double> * boost::math::erf_inv(2.0L * u - 1.0L);
     const auto error = static_cast<double>(SampleNormal(normal, 0.0, 1.0) - exact);
     worst = std::max(worst, std::abs(error) / static_cast<double>(std::abs(exact)));
+  }
+  EXPECT_LT(worst, 4.0 * std::numeric_limits<double>::epsilon());
+  EXPECT_GT(worst, 0.0);
+}
+
+// Both ends, the middle and numbers on both sides of each border of pieces, by the slow inverse.
+TEST(DistributionsTest, PiecesOfTheNormalInverseMeet) {
+  constexpr int kPerOctave = 16;
+  const NormalPieces pieces;
+  double worst = 0.0;
+  for (double octave = NormalPieces::kLeast; octave < 0.5; octave *= 2.0) {
+    for (int part = 0; part < kPerOctave; ++part) {
+      const double low = octave * (1.0 + static_cast<double>(part) / kPerOctave);
+      const double high = octave * (1.0 + static_cast<double>(part + 1) / kPerOctave);
+      for (const double t : {low, 0.5 * (low + high), std::nextafter(high, 0.0)}) {
+        const double exact = -NormalQuantile(t);
+        worst = std::max(worst, std::abs(pieces.Exceeded(t) - exact) / exact);
+      }
+    }
   }
   EXPECT_LT(worst, 4.0 * std::numeric_limits<double>::epsilon());
   EXPECT_GT(worst, 0.0);

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <vector>
 
 #include "rendering/image_readout.h"
 #include "rendering/picture/picture_kit.h"
@@ -57,6 +59,27 @@ TEST(PixelNoise, IsStandardNormal) {
     statistic += std::pow(count - kCount / kBins, 2) / (kCount / kBins);
   }
   EXPECT_LT(statistic, quantile(complement(boost::math::chi_squared(kBins - 1.0), kAlpha)));
+}
+
+// Lines are drawn side by side; the reference is one block of core::Philox4x32 after the other.
+TEST(PixelNoise, CellsOfALineAreThoseOfItsBlocks) {
+  const PixelNoise noise(kKey, core::Purpose::kTest, 3);
+  const auto numbers = PixelNoise::NumbersOfCells();
+  for (const int row : {-(1 << 15), -3, 0, (1 << 15) - 1}) {
+    for (const int blocks : {1, 2, 3, 5, 16, 37}) {
+      for (const int first : {-(1 << 15), -2, 0, (1 << 15) - blocks}) {
+        std::vector<std::uint16_t> cells(static_cast<std::size_t>(8 * blocks));
+        noise.Cells(row, first, cells);
+        for (int block = 0; block < blocks; ++block) {
+          const auto expected = noise.Block(row, first + block);
+          for (std::size_t i = 0; i < expected.size(); ++i) {
+            ASSERT_EQ(numbers[cells[static_cast<std::size_t>(8 * block) + i]], expected[i]);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
 }
 
 // The table: odd, largest number 4.27, variance 0.99995 over all of its cells.

@@ -279,6 +279,22 @@ TEST(DepthJumpsTest, AJumpIsExactlyAsLargeOrLarger) {
   EXPECT_GE(Distances({5, 6}, 1.001)[0], kNoJump);
 }
 
+// Marks against distances, for every reach up to one beyond the row.
+TEST(DepthJumpsTest, MarksWhatIsWithinReach) {
+  std::vector<double> row_px;
+  for (int i = 0; i < 60; ++i) row_px.push_back((i * i * 7 % 31) / 20.0);
+  for (const double jump_px : {0.5, 1.0, 1.4, 9.0}) {
+    const std::vector<int> distances = Distances(row_px, jump_px);
+    std::vector<std::uint8_t> beside(row_px.size(), 1);
+    for (std::int64_t reach = 0; reach <= 61; ++reach) {
+      MarkJumps(row_px, jump_px, reach, beside);
+      for (std::size_t i = 0; i < row_px.size(); ++i) {
+        ASSERT_EQ(beside[i] != 0, distances[i] <= reach) << jump_px << ", " << reach << ", " << i;
+      }
+    }
+  }
+}
+
 // Against the definition: the nearest of all jumps, looked for from every pixel.
 TEST(DepthJumpsTest, IsTheNearestOfAllJumps) {
   std::vector<double> row_px;

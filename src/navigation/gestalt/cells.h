@@ -49,6 +49,12 @@ class CellWindow {
   MapCell& At(int ix, int iy) { return slots_[Slot(ix, iy)]; }
   const MapCell& At(int ix, int iy) const { return slots_[Slot(ix, iy)]; }
 
+  // Returns the cell in a slot: row times nx plus column of the slot. The window's first column is
+  // in slot column wrap_x, its first row in slot row wrap_y.
+  MapCell& InSlot(std::size_t slot) { return slots_[slot]; }
+  int wrap_x() const { return wrap_x_; }
+  int wrap_y() const { return wrap_y_; }
+
   // Moves the window. Slots of cells that go out hold the cells that come in: the caller empties
   // them first.
   void MoveTo(std::int64_t first_x, std::int64_t first_y) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "core/check.h"
 
@@ -15,6 +16,12 @@ constexpr std::int64_t kMaxPoints = math::kExactPoints;  // of a cell
 constexpr double kFarthest_m = 1e6;
 
 double Clamped(double x_m) { return std::clamp(x_m, -kFarthest_m, kFarthest_m); }
+
+// Returns the largest whole number that is not above x, which must fit one.
+std::int64_t FloorOf(double x) {
+  const auto toward_0 = static_cast<std::int64_t>(x);
+  return toward_0 - static_cast<std::int64_t>(x < static_cast<double>(toward_0));
+}
 
 }  // namespace
 
@@ -37,8 +44,7 @@ GestaltMap::GestaltMap(const GestaltMapParams& params)
 GestaltMap::LatticeCell GestaltMap::LatticeAt(double x_m, double y_m) const {
   const GestaltGridParams& grid = params_.grid;
   // floor((x - x0) / step): the lattice goes on beyond the bounds x0 .. xN, which give its phase.
-  return {static_cast<std::int64_t>(std::floor((x_m - grid.x0_m) / grid.xstep_m)),
-          static_cast<std::int64_t>(std::floor((y_m - grid.y0_m) / grid.ystep_m))};
+  return {FloorOf((x_m - grid.x0_m) / grid.xstep_m), FloorOf((y_m - grid.y0_m) / grid.ystep_m)};
 }
 
 double GestaltMap::CentreX_m(std::int64_t i) const {
@@ -59,11 +65,6 @@ void GestaltMap::MeasureDistances(LatticeCell first) {
     const double distance = CentreY_m(first.y + static_cast<std::int64_t>(j)) - rover_y_m_;
     squares_y_m2_[j] = distance * distance;
   }
-}
-
-bool GestaltMap::InWindow(LatticeCell cell) const {
-  return cell.x >= cells_.first_x() && cell.x < cells_.first_x() + cells_.nx() &&
-         cell.y >= cells_.first_y() && cell.y < cells_.first_y() + cells_.ny();
 }
 
 // Keeps the box of cells that may hold something: loops need not visit the rest of the window.
@@ -113,32 +114,45 @@ void GestaltMap::DropOldCells(LatticeCell first) {
   }
 }
 
-void GestaltMap::AddPoint(const math::Vector3& p_WP_W) {
-  const LatticeCell at = LatticeAt(p_WP_W.x(), p_WP_W.y());
-  if (!InWindow(at)) return;
-  const int ix = static_cast<int>(at.x - cells_.first_x());
-  const int iy = static_cast<int>(at.y - cells_.first_y());
-  if (!IsNear(ix, iy)) return;
-  MapCell& cell = cells_.At(ix, iy);
-  cell.last_cycle = cycle_;
-  // Beyond this number sums could run over 2^64; the cell counts as seen all the same.
-  if (cell.moments.count() >= kMaxPoints) return;
-  cell.moments.AddPoint(math::ToMomentUnits(p_WP_W.x()), math::ToMomentUnits(p_WP_W.y()),
-                        math::ToMomentUnits(p_WP_W.z()));
-  GrowBox(ix, iy);
+PointSieve GestaltMap::Sieve() const {
+  const GestaltGridParams& grid = params_.grid;
+  return {.x = {.origin_m = grid.x0_m,
+                .step_m = grid.xstep_m,
+                .rover_m = rover_x_m_,
+                .first = static_cast<double>(cells_.first_x()),
+                .cells = static_cast<double>(cells_.nx()),
+                .wrap = static_cast<double>(cells_.wrap_x())},
+          .y = {.origin_m = grid.y0_m,
+                .step_m = grid.ystep_m,
+                .rover_m = rover_y_m_,
+                .first = static_cast<double>(cells_.first_y()),
+                .cells = static_cast<double>(cells_.ny()),
+                .wrap = static_cast<double>(cells_.wrap_y())},
+          .largest_xy_m = 2.0 * kFarthest_m,
+          .largest_z_m = kFarthest_m,
+          .largest_height_m = kLargestHeight_m,
+          .largest_square_m2 = params_.grid_dist_timeout_m * params_.grid_dist_timeout_m};
 }
 
+// The believed pose takes points from R into the map's frame (map.h).
 void GestaltMap::Add(const messages::PointCloud& cloud, const math::Transform& X_WR) {
-  const double z_R = X_WR.translation().z();
-  for (const math::Vector3& p_RP_R : cloud.points_R) {
-    // The believed pose takes points from R into the map's frame (map.h).
-    const math::Vector3 p_WP_W = X_WR * p_RP_R;
-    // Written so that coordinates that are not numbers fail. Heights are bounded so that the exact
-    // sums of a cell cannot run over.
-    const bool sound =
-        std::abs(p_WP_W.x()) <= 2.0 * kFarthest_m && std::abs(p_WP_W.y()) <= 2.0 * kFarthest_m &&
-        std::abs(p_WP_W.z() - z_R) <= kLargestHeight_m && std::abs(p_WP_W.z()) <= kFarthest_m;
-    if (sound) AddPoint(p_WP_W);
+  const PointSieve sieve = Sieve();
+  SiftedPoints sifted;
+  std::span<const math::Vector3> rest_R(cloud.points_R);
+  while (!rest_R.empty()) {
+    const auto points_R = rest_R.first(std::min(rest_R.size(), SiftedPoints::kMost));
+    rest_R = rest_R.subspan(points_R.size());
+    Sift(sieve, points_R, X_WR, sifted);
+    if (sifted.count == 0) continue;
+    for (const std::size_t i : std::span(sifted.taken).first(sifted.count)) {
+      MapCell& cell = cells_.InSlot(static_cast<std::size_t>(sifted.slots[i]));
+      cell.last_cycle = cycle_;
+      // Beyond this number sums could run over 2^64; the cell counts as seen all the same.
+      if (cell.moments.count() >= kMaxPoints) continue;
+      cell.moments.AddPoint(sifted.x[i], sifted.y[i], sifted.z[i]);
+    }
+    GrowBox(static_cast<int>(sifted.first_x), static_cast<int>(sifted.first_y));
+    GrowBox(static_cast<int>(sifted.last_x), static_cast<int>(sifted.last_y));
   }
 }
 

@@ -14,6 +14,7 @@
 #include "navigation/gestalt/goodness_grid.h"
 #include "navigation/gestalt/map_params.h"
 #include "navigation/gestalt/planes.h"
+#include "navigation/gestalt/point_sieve.h"
 #include "navigation/gestalt/traversability.h"
 
 namespace rockyard::navigation {
@@ -76,10 +77,10 @@ class GestaltMap {
   }
   // Measures the distances for a window whose first cell is `first`.
   void MeasureDistances(LatticeCell first);
-  bool InWindow(LatticeCell cell) const;
   // Empties what does not belong into a window whose first cell is `first`.
   void DropOldCells(LatticeCell first);
-  void AddPoint(const math::Vector3& p_WP_W);
+  // Returns which points the map takes, and where it puts them.
+  PointSieve Sieve() const;
   void GrowBox(int ix, int iy);
 
   GestaltMapParams params_;

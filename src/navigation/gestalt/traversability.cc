@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "navigation/gestalt/step_lanes.h"
+
 namespace rockyard::navigation {
 namespace {
 
@@ -120,45 +122,48 @@ void PatchSteps::Find(const CellWindow& cells, const CellBox& box, PatchReach re
   }
 }
 
-double PatchSteps::StepFrom(const PatchPlane& plane, const CellBox& patch) const {
-  double highest = -kNone;
-  double lowest = kNone;
-  for (int iy = patch.y; iy < patch.y_end; ++iy) {
-    for (int ix = patch.x; ix < patch.x_end; ++ix) {
-      const std::size_t i = CellIndex(ix, iy, columns_);
-      if (!has_data_[i]) continue;
-      const math::Vector3& p = means_[i];
-      const double above = p.z() - plane.rise_x * p.x() - plane.rise_y * p.y();
-      highest = std::max(highest, above);
-      lowest = std::min(lowest, above);
+void PatchSteps::LoadMeans(const CellWindow& cells, const CellBox& box, PatchReach reach) {
+  constexpr double kNoData = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t size = CellIndex(0, height_, width_) + kRoom;
+  for (std::vector<double>& means : means_m_) means.assign(size, kNoData);
+  for (int iy = box.y; iy < box.y_end; ++iy) {
+    std::size_t i = CellIndex(2 * reach.x, iy - box.y + 2 * reach.y, width_);
+    for (int ix = box.x; ix < box.x_end; ++ix, ++i) {
+      const math::PointMoments& moments = cells.At(ix, iy).moments;
+      if (moments.empty()) continue;
+      const math::Vector3 mean_m = math::Spread(moments).mean_m;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        means_m_[axis][i] = mean_m[static_cast<Eigen::Index>(axis)];
+      }
     }
   }
-  return highest > lowest ? highest - lowest : 0.0;
 }
 
 void PatchSteps::FindFromPlanes(const CellWindow& cells, const CellBox& box, PatchReach reach,
                                 const std::vector<PatchPlane>& planes) {
   Find(cells, box, reach);
-  columns_ = cells.nx();
-  has_data_.assign(steps_.size(), false);
-  means_.resize(steps_.size());
-  for (int iy = box.y; iy < box.y_end; ++iy) {
-    for (int ix = box.x; ix < box.x_end; ++ix) {
-      const math::PointMoments& moments = cells.At(ix, iy).moments;
-      if (moments.empty()) continue;
-      const std::size_t i = CellIndex(ix, iy, columns_);
-      has_data_[i] = true;
-      means_[i] = math::Spread(moments).mean_m;
-    }
-  }
+  if (box.empty()) return;
+  LoadMeans(cells, box, reach);
   const CellBox out = box.Grown(reach.x, reach.y, cells.nx(), cells.ny());
+  const auto count = static_cast<std::size_t>(out.x_end - out.x);
+  for (std::vector<double>* row : {&rise_x_, &rise_y_, &row_steps_m_}) row->resize(count + kRoom);
   for (int iy = out.y; iy < out.y_end; ++iy) {
-    for (int ix = out.x; ix < out.x_end; ++ix) {
-      const std::size_t i = CellIndex(ix, iy, columns_);
-      if (!planes[i].plane_valid) continue;
-      const CellBox patch =
-          CellBox{ix, ix + 1, iy, iy + 1}.Grown(reach.x, reach.y, cells.nx(), cells.ny());
-      steps_[i] = StepFrom(planes[i], patch);
+    const std::size_t at = CellIndex(out.x, iy, cells.nx());
+    const PatchPlane* row_planes = &planes[at];
+    for (std::size_t i = 0; i < count; ++i) {
+      rise_x_[i] = row_planes[i].rise_x;
+      rise_y_[i] = row_planes[i].rise_y;
+    }
+    const std::size_t first = CellIndex(out.x - box.x + reach.x, iy - box.y + reach.y, width_);
+    FindSteps({.means_m = {&means_m_[0][first], &means_m_[1][first], &means_m_[2][first]},
+               .stride = static_cast<std::size_t>(width_),
+               .columns = static_cast<std::size_t>(2 * reach.x + 1),
+               .rows = static_cast<std::size_t>(2 * reach.y + 1),
+               .rise_x = rise_x_.data(),
+               .rise_y = rise_y_.data()},
+              count, row_steps_m_.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      if (row_planes[i].plane_valid) steps_[at + i] = row_steps_m_[i];
     }
   }
 }
@@ -192,6 +197,8 @@ bool Traversability::IsKnown(const PatchPlane& plane, bool step_hazard) const {
 // Returns the least goodness of all hazards of the patch, with the certainty of that hazard's pair
 // or full certainty.
 CellValue Traversability::Value(const PatchPlane& plane, double step_m) const {
+  // Whatever its steps, nothing is known of a patch with too little data.
+  if (!plane.enough && !plane.marked) return Unknown();
   const GestaltPairParams& pairs = params_.pairs;
   const double h_m = params_.HazardHeight_m();
   GoodnessPair value{kBestGoodness, kFullCertainty};

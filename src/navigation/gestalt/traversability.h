@@ -4,10 +4,11 @@
 // (step, roughness, pitch): its pair gives the certainty.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "math/pose.h"
 #include "navigation/gestalt/cells.h"
 #include "navigation/gestalt/goodness_grid.h"
 #include "navigation/gestalt/map_params.h"
@@ -35,16 +36,21 @@ class PatchSteps {
 
  private:
   void LoadElevations(const CellWindow& cells, const CellBox& box, PatchReach reach);
-  double StepFrom(const PatchPlane& plane, const CellBox& patch) const;
+  void LoadMeans(const CellWindow& cells, const CellBox& box, PatchReach reach);
+
+  static constexpr std::size_t kRoom = 8;  // what FindSteps asks for
 
   int width_ = 0;  // of the padded maps below
   int height_ = 0;
   std::vector<double> highest_;  // padded by the reach on all sides
   std::vector<double> lowest_;
   std::vector<double> steps_;
-  int columns_ = 0;                   // of means_
-  std::vector<math::Vector3> means_;  // of the points of each cell with data, m
-  std::vector<bool> has_data_;
+  // The means of the points of each cell, padded as above, m; not a number where it has no data.
+  std::array<std::vector<double>, 3> means_m_;
+  // Of the row at hand.
+  std::vector<double> rise_x_;
+  std::vector<double> rise_y_;
+  std::vector<double> row_steps_m_;
 };
 
 // Gives every cell the least of the goodnesses of its hazards:
