@@ -1,6 +1,7 @@
 #include "rover/quasi_static/linkage.h"
 
 #include <cmath>
+#include <utility>
 
 #include "rover/rover_layout_params.h"
 
@@ -26,6 +27,18 @@ Eigen::Matrix3d Pitched(const Eigen::Matrix3d& R, double angle_rad) {
 }
 
 constexpr int kShared = 7;  // the coordinates that both sides have
+
+// Calls visit<0>() to visit<count - 1>(): loops over columns of the lower triangle, unrolled.
+template <int count, typename Visitor>
+void ForEach(Visitor&& visit) {
+  [&]<int... index>(std::integer_sequence<int, index...>) {
+    (visit.template operator()<index>(), ...);
+  }(std::make_integer_sequence<int, count>());
+}
+
+// Rows of a column of the lower triangle of an 8 x 8 matrix, in whole pairs: the processor takes
+// two at a time.
+constexpr int Rows(int column) { return 8 - (column & ~1); }
 
 }  // namespace
 
@@ -185,15 +198,14 @@ void LinkageEquations::AddForce(std::size_t side, const SideVector& f) {
   force_[kFirstBogieDof + static_cast<int>(side)] += f[kShared];
 }
 
-// Loops over the lower triangle go by pairs of rows, as the processor takes them.
 void LinkageEquations::AddStiffness(std::size_t side, const SideVectors& P, const SideVectors& A) {
   SideMatrix& K = side_stiffness_[side];
-  for (int j = 0; j < K.cols(); ++j) {
-    for (int i = j & ~1; i < K.rows(); i += 2) {
-      K.col(j).segment<2>(i) += P.col(0).segment<2>(i) * A(j, 0) + P.col(1).segment<2>(i) * A(j, 1) +
-                                P.col(2).segment<2>(i) * A(j, 2) + P.col(3).segment<2>(i) * A(j, 3);
-    }
-  }
+  ForEach<8>([&]<int j>() {
+    constexpr int kRows = Rows(j);
+    K.col(j).template tail<kRows>() +=
+        P.col(0).template tail<kRows>() * A(j, 0) + P.col(1).template tail<kRows>() * A(j, 1) +
+        P.col(2).template tail<kRows>() * A(j, 2) + P.col(3).template tail<kRows>() * A(j, 3);
+  });
 }
 
 void LinkageEquations::AddAt(int dof, double force, double stiffness) {
@@ -214,23 +226,19 @@ LinkageVector LinkageEquations::Solve() const {
     SideVector row;
     row << of_side.row(kShared).head<kShared>().transpose(), force_[dof];
     bogie[side] = inverse * row.head<kShared>();
-    for (int j = 0; j < kShared; ++j) {
-      for (int i = j & ~1; i < K.rows(); i += 2) {
-        K.col(j).segment<2>(i) -= row.segment<2>(i) * bogie[side][j];
-      }
-    }
+    ForEach<kShared>([&]<int j>() {
+      K.col(j).template tail<Rows(j)>() -= row.template tail<Rows(j)>() * bogie[side][j];
+    });
   }
   LinkageVector x;
   for (int j = 0; j < kShared; ++j) K(j, j) += diagonal_[j];
-  for (int j = 0; j < kShared; ++j) {
+  ForEach<kShared>([&]<int j>() {
     x[j] = 1.0 / K(j, j);
-    for (int k = j + 1; k < kShared; ++k) {
-      const double share = K(k, j) * x[j];
-      for (int i = k & ~1; i < K.rows(); i += 2) {
-        K.col(k).segment<2>(i) -= K.col(j).segment<2>(i) * share;
-      }
-    }
-  }
+    ForEach<kShared - 1 - j>([&]<int below>() {
+      constexpr int k = j + 1 + below;
+      K.col(k).template tail<Rows(k)>() -= K.col(j).template tail<Rows(k)>() * (K(k, j) * x[j]);
+    });
+  });
   // From the last row up: x_j = (f_j - sum over k > j of L_kj x_k) / D_j.
   for (int j = kShared - 1; j >= 0; --j) {
     double rest = K(kShared, j);

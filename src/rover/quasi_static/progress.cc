@@ -86,19 +86,24 @@ double Progress::Step(double rim_from, double rim_to, double time_s) {
   const double rim = theta * rim_to + (1.0 - theta) * rim_from;
   double low = 0.0;
   double high = std::max({before, rim_from, rim_to}) * kFastest + kSteady;
-  double next = std::clamp(before + rim_to - rim_from, low, high);
+  // Rims that go on as before: the speed does, too.
+  const double change = rim_to - rim_from;
+  const double guess = before + change + (std::abs(change - last_rim_change_) < kExact ? last_lag_ : 0.0);
+  double next = std::clamp(guess, low, high);
   for (int i = 0; i < kIterations; ++i) {
     const Rate rate = RateAt(theta * next + (1.0 - theta) * before, rim);
     const double lack = before + time_s * rate.value - next;
     (lack > 0.0 ? low : high) = next;
     const double newton = next + lack / (1.0 - theta * time_s * rate.slope);
     const bool inside = newton > low && newton < high;
-    const double change = inside ? std::abs(newton - next) : high - low;
+    const double moved = inside ? std::abs(newton - next) : high - low;
     next = inside ? newton : 0.5 * (low + high);
     // What Newton's method leaves is the square of its last change.
-    if (change < (inside ? kLastChange : kExact)) break;
+    if (moved < (inside ? kLastChange : kExact)) break;
   }
   speed_ = next < kExact ? 0.0 : next;
+  last_rim_change_ = change;
+  last_lag_ = speed_ - before - change;
   if (speed_ > 0.0 || before == 0.0) return 0.5 * (before + speed_) * time_s;
   // The rover comes to rest within the step: its way is half of its speed times the time to rest.
   const double slowing = -RateAt(0.5 * before, rim).value;

@@ -76,6 +76,9 @@ class Progress {
   double balance_W_ = 0.0;  // P(1, 1): what the steady motion pulls against
   double decay_s_ = 0.0;    // time in which slip decays at full speed
   double speed_ = 0.0;
+  // Of the last step: the change of the rims' share, and by how much more the speed changed.
+  double last_rim_change_ = 0.0;
+  double last_lag_ = 0.0;
 };
 
 }  // namespace rockyard::rover
