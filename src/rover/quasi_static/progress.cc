@@ -86,9 +86,11 @@ double Progress::Step(double rim_from, double rim_to, double time_s) {
   const double rim = theta * rim_to + (1.0 - theta) * rim_from;
   double low = 0.0;
   double high = std::max({before, rim_from, rim_to}) * kFastest + kSteady;
-  // Rims that go on as before: the speed does, too.
   const double change = rim_to - rim_from;
-  const double guess = before + change + (std::abs(change - last_rim_change_) < kExact ? last_lag_ : 0.0);
+  // On soil, rims that go on as before let the speed do so, too. On rock friction bends so sharply
+  // that a small change of Newton's method near such a guess tells nothing.
+  const bool same = std::abs(change - last_rim_change_) < kExact && drive_.rock.traction_N == 0.0;
+  const double guess = before + change + (same ? last_lag_ : 0.0);
   double next = std::clamp(guess, low, high);
   for (int i = 0; i < kIterations; ++i) {
     const Rate rate = RateAt(theta * next + (1.0 - theta) * before, rim);
