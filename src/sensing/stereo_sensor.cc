@@ -143,7 +143,7 @@ void StereoMatcher::MatchRow(const Draws& draws, int row, const DepthImage& all,
   }
   const double min_px = params_.min_disparity_px;
   const double max_px = params_.max_disparity_px;
-  for (double& pixel : row_px) pixel = (pixel >= min_px) & (pixel <= max_px) ? pixel : 0.0;
+  for (double& pixel : row_px) pixel = pixel >= min_px && pixel <= max_px ? pixel : 0.0;
   if (params_.margin_px > 0) {
     DropMargins(row < params_.margin_px || row >= seen.rows() - params_.margin_px, row_px);
   }
