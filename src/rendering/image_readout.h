@@ -65,14 +65,14 @@ class PixelNoise {
 template <typename Use>
 void ForEachPixelNoise(const PixelNoise& noise, int row, int first, int count, Use use) {
   constexpr int kBlock = PixelNoise::kBlock;
-  std::array<std::uint16_t, 16 * kBlock> cells;
+  std::array<std::uint16_t, 16 * kBlock> cells{};
   const std::span<const float, 65536> numbers = PixelNoise::NumbersOfCells();
   const int end = first + count;
   int column = first;
   while (column < end) {
     const int block = PixelNoise::BlockOf(column);
     const int last_block = std::min(PixelNoise::BlockOf(end - 1), block + 15);
-    const auto size = static_cast<std::size_t>((last_block - block + 1) * kBlock);
+    const auto size = static_cast<std::size_t>(last_block - block + 1) * kBlock;
     noise.Cells(row, block, std::span(cells).first(size));
     const int chunk_end = std::min(end, (last_block + 1) * kBlock);
     for (; column < chunk_end; ++column) {

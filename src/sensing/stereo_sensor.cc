@@ -54,6 +54,14 @@ DepthImage MeanOfWindows(const DepthImage& numbers, Eigen::Index window) {
   return sums / static_cast<double>(window);
 }
 
+// Asks for all numbers of noise in their order, before they are looked up at random: what a trial
+// does between two looks drives them out of fast memory.
+void FetchNumbers() {
+  constexpr std::size_t kLine = 64 / sizeof(float);
+  const auto numbers = rendering::PixelNoise::NumbersOfCells();
+  for (std::size_t i = 0; i < numbers.size(); i += kLine) __builtin_prefetch(&numbers[i]);
+}
+
 // Returns the numbers of a look's pixels, averaged over windows.
 DepthImage WindowNoise(const rendering::PixelNoise& noise, Eigen::Index rows, Eigen::Index columns,
                        Eigen::Index window) {
@@ -114,6 +122,7 @@ void StereoMatcher::Match(core::TrialKey key, std::uint32_t look, const DepthIma
     draws.window_noise =
         WindowNoise(draws.disparity, seen.rows(), seen.cols(), params_.noise_window_px);
   }
+  if (params_.disparity_noise_px > 0.0) FetchNumbers();
   for (int row = 0; row < seen.rows(); ++row) {
     if ((seen.row(row) == 0.0).all()) continue;
     MatchRow(draws, row, all, seen, shaded);
@@ -134,7 +143,7 @@ void StereoMatcher::MatchRow(const Draws& draws, int row, const DepthImage& all,
   }
   const double min_px = params_.min_disparity_px;
   const double max_px = params_.max_disparity_px;
-  for (double& pixel : row_px) pixel = (pixel >= min_px) & (pixel <= max_px) ? pixel : 0.0;
+  for (double& pixel : row_px) pixel = pixel >= min_px && pixel <= max_px ? pixel : 0.0;
   if (params_.margin_px > 0) {
     DropMargins(row < params_.margin_px || row >= seen.rows() - params_.margin_px, row_px);
   }

@@ -156,7 +156,7 @@ static_assert(sizeof(math::Vector3) == 3 * sizeof(double));
 void Sift(const PointSieve& sieve, std::span<const math::Vector3> points_R,
           const math::Transform& X_WR, SiftedPoints& sifted) {
   EXPECT(points_R.size() <= SiftedPoints::kMost);
-  std::array<double, 12> pose;
+  std::array<double, 12> pose{};
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index j = 0; j < 3; ++j) {
       pose[static_cast<std::size_t>(3 * j + i)] = X_WR.linear()(i, j);

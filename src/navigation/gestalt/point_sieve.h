@@ -40,12 +40,12 @@ struct SiftedPoints {
 
   // Points up to kMost, of those that are not taken anything: row times cells of a row plus column,
   // both as slots; coordinates in moment units, see math/point_moments.h.
-  std::array<std::int64_t, kRoom> slots, x, y, z;
+  std::array<std::int64_t, kRoom> slots{}, x{}, y{}, z{};
   // The numbers of those that are taken, ascending.
   std::size_t count = 0;
-  std::array<std::uint8_t, kRoom> taken;
+  std::array<std::uint8_t, kRoom> taken{};
   // The least and largest column and row of the window among these; of none, infinities.
-  double first_x, last_x, first_y, last_y;
+  double first_x = 0.0, last_x = 0.0, first_y = 0.0, last_y = 0.0;
 };
 
 // Sifts up to kMost points, which X_WR takes into the map's frame.
