@@ -22,8 +22,8 @@
 
 namespace rockyard::rover {
 
-// Solves all constraints of one step together, after Bullet has accelerated the free rover. The
-// table in src/rover/README.md lists the rows.
+// Solves all constraints of one step together, after gravity and motion have accelerated the free
+// rover. The table in src/rover/README.md lists the rows.
 class ConstraintSolver {
  public:
   ConstraintSolver(const RoverParams& params, const terrain::SoilParams& soil);

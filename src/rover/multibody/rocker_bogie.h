@@ -1,4 +1,4 @@
-// The rocker-bogie rover: Bullet's articulated body under rockyard's contacts and constraints. It
+// The rocker-bogie rover: the articulated body under contacts and constraints. It
 // is the default fidelity, made by MakeRover, against which the quasi-static rover is held.
 #pragma once
 
