@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rockyard::rover {
 
@@ -28,8 +29,8 @@ double RockBody::DistanceBound(const Vector3& p_W) const {
   return (u.norm() - 1.0) * smallest_axis_m_;
 }
 
-SurfacePoint RockBody::Nearest(const Vector3& p_W) const {
-  if (cap_growth_ > 0.0) return NearestOnCap(p_W);
+SurfacePoint RockBody::Nearest(const Vector3& p_W, const Vector3* start_W) const {
+  if (cap_growth_ > 0.0) return NearestOnCap(p_W, start_W);
   // All below is in the rock's frame: origin at its centre, axes along the semi-axes a_i (yaw
   // only).
   const Vector3 p = ToLocal(p_W - center_W_);
@@ -65,14 +66,16 @@ SurfacePoint RockBody::Nearest(const Vector3& p_W) const {
   return {center_W_ + ToWorld(x), ToWorld(normal), normal.dot(p - x)};
 }
 
-SurfacePoint RockBody::NearestOnCap(const Vector3& p_W) const {
+SurfacePoint RockBody::NearestOnCap(const Vector3& p_W, const Vector3* start_W) const {
   // In the rock's frame: origin at the centre of the base.
   const Vector3 p = ToLocal(p_W - center_W_);
   const double rho2 = p.head<2>().cwiseProduct(inverse_axes_per_m_.head<2>()).squaredNorm();
   const double depth_m = axes_m_.z() - p.z();
   Vector3 x;
   if (depth_m < 0.0 || rho2 > (2.0 * slope_per_m_ + bend_per_m2_ * depth_m) * depth_m) {
-    x = CapPointFromOutside(p);
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    x = CapPointFromOutside(
+        p, start_W != nullptr ? axes_m_.z() - (start_W->z() - center_W_.z()) : kNone);
   } else {
     // Inside: the ray from the centre of the base, or level from the axis below it. With zeta = z /
     // h the point l p lies on the cap where l^2 (rho^2 - B zeta^2) + l zeta (2 - A) = 1.
@@ -89,7 +92,7 @@ SurfacePoint RockBody::NearestOnCap(const Vector3& p_W) const {
   return {center_W_ + ToWorld(x), ToWorld(normal), normal.dot(p - x)};
 }
 
-Vector3 RockBody::CapPointFromOutside(const Vector3& p) const {
+Vector3 RockBody::CapPointFromOutside(const Vector3& p, double start_m) const {
   // p - x = t n' with n' = (x/a^2, y/b^2, slope + bend d), so that the depth d of x gives
   // t = (d - d_p) / (slope + bend d) and x_i = p_i a_i^2 / (a_i^2 + t). The root d is that of
   //   F(d) = sum (x_i / a_i)^2 - 2 slope d - bend d^2.
@@ -106,7 +109,8 @@ Vector3 RockBody::CapPointFromOutside(const Vector3& p) const {
   double high_m =
       square > 0.0 ? rho2 / (slope_per_m_ + std::sqrt(square)) : -slope_per_m_ / bend_per_m2_;
   high_m = std::max(high_m, low_m);
-  double depth_m = 0.5 * (low_m + high_m);
+  const bool started = start_m >= low_m && start_m <= high_m;
+  double depth_m = started ? start_m : 0.5 * (low_m + high_m);
   Eigen::Array2d x = level;
   constexpr int kMostSteps = 50;
   constexpr double kFound_m = 1e-9;

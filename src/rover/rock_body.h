@@ -32,13 +32,15 @@ class RockBody {
   // Returns the nearest point of the surface. Outside an ellipsoid, x_i = a_i^2 p_i / (a_i^2 + t)
   // with the root t >= 0 of sum (a_i p_i / (a_i^2 + t))^2 = 1 (Hart 1994, Graphics Gems IV), found
   // by Newton's method on one over the norm, to 1e-12. For caps the root is the depth of x. Inside,
-  // which contact margins make rare, it returns the point on the ray from the centre.
-  SurfacePoint Nearest(const math::Vector3& p_W) const;
+  // which contact margins make rare, it returns the point on the ray from the centre. A point of
+  // the surface near the one sought, as start_W, spares steps.
+  SurfacePoint Nearest(const math::Vector3& p_W, const math::Vector3* start_W = nullptr) const;
 
  private:
-  SurfacePoint NearestOnCap(const math::Vector3& p_W) const;
-  // Returns the point of the cap nearest to a p outside, both in the rock's frame.
-  math::Vector3 CapPointFromOutside(const math::Vector3& p) const;
+  SurfacePoint NearestOnCap(const math::Vector3& p_W, const math::Vector3* start_W) const;
+  // Returns the point of the cap nearest to a p outside, both in the rock's frame; start_m: its
+  // depth below the top, about, or not a number.
+  math::Vector3 CapPointFromOutside(const math::Vector3& p, double start_m) const;
   math::Vector3 ToLocal(const math::Vector3& v_W) const {
     return {cos_ * v_W.x() + sin_ * v_W.y(), -sin_ * v_W.x() + cos_ * v_W.y(), v_W.z()};
   }

@@ -103,8 +103,8 @@ ContactLaw UnderLoad(const ContactLaws& laws, double step_s) {
 WheelSlip SlipOf(double rim_m_s, double v_m_s) { return {rim_m_s, {v_m_s, 0.0}}; }
 
 // The step with the theta that belongs to it.
-SlipStep StepOf(const ContactLaws& laws, const SlipChange& change) {
-  const ContactLaw law = UnderLoad(laws, change.duration_s);
+SlipStep StepOf(const ContactLaws& laws, const SlipChange& change, double duration_s) {
+  const ContactLaw law = UnderLoad(laws, duration_s);
   SlipStep step;
   for (int i = 0; i < 30; ++i) step = laws.StepOfSlip(law, change, step.theta);
   return step;
@@ -129,7 +129,7 @@ TEST(SlipStep, SmallSlipDecaysAsTheSoilSays) {
     const ContactLaws laws = LawsOf(soil.soil, gravity_m_s2);
     for (const double z : {0.01, 0.1, 0.3, 0.6, 1.0}) {
       const WheelSlip slip = SlipOf(kRim_m_s, 1e-6);
-      const SlipStep step = StepOf(laws, {slip, slip, z * decay_s});
+      const SlipStep step = StepOf(laws, {slip, slip}, z * decay_s);
       EXPECT_NEAR(Remains(step, mass_kg), std::exp(-z), 0.01 * z * z * z + 1e-4 * z)
           << z << ", gravity " << gravity_m_s2;
     }
@@ -144,7 +144,7 @@ TEST(SlipStep, StiffSlipDiesWithoutRinging) {
   const double mass_kg = kLoad_N / kEarth_m_s2;
   for (const double rim_m_s : {0.1, 0.03, 0.01, 1e-3, 1e-5}) {
     const WheelSlip slip = SlipOf(rim_m_s, 1e-3 * rim_m_s);
-    const SlipStep step = StepOf(laws, {slip, slip, 1.0 / 15.0});
+    const SlipStep step = StepOf(laws, {slip, slip}, 1.0 / 15.0);
     EXPECT_LT(std::abs(Remains(step, mass_kg)), 0.1) << rim_m_s;
   }
 }
@@ -153,9 +153,9 @@ TEST(SlipStep, StiffSlipDiesWithoutRinging) {
 TEST(SlipStep, TakesForcesHalfwayInShortStepsAndLastInLongOnes) {
   const ContactLaws laws = LawsOf(BekkerSoil());
   const WheelSlip fast = SlipOf(kRim_m_s, 0.02);
-  EXPECT_NEAR(StepOf(laws, {fast, fast, 1e-6}).theta, 0.5, 1e-3);
+  EXPECT_NEAR(StepOf(laws, {fast, fast}, 1e-6).theta, 0.5, 1e-3);
   const WheelSlip slow = SlipOf(1e-6, 1e-7);
-  EXPECT_NEAR(StepOf(laws, {slow, slow, 1.0 / 60.0}).theta, 1.0, 1e-3);
+  EXPECT_NEAR(StepOf(laws, {slow, slow}, 1.0 / 60.0).theta, 1.0, 1e-3);
 }
 
 // A steady slip comes with the traction of the curve, whatever the step; beyond a slip of 1 force
@@ -166,7 +166,7 @@ TEST(SlipStep, SteadySlipHasTheTractionOfTheCurve) {
   for (const double duration_s : {1.0 / 60.0, 1.0 / 960.0}) {
     for (const double slip : {0.01, 0.1, 0.5, 1.0, 2.0}) {
       const WheelSlip steady = SlipOf(kRim_m_s, -slip * kRim_m_s);
-      const SlipStep step = StepOf(laws, {steady, steady, duration_s});
+      const SlipStep step = StepOf(laws, {steady, steady}, duration_s);
       const double force_N = slip * kRim_m_s / (step.softness_m_per_Ns * duration_s);
       const double expected_N = soil.LargestTraction(kLoad_N) *
                                 soil.Share(std::min(slip, 1.0), kLoad_N) * std::max(slip, 1.0);
@@ -180,10 +180,10 @@ TEST(SlipStep, SteadySlipHasTheTractionOfTheCurve) {
 TEST(SlipStep, AChangingSlipCountsHalfway) {
   const ContactLaws laws = LawsOf(BekkerSoil());
   constexpr double kDuration_s = 1e-7;
-  const SlipChange change{SlipOf(0.05, 0.04), SlipOf(0.15, 0.02), kDuration_s};
+  const SlipChange change{SlipOf(0.05, 0.04), SlipOf(0.15, 0.02)};
   const WheelSlip mean = SlipOf(0.1, 0.03);
-  const double softness = StepOf(laws, change).softness_m_per_Ns;
-  EXPECT_NEAR(softness, StepOf(laws, {mean, mean, kDuration_s}).softness_m_per_Ns, 1e-3 * softness);
+  const double softness = StepOf(laws, change, kDuration_s).softness_m_per_Ns;
+  EXPECT_NEAR(softness, StepOf(laws, {mean, mean}, kDuration_s).softness_m_per_Ns, 1e-3 * softness);
 }
 
 // Soil that shears without deformation (K = 0), a wheel that stands, and soil without strength have
@@ -202,7 +202,7 @@ TEST(SlipStep, HoldsWhereSlipMeansNothing) {
                         {"stands", {}, SlipOf(0.0, 0.0)},
                         {"stands and slides", {}, SlipOf(0.0, 0.02)},
                         {"no strength", weak, SlipOf(kRim_m_s, 0.03)}}) {
-    const SlipStep step = StepOf(LawsOf(c.soil), {c.slip, c.slip, 1.0 / 60.0});
+    const SlipStep step = StepOf(LawsOf(c.soil), {c.slip, c.slip}, 1.0 / 60.0);
     EXPECT_EQ(step.softness_m_per_Ns, 0.0) << c.name;
     EXPECT_EQ(step.theta, 1.0) << c.name;
   }

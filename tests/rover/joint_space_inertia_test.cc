@@ -1,4 +1,5 @@
-// Mass matrix and inverse against Bullet's articulated bodies and against energies of points.
+// Mass matrix, inverse, poses and forces of motion against Bullet's articulated bodies and against
+// energies of points.
 #include "rover/multibody/joint_space_inertia.h"
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -74,10 +75,10 @@ RoverParams Uneven(BogieEnd end) {
                               .chassis_com_z_m = 0.21}};
 }
 
-// The rover once more as Bullet's body, to be asked for accelerations by unit forces.
-class UnitForces {
+// The rover once more as Bullet's body, to be asked for accelerations.
+class BulletRover {
  public:
-  UnitForces(const RoverParams& params, const Configuration& c) {
+  BulletRover(const RoverParams& params, const Configuration& c) {
     const RoverMasses masses = MakeRoverMasses(params);
     const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
     const Vector3 com_R = masses.chassis.com_B;
@@ -96,6 +97,8 @@ class UnitForces {
       }
     }
     body_->finalizeMultiDof();
+    body_->setLinearDamping(0.0);
+    body_->setAngularDamping(0.0);
     const Eigen::Quaterniond q(c.X_WR.linear());
     body_->setBasePos(ToBullet(c.X_WR * com_R));
     body_->setWorldToBaseRot(btQuaternion(q.x(), q.y(), q.z(), q.w()).inverse());
@@ -107,23 +110,51 @@ class UnitForces {
   }
 
   DofMatrix Inverse() {
-    btAlignedObjectArray<btScalar> scalars;
-    btAlignedObjectArray<btVector3> vectors;
-    btAlignedObjectArray<btMatrix3x3> matrices;
     // Fills in the articulated inertias, of which the unit forces make use.
-    body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(1e-3, scalars, vectors, matrices,
-                                                                false, false, false);
+    Accelerate(1e-3);
     DofMatrix inverse;
     for (int dof = 0; dof < kDof; ++dof) {
       const DofVector force = DofVector::Unit(dof);
-      body_->calcAccelerationDeltasMultiDof(force.data(), inverse.col(dof).data(), scalars,
-                                            vectors);
+      body_->calcAccelerationDeltasMultiDof(force.data(), inverse.col(dof).data(), scalars_,
+                                            vectors_);
     }
     return inverse;
   }
 
+  void SetVelocity(const DofVector& v) {
+    body_->clearVelocities();
+    body_->applyDeltaVeeMultiDof(v.data(), 1.0);
+  }
+  DofVector Velocity() const { return Eigen::Map<const DofVector>(body_->getVelocityVector()); }
+  // One step of free fall: velocities, then positions.
+  void Fall(double gravity_m_s2, double step_s) {
+    body_->addBaseForce(btVector3(0, 0, -gravity_m_s2 * body_->getBaseMass()));
+    for (int joint = 0; joint < kJoints; ++joint) {
+      body_->addLinkForce(joint, btVector3(0, 0, -gravity_m_s2 * body_->getLinkMass(joint)));
+    }
+    Accelerate(step_s);
+    body_->clearForcesAndTorques();
+    body_->stepPositionsMultiDof(step_s);
+    btAlignedObjectArray<btQuaternion> rotations;
+    body_->forwardKinematics(rotations, vectors_);
+  }
+  // The origin of a joint and its axis, in W.
+  Vector3 Origin(int joint) const {
+    return FromBullet(body_->getLink(joint).m_cachedWorldTransform.getOrigin());
+  }
+  Vector3 Axis(int joint) const {
+    return FromBullet(body_->getLink(joint).m_cachedWorldTransform.getBasis().getColumn(1));
+  }
+  Vector3 ComChassis() const { return FromBullet(body_->getBasePos()); }
+
  private:
   static btVector3 ToBullet(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+  static Vector3 FromBullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+  void Accelerate(double step_s) {
+    body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(step_s, scalars_, vectors_,
+                                                                matrices_, false, false, false);
+  }
 
   void Add(int joint, int parent, const BodyMass& mass, const Vector3& from_parent,
            double steer_rad) {
@@ -133,6 +164,9 @@ class UnitForces {
   }
 
   std::unique_ptr<btMultiBody> body_;
+  btAlignedObjectArray<btScalar> scalars_;
+  btAlignedObjectArray<btVector3> vectors_;
+  btAlignedObjectArray<btMatrix3x3> matrices_;
 };
 
 // Kinetic energy body by body, 1/2 m v^2 + 1/2 w . I w, with the velocities of each joint's origin
@@ -185,10 +219,73 @@ TEST_P(JointSpaceInertiaOf, RoverHasTheInverseThatUnitForcesShow) {
     const Configuration c = RandomConfiguration(numbers);
     SetConfiguration(c, body);
     inertia.Update(body);
-    const DofMatrix expected = UnitForces(params, c).Inverse();
+    const DofMatrix expected = BulletRover(params, c).Inverse();
     const DofVector scale = expected.diagonal().cwiseSqrt();
-    const DofMatrix difference = (inertia.inverse() - expected).cwiseAbs();
+    const DofMatrix difference = (inertia.Inverse() - expected).cwiseAbs();
     EXPECT_LT(difference.cwiseQuotient(scale * scale.transpose()).maxCoeff(), 1e-9) << i;
+  }
+}
+
+// Falls and tumbles: what gravity, centrifugal and gyroscopic forces do in one step, and where all
+// bodies are after it.
+TEST_P(JointSpaceInertiaOf, RoverFallsAsBulletsDoes) {
+  constexpr double kGravity_m_s2 = 9.81;
+  constexpr double kStep_s = 1.0 / 60.0;
+  const RoverParams params = Uneven(GetParam());
+  Multibody body(params);
+  JointSpaceInertia inertia(params);
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    Numbers numbers(3000 + i);
+    const Configuration c = RandomConfiguration(numbers);
+    SetConfiguration(c, body);
+    BulletRover bullet(params, c);
+    const DofVector v = 3.0 * RandomVelocity(numbers);
+    body.AddVelocity(v);
+    bullet.SetVelocity(v);
+    bullet.Fall(kGravity_m_s2, kStep_s);
+    inertia.Update(body);
+    body.AddVelocity(kStep_s * inertia.Accelerations(body.FreeForce(kGravity_m_s2)));
+    const DofVector gain = bullet.Velocity() - v;
+    EXPECT_LT((body.Velocity() - v - gain).norm(), 1e-11 * gain.norm()) << i;
+    body.Move(kStep_s);
+    body.UpdatePoses();
+    EXPECT_LT((body.p_WComChassis() - bullet.ComChassis()).norm(), 1e-12) << i;
+    for (int joint = 0; joint < kJoints; ++joint) {
+      EXPECT_LT((body.X_WB(joint).translation() - bullet.Origin(joint)).norm(), 1e-12) << i;
+      EXPECT_LT((body.X_WB(joint).linear().col(1) - bullet.Axis(joint)).norm(), 1e-12) << i;
+    }
+  }
+}
+
+// To velocities in which the mass is 1 and back; their square is twice the energy, and forces do
+// the same work on rows as on Jacobians.
+TEST_P(JointSpaceInertiaOf, RoverHasTheMassOneInUnitVelocities) {
+  const RoverParams params = Uneven(GetParam());
+  Multibody body(params);
+  JointSpaceInertia inertia(params);
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    Numbers numbers(4000 + i);
+    SetConfiguration(RandomConfiguration(numbers), body);
+    inertia.Update(body);
+    const DofVector v = RandomVelocity(numbers);
+    const UnitVelocity z = inertia.ToUnit(v);
+    EXPECT_LT((inertia.FromUnit(z) - v).norm(), 1e-12) << i;
+    double square = z.chassis.squaredNorm() + z.arms[0].squaredNorm() + z.arms[1].squaredNorm();
+    for (const double wheel : z.wheels) square += wheel * wheel;
+    EXPECT_NEAR(square, v.dot(inertia.mass() * v), 1e-12 * square) << i;
+    const Vector3 p_W = 5.0 * Vector3(numbers.Next(), numbers.Next(), numbers.Next());
+    const Vector3 n_W = Vector3(numbers.Next(), numbers.Next(), numbers.Next()).normalized();
+    for (int index = kChassis; index < kJoints; ++index) {
+      DofVector J;
+      body.FillJacobian(index, p_W, n_W, J);
+      const UnitRow row = inertia.OfPoint(body, index, p_W, n_W);
+      EXPECT_NEAR(row.Velocity(z), J.dot(v), 1e-11) << i << ", body " << index;
+      UnitVelocity pushed = z;
+      row.Push(0.1, pushed);
+      const DofVector change = inertia.FromUnit(pushed) - v;
+      EXPECT_LT((inertia.mass() * change - 0.1 * J).norm(), 1e-11 * (1.0 + J.norm()))
+          << i << ", body " << index;
+    }
   }
 }
 
@@ -215,7 +312,7 @@ TEST_P(JointSpaceInertiaOf, RoverIsSymmetricPositiveAndInverse) {
     SetConfiguration(RandomConfiguration(numbers), body);
     inertia.Update(body);
     const DofMatrix& mass = inertia.mass();
-    const DofMatrix& inverse = inertia.inverse();
+    const DofMatrix inverse = inertia.Inverse();
     EXPECT_LT((mass - mass.transpose()).cwiseAbs().maxCoeff(), 1e-14) << i;
     EXPECT_LT((inverse - inverse.transpose()).cwiseAbs().maxCoeff(),
               1e-12 * inverse.cwiseAbs().maxCoeff())

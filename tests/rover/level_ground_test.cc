@@ -219,10 +219,10 @@ class BrakedBody {
     body_.UpdatePoses();
     finder_.Update(body_);
     const DofVector before = body_.Velocity();
-    body_.Accelerate(params_.physics.gravity_m_s2, params_.physics.step_s);
     inertia_.Update(body_);
-    solver_.Solve({inertia_.inverse(), before, {}, params_.physics.step_s}, nullptr, finder_,
-                  body_);
+    body_.AddVelocity(params_.physics.step_s *
+                      inertia_.Accelerations(body_.FreeForce(params_.physics.gravity_m_s2)));
+    solver_.Solve({inertia_, before, {}, params_.physics.step_s}, nullptr, finder_, body_);
     body_.Move(params_.physics.step_s);
   }
 

@@ -91,6 +91,10 @@ TEST_P(CapTest, NearestPointIsOnTheSurfaceBelowItsNormal) {
     const terrain::RockShape shape(rock);
     const Vector3 p = DrawPoint(rock);
     const SurfacePoint nearest = body.Nearest(p);
+    // From wherever the search starts.
+    for (const Vector3& start : {nearest.point_W, Vector3(rock.center_W), p}) {
+      EXPECT_LT((body.Nearest(p, &start).point_W - nearest.point_W).norm(), 1e-8);
+    }
     EXPECT_NEAR(nearest.normal_W.norm(), 1.0, 1e-12);
     if (nearest.distance_m <= 0.0) {
       EXPECT_LE(p.z(), shape.Top(p.x(), p.y()) + 1e-12);

@@ -15,7 +15,7 @@ constexpr double kStopWatch_rad = 0.05;
 constexpr double kActiveGap_m = 0.005;
 // Sweeps end where no impulse, N s or N m s, has changed by more than this share of what a wheel
 // bears on average.
-constexpr double kConverged = 2e-4;
+constexpr double kConverged = 1e-4;
 
 }  // namespace
 
@@ -27,27 +27,23 @@ ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::Soi
       mean_load_N_(params.mass.total_kg * params.physics.gravity_m_s2 / messages::kWheelCount),
       sinkage_(soil, laws_.soil(), params.geometry.wheel_radius_m, mean_load_N_),
       step_s_(params.physics.step_s) {
-  // The differential bar turns one rocker back by what the other turns: sum of the rates 0.
-  differential_.J[6 + kLeftRocker] = 1.0;
-  differential_.J[6 + kRightRocker] = 1.0;
   differential_.Unbind();
   for (std::size_t i = 0; i < kStops; ++i) {
     const bool rocker = i <= static_cast<std::size_t>(kRightRocker);
     stop_angle_rad_[i] =
         rocker ? params.geometry.rocker_limit_rad : params.geometry.bogie_limit_rad;
   }
-  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
-    motors_[i].J[6 + kFirstWheel + static_cast<int>(i)] = 1.0;
-    motors_[i].high = stall_torque_Nm_ * step_s_;
-    motors_[i].low = -motors_[i].high;
+  for (Bounds& motor : motors_) {
+    motor.high = stall_torque_Nm_ * step_s_;
+    motor.low = -motor.high;
   }
 }
 
 void ConstraintSolver::Clear() {
   differential_.impulse = 0.0;
-  for (Row& row : stops_) row.impulse = 0.0;
+  for (Bounds& stop : stops_) stop.impulse = 0.0;
   // The contacts' impulses are forgotten with the contacts.
-  for (Row& row : motors_) row.impulse = 0.0;
+  for (Bounds& motor : motors_) motor.impulse = 0.0;
   sinkage_.Clear();
   slip_.fill(0.0);
 }
@@ -56,112 +52,104 @@ void ConstraintSolver::Clear() {
 // Records depend on this order of the rows.
 void ConstraintSolver::Solve(const Step& step, LooseRocks* loose_rocks, ContactFinder& finder,
                              Multibody& body) {
-  const DofMatrix& mass_inverse = step.mass_inverse;
+  const JointSpaceInertia& inertia = step.inertia;
   if (step.duration_s != step_s_) SetStep(step.duration_s, loose_rocks, finder);
   const DofVector free_velocity = body.Velocity();
-  velocity_ = free_velocity;
-  before_ = step.before;
+  velocity_ = inertia.ToUnit(free_velocity);
+  DofVector before = step.before;
   // A motor that held its rate begins the step at the rate that its ramp says; a stalled motor
   // begins at the rate that it has.
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
-    const Row& motor = motors_[i];
-    if (motor.low < motor.impulse && motor.impulse < motor.high) {
-      before_[6 + kFirstWheel + static_cast<int>(i)] = step.rates.from[i];
-    }
+    const Bounds& motor = motors_[i];
+    double& rate_rad_s = before[6 + kFirstWheel + static_cast<int>(i)];
+    if (motor.low < motor.impulse && motor.impulse < motor.high) rate_rad_s = step.rates.from[i];
+    rim_before_m_s_[i] = std::abs(rate_rad_s) * wheel_radius_m_;
   }
-  StartDifferential(mass_inverse, body);
-  StartStops(mass_inverse, body);
-  StartMotors(mass_inverse, step.rates.to);
+  unit_before_ = inertia.ToUnit(before);
+  StartDifferential(inertia, body);
+  StartStops(inertia, body);
+  StartMotors(inertia, step.rates.to);
   contact_count_ = 0;
   MarkActive(body, finder);
   if (loose_rocks != nullptr) loose_rocks->Start(finder.contacts());
   for (Contact& contact : finder.contacts()) {
     if (contact.active) {
       LooseRock* rock = loose_rocks != nullptr ? loose_rocks->Find(contact.other) : nullptr;
-      StartContact(mass_inverse, finder.part(contact.part), body, rock, contact);
+      StartContact(inertia, finder.part(contact.part), body, rock, contact);
     } else {
       contact.Forget();
     }
   }
+  for (std::size_t i = 0; i < contact_count_; ++i) contacts_[i].Follow(laws_, velocity_);
   // Braked wheels get all sweeps: what sweeps leave open would let them creep.
   const bool driven = std::any_of(step.rates.to.begin(), step.rates.to.end(),
                                   [](double rate) { return rate != 0.0; });
   const double enough_Ns = driven ? kConverged * mean_load_N_ * step_s_ : 0.0;
-  for (std::int64_t i = 0; i < iterations_; ++i) {
+  for (std::int64_t i = 0; i < iterations_ * step.patience; ++i) {
     if (Sweep(loose_rocks) < enough_Ns) break;
   }
-  for (std::size_t i = 0; i < contact_count_; ++i) {
-    KeepForNextStep(contacts_[i]);
-  }
-  if (sinkage_.enabled()) Dig();
-  body.AddVelocity(velocity_ - free_velocity);
+  for (std::size_t i = 0; i < contact_count_; ++i) contacts_[i].Keep();
+  const DofVector velocity = inertia.FromUnit(velocity_);
+  if (sinkage_.enabled()) Dig(before, velocity, inertia);
+  body.AddVelocity(velocity - free_velocity);
 }
 
 void ConstraintSolver::SetStep(double step_s, LooseRocks* loose_rocks, ContactFinder& finder) {
   const double ratio = step_s / step_s_;
   step_s_ = step_s;
   differential_.impulse *= ratio;
-  for (Row& row : stops_) row.impulse *= ratio;
-  for (Row& row : motors_) {
-    row.impulse *= ratio;
-    row.high = stall_torque_Nm_ * step_s;
-    row.low = -row.high;
+  for (Bounds& stop : stops_) stop.impulse *= ratio;
+  for (Bounds& motor : motors_) {
+    motor.impulse *= ratio;
+    motor.high = stall_torque_Nm_ * step_s;
+    motor.low = -motor.high;
   }
   finder.ScaleImpulses(ratio);
   if (loose_rocks != nullptr) loose_rocks->SetStep(step_s);
 }
 
-void ConstraintSolver::Start(const DofMatrix& mass_inverse, Row& row) {
-  // response = M^-1 J', the velocity change per unit impulse. Of the 16 entries of J a contact uses
-  // six and those of the joints that carry its part.
-  row.response.setZero();
-  for (int dof = 0; dof < kDof; ++dof) {
-    if (row.J[dof] != 0.0) row.response += row.J[dof] * mass_inverse.col(dof);
-  }
-  // d(J v + c p)/dp = J M^-1 J' + c. A rock of mass m that yields horizontally along e adds
-  // e . e / m.
-  row.diagonal = row.J.dot(row.response) + row.softness;
-  if (row.rock != nullptr) {
-    row.diagonal += row.direction_W.head<2>().squaredNorm() / row.rock->mass_kg;
-  }
-  row.impulse = std::clamp(row.impulse, row.low, row.high);
-  // Warm start: the impulse of the last step acts at once.
-  velocity_ += row.impulse * row.response;
-  if (row.rock != nullptr) row.rock->PushBack(row.impulse * row.direction_W);
-}
-
-void ConstraintSolver::StartDifferential(const DofMatrix& mass_inverse, const Multibody& body) {
+// The differential bar turns one rocker back by what the other turns: sum of the rates 0.
+void ConstraintSolver::StartDifferential(const JointSpaceInertia& inertia, const Multibody& body) {
   const double error_rad = body.JointAngle(kLeftRocker) + body.JointAngle(kRightRocker);
   differential_.target = -kJointRecovery * error_rad / step_s_;
-  Start(mass_inverse, differential_);
+  rockers_ = {inertia.OfJoint(kLeftRocker), inertia.OfJoint(kRightRocker)};
+  differential_.per_diagonal =
+      1.0 / (rockers_[0].Yield() + rockers_[1].Yield() +
+             2.0 * rockers_[0].part.head<6>().dot(rockers_[1].part.head<6>()));
+  // Warm start: the impulse of the last step acts at once.
+  for (const UnitRow& row : rockers_) row.Push(differential_.impulse, velocity_);
 }
 
-void ConstraintSolver::StartStops(const DofMatrix& mass_inverse, const Multibody& body) {
+void ConstraintSolver::StartStops(const JointSpaceInertia& inertia, const Multibody& body) {
   for (std::size_t i = 0; i < kStops; ++i) {
-    Row& row = stops_[i];
+    Bounds& stop = stops_[i];
     const int joint = static_cast<int>(i);
     const double angle_rad = body.JointAngle(joint);
     const double room_rad = stop_angle_rad_[i] - std::abs(angle_rad);
     if (room_rad > kStopWatch_rad) {
-      row.high = row.impulse = 0.0;
+      stop.high = stop.impulse = 0.0;
       continue;
     }
     // J v is the rate away from the stop. It must not use up the room within the step,
     // J v >= -room / h; beyond the stop (room < 0) the share kJointRecovery is taken back.
-    row.J[6 + joint] = angle_rad > 0.0 ? -1.0 : 1.0;
-    row.target = -(room_rad > 0.0 ? 1.0 : kJointRecovery) * room_rad / step_s_;
-    row.high = kUnbounded;
-    Start(mass_inverse, row);
+    stop_sign_[i] = angle_rad > 0.0 ? -1.0 : 1.0;
+    stop.target = -(room_rad > 0.0 ? 1.0 : kJointRecovery) * room_rad / step_s_;
+    stop.high = Bounds::kUnbounded;
+    stop_rows_[i] = inertia.OfJoint(joint);
+    stop.per_diagonal = 1.0 / stop_rows_[i].Yield();
+    stop_rows_[i].Push(stop_sign_[i] * stop.impulse, velocity_);
   }
 }
 
-void ConstraintSolver::StartMotors(const DofMatrix& mass_inverse,
+void ConstraintSolver::StartMotors(const JointSpaceInertia& inertia,
                                    const messages::PerWheel<double>& rate_rad_s) {
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     // A motor holds its rate up to the stall torque: |p| <= torque h.
     motors_[i].target = rate_rad_s[i];
     touches_[i] = false;
-    Start(mass_inverse, motors_[i]);
+    motor_rows_[i] = inertia.OfJoint(kFirstWheel + static_cast<int>(i));
+    motors_[i].per_diagonal = 1.0 / motor_rows_[i].Yield();
+    motor_rows_[i].Push(motors_[i].impulse, velocity_);
   }
 }
 
@@ -177,268 +165,80 @@ void ConstraintSolver::MarkActive(const Multibody& body, ContactFinder& finder) 
   }
 }
 
-void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& part,
+void ConstraintSolver::StartContact(const JointSpaceInertia& inertia, const Part& part,
                                     const Multibody& body, LooseRock* rock, Contact& contact) {
   if (contact_count_ == contacts_.size()) contacts_.emplace_back();
-  ContactRows& rows = contacts_[contact_count_++];
-  rows.contact = &contact;
+  ContactBlock& block = contacts_[contact_count_++];
   // Laws are those at the loads of the last step, and at the slip that wheels will have dug in for
   // midway, fixed within this one.
   const bool wheel = part.kind == truth::BodyPart::kWheel;
-  const double dug_slip = wheel ? DugSlip(static_cast<std::size_t>(contact.part)) : 0.0;
-  rows.law = laws_.Of(part, contact, step_s_, dug_slip);
-  rows.normal.rock = rows.along.rock = rows.across.rock = rock;
-  StartNormal(mass_inverse, part, body, rows);
-  StartFriction(mass_inverse, part, body, rows);
-  rows.motor = nullptr;
-  if (wheel) StartDriven(rows);
-  StartDrag(mass_inverse, part, body, rows);
-  StartSide(rows);
-}
-
-// A spring and damper side by side, solved implicitly: with the separating speed v at the end of
-// the step h, penetration d - h v and force F = k (d - h v - d_0) - c v. With F = p / h this is the
-// row
-//   v + p / (h (h k + c)) = k (d - d_0) / (h k + c),   p >= 0.
-// A contact with a gap g > 0 only bounds the approach, v >= -g / h, with the same softness.
-void ConstraintSolver::StartNormal(const DofMatrix& mass_inverse, const Part& part,
-                                   const Multibody& body, ContactRows& rows) {
-  const Contact& contact = *rows.contact;
-  const double k = rows.law.stiffness_N_m;
-  const double c = laws_.damping_Ns_m();
-  body.FillJacobian(part.body, contact.p_W, contact.n_W, rows.normal.J);
-  rows.normal.direction_W = contact.n_W;
-  rows.normal.target = contact.gap_m > 0.0
-                           ? -contact.gap_m / step_s_
-                           : -k * (rows.law.rest_depth_m + contact.gap_m) / (step_s_ * k + c);
-  rows.normal.softness = 1.0 / (step_s_ * (step_s_ * k + c));
-  rows.normal.impulse = contact.impulse_Ns[0];
-  rows.normal.high = kUnbounded;
-  Start(mass_inverse, rows.normal);
-}
-
-void ConstraintSolver::StartFriction(const DofMatrix& mass_inverse, const Part& part,
-                                     const Multibody& body, ContactRows& rows) {
-  const Contact& contact = *rows.contact;
-  body.FillJacobian(part.body, contact.p_W, contact.along_W, rows.along.J);
-  body.FillJacobian(part.body, contact.p_W, contact.across_W, rows.across.J);
-  rows.along.direction_W = contact.along_W;
-  rows.across.direction_W = contact.across_W;
-  rows.along.impulse = contact.impulse_Ns[1];
-  rows.across.impulse = contact.impulse_Ns[2];
-  for (Row* row : {&rows.along, &rows.across}) {
-    // Contacts that do not slip hold; FollowSlip sets what soil does.
-    row->target = row->softness = 0.0;
-    row->Unbind();
-    Start(mass_inverse, *row);
-  }
-  // Off-diagonal of the 2 x 2 block: velocity along per unit impulse across.
-  double coupling = rows.along.J.dot(rows.across.response);
-  if (const LooseRock* rock = rows.along.rock; rock != nullptr) {
-    coupling += contact.along_W.head<2>().dot(contact.across_W.head<2>()) / rock->mass_kg;
-  }
-  rows.friction.Set(rows.along.diagonal, rows.across.diagonal, coupling);
-}
-
-// Finds what the motor's row and the friction rows do to each other.
-void ConstraintSolver::StartDriven(ContactRows& rows) {
-  const auto wheel = static_cast<std::size_t>(rows.contact->part);
-  touches_[wheel] = true;
-  rows.motor = &motors_[wheel];
-  const double g0 = rows.along.J.dot(rows.motor->response);
-  const double g1 = rows.across.J.dot(rows.motor->response);
-  rows.motor_coupling = {g0, g1};
-  // While the motor holds, its impulse undoes what friction does to the wheel's rate: A - g g' / d.
-  const double d = rows.motor->diagonal;
-  const FrictionBlock& A = rows.friction;
-  rows.driven_friction.Set(A.a0() - g0 * g0 / d, A.a1() - g1 * g1 / d, A.a01() - g0 * g1 / d);
-  rows.slip = {};
-  if (rows.law.slips) rows.slip_from = {RimSpeed(rows, before_), ContactVelocity(rows, before_)};
-}
-
-// Motion resistance acts on the axle, so that the wheel has to overcome it by traction.
-void ConstraintSolver::StartDrag(const DofMatrix& mass_inverse, const Part& part,
-                                 const Multibody& body, ContactRows& rows) {
-  rows.drag.impulse = rows.contact->drag_Ns;
-  if (rows.law.drag_ratio == 0.0) return;
-  body.FillJacobian(body.Parent(part.body), body.X_WB(part.body).translation(),
-                    rows.contact->along_W, rows.drag.J);
-  rows.drag.Unbind();
-  Start(mass_inverse, rows.drag);
-}
-
-// The soil at the side face of a wheel holds it until its own bound is reached, beside the
-// friction.
-void ConstraintSolver::StartSide(ContactRows& rows) {
-  rows.side.impulse = rows.contact->side_Ns;
-  if (rows.law.side_ratio == 0.0) return;
-  // The row of the friction across, but for its bounds.
-  Row& side = rows.side;
-  side.J = rows.across.J;
-  side.response = rows.across.response;
-  side.diagonal = rows.across.diagonal;
-  velocity_ += side.impulse * side.response;
-}
-
-void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
-  Contact& contact = *rows.contact;
-  contact.impulse_Ns = {rows.normal.impulse, rows.along.impulse, rows.across.impulse};
-  contact.drag_Ns = rows.drag.impulse;
-  contact.side_Ns = rows.side.impulse;
+  const auto index = static_cast<std::size_t>(contact.part);
+  const ContactLaw law = laws_.Of(part, contact, step_s_, wheel ? DugSlip(index) : 0.0);
+  block.Start({inertia, body, part, laws_.damping_Ns_m(), step_s_}, law, rock, contact, velocity_);
+  if (!wheel) return;
+  touches_[index] = true;
+  block.AddMotor(motor_rows_[index], motors_[index], wheel_radius_m_, unit_before_);
 }
 
 double ConstraintSolver::DugSlip(std::size_t wheel) const {
   if (!sinkage_.enabled()) return 0.0;
-  return sinkage_.After(wheel, slip_[wheel], 0.5 * step_s_ * RimSpeed(wheel, before_));
+  return sinkage_.After(wheel, slip_[wheel], 0.5 * step_s_ * rim_before_m_s_[wheel]);
 }
 
 // Wheels dig by their mean slip over the step; a wheel that turns off the soil has no slip and
 // leaves its hole.
-void ConstraintSolver::Dig() {
-  const DofVector mean = 0.5 * (before_ + velocity_);
+void ConstraintSolver::Dig(const DofVector& before, const DofVector& after,
+                           const JointSpaceInertia& inertia) {
+  const DofVector mean = 0.5 * (before + after);
+  const UnitVelocity unit_mean = inertia.ToUnit(mean);
   messages::PerWheel<double> slip_m_s{};
   for (std::size_t i = 0; i < contact_count_; ++i) {
-    const ContactRows& rows = contacts_[i];
-    if (!rows.law.slips || rows.normal.impulse <= 0.0) continue;
-    double& largest_m_s = slip_m_s[static_cast<std::size_t>(rows.contact->part)];
-    largest_m_s = std::max(largest_m_s, ContactVelocity(rows, mean).norm());
+    const ContactBlock& block = contacts_[i];
+    const double speed_m_s = block.SlipSpeed_m_s(unit_mean);
+    if (speed_m_s == 0.0) continue;
+    double& largest_m_s = slip_m_s[block.part()];
+    largest_m_s = std::max(largest_m_s, speed_m_s);
   }
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
-    const double rim_m_s = RimSpeed(i, mean);
+    const double rim_m_s = std::abs(mean[6 + kFirstWheel + static_cast<int>(i)]) * wheel_radius_m_;
     slip_[i] = rim_m_s > 0.0 ? slip_m_s[i] / rim_m_s : 0.0;
     if (rim_m_s > 0.0) sinkage_.Roll(i, slip_[i], rim_m_s * step_s_);
   }
 }
 
 double ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
-  largest_change_Ns_ = 0.0;
-  Relax(differential_);
+  double largest_Ns = RelaxDifferential();
   // A stop that is not watched has the upper bound 0.
-  for (Row& row : stops_) {
-    if (row.high > 0.0) Relax(row);
+  for (std::size_t i = 0; i < kStops; ++i) {
+    if (stops_[i].high == 0.0) continue;
+    largest_Ns = std::max(largest_Ns, Relax(stop_sign_[i], stop_rows_[i], stops_[i]));
   }
   // The motor of a wheel that touches something is solved with its friction.
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
-    if (!touches_[i]) Relax(motors_[i]);
+    if (!touches_[i]) largest_Ns = std::max(largest_Ns, Relax(1.0, motor_rows_[i], motors_[i]));
   }
   for (std::size_t i = 0; i < contact_count_; ++i) {
-    ContactRows& rows = contacts_[i];
-    // Friction after the normal: its bound is that of the normal impulse of this sweep.
-    Relax(rows.normal);
-    RelaxFriction(rows);
-    // |p_drag| <= (R / N) p_n, |p_side| <= (B / N) p_n.
-    const double normal_Ns = rows.normal.impulse;
-    if (rows.law.drag_ratio > 0.0) RelaxWithin(rows.law.drag_ratio * normal_Ns, rows.drag);
-    if (rows.law.side_ratio > 0.0) RelaxWithin(rows.law.side_ratio * normal_Ns, rows.side);
+    largest_Ns = std::max(largest_Ns, contacts_[i].Relax(laws_, velocity_));
   }
   if (loose_rocks != nullptr) loose_rocks->Hold();
-  return largest_change_Ns_;
+  return largest_Ns;
 }
 
-// Returns b - J v - c p, plus e . u for a rock that moves with u: the row sees the motion against
-// the rock.
-double ConstraintSolver::Residual(const Row& row) const {
-  double residual = row.target - row.J.dot(velocity_) - row.softness * row.impulse;
-  if (row.rock != nullptr) residual += row.direction_W.dot(row.rock->v_W_m_s);
-  return residual;
+double ConstraintSolver::RelaxDifferential() {
+  const double rate_rad_s = rockers_[0].Velocity(velocity_) + rockers_[1].Velocity(velocity_);
+  const double impulse = differential_.Wanted(rate_rad_s);
+  const double change = impulse - differential_.impulse;
+  for (const UnitRow& row : rockers_) row.Push(change, velocity_);
+  differential_.impulse = impulse;
+  return std::abs(change);
 }
 
-void ConstraintSolver::Apply(double impulse, Row& row) {
-  const double change_Ns = impulse - row.impulse;
-  if (change_Ns == 0.0) return;
-  velocity_ += change_Ns * row.response;
-  if (row.rock != nullptr) row.rock->PushBack(change_Ns * row.direction_W);
-  row.impulse = impulse;
-  largest_change_Ns_ = std::max(largest_change_Ns_, std::abs(change_Ns));
-}
-
-void ConstraintSolver::Relax(Row& row) {
-  // Gauss-Seidel: the impulse that makes this row exact with all others as they are, then its
-  // bounds.
-  Apply(std::clamp(row.impulse + Residual(row) / row.diagonal, row.low, row.high), row);
-}
-
-void ConstraintSolver::RelaxWithin(double most_Ns, Row& row) {
-  row.high = most_Ns;
-  row.low = -most_Ns;
-  Relax(row);
-}
-
-double ConstraintSolver::RimSpeed(std::size_t wheel, const DofVector& velocity) const {
-  return std::abs(velocity[6 + kFirstWheel + static_cast<int>(wheel)]) * wheel_radius_m_;
-}
-
-double ConstraintSolver::RimSpeed(const ContactRows& rows, const DofVector& velocity) const {
-  return RimSpeed(static_cast<std::size_t>(rows.contact->part), velocity);
-}
-
-Eigen::Vector2d ConstraintSolver::ContactVelocity(const ContactRows& rows,
-                                                  const DofVector& velocity) {
-  return {rows.along.J.dot(velocity), rows.across.J.dot(velocity)};
-}
-
-// theta v_1 + (1 - theta) v_0 + c p = 0, divided by theta, is a row for v_1.
-void ConstraintSolver::FollowSlip(const Eigen::Vector2d& v_m_s, ContactRows& rows) const {
-  const WheelSlip slip{RimSpeed(rows, velocity_), v_m_s};
-  rows.slip = laws_.StepOfSlip(rows.law, {rows.slip_from, slip, step_s_}, rows.slip.theta);
-  const double theta = rows.slip.theta;
-  const Eigen::Vector2d target_m_s = -(1.0 - theta) / theta * rows.slip_from.v_m_s;
-  rows.along.target = target_m_s.x();
-  rows.across.target = target_m_s.y();
-  rows.along.softness = rows.across.softness = rows.slip.softness_m_per_Ns / theta;
-}
-
-// Returns the right side b of the block of both friction rows: what remains without the impulses p
-// of these rows. `lack` is what the rows lack to their targets, softness left out: b = lack + A p.
-std::array<double, 2> ConstraintSolver::RightSide(const ContactRows& rows,
-                                                  const FrictionBlock& block,
-                                                  const Eigen::Vector2d& lack) {
-  const double along = rows.along.impulse;
-  const double across = rows.across.impulse;
-  return {lack[0] + block.a0() * along + block.a01() * across,
-          lack[1] + block.a01() * along + block.a1() * across};
-}
-
-void ConstraintSolver::RelaxFriction(ContactRows& rows) {
-  Eigen::Vector2d v_m_s = ContactVelocity(rows, velocity_);
-  if (rows.law.slips) FollowSlip(v_m_s, rows);
-  if (const LooseRock* rock = rows.along.rock; rock != nullptr) {
-    // A row sees the motion against the rock.
-    v_m_s.x() -= rows.along.direction_W.dot(rock->v_W_m_s);
-    v_m_s.y() -= rows.across.direction_W.dot(rock->v_W_m_s);
-  }
-  const Eigen::Vector2d lack_m_s = Eigen::Vector2d(rows.along.target, rows.across.target) - v_m_s;
-  if (rows.motor != nullptr) return RelaxDrivenFriction(lack_m_s, rows);
-  const auto [along, across] =
-      rows.friction.Solve(RightSide(rows, rows.friction, lack_m_s), rows.along.softness,
-                          rows.law.friction * rows.normal.impulse);
-  Apply(along, rows.along);
-  Apply(across, rows.across);
-}
-
-// Solves the motor of a wheel and the friction at its contact together. Solved one after the other,
-// each would undo what the other did to the light wheel, and the heavy rover between them would
-// take some hundred sweeps to move.
-void ConstraintSolver::RelaxDrivenFriction(const Eigen::Vector2d& lack_m_s, ContactRows& rows) {
-  Row& motor = *rows.motor;
-  const Eigen::Vector2d& g = rows.motor_coupling;
-  const double most_Ns = rows.law.friction * rows.normal.impulse;
-  // The motor holds its rate: its impulse changes by dq = (lack of its row - g . dp) / d.
-  const double hold_Ns = Residual(motor) / motor.diagonal;
-  auto p = rows.driven_friction.Solve(RightSide(rows, rows.driven_friction, lack_m_s - hold_Ns * g),
-                                      rows.along.softness, most_Ns);
-  double q =
-      motor.impulse + hold_Ns -
-      (g[0] * (p[0] - rows.along.impulse) + g[1] * (p[1] - rows.across.impulse)) / motor.diagonal;
-  if (q < motor.low || q > motor.high) {
-    // The motor stalls: its torque is given, and friction alone decides how the wheel turns.
-    q = std::clamp(q, motor.low, motor.high);
-    p = rows.friction.Solve(RightSide(rows, rows.friction, lack_m_s - (q - motor.impulse) * g),
-                            rows.along.softness, most_Ns);
-  }
-  Apply(q, motor);
-  Apply(p[0], rows.along);
-  Apply(p[1], rows.across);
+double ConstraintSolver::Relax(double sign, const UnitRow& row, Bounds& bounds) {
+  const double impulse = bounds.Wanted(sign * row.Velocity(velocity_));
+  const double change = impulse - bounds.impulse;
+  row.Push(sign * change, velocity_);
+  bounds.impulse = impulse;
+  return std::abs(change);
 }
 
 }  // namespace rockyard::rover

@@ -6,13 +6,14 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "messages/wheels.h"
 #include "rover/motor_ramp.h"
+#include "rover/multibody/contact_block.h"
 #include "rover/multibody/contact_finder.h"
 #include "rover/multibody/contact_law.h"
+#include "rover/multibody/joint_space_inertia.h"
 #include "rover/multibody/loose_rocks.h"
 #include "rover/multibody/multibody.h"
 #include "rover/rover_params.h"
@@ -21,8 +22,8 @@
 
 namespace rockyard::rover {
 
-// Solves all constraints of one step together, after Bullet has accelerated the free rover. The
-// table in src/rover/README.md lists the rows.
+// Solves all constraints of one step together, after gravity and motion have accelerated the free
+// rover. The table in src/rover/README.md lists the rows.
 class ConstraintSolver {
  public:
   ConstraintSolver(const RoverParams& params, const terrain::SoilParams& soil);
@@ -32,10 +33,11 @@ class ConstraintSolver {
 
   // What a step begins with.
   struct Step {
-    const DofMatrix& mass_inverse;
+    const JointSpaceInertia& inertia;
     const DofVector& before;  // velocities before gravity accelerated the body
     const MotorRates& rates;  // told to the wheels' motors
     double duration_s;
+    int patience = 1;  // how many times as many sweeps as usual it may take
   };
 
   // Changes the velocities of `body`, already accelerated by gravity, so that they keep all
@@ -48,86 +50,25 @@ class ConstraintSolver {
   double MotorTorque_Nm(std::size_t wheel) const { return motors_[wheel].impulse / step_s_; }
 
  private:
-  // One scalar constraint: J v + softness * impulse = target, impulse within [low, high].
-  struct Row {
-    DofVector J = DofVector::Zero();
-    DofVector response = DofVector::Zero();  // velocity change per unit impulse
-    double target = 0.0;
-    double softness = 0.0;
-    double diagonal = 0.0;  // change of the left side per unit impulse
-    double impulse = 0.0;
-    double low = 0.0;
-    double high = 0.0;
-    // A row against a rock that may slide also sees that rock's velocity along its direction.
-    LooseRock* rock = nullptr;
-    math::Vector3 direction_W = math::Vector3::Zero();
-
-    void Unbind() {
-      low = -kUnbounded;
-      high = kUnbounded;
-    }
-  };
-  // The rows of one contact.
-  struct ContactRows {
-    Contact* contact = nullptr;
-    ContactLaw law;
-    Row normal, along, across, drag, side;
-    FrictionBlock friction;  // of along and across, without the softness of the slip
-    SlipStep slip;           // in the last sweep
-    WheelSlip slip_from;     // at the beginning of the step
-    Row* motor = nullptr;    // of the wheel; null for other parts
-    // What a unit impulse of the motor does to the velocity of the contact.
-    Eigen::Vector2d motor_coupling = Eigen::Vector2d::Zero();
-    FrictionBlock driven_friction;  // `friction` while the motor holds its rate
-  };
-  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   static constexpr std::size_t kStops = 4;  // rockers and bogies
 
   // Scales the impulses of a step of another length, from which this step starts.
   void SetStep(double step_s, LooseRocks* loose_rocks, ContactFinder& finder);
-  // Completes a row whose J, target, softness and impulse are set, and applies the impulse.
-  void Start(const DofMatrix& mass_inverse, Row& row);
-  void StartDifferential(const DofMatrix& mass_inverse, const Multibody& body);
-  void StartStops(const DofMatrix& mass_inverse, const Multibody& body);
-  void StartMotors(const DofMatrix& mass_inverse, const messages::PerWheel<double>& rate_rad_s);
+  void StartDifferential(const JointSpaceInertia& inertia, const Multibody& body);
+  void StartStops(const JointSpaceInertia& inertia, const Multibody& body);
+  void StartMotors(const JointSpaceInertia& inertia, const messages::PerWheel<double>& rate_rad_s);
   void MarkActive(const Multibody& body, ContactFinder& finder) const;
-  void StartContact(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
+  void StartContact(const JointSpaceInertia& inertia, const Part& part, const Multibody& body,
                     LooseRock* rock, Contact& contact);
-  void StartNormal(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
-                   ContactRows& rows);
-  void StartFriction(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
-                     ContactRows& rows);
-  void StartDrag(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
-                 ContactRows& rows);
-  void StartSide(ContactRows& rows);
-  void KeepForNextStep(const ContactRows& rows) const;
   double DugSlip(std::size_t wheel) const;
-  double RimSpeed(std::size_t wheel, const DofVector& velocity) const;
-  void Dig();
+  void Dig(const DofVector& before, const DofVector& after, const JointSpaceInertia& inertia);
 
   // Makes one sweep over all rows. Returns the largest change of an impulse, N s or N m s of
   // motors, by which the sweeps end.
   double Sweep(LooseRocks* loose_rocks);
-  // Returns what the row's left side lacks to its target.
-  double Residual(const Row& row) const;
-  // Sets the row's impulse and lets the change act on rover and rock.
-  void Apply(double impulse, Row& row);
-  // Gives the row the impulse that satisfies it, within its bounds, with all other rows as they
-  // are.
-  void Relax(Row& row);
-  // Relaxes a row whose impulse is at most `most_Ns` in either direction.
-  void RelaxWithin(double most_Ns, Row& row);
-  void RelaxFriction(ContactRows& rows);
-  void StartDriven(ContactRows& rows);
-  void RelaxDrivenFriction(const Eigen::Vector2d& lack_m_s, ContactRows& rows);
-  // Sets the friction rows by the slip of the present motion; v_m_s: the contact's velocity over
-  // the soil.
-  void FollowSlip(const Eigen::Vector2d& v_m_s, ContactRows& rows) const;
-  double RimSpeed(const ContactRows& rows, const DofVector& velocity) const;
-  // Returns the velocity of the rover's point at the contact, along and across, m/s.
-  static Eigen::Vector2d ContactVelocity(const ContactRows& rows, const DofVector& velocity);
-  static std::array<double, 2> RightSide(const ContactRows& rows, const FrictionBlock& block,
-                                         const Eigen::Vector2d& lack_m_s);
+  // Gives a row the impulse that satisfies it; returns the change.
+  double RelaxDifferential();
+  double Relax(double sign, const UnitRow& row, Bounds& bounds);
 
   const ContactLaws laws_;
   const double stall_torque_Nm_;
@@ -139,14 +80,18 @@ class ConstraintSolver {
   messages::PerWheel<double> slip_{};  // of the last step, on soil
   double step_s_;
   std::array<double, kStops> stop_angle_rad_{};
-  DofVector velocity_ = DofVector::Zero();
-  double largest_change_Ns_ = 0.0;        // of the impulse of a contact, in the present sweep
-  DofVector before_ = DofVector::Zero();  // at the beginning of the step
-  Row differential_;
-  std::array<Row, kStops> stops_;
-  messages::PerWheel<Row> motors_;
+  UnitVelocity velocity_;
+  UnitVelocity unit_before_;                     // at the beginning of the step
+  messages::PerWheel<double> rim_before_m_s_{};  // likewise
+  std::array<UnitRow, 2> rockers_;               // whose sum the differential sees
+  Bounds differential_;
+  std::array<UnitRow, kStops> stop_rows_;
+  std::array<double, kStops> stop_sign_{};
+  std::array<Bounds, kStops> stops_;
+  messages::PerWheel<UnitRow> motor_rows_;
+  messages::PerWheel<Bounds> motors_;
   messages::PerWheel<bool> touches_{};  // wheels that have a contact in this step
-  std::vector<ContactRows> contacts_;   // capacity; the first contact_count_ are in use
+  std::vector<ContactBlock> contacts_;  // capacity; the first contact_count_ are in use
   std::size_t contact_count_ = 0;
 };
 

@@ -74,13 +74,16 @@ void ContactFinder::Update(const Multibody& body) {
     }
     const Vector3 center_W = X_WB * part.center_B;
     // RocksNear lists rocks by rising index, the order that Add asks for.
-    for (const int rock : near_rocks_) MeetRock(index, X_WB, center_W, rock);
+    for (std::size_t k = 0; k < near_rocks_.size(); ++k) {
+      MeetRock(index, X_WB, center_W, near_rocks_[k], planes_[i * near_rocks_.size() + k]);
+    }
   }
 }
 
 void ContactFinder::GatherRocks(const Vector3& p_WRo) {
   if (gathered_ && (p_WRo - gathered_at_W_).head<2>().norm() < kGatherStep_m) return;
   terrain_.RocksNear(p_WRo.x(), p_WRo.y(), reach_m_ + kGatherStep_m, near_rocks_);
+  planes_.assign(parts_.size() * near_rocks_.size(), {{}, Vector3::Zero(), 0.0});
   gathered_at_W_ = p_WRo;
   gathered_ = true;
 }
@@ -191,7 +194,7 @@ bool ContactFinder::AreApart(const Part& part, const math::Transform& X_WB,
 }
 
 void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vector3& center_W,
-                             int rock) {
+                             int rock, SurfacePoint& plane) {
   const Part& part = parts_[static_cast<std::size_t>(index)];
   const RockBody& body = rocks_[static_cast<std::size_t>(rock)];
   // Bounding balls first.
@@ -200,12 +203,13 @@ void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vecto
   if ((center_W - body.center_W()).squaredNorm() > far_m * far_m) return;
   // Cheap test before the nearest point, which needs a root.
   if (body.DistanceBound(center_W) > reach_m) return;
+  if (!plane.normal_W.isZero(0.0) && AreApart(part, X_WB, plane)) return;
 
   bool found = false;
   Contact& contact = Add(index, rock, found);
   const Eigen::Matrix3d R_BW = X_WB.linear().transpose();
   SurfacePoint surface{contact.near_W, contact.n_W, 0.0};
-  if (!found) surface = body.Nearest(center_W);
+  if (!found) plane = surface = body.Nearest(center_W);
   if (!found && AreApart(part, X_WB, surface)) {
     contacts_.pop_back();
     return;
@@ -217,7 +221,7 @@ void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vecto
     // sweep.
     core_W = X_WB * NearestOnCore(part, R_BW * (surface.point_W - X_WB.translation()));
     const Vector3 before_W = surface.point_W;
-    surface = body.Nearest(core_W);
+    surface = body.Nearest(core_W, &before_W);
     if (AreApart(part, X_WB, surface)) break;
     if ((surface.point_W - before_W).squaredNorm() < kConverged_m * kConverged_m) break;
   }

@@ -71,7 +71,10 @@ class ContactFinder {
   void MeetWheelGround(int index, const math::Transform& X_WB);
   void AddGround(int index, int other, const GroundTouch& touch, const math::Transform& X_WB);
   void MeetWalls(int index, const math::Transform& X_WB);
-  void MeetRock(int index, const math::Transform& X_WB, const math::Vector3& center_W, int rock);
+  // plane: a point of the rock whose tangent plane has kept the part away, with the normal 0 where
+  // none has; it is tried first.
+  void MeetRock(int index, const math::Transform& X_WB, const math::Vector3& center_W, int rock,
+                SurfacePoint& plane);
   // Returns whether the plane that touches a rock at that point of its surface keeps the part so
   // far away that the pair need not be followed.
   static bool AreApart(const Part& part, const math::Transform& X_WB, const SurfacePoint& surface);
@@ -87,6 +90,7 @@ class ContactFinder {
   std::vector<RockBody> rocks_;
   double reach_m_;  // of the rover about R's origin
   std::vector<int> near_rocks_;
+  std::vector<SurfacePoint> planes_;  // of the near rocks, for one part after the other
   math::Vector3 gathered_at_W_ = math::Vector3::Zero();
   bool gathered_ = false;
   std::vector<Contact> contacts_;

@@ -1,7 +1,7 @@
 #include "rover/multibody/joint_space_inertia.h"
 
-#include <Eigen/LU>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "core/check.h"
@@ -13,7 +13,6 @@ using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::RowVector2d;
 using math::Vector3;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix62 = Eigen::Matrix<double, 6, 2>;
 
 // The joints of one side, which the mass matrix does not couple with those of the other.
@@ -25,10 +24,6 @@ struct SideJoints {
 constexpr std::array<SideJoints, 2> kSides{
     {{kLeftRocker, kLeftBogie, {kFirstWheel, kFirstWheel + 1, kFirstWheel + 2}},
      {kRightRocker, kRightBogie, {kFirstWheel + 3, kFirstWheel + 4, kFirstWheel + 5}}}};
-
-std::array<int, 5> All(const SideJoints& side) {
-  return {side.rocker, side.bogie, side.wheels[0], side.wheels[1], side.wheels[2]};
-}
 
 // A joint turns about the y axis of the body that it carries.
 Vector3 Axis_W(const Multibody& body, int joint) { return body.X_WB(joint).linear().col(1); }
@@ -100,76 +95,62 @@ void FillChassis(const CompositeInertia& rover, DofMatrix& mass) {
   mass.block<3, 3>(3, 3) = rover.mass_kg * Matrix3d::Identity();
 }
 
-// What joints without torque do: their rates by the velocity of the chassis (T), by the rates of
-// rocker and bogie of their side (U), and the rates of these two by unit torques on them (N).
-struct FreeJoints {
-  Eigen::Matrix<double, kJoints, 6> by_chassis = Eigen::Matrix<double, kJoints, 6>::Zero();
-  Eigen::Matrix<double, kJoints, 2> by_arms = Eigen::Matrix<double, kJoints, 2>::Zero();
-  std::array<Matrix2d, 2> arms_by_torque;
-};
-
-// Lets the joints of a side turn freely: wheels first, then the arms. No torque acts about a
-// wheel's axle a, so that its spin is
-//   s = -a . w - (a . y) (rocker rate + bogie rate),
-// w the chassis' rate, y the axis of the arms; the bogie's rate counts where the wheel hangs on it.
-// The wheel's moment of inertia I about the axle then drops out of the matrices of the chassis, A,
-// of the arms, H, and of their coupling, B. Free arms move at -H^-1 B' v, and the chassis is left
-// with A - B H^-1 B'.
-void FreeSide(const Multibody& body, std::size_t index, double spin_kg_m2, const DofMatrix& mass,
-              FreeJoints& joints, Matrix6& chassis) {
-  const SideJoints& side = kSides[index];
-  const int r = 6 + side.rocker;
-  const int b = 6 + side.bogie;
-  Matrix62 coupling;
-  coupling << mass.block<6, 1>(0, r), mass.block<6, 1>(0, b);
-  Matrix2d arms{{mass(r, r), mass(r, b)}, {mass(b, r), mass(b, b)}};
-  for (const int wheel : side.wheels) {
-    const Vector3 axle = Axis_W(body, wheel);
-    const double follows = -axle.dot(Axis_W(body, side.rocker));
-    const RowVector2d by_arms(follows, body.Parent(wheel) == side.bogie ? follows : 0.0);
-    joints.by_arms.row(wheel) = by_arms;
-    joints.by_chassis.block<1, 3>(wheel, 0) = -axle.transpose();
-    chassis.topLeftCorner<3, 3>() -= spin_kg_m2 * axle * axle.transpose();
-    coupling.topRows<3>() += spin_kg_m2 * axle * by_arms;
-    arms -= spin_kg_m2 * by_arms.transpose() * by_arms;
+// Returns L of m = L L' with L lower triangular (Cholesky). m: symmetric and positive definite.
+template <int kSize>
+Eigen::Matrix<double, kSize, kSize> LowerRoot(const Eigen::Matrix<double, kSize, kSize>& m) {
+  Eigen::Matrix<double, kSize, kSize> L = Eigen::Matrix<double, kSize, kSize>::Zero();
+  for (int j = 0; j < kSize; ++j) {
+    double pivot = m(j, j);
+    for (int k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
+    L(j, j) = std::sqrt(pivot);
+    const double inverse = 1.0 / L(j, j);
+    for (int i = j + 1; i < kSize; ++i) {
+      double sum = m(i, j);
+      for (int k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
+      L(i, j) = inverse * sum;
+    }
   }
-  joints.by_arms(side.rocker, 0) = 1.0;
-  joints.by_arms(side.bogie, 1) = 1.0;
-  joints.arms_by_torque[index] = arms.inverse();
-  const Matrix62 by_chassis = -coupling * joints.arms_by_torque[index];
-  chassis += by_chassis * coupling.transpose();
-  for (const int joint : All(side)) {
-    joints.by_chassis.row(joint) += joints.by_arms.row(joint) * by_chassis.transpose();
-  }
+  return L;
 }
 
-// Returns the inverse of a symmetric positive definite matrix of 3 x 3 blocks, by the last block's
-// Schur complement.
-Matrix6 InverseOfBlocks(const Matrix6& m) {
-  const Matrix3d last = m.bottomRightCorner<3, 3>().inverse();
-  const Matrix3d follows = last * m.bottomLeftCorner<3, 3>();
-  const Matrix3d first = (m.topLeftCorner<3, 3>() - m.topRightCorner<3, 3>() * follows).inverse();
-  const Matrix3d coupling = follows * first;
-  Matrix6 inverse;
-  inverse.topLeftCorner<3, 3>() = first;
-  inverse.bottomLeftCorner<3, 3>() = -coupling;
-  inverse.topRightCorner<3, 3>() = -coupling.transpose();
-  inverse.bottomRightCorner<3, 3>() = last + coupling * follows.transpose();
+// Returns the inverse of a lower triangular matrix.
+template <int kSize>
+Eigen::Matrix<double, kSize, kSize> LowerInverse(const Eigen::Matrix<double, kSize, kSize>& L) {
+  Eigen::Matrix<double, kSize, kSize> inverse = Eigen::Matrix<double, kSize, kSize>::Zero();
+  for (int j = 0; j < kSize; ++j) {
+    inverse(j, j) = 1.0 / L(j, j);
+    for (int i = 0; i < j; ++i) {
+      double sum = 0.0;
+      for (int k = i; k < j; ++k) sum -= L(j, k) * inverse(k, i);
+      inverse(j, i) = inverse(j, j) * sum;
+    }
+  }
   return inverse;
 }
 
 }  // namespace
 
 JointSpaceInertia::JointSpaceInertia(const RoverParams& params) : masses_(MakeRoverMasses(params)) {
-  // MakeRoverMasses promises what FillMass and FillInverse take for granted.
+  // MakeRoverMasses promises what FillMass and FillFactor take for granted.
   EXPECT(masses_.rocker.com_B.isZero() && masses_.bogie.com_B.isZero() &&
          masses_.wheel.com_B.isZero());
   EXPECT(masses_.wheel.inertia_kg_m2.x() == masses_.wheel.inertia_kg_m2.z());
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const int arm : {kSides[i].rocker, kSides[i].bogie}) {
+      joints_[static_cast<std::size_t>(arm)].side = i;
+    }
+    for (const int joint : kSides[i].wheels) {
+      UnitRow& row = joints_[static_cast<std::size_t>(joint)];
+      row.side = i;
+      row.wheel = static_cast<std::size_t>(joint - kFirstWheel);
+      row.of_wheel = 1.0 / std::sqrt(masses_.wheel.inertia_kg_m2.y());
+    }
+  }
 }
 
 void JointSpaceInertia::Update(const Multibody& body) {
   FillMass(body);
-  FillInverse(body);
+  FillFactor(body);
 }
 
 void JointSpaceInertia::FillMass(const Multibody& body) {
@@ -194,31 +175,122 @@ void JointSpaceInertia::FillMass(const Multibody& body) {
   FillChassis(rover, mass_);
 }
 
-// With S the matrix of the chassis while all joints are free (FreeSide),
-//   M^-1 = [1; T] S^-1 [1, T'] + [0, 0; 0, U N U' for either side, 1/I for the spin of a wheel].
-void JointSpaceInertia::FillInverse(const Multibody& body) {
+// Lets the joints turn freely: wheels first, then the arms. No torque acts about a wheel's axle a,
+// so that its spin is
+//   s = -a . w - (a . y) (rocker rate + bogie rate),
+// w the chassis' rate, y the axis of the arms; the bogie's rate counts where the wheel hangs on it.
+// The wheel's moment of inertia I about the axle then drops out of the matrices of the chassis, A,
+// of the arms, H, and of their coupling, B. Free arms move at -H^-1 B' v, and the chassis is left
+// with S = A - B H^-1 B'. With S = L L' and H = K K' the velocities
+//   z = L' v,   K' (arms + H^-1 B' v),   sqrt(I) (spin - s)
+// have the mass 1.
+void JointSpaceInertia::FillFactor(const Multibody& body) {
   const double spin_kg_m2 = masses_.wheel.inertia_kg_m2.y();
-  FreeJoints joints;
   Matrix6 chassis = mass_.topLeftCorner<6, 6>();
-  for (std::size_t i = 0; i < 2; ++i) FreeSide(body, i, spin_kg_m2, mass_, joints, chassis);
-  const Matrix6 chassis_by_force = InverseOfBlocks(chassis);
-  // Lazy products spare Eigen's packing of blocks, which such small ones do not repay.
-  const Eigen::Matrix<double, kJoints, 6> by_force =
-      joints.by_chassis.lazyProduct(chassis_by_force);
-  inverse_.topLeftCorner<6, 6>() = chassis_by_force;
-  inverse_.bottomLeftCorner<kJoints, 6>() = by_force;
-  inverse_.topRightCorner<6, kJoints>() = by_force.transpose();
-  inverse_.bottomRightCorner<kJoints, kJoints>() =
-      by_force.lazyProduct(joints.by_chassis.transpose());
-  for (std::size_t side = 0; side < 2; ++side) {
-    for (const int i : All(kSides[side])) {
-      const RowVector2d rates = joints.by_arms.row(i) * joints.arms_by_torque[side];
-      for (const int k : All(kSides[side])) {
-        inverse_(6 + i, 6 + k) += rates.dot(joints.by_arms.row(k));
-      }
+  std::array<Matrix62, 2> by_chassis;       // rates of free arms
+  messages::PerWheel<RowVector2d> by_arms;  // spins of free wheels
+  for (std::size_t i = 0; i < 2; ++i) {
+    const SideJoints& side = kSides[i];
+    const int r = 6 + side.rocker;
+    const int b = 6 + side.bogie;
+    Matrix62 coupling;
+    coupling << mass_.block<6, 1>(0, r), mass_.block<6, 1>(0, b);
+    Matrix2d arms{{mass_(r, r), mass_(r, b)}, {mass_(b, r), mass_(b, b)}};
+    for (const int wheel : side.wheels) {
+      const Vector3 axle = Axis_W(body, wheel);
+      const double follows = -axle.dot(Axis_W(body, side.rocker));
+      RowVector2d& follow = by_arms[static_cast<std::size_t>(wheel - kFirstWheel)];
+      follow = {follows, body.Parent(wheel) == side.bogie ? follows : 0.0};
+      chassis.topLeftCorner<3, 3>() -= spin_kg_m2 * axle * axle.transpose();
+      coupling.topRows<3>() += spin_kg_m2 * axle * follow;
+      arms -= spin_kg_m2 * follow.transpose() * follow;
     }
-    for (const int wheel : kSides[side].wheels) inverse_(6 + wheel, 6 + wheel) += 1.0 / spin_kg_m2;
+    const Matrix2d K = LowerRoot<2>(arms);
+    const Matrix2d inverse = LowerInverse<2>(K);
+    arms_[i] = K.transpose();
+    // B K^-T, whose square is B H^-1 B'.
+    const Matrix62 root = coupling.lazyProduct(inverse.transpose());
+    chassis -= root.lazyProduct(root.transpose());
+    by_chassis[i] = -root.lazyProduct(inverse);
+    joints_[static_cast<std::size_t>(side.rocker)].part.tail<2>() = inverse.col(0);
+    joints_[static_cast<std::size_t>(side.bogie)].part.tail<2>() = inverse.col(1);
   }
+  const Matrix6 L = LowerRoot<6>(chassis);
+  chassis_ = L.transpose();
+  chassis_inverse_ = LowerInverse<6>(L);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const SideJoints& side = kSides[i];
+    UnitRow& rocker = joints_[static_cast<std::size_t>(side.rocker)];
+    UnitRow& bogie = joints_[static_cast<std::size_t>(side.bogie)];
+    rocker.part.head<6>() = chassis_inverse_.lazyProduct(by_chassis[i].col(0));
+    bogie.part.head<6>() = chassis_inverse_.lazyProduct(by_chassis[i].col(1));
+    for (const int joint : side.wheels) {
+      UnitRow& wheel = joints_[static_cast<std::size_t>(joint)];
+      const RowVector2d& follow = by_arms[static_cast<std::size_t>(joint - kFirstWheel)];
+      wheel.part = follow[0] * rocker.part + follow[1] * bogie.part;
+      wheel.part.head<6>() -= chassis_inverse_.leftCols<3>().lazyProduct(Axis_W(body, joint));
+    }
+  }
+}
+
+UnitVelocity JointSpaceInertia::ToUnit(const DofVector& v) const {
+  UnitVelocity z;
+  z.chassis = chassis_.lazyProduct(v.head<6>());
+  for (std::size_t i = 0; i < 2; ++i) {
+    Eigen::Vector2d rates;
+    for (int k = 0; k < 2; ++k) {
+      const int joint = k == 0 ? kSides[i].rocker : kSides[i].bogie;
+      rates[k] = v[6 + joint] - OfJoint(joint).part.head<6>().dot(z.chassis);
+    }
+    z.arms[i] = arms_[i].lazyProduct(rates);
+  }
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    const int joint = kFirstWheel + static_cast<int>(i);
+    const UnitRow& row = OfJoint(joint);
+    z.wheels[i] = (v[6 + joint] - row.Velocity(z)) / row.of_wheel;
+  }
+  return z;
+}
+
+DofVector JointSpaceInertia::FromUnit(const UnitVelocity& z) const {
+  DofVector v;
+  v.head<6>() = chassis_inverse_.transpose().lazyProduct(z.chassis);
+  for (int joint = 0; joint < kJoints; ++joint) v[6 + joint] = OfJoint(joint).Velocity(z);
+  return v;
+}
+
+DofVector JointSpaceInertia::Accelerations(const DofVector& force) const {
+  // F F' f.
+  UnitVelocity z;
+  z.chassis = chassis_inverse_.lazyProduct(force.head<6>());
+  for (int joint = 0; joint < kJoints; ++joint) OfJoint(joint).Push(force[6 + joint], z);
+  return FromUnit(z);
+}
+
+DofMatrix JointSpaceInertia::Inverse() const {
+  DofMatrix inverse;
+  for (int dof = 0; dof < kDof; ++dof) inverse.col(dof) = Accelerations(DofVector::Unit(dof));
+  return inverse;
+}
+
+UnitRow JointSpaceInertia::OfPoint(const Multibody& body, int index, const Vector3& p_W,
+                                   const Vector3& n_W) const {
+  // n . (w x r) = w . (r x n), as in Multibody::FillJacobian.
+  Vector6 of_chassis;
+  of_chassis << (p_W - body.p_WComChassis()).cross(n_W), n_W;
+  UnitRow row;
+  row.part.head<6>() = chassis_inverse_.lazyProduct(of_chassis);
+  for (int joint = index; joint != kChassis; joint = body.Parent(joint)) {
+    const math::Transform& X = body.X_WB(joint);
+    const double share = X.linear().col(1).dot((p_W - X.translation()).cross(n_W));
+    const UnitRow& turn = OfJoint(joint);
+    row.part += share * turn.part;
+    row.side = turn.side;
+    if (joint < kFirstWheel) continue;
+    row.wheel = turn.wheel;
+    row.of_wheel = share * turn.of_wheel;
+  }
+  return row;
 }
 
 }  // namespace rockyard::rover

@@ -1,150 +1,147 @@
 #include "rover/multibody/multibody.h"
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-
-#include "rover/rover_layout_params.h"
+#include <cmath>
 
 namespace rockyard::rover {
-namespace {
 
 using math::Vector3;
 
-// Bullet's vectors hold doubles here (btScalar is double): nothing is rounded.
-btVector3 ToBullet(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-Vector3 FromBullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-math::Transform FromBullet(const btTransform& X) {
-  math::Transform result = math::Transform::Identity();
-  for (int row = 0; row < 3; ++row) {
-    result.linear().row(row) = FromBullet(X.getBasis().getRow(row));
-  }
-  result.translation() = FromBullet(X.getOrigin());
-  return result;
-}
-
-}  // namespace
-
-struct Multibody::Bullet {
-  Bullet(double mass_kg, const btVector3& inertia)
-      : body(kJoints, mass_kg, inertia, /*fixedBase=*/false, /*canSleep=*/false) {}
-
-  btMultiBody body;
-  // Scratch space that Bullet asks its callers to keep.
-  btAlignedObjectArray<btScalar> scalars;
-  btAlignedObjectArray<btVector3> vectors;
-  btAlignedObjectArray<btMatrix3x3> matrices;
-  btAlignedObjectArray<btQuaternion> rotations;
-};
-
-Multibody::Multibody(const RoverParams& params) : p_RCom_(MakeRoverMasses(params).chassis.com_B) {
-  const BodyMass chassis = MakeRoverMasses(params).chassis;
-  bullet_ = std::make_unique<Bullet>(chassis.mass_kg, ToBullet(chassis.inertia_kg_m2));
-  BuildLinks(params);
-  btMultiBody& body = bullet_->body;
-  body.finalizeMultiDof();
-  // Bullet damps by default; all losses here are those of the contacts.
-  body.setLinearDamping(0.0);
-  body.setAngularDamping(0.0);
-  Reset(math::Transform::Identity());
-}
-
-Multibody::~Multibody() = default;
-
-void Multibody::BuildLinks(const RoverParams& params) {
+Multibody::Multibody(const RoverParams& params) : masses_(MakeRoverMasses(params)) {
   const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
-  const RoverMasses masses = MakeRoverMasses(params);
   std::array<Vector3, kJoints> pivot_R;
-  // A link hangs on its parent by a revolute joint about +y at its own frame's origin. Bullet asks
-  // for the vector from the parent's centre of mass, which is at the parent's joint but for the
-  // chassis.
-  const auto add = [&](int joint, int parent, const BodyMass& body, const Vector3& p_R) {
-    const Vector3 from = parent == kChassis ? p_RCom_ : pivot_R[static_cast<std::size_t>(parent)];
-    pivot_R[static_cast<std::size_t>(joint)] = p_R;
-    parent_[static_cast<std::size_t>(joint)] = parent;
-    bullet_->body.setupRevolute(joint, body.mass_kg, ToBullet(body.inertia_kg_m2), parent,
-                                btQuaternion::getIdentity(), btVector3(0, 1, 0),
-                                ToBullet(p_R - from), btVector3(0, 0, 0));
+  // With all joints at zero every frame is parallel to R.
+  const auto add = [&](int joint, int parent, const Vector3& p_R) {
+    const auto i = static_cast<std::size_t>(joint);
+    pivot_R[i] = p_R;
+    links_[i] = {parent, parent == kChassis
+                             ? p_R
+                             : Vector3(p_R - pivot_R[static_cast<std::size_t>(parent)])};
+    X_WB_[i].setIdentity();
   };
   for (int side = 0; side < 2; ++side) {
-    add(kLeftRocker + side, kChassis, masses.rocker,
-        geometry.rocker_pivot_R[static_cast<std::size_t>(side)]);
+    add(kLeftRocker + side, kChassis, geometry.rocker_pivot_R[static_cast<std::size_t>(side)]);
   }
   for (int side = 0; side < 2; ++side) {
-    add(kLeftBogie + side, kLeftRocker + side, masses.bogie,
+    add(kLeftBogie + side, kLeftRocker + side,
         geometry.bogie_pivot_R[static_cast<std::size_t>(side)]);
   }
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     const int side = i < 3 ? 0 : 1;
     add(kFirstWheel + static_cast<int>(i), (geometry.on_bogie[i] ? kLeftBogie : kLeftRocker) + side,
-        masses.wheel, geometry.wheel_R[i]);
+        geometry.wheel_R[i]);
+    SetSteer(i, 0.0);
   }
+  Reset(math::Transform::Identity());
 }
 
 void Multibody::Reset(const math::Transform& X_WR) {
-  btMultiBody& body = bullet_->body;
-  const Eigen::Quaterniond q(X_WR.linear());
-  // Bullet's base frame stands at the chassis' centre of mass, with R's axes; its rotation is W to
-  // base.
-  body.setBasePos(ToBullet(X_WR * p_RCom_));
-  body.setWorldToBaseRot(btQuaternion(q.x(), q.y(), q.z(), q.w()).inverse());
-  for (int joint = 0; joint < kJoints; ++joint) body.setJointPos(joint, 0.0);
+  q_WR_ = Eigen::Quaterniond(X_WR.linear());
+  p_WCom_ = X_WR * masses_.chassis.com_B;
+  angle_rad_.fill(0.0);
   StopMotion();
   moved_ = true;
   UpdatePoses();
 }
 
-void Multibody::StopMotion() {
-  bullet_->body.clearVelocities();
-  bullet_->body.clearForcesAndTorques();
-}
-
 void Multibody::SetSteer(std::size_t wheel, double angle_rad) {
-  btMultibodyLink& link = bullet_->body.getLink(kFirstWheel + static_cast<int>(wheel));
-  // Bullet stores the rotation from parent to link, the inverse of the rotation that turns the axle
-  // by +angle.
-  link.m_zeroRotParentToThis = btQuaternion(btVector3(0, 0, 1), -angle_rad);
-  link.updateCacheMultiDof();
+  steer_[wheel] = {std::cos(angle_rad), std::sin(angle_rad)};
   moved_ = true;
 }
 
 void Multibody::UpdatePoses() {
   if (!moved_) return;
   moved_ = false;
-  btMultiBody& body = bullet_->body;
-  body.forwardKinematics(bullet_->rotations, bullet_->vectors);
-  X_WR_ = FromBullet(body.getBaseWorldTransform());
-  p_WCom_ = X_WR_.translation();
-  // From the centre of mass back to R's origin: p_WR = p_WCom - R_WR p_RCom.
-  X_WR_.translation() -= X_WR_.linear() * p_RCom_;
+  X_WR_.linear() = q_WR_.toRotationMatrix();
+  X_WR_.translation() = p_WCom_ - X_WR_.linear() * masses_.chassis.com_B;
   for (int joint = 0; joint < kJoints; ++joint) {
-    X_WB_[static_cast<std::size_t>(joint)] = FromBullet(body.getLink(joint).m_cachedWorldTransform);
+    const auto i = static_cast<std::size_t>(joint);
+    const math::Transform& X = X_WB(links_[i].parent);
+    X_WB_[i].translation() = X.linear() * links_[i].from_parent + X.translation();
+    const Vector3 x = X.linear().col(0);
+    const Vector3 y = X.linear().col(1);
+    const Vector3 z = X.linear().col(2);
+    if (joint < kFirstWheel) {
+      // R_WB = R_WP Ry(angle).
+      const double c = std::cos(angle_rad_[i]);
+      const double s = std::sin(angle_rad_[i]);
+      X_WB_[i].linear() << c * x - s * z, y, s * x + c * z;
+    } else {
+      // R_WB = R_WP Rz(steer).
+      const auto [c, s] = steer_[i - kFirstWheel];
+      X_WB_[i].linear() << c * x + s * y, c * y - s * x, z;
+    }
   }
 }
 
-double Multibody::JointAngle(int joint) const { return bullet_->body.getJointPos(joint); }
-
-DofVector Multibody::Velocity() const {
-  return Eigen::Map<const DofVector>(bullet_->body.getVelocityVector());
-}
-
-void Multibody::Accelerate(double gravity_m_s2, double step_s) {
-  btMultiBody& body = bullet_->body;
-  body.addBaseForce(btVector3(0, 0, -gravity_m_s2 * body.getBaseMass()));
+// Recursive Newton and Euler (Featherstone 2008 ch. 5) with all accelerations of the generalized
+// velocities zero: what is left are the bodies' accelerations a and alpha by their velocities, and
+// f = J' (m (g - a), -(I alpha + w x I w)), summed from the leaves down.
+DofVector Multibody::FreeForce(double gravity_m_s2) const {
+  struct Motion {
+    Vector3 w, alpha, a;
+  };
+  struct Load {
+    Vector3 force, torque;
+  };
+  std::array<Motion, kJoints> motions;
+  std::array<Load, kJoints> loads;
+  std::array<Vector3, kJoints> from_parent;
+  const Vector3 g(0.0, 0.0, -gravity_m_s2);
+  const Motion chassis{velocity_.head<3>(), Vector3::Zero(), Vector3::Zero()};
+  Load sum{masses_.chassis.mass_kg * g,
+           -Torque(masses_.chassis, X_WR_.linear(), chassis.w, chassis.alpha)};
   for (int joint = 0; joint < kJoints; ++joint) {
-    body.addLinkForce(joint, btVector3(0, 0, -gravity_m_s2 * body.getLinkMass(joint)));
+    const auto i = static_cast<std::size_t>(joint);
+    const int parent = links_[i].parent;
+    const Motion& p = parent == kChassis ? chassis : motions[static_cast<std::size_t>(parent)];
+    const math::Transform& X = X_WB_[i];
+    const Vector3 r = X.translation() - (parent == kChassis ? p_WCom_ : X_WB(parent).translation());
+    const Vector3 turn = velocity_[6 + joint] * X.linear().col(1);
+    motions[i] = {p.w + turn, p.alpha + p.w.cross(turn),
+                  p.a + p.alpha.cross(r) + p.w.cross(p.w.cross(r))};
+    from_parent[i] = r;
+    const BodyMass& mass = MassOf(joint);
+    loads[i] = {mass.mass_kg * (g - motions[i].a),
+                -Torque(mass, X.linear(), motions[i].w, motions[i].alpha)};
   }
-  body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(
-      step_s, bullet_->scalars, bullet_->vectors, bullet_->matrices, false, false, false);
-  body.clearForcesAndTorques();
+  DofVector f;
+  for (int joint = kJoints - 1; joint >= 0; --joint) {
+    const auto i = static_cast<std::size_t>(joint);
+    const int parent = links_[i].parent;
+    f[6 + joint] = X_WB_[i].linear().col(1).dot(loads[i].torque);
+    Load& onto = parent == kChassis ? sum : loads[static_cast<std::size_t>(parent)];
+    onto.force += loads[i].force;
+    onto.torque += loads[i].torque + from_parent[i].cross(loads[i].force);
+  }
+  f.head<3>() = sum.torque;
+  f.segment<3>(3) = sum.force;
+  return f;
 }
 
-// Generalized velocities have Bullet's order: chassis angular, linear, then the joints.
-void Multibody::AddVelocity(const DofVector& change) {
-  bullet_->body.applyDeltaVeeMultiDof(change.data(), 1.0);
+Vector3 Multibody::Torque(const BodyMass& mass, const Eigen::Matrix3d& R_WB, const Vector3& w,
+                          const Vector3& alpha) {
+  const Vector3 w_B = R_WB.transpose() * w;
+  const Vector3 alpha_B = R_WB.transpose() * alpha;
+  return R_WB * (mass.inertia_kg_m2.cwiseProduct(alpha_B) +
+                 w_B.cross(mass.inertia_kg_m2.cwiseProduct(w_B)));
 }
 
+// Semi-implicit Euler: positions move with the velocities of the end of the step, the attitude by
+// the rotation h w.
 void Multibody::Move(double step_s) {
-  bullet_->body.stepPositionsMultiDof(step_s);
+  p_WCom_ += step_s * velocity_.segment<3>(3);
+  const Vector3 w = velocity_.head<3>();
+  const double speed_rad_s = w.norm();
+  // A turn too small to be told from 2 sin(turn / 2).
+  constexpr double kSmall_rad = 1e-8;
+  const double half_rad = 0.5 * step_s * speed_rad_s;
+  const double share = half_rad < kSmall_rad ? 0.5 * step_s : std::sin(half_rad) / speed_rad_s;
+  const Vector3 turn = share * w;
+  q_WR_ = Eigen::Quaterniond(std::cos(half_rad), turn.x(), turn.y(), turn.z()) * q_WR_;
+  q_WR_.normalize();
+  for (int joint = 0; joint < kJoints; ++joint) {
+    angle_rad_[static_cast<std::size_t>(joint)] += step_s * velocity_[6 + joint];
+  }
   moved_ = true;
 }
 

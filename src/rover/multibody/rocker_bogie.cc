@@ -24,6 +24,8 @@ constexpr double kSettleDamping = 0.8;
 constexpr double kSettled_m_s = 1e-3;
 constexpr int kSettledSteps = 5;
 constexpr double kSettleTime_s = 5.0;
+// Friction that sweeps leave open while the rover settles stays in its stance.
+constexpr int kSettlePatience = 2;
 // Spacing of the points at which Place looks for what lies beneath, m.
 constexpr double kProbe_m = 0.03;
 
@@ -123,7 +125,7 @@ void RockerBogie::Settle() {
   const int steps = static_cast<int>(kSettleTime_s / params_.physics.step_s);
   int slow_steps = 0;
   for (int i = 0; i < steps && slow_steps < kSettledSteps; ++i) {
-    Advance(braked, 1);
+    Advance(braked, 1, kSettlePatience);
     const DofVector velocity = body_.Velocity();
     // v <- 0.8 v.
     body_.AddVelocity((kSettleDamping - 1.0) * velocity);
@@ -146,7 +148,7 @@ void RockerBogie::Step(const messages::WheelCommand& command) {
     if (change != 0.0) SetSteer(i, state_.steer_rad[i] + change);
   }
   const int substeps = Substeps(command.rate_rad_s);
-  for (int i = 0; i < substeps; ++i) Advance(command.rate_rad_s, substeps);
+  for (int i = 0; i < substeps; ++i) Advance(command.rate_rad_s, substeps, 1);
   UpdateState();
 }
 
@@ -174,7 +176,8 @@ int RockerBogie::Substeps(const messages::PerWheel<double>& commanded_rad_s) {
 
 // Advances one part of a step (semi-implicit Euler): v* = v + h M^-1 f, impulses of all constraints
 // on v*, positions with the new v.
-void RockerBogie::Advance(const messages::PerWheel<double>& commanded_rad_s, int parts) {
+void RockerBogie::Advance(const messages::PerWheel<double>& commanded_rad_s, int parts,
+                          int patience) {
   const double h = params_.physics.step_s / parts;
   MotorRates rates = motors_.Advance(commanded_rad_s, h);
   // One physics step stands for time_scale steps of real time: rates are as many times faster
@@ -184,9 +187,9 @@ void RockerBogie::Advance(const messages::PerWheel<double>& commanded_rad_s, int
   body_.UpdatePoses();
   finder_.Update(body_);
   const DofVector before = body_.Velocity();
-  body_.Accelerate(params_.physics.gravity_m_s2, h);
   inertia_.Update(body_);
-  solver_.Solve({inertia_.inverse(), before, rates, h}, loose_rocks_ ? &*loose_rocks_ : nullptr,
+  body_.AddVelocity(h * inertia_.Accelerations(body_.FreeForce(params_.physics.gravity_m_s2)));
+  solver_.Solve({inertia_, before, rates, h, patience}, loose_rocks_ ? &*loose_rocks_ : nullptr,
                 finder_, body_);
   CheckMotion(body_.Velocity());
   body_.Move(h);

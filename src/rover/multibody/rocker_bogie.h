@@ -1,4 +1,4 @@
-// The rocker-bogie rover: Bullet's articulated body under rockyard's contacts and constraints. It
+// The rocker-bogie rover: the articulated body under contacts and constraints. It
 // is the default fidelity, made by MakeRover, against which the quasi-static rover is held.
 #pragma once
 
@@ -36,7 +36,7 @@ class RockerBogie final : public Rover {
   void SetSteer(std::size_t wheel, double angle_rad);
   // Returns in how many parts the next step is made.
   int Substeps(const messages::PerWheel<double>& commanded_rad_s);
-  void Advance(const messages::PerWheel<double>& commanded_rad_s, int parts);
+  void Advance(const messages::PerWheel<double>& commanded_rad_s, int parts, int patience);
   void Settle();
   void UpdateState();
   void UpdateContacts(const DofVector& velocity);
