@@ -3,13 +3,11 @@
 #include <Random123/philox.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "core/check.h"
 #include "core/normal_pieces.h"
+#include "math/functions.h"
 
 namespace rockyard::core {
 
@@ -51,13 +49,9 @@ namespace {
 // exp(-200) is far above the smallest double, so sequential inversion stays exact below this mean.
 constexpr double kLargestInvertedMean = 200.0;
 
-// Boost evaluates functions of double in long double by default: three times slower, and other bits
-// where long double is another type.
-using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-
 std::int64_t InvertPoisson(RandomStream& stream, double mean) {
   const double u = stream.Uniform();
-  double probability = std::exp(-mean);
+  double probability = math::Exp(-mean);
   double cumulative = probability;
   std::int64_t count = 0;
   // The bound ends the loop where rounding keeps the sum below u: 1000 is 50 sigma above 200.
@@ -71,22 +65,9 @@ std::int64_t InvertPoisson(RandomStream& stream, double mean) {
 
 }  // namespace
 
-double ChiSquaredQuantile(double p, int degrees) {
-  EXPECT(p >= 0.0 && p < 1.0 && degrees >= 1);
-  return boost::math::quantile(boost::math::chi_squared(degrees), p);
-}
-
 double SampleUniform(RandomStream& stream, double low, double high) {
   EXPECT(low <= high);
   return low + (high - low) * stream.Uniform();
-}
-
-double NormalQuantile(double p) {
-  EXPECT(p > 0.0 && p < 1.0);
-  const double central = 2.0 * p - 1.0;
-  // Below some 1e-17 the difference to -1 is lost. Elsewhere the other form has other last digits.
-  if (central <= -1.0) return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * p, InDouble());
-  return std::numbers::sqrt2 * boost::math::erf_inv(central, InDouble());
 }
 
 namespace {
@@ -109,7 +90,7 @@ double SampleNormal(RandomStream& stream, double mean, double standard_deviation
 
 double SampleExponential(RandomStream& stream, double mean) {
   EXPECT(mean > 0.0);
-  return -mean * std::log(stream.Uniform());
+  return -mean * math::Log(stream.Uniform());
 }
 
 bool SampleBernoulli(RandomStream& stream, double probability) {
