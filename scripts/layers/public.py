@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 LIST = "public_headers.txt"
-MOST = 40
+MOST = 46
 SIDES = ("onboard", "world")  # a side includes itself and those before it
 
 CODE = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])*\'')

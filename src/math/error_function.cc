@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "math/function_parts.h"
 #include "math/functions.h"
 
 namespace rockyard::math {
@@ -38,7 +37,7 @@ double Erfc(double x) {
   if (size < 0.5) return 1.0 - x * Polynomial(kErf, x * x);
   if (size > 28.0) return x > 0.0 ? 0.0 : 2.0;
   const DoubleDouble square = ExactProduct(size, size);
-  const double tail = ExpOf({-square.high, -square.low}) *
+  const double tail = functions::ExpOf({-square.high, -square.low}) *
                       (Polynomial(kErfc, (size - 3.0) / (size + 3.0)) / (1.0 + 2.0 * size));
   return x > 0.0 ? tail : 2.0 - tail;
 }

@@ -372,12 +372,12 @@ struct Motion {
         self.assert_caught("src/messages/commands.h:5", "the side onboard does not see world")
 
     def test_too_many(self):
-        for number in range(38):
+        for number in range(44):
             self.tree.write(f"math/extra{number}.h", "/// @file\n/// More.\n#pragma once\n")
-            if number == 37:
-                self.assertEqual(self.tree.violations(), [], "40 are allowed")
+            if number == 43:
+                self.assertEqual(self.tree.violations(), [], "46 are allowed")
             self.tree.add_line("public_headers.txt", f"onboard math/extra{number}.h")
-        self.assert_caught("src/public_headers.txt", "lists 41 headers, more than 40")
+        self.assert_caught("src/public_headers.txt", "lists 47 headers, more than 46")
 
     def test_lines_that_name_no_header(self):
         for line, why in (("onboard core/gone.h", "no header"), ("world core/check.h", "twice"),
