@@ -11,6 +11,7 @@
 
 #include "localization/dead_reckoning.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::localization {
 namespace {
@@ -360,7 +361,8 @@ ErrorStateFilter::InFrame ErrorStateFilter::InLanderFrame(const PoseVector& pose
   lander.pose[error::kX] = turned.x_m;
   lander.pose[error::kY] = turned.y_m;
   lander.pose[error::kHeading] = turned.heading_rad;
-  lander.by_error.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(pan_rad_).toRotationMatrix();
+  const auto [s, c] = math::SinCos(pan_rad_);
+  lander.by_error.topLeftCorner<2, 2>() << c, -s, s, c;
   lander.by_error(error::kX, error::kPan) = lander_->y_m - turned.y_m;
   lander.by_error(error::kY, error::kPan) = turned.x_m - lander_->x_m;
   lander.by_error(error::kHeading, error::kPan) = 1.0;

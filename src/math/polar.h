@@ -2,7 +2,9 @@
 // drives with such fixes (sensing/aids.cc) depend on its bits, as estimators weigh fixes by it.
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
+
+#include "math/functions.h"
 
 namespace rockyard::math {
 
@@ -10,7 +12,9 @@ namespace rockyard::math {
 // bearing_rad (from +x towards +y) are independent. Their standard deviations along_sd and
 // across_sd are lengths of one unit: across_sd is the range times the deviation of the bearing.
 inline Eigen::Matrix2d PolarCovariance(double bearing_rad, double along_sd, double across_sd) {
-  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(bearing_rad).toRotationMatrix();
+  const auto [s, c] = SinCos(bearing_rad);
+  Eigen::Matrix2d turn;
+  turn << c, -s, s, c;
   const Eigen::Vector2d variances(along_sd * along_sd, across_sd * across_sd);
   return turn * variances.asDiagonal() * turn.transpose();
 }

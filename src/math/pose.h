@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::math {
 
@@ -21,6 +22,36 @@ struct Pose2 {
   double y_m = 0.0;          ///< to the left of the course
   double heading_rad = 0.0;  ///< from +x towards +y
 };
+
+/// Returns the rotation by an angle about a unit axis (Rodrigues). Eigen's AngleAxis calls the C
+/// library, whose bits depend on the processor.
+inline Eigen::Matrix3d RotationAbout(double angle_rad, const Vector3& axis) {
+  const auto [s, c] = SinCos(angle_rad);
+  const Vector3 rest = (1.0 - c) * axis;
+  const Vector3 sine = s * axis;
+  Eigen::Matrix3d R;
+  R << rest.x() * axis.x() + c, rest.x() * axis.y() - sine.z(), rest.x() * axis.z() + sine.y(),  //
+      rest.x() * axis.y() + sine.z(), rest.y() * axis.y() + c, rest.y() * axis.z() - sine.x(),   //
+      rest.x() * axis.z() - sine.y(), rest.y() * axis.z() + sine.x(), rest.z() * axis.z() + c;
+  return R;
+}
+
+/// A rotation by an angle in [0, pi] about a unit axis.
+struct Turn {
+  double angle_rad = 0.0;
+  Vector3 axis = Vector3::UnitX();
+
+  /// Returns the axis times the angle, rad.
+  Vector3 Vector_rad() const { return angle_rad * axis; }
+};
+
+/// Returns the turn of a rotation matrix, by its quaternion, exact near 0 and near pi.
+inline Turn TurnOf(const Eigen::Matrix3d& R) {
+  const Eigen::Quaterniond q(R);
+  const double size = q.vec().norm();
+  if (size == 0.0) return {};
+  return {2.0 * Atan2(size, std::abs(q.w())), q.vec() / (q.w() < 0.0 ? -size : size)};
+}
 
 /// Returns the heading of X_WR, rad: the direction of the rover's x axis projected on the ground.
 inline double Heading(const Transform& X_WR) {
@@ -81,10 +112,12 @@ inline Pose2 TurnedAbout(const Pose2& pose, double x_m, double y_m, double angle
 inline Transform MakePose(const Vector3& p_WoRo_W, double heading_rad, double pitch_rad,
                           double roll_rad) {
   Transform X_WR = Transform::Identity();
-  X_WR.linear() = (Eigen::AngleAxisd(heading_rad, Vector3::UnitZ()) *
-                   Eigen::AngleAxisd(pitch_rad, Vector3::UnitY()) *
-                   Eigen::AngleAxisd(roll_rad, Vector3::UnitX()))
-                      .toRotationMatrix();
+  const auto [sh, ch] = SinCos(heading_rad);
+  const auto [sp, cp] = SinCos(pitch_rad);
+  const auto [sr, cr] = SinCos(roll_rad);
+  X_WR.linear() << ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr,  //
+      sh * cp, sh * sp * sr + ch * cr, sh * sp * cr - ch * sr,               //
+      -sp, cp * sr, cp * cr;
   X_WR.translation() = p_WoRo_W;
   return X_WR;
 }

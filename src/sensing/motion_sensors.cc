@@ -36,9 +36,7 @@ double Gyro::Measure(double true_turn_rad, double duration_s, bool moving,
 double TurnAboutOwnAxis(const math::Transform& X_WR_before, const math::Transform& X_WR_after) {
   // R_WR(before)^-1 R_WR(after) is the rotation in the rover's own frame. The z component of its
   // rotation vector is, for a short tick, the integral of the rate about the rover's own z axis.
-  const Eigen::AngleAxisd turn(
-      Eigen::Matrix3d(X_WR_before.linear().transpose() * X_WR_after.linear()));
-  return turn.angle() * turn.axis().z();
+  return math::TurnOf(X_WR_before.linear().transpose() * X_WR_after.linear()).Vector_rad().z();
 }
 
 Encoders::Encoders(const EncoderParams& params, double wheel_radius_m, core::TrialKey key)

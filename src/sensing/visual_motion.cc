@@ -10,8 +10,7 @@ namespace rockyard::sensing {
 vision::MotionResult VisualMotion::Measure(const math::Transform& X_FS, std::int64_t number) const {
   EXPECT(number >= 0);
   const double way_m = X_FS.translation().norm();
-  const Eigen::AngleAxisd turn(X_FS.linear());
-  const double angle_rad = turn.angle();
+  const double angle_rad = math::TurnOf(X_FS.linear()).angle_rad;
   core::RandomStream stream(key_, core::Purpose::kVisualMotion, static_cast<std::uint32_t>(number));
   vision::MotionResult result;
   if (core::SampleBernoulli(stream, params_.failure.Probability(way_m, angle_rad))) {

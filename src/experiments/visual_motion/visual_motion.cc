@@ -75,9 +75,9 @@ void AddStep(const StudiedStep& step, const vision::MotionResult& seen, VisualSu
   if (!seen.motion) return;
   sums.found += 1.0;
   const Transform truth = step.X_WF.inverse() * step.X_WS;
-  const Eigen::AngleAxisd turned(seen.motion->X_FS.linear() * truth.linear().transpose());
   const math::Vector3 way_m = seen.motion->X_FS.translation() - truth.translation();
-  const math::Vector3 turn_rad = turned.angle() * turned.axis();
+  const math::Vector3 turn_rad =
+      math::TurnOf(seen.motion->X_FS.linear() * truth.linear().transpose()).Vector_rad();
   math::Vector6 error;
   error << way_m, turn_rad;
   const double nees = error.dot(math::SolveSymmetric(seen.motion->covariance, error));

@@ -91,7 +91,8 @@ ComputeTimes Table3Times(Machine machine, double acquisition_s, const GridSize& 
 // Returns the time of stereo in software for images of another width than the printed one: it goes
 // with pixels times disparities.
 double SoftwareStereo(const PrintedTime& printed, double width_px) {
-  return printed.middle_s() * std::pow(width_px / printed.width_px, 3);
+  const double ratio = width_px / printed.width_px;
+  return printed.middle_s() * ratio * ratio * ratio;
 }
 
 // Returns the time at a width, on straight lines in the logarithms of time and width through

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "math/pose.h"
 #include "vision/cameras/cahv.h"
 
 namespace rockyard::vision {
@@ -26,7 +27,7 @@ Transform Turned(const Transform& X_AT, const Vector3& turn_rad, const Vector3& 
   if (angle_rad > 0.0) {
     moved.linear() =
         X_AT.linear() *
-        Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, turn_rad / angle_rad)).toRotationMatrix();
+        math::RotationAbout(angle_rad, turn_rad / angle_rad);
   }
   moved.translation() += shift_m;
   return moved;

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "math/functions.h"
+
 namespace rockyard::vision {
 namespace {
 
@@ -127,7 +129,8 @@ Eigen::Vector3d PrimariesOf(const SurfaceColour& colour) {
 }  // namespace
 
 LogRatios LogRatiosOf(const Eigen::Vector3d& primaries) {
-  const Eigen::Array3d logs = primaries.array().max(kHalfLevel).log();
+  const Eigen::Array3d logs =
+      primaries.array().max(kHalfLevel).unaryExpr([](double level) { return math::Log(level); });
   return {logs[0] - logs[1], logs[2] - logs[1]};
 }
 

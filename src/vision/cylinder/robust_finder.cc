@@ -83,6 +83,8 @@ double BoundaryError(const CylinderFit& fit, double width_px, const CylinderFitP
   return std::hypot(model_px, 0.5 * width_px * (fit.radius_ratio - 1.0));
 }
 
+double Squared(double x) { return x * x; }
+
 // Returns the covariance of p_LT_L and theta: that of the fit, with the errors of its model and of
 // the rows.
 Eigen::Matrix4d CovarianceOf(const CylinderFit& fit, const EyeGeometry& eyes, double depth_m,
@@ -94,10 +96,10 @@ Eigen::Matrix4d CovarianceOf(const CylinderFit& fit, const EyeGeometry& eyes, do
   measured(3, 3) = fit.covariance(2, 2);
   measured.block<2, 1>(0, 3) = fit.covariance.block<2, 1>(0, 2);
   measured.block<1, 2>(3, 0) = fit.covariance.block<1, 2>(2, 0);
-  measured(0, 0) += std::pow(error_px * m_a_px, 2);
-  measured(1, 1) += std::pow(error_px * depth_m * m_a_px / eyes.baseline_m, 2);
-  measured(2, 2) = std::pow(params.row_error_px * m_a_px, 2);
-  measured(3, 3) += std::pow(error_px * CoarsestTurn(width_px), 2);
+  measured(0, 0) += Squared(error_px * m_a_px);
+  measured(1, 1) += Squared(error_px * depth_m * m_a_px / eyes.baseline_m);
+  measured(2, 2) = Squared(params.row_error_px * m_a_px);
+  measured(3, 3) += Squared(error_px * CoarsestTurn(width_px));
   Eigen::Matrix4d axes = Eigen::Matrix4d::Identity();
   axes.block<3, 1>(0, 0) = eyes.right_L;
   axes.block<3, 1>(0, 1) = (fit.place.p_LT_L - eyes.centre_L) / depth_m;

@@ -50,9 +50,8 @@ Transform RigidAlignment(const Trajectory& truth, const Trajectory& estimate) {
 }  // namespace
 
 double AngleOf(const Eigen::Matrix3d& rotation) {
-  // AngleAxis is exact near 0 and near pi, where the arc cosine of the trace loses half of the
-  // digits.
-  return Eigen::AngleAxisd(rotation).angle();
+  // The arc cosine of the trace would lose half of the digits near 0 and near pi.
+  return math::TurnOf(rotation).angle_rad;
 }
 
 std::vector<double> DistancesAlong(const Trajectory& path) {
@@ -145,9 +144,9 @@ RelativeErrors RelativeErrorsOf(const Trajectory& truth, const Trajectory& estim
 }
 
 double NormalizedErrorSquared(const Motion& estimated, const Transform& true_X_FS) {
-  const Eigen::AngleAxisd turn(true_X_FS.linear() * estimated.X_FS.linear().transpose());
   math::Vector6 error;
-  error << true_X_FS.translation() - estimated.X_FS.translation(), turn.angle() * turn.axis();
+  error << true_X_FS.translation() - estimated.X_FS.translation(),
+      math::TurnOf(true_X_FS.linear() * estimated.X_FS.linear().transpose()).Vector_rad();
   return error.dot(math::SolveSymmetric(estimated.covariance, error));
 }
 

@@ -102,7 +102,8 @@ Eigen::Vector3d Refine(const std::vector<Equation>& equations, Eigen::Vector3d p
     for (const Equation& equation : equations) {
       const double ratio = equation.Residual(plane) / reach;
       if (std::abs(ratio) >= 1.0) continue;
-      const double weight = std::pow(1.0 - ratio * ratio, 2);
+      const double root = 1.0 - ratio * ratio;
+      const double weight = root * root;
       normal += weight * equation.design * equation.design.transpose();
       moved += weight * equation.moved_px * equation.design;
     }
