@@ -1,11 +1,11 @@
 #include "campaign/scan_capture.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <set>
 #include <utility>
 
+#include "math/functions.h"
 #include "perception/hazard_detector.h"
 #include "perception/stripe_finder.h"
 #include "perception/triangulation.h"
@@ -29,12 +29,11 @@ report::GroundOutline RockOutline(const terrain::Rock& rock, const math::Transfo
   report::GroundOutline outline;
   for (int corner = 0; corner < kOutlineCorners; ++corner) {
     const double angle_rad = 2.0 * std::numbers::pi * corner / kOutlineCorners;
-    const math::Vector3 on_axes(rock.semi_axes_m.x() * std::cos(angle_rad),
-                                rock.semi_axes_m.y() * std::sin(angle_rad), 0.0);
+    const math::Vector3 on_axes(rock.semi_axes_m.x() * math::Cos(angle_rad),
+                                rock.semi_axes_m.y() * math::Sin(angle_rad), 0.0);
     const math::Vector3 p_R =
         X_RW *
-        (rock.center_W +
-         Eigen::AngleAxisd(rock.yaw_rad, math::Vector3::UnitZ()).toRotationMatrix() * on_axes);
+        (rock.center_W + math::RotationAbout(rock.yaw_rad, math::Vector3::UnitZ()) * on_axes);
     outline.emplace_back(p_R.x(), p_R.y());
   }
   return outline;

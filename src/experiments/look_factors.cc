@@ -1,12 +1,12 @@
 #include "experiments/look_factors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "core/random.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "terrain/field.h"
 #include "trial/course/layout.h"
 
@@ -35,7 +35,7 @@ bool IsFree(const terrain::Terrain& terrain, double x_m, double y_m, double radi
   terrain.RocksNear(x_m, y_m, radius_m, near);
   return std::none_of(near.begin(), near.end(), [&](int index) {
     const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
-    const double distance_m = std::hypot(rock.center_W.x() - x_m, rock.center_W.y() - y_m);
+    const double distance_m = math::Hypot(rock.center_W.x() - x_m, rock.center_W.y() - y_m);
     return rock.height_m >= hazard_height_m && distance_m < radius_m + rock.semi_axes_m.x();
   });
 }

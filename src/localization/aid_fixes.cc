@@ -1,11 +1,11 @@
 #include "localization/aid_fixes.h"
 
-#include <cmath>
 #include <limits>
 
 #include "core/check.h"
 #include "core/random.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::localization {
 
@@ -56,8 +56,8 @@ messages::PoseFix PlaceFromBeacon(const messages::BeaconReading& reading,
   messages::PoseFix fix;
   fix.capture = reading.capture;
   fix.measured.set(kX).set(kY);
-  fix.pose[kX] = reading.station_x_m + reading.range_m * std::cos(reading.bearing_rad);
-  fix.pose[kY] = reading.station_y_m + reading.range_m * std::sin(reading.bearing_rad);
+  fix.pose[kX] = reading.station_x_m + reading.range_m * math::Cos(reading.bearing_rad);
+  fix.pose[kY] = reading.station_y_m + reading.range_m * math::Sin(reading.bearing_rad);
   const Eigen::Matrix2d place_m2 = BelievedPlace_m2(reading, believed);
   const double range_m2 = place_m2.trace();
   const Eigen::Matrix2d along = range_m2 > 0.0 ? Eigen::Matrix2d(place_m2 / range_m2)
@@ -79,7 +79,7 @@ math::Vector3 SunAlmanac::Sun_W(double time_s) const {
 messages::PoseFix HeadingFromSun(const messages::SunSighting& sighting,
                                  const messages::AttitudeEstimate& attitude,
                                  const math::Vector3& sun_W, double tilt_sd_rad) {
-  const double level = std::hypot(sun_W.x(), sun_W.y());
+  const double level = math::Hypot(sun_W.x(), sun_W.y());
   EXPECT(level > 0.0);
   const math::Transform X_LR =
       math::MakePose(math::Vector3::Zero(), 0.0, attitude.pitch_rad, attitude.roll_rad);
@@ -90,7 +90,7 @@ messages::PoseFix HeadingFromSun(const messages::SunSighting& sighting,
   fix.capture = sighting.capture;
   fix.measured.set(kHeading);
   fix.pose[kHeading] =
-      math::WrapAngle(std::atan2(sun_W.y(), sun_W.x()) - std::atan2(sun_L.y(), sun_L.x()));
+      math::WrapAngle(math::Atan2(sun_W.y(), sun_W.x()) - math::Atan2(sun_L.y(), sun_L.x()));
   // cos(elevation) = level, tan(elevation) = tangent, of the almanac: the weight of a fix must not
   // depend on its own error.
   const double across_rad = sighting.direction_sd_rad / level;

@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::localization {
 
@@ -13,8 +14,8 @@ double ForwardStep(const messages::PoseEstimate& before, const messages::PoseEst
   const double turn_rad = math::WrapAngle(after.heading_rad - before.heading_rad);
   // On an arc the chord points along the mean of both headings.
   const double along_rad = before.heading_rad + 0.5 * turn_rad;
-  return (after.x_m - before.x_m) * std::cos(along_rad) +
-         (after.y_m - before.y_m) * std::sin(along_rad);
+  return (after.x_m - before.x_m) * math::Cos(along_rad) +
+         (after.y_m - before.y_m) * math::Sin(along_rad);
 }
 
 void AttitudeEstimator::Filter(const math::Vector3& force_R, double duration_s) {
@@ -25,7 +26,7 @@ void AttitudeEstimator::Filter(const math::Vector3& force_R, double duration_s) 
   }
   // First-order low pass over a tick: f += (1 - e^(-dt/T)) (f_now - f), exact for a force that
   // stays.
-  *force_R_ += -std::expm1(-duration_s / params_.filter_s) * (force_R - *force_R_);
+  *force_R_ += -math::Expm1(-duration_s / params_.filter_s) * (force_R - *force_R_);
 }
 
 void AttitudeEstimator::Integrate(const messages::VehicleState& state, double forward_m,
@@ -37,13 +38,13 @@ void AttitudeEstimator::Integrate(const messages::VehicleState& state, double fo
     if (f.squaredNorm() > 0.0) {
       // f = g (-sin p, sin r cos p, cos r cos p) at rest, in R. |(f_y, f_z)| = g cos p >= 0, so
       // pitch stays within +-90 deg; roll needs no g.
-      estimate_.pitch_rad = std::atan2(-f.x(), std::hypot(f.y(), f.z()));
-      estimate_.roll_rad = std::atan2(f.y(), f.z());
+      estimate_.pitch_rad = math::Atan2(-f.x(), math::Hypot(f.y(), f.z()));
+      estimate_.roll_rad = math::Atan2(f.y(), f.z());
     }
   }
   if (params_.height == HeightSource::kIntegrated) {
     // Positive pitch has the nose down, so driving forward loses height.
-    estimate_.z_m -= forward_m * std::sin(estimate_.pitch_rad);
+    estimate_.z_m -= forward_m * math::Sin(estimate_.pitch_rad);
   }
 }
 
@@ -64,7 +65,7 @@ double MeanRoll(const messages::MotionMeasurement& motion,
     if (!every_wheel && calibration.steered[wheel]) continue;
     // A steered wheel rolls along its own heading; its forward part is the cosine of the steering
     // angle.
-    const double share = forward ? std::cos(motion.steer_rad[wheel]) : 1.0;
+    const double share = forward ? math::Cos(motion.steer_rad[wheel]) : 1.0;
     sum += motion.wheel_turn_rad[wheel] * calibration.radius_ratio[wheel] * share;
     ++count;
   }
@@ -86,8 +87,8 @@ void Advance(double forward_m, double turn_rad, StepHeading step_heading,
   // The midpoint is exact to second order on an arc; Matthies 1995 takes the heading at the start.
   const double along_rad =
       pose.heading_rad + (step_heading == StepHeading::kMidpoint ? 0.5 * turn_rad : 0.0);
-  pose.x_m += forward_m * std::cos(along_rad);
-  pose.y_m += forward_m * std::sin(along_rad);
+  pose.x_m += forward_m * math::Cos(along_rad);
+  pose.y_m += forward_m * math::Sin(along_rad);
   pose.heading_rad = math::WrapAngle(pose.heading_rad + turn_rad);
   pose.distance_m += std::abs(forward_m);
 }

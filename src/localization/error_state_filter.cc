@@ -96,7 +96,7 @@ TickNoise ErrorStateFilter::NoiseOf(const messages::MotionMeasurement& motion,
           .distance_m2 = drift.distance_variance_m2_per_m * way_m,
           .height_m2 = drift.height_variance_m2_per_m * way_m,
           .bias_rad2_s2 = Squared(drift.gyro_bias_walk_rad_s) * motion.duration_s,
-          .tilt_kept = std::exp(-way_m / drift.tilt_length_m),
+          .tilt_kept = math::Exp(-way_m / drift.tilt_length_m),
           .tilt_rad2 = Squared(drift.tilt_sd_rad)};
 }
 
@@ -226,8 +226,7 @@ AidUse ErrorStateFilter::Update(const messages::RelativeMotion& motion) {
   EndStretch();
   // In the levelled frame F of the first moment, R = Rz(h1): d_F = R' (p2 - p1), and differences of
   // angles as they are. d d_F / d h1 = (d_y, -d_x).
-  const double c = std::cos(from->second[error::kHeading]);
-  const double s = std::sin(from->second[error::kHeading]);
+  const auto [s, c] = math::SinCos(from->second[error::kHeading]);
   messages::PoseCovariance to_F = messages::PoseCovariance::Identity();
   to_F.topLeftCorner<2, 2>() << c, s, -s, c;
   const PoseVector believed = to_F * Wrapped(to->second - from->second);
@@ -298,7 +297,7 @@ AidUse ErrorStateFilter::Take(const Residual& residual, const PoseVector& doubt)
       // A place is mostly wrong because the heading was wrong on the way to it.
       const double way_m = way_m_ - residual.kind->believed_at_m;
       if (residual.of_place && way_m > 0.0) {
-        const double off_rad = std::hypot(doubt[error::kX], doubt[error::kY]) / way_m;
+        const double off_rad = math::Hypot(doubt[error::kX], doubt[error::kY]) / way_m;
         variances[error::kHeading] += Squared(std::min(off_rad, std::numbers::pi));
       }
       ErrorVector all = ErrorVector::Zero();

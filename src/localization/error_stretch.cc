@@ -2,18 +2,20 @@
 
 #include <cmath>
 
+#include "math/functions.h"
+
 namespace rockyard::localization {
 namespace {
 
 // What one tick makes of the errors: the rows in which its transition A is not the unit matrix.
 struct TickRows {
   TickRows(const MotionTick& tick, double kept)
-      : across_x(-tick.forward_m * std::sin(tick.along_rad)),
-        across_y(tick.forward_m * std::cos(tick.along_rad)),
-        along_x(std::cos(tick.along_rad) * tick.forward_m / tick.wheel_scale),
-        along_y(std::sin(tick.along_rad) * tick.forward_m / tick.wheel_scale),
-        down_pitch(-tick.forward_m * std::cos(tick.pitch_rad)),
-        down_scale(-tick.forward_m / tick.wheel_scale * std::sin(tick.pitch_rad)),
+      : across_x(-tick.forward_m * math::Sin(tick.along_rad)),
+        across_y(tick.forward_m * math::Cos(tick.along_rad)),
+        along_x(math::Cos(tick.along_rad) * tick.forward_m / tick.wheel_scale),
+        along_y(math::Sin(tick.along_rad) * tick.forward_m / tick.wheel_scale),
+        down_pitch(-tick.forward_m * math::Cos(tick.pitch_rad)),
+        down_scale(-tick.forward_m / tick.wheel_scale * math::Sin(tick.pitch_rad)),
         turn_bias(-tick.duration_s / tick.gyro_scale),
         turn_scale(-tick.turn_rad / tick.gyro_scale),
         turn_share(tick.turn_share),
@@ -45,8 +47,7 @@ struct TickRows {
 
 // Adds what the noise of one tick contributes to the covariance N.
 void AddTickNoise(const MotionTick& tick, const TickNoise& noise, ErrorMatrix& N) {
-  const double c = std::cos(tick.along_rad);
-  const double s = std::sin(tick.along_rad);
+  const auto [s, c] = math::SinCos(tick.along_rad);
   // n_h turns the step as well, by its share.
   ErrorVector turned = ErrorVector::Zero();
   turned[error::kX] = -tick.forward_m * s * tick.turn_share;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/functions.h"
 #include "math/pose.h"
 #include "math/symmetric_eigen.h"
 
@@ -12,7 +13,7 @@ namespace rockyard::math {
 
 // Returns the angle between the level and a plane with that unit normal, z >= 0, in [0, pi/2].
 inline double Slope_rad(const Vector3& normal) {
-  return std::atan2(std::sqrt(normal.x() * normal.x() + normal.y() * normal.y()), normal.z());
+  return Atan2(std::sqrt(normal.x() * normal.x() + normal.y() * normal.y()), normal.z());
 }
 
 // The plane through the mean of points that makes the sum of squared distances from it least. Its

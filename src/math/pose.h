@@ -30,9 +30,12 @@ inline Eigen::Matrix3d RotationAbout(double angle_rad, const Vector3& axis) {
   const Vector3 rest = (1.0 - c) * axis;
   const Vector3 sine = s * axis;
   Eigen::Matrix3d R;
-  R << rest.x() * axis.x() + c, rest.x() * axis.y() - sine.z(), rest.x() * axis.z() + sine.y(),  //
-      rest.x() * axis.y() + sine.z(), rest.y() * axis.y() + c, rest.y() * axis.z() - sine.x(),   //
-      rest.x() * axis.z() - sine.y(), rest.y() * axis.z() + sine.x(), rest.z() * axis.z() + c;
+  R.row(0) << rest.x() * axis.x() + c, rest.x() * axis.y() - sine.z(),
+      rest.x() * axis.z() + sine.y();
+  R.row(1) << rest.x() * axis.y() + sine.z(), rest.y() * axis.y() + c,
+      rest.y() * axis.z() - sine.x();
+  R.row(2) << rest.x() * axis.z() - sine.y(), rest.y() * axis.z() + sine.x(),
+      rest.z() * axis.z() + c;
   return R;
 }
 
@@ -56,12 +59,12 @@ inline Turn TurnOf(const Eigen::Matrix3d& R) {
 /// Returns the heading of X_WR, rad: the direction of the rover's x axis projected on the ground.
 inline double Heading(const Transform& X_WR) {
   const Vector3 forward = X_WR.linear().col(0);
-  return std::atan2(forward.y(), forward.x());
+  return Atan2(forward.y(), forward.x());
 }
 
 /// Returns the angle between the rover's z axis and the world's, rad.
 inline double Tilt(const Transform& X_WR) {
-  return std::acos(std::fmin(1.0, std::fmax(-1.0, X_WR.linear()(2, 2))));
+  return Acos(std::fmin(1.0, std::fmax(-1.0, X_WR.linear()(2, 2))));
 }
 
 /// Returns the place and the heading of X_WR; height and tilt are left out.
@@ -71,16 +74,14 @@ inline Pose2 ToPose2(const Transform& X_WR) {
 
 /// Returns X_AC = X_AB X_BC: p_A = p_AB + Rz(heading) p_B.
 inline Pose2 operator*(const Pose2& X_AB, const Pose2& X_BC) {
-  const double c = std::cos(X_AB.heading_rad);
-  const double s = std::sin(X_AB.heading_rad);
+  const auto [s, c] = SinCos(X_AB.heading_rad);
   return {X_AB.x_m + c * X_BC.x_m - s * X_BC.y_m, X_AB.y_m + s * X_BC.x_m + c * X_BC.y_m,
           WrapAngle(X_AB.heading_rad + X_BC.heading_rad)};
 }
 
 /// Returns X_BC = (X_AB)^-1 X_AC: where C lies as seen from B.
 inline Pose2 SeenFrom(const Pose2& X_AB, const Pose2& X_AC) {
-  const double c = std::cos(X_AB.heading_rad);
-  const double s = std::sin(X_AB.heading_rad);
+  const auto [s, c] = SinCos(X_AB.heading_rad);
   const double dx_m = X_AC.x_m - X_AB.x_m;
   const double dy_m = X_AC.y_m - X_AB.y_m;
   return {c * dx_m + s * dy_m, -s * dx_m + c * dy_m,
@@ -91,8 +92,7 @@ inline Pose2 SeenFrom(const Pose2& X_AB, const Pose2& X_AC) {
 /// keeps its place beside R, so that it is carried along where R jumps from X_BR to X_AR.
 inline Pose2 Carried(const Pose2& X_AR, const Pose2& X_BR, const Pose2& X_BL) {
   const double turn_rad = X_AR.heading_rad - X_BR.heading_rad;
-  const double c = std::cos(turn_rad);
-  const double s = std::sin(turn_rad);
+  const auto [s, c] = SinCos(turn_rad);
   const double dx_m = X_BL.x_m - X_BR.x_m;
   const double dy_m = X_BL.y_m - X_BR.y_m;
   return {X_AR.x_m + c * dx_m - s * dy_m, X_AR.y_m + s * dx_m + c * dy_m,
@@ -115,9 +115,10 @@ inline Transform MakePose(const Vector3& p_WoRo_W, double heading_rad, double pi
   const auto [sh, ch] = SinCos(heading_rad);
   const auto [sp, cp] = SinCos(pitch_rad);
   const auto [sr, cr] = SinCos(roll_rad);
-  X_WR.linear() << ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr,  //
-      sh * cp, sh * sp * sr + ch * cr, sh * sp * cr - ch * sr,               //
-      -sp, cp * sr, cp * cr;
+  auto R_WR = X_WR.linear();
+  R_WR.row(0) << ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr;
+  R_WR.row(1) << sh * cp, sh * sp * sr + ch * cr, sh * sp * cr - ch * sr;
+  R_WR.row(2) << -sp, cp * sr, cp * cr;
   X_WR.translation() = p_WoRo_W;
   return X_WR;
 }

@@ -17,6 +17,7 @@
 #include <numbers>
 
 #include "math/angles.h"
+#include "math/functions.h"
 #include "math/pose.h"
 
 namespace rockyard::math {
@@ -31,28 +32,26 @@ struct SkyDirection {
 };
 
 inline double SunDeclination(double areocentric_longitude_rad) {
-  return std::asin(std::sin(kObliquityOfMars_rad) * std::sin(areocentric_longitude_rad));
+  return Asin(Sin(kObliquityOfMars_rad) * Sin(areocentric_longitude_rad));
 }
 
 // Returns the direction to the sun. `solar_time_h`: true solar hours, 12 at noon, of any sol.
 inline SkyDirection SunPosition(double latitude_rad, double declination_rad, double solar_time_h) {
   const double hour_angle_rad = (solar_time_h - 12.0) * std::numbers::pi / 12.0;
-  const double sine = std::sin(latitude_rad) * std::sin(declination_rad) +
-                      std::cos(latitude_rad) * std::cos(declination_rad) * std::cos(hour_angle_rad);
-  const double east = -std::cos(declination_rad) * std::sin(hour_angle_rad);
-  const double north =
-      std::sin(declination_rad) * std::cos(latitude_rad) -
-      std::cos(declination_rad) * std::cos(hour_angle_rad) * std::sin(latitude_rad);
-  return {std::atan2(east, north), std::asin(std::fmin(1.0, std::fmax(-1.0, sine)))};
+  const double sine = Sin(latitude_rad) * Sin(declination_rad) +
+                      Cos(latitude_rad) * Cos(declination_rad) * Cos(hour_angle_rad);
+  const double east = -Cos(declination_rad) * Sin(hour_angle_rad);
+  const double north = Sin(declination_rad) * Cos(latitude_rad) -
+                       Cos(declination_rad) * Cos(hour_angle_rad) * Sin(latitude_rad);
+  return {Atan2(east, north), Asin(std::fmin(1.0, std::fmax(-1.0, sine)))};
 }
 
 // Returns the unit vector in W of a direction whose azimuth counts from north. North lies at
 // `north_heading_rad` (from +x towards +y); east is clockwise from north, seen from above.
 inline Vector3 ToUnitVector(const SkyDirection& direction, double north_heading_rad) {
   const double heading_rad = north_heading_rad - direction.azimuth_rad;
-  const double level = std::cos(direction.elevation_rad);
-  return {level * std::cos(heading_rad), level * std::sin(heading_rad),
-          std::sin(direction.elevation_rad)};
+  const double level = Cos(direction.elevation_rad);
+  return {level * Cos(heading_rad), level * Sin(heading_rad), Sin(direction.elevation_rad)};
 }
 
 }  // namespace rockyard::math

@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -107,7 +108,7 @@ void EventGate::SetGoal(const messages::Goal& goal, GoalChange change) {
 }
 
 double EventGate::GoalDistance_m(const PoseEstimate& estimate) const {
-  return std::hypot(goal_.x_m - estimate.x_m, goal_.y_m - estimate.y_m);
+  return math::Hypot(goal_.x_m - estimate.x_m, goal_.y_m - estimate.y_m);
 }
 
 }  // namespace rockyard::navigation

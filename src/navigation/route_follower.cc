@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "navigation/waypoint_sequence.h"
 
 namespace rockyard::navigation {
@@ -72,7 +73,7 @@ RouteFollower::Bearing RouteFollower::BearingTo(const messages::Goal& corner,
                                                 const PoseEstimate& estimate) const {
   const double dx = corner.x_m - estimate.x_m;
   const double dy = corner.y_m - estimate.y_m;
-  return {std::hypot(dx, dy), math::WrapAngle(std::atan2(dy, dx) - estimate.heading_rad)};
+  return {math::Hypot(dx, dy), math::WrapAngle(math::Atan2(dy, dx) - estimate.heading_rad)};
 }
 
 void RouteFollower::PassCorners(const PoseEstimate& estimate) {
@@ -90,7 +91,7 @@ bool RouteFollower::NeedsPointTurn(const Bearing& bearing) const {
   const double bearing_rad = std::abs(bearing.angle_rad);
   if (bearing_rad <= params_.heading_deadband_rad) return false;
   return bearing_rad > params_.point_turn_bearing_rad ||
-         bearing.distance_m < 2.0 * params_.tight_arc_radius_m * std::sin(bearing_rad);
+         bearing.distance_m < 2.0 * params_.tight_arc_radius_m * math::Sin(bearing_rad);
 }
 
 NavigatorDecision RouteFollower::Steer(const Bearing& bearing, const PoseEstimate& estimate) {
@@ -103,7 +104,7 @@ NavigatorDecision RouteFollower::Steer(const Bearing& bearing, const PoseEstimat
     // The circle tangent to the heading through a point at distance d and bearing b: c = 2 sin(b) /
     // d.
     const double curvature_per_m =
-        straight ? 0.0 : 2.0 * std::sin(bearing.angle_rad) / bearing.distance_m;
+        straight ? 0.0 : 2.0 * math::Sin(bearing.angle_rad) / bearing.distance_m;
     motion_ = {MotionKind::kArc, curvature_per_m, +1};
   }
   return {NavigatorStatus::kDriving, {}, motion_};

@@ -1,9 +1,9 @@
 #include "navigation/waypoint_sequence.h"
 
-#include <cmath>
 #include <utility>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::navigation {
 
@@ -12,7 +12,7 @@ bool HasPassed(const messages::Goal& corner, const messages::Goal& from,
   const double dx = estimate.x_m - corner.x_m;
   const double dy = estimate.y_m - corner.y_m;
   const double beyond = dx * (corner.x_m - from.x_m) + dy * (corner.y_m - from.y_m);
-  return beyond > 0.0 || std::hypot(dx, dy) <= within_m;
+  return beyond > 0.0 || math::Hypot(dx, dy) <= within_m;
 }
 
 WaypointSequence::WaypointSequence(std::vector<messages::Goal> goals,

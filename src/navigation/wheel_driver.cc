@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -37,7 +38,7 @@ double Clamp(double value, double limit) { return std::clamp(value, -limit, limi
 
 // Returns the steering angle in [-pi/2, pi/2] along which the wheel can roll, forward or backward.
 double SteeringAngle(const PlanarVelocity& velocity) {
-  const double angle = std::atan2(velocity.y, velocity.x);
+  const double angle = math::Atan2(velocity.y, velocity.x);
   if (angle > std::numbers::pi / 2) return angle - std::numbers::pi;
   if (angle < -std::numbers::pi / 2) return angle + std::numbers::pi;
   return angle;
@@ -64,7 +65,7 @@ WheelCommand SteadyWheelCommand(const MotionCommand& motion, const DriveCalibrat
     if (calibration.steered[i]) steer = Clamp(SteeringAngle(v), calibration.max_steer_rad);
     command.steer_rad[i] = steer;
     // The part of the velocity along the wheel; the part across is scrubbed.
-    rim[i] = v.x * std::cos(steer) + v.y * std::sin(steer);
+    rim[i] = v.x * math::Cos(steer) + v.y * math::Sin(steer);
     fastest = std::max(fastest, std::abs(rim[i]));
   }
   EXPECT(fastest > 0.0);

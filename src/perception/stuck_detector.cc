@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::perception {
 namespace {
@@ -21,7 +22,7 @@ double ToldTurnRate(const messages::WheelCommand& command,
   double under = 0.0;
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     const double radius_m = calibration.wheel_radius_m * calibration.radius_ratio[i];
-    const double forward_m_s = command.rate_rad_s[i] * radius_m * std::cos(command.steer_rad[i]);
+    const double forward_m_s = command.rate_rad_s[i] * radius_m * math::Cos(command.steer_rad[i]);
     const double aside_m = calibration.wheel_y_m[i] - mean_y_m;
     over -= aside_m * forward_m_s;
     under += aside_m * aside_m;

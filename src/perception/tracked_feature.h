@@ -3,8 +3,7 @@
 // the bits.
 #pragma once
 
-#include <cmath>
-
+#include "math/functions.h"
 #include "messages/estimates.h"
 #include "messages/measurements.h"
 
@@ -16,8 +15,8 @@ namespace rockyard::perception {
 inline messages::Goal PlaceOf(const messages::FeatureSighting& sighting,
                               const messages::PoseEstimate& estimate) {
   const double direction_rad = estimate.heading_rad + sighting.bearing_rad;
-  return {estimate.x_m + sighting.range_m * std::cos(direction_rad),
-          estimate.y_m + sighting.range_m * std::sin(direction_rad)};
+  return {estimate.x_m + sighting.range_m * math::Cos(direction_rad),
+          estimate.y_m + sighting.range_m * math::Sin(direction_rad)};
 }
 
 }  // namespace rockyard::perception

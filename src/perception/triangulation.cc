@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "math/functions.h"
 #include "vision/lens.h"
 
 namespace rockyard::perception {
@@ -69,8 +70,7 @@ messages::ElevationPoint Triangulator::Elevation(std::size_t row, std::size_t st
   // Equidistant rows: column c looks along ray = cos(a) forward - sin(a) left, a = c pitch. It
   // meets the light plane n . (p - e) = 0 at s = n . (e - o) / n . ray, at the height o_z + s
   // ray_z.
-  const double cosine = std::cos(column_px * at.column_pitch_rad);
-  const double sine = std::sin(column_px * at.column_pitch_rad);
+  const auto [sine, cosine] = math::SinCos(column_px * at.column_pitch_rad);
   const double distance_m =
       at.plane_offset_m / (cosine * at.forward_normal - sine * at.left_normal);
   if (!IsAhead(distance_m)) return {};

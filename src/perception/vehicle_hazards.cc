@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/functions.h"
+
 namespace rockyard::perception {
 namespace {
 
@@ -33,7 +35,7 @@ std::optional<HazardSide> Touched(const messages::ContactSwitches& closed) {
 
 double TiltOf(const math::Vector3& specific_force_R) {
   // The angle between the specific force, which points up at rest, and the rover's z axis.
-  return std::atan2(specific_force_R.head<2>().norm(), specific_force_R.z());
+  return math::Atan2(specific_force_R.head<2>().norm(), specific_force_R.z());
 }
 
 std::optional<messages::VehicleHazard> HazardToAvoid(const FeltHazards& felt) {

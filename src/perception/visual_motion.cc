@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "math/angles.h"
+#include "math/functions.h"
 #include "math/pose.h"
 
 namespace rockyard::perception {
@@ -20,18 +21,17 @@ struct Angles {
 };
 
 Angles AnglesOf(const Eigen::Matrix3d& R_FB) {
-  return {std::atan2(R_FB(1, 0), R_FB(0, 0)),
-          std::atan2(-R_FB(2, 0), std::hypot(R_FB(0, 0), R_FB(1, 0))),
-          std::atan2(R_FB(2, 1), R_FB(2, 2))};
+  return {math::Atan2(R_FB(1, 0), R_FB(0, 0)),
+          math::Atan2(-R_FB(2, 0), math::Hypot(R_FB(0, 0), R_FB(1, 0))),
+          math::Atan2(R_FB(2, 1), R_FB(2, 2))};
 }
 
 // Returns how roll, pitch and heading (rows) change by small turns about the axes of F (columns):
 // the equations of visual_motion.h.
 Eigen::Matrix3d AnglesByTurns(const Angles& angles) {
-  const double c = std::cos(angles.heading_rad);
-  const double s = std::sin(angles.heading_rad);
-  const double tan_pitch = std::tan(angles.pitch_rad);
-  const double cos_pitch = std::cos(angles.pitch_rad);
+  const auto [s, c] = math::SinCos(angles.heading_rad);
+  const double tan_pitch = math::Tan(angles.pitch_rad);
+  const double cos_pitch = math::Cos(angles.pitch_rad);
   Eigen::Matrix3d by_turns;
   by_turns << c / cos_pitch, s / cos_pitch, 0.0,  //
       -s, c, 0.0,                                 //

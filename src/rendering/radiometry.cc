@@ -1,10 +1,10 @@
 #include "rendering/radiometry.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numbers>
 
+#include "math/functions.h"
 #include "vision/lens.h"
 
 namespace rockyard::rendering {
@@ -19,10 +19,10 @@ constexpr double kNanometres = 1e9;                // per metre
 }  // namespace
 
 SunLight MakeSunLight(const SunParams& sun, double filter_width_m) {
-  const double sine = std::sin(sun.elevation_rad);
+  const double sine = math::Sin(sun.elevation_rad);
   SunLight light;
-  light.toward_sun_W = Vector3(std::cos(sun.elevation_rad) * std::cos(sun.azimuth_rad),
-                               std::cos(sun.elevation_rad) * std::sin(sun.azimuth_rad), sine);
+  light.toward_sun_W = Vector3(math::Cos(sun.elevation_rad) * math::Cos(sun.azimuth_rad),
+                               math::Cos(sun.elevation_rad) * math::Sin(sun.azimuth_rad), sine);
   if (sine <= 0.0) return light;
   // Above the air, on a surface that faces the sun: E0 / d^2 w, with the inverse square of the
   // distance.
@@ -30,7 +30,7 @@ SunLight MakeSunLight(const SunParams& sun, double filter_width_m) {
       sun.irradiance_w_m2_nm * filter_width_m * kNanometres / (sun.distance_au * sun.distance_au);
   // Beer-Lambert over the air mass 1 / sin h, good down to a sun some degrees above
   // the horizon.
-  light.direct_w_m2 = above_w_m2 * std::exp(-sun.optical_depth / sine);
+  light.direct_w_m2 = above_w_m2 * math::Exp(-sun.optical_depth / sine);
   light.sky_w_m2 = sun.diffuse_share * (above_w_m2 - light.direct_w_m2) * sine;
   return light;
 }

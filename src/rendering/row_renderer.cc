@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/functions.h"
 #include "rendering/radiometry.h"
 #include "vision/lens.h"
 
@@ -70,7 +71,7 @@ ImageBlur::ImageBlur(double sigma_px) : weights_{1.0} {
   double sum = 1.0;
   for (int k = 1; k < kReach_sigmas * sigma_px + 1.0; ++k) {
     // exp(-k^2 / 2 s^2), then normalized so that the line keeps its light.
-    weights_.push_back(std::exp(-0.5 * k * k / (sigma_px * sigma_px)));
+    weights_.push_back(math::Exp(-0.5 * k * k / (sigma_px * sigma_px)));
     sum += 2.0 * weights_.back();
   }
   for (double& weight : weights_) weight /= sum;

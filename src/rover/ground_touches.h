@@ -63,7 +63,7 @@ class RimSearch {
       : ground_(ground), below_W_(below_W), axle_W_(axle_W), support_(support) {}
 
   GroundTouch At(double angle_rad) const {
-    return TouchAlong(ground_, Eigen::AngleAxisd(angle_rad, axle_W_) * below_W_, support_);
+    return TouchAlong(ground_, math::RotationAbout(angle_rad, axle_W_) * below_W_, support_);
   }
   // Returns the height of the rim's point over the ground. It is least where rim and ground have
   // one tangent, also on sharp edges, where normals change too fast to be followed.

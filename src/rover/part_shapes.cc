@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/functions.h"
 #include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
@@ -59,7 +60,7 @@ void AddWheels(const RoverGeometryParams& params, std::vector<Part>& parts) {
     parts.push_back(
         {BodyPart::kWheel, kFirstWheel + static_cast<int>(i), Core::kCylinder, Meets::kEverything,
          Vector3::Zero(), Vector3(params.wheel_radius_m - margin_m, half_width_m, 0.0), margin_m,
-         Vector3::Zero(), std::hypot(params.wheel_radius_m, 0.5 * params.wheel_width_m)});
+         Vector3::Zero(), math::Hypot(params.wheel_radius_m, 0.5 * params.wheel_width_m)});
   }
 }
 
@@ -120,7 +121,7 @@ Vector3 NearestOnCore(const Part& part, const Vector3& p_B) {
     }
     case Core::kCylinder: {
       const double y = std::clamp(p_B.y(), -part.b_B.y(), part.b_B.y());
-      const double radius = std::hypot(p_B.x(), p_B.z());
+      const double radius = math::Hypot(p_B.x(), p_B.z());
       // Radial and axial clamps are independent: the axis of the cylinder is y.
       const double shrink = radius > part.b_B.x() ? part.b_B.x() / radius : 1.0;
       return {shrink * p_B.x(), y, shrink * p_B.z()};

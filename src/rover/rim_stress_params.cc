@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/functions.h"
+
 namespace rockyard::rover {
 namespace {
 
@@ -43,7 +45,7 @@ double LuggedShare(const RimShape& wheel) {
 
 // Pressure of a granular soil per depth, Pa/m (Agarwal, Goldman and Kamrin 2023).
 double GranularModulus(const terrain::SoilParams& soil, double gravity_m_s2) {
-  const double mu = std::tan(soil.friction_angle_rad);
+  const double mu = math::Tan(soil.friction_angle_rad);
   return soil.density_kg_m3 * gravity_m_s2 * mu * (89.0 + mu * (-386.0 + mu * 894.0));
 }
 
@@ -55,7 +57,7 @@ RimStress::RimStress(const terrain::SoilParams& soil, const RimShape& wheel, dou
       width_m_(wheel.width_m),
       modulus_(soil.cohesive_modulus_N_per_mn1 / wheel.width_m + soil.frictional_modulus_N_per_mn2),
       exponent_(soil.sinkage_exponent),
-      friction_(std::tan(soil.friction_angle_rad)),
+      friction_(math::Tan(soil.friction_angle_rad)),
       cohesion_Pa_(soil.cohesion_Pa),
       shear_modulus_m_(soil.shear_modulus_m) {
   if (soil.pressure == SoilPressure::kDensity) {
@@ -64,15 +66,15 @@ RimStress::RimStress(const terrain::SoilParams& soil, const RimShape& wheel, dou
   }
   if (law_ == WheelLaw::kIntrusion) {
     const double lugged = LuggedShare(wheel);
-    const double rough = std::sin(soil.friction_angle_rad);
-    const double smooth = std::tan(kSmoothRim * soil.friction_angle_rad);
+    const double rough = math::Sin(soil.friction_angle_rad);
+    const double smooth = math::Tan(kSmoothRim * soil.friction_angle_rad);
     friction_ = lugged * rough + (1.0 - lugged) * smooth;
     cohesion_Pa_ *= lugged + (1.0 - lugged) * kSmoothRim;
   }
 }
 
 double RimStress::Pressure(double depth_m) const {
-  return modulus_ * (exponent_ == 1.0 ? depth_m : std::pow(depth_m, exponent_));
+  return modulus_ * (exponent_ == 1.0 ? depth_m : math::Pow(depth_m, exponent_));
 }
 
 RimStress::Stress RimStress::Granular(const RimPoint& at, double rim) const {
@@ -112,27 +114,27 @@ RimStress::Stress RimStress::WongReece(const RimPoint& at, double entry_rad, dou
   double normal_Pa = at.pressure_Pa;
   if (at.angle_rad < peak_rad) {
     const double ahead_rad = entry_rad - at.angle_rad / peak_rad * (entry_rad - peak_rad);
-    normal_Pa = Pressure(std::max(radius_m_ * (std::cos(ahead_rad) - std::cos(entry_rad)), 0.0));
+    normal_Pa = Pressure(std::max(radius_m_ * (math::Cos(ahead_rad) - math::Cos(entry_rad)), 0.0));
   }
   // Way of the rim over the soil since it met it; for a wheel that skids over that of the axle.
   const double rim = slip >= 0.0 ? 1.0 : 1.0 / (1.0 + slip);
   const double way = (slip >= 0.0 ? 1.0 - slip : 1.0) * rim;
-  const double j_m = radius_m_ * (entry_rad - at.angle_rad - way * (std::sin(entry_rad) - at.sin));
+  const double j_m = radius_m_ * (entry_rad - at.angle_rad - way * (math::Sin(entry_rad) - at.sin));
   const double share = shear_modulus_m_ == 0.0 ? (j_m == 0.0 ? 0.0 : 1.0)
-                                               : -std::expm1(-std::abs(j_m) / shear_modulus_m_);
+                                               : -math::Expm1(-std::abs(j_m) / shear_modulus_m_);
   return {normal_Pa, std::copysign((cohesion_Pa_ + normal_Pa * friction_) * share, j_m)};
 }
 
 std::vector<RimForces> RimStress::At(double entry_rad, std::span<const double> slips) const {
   const double step_rad = entry_rad / kPoints;
-  const double cos_entry = std::cos(entry_rad);
+  const double cos_entry = math::Cos(entry_rad);
   std::array<RimPoint, kPoints> points{};
   double side_N = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double angle_rad = (static_cast<double>(i) + 0.5) * step_rad;
-    const double cos = std::cos(angle_rad);
+    const double cos = math::Cos(angle_rad);
     const double depth_m = radius_m_ * (cos - cos_entry);
-    points[i] = {angle_rad, std::sin(angle_rad), cos, Pressure(depth_m)};
+    points[i] = {angle_rad, math::Sin(angle_rad), cos, Pressure(depth_m)};
     // A column of the side face, as wide as the rim is long there, ahead and behind.
     side_N += 2.0 * kUpright * points[i].pressure_Pa * depth_m / (exponent_ + 1.0) * cos;
   }

@@ -4,14 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "math/functions.h"
+
 namespace rockyard::rover {
 
 using math::Vector3;
 
 RockBody::RockBody(const terrain::Rock& rock)
     : center_W_(rock.center_W),
-      cos_(std::cos(rock.yaw_rad)),
-      sin_(std::sin(rock.yaw_rad)),
+      cos_(math::Cos(rock.yaw_rad)),
+      sin_(math::Sin(rock.yaw_rad)),
       axes_m_(rock.semi_axes_m),
       axes_squared_m2_(rock.semi_axes_m.cwiseAbs2()),
       inverse_axes_per_m_(rock.semi_axes_m.cwiseInverse()),

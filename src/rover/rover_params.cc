@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "math/functions.h"
 #include "messages/wheels.h"
 #include "rover/rover_layout_params.h"
 
@@ -237,8 +238,8 @@ double SteepestHeldSlope_rad(const RoverParams& params, const terrain::SoilParam
   double slides_rad = 0.5 * std::numbers::pi;
   for (int i = 0; i < 60; ++i) {
     const double slope_rad = 0.5 * (held_rad + slides_rad);
-    const double bears_N = wheel.Under(level_N * std::cos(slope_rad), 0.0).traction_N;
-    (level_N * std::sin(slope_rad) <= bears_N ? held_rad : slides_rad) = slope_rad;
+    const double bears_N = wheel.Under(level_N * math::Cos(slope_rad), 0.0).traction_N;
+    (level_N * math::Sin(slope_rad) <= bears_N ? held_rad : slides_rad) = slope_rad;
   }
   return held_rad;
 }

@@ -1,6 +1,6 @@
 #include "rover/shear_share_params.h"
 
-#include <cmath>
+#include "math/functions.h"
 
 namespace rockyard::rover {
 namespace {
@@ -14,7 +14,7 @@ constexpr double kSeries = 1e-4;
 ShearShare ShareOfRatio(double u) {
   if (u < kSeries) return {u * (0.5 - u / 6.0), 0.5 - u / 3.0};
   // tau = 1 - (1 - e^-u) / u and, by the quotient rule, tau' = ((1 - e^-u) / u - e^-u) / u.
-  const double loss = std::expm1(-u);  // e^-u - 1
+  const double loss = math::Expm1(-u);  // e^-u - 1
   const double rest = -loss / u;
   return {1.0 - rest, (rest - loss - 1.0) / u};
 }

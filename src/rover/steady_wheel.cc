@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "math/functions.h"
 #include "rover/wheel_soil.h"
 
 namespace rockyard::rover {
@@ -23,9 +24,9 @@ SteadyForces SteadyWheel(const WheelOnSoil& soil, double radius_m, double load_N
   }
   // Speed of the carriage over that of the rim.
   const double travel = slip >= 0.0 ? 1.0 - slip : 1.0 / (1.0 + slip);
-  const double along = 1.0 - travel * std::cos(slip_angle_rad);
-  const double across = travel * std::sin(slip_angle_rad);
-  const double slides = std::hypot(along, across);
+  const double along = 1.0 - travel * math::Cos(slip_angle_rad);
+  const double across = travel * math::Sin(slip_angle_rad);
+  const double slides = math::Hypot(along, across);
   const SoilAnswer answer = soil.Under(load_N, std::min(slides, 1.0));
   SteadyForces forces{.sinkage_m = answer.sinkage_m, .resistance_N = answer.resistance_N};
   forces.pull_N = -answer.resistance_N;

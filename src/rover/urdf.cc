@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "math/functions.h"
 #include "rover/part_shapes.h"
 #include "rover/rover_layout_params.h"
 #include "rover/rover_links.h"
@@ -77,8 +77,8 @@ void AddCapsule(XMLElement& link, const Part& part) {
   if (along.norm() == 0.0) return;
   AddBall(link, part.b_B, part.margin_m);
   // A cylinder lies along z: pitch, then yaw, turn z into the direction.
-  const double pitch = std::atan2(std::hypot(along.x(), along.y()), along.z());
-  const double yaw = std::atan2(along.y(), along.x());
+  const double pitch = math::Atan2(math::Hypot(along.x(), along.y()), along.z());
+  const double yaw = math::Atan2(along.y(), along.x());
   AddCylinder(link, 0.5 * (part.a_B + part.b_B), Vector3(0.0, pitch, yaw), part.margin_m,
               along.norm());
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "math/functions.h"
+
 namespace rockyard::rover {
 namespace {
 
@@ -38,10 +40,10 @@ class SlipCurve {
  public:
   // Adds a deeper wheel. One that bears no more than the last is left out: it pushes itself up.
   void Add(double sinkage_m, const RimForces& forces) {
-    const double log_load = std::log(std::max(forces.load_N, 1e-12));
+    const double log_load = math::Log(std::max(forces.load_N, 1e-12));
     if (!nodes_.empty() && log_load <= nodes_.back().log_load) return;
     const double inverse = 1.0 / forces.load_N;
-    nodes_.push_back({log_load, std::log(sinkage_m), inverse * forces.pull_N,
+    nodes_.push_back({log_load, math::Log(sinkage_m), inverse * forces.pull_N,
                       inverse * forces.gross_N, inverse * forces.side_N / sinkage_m});
   }
 
@@ -51,7 +53,7 @@ class SlipCurve {
     double pull_N, gross_N, side_N;
   };
   Point At(double load_N) {
-    const double log_load = std::log(load_N);
+    const double log_load = math::Log(load_N);
     while (at_ + 2 < nodes_.size() && nodes_[at_ + 1].log_load < log_load) ++at_;
     const Node& a = nodes_[at_];
     const Node& b = nodes_[at_ + 1];
@@ -59,7 +61,7 @@ class SlipCurve {
     // wheel that is deeper than its axle are those at the axle.
     const double s = (log_load - a.log_load) / (b.log_load - a.log_load);
     const double inside = std::clamp(s, 0.0, 1.0);
-    const double sinkage_m = std::exp(Mix(a.log_sinkage, b.log_sinkage, s));
+    const double sinkage_m = math::Exp(Mix(a.log_sinkage, b.log_sinkage, s));
     const double slope = (b.log_load - a.log_load) / (b.log_sinkage - a.log_sinkage);
     return {sinkage_m, slope * load_N / sinkage_m, load_N * Mix(a.pull, b.pull, inside),
             load_N * Mix(a.gross, b.gross, inside),
@@ -76,7 +78,7 @@ class RatioFit {
  public:
   explicit RatioFit(const ShareTable& shares) {
     for (int i = 0; i <= kRatios; ++i) {
-      const double u = kLeastRatio * std::pow(kMostRatio / kLeastRatio, i / double{kRatios});
+      const double u = kLeastRatio * math::Pow(kMostRatio / kLeastRatio, i / double{kRatios});
       ratio_[static_cast<std::size_t>(i)] = u;
       share_[static_cast<std::size_t>(i)] = shares.At(kFitted * u).value / shares.At(u).value;
     }
@@ -118,10 +120,10 @@ RimStressTable::RimStressTable(const RimStress& stress, const RimShape& wheel, d
   std::array<SlipCurve, kLevels + 2> curves;
   for (int i = 0; i <= kAngles; ++i) {
     const double entry_rad =
-        kLeastAngle_rad * std::pow(kMostAngle_rad / kLeastAngle_rad, i / double{kAngles});
+        kLeastAngle_rad * math::Pow(kMostAngle_rad / kLeastAngle_rad, i / double{kAngles});
     const std::vector<RimForces> forces = stress.At(entry_rad, slips);
     for (std::size_t k = 0; k < curves.size(); ++k) {
-      curves[k].Add(wheel.radius_m * (1.0 - std::cos(entry_rad)), forces[k]);
+      curves[k].Add(wheel.radius_m * (1.0 - math::Cos(entry_rad)), forces[k]);
     }
   }
   const RatioFit fit(shares_);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/functions.h"
+
 namespace rockyard::rover {
 
 WheelRut::WheelRut(const terrain::SoilParams& soil, double wheel_radius_m, double wheel_width_m)
@@ -15,7 +17,7 @@ WheelRut::WheelRut(const terrain::SoilParams& soil, double wheel_radius_m, doubl
       // Bekker 1969: N = (3 - n)/3 b k sqrt(D) z^(n + 1/2), without the power of z.
       load_factor_((3.0 - exponent_) / 3.0 * modulus_ * std::sqrt(diameter_m_)),
       cohesion_Pa_(soil.cohesion_Pa),
-      tan_friction_(std::tan(soil.friction_angle_rad)) {}
+      tan_friction_(math::Tan(soil.friction_angle_rad)) {}
 
 Rut WheelRut::RutUnder(double load_N) const {
   Rut rut;
@@ -31,7 +33,7 @@ Rut WheelRut::RutUnder(double load_N) const {
   // D) from the foremost contact to its lowest point. Deeper than D / 2 it stays at a quarter of
   // the rim.
   const double depth = std::min(2.0 * rut.sinkage_m / diameter_m_, 1.0);
-  rut.contact_length_m = 0.5 * diameter_m_ * std::acos(1.0 - depth);
+  rut.contact_length_m = 0.5 * diameter_m_ * math::Acos(1.0 - depth);
   // Mohr and Coulomb over the contact area b l: T_max = b l c + N tan(phi).
   rut.largest_traction_N = width_m_ * rut.contact_length_m * cohesion_Pa_ + load_N * tan_friction_;
   return rut;
@@ -45,16 +47,16 @@ Rut WheelRut::RutUnder(double load_N, double dug_slip) const {
   // R = b k z^(n + 1)/(n + 1). Contact length and traction stay.
   const double n = exponent_ + per_slip_ * dug_slip;
   const double load_factor = (3.0 - n) / 3.0 * modulus_ * std::sqrt(diameter_m_);
-  const double z_m = std::pow(load_N / load_factor, 1.0 / (n + 0.5));
+  const double z_m = math::Pow(load_N / load_factor, 1.0 / (n + 0.5));
   rut.sinkage_m = std::min(z_m, std::max(rut.sinkage_m, 0.5 * diameter_m_));
   rut.stiffness_N_m = (n + 0.5) * load_N / rut.sinkage_m;
-  rut.resistance_N = modulus_ * std::pow(rut.sinkage_m, n + 1.0) / (n + 1.0);
+  rut.resistance_N = modulus_ * math::Pow(rut.sinkage_m, n + 1.0) / (n + 1.0);
   return rut;
 }
 
 double WheelRut::Sinkage_m(double load_N) const {
   // Bekker's law solved for z.
-  return std::pow(load_N / load_factor_, 1.0 / (exponent_ + 0.5));
+  return math::Pow(load_N / load_factor_, 1.0 / (exponent_ + 0.5));
 }
 
 double WheelRut::Resistance_N(double load_N) const { return RutUnder(load_N).resistance_N; }

@@ -8,9 +8,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "math/functions.h"
 #include "messages/wheels.h"
 #include "rover/shear_share_params.h"
 #include "rover/wheel_law_params.h"
@@ -92,7 +92,7 @@ inline double SlipSinkage::After(std::size_t wheel, double slip, double rim_way_
   const double i = std::min(slip, 1.0);
   const double way_m = rim_way_m * (i <= d ? 1.0 - i : by_stress_ ? 1.0 : i);
   // The equation above, solved for a constant slip.
-  return d + (i - d) * -std::expm1(-way_m / length_m_);
+  return d + (i - d) * -math::Expm1(-way_m / length_m_);
 }
 
 }  // namespace rockyard::rover

@@ -8,6 +8,7 @@
 
 #include "core/space_filling.h"
 #include "core/text.h"
+#include "math/functions.h"
 #include "scenario/sweep_spec.h"
 
 namespace rockyard::scenario {
@@ -158,7 +159,7 @@ LevelSpec AxisSpec::At(double share) const {
     const auto index = static_cast<std::size_t>(share * static_cast<double>(levels.size()));
     return levels[std::min(index, levels.size() - 1)];
   }
-  double value = axis.scale == AxisScale::kLog ? from * std::pow(to / from, share)
+  double value = axis.scale == AxisScale::kLog ? from * math::Pow(to / from, share)
                                                : from + (to - from) * share;
   value = whole ? std::round(value) : Rounded(value);
   LevelSpec level;

@@ -7,6 +7,7 @@
 #include "core/check.h"
 #include "core/random.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "math/polar.h"
 #include "vision/cylinder/colour_cylinder.h"
 #include "vision/cylinder/cylinder_equations.h"
@@ -30,7 +31,7 @@ double ToNearestBoundary_rad(double theta_rad) {
 }
 
 double RootSum(const CylinderDeviationParams& deviation, double step) {
-  return std::hypot(deviation.least, deviation.pixels * step);
+  return math::Hypot(deviation.least, deviation.pixels * step);
 }
 
 // First substream of the chances, far above the numbers of fixes. Records depend on it.
@@ -51,11 +52,11 @@ double CylinderLaw::Width_px(double distance_m) const {
 
 double CylinderLaw::Chance(const CylinderChanceParams& chance, const CylinderStance& stance) const {
   const double odds = chance.intercept +
-                      chance.width * std::log(Width_px(stance.distance_m) / kWidthOfIntercept_px) +
+                      chance.width * math::Log(Width_px(stance.distance_m) / kWidthOfIntercept_px) +
                       (ShowsNoBlue(stance.theta_rad) ? chance.no_blue : 0.0) +
-                      chance.pink_aside * std::sin(2.0 * stance.theta_rad) +
-                      chance.light * std::sin(stance.sun_elevation_rad);
-  return 1.0 / (1.0 + std::exp(-odds));
+                      chance.pink_aside * math::Sin(2.0 * stance.theta_rad) +
+                      chance.light * math::Sin(stance.sun_elevation_rad);
+  return 1.0 / (1.0 + math::Exp(-odds));
 }
 
 double CylinderLaw::FindChance(const CylinderStance& stance) const {
@@ -69,8 +70,9 @@ double CylinderLaw::WrongChance(const CylinderStance& stance) const {
 
 CylinderDeviations CylinderLaw::Deviations(const CylinderStance& stance) const {
   const double m_px = Width_px(stance.distance_m);
-  const double turn_step = 2.0 / (m_px * std::cos(ToNearestBoundary_rad(stance.theta_rad)));
-  const double pixel_rad = 2.0 * std::tan(0.5 * params_.field_of_view_rad) / params_.image_width_px;
+  const double turn_step = 2.0 / (m_px * math::Cos(ToNearestBoundary_rad(stance.theta_rad)));
+  const double pixel_rad =
+      2.0 * math::Tan(0.5 * params_.field_of_view_rad) / params_.image_width_px;
   return {.heading_rad = RootSum(params_.heading, turn_step),
           .range = RootSum(params_.range, 1.0 / m_px),
           .bearing_rad = RootSum(params_.bearing, pixel_rad)};
@@ -119,7 +121,7 @@ std::optional<LanderFix::Outcome> LanderFix::ByCylinderLaw(const CylinderStance&
   if (core::SampleBernoulli(chances, law.WrongChance(stance))) {
     outcome.heading_rad =
         core::SampleUniform(chances, -cylinder.wrong_turn_rad, cylinder.wrong_turn_rad);
-    outcome.range_factor = std::exp(core::SampleNormal(chances, 0.0, cylinder.wrong_range));
+    outcome.range_factor = math::Exp(core::SampleNormal(chances, 0.0, cylinder.wrong_range));
     return outcome;
   }
   outcome.heading_rad = cylinder.heading_bias_rad + outcome.sd.heading_rad * draws.heading;
@@ -135,7 +137,7 @@ std::optional<messages::PoseFix> LanderFix::Observe(const math::Transform& X_WR,
   const math::Vector3 p_WoRo_W = X_WR.translation();
   const double dx_m = p_WoRo_W.x() - lander_.x_m;
   const double dy_m = p_WoRo_W.y() - lander_.y_m;
-  const double true_range_m = std::hypot(dx_m, dy_m);
+  const double true_range_m = math::Hypot(dx_m, dy_m);
   if (true_range_m > params_.range_m) return std::nullopt;
   const math::Vector3 mast_W(
       lander_.x_m, lander_.y_m,
@@ -145,7 +147,7 @@ std::optional<messages::PoseFix> LanderFix::Observe(const math::Transform& X_WR,
   if (terrain.Occluded(mast_W, top_W, kMargin_m)) return std::nullopt;
 
   const Draws draws = DrawFix(number);
-  const double true_bearing_rad = std::atan2(dy_m, dx_m);
+  const double true_bearing_rad = math::Atan2(dy_m, dx_m);
   std::optional<Outcome> outcome = ByConstantLaw(draws);
   if (params_.law == LanderFixLaw::kCylinder) {
     // The cameras stand opposite to the bearing, as seen from the rover.
@@ -163,8 +165,8 @@ std::optional<messages::PoseFix> LanderFix::Observe(const math::Transform& X_WR,
   for (const auto coordinate : {PoseCoordinate::kX, PoseCoordinate::kY, PoseCoordinate::kHeading}) {
     fix.measured.set(static_cast<std::size_t>(messages::Index(coordinate)));
   }
-  fix.pose[messages::Index(PoseCoordinate::kX)] = lander_.x_m + range_m * std::cos(bearing_rad);
-  fix.pose[messages::Index(PoseCoordinate::kY)] = lander_.y_m + range_m * std::sin(bearing_rad);
+  fix.pose[messages::Index(PoseCoordinate::kX)] = lander_.x_m + range_m * math::Cos(bearing_rad);
+  fix.pose[messages::Index(PoseCoordinate::kY)] = lander_.y_m + range_m * math::Sin(bearing_rad);
   constexpr int kHeading = messages::Index(PoseCoordinate::kHeading);
   fix.pose[kHeading] =
       math::WrapAngle(math::Heading(X_WR) + outcome->heading_rad + lander_.pan_error_rad);
@@ -177,7 +179,7 @@ std::optional<messages::PoseFix> LanderFix::Observe(const math::Transform& X_WR,
 double SunSensor::DirectionSd_rad(double sine_of_elevation) const {
   EXPECT(sine_of_elevation > 0.0);
   return params_.noise_sd_rad *
-         std::exp(0.5 * params_.optical_depth * (1.0 / sine_of_elevation - 1.0));
+         math::Exp(0.5 * params_.optical_depth * (1.0 / sine_of_elevation - 1.0));
 }
 
 std::optional<messages::SunSighting> SunSensor::Observe(const math::Transform& X_WR,
@@ -185,9 +187,9 @@ std::optional<messages::SunSighting> SunSensor::Observe(const math::Transform& X
                                                         const terrain::Terrain& terrain,
                                                         std::int64_t number) const {
   EXPECT(number >= 0);
-  if (sun_W.z() < std::sin(kLowestSun_rad)) return std::nullopt;
+  if (sun_W.z() < math::Sin(kLowestSun_rad)) return std::nullopt;
   const math::Vector3 sun_R = X_WR.linear().transpose() * sun_W;
-  if (sun_R.z() < std::cos(params_.half_field_of_view_rad)) return std::nullopt;
+  if (sun_R.z() < math::Cos(params_.half_field_of_view_rad)) return std::nullopt;
   const math::Vector3 eye_W = X_WR * math::Vector3(0.0, 0.0, kSensorHeight_m);
   if (terrain.CastRay(eye_W, sun_W, kShadowReach_m)) return std::nullopt;
   core::RandomStream stream(key_, core::Purpose::kSunSensor, static_cast<std::uint32_t>(number));
@@ -206,7 +208,7 @@ std::optional<messages::BeaconReading> RadioBeacon::Observe(const math::Transfor
   EXPECT(number >= 0);
   const double dx_m = X_WR.translation().x() - station_.x_m;
   const double dy_m = X_WR.translation().y() - station_.y_m;
-  const double range_m = std::hypot(dx_m, dy_m);
+  const double range_m = math::Hypot(dx_m, dy_m);
   if (range_m > params_.range_m) return std::nullopt;
   core::RandomStream stream(key_, core::Purpose::kRadioBeacon, static_cast<std::uint32_t>(number));
   const double range_error_m = core::SampleNormal(stream, 0.0, params_.range_sd_m);
@@ -215,7 +217,7 @@ std::optional<messages::BeaconReading> RadioBeacon::Observe(const math::Transfor
       .station_x_m = station_.x_m,
       .station_y_m = station_.y_m,
       .range_m = std::max(0.0, range_m + range_error_m),
-      .bearing_rad = math::WrapAngle(std::atan2(dy_m, dx_m) + bearing_error_rad),
+      .bearing_rad = math::WrapAngle(math::Atan2(dy_m, dx_m) + bearing_error_rad),
       .range_sd_m = params_.range_sd_m,
       .bearing_sd_rad = params_.bearing_sd_rad};
 }

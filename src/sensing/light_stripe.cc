@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "core/random.h"
+#include "math/functions.h"
 #include "rendering/occlusion.h"
 #include "sensing/stripe_layout_params.h"
 #include "vision/lens.h"
@@ -113,7 +114,7 @@ using math::Vector3;
 // Normal, in R, of the plane that a scanline sees: the camera's lateral axis lies in it, and it
 // looks an angle below the optical axis, along (cos, 0, -sin) in C.
 Vector3 ScanlineNormal(const messages::Camera& camera, double row_angle_rad) {
-  return camera.X_RC.linear() * Vector3(std::sin(row_angle_rad), 0.0, std::cos(row_angle_rad));
+  return camera.X_RC.linear() * Vector3(math::Sin(row_angle_rad), 0.0, math::Cos(row_angle_rad));
 }
 
 // Distance along a falling line to a height in R, 0 where it starts below.
@@ -146,7 +147,7 @@ LightStripe::LightStripe(const LightStripeParams& params)
     reach_R.extend(camera.X_RC.translation());
   }
   for (const messages::StripeLaser& laser : calibration_.lasers) {
-    half_fan_cosine_.push_back(std::cos(laser.half_fan_rad));
+    half_fan_cosine_.push_back(math::Cos(laser.half_fan_rad));
     reach_R.extend(laser.p_RoE_R);
   }
   if (params.lens == messages::Lens::kEquidistantRows) {
@@ -219,7 +220,8 @@ void LightStripe::SetView(const messages::Camera& camera, double row_angle_rad, 
   const auto R_RC = camera.X_RC.linear();
   // Within the scanline plane: ahead of the camera, and to its right. Both are linear along the
   // line, which leaves the column angle atan(right / forward).
-  const Vector3 forward_R = R_RC * Vector3(std::cos(row_angle_rad), 0.0, -std::sin(row_angle_rad));
+  const Vector3 forward_R =
+      R_RC * Vector3(math::Cos(row_angle_rad), 0.0, -math::Sin(row_angle_rad));
   const Vector3 right_R = R_RC * -Vector3::UnitY();
   const Vector3 p_CS_R = line.start_R - camera.X_RC.translation();
   line.forward_m = forward_R.dot(p_CS_R);
@@ -249,8 +251,8 @@ messages::ColumnRange LightStripe::SearchedColumns(const messages::Camera& camer
 
 int LightStripe::ColumnAt(const Line& line, double distance_m, const messages::Camera& camera) {
   // Equidistant rows: the column is the angle within the scanline plane over the pitch.
-  const double angle_rad = std::atan((line.right_m + distance_m * line.right_slope) /
-                                     (line.forward_m + distance_m * line.forward_slope));
+  const double angle_rad = math::Atan((line.right_m + distance_m * line.right_slope) /
+                                      (line.forward_m + distance_m * line.forward_slope));
   return static_cast<int>(std::lround(angle_rad / camera.column_pitch_rad));
 }
 

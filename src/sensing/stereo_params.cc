@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/functions.h"
+
 namespace rockyard::sensing {
 namespace {
 
@@ -26,15 +28,15 @@ double LowestDepression(const StereoMountParams& mount, double vertical_fov_rad)
 
 bool SeesGround(const StereoMountParams& mount, const StereoParams& p) {
   const double depression = LowestDepression(mount, p.vertical_fov_rad);
-  return depression > kGrazing_rad && mount.height_m <= p.max_range_m * std::sin(depression);
+  return depression > kGrazing_rad && mount.height_m <= p.max_range_m * math::Sin(depression);
 }
 
 // Returns whether the middle of the window, on flat ground, is in the image and in range.
 bool SeesWindow(const StereoMountParams& mount, const StereoParams& p) {
   const double ahead_m = 0.5 * (p.stripe_window.near_m + p.stripe_window.far_m) - mount.ahead_m;
-  const double off_axis = std::atan2(mount.height_m, ahead_m) - mount.pitch_rad;
+  const double off_axis = math::Atan2(mount.height_m, ahead_m) - mount.pitch_rad;
   return std::abs(off_axis) <= 0.5 * p.vertical_fov_rad &&
-         std::hypot(ahead_m, mount.height_m) <= p.max_range_m;
+         math::Hypot(ahead_m, mount.height_m) <= p.max_range_m;
 }
 
 void VisitImage(StereoParams& p, core::FieldVisitor& v) {
@@ -141,11 +143,11 @@ void VisitDropouts(StereoParams& p, core::FieldVisitor& v) {
 }  // namespace
 
 double StereoParams::focal_columns_px() const {
-  return 0.5 * static_cast<double>(columns) / std::tan(0.5 * horizontal_fov_rad);
+  return 0.5 * static_cast<double>(columns) / math::Tan(0.5 * horizontal_fov_rad);
 }
 
 double StereoParams::focal_rows_px() const {
-  return 0.5 * static_cast<double>(rows) / std::tan(0.5 * vertical_fov_rad);
+  return 0.5 * static_cast<double>(rows) / math::Tan(0.5 * vertical_fov_rad);
 }
 
 void StereoImageParams::Visit(core::FieldVisitor& v) {

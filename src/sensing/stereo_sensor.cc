@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "math/functions.h"
 #include "rendering/image_readout.h"
 #include "sensing/stereo_depth.h"
 #include "sensing/stereo_view.h"

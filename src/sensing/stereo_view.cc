@@ -9,6 +9,8 @@
 
 #include "sensing/stereo_lanes.h"
 
+#include "math/functions.h"
+
 namespace rockyard::sensing {
 
 using math::Vector3;
@@ -27,8 +29,7 @@ StereoView MakeStereoView(const StereoParams& params, messages::LookDirection di
   const bool ahead = direction == messages::LookDirection::kAhead;
   const StereoMountParams& mount = ahead ? params.front : params.rear;
   const double sign = ahead ? 1.0 : -1.0;
-  const double sine = std::sin(mount.pitch_rad);
-  const double cosine = std::cos(mount.pitch_rad);
+  const auto [sine, cosine] = math::SinCos(mount.pitch_rad);
   // The directions of optical axis, image right (R's -y when looking ahead) and image down, in R.
   // The pair that looks behind is turned by 180 degrees about z.
   const Vector3 axis(sign * cosine, 0.0, -sine);

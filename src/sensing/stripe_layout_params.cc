@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "math/functions.h"
 #include "vision/lens.h"
 
 namespace rockyard::sensing {
@@ -78,7 +79,7 @@ int CameraOf(const LightStripeParams& p, std::size_t stripe) {
 // Returns the angle below the optical axis at which the row meets the datum plane, rad.
 double RowAngle(const LightStripeParams& p, std::size_t row) {
   const double ahead = p.front_x_m + RowAhead(p, row) - p.camera_x_m;
-  return std::atan2(p.camera_height_m - p.datum_z_m, ahead) - p.camera_pitch_rad;
+  return math::Atan2(p.camera_height_m - p.datum_z_m, ahead) - p.camera_pitch_rad;
 }
 
 // Returns that angle as an image row on the column of the optical axis. Rows lie ahead of and below
@@ -160,7 +161,7 @@ bool PointsFitTheFans(const LightStripeParams& p) {
   return HoldsForEveryPoint(p, [&](std::size_t stripe, const Vector3& point) {
     const messages::StripeLaser laser = LaserOf(p, stripe);
     const double cosine = laser.axis_R.dot((point - laser.p_RoE_R).normalized());
-    return cosine >= std::cos(laser.half_fan_rad);
+    return cosine >= math::Cos(laser.half_fan_rad);
   });
 }
 
@@ -189,8 +190,7 @@ messages::StripeCalibration TrueCalibration(const LightStripeParams& params) {
   for (int i = 0; i < 2; ++i) {
     messages::Camera& camera = calibration.cameras[static_cast<std::size_t>(i)];
     camera.X_RC.translation() = CameraPosition(params, i);
-    camera.X_RC.linear() =
-        Eigen::AngleAxisd(params.camera_pitch_rad, Vector3::UnitY()).toRotationMatrix();
+    camera.X_RC.linear() = math::RotationAbout(params.camera_pitch_rad, Vector3::UnitY());
     camera.lens = params.lens;
     camera.column_pitch_rad = params.column_pitch_rad();
     camera.row_pitch_rad = params.row_pitch_rad();
@@ -327,7 +327,7 @@ bool IsHiddenBy(const LightStripeParams& p, std::span<const Eigen::AlignedBox3d>
 
 double SightOf(const LightStripeParams& p) {
   constexpr double kShortest_m = 4.0;
-  const double camera_m = std::hypot(p.camera_x_m, 0.5 * p.camera_separation_m);
+  const double camera_m = math::Hypot(p.camera_x_m, 0.5 * p.camera_separation_m);
   return std::max(kShortest_m, camera_m + p.max_range_m);
 }
 

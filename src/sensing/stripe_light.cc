@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "math/functions.h"
 #include "sensing/stripe_layout_params.h"
 #include "vision/lens.h"
 
@@ -172,7 +173,7 @@ LaserFan::LaserFan(const LightStripeParams& params, const messages::StripeCalibr
     : p_RoE_R_(laser.p_RoE_R), normal_R_(laser.normal_R), power_w_rad_(FanPower(params)) {
   if (params.laser.fan == BeamFan::kFull) {
     axes_R_.push_back(laser.axis_R);
-    half_fan_cosine_ = std::cos(laser.half_fan_rad);
+    half_fan_cosine_ = math::Cos(laser.half_fan_rad);
     return;
   }
   // Thin beams: one around each measured point of flat ground.
@@ -180,7 +181,7 @@ LaserFan::LaserFan(const LightStripeParams& params, const messages::StripeCalibr
     const auto point_R = StripePoint(calibration, laser, row_px);
     if (point_R) axes_R_.emplace_back((*point_R - p_RoE_R_).normalized());
   }
-  half_fan_cosine_ = std::cos(0.5 * kScanlinesOfThinBeam * params.row_pitch_rad());
+  half_fan_cosine_ = math::Cos(0.5 * kScanlinesOfThinBeam * params.row_pitch_rad());
 }
 
 bool LaserFan::Lights(const Vector3& away_R) const {
@@ -206,7 +207,7 @@ LitFan::LitFan(const LaserFan& fan, const rendering::ImageScene& scene, double r
 double LitFan::OutOfPlane(const Vector3& p_W) const {
   const Vector3 away_W = p_W - p_WoE_W_;
   // sin a = n . r / |r|.
-  return std::asin(std::clamp(normal_W_.dot(away_W) / away_W.norm(), -1.0, 1.0));
+  return math::Asin(std::clamp(normal_W_.dot(away_W) / away_W.norm(), -1.0, 1.0));
 }
 
 double LitFan::Irradiance(const rendering::SurfacePoint& point) const {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/functions.h"
 #include "math/pose.h"
 #include "messages/calibration.h"
 #include "messages/camera.h"
@@ -74,7 +75,7 @@ class BeamCrossSection {
     if (std::abs(angle_rad) > reach_rad()) return 0.0;
     if (profile_ == BeamProfile::kTopHat) return 1.0 / width_rad_;
     const double x = angle_rad / sigma_rad_;
-    return std::exp(-0.5 * x * x) / (sigma_rad_ * std::sqrt(2.0 * std::numbers::pi));
+    return math::Exp(-0.5 * x * x) / (sigma_rad_ * std::sqrt(2.0 * std::numbers::pi));
   }
 
   // Returns the integral of f up to the angle, C.
@@ -82,7 +83,7 @@ class BeamCrossSection {
     if (angle_rad <= -reach_rad()) return 0.0;
     if (angle_rad >= reach_rad()) return 1.0;
     if (profile_ == BeamProfile::kTopHat) return 0.5 + angle_rad / width_rad_;
-    return 0.5 * std::erfc(-angle_rad / (sigma_rad_ * std::numbers::sqrt2));
+    return 0.5 * math::Erfc(-angle_rad / (sigma_rad_ * std::numbers::sqrt2));
   }
 
   // Returns the mean of f between two angles, 1/rad: what a pixel between them sees.

@@ -7,6 +7,7 @@
 #include "core/check.h"
 #include "core/random.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::sensing {
 
@@ -17,7 +18,7 @@ Tracker::Tracker(const TrackerParams& params, core::TrialKey key) : params_(para
   const double radius_m = params.systematic_position_m * std::sqrt(stream.Uniform());
   const double direction_rad = core::SampleUniform(stream, -std::numbers::pi, std::numbers::pi);
   bias_ = {
-      radius_m * std::cos(direction_rad), radius_m * std::sin(direction_rad),
+      radius_m * math::Cos(direction_rad), radius_m * math::Sin(direction_rad),
       core::SampleUniform(stream, -params.systematic_heading_rad, params.systematic_heading_rad)};
 }
 
@@ -39,8 +40,8 @@ std::optional<messages::FeatureSighting> FeatureTracker::Observe(const math::Pos
   EXPECT(sample >= 0);
   const double dx_m = x_m - rover.x_m;
   const double dy_m = y_m - rover.y_m;
-  const double range_m = std::hypot(dx_m, dy_m);
-  const double bearing_rad = math::WrapAngle(std::atan2(dy_m, dx_m) - rover.heading_rad);
+  const double range_m = math::Hypot(dx_m, dy_m);
+  const double bearing_rad = math::WrapAngle(math::Atan2(dy_m, dx_m) - rover.heading_rad);
   if (range_m > params_.range_m || std::abs(bearing_rad) > params_.half_field_of_view_rad) {
     return std::nullopt;
   }

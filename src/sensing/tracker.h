@@ -5,11 +5,11 @@
 // draws: systematic radius, direction, heading; of each sample x, y, heading.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 
 #include "core/random.h"
+#include "math/functions.h"
 #include "math/pose.h"
 #include "messages/estimates.h"
 #include "messages/measurements.h"
@@ -69,8 +69,8 @@ inline messages::PoseUpdate TruePose(const truth::RoverState& state) {
 // the orientation, and the height above the one at which the drive began.
 inline messages::AttitudeEstimate TrueAttitude(const truth::RoverState& state, double start_z_m) {
   const auto& R_WR = state.X_WR.linear();
-  return {.roll_rad = std::atan2(R_WR(2, 1), R_WR(2, 2)),
-          .pitch_rad = std::atan2(-R_WR(2, 0), std::hypot(R_WR(2, 1), R_WR(2, 2))),
+  return {.roll_rad = math::Atan2(R_WR(2, 1), R_WR(2, 2)),
+          .pitch_rad = math::Atan2(-R_WR(2, 0), math::Hypot(R_WR(2, 1), R_WR(2, 2))),
           .z_m = state.X_WR.translation().z() - start_z_m};
 }
 

@@ -33,8 +33,7 @@ vision::MotionResult VisualMotion::Measure(const math::Transform& X_FS, std::int
   const double turned_rad = turned.norm();
   motion.X_FS.linear() = X_FS.linear();
   if (turned_rad > 0.0) {
-    motion.X_FS.linear() =
-        Eigen::AngleAxisd(turned_rad, turned / turned_rad).toRotationMatrix() * X_FS.linear();
+    motion.X_FS.linear() = math::RotationAbout(turned_rad, turned / turned_rad) * X_FS.linear();
   }
   result.motion = motion;
   return result;

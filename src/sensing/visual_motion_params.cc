@@ -1,6 +1,6 @@
 #include "sensing/visual_motion_params.h"
 
-#include <cmath>
+#include "math/functions.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -21,7 +21,7 @@ double MotionErrorParams::Variance(double way_m, double angle_rad) const {
 }
 
 double VisualFailureParams::Probability(double way_m, double angle_rad) const {
-  return 1.0 / (1.0 + std::exp(-(intercept + per_m * way_m + per_rad * angle_rad)));
+  return 1.0 / (1.0 + math::Exp(-(intercept + per_m * way_m + per_rad * angle_rad)));
 }
 
 void VisualScheduleParams::Visit(core::FieldVisitor& v) {

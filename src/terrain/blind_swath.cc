@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "math/functions.h"
 #include "math/simpson.h"
 #include "terrain/rock_size_law.h"
 
@@ -18,7 +19,7 @@ namespace {
 // width is perimeter / pi.
 double MeanExtent(double q) {
   return 2.0 / std::numbers::pi * math::Simpson(0.0, 0.5 * std::numbers::pi, [q](double angle) {
-           return std::hypot(std::cos(angle), q * std::sin(angle));
+           return math::Hypot(math::Cos(angle), q * math::Sin(angle));
          });
 }
 
@@ -57,14 +58,13 @@ double UpperMoment(const RockFieldParams& rocks, double power, double low_m) {
 // by yaw. It meets a line y = const at two t. Its least x, -sqrt(A^2 + B^2), lies at the y
 //   -(A C + B D) / sqrt(A^2 + B^2).
 std::optional<double> FirstContact(const Rock& rock, double y_m, double half_width_m) {
-  const double cosine = std::cos(rock.yaw_rad);
-  const double sine = std::sin(rock.yaw_rad);
+  const auto [sine, cosine] = math::SinCos(rock.yaw_rad);
   const double a = rock.semi_axes_m.x() * cosine;
   const double b = -rock.semi_axes_m.y() * sine;
   const double c = rock.semi_axes_m.x() * sine;
   const double d = rock.semi_axes_m.y() * cosine;
-  const double reach_x_m = std::hypot(a, b);
-  const double reach_y_m = std::hypot(c, d);
+  const double reach_x_m = math::Hypot(a, b);
+  const double reach_y_m = math::Hypot(c, d);
   const double centre_y_m = rock.center_W.y() - y_m;
   if (std::abs(centre_y_m) > half_width_m + reach_y_m) return std::nullopt;
   const double slant = (a * c + b * d) / reach_x_m;  // y of the point of greatest x

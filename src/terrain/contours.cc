@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "math/functions.h"
+
 namespace rockyard::terrain {
 namespace {
 
@@ -46,7 +48,7 @@ Grid Sample(const Ground& ground, const Rectangle& area, int cells) {
 }
 
 double IntervalOf(double relief_m, int most) {
-  double interval_m = std::pow(10.0, std::floor(std::log10(relief_m / most)));
+  double interval_m = math::Pow(10.0, std::floor(math::Log10(relief_m / most)));
   for (const double factor : {1.0, 2.0, 5.0}) {
     if (relief_m / (factor * interval_m) <= most) return factor * interval_m;
   }

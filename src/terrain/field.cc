@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "math/functions.h"
 #include "math/simpson.h"
 #include "terrain/arena.h"
 #include "terrain/rock_layout.h"
@@ -136,7 +137,7 @@ double QuarterArea(double a, double b, double r) {
   // (x sqrt(r^2 - x^2) + r^2 asin(x / r)) / 2.
   const double flat = std::min(std::sqrt(r * r - top * top), right);
   const auto integral = [r](double x) {
-    return 0.5 * (x * std::sqrt(r * r - x * x) + r * r * std::asin(x / r));
+    return 0.5 * (x * std::sqrt(r * r - x * x) + r * r * math::Asin(x / r));
   };
   return sign * (top * flat + integral(right) - integral(flat));
 }

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "math/functions.h"
 #include "terrain/arena.h"
 #include "terrain/contours.h"
 #include "terrain/field_export.h"
@@ -76,7 +77,7 @@ struct Parallel {
 // Returns a parallel of a sphere: 0 is the south pole, kParallels the north pole.
 Parallel SphereParallel(int number) {
   const double latitude = std::numbers::pi * (static_cast<double>(number) / kParallels - 0.5);
-  return {std::cos(latitude), std::sin(latitude)};
+  return {math::Cos(latitude), math::Sin(latitude)};
 }
 
 // Returns a parallel of a cap: 1 is the base, kParallels the top. They are denser towards the top,
@@ -97,8 +98,8 @@ void WriteRock(const Rock& rock, int index, ObjWriter& obj) {
     const Parallel parallel = cap ? CapParallel(rock, i) : SphereParallel(i);
     for (int j = 0; j < kMeridians; ++j) {
       const double longitude = 2.0 * std::numbers::pi * j / kMeridians;
-      obj.Vertex(OnRock(rock, {parallel.radius * std::cos(longitude),
-                               parallel.radius * std::sin(longitude), parallel.height}));
+      obj.Vertex(OnRock(rock, {parallel.radius * math::Cos(longitude),
+                               parallel.radius * math::Sin(longitude), parallel.height}));
     }
   }
   const int top = obj.Vertex(OnRock(rock, math::Vector3::UnitZ()));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "math/functions.h"
 #include "terrain/relief.h"
 #include "terrain/relief_spline.h"
 #include "terrain/soil_draw.h"
@@ -35,8 +36,8 @@ Ground::Ground() = default;
 Ground::Ground(const GroundParams& params, core::TrialKey key)
     : soil_(params.soil.spread.enabled ? DrawSoil(params.soil, key) : params.soil),
       // z = tan(slope) (x cos(direction) + y sin(direction)).
-      slope_x_(std::tan(params.slope_rad) * std::cos(params.slope_direction_rad)),
-      slope_y_(std::tan(params.slope_rad) * std::sin(params.slope_direction_rad)) {
+      slope_x_(math::Tan(params.slope_rad) * math::Cos(params.slope_direction_rad)),
+      slope_y_(math::Tan(params.slope_rad) * math::Sin(params.slope_direction_rad)) {
   if (params.roughness_rms_m > 0.0) {
     roughness_ = std::make_shared<const RoughnessField>(
         params.roughness_rms_m, params.hurst_exponent, params.roughness_wavelength_m, key);
@@ -117,7 +118,7 @@ std::optional<double> Ground::SplineRay(const math::Vector3& origin_W,
 std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,
                                        const math::Vector3& direction_W,
                                        double max_distance_m) const {
-  const double horizontal = std::hypot(direction_W.x(), direction_W.y());
+  const double horizontal = math::Hypot(direction_W.x(), direction_W.y());
   // gap(t) = z(t) - h(t) = plane_gap - t plane_rate - relief; `rate` is minus its derivative. Where
   // depressions overlap, the gap over the deepest is no less than that over the one at hand, for
   // which the bounds below hold.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "math/functions.h"
 #include "terrain/rock_size_law.h"
 
 namespace rockyard::terrain {
@@ -57,11 +58,11 @@ double CoverOfMark(double mark, double diameter_m, double cover_reference) {
   // concave and grows in k, so that Newton's steps from below never pass the root.
   const double decay_m = 0.152 * diameter_m;
   const auto log_density = [decay_m](double cover) {
-    return std::log(1.79 * cover + 0.152) - decay_m / cover;
+    return math::Log(1.79 * cover + 0.152) - decay_m / cover;
   };
-  const double wanted = std::log(mark) + log_density(cover_reference);
+  const double wanted = math::Log(mark) + log_density(cover_reference);
   // Below the root: the first factor is at most that of the reference.
-  double cover = 1.0 / (1.0 / cover_reference - std::log(mark) / decay_m);
+  double cover = 1.0 / (1.0 / cover_reference - math::Log(mark) / decay_m);
   constexpr int kMaxSteps = 100;
   constexpr double kTolerance = 1e-9;  // the step after it is of its square
   for (int i = 0; i < kMaxSteps; ++i) {

@@ -7,12 +7,13 @@
 
 #include "core/check.h"
 #include "core/random.h"
+#include "math/functions.h"
 
 namespace rockyard::terrain {
 
 DepressionField::DepressionField(const std::vector<Depression>& depressions) {
   for (const Depression& one : depressions) {
-    shapes_.push_back({one.x_m, one.y_m, std::cos(one.direction_rad), std::sin(one.direction_rad),
+    shapes_.push_back({one.x_m, one.y_m, math::Cos(one.direction_rad), math::Sin(one.direction_rad),
                        one.half_length_m, one.half_width_m, one.flank_m, one.depth_m});
     // S' = 30 s^2 (1 - s)^2 is at most 15/8, |S''| = 60 s (1 - s) |1 - 2 s| at most 10/sqrt(3).
     // Around a round end the slope over the distance, at most 40/9 D/e^2, is less.
@@ -94,7 +95,7 @@ SplineWeights WeightsAt(double t) {
 
 int OctaveCount(double longest_wavelength_m) {
   // Wavelengths L, L/2, L/4, ... down to the finest one.
-  const double octaves = std::floor(std::log2(longest_wavelength_m / kFinestWavelength_m)) + 1.0;
+  const double octaves = std::floor(math::Log2(longest_wavelength_m / kFinestWavelength_m)) + 1.0;
   return static_cast<int>(std::clamp(octaves, 1.0, double{kMaxOctaves}));
 }
 
@@ -107,13 +108,13 @@ RoughnessField::RoughnessField(double rms_m, double hurst, double longest_wavele
   double sum_of_squares = 0.0;
   // Octave j has RMS rms 2^(-j H) / sqrt(sum_i 2^(-2 i H)): the variances of all add up to rms^2.
   for (std::size_t j = 0; j < octaves_.size(); ++j) {
-    sum_of_squares += std::exp2(-2.0 * hurst * static_cast<double>(j));
+    sum_of_squares += math::Exp2(-2.0 * hurst * static_cast<double>(j));
   }
   for (std::size_t j = 0; j < octaves_.size(); ++j) {
     Octave& octave = octaves_[j];
     const double level = static_cast<double>(j);
-    octave.spacing_m = 0.5 * longest_wavelength_m * std::exp2(-level);
-    const double octave_rms_m = rms_m * std::exp2(-hurst * level) / std::sqrt(sum_of_squares);
+    octave.spacing_m = 0.5 * longest_wavelength_m * math::Exp2(-level);
+    const double octave_rms_m = rms_m * math::Exp2(-hurst * level) / std::sqrt(sum_of_squares);
     core::RandomStream stream(key, core::Purpose::kGroundRoughness, static_cast<std::uint32_t>(j));
     octave.coefficients_m.resize(std::size_t{kNodes} * kNodes);
     for (double& coefficient : octave.coefficients_m) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "math/functions.h"
 #include "terrain/terrain_params.h"
 
 namespace rockyard::terrain {
@@ -54,8 +55,8 @@ ReliefBounds BoundsOfSplines(int columns, int rows, double spacing_m, const Coef
     }
   }
   // The norm of the matrix of second derivatives is no larger than its Frobenius norm.
-  return {height, std::hypot(along_x, along_y) / spacing_m,
-          std::hypot(std::hypot(bend_x, bend_y), std::numbers::sqrt2 * twist) /
+  return {height, math::Hypot(along_x, along_y) / spacing_m,
+          math::Hypot(math::Hypot(bend_x, bend_y), std::numbers::sqrt2 * twist) /
               (spacing_m * spacing_m)};
 }
 

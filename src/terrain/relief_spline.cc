@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::terrain {
 namespace {
@@ -222,7 +223,7 @@ ReliefSpline::Bounds ReliefSpline::BoundsOf(const Nodes& nodes_m, int column, in
     }
   }
   // The norm of the matrix of second derivatives is no larger than its Frobenius norm.
-  const double bend = std::hypot(std::hypot(bend_x, bend_y), std::numbers::sqrt2 * twist);
+  const double bend = math::Hypot(math::Hypot(bend_x, bend_y), std::numbers::sqrt2 * twist);
   return {height_m, bend * cells_per_m_ * cells_per_m_};
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::terrain {
 
@@ -46,8 +47,7 @@ Rock ShapeRock(const RockOutline& outline, double pointedness) {
 math::Vector3 OnRock(const Rock& rock, const math::Vector3& unit) {
   // p_W = centre + Rz(yaw) diag(a, b, c) u.
   const math::Vector3 p = unit.cwiseProduct(rock.semi_axes_m);
-  const double c = std::cos(rock.yaw_rad);
-  const double s = std::sin(rock.yaw_rad);
+  const auto [s, c] = math::SinCos(rock.yaw_rad);
   return rock.center_W + math::Vector3(c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z());
 }
 
@@ -63,7 +63,7 @@ std::vector<math::Vector3> PlanOutline(const Rock& rock) {
   corners.reserve(kPlanCorners);
   for (int i = 0; i < kPlanCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kPlanCorners;
-    corners.push_back(OnRock(rock, {std::cos(angle), std::sin(angle), 0.0}));
+    corners.push_back(OnRock(rock, {math::Cos(angle), math::Sin(angle), 0.0}));
   }
   return corners;
 }
@@ -82,7 +82,8 @@ std::vector<math::Vector3> PointsAbove(const Rock& rock, double ground_m) {
     const double radius = ParallelRadius(rock, height);
     for (int i = 0; i < kRingPoints; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / kRingPoints;
-      points.push_back(OnRock(rock, {radius * std::cos(angle), radius * std::sin(angle), height}));
+      points.push_back(
+          OnRock(rock, {radius * math::Cos(angle), radius * math::Sin(angle), height}));
     }
   }
   points.push_back(OnRock(rock, math::Vector3::UnitZ()));
@@ -146,9 +147,9 @@ namespace {
 // turns by 90 deg.
 double WidthAcross(const Rock& rock, const math::Vector3& push_W) {
   const double along =
-      push_W.norm() > 0.0 ? std::atan2(push_W.y(), push_W.x()) - rock.yaw_rad : 0.0;
-  return 2.0 *
-         std::hypot(rock.semi_axes_m.x() * std::sin(along), rock.semi_axes_m.y() * std::cos(along));
+      push_W.norm() > 0.0 ? math::Atan2(push_W.y(), push_W.x()) - rock.yaw_rad : 0.0;
+  return 2.0 * math::Hypot(rock.semi_axes_m.x() * math::Sin(along),
+                           rock.semi_axes_m.y() * math::Cos(along));
 }
 
 }  // namespace
@@ -167,7 +168,7 @@ double HoldingForce(const Rock& rock, const RockHoldingParams& params, double gr
   const double depth_m = std::max(0.0, 2.0 * rock.semi_axes_m.z() - rock.height_m);
   // Rankine 1857: K_p = tan^2(45 deg + phi/2); the pressure K_p gamma z grows with depth, so its
   // sum over a wall of depth d and width w is K_p gamma d^2 w / 2.
-  const double root = std::tan(0.25 * std::numbers::pi + 0.5 * params.soil_friction_angle_rad);
+  const double root = math::Tan(0.25 * std::numbers::pi + 0.5 * params.soil_friction_angle_rad);
   const double pressure_N_m3 = root * root * params.soil_density_kg_m3 * gravity_m_s2;
   return friction_N + 0.5 * pressure_N_m3 * depth_m * depth_m * WidthAcross(rock, push_W);
 }

@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "math/functions.h"
 #include "math/pose.h"
 #include "terrain/rock_params.h"
 
@@ -75,10 +76,10 @@ class RockShape {
 
   explicit RockShape(const Rock& rock)
       : center_W_(rock.center_W),
-        xx_(std::cos(rock.yaw_rad) / rock.semi_axes_m.x()),
-        xy_(std::sin(rock.yaw_rad) / rock.semi_axes_m.x()),
-        yx_(-std::sin(rock.yaw_rad) / rock.semi_axes_m.y()),
-        yy_(std::cos(rock.yaw_rad) / rock.semi_axes_m.y()),
+        xx_(math::Cos(rock.yaw_rad) / rock.semi_axes_m.x()),
+        xy_(math::Sin(rock.yaw_rad) / rock.semi_axes_m.x()),
+        yx_(-math::Sin(rock.yaw_rad) / rock.semi_axes_m.y()),
+        yy_(math::Cos(rock.yaw_rad) / rock.semi_axes_m.y()),
         zz_(1.0 / rock.semi_axes_m.z()),
         growth_(rock.cap_growth),
         bend_(1.0 - rock.cap_growth) {}

@@ -1,6 +1,6 @@
-#include <cmath>
 #include <numbers>
 
+#include "math/functions.h"
 #include "terrain/rock_params.h"
 
 namespace rockyard::terrain {
@@ -9,27 +9,28 @@ namespace {
 // Returns E2(x) = exp(-x) - x E1(x), x > 0.
 double SecondExponentialIntegral(double x) {
   // E1(x) = -Ei(-x). Further on the difference would lose all digits.
-  if (x < 2.0) return std::exp(-x) + x * std::expint(-x);
+  if (x < 2.0) return math::Exp(-x) + x * std::expint(-x);
   // exp(-x) / (x + 2 - 1 2 / (x + 4 - 2 3 / (x + 6 - ...))): the even part of the continued
   // fraction of Abramowitz and Stegun 1964, 5.1.22. 48 terms are good to 1e-15 at
   // x = 2, where it converges worst.
   constexpr int kTerms = 48;
   double below = x + 2.0 * (kTerms + 1);
   for (int i = kTerms; i >= 1; --i) below = x + 2.0 * i - i * (i + 1.0) / below;
-  return std::exp(-x) / below;
+  return math::Exp(-x) / below;
 }
 
 }  // namespace
 
 double MooreNumberPerM2(double k_per_m2, double diameter_m) {
-  return k_per_m2 * std::pow(diameter_m, -kMooreExponent);
+  return k_per_m2 * math::Pow(diameter_m, -kMooreExponent);
 }
 
 double GolombekDecayPerM(double cover) { return 1.79 + 0.152 / cover; }
 
 double GolombekDensity(double cover, double diameter_m) {
   const double q = GolombekDecayPerM(cover);
-  return 4.0 / std::numbers::pi * cover * q * std::exp(-q * diameter_m) / (diameter_m * diameter_m);
+  return 4.0 / std::numbers::pi * cover * q * math::Exp(-q * diameter_m) /
+         (diameter_m * diameter_m);
 }
 
 double GolombekNumberPerM2(double cover, double diameter_m) {
@@ -75,7 +76,7 @@ double RockFieldParams::LawCover() const {
            diameter_m * MooreNumberPerM2(k_per_m2, diameter_m);
   };
   const auto golombek = [this](double diameter_m) {
-    return cover * std::exp(-GolombekDecayPerM(cover) * diameter_m);
+    return cover * math::Exp(-GolombekDecayPerM(cover) * diameter_m);
   };
   switch (RandomKind()) {
     case RockFieldKind::kMoore:

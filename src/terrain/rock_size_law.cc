@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::terrain {
 namespace {
@@ -12,8 +13,8 @@ namespace {
 // Returns the integral of x^(power - 1) from low to high: (high^power - low^power) / power. At
 // power 0 it is a logarithm; high may be infinite where power < 0.
 double PowerIntegral(double power, double low, double high) {
-  if (power == 0.0) return std::log(high / low);
-  return (std::pow(high, power) - std::pow(low, power)) / power;
+  if (power == 0.0) return math::Log(high / low);
+  return (math::Pow(high, power) - math::Pow(low, power)) / power;
 }
 
 }  // namespace
@@ -31,7 +32,7 @@ double MooreSizeLaw::Diameter(double probability) const {
   // Cdf(D) = (N(D_0) - N(D)) / (N(D_0) - N(D_1)) with N(D) = D^-m, solved for D. Rounding may leave
   // the range by the last digit, hence the clamp.
   const double number = number_at_min_ - probability * (number_at_min_ - number_at_max_);
-  return std::clamp(std::pow(number, -1.0 / kMooreExponent), min_m_, max_m_);
+  return std::clamp(math::Pow(number, -1.0 / kMooreExponent), min_m_, max_m_);
 }
 
 double MooreSizeLaw::Cdf(double diameter_m) const {
@@ -62,15 +63,15 @@ double GolombekSizeLaw::Diameter(double probability) const {
   // from below that leaves the bracket is halved instead.
   constexpr int kMaxSteps = 100;
   constexpr double kTolerance = 1e-9;  // the step after it is of its square
-  double low = std::log(min_m_);
-  double high = std::log(max_m_);
+  double low = math::Log(min_m_);
+  double high = math::Log(max_m_);
   double x = low;
   for (int i = 0; i < kMaxSteps; ++i) {
-    const double diameter_m = std::exp(x);
+    const double diameter_m = math::Exp(x);
     const double at = GolombekNumberPerM2(cover_, diameter_m);
     (at > number ? low : high) = x;
     const double step =
-        std::log(at / number) * at / (diameter_m * GolombekDensity(cover_, diameter_m));
+        math::Log(at / number) * at / (diameter_m * GolombekDensity(cover_, diameter_m));
     if (std::abs(step) < kTolerance) {
       x += step;
       break;
@@ -78,7 +79,7 @@ double GolombekSizeLaw::Diameter(double probability) const {
     const bool within = x + step > low && x + step < high;
     x = within ? x + step : 0.5 * (low + high);
   }
-  return std::clamp(std::exp(x), min_m_, max_m_);
+  return std::clamp(math::Exp(x), min_m_, max_m_);
 }
 
 double GolombekSizeLaw::Cdf(double diameter_m) const {
@@ -96,8 +97,8 @@ double GolombekSizeLaw::MeanPower(double power) const {
   // J(m) = integral of D^m exp(-q D) = [-D^m exp(-q D)] / q + m / q J(m - 1), by parts.
   double integral = 0.0;
   for (double m = 0.0; m <= power - 2.0; m += 1.0) {
-    integral = (std::pow(min_m_, m) * std::exp(-q * min_m_) -
-                std::pow(max_m_, m) * std::exp(-q * max_m_) + m * integral) /
+    integral = (math::Pow(min_m_, m) * math::Exp(-q * min_m_) -
+                math::Pow(max_m_, m) * math::Exp(-q * max_m_) + m * integral) /
                q;
   }
   return c * integral;
@@ -119,7 +120,7 @@ double UniformSizeLaw::Cdf(double diameter_m) const {
 
 double UniformSizeLaw::MeanPower(double power) const {
   // All rocks have one size; the density 1 / (max - min) does not exist.
-  if (max_m_ == min_m_) return std::pow(min_m_, power);
+  if (max_m_ == min_m_) return math::Pow(min_m_, power);
   return PowerIntegral(power + 1.0, min_m_, max_m_) / (max_m_ - min_m_);
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::terrain {
 
@@ -38,8 +39,8 @@ constexpr core::Bounds kWavelengths_m{0.2, 100.0};
 // The roughness of a model is summed with it on one lattice (relief_spline.h).
 void RequireNestedLattices(const GroundParams& ground, core::FieldVisitor& v) {
   if (!ground.elevation.IsGiven() || ground.roughness_rms_m == 0.0) return;
-  const double octaves = std::log2(ground.roughness_wavelength_m / ground.elevation.cell_m);
-  const double nearest_m = ground.elevation.cell_m * std::exp2(std::round(octaves));
+  const double octaves = math::Log2(ground.roughness_wavelength_m / ground.elevation.cell_m);
+  const double nearest_m = ground.elevation.cell_m * math::Exp2(std::round(octaves));
   v.Require("roughness_wavelength_m",
             std::abs(ground.roughness_wavelength_m / nearest_m - 1.0) < 1e-9,
             "is not the cell of the elevation model times a power of two",
@@ -271,11 +272,10 @@ double FlankOf(const std::vector<double>& flank_m, std::size_t i, double half_wi
 double Depression::Distance_m(double at_x_m, double at_y_m) const {
   const double dx_m = at_x_m - x_m;
   const double dy_m = at_y_m - y_m;
-  const double c = std::cos(direction_rad);
-  const double s = std::sin(direction_rad);
+  const auto [s, c] = math::SinCos(direction_rad);
   // Along the segment only the distance beyond its end counts.
   const double beyond_m = std::max(std::abs(c * dx_m + s * dy_m) - half_length_m, 0.0);
-  return std::hypot(beyond_m, c * dy_m - s * dx_m);
+  return math::Hypot(beyond_m, c * dy_m - s * dx_m);
 }
 
 bool DitchesParams::IsSound() const {

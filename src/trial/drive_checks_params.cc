@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "math/angles.h"
+#include "math/functions.h"
 #include "rover/rover_params.h"
 #include "trial/eyes/terrain_sensor_set_params.h"
 
@@ -21,7 +22,7 @@ namespace {
 void RequireFreePlace(const terrain::ListedRocksParams& rocks, double x_m, double y_m,
                       double clear_m, std::string_view place, core::FieldVisitor& v) {
   for (std::size_t i = 0; i < rocks.x_m.size(); ++i) {
-    const double centre_m = std::hypot(rocks.x_m[i] - x_m, rocks.y_m[i] - y_m);
+    const double centre_m = math::Hypot(rocks.x_m[i] - x_m, rocks.y_m[i] - y_m);
     if (centre_m >= clear_m + 0.5 * rocks.diameter_m[i]) continue;
     v.Require(
         fmt::format("terrain.rocks.listed.x_m[{}]", i), false,
@@ -104,7 +105,7 @@ void RequireLevelStart(const DriveParams& drive, core::FieldVisitor& v) {
   const terrain::GroundParams& ground = drive.terrain.ground;
   if (!ground.ditches.IsSound() || !ground.pits.IsSound()) return;
   const rover::RoverGeometryParams& rover = drive.rover.geometry;
-  const double reach_m = 0.5 * std::hypot(rover.length_m, rover.width_m);
+  const double reach_m = 0.5 * math::Hypot(rover.length_m, rover.width_m);
   const auto meets = [&](const terrain::Depression& one) {
     return one.Distance_m(drive.course.start_x_m, drive.course.start_y_m) <
            one.half_width_m + reach_m;

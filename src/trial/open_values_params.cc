@@ -1,7 +1,8 @@
 #include "trial/open_values_params.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "math/functions.h"
 
 namespace rockyard::trial {
 namespace {
@@ -21,7 +22,7 @@ double CourseLength_m(const CourseParams& course) {
   double length_m = 0.0;
   messages::Goal from{course.start_x_m, course.start_y_m};
   for (const messages::Goal& to : course.Goals()) {
-    length_m += std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+    length_m += math::Hypot(to.x_m - from.x_m, to.y_m - from.y_m);
     from = to;
   }
   return length_m;

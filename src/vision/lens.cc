@@ -1,8 +1,9 @@
 #include "vision/lens.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
+
+#include "math/functions.h"
 
 namespace rockyard::vision {
 namespace {
@@ -17,19 +18,19 @@ struct LensAngles {
 
 // Returns what the lens makes of a direction. Must stay the inverse of PixelRay below.
 std::optional<LensAngles> Angles(Lens lens, const Vector3& p) {
-  const double aside_m = std::hypot(p.y(), p.z());
+  const double aside_m = math::Hypot(p.y(), p.z());
   switch (lens) {
     // The row's plane holds the lateral axis: b = atan2(-z, x) is its depression, a the angle of
     // the direction out of the vertical plane through x.
     case Lens::kEquidistantRows: {
-      const double in_row_m = std::hypot(p.x(), p.z());
+      const double in_row_m = math::Hypot(p.x(), p.z());
       if (in_row_m == 0.0) return std::nullopt;
-      return LensAngles{std::atan2(-p.y(), in_row_m), std::atan2(-p.z(), p.x())};
+      return LensAngles{math::Atan2(-p.y(), in_row_m), math::Atan2(-p.z(), p.x())};
     }
     case Lens::kEquidistant: {
       if (aside_m == 0.0) return p.x() > 0.0 ? std::optional(LensAngles{}) : std::nullopt;
       // r = f theta: the angle from the axis, divided over y and z as the direction is.
-      const double share = std::atan2(aside_m, p.x()) / aside_m;
+      const double share = math::Atan2(aside_m, p.x()) / aside_m;
       return LensAngles{-share * p.y(), -share * p.z()};
     }
     case Lens::kPinhole:
@@ -48,13 +49,13 @@ Vector3 PixelRay(const messages::Camera& camera, const PixelPosition& pixel) {
   switch (camera.lens) {
     // Down by b about the lateral axis, then by a out of that plane to the right.
     case Lens::kEquidistantRows:
-      return {std::cos(a_rad) * std::cos(b_rad), -std::sin(a_rad),
-              -std::cos(a_rad) * std::sin(b_rad)};
+      return {math::Cos(a_rad) * math::Cos(b_rad), -math::Sin(a_rad),
+              -math::Cos(a_rad) * math::Sin(b_rad)};
     case Lens::kEquidistant: {
-      const double theta_rad = std::hypot(a_rad, b_rad);
+      const double theta_rad = math::Hypot(a_rad, b_rad);
       // sin(theta) / theta, 1 on the axis.
-      const double share = theta_rad > 0.0 ? std::sin(theta_rad) / theta_rad : 1.0;
-      return {std::cos(theta_rad), -share * a_rad, -share * b_rad};
+      const double share = theta_rad > 0.0 ? math::Sin(theta_rad) / theta_rad : 1.0;
+      return {math::Cos(theta_rad), -share * a_rad, -share * b_rad};
     }
     case Lens::kPinhole:
       break;
@@ -70,7 +71,7 @@ std::optional<PixelPosition> Project(const messages::Camera& camera, const Vecto
 }
 
 double ImageOfAngle(Lens lens, double angle_rad) {
-  return lens == Lens::kPinhole ? std::tan(angle_rad) : angle_rad;
+  return lens == Lens::kPinhole ? math::Tan(angle_rad) : angle_rad;
 }
 
 bool HasDirections(Lens lens, double half_width_rad, double half_height_rad) {
@@ -78,7 +79,7 @@ bool HasDirections(Lens lens, double half_width_rad, double half_height_rad) {
     case Lens::kEquidistantRows:
       return std::max(half_width_rad, half_height_rad) <= 0.5 * std::numbers::pi;
     case Lens::kEquidistant:
-      return std::hypot(half_width_rad, half_height_rad) < std::numbers::pi;
+      return math::Hypot(half_width_rad, half_height_rad) < std::numbers::pi;
     case Lens::kPinhole:
       break;
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "image_files/raw_image.h"
 #include "image_files/read_image.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "report/result_table.h"
 #include "vision/cameras/camera_file.h"
 #include "vision/cylinder/cylinder_equations.h"
@@ -82,7 +82,7 @@ void CheckAxis(const CylinderRequest& request, const vision::ColourPair& pair,
   constexpr double kMost_rad = math::DegToRad(60.0);
   const auto eyes = vision::GeometryOf(pair);
   if (!eyes) return;  // the finder says so
-  const double off_rad = std::acos(std::clamp(eyes->up_L.dot(cylinder.Axis_L()), -1.0, 1.0));
+  const double off_rad = math::Acos(std::clamp(eyes->up_L.dot(cylinder.Axis_L()), -1.0, 1.0));
   if (off_rad <= kMost_rad) return;
   // Rounded to thousandths, and no coordinate -0.
   const Eigen::Array3d up = (1000.0 * eyes->up_L.array()).round() / 1000.0 + 0.0;

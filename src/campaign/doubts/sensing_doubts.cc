@@ -10,6 +10,7 @@
 #include "campaign/doubts/setting_doubts.h"
 #include "experiments/hazard_detection/hazard_detection_params.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "rover/rover_params.h"
 #include "terrain/soil_params.h"
 
@@ -111,7 +112,7 @@ void DoubtStereo(Values& s) {
             "turn them down, and check that it is in degrees");
   const double upper_deg = pitch_deg - 0.5 * tall_deg;
   const double end_m =
-      upper_deg > 0.0 ? ahead_m + high_m / std::tan(math::DegToRad(upper_deg)) : kUnbounded;
+      upper_deg > 0.0 ? ahead_m + high_m / math::Tan(math::DegToRad(upper_deg)) : kUnbounded;
   s.Doubt(
       end_m < s.front_m() + 0.25 * length_m, "sensors.stereo.front.pitch_deg",
       fmt::format("the ground is seen up to {:.2g} m ahead of the rover's middle, and its front "
@@ -122,14 +123,14 @@ void DoubtStereo(Values& s) {
            fmt::format("a rover {:g} m wide", width_m), "check the unit");
   // The ground half a length ahead of the front.
   const double half_fov_rad = 0.5 * math::DegToRad(s("sensors.stereo.horizontal_fov_deg"));
-  const double there_m = std::hypot(s.front_m() + 0.5 * length_m - ahead_m, high_m);
-  const double strip_m = 2.0 * there_m * std::tan(half_fov_rad);
+  const double there_m = math::Hypot(s.front_m() + 0.5 * length_m - ahead_m, high_m);
+  const double strip_m = 2.0 * there_m * math::Tan(half_fov_rad);
   s.Doubt(strip_m < width_m, "sensors.stereo.horizontal_fov_deg",
           fmt::format("it sees a strip of {:.2g} m before a rover {:g} m wide", strip_m, width_m),
           "use a wider lens");
   // disparity = focal length times baseline over depth
   const double product_px_m =
-      0.5 * s("sensors.stereo.columns") / std::tan(half_fov_rad) * s("sensors.stereo.baseline_m");
+      0.5 * s("sensors.stereo.columns") / math::Tan(half_fov_rad) * s("sensors.stereo.baseline_m");
   s.AtLeast("sensors.stereo.max_disparity_px", product_px_m / (1.5 * there_m),
             fmt::format("ground {:.2g} m before the cameras", there_m),
             "search farther: disparities grow with columns and baseline");
@@ -217,7 +218,7 @@ void DoubtTraction(Values& s) {
   const double weight_N = s("rover.mass.total_kg") * gravity_m_s2;
   const double radius_m = s("rover.geometry.wheel_radius_m");
   const double need_N =
-      weight_N * (std::sin(math::DegToRad(s("terrain.ground.slope_deg"))) + resistance);
+      weight_N * (math::Sin(math::DegToRad(s("terrain.ground.slope_deg"))) + resistance);
   s.AtLeast("rover.drive.stall_torque_Nm", need_N * radius_m / 6.0,
             fmt::format("the {:.3g} N that {} takes here", need_N,
                         s.HasRocks() ? "climbing rocks" : "rolling"),
@@ -288,7 +289,7 @@ void DoubtSteering(Values& s) {
   const double length_m = s("rover.geometry.length_m");
   const double track_m = s("rover.geometry.width_m") - s("rover.geometry.wheel_width_m");
   const double middle_m = 0.5 * s("rover.geometry.wheelbase_m") /
-                          std::tan(math::DegToRad(s("rover.drive.max_steer_deg")));
+                          math::Tan(math::DegToRad(s("rover.drive.max_steer_deg")));
   // The middle of the rover is taken for GESTALT: its published curvatures ask more of the inner
   // wheels than these rovers give.
   const double turn_m = s.Uses("gestalt") ? middle_m : middle_m + 0.5 * track_m;
@@ -299,7 +300,7 @@ void DoubtSteering(Values& s) {
                       s("rover.drive.max_steer_deg"), turn_m, arc_m),
           "let the wheels turn as far as its tightest arc");
   // To turn in place, wheels at the corners stand across the way to the middle.
-  const double across_deg = math::RadToDeg(std::atan2(s("rover.geometry.wheelbase_m"), track_m));
+  const double across_deg = math::RadToDeg(math::Atan2(s("rover.geometry.wheelbase_m"), track_m));
   s.Doubt(s.Uses("pathfinder") && s("rover.drive.max_steer_deg") < across_deg - 2.0,
           "rover.drive.max_steer_deg",
           fmt::format("{:g} deg, and to turn in place takes {:.3g}", s("rover.drive.max_steer_deg"),

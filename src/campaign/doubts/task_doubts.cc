@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "experiments/mission/mission_params.h"
 #include "experiments/mission/sol.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "messages/estimates.h"
 #include "trial/clock/compute_profile.h"
 
@@ -22,7 +22,7 @@ double Leg_m(const Values& s) {
   double leg_m = s.course_m();
   messages::Goal from{s("course.start_x_m"), s("course.start_y_m")};
   for (const messages::Goal& to : s.drive.course.Goals()) {
-    leg_m = std::min(leg_m, std::hypot(to.x_m - from.x_m, to.y_m - from.y_m));
+    leg_m = std::min(leg_m, math::Hypot(to.x_m - from.x_m, to.y_m - from.y_m));
     from = to;
   }
   return leg_m;
@@ -137,7 +137,7 @@ void DoubtPatience(Values& s) {
   double wall_m = 0.0;
   for (std::size_t i = 1; i < listed.x_m.size(); ++i) {
     const double apart_m =
-        std::hypot(listed.x_m[i] - listed.x_m[i - 1], listed.y_m[i] - listed.y_m[i - 1]);
+        math::Hypot(listed.x_m[i] - listed.x_m[i - 1], listed.y_m[i] - listed.y_m[i - 1]);
     const double gap_m = apart_m - 0.5 * (listed.diameter_m[i] + listed.diameter_m[i - 1]);
     wall_m = gap_m < width_m ? wall_m + apart_m : 0.0;
     longest_m = std::max(longest_m, wall_m);
@@ -163,7 +163,7 @@ void DoubtReferee(Values& s) {
   // The tilt at which the rover stands no more: half of the width over the height of the centre of
   // mass.
   const double stands_deg = math::RadToDeg(
-      std::atan2(0.5 * s("rover.geometry.width_m"), s("rover.mass.chassis_com_z_m")));
+      math::Atan2(0.5 * s("rover.geometry.width_m"), s("rover.mass.chassis_com_z_m")));
   s.AtLeast("referee.tip_over_deg", 0.6 * stands_deg,
             fmt::format("a rover that stands up to {:.3g} deg", stands_deg),
             "use about where this rover tips");
@@ -249,8 +249,8 @@ namespace {
 double Farthest_m(const experiments::MissionParams& mission) {
   double farthest_m = 0.0;
   for (const messages::Goal& goal : mission.goals.Places()) {
-    farthest_m = std::max(farthest_m,
-                          std::hypot(goal.x_m - mission.lander_x_m, goal.y_m - mission.lander_y_m));
+    farthest_m = std::max(
+        farthest_m, math::Hypot(goal.x_m - mission.lander_x_m, goal.y_m - mission.lander_y_m));
   }
   return farthest_m;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "math/angles.h"
+#include "math/functions.h"
 #include "messages/commands.h"
 #include "rover/rover.h"
 #include "rover/rover_layout_params.h"
@@ -112,8 +113,8 @@ class SlopeDrive {
     for (std::size_t i = 0; i < kWheelCount; ++i) {
       const double ahead = 1.0 - curvature_per_m * geometry_.wheel_R[i].y();
       const double across = curvature_per_m * geometry_.wheel_R[i].x();
-      command.steer_rad[i] = geometry_.steered[i] ? std::atan2(across, ahead) : 0.0;
-      command.rate_rad_s[i] = geometry_.steered[i] ? std::hypot(ahead, across) : ahead;
+      command.steer_rad[i] = geometry_.steered[i] ? math::Atan2(across, ahead) : 0.0;
+      command.rate_rad_s[i] = geometry_.steered[i] ? math::Hypot(ahead, across) : ahead;
       fastest = std::max(fastest, command.rate_rad_s[i]);
     }
     const double unit_rad_s = params_.drive.speed_m_s / (fastest * params_.geometry.wheel_radius_m);
@@ -203,7 +204,7 @@ class SlopeDrive {
   void Keep(const Window& window) {
     point_.slip = std::clamp(window.Slip(), -1.0, 1.0);
     const bool sideways = std::abs(window.right_m) > kNoSide * window.rim_m;
-    point_.side_slip_rad = sideways ? std::atan2(window.right_m, std::abs(window.ahead_m)) : 0.0;
+    point_.side_slip_rad = sideways ? math::Atan2(window.right_m, std::abs(window.ahead_m)) : 0.0;
     for (std::size_t i = 0; i < kWheelCount; ++i) {
       point_.load_N[i] = window.load_N[i] / window.time_s;
       point_.sinkage_m[i] = window.sinkage_m[i] / window.time_s;

@@ -14,6 +14,7 @@
 #include "core/numbers.h"
 #include "core/provenance.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "report/result_table.h"
 #include "report/xml_text.h"
 
@@ -288,7 +289,7 @@ class PathPlane {
   // Returns a bar of a round length, at most a third of the drawing.
   std::string ScaleBar() const {
     const double most_m = kDrawing_px / 3.0 / px_a_m_;
-    const double power_m = std::pow(10.0, std::floor(std::log10(most_m)));
+    const double power_m = math::Pow(10.0, std::floor(math::Log10(most_m)));
     const double length_m =
         most_m >= 5.0 * power_m ? 5.0 * power_m : (most_m >= 2.0 * power_m ? 2.0 : 1.0) * power_m;
     const double y = height_px_ - 20.0;

@@ -13,6 +13,7 @@
 #include "core/hash.h"
 #include "core/json_text.h"
 #include "image_files/png_file.h"
+#include "math/functions.h"
 #include "report/result_table.h"
 #include "scenario/load.h"
 #include "sensing/stereo_imager.h"
@@ -163,9 +164,9 @@ constexpr double kRounding = 1e-9;
 Pose2 OnCircle(const Pose2& from, double step_m, double turn_rad) {
   const double half_rad = 0.5 * turn_rad;
   const double chord_m =
-      std::abs(half_rad) < kNoTurn_rad ? step_m : step_m * std::sin(half_rad) / half_rad;
+      std::abs(half_rad) < kNoTurn_rad ? step_m : step_m * math::Sin(half_rad) / half_rad;
   const double along_rad = from.heading_rad + half_rad;
-  return {from.x_m + chord_m * std::cos(along_rad), from.y_m + chord_m * std::sin(along_rad),
+  return {from.x_m + chord_m * math::Cos(along_rad), from.y_m + chord_m * math::Sin(along_rad),
           from.heading_rad + turn_rad};
 }
 
@@ -229,9 +230,9 @@ std::vector<Pose2> CornerWay(const Pose2& start, std::span<const messages::Goal>
   for (const messages::Goal& corner : corners) {
     if (std::ssize(way) >= count) break;
     const Pose2 from = way.back();
-    const double distance_m = std::hypot(corner.x_m - from.x_m, corner.y_m - from.y_m);
+    const double distance_m = math::Hypot(corner.x_m - from.x_m, corner.y_m - from.y_m);
     if (distance_m < kSamePlace_m) continue;
-    const double heading_rad = std::atan2(corner.y_m - from.y_m, corner.x_m - from.x_m);
+    const double heading_rad = math::Atan2(corner.y_m - from.y_m, corner.x_m - from.x_m);
     const double turn = math::WrapAngle(heading_rad - from.heading_rad);
     const double turns = std::ceil(std::abs(turn) / turn_rad - kRounding);
     for (std::int64_t i = 1; i <= PartsOf(turns, count); ++i) {

@@ -9,6 +9,7 @@
 #include "campaign/site/height_unit.h"
 #include "core/error.h"
 #include "core/numbers.h"
+#include "math/functions.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -181,8 +182,8 @@ class SiteReader {
         fmt::format("the file's cells are no squares of east and north there ({:.4g} x {:.4g} "
                     "cells per m): its "
                     "heights were interpolated (cubic) to nodes of {:.4g} m",
-                    std::hypot(cells_.columns_east, cells_.rows_east),
-                    std::hypot(cells_.columns_north, cells_.rows_north), cells_.side_m));
+                    math::Hypot(cells_.columns_east, cells_.rows_east),
+                    math::Hypot(cells_.columns_north, cells_.rows_north), cells_.side_m));
   }
 
   // The part of the file that nodes are interpolated from.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "math/functions.h"
 #include "terrain/rock_params.h"
 
 namespace rockyard::campaign {
@@ -19,8 +20,8 @@ constexpr double kLogLikelihoodDrop = 1.9207294;
 double LogCoverOfGreatest(const std::function<double(double)>& value) {
   constexpr double kWidest = 1e-9;
   const double ratio = 1.0 / std::numbers::phi;
-  double low = std::log(GolombekWindowLaw::kLeastCover);
-  double high = std::log(GolombekWindowLaw::kMostCover);
+  double low = math::Log(GolombekWindowLaw::kLeastCover);
+  double high = math::Log(GolombekWindowLaw::kMostCover);
   double left = high - ratio * (high - low);
   double right = low + ratio * (high - low);
   double at_left = value(left);
@@ -58,7 +59,7 @@ ClassedWindow::ClassedWindow(const RockWindow& window) : window_(window) {
 void ClassedWindow::Count(double diameter_m, RockCounts& counts) const {
   ++counts.rocks;
   counts.sum_m += diameter_m;
-  counts.sum_of_logs += std::log(diameter_m);
+  counts.sum_of_logs += math::Log(diameter_m);
   const auto above = std::upper_bound(bounds_m_.begin(), bounds_m_.end() - 1, diameter_m);
   ++counts.by_class[static_cast<std::size_t>(above - bounds_m_.begin()) - 1];
 }
@@ -84,7 +85,7 @@ double WindowLaw::Deviance(double k, const RockCounts& counts) const {
   for (std::size_t i = 0; i < window_.classes(); ++i) {
     const double expected = Expected(k, window_.bounds_m()[i], window_.bounds_m()[i + 1]);
     const auto observed = static_cast<double>(counts.by_class[i]);
-    if (observed > 0.0) sum += observed * std::log(observed / expected);
+    if (observed > 0.0) sum += observed * math::Log(observed / expected);
     sum += expected - observed;
   }
   return 2.0 * sum;
@@ -103,7 +104,7 @@ FittedLaw MooreWindowLaw::Fit(const RockCounts& counts) const {
   // Of n rocks the most likely k expects n. Its density is k m D^(-m - 1).
   const auto n = static_cast<double>(counts.rocks);
   const double k = n / Expected(1.0);
-  return {k, n * std::log(k * kMooreExponent) - (kMooreExponent + 1.0) * counts.sum_of_logs - n};
+  return {k, n * math::Log(k * kMooreExponent) - (kMooreExponent + 1.0) * counts.sum_of_logs - n};
 }
 
 statistics::Interval MooreWindowLaw::IntervalOf(const FittedLaw& /*fitted*/,
@@ -123,13 +124,13 @@ std::unique_ptr<terrain::RockSizeLaw> GolombekWindowLaw::Sizes(double k) const {
 
 double GolombekWindowLaw::LogLikelihood(double k, const RockCounts& counts) const {
   const double q = terrain::GolombekDecayPerM(k);
-  return static_cast<double>(counts.rocks) * std::log(4.0 / std::numbers::pi * k * q) -
+  return static_cast<double>(counts.rocks) * math::Log(4.0 / std::numbers::pi * k * q) -
          q * counts.sum_m - 2.0 * counts.sum_of_logs - Expected(k);
 }
 
 FittedLaw GolombekWindowLaw::Fit(const RockCounts& counts) const {
-  const double k = std::exp(LogCoverOfGreatest(
-      [&](double log_cover) { return LogLikelihood(std::exp(log_cover), counts); }));
+  const double k = math::Exp(LogCoverOfGreatest(
+      [&](double log_cover) { return LogLikelihood(math::Exp(log_cover), counts); }));
   return {k, LogLikelihood(k, counts)};
 }
 

@@ -8,6 +8,7 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -78,7 +79,7 @@ core::JsonValue CourseOfSite(const scenario::Scenario& base, const terrain::Aren
   const trial::CourseParams& old = base.drive.course;
   const double dx_m = old.goal_x_m - old.start_x_m;
   const double dy_m = old.goal_y_m - old.start_y_m;
-  const double wanted_m = std::hypot(dx_m, dy_m);
+  const double wanted_m = math::Hypot(dx_m, dy_m);
   double length_m = wanted_m;
   Place from = DefaultStart(arena, length_m);
   Place to{from[0] + length_m, 0.0};
@@ -91,8 +92,8 @@ core::JsonValue CourseOfSite(const scenario::Scenario& base, const terrain::Aren
                                 length_m, wanted_m, base.name));
   }
   // The rover begins turned from the goal as much as in the base.
-  const double turned_rad = old.start_heading_rad - std::atan2(dy_m, dx_m);
-  const double heading_rad = turned_rad + std::atan2(to[1] - from[1], to[0] - from[0]);
+  const double turned_rad = old.start_heading_rad - math::Atan2(dy_m, dx_m);
+  const double heading_rad = turned_rad + math::Atan2(to[1] - from[1], to[0] - from[0]);
   constexpr double kPerDegree = 1000.0;
   const double heading_deg = math::RadToDeg(std::remainder(heading_rad, 2.0 * std::numbers::pi));
   core::JsonValue json = core::JsonValue::Object();

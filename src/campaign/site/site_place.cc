@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "math/functions.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -105,7 +106,7 @@ std::vector<PixelPoint> SitePlane::Pixels(std::span<const LocalPoint> points) co
   return pixels;
 }
 
-double LinearPlaces::TurnedRad() const { return std::atan2(y_first, x_first); }
+double LinearPlaces::TurnedRad() const { return math::Atan2(y_first, x_first); }
 
 template <typename Tell>
 LinearPlaces SitePlane::PlacesBy(const PixelPoint& origin, double reach_m, const Tell& tell) const {

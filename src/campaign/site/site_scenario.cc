@@ -16,6 +16,7 @@
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "scenario/load.h"
 #include "terrain/arena.h"
 
@@ -74,7 +75,7 @@ std::function<SitePoint(const CatalogueRock&)> PlacesOf(const RockCatalogue& cat
     if (figures) places = figures->elevation.from_geographic;
     if (request.around) {
       const double degree_m = math::DegToRad(request.radius_m);
-      const double parallel = std::cos(math::DegToRad((*request.around)[0]));
+      const double parallel = math::Cos(math::DegToRad((*request.around)[0]));
       places = LinearPlaces{
           (*request.around)[1], (*request.around)[0], degree_m * parallel, 0.0, 0.0, degree_m};
     }

@@ -9,6 +9,7 @@
 #include "core/check.h"
 #include "core/numbers.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -59,7 +60,7 @@ using OctaveTerms = std::array<double, kOctaves>;
 OctaveTerms IncrementsOfOctaves(double lag_m, double wavelength_m, double width_m) {
   OctaveTerms terms{};
   for (int i = 0; i < kOctaves; ++i) {
-    const double spacing_m = 0.5 * wavelength_m * std::exp2(-(kFirstOctave + i));
+    const double spacing_m = 0.5 * wavelength_m * math::Exp2(-(kFirstOctave + i));
     const double at_zero = MeanCorrelation(0.0, spacing_m, width_m);
     terms[static_cast<std::size_t>(i)] =
         at_zero * (6.0 * at_zero - 8.0 * MeanCorrelation(lag_m, spacing_m, width_m) +
@@ -72,7 +73,7 @@ OctaveTerms IncrementsOfOctaves(double lag_m, double wavelength_m, double width_
 double SumOf(const OctaveTerms& terms, double hurst) {
   double sum = 0.0;
   for (int i = 0; i < kOctaves; ++i) {
-    sum += std::exp2(-2.0 * hurst * (kFirstOctave + i)) * terms[static_cast<std::size_t>(i)];
+    sum += math::Exp2(-2.0 * hurst * (kFirstOctave + i)) * terms[static_cast<std::size_t>(i)];
   }
   return sum;
 }
@@ -116,7 +117,7 @@ double MisfitOf(const std::vector<LagIncrements>& measured, double width_cells) 
     double squares = 0.0;
     for (std::size_t i = 0; i < measured.size(); ++i) {
       const double weight = 1.0 / measured[i].lag_cells;
-      const double off = measured[i].log_m2 - std::log(SumOf(terms[i], hurst));
+      const double off = measured[i].log_m2 - math::Log(SumOf(terms[i], hurst));
       weights += weight;
       sum += weight * off;
       squares += weight * off * off;
@@ -129,7 +130,7 @@ double MisfitOf(const std::vector<LagIncrements>& measured, double width_cells) 
 // Must agree with OctaveCount of relief.cc: wavelengths L, L / 2, ... down to 0.1 m.
 int OctavesBelow(double wavelength_m) {
   constexpr double kFinest_m = 0.1;
-  return std::max(1, static_cast<int>(std::floor(std::log2(wavelength_m / kFinest_m))) + 1);
+  return std::max(1, static_cast<int>(std::floor(math::Log2(wavelength_m / kFinest_m))) + 1);
 }
 
 double QuantileOf(std::vector<double>& values, double share) {
@@ -147,15 +148,15 @@ SlopeFigures SlopesOf(const HeightGrid& grid) {
   rises.reserve(grid.heights_m.size());
   for (std::int64_t r = 1; r + 1 < grid.rows; ++r) {
     for (std::int64_t c = 1; c + 1 < grid.columns; ++c) {
-      rises.push_back(
-          std::hypot(grid.At(c + 1, r) - grid.At(c - 1, r), grid.At(c, r + 1) - grid.At(c, r - 1)) /
-          (2.0 * grid.cell_m));
+      rises.push_back(math::Hypot(grid.At(c + 1, r) - grid.At(c - 1, r),
+                                  grid.At(c, r + 1) - grid.At(c, r - 1)) /
+                      (2.0 * grid.cell_m));
     }
   }
   constexpr double kHigh = 0.9;
   SlopeFigures figures;
-  figures.median_deg = math::RadToDeg(std::atan(QuantileOf(rises, 0.5)));
-  figures.high_deg = math::RadToDeg(std::atan(QuantileOf(rises, kHigh)));
+  figures.median_deg = math::RadToDeg(math::Atan(QuantileOf(rises, 0.5)));
+  figures.high_deg = math::RadToDeg(math::Atan(QuantileOf(rises, kHigh)));
   return figures;
 }
 
@@ -187,7 +188,7 @@ Resolution EstimateResolution(const HeightGrid& grid) {
     if (lag * kLagsAcross > std::max(grid.rows, grid.columns)) break;
     const double increments_m2 = SecondIncrements(grid, lag);
     if (increments_m2 <= 0.0) break;
-    measured.push_back({static_cast<double>(lag), std::log(increments_m2)});
+    measured.push_back({static_cast<double>(lag), math::Log(increments_m2)});
   }
   constexpr std::size_t kFewestLags = 4;
   if (measured.size() < kFewestLags) return {grid.cell_m, true};
@@ -208,7 +209,7 @@ std::optional<SubRoughness> RoughnessBelow(const HeightGrid& grid, double effect
   const double cells = std::max(1.0, effective_m / grid.cell_m);
   const double width_m = cells > 1.0 ? effective_m : 0.0;
   SubRoughness roughness;
-  roughness.wavelength_m = grid.cell_m * std::exp2(std::round(std::log2(cells)));
+  roughness.wavelength_m = grid.cell_m * math::Exp2(std::round(math::Log2(cells)));
   constexpr double kShortest_m = 0.2;  // of terrain.ground.roughness_wavelength_m
   if (roughness.wavelength_m < kShortest_m) return std::nullopt;
   const auto near = static_cast<std::int64_t>(std::lround(2.0 * cells));
@@ -226,7 +227,7 @@ std::optional<SubRoughness> RoughnessBelow(const HeightGrid& grid, double effect
   const double octave_m2 = near_m2 / SumOf(near_terms, roughness.hurst);
   double octaves = 0.0;
   for (int j = 0; j < OctavesBelow(roughness.wavelength_m); ++j) {
-    octaves += std::exp2(-2.0 * roughness.hurst * j);
+    octaves += math::Exp2(-2.0 * roughness.hurst * j);
   }
   roughness.rms_m = std::sqrt(octave_m2 * octaves);
   return roughness;

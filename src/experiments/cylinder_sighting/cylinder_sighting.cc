@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "experiments/cell_experiment.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "rendering/cylinder/colour_readout.h"
 #include "rendering/cylinder/cylinder_renderer.h"
 #include "vision/cylinder/published_finder.h"
@@ -43,7 +44,7 @@ void SetFactor(std::string_view name, double value, StudiedView& studied) {
 // level line of sight where that is higher.
 double SkyShare(const CylinderPictureParams& picture, const vision::Cahv& camera) {
   const rendering::BackdropParams& hills = picture.backdrop;
-  const double height_m = hills.horizon_distance_m * std::tan(hills.horizon_elevation_rad) +
+  const double height_m = hills.horizon_distance_m * math::Tan(hills.horizon_elevation_rad) +
                           3.0 * hills.horizon_relief_m;
   const auto pixel =
       vision::Project(camera, {hills.horizon_distance_m, 0.0, std::fmax(0.0, height_m)});
@@ -174,8 +175,8 @@ void JudgeSighting(const CylinderTruth& truth, const vision::CylinderFinding& fi
   sums.right += 1.0;
   sums.right_orientation_deg.Add(math::RadToDeg(turn_rad));
   sums.right_range.Add(range);
-  const double bearing_rad = math::WrapAngle(std::atan2(seen.p_LT_L.y(), seen.p_LT_L.x()) -
-                                             std::atan2(truth.p_LT_L.y(), truth.p_LT_L.x()));
+  const double bearing_rad = math::WrapAngle(math::Atan2(seen.p_LT_L.y(), seen.p_LT_L.x()) -
+                                             math::Atan2(truth.p_LT_L.y(), truth.p_LT_L.x()));
   sums.right_bearing_mrad.Add(1e3 * bearing_rad);
   Eigen::Vector4d error;
   error << seen.p_LT_L - truth.p_LT_L, turn_rad;

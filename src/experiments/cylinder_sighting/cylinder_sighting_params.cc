@@ -1,8 +1,9 @@
 #include "experiments/cylinder_sighting/cylinder_sighting_params.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
+
+#include "math/functions.h"
 
 namespace rockyard::experiments {
 namespace {
@@ -82,12 +83,12 @@ void CylinderSightingParams::Visit(core::FieldVisitor& v) {
 void RequireSightable(const CylinderSightingParams& study, const trial::DriveParams& /*drive*/,
                       core::FieldVisitor& v) {
   const rendering::CylinderPictureParams& picture = study.picture;
-  const double half_view = std::tan(0.5 * picture.cameras.field_of_view_rad);
+  const double half_view = math::Tan(0.5 * picture.cameras.field_of_view_rad);
   const auto holds = [&](double distance_m) {
     const double nearest_m = (1.0 - study.distance_spread) * distance_m;
-    const double depth_m = nearest_m * std::cos(study.largest_bearing_rad) -
+    const double depth_m = nearest_m * math::Cos(study.largest_bearing_rad) -
                            picture.cameras.front_m - picture.target.diameter_m;
-    const double aside_m = nearest_m * std::sin(study.largest_bearing_rad) +
+    const double aside_m = nearest_m * math::Sin(study.largest_bearing_rad) +
                            0.5 * (picture.cameras.baseline_m + picture.target.diameter_m);
     return depth_m > 0.0 && aside_m <= depth_m * half_view;
   };

@@ -8,6 +8,7 @@
 #include "experiments/cell_experiment.h"
 #include "localization/dead_reckoning.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "messages/measurements.h"
 #include "trial/sight/onboard_calibration.h"
 
@@ -69,7 +70,7 @@ std::vector<double> DeadReckoningExperiment::Measure(std::size_t cell, core::Tri
   for (std::int64_t walk = 0; walk < params_.walks_per_run; ++walk) {
     const core::TrialKey scene = SceneKey(key, params_.walks_per_run, walk);
     const WalkError& error = errors.emplace_back(WalkStraight(rover_, plan, scene));
-    if (std::hypot(error.along_m, error.across_m) <= params_.reach_m) sums.within_reach += 1.0;
+    if (math::Hypot(error.along_m, error.across_m) <= params_.reach_m) sums.within_reach += 1.0;
   }
   sums.walks = static_cast<double>(params_.walks_per_run);
   sums.way_m = sums.walks * static_cast<double>(plan.steps) * plan.step_m;

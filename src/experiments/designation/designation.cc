@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "math/functions.h"
 #include "trial/course/goal_designation.h"
 #include "vision/cameras/rectification.h"
 
@@ -16,7 +17,7 @@ LanderPair::LanderPair(const LanderCameras& cameras, const Vector3& p_goal_L) {
   const Vector3 top_L(0.0, 0.0, cameras.mast_height_m);
   const Vector3 ahead_L = (p_goal_L - top_L).normalized();
   // The cameras pan and do not roll: rows of the images are level.
-  const double along_m = std::hypot(ahead_L.x(), ahead_L.y());
+  const double along_m = math::Hypot(ahead_L.x(), ahead_L.y());
   const Vector3 right_L = along_m > 0.0
                               ? Vector3(ahead_L.y() / along_m, -ahead_L.x() / along_m, 0.0)
                               : Vector3(0.0, -1.0, 0.0);
@@ -44,7 +45,7 @@ std::optional<Vector3> LanderPair::Place(const StereoPick& pick) const {
 }
 
 Vector3 Panned(const Vector3& p_L, double pan_rad) {
-  return Eigen::AngleAxisd(pan_rad, Vector3::UnitZ()) * p_L;
+  return math::RotationAbout(pan_rad, Vector3::UnitZ()) * p_L;
 }
 
 const truth::RecordSchema& DesignationColumns() {
@@ -133,7 +134,7 @@ void AddPlace(const Vector3& error_m, DesignationSums& sums) {
 }
 
 void AddPanned(const Vector3& error_m, double near_enough_m, DesignationSums& sums) {
-  const double miss_m = std::hypot(error_m.x(), error_m.y());
+  const double miss_m = math::Hypot(error_m.x(), error_m.y());
   if (miss_m < near_enough_m) sums.Add(kNearEnough, 1.0);
   sums.Add(kPannedDownrange, error_m.x());
   sums.Add(kPannedDownrangeSquares, error_m.x() * error_m.x());

@@ -1,7 +1,8 @@
 #include "experiments/designation/designation_study_params.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "math/functions.h"
 
 namespace rockyard::experiments {
 
@@ -39,7 +40,7 @@ void RequireDesignable(const DesignationStudyParams& study, const trial::DrivePa
   const trial::DesignationParams& errors = drive.course.designation;
   const double half_px = 0.5 * (static_cast<double>(study.image_side_px) - 1.0);
   const auto holds = [&](double range_m) {
-    const double slant_m = std::hypot(range_m, study.mast_height_m - study.goal_height_m);
+    const double slant_m = math::Hypot(range_m, study.mast_height_m - study.goal_height_m);
     const double offset_px = 0.5 * errors.baseline_m / (errors.pixel_rad * slant_m);
     return offset_px + 5.0 * errors.pixel_sd_px <= half_px;
   };

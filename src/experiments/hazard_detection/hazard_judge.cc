@@ -1,11 +1,11 @@
 #include "experiments/hazard_detection/hazard_judge.h"
 
-#include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "core/random.h"
+#include "math/functions.h"
 #include "perception/hazard_detector.h"
 #include "sensing/stripe_layout_params.h"
 #include "terrain/rock.h"
@@ -73,8 +73,8 @@ terrain::Terrain SceneTerrain(const terrain::Rock& rock) {
 
 math::Transform PoseBefore(double gap_m, double heading_rad, double front_x_m) {
   math::Transform X_WR = math::Transform::Identity();
-  X_WR.linear() = Eigen::AngleAxisd(heading_rad, Vector3::UnitZ()).toRotationMatrix();
-  const Vector3 front_W(-gap_m, -gap_m * std::tan(heading_rad), 0.0);
+  X_WR.linear() = math::RotationAbout(heading_rad, Vector3::UnitZ());
+  const Vector3 front_W(-gap_m, -gap_m * math::Tan(heading_rad), 0.0);
   X_WR.translation() = front_W - X_WR.linear() * Vector3(front_x_m, 0.0, 0.0);
   return X_WR;
 }

@@ -1,7 +1,6 @@
 #include "experiments/mission/mission.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "experiments/mission/sol.h"
 #include "localization/estimator.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "math/sun_position.h"
 #include "terrain/arena.h"
 #include "trial/clock/power.h"
@@ -70,7 +70,7 @@ sensing::LanderFix LanderOf(const MissionParams& params, const trial::DriveParam
 }
 
 double Distance_m(const math::Pose2& pose, const messages::Goal& place) {
-  return std::hypot(place.x_m - pose.x_m, place.y_m - pose.y_m);
+  return math::Hypot(place.x_m - pose.x_m, place.y_m - pose.y_m);
 }
 
 bool IsStop(SolEnd end) { return end != SolEnd::kTime && end != SolEnd::kEnergy; }
@@ -115,7 +115,7 @@ MissionCourse Mission::Run() {
 
 trial::SolarSupply Mission::SunFrom(std::int64_t sol, double start_s) const {
   const sensing::SunSensorParams& sky = drive_.sensors.aids.sun;
-  const double kept = std::pow(1.0 - params_.power.dust_loss_per_sol, static_cast<double>(sol));
+  const double kept = math::Pow(1.0 - params_.power.dust_loss_per_sol, static_cast<double>(sol));
   return {params_.power.noon_W * kept, sky.latitude_rad,
           math::SunDeclination(sky.areocentric_longitude_rad),
           WindowOpening_h(params_.day) + start_s / kSecondsPerSolarHour};
@@ -200,7 +200,7 @@ trial::DriveEnd Mission::DriveOn(std::int64_t number, const Window& window, Sol&
   truth_ = math::ToPose2(result.end.X_WR);
   memory_ = result.end.memory;
   const math::Pose2 believed = BelievedInWorld();
-  sol.unaided_error_m = std::hypot(believed.x_m - truth_.x_m, believed.y_m - truth_.y_m);
+  sol.unaided_error_m = math::Hypot(believed.x_m - truth_.x_m, believed.y_m - truth_.y_m);
   const bool noon = params_.lander_update == LanderUpdate::kNoon;
   if (noon && sol.drive_time_s >= 0.5 * window.length_s) {
     sol.sight = LanderSight::kOnTheWay;
@@ -252,7 +252,7 @@ void Mission::TellBelief(Sol& sol) const {
   sol.believed = BelievedInWorld();
   const math::Pose2 truth =
       math::TurnedAbout(truth_, params_.lander_x_m, params_.lander_y_m, pan_error_rad_);
-  sol.goal_frame_error_m = std::hypot(memory_.pose.x_m - truth.x_m, memory_.pose.y_m - truth.y_m);
+  sol.goal_frame_error_m = math::Hypot(memory_.pose.x_m - truth.x_m, memory_.pose.y_m - truth.y_m);
   if (!memory_.covariance) return;
   const auto estimator = Awake();
   if (const auto belief = trial::BeliefOf(estimator->estimate(), truth_)) {

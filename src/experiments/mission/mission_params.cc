@@ -1,8 +1,8 @@
 #include "experiments/mission/mission_params.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "math/functions.h"
 #include "math/sun_position.h"
 #include "trial/drive_checks_params.h"
 
@@ -155,7 +155,7 @@ void RequireField(const MissionParams& mission, const trial::DriveParams& drive,
   const double start_y_m = drive.course.start_y_m;
   v.Require("mission.goals.x_m",
             goals.empty() ||
-                std::hypot(goals.front().x_m - start_x_m, goals.front().y_m - start_y_m) > 0.1,
+                math::Hypot(goals.front().x_m - start_x_m, goals.front().y_m - start_y_m) > 0.1,
             "puts the first goal within 0.1 m of the start", "use a goal that has to be driven to");
 }
 
@@ -198,8 +198,8 @@ void RequireSun(const trial::DriveParams& drive, core::FieldVisitor& v) {
   const sensing::SunSensorParams& sky = drive.sensors.aids.sun;
   const double declination_rad = math::SunDeclination(sky.areocentric_longitude_rad);
   // The sine of the elevation of the noon sun; at a pole no sol has a noon.
-  const double noon = std::cos(sky.latitude_rad - declination_rad);
-  v.Require("sensors.aids.sun.latitude_deg", noon > 0.0 && std::cos(sky.latitude_rad) > 1e-3,
+  const double noon = math::Cos(sky.latitude_rad - declination_rad);
+  v.Require("sensors.aids.sun.latitude_deg", noon > 0.0 && math::Cos(sky.latitude_rad) > 1e-3,
             "puts the site where no sun rises in that season, or at a pole",
             "use another latitude or areocentric_longitude_deg");
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "math/angles.h"
+#include "math/functions.h"
 #include "math/sun_position.h"
 
 namespace rockyard::experiments {
@@ -88,7 +89,7 @@ SolEnd SolEndOf(truth::TrialOutcome outcome, std::optional<truth::EndCause> caus
 }
 
 double Sol::PositionError_m() const {
-  return std::hypot(believed.x_m - truth.x_m, believed.y_m - truth.y_m);
+  return math::Hypot(believed.x_m - truth.x_m, believed.y_m - truth.y_m);
 }
 
 double Sol::HeadingError_rad() const {

@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::experiments {
 namespace {
@@ -96,8 +97,8 @@ std::vector<Moment> MomentsOf(const truth::Trace& trace) {
   double path_m = 0.0;
   for (const truth::TraceSample& sample : trace.samples) {
     if (!moments.empty()) {
-      path_m += std::hypot(sample.pose.x_m - moments.back().pose.x_m,
-                           sample.pose.y_m - moments.back().pose.y_m);
+      path_m += math::Hypot(sample.pose.x_m - moments.back().pose.x_m,
+                            sample.pose.y_m - moments.back().pose.y_m);
     }
     const double error_rad = math::WrapAngle(sample.estimate.heading_rad - sample.pose.heading_rad);
     moments.push_back({sample.time_s, path_m, sample.pose, error_rad, sample.activity == "turn"});
@@ -124,13 +125,12 @@ std::optional<int> NearestRock(std::span<const PlacedRock> rocks, const math::Po
 double GapToZone(const PlacedRock& rock, const math::Pose2& rover, const RoverZone& zone) {
   const double dx_m = rock.x_m - rover.x_m;
   const double dy_m = rock.y_m - rover.y_m;
-  const double cosine = std::cos(rover.heading_rad);
-  const double sine = std::sin(rover.heading_rad);
+  const auto [sine, cosine] = math::SinCos(rover.heading_rad);
   const double x_m = cosine * dx_m + sine * dy_m;
   const double y_m = cosine * dy_m - sine * dx_m;
   const double beyond_x_m = std::max({zone.rear_x_m - x_m, 0.0, x_m - zone.front_x_m});
   const double beyond_y_m = std::max(0.0, std::abs(y_m) - zone.half_width_m);
-  return std::hypot(beyond_x_m, beyond_y_m) - 0.5 * rock.diameter_m;
+  return math::Hypot(beyond_x_m, beyond_y_m) - 0.5 * rock.diameter_m;
 }
 
 RunHistory::RunHistory(const truth::Trace& trace, std::span<const PlacedRock> rocks,

@@ -1,12 +1,12 @@
 #include "experiments/three_rock_run/three_rock_run.h"
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/random.h"
+#include "math/functions.h"
 #include "trial/run_trial.h"
 
 namespace rockyard::experiments {
@@ -170,8 +170,8 @@ std::optional<PlacedRock> PlaceOnPath(const DrawnRock& rock, double path_m,
                                       const RunHistory& history) {
   const Moment* at = history.At(path_m);
   if (at == nullptr) return std::nullopt;
-  return PlacedRock{at->pose.x_m - rock.offset_m * std::sin(at->pose.heading_rad),
-                    at->pose.y_m + rock.offset_m * std::cos(at->pose.heading_rad), rock.diameter_m,
+  return PlacedRock{at->pose.x_m - rock.offset_m * math::Sin(at->pose.heading_rad),
+                    at->pose.y_m + rock.offset_m * math::Cos(at->pose.heading_rad), rock.diameter_m,
                     rock.height_m};
 }
 

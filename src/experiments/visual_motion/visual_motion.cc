@@ -1,6 +1,5 @@
 #include "experiments/visual_motion/visual_motion.h"
 
-#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -8,6 +7,7 @@
 #include "experiments/look_factors.h"
 #include "math/angles.h"
 #include "math/decompositions.h"
+#include "math/functions.h"
 
 namespace rockyard::experiments {
 namespace {
@@ -23,8 +23,8 @@ constexpr double kWrong_rad = 2.0 * std::numbers::pi / 180.0;
 // leads in the direction of half the turn.
 Transform Arc(double way_m, double turn_rad) {
   const double half = 0.5 * turn_rad;
-  const double chord_m = half == 0.0 ? way_m : way_m * std::sin(half) / half;
-  return math::MakePose({chord_m * std::cos(half), chord_m * std::sin(half), 0.0}, turn_rad, 0.0,
+  const double chord_m = half == 0.0 ? way_m : way_m * math::Sin(half) / half;
+  return math::MakePose({chord_m * math::Cos(half), chord_m * math::Sin(half), 0.0}, turn_rad, 0.0,
                         0.0);
 }
 

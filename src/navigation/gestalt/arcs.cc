@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -20,8 +21,8 @@ constexpr double kStraight_per_m = 1e-9;
 PathPoint OnArc(double curvature_per_m, double s_m) {
   if (std::abs(curvature_per_m) < kStraight_per_m) return {s_m, 0.0};
   const double angle_rad = curvature_per_m * s_m;
-  const double half_sine = std::sin(0.5 * angle_rad);
-  return {std::sin(angle_rad) / curvature_per_m, 2.0 * half_sine * half_sine / curvature_per_m};
+  const double half_sine = math::Sin(0.5 * angle_rad);
+  return {math::Sin(angle_rad) / curvature_per_m, 2.0 * half_sine * half_sine / curvature_per_m};
 }
 
 double Weight(const GestaltPlanParams& params, double distance_m) {
@@ -60,7 +61,7 @@ CandidateMotion MakePointTurn(double turn_rad, const PathSampling& sampling) {
   for (const double s_m : sampling.distance_m) {
     // The straight drive after the turn, in R as it is before.
     candidate.points.push_back(
-        {s_m * std::cos(candidate.turn_rad), s_m * std::sin(candidate.turn_rad)});
+        {s_m * math::Cos(candidate.turn_rad), s_m * math::Sin(candidate.turn_rad)});
   }
   return candidate;
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::navigation {
 
@@ -55,10 +56,10 @@ Chord QuadratureChord(const Piece& piece) {
     const double u_m = pair.place * piece.half_m;
     // e^(i c_m u) + e^(-i c_m u) = 2 cos(c_m u).
     const double weight_m =
-        2.0 * pair.weight * piece.half_m * std::cos(piece.curvature_per_m * u_m);
+        2.0 * pair.weight * piece.half_m * math::Cos(piece.curvature_per_m * u_m);
     const double bend_rad = 0.5 * piece.rate_per_m2 * u_m * u_m;
-    chord.along_m += weight_m * std::cos(bend_rad);
-    chord.across_m += weight_m * std::sin(bend_rad);
+    chord.along_m += weight_m * math::Cos(bend_rad);
+    chord.across_m += weight_m * math::Sin(bend_rad);
   }
   return chord;
 }
@@ -86,8 +87,7 @@ math::Pose2 AlongClothoid(const math::Pose2& from, double curvature_per_m, doubl
         from.heading_rad + middle_m * (curvature_per_m + 0.5 * rate_per_m2 * middle_m),
         curvature_per_m + rate_per_m2 * middle_m, rate_per_m2, 0.5 * piece_m};
     const Chord chord = short_turn ? SeriesChord(piece) : QuadratureChord(piece);
-    const double cosine = std::cos(piece.heading_rad);
-    const double sine = std::sin(piece.heading_rad);
+    const auto [sine, cosine] = math::SinCos(piece.heading_rad);
     point.x_m += cosine * chord.along_m - sine * chord.across_m;
     point.y_m += sine * chord.along_m + cosine * chord.across_m;
   }
@@ -213,8 +213,8 @@ math::Pose2 CurvatureLaw::AlongSlowing(const math::Pose2& from, double from_per_
     const double here = Between(from_per_m, to_per_m, s_m / length_m);
     // theta(s) = s times the mean of the curvature so far.
     const double heading_rad = from.heading_rad + s_m * MeanCurvature(from_per_m, here);
-    end.x_m += weight_m * std::cos(heading_rad);
-    end.y_m += weight_m * std::sin(heading_rad);
+    end.x_m += weight_m * math::Cos(heading_rad);
+    end.y_m += weight_m * math::Sin(heading_rad);
   };
   for (const GaussPair& pair : kEightNodes) {
     add(half_m * (1.0 - pair.place), half_m * pair.weight);

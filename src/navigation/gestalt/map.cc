@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -163,8 +164,8 @@ void GestaltMap::MarkObstacle(double x_m, double y_m, double radius_m) {
     for (int ix = 0; ix < cells_.nx(); ++ix) {
       // The cell itself is marked, however small the radius.
       const bool here = at.x == cells_.first_x() + ix && at.y == cells_.first_y() + iy;
-      const bool within = std::hypot(CentreX_m(cells_.first_x() + ix) - x_m,
-                                     CentreY_m(cells_.first_y() + iy) - y_m) <= radius_m;
+      const bool within = math::Hypot(CentreX_m(cells_.first_x() + ix) - x_m,
+                                      CentreY_m(cells_.first_y() + iy) - y_m) <= radius_m;
       if (!here && !within) continue;
       MapCell& cell = cells_.At(ix, iy);
       cell.marked = true;

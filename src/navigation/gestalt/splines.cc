@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -26,7 +27,7 @@ double ArcSpacing(const GestaltArcParams& arcs) {
 //   e = max(0, |bearing| - asin(radius / distance)), 0 within it.
 double MissedBy(const GoalDirection& goal, double radius_m) {
   if (goal.distance_m <= radius_m) return 0.0;
-  return std::max(0.0, std::abs(goal.bearing_rad) - std::asin(radius_m / goal.distance_m));
+  return std::max(0.0, std::abs(goal.bearing_rad) - math::Asin(radius_m / goal.distance_m));
 }
 
 // Returns the changes of curvature along a spline, 1/m.
@@ -42,8 +43,8 @@ double Steering(const Spline& spline) {
 struct SplineVoter::Frame {
   explicit Frame(const math::Pose2& place_W)
       : place(place_W),
-        cosine(std::cos(place_W.heading_rad)),
-        sine(std::sin(place_W.heading_rad)) {}
+        cosine(math::Cos(place_W.heading_rad)),
+        sine(math::Sin(place_W.heading_rad)) {}
 
   // p_W = p_WK + Rz(heading) p_K.
   math::Pose2 InW(const math::Pose2& p_K) const {

@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::navigation {
 
@@ -39,8 +40,7 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
                       std::span<const PathPoint> points, std::span<const double> weights,
                       double min_allowed_goodness, UnknownCells unknown_cells) {
   EXPECT(!points.empty() && weights.size() >= points.size());
-  const double cosine = std::cos(estimate.heading_rad);
-  const double sine = std::sin(estimate.heading_rad);
+  const auto [sine, cosine] = math::SinCos(estimate.heading_rad);
   PathSums sums(unknown_cells);
   double sum_of_weights = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -71,9 +71,9 @@ GoalDirection TowardsGoal(const PoseEstimate& estimate, const messages::Goal& go
   const double dx_m = goal.x_m - estimate.x_m;
   const double dy_m = goal.y_m - estimate.y_m;
   // Positive to the left of straight ahead.
-  const double bearing_rad = math::WrapAngle(std::atan2(dy_m, dx_m) - estimate.heading_rad);
+  const double bearing_rad = math::WrapAngle(math::Atan2(dy_m, dx_m) - estimate.heading_rad);
   const bool behind = bearing_rad < kBehind_rad - std::numbers::pi;
-  return {std::hypot(dx_m, dy_m), behind ? std::numbers::pi : bearing_rad};
+  return {math::Hypot(dx_m, dy_m), behind ? std::numbers::pi : bearing_rad};
 }
 
 double WaypointPeak(const GoalDirection& goal, int direction) {
@@ -99,7 +99,7 @@ double BestCurvature(const GoalDirection& goal, int direction, double step_m,
   const double side = towards ? 1.0 : direction;
   // Broad: the circle through the origin, tangent to x, and through the goal at distance d, bearing
   // b: c = 2 sin(b) / d.
-  const double broad = side * 2.0 * std::sin(bearing_rad) / distance_m;
+  const double broad = side * 2.0 * math::Sin(bearing_rad) / distance_m;
   const double fraction = params.waypoints.tight_curve_fraction;
   return fraction * std::clamp(tight, -limit, limit) +
          (1.0 - fraction) * std::clamp(broad, -limit, limit);
@@ -107,7 +107,7 @@ double BestCurvature(const GoalDirection& goal, int direction, double step_m,
 
 double WaypointVote(double peak, double index_from_best, double vote_index_variance) {
   // peak exp(-(i - best)^2 / (2 variance)).
-  return peak * std::exp(-0.5 * index_from_best * index_from_best / vote_index_variance);
+  return peak * math::Exp(-0.5 * index_from_best * index_from_best / vote_index_variance);
 }
 
 double MergeVotes(const HazardVote& hazard, double waypoint, double waypoint_certainty,

@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -288,7 +289,7 @@ NavigatorDecision PathfinderNavigator::BeginTurn(Mode mode, int direction,
 }
 
 double PathfinderNavigator::GoalBearing(const PoseEstimate& estimate) const {
-  const double direction = std::atan2(goal_.y_m - estimate.y_m, goal_.x_m - estimate.x_m);
+  const double direction = math::Atan2(goal_.y_m - estimate.y_m, goal_.x_m - estimate.x_m);
   return math::WrapAngle(direction - estimate.heading_rad);
 }
 
@@ -302,11 +303,11 @@ bool PathfinderNavigator::NeedsPointTurn(const PoseEstimate& estimate) const {
   if (estimate.distance_m - odometer_at_avoiding_m_ < params_.point_turn_after_m) return false;
   if (bearing_rad > params_.point_turn_bearing_rad) return true;
   return bearing_rad > params_.tight_arc_bearing_rad &&
-         GoalDistance(estimate) < 2.0 * params_.tight_arc_radius_m * std::sin(bearing_rad);
+         GoalDistance(estimate) < 2.0 * params_.tight_arc_radius_m * math::Sin(bearing_rad);
 }
 
 double PathfinderNavigator::GoalDistance(const PoseEstimate& estimate) const {
-  return std::hypot(goal_.x_m - estimate.x_m, goal_.y_m - estimate.y_m);
+  return math::Hypot(goal_.x_m - estimate.x_m, goal_.y_m - estimate.y_m);
 }
 
 bool PathfinderNavigator::AtGoal(const PoseEstimate& estimate) const {

@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "rendering/image_readout.h"
 
 namespace rockyard::rendering {
@@ -90,7 +91,7 @@ void LatticeTexture::AddOctave(const TextureLine& line, int octave, double devia
 
 void LatticeTexture::AddTo(const TextureLine& line, double deviation, std::span<float> values) {
   const double least_m = 2.0 * std::abs(line.step_v_m);
-  const double level = std::log2(std::fmax(least_m / kFinest_m, 1.0));
+  const double level = math::Log2(std::fmax(least_m / kFinest_m, 1.0));
   const int first = static_cast<int>(std::ceil(level));
   const double fade = static_cast<double>(first) - level;
   const double each = deviation / std::sqrt(static_cast<double>(kOctavesOfLine));
@@ -108,7 +109,7 @@ Backdrop::Backdrop(const BackdropParams& params, const ColourLight& light, core:
   const Colour ground = ToColour(params.ground);
   ground_ = ground * light.On(Vector3::UnitZ());
   const double slope_rad = math::DegToRad(60.0);
-  hills_ = ground * light.On({-std::sin(slope_rad), 0.0, std::cos(slope_rad)});
+  hills_ = ground * light.On({-math::Sin(slope_rad), 0.0, math::Cos(slope_rad)});
   core::RandomStream stream(key, core::Purpose::kCylinderScene, 2);
   for (int i = 0; i < kHorizonNodes; ++i) {
     relief_.push_back(static_cast<float>(core::SampleNormal(stream, 0.0, 1.0)));
@@ -121,7 +122,7 @@ double Backdrop::HorizonHeight(double y_m) const {
   const auto node = static_cast<std::size_t>(place);
   const double way = place - static_cast<double>(node);
   const double relief = (1.0 - way) * relief_[node] + way * relief_[node + 1];
-  return params_.horizon_distance_m * std::tan(params_.horizon_elevation_rad) +
+  return params_.horizon_distance_m * math::Tan(params_.horizon_elevation_rad) +
          params_.horizon_relief_m * relief;
 }
 

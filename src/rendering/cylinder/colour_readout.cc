@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "math/functions.h"
 #include "rendering/image_readout.h"
 #include "rendering/radiometry.h"
 
@@ -77,7 +78,7 @@ std::vector<float> ColourBlurWeights(double deviation) {
   if (deviation == 0.0) return weights;
   float sum = 1.0F;
   for (int k = 1; k <= static_cast<int>(std::ceil(3.0 * deviation)); ++k) {
-    weights.push_back(static_cast<float>(std::exp(-0.5 * k * k / (deviation * deviation))));
+    weights.push_back(static_cast<float>(math::Exp(-0.5 * k * k / (deviation * deviation))));
     sum += 2.0F * weights.back();
   }
   for (float& weight : weights) weight /= sum;
@@ -181,7 +182,7 @@ vision::ColourImage ColourReadout::Read(const ColourPlanes& counts, core::TrialK
         float count = light[i] + deviation * number;
         if (camera_.gamma != 1.0) {
           const double share = std::max(0.0, count / kLargestCount);
-          count = static_cast<float>(kLargestCount * std::pow(share, camera_.gamma));
+          count = static_cast<float>(kLargestCount * math::Pow(share, camera_.gamma));
         }
         to[i].*kChannels[channel] =
             static_cast<std::uint8_t>(std::clamp(count + 0.5F, 0.0F, 255.0F));

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "math/functions.h"
 
 namespace rockyard::rendering {
 namespace {
@@ -91,19 +92,19 @@ Place DrawPlace(const CylinderPictureParams& params, core::RandomStream& stream)
   const double near_2 = params.clutter.nearest_m * params.clutter.nearest_m;
   const double far_2 = params.clutter.farthest_m * params.clutter.farthest_m;
   const double x_m = std::sqrt(SampleUniform(stream, near_2, far_2));
-  const double half = std::tan(0.5 * params.cameras.field_of_view_rad);
+  const double half = math::Tan(0.5 * params.cameras.field_of_view_rad);
   return {x_m, x_m * half * SampleUniform(stream, -1.0, 1.0)};
 }
 
 bool IsClear(const Place& place, double half_m, const CylinderPictureParams& params,
              const math::Transform& X_LT) {
   const double away_m =
-      std::hypot(place.x_m - X_LT.translation().x(), place.y_m - X_LT.translation().y());
+      math::Hypot(place.x_m - X_LT.translation().x(), place.y_m - X_LT.translation().y());
   return away_m - half_m >= params.clutter.clear_m;
 }
 
 double DrawHalf(double smallest_m, double largest_m, core::RandomStream& stream) {
-  return std::exp(SampleUniform(stream, std::log(smallest_m), std::log(largest_m)));
+  return math::Exp(SampleUniform(stream, math::Log(smallest_m), math::Log(largest_m)));
 }
 
 void AddRocks(const CylinderPictureParams& params, const math::Transform& X_LT, core::TrialKey key,
@@ -145,7 +146,7 @@ void AddHardware(const CylinderPictureParams& params, const math::Transform& X_L
     const double heading_rad = SampleUniform(stream, 0.0, std::numbers::pi);
     Colour colour;
     for (double& channel : colour) channel = SampleUniform(stream, 0.05, 0.95);
-    if (!IsClear(place, std::hypot(half_m, width_m), params, X_LT)) continue;
+    if (!IsClear(place, math::Hypot(half_m, width_m), params, X_LT)) continue;
     bodies.emplace_back(Plain(BodyShape::kBox, {place.x_m, place.y_m, height_m},
                               {half_m, width_m, height_m}, heading_rad, colour));
   }
@@ -154,7 +155,7 @@ void AddHardware(const CylinderPictureParams& params, const math::Transform& X_L
 }  // namespace
 
 BodyCaster::BodyCaster(ColouredBody body)
-    : body_(body), cosine_(std::cos(body.heading_rad)), sine_(std::sin(body.heading_rad)) {}
+    : body_(body), cosine_(math::Cos(body.heading_rad)), sine_(math::Sin(body.heading_rad)) {}
 
 std::array<Vector3, 8> BodyCaster::Corners() const {
   std::array<Vector3, 8> corners;
@@ -243,7 +244,7 @@ std::optional<BodyHit> BodyCaster::CastCylinder(const ColourRay& ray_B) const {
   if (p.z() < 0.0 || d.z() >= 0.0) return std::nullopt;
   const double along = (body_.half.z() - o.z()) / d.z();
   const Vector3 on_top = o + along * d;
-  if (std::hypot(on_top.x(), on_top.y()) > radius_m) return std::nullopt;
+  if (math::Hypot(on_top.x(), on_top.y()) > radius_m) return std::nullopt;
   return BodyHit{along, Vector3::UnitZ(), 4};
 }
 

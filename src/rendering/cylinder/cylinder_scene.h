@@ -9,13 +9,13 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "core/random.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "math/pose.h"
 #include "rendering/cylinder/colour_readout.h"
 #include "rendering/cylinder/cylinder_params.h"
@@ -37,10 +37,10 @@ struct CylinderView {
 // Returns the pose of T in L. Its heading is the azimuth of the middle between the cameras, as seen
 // from T, less theta.
 inline math::Transform CylinderPose(const CylinderPictureParams& params, const CylinderView& view) {
-  const math::Vector3 p_LT_L(view.distance_m * std::cos(view.bearing_rad),
-                             view.distance_m * std::sin(view.bearing_rad),
+  const math::Vector3 p_LT_L(view.distance_m * math::Cos(view.bearing_rad),
+                             view.distance_m * math::Sin(view.bearing_rad),
                              params.target.middle_height_m);
-  const double azimuth_rad = std::atan2(-p_LT_L.y(), params.cameras.front_m - p_LT_L.x());
+  const double azimuth_rad = math::Atan2(-p_LT_L.y(), params.cameras.front_m - p_LT_L.x());
   return math::MakePose(p_LT_L, azimuth_rad - view.orientation_rad, 0.0, 0.0);
 }
 
@@ -49,7 +49,7 @@ inline math::Transform CylinderPose(const CylinderPictureParams& params, const C
 inline double CameraPitch(const CylinderPictureParams& params, const CylinderView& view) {
   if (params.cameras.pointing == CameraPointing::kLevel) return 0.0;
   const double drop_m = params.cameras.height_m - params.target.middle_height_m;
-  return std::atan2(drop_m, view.distance_m - params.cameras.front_m);
+  return math::Atan2(drop_m, view.distance_m - params.cameras.front_m);
 }
 
 // Returns the left and the right camera in L: parallel pinholes with level rows.
@@ -57,12 +57,12 @@ inline std::array<vision::Cahv, 2> CylinderCameras(const CylinderPictureParams& 
                                                    const CylinderView& view) {
   const ColourCameraParams& camera = params.cameras;
   const double pitch_rad = CameraPitch(params, view);
-  const math::Vector3 ahead_L(std::cos(pitch_rad), 0.0, -std::sin(pitch_rad));
+  const math::Vector3 ahead_L(math::Cos(pitch_rad), 0.0, -math::Sin(pitch_rad));
   const math::Vector3 right_L(0.0, -1.0, 0.0);
   const math::Vector3 down_L = ahead_L.cross(right_L);
   // Appendix A: the field of view belongs to M columns.
   const double focal_px =
-      0.5 * static_cast<double>(camera.columns) / std::tan(0.5 * camera.field_of_view_rad);
+      0.5 * static_cast<double>(camera.columns) / math::Tan(0.5 * camera.field_of_view_rad);
   std::array<vision::Cahv, 2> pair;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const double side = eye == 0 ? 0.5 : -0.5;

@@ -1,6 +1,6 @@
 #include "rendering/picture/picture_params.h"
 
-#include <cmath>
+#include "math/functions.h"
 
 namespace rockyard::rendering {
 namespace {
@@ -12,7 +12,7 @@ using core::Setting;
 double Mix(double a, double b, double share) { return a + share * (b - a); }
 
 // a (b/a)^share.
-double MixLog(double a, double b, double share) { return a * std::pow(b / a, share); }
+double MixLog(double a, double b, double share) { return a * math::Pow(b / a, share); }
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "core/random.h"
+#include "math/functions.h"
 #include "rendering/radiometry.h"
 
 namespace rockyard::rendering {
@@ -19,7 +20,7 @@ std::vector<float> GaussianWeights(double sigma_px) {
   std::vector<float> weights{1.0F};
   double sum = 1.0;
   for (int k = 1; k < kReach * sigma_px + 1.0; ++k) {
-    const double weight = std::exp(-0.5 * k * k / (sigma_px * sigma_px));
+    const double weight = math::Exp(-0.5 * k * k / (sigma_px * sigma_px));
     weights.push_back(static_cast<float>(weight));
     sum += 2.0 * weight;
   }
@@ -93,7 +94,7 @@ void PictureReadout::SetGain(const PixelRays& rays) {
   const double on_axis = solid_angle(middle_column, middle_row);
   double corner_rad = 0.0;
   const auto angle = [&](int column, int row) {
-    return std::acos(std::clamp(axis.dot(rays.At(column, row).direction), -1.0, 1.0));
+    return math::Acos(std::clamp(axis.dot(rays.At(column, row).direction), -1.0, 1.0));
   };
   for (int row = 0; row < rays.rows(); ++row) {
     for (int column = 0; column < rays.columns(); ++column) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "math/functions.h"
 #include "rendering/occlusion.h"
 
 namespace rockyard::rendering {
@@ -25,7 +26,7 @@ constexpr int kCapRays = 8;
 // Returns the share of a unit disc on the side x > -d of the line x = -d, -1 < d < 1:
 //   1/2 + (d sqrt(1 - d^2) + asin d) / pi.
 double ShareOfDisc(double d) {
-  return 0.5 + (d * std::sqrt(1.0 - d * d) + std::asin(d)) * std::numbers::inv_pi;
+  return 0.5 + (d * std::sqrt(1.0 - d * d) + math::Asin(d)) * std::numbers::inv_pi;
 }
 
 }  // namespace
@@ -158,7 +159,7 @@ double SunShadows::LeftByCap(const Silhouette& rock, const Vector3& p_W) const {
     const double turn = 2.0 * std::numbers::pi * i / kCapRays;
     const double out = half_diameter_rad_ * std::numbers::sqrt2 * 0.5;
     const Vector3 ray_W =
-        toward_sun_W_ + out * (std::cos(turn) * across_x_W_ + std::sin(turn) * across_y_W_);
+        toward_sun_W_ + out * (math::Cos(turn) * across_x_W_ + math::Sin(turn) * across_y_W_);
     if (!meets(ray_W.normalized())) ++seen;
   }
   return static_cast<double>(seen) / kCapRays;

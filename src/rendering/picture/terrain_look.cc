@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "math/functions.h"
 
 namespace rockyard::rendering {
 namespace {
@@ -44,7 +45,7 @@ TerrainLook::TerrainLook(const terrain::Terrain& terrain, const SunParams& sun,
         sun.rock_albedo * std::max(0.1, core::SampleNormal(stream, 1.0, look.rock_albedo_spread));
     const double u_m = core::SampleUniform(stream, 0.0, kRockPieces_m);
     const double v_m = core::SampleUniform(stream, 0.0, kRockPieces_m);
-    rocks_.push_back({albedo, std::cos(rock.yaw_rad), std::sin(rock.yaw_rad), rock.center_W,
+    rocks_.push_back({albedo, math::Cos(rock.yaw_rad), math::Sin(rock.yaw_rad), rock.center_W,
                       Eigen::Vector2d(u_m, v_m)});
   }
 }

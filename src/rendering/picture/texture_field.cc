@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "math/functions.h"
 #include "rendering/image_readout.h"
 
 namespace rockyard::rendering {
@@ -174,7 +175,7 @@ TextureField::TextureField(const TextureParams& texture, core::TrialKey key, cor
     spacings_m_.push_back(wavelength_m / kNodesPerWavelength);
     // A spectrum f^-e holds 2 pi f^(1-e) df: an octave in proportion to wavelength^(e - 2).
     const double octave = static_cast<double>(spacings_m_.size() - 1);
-    amplitudes_.push_back(std::exp2(-octave * (texture.spectral_exponent - 2.0)));
+    amplitudes_.push_back(math::Exp2(-octave * (texture.spectral_exponent - 2.0)));
     sum += amplitudes_.back();
   }
   for (double& amplitude : amplitudes_) amplitude = std::sqrt(amplitude / (sum * kOctaveVariance));

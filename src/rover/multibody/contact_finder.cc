@@ -1,8 +1,9 @@
 #include "rover/multibody/contact_finder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
+
+#include "math/functions.h"
 
 namespace rockyard::rover {
 namespace {
@@ -24,7 +25,7 @@ constexpr double kConverged_m = 1e-6;
 ContactFinder::ContactFinder(const RoverGeometryParams& params, const terrain::Terrain& terrain)
     : terrain_(terrain),
       parts_(MakeParts(params)),
-      reach_m_(std::hypot(0.5 * params.length_m, 0.5 * params.width_m) + 2.0 * kFollowedGap_m) {
+      reach_m_(math::Hypot(0.5 * params.length_m, 0.5 * params.width_m) + 2.0 * kFollowedGap_m) {
   rocks_.reserve(terrain.rocks().size());
   for (const terrain::Rock& rock : terrain.rocks()) rocks_.emplace_back(rock);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/check.h"
+#include "math/functions.h"
 #include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
@@ -76,7 +77,7 @@ RockerBogie::RockerBogie(const RoverParams& params, const terrain::RockHoldingPa
 math::Transform RockerBogie::LiftedPose(const math::Pose2& X_WR) const {
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 up = ground.Normal(X_WR.x_m, X_WR.y_m);
-  const Vector3 heading(std::cos(X_WR.heading_rad), std::sin(X_WR.heading_rad), 0.0);
+  const Vector3 heading(math::Cos(X_WR.heading_rad), math::Sin(X_WR.heading_rad), 0.0);
   // `forward` lies in the ground's tangent plane, forward . up = 0, and keeps its heading as seen
   // from above.
   Vector3 forward = heading - heading.dot(up) / up.z() * Vector3::UnitZ();
@@ -251,7 +252,7 @@ void RockerBogie::UpdateContacts(const DofVector& velocity) {
     body_.FillJacobian(part.body, contact.p_W, contact.along_W, along);
     body_.FillJacobian(part.body, contact.p_W, contact.across_W, across);
     state_.contacts.push_back({part.kind, contact.other >= 0 ? contact.other : -1, force_N,
-                               std::hypot(along.dot(velocity), across.dot(velocity)),
+                               math::Hypot(along.dot(velocity), across.dot(velocity)),
                                contact.n_W.z(), X_RW * contact.p_W});
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/functions.h"
 #include "rover/ground_touches.h"
 
 namespace rockyard::rover {
@@ -52,7 +53,7 @@ QuasiStaticContacts::QuasiStaticContacts(const RoverGeometryParams& params,
     : terrain_(terrain),
       wheel_(params),
       parts_(MakeParts(params)),
-      reach_R_m_(std::hypot(0.5 * params.length_m, 0.5 * params.width_m)),
+      reach_R_m_(math::Hypot(0.5 * params.length_m, 0.5 * params.width_m)),
       hub_radius_m_(params.hub_radius_m) {
   for (std::size_t i = messages::kWheelCount; i < parts_.size(); ++i) {
     const Part& part = parts_[i];

@@ -17,8 +17,7 @@ double RockerSign(std::size_t side) { return side == 0 ? 1.0 : -1.0; }
 // Returns R Ry(a): the axes of a frame, turned about its own y axis. Positive angles lower the
 // front.
 Eigen::Matrix3d Pitched(const Eigen::Matrix3d& R, double angle_rad) {
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
+  const auto [s, c] = math::SinCos(angle_rad);
   Eigen::Matrix3d result;
   result.col(0) = c * R.col(0) - s * R.col(2);
   result.col(1) = R.col(1);
@@ -121,7 +120,7 @@ void Linkage::Steer(const messages::PerWheel<double>& steer_rad) {
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     if (steer_rad[i] == steer_rad_[i]) continue;
     steer_rad_[i] = steer_rad[i];
-    steer_[i] = Eigen::Vector2d(std::cos(steer_rad[i]), std::sin(steer_rad[i]));
+    steer_[i] = Eigen::Vector2d(math::Cos(steer_rad[i]), math::Sin(steer_rad[i]));
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/functions.h"
+
 namespace rockyard::rover {
 namespace {
 
@@ -117,7 +119,7 @@ double Progress::Step(double rim_from, double rim_to, double time_s) {
 double Progress::Settle(double rim, double time_s) {
   const double decay_s = rim * decay_s_;
   const double before = speed_ - rim;
-  const double after = before * std::exp(-time_s / decay_s);
+  const double after = before * math::Exp(-time_s / decay_s);
   speed_ = rim + after;
   return rim * time_s + decay_s * (before - after);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "math/functions.h"
 #include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
@@ -113,7 +114,7 @@ QuasiStaticRover::QuasiStaticRover(const RoverParams& params, const terrain::Ter
 Posture QuasiStaticRover::LiftedPosture(const math::Pose2& X_WR) const {
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 up = ground.Normal(X_WR.x_m, X_WR.y_m);
-  const Vector3 heading(std::cos(X_WR.heading_rad), std::sin(X_WR.heading_rad), 0.0);
+  const Vector3 heading(math::Cos(X_WR.heading_rad), math::Sin(X_WR.heading_rad), 0.0);
   // The x axis lies in the ground's tangent plane and keeps its heading as seen from above.
   const Vector3 forward = (heading - heading.dot(up) / up.z() * Vector3::UnitZ()).normalized();
   Eigen::Matrix3d R;
@@ -121,7 +122,7 @@ Posture QuasiStaticRover::LiftedPosture(const math::Pose2& X_WR) const {
   double rise_m = 0.0;
   std::vector<int> rocks;
   const RoverGeometryParams& size = params_.geometry;
-  terrain_.RocksNear(X_WR.x_m, X_WR.y_m, std::hypot(0.5 * size.length_m, 0.5 * size.width_m),
+  terrain_.RocksNear(X_WR.x_m, X_WR.y_m, math::Hypot(0.5 * size.length_m, 0.5 * size.width_m),
                      rocks);
   for (const int index : rocks) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
@@ -411,8 +412,7 @@ bool QuasiStaticRover::IsSteady() const {
 void QuasiStaticRover::RollOn() {
   last_rates_ = rates_;
   const double turn_rad = stretch_.duration_s * rates_[5];
-  const double c = std::cos(turn_rad);
-  const double s = std::sin(turn_rad);
+  const auto [s, c] = math::SinCos(turn_rad);
   rates_.head<2>() = Eigen::Vector2d(c * rates_[0] - s * rates_[1], s * rates_[0] + c * rates_[1]);
   rates_.segment<3>(2).setZero();
   rates_.tail<3>().setZero();

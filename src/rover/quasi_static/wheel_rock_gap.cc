@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "math/functions.h"
+
 namespace rockyard::rover {
 namespace {
 
@@ -189,7 +191,7 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
     // M step = g for the 2 x 2 matrix.
     double step_b = (M_ee * g_b - M_be * g_e) / determinant;
     double step_e = (M_bb * g_e - M_be * g_b) / determinant;
-    const double size = std::hypot(step_b, step_e);
+    const double size = math::Hypot(step_b, step_e);
     if (size > kLongestStep_rad) {
       step_b *= kLongestStep_rad / size;
       step_e *= kLongestStep_rad / size;
@@ -261,7 +263,7 @@ RockSupport::RockSupport(const terrain::Rock& rock)
       top_W_m_(rock.center_W.z() + rock.semi_axes_m.z()),
       growth_(rock.cap_growth),
       height_m_(rock.semi_axes_m.z()) {
-  const Eigen::Matrix3d R = Eigen::AngleAxisd(rock.yaw_rad, Vector3::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d R = math::RotationAbout(rock.yaw_rad, Vector3::UnitZ());
   const Vector3 squares = rock.semi_axes_m.cwiseAbs2();
   if (!IsCap()) {
     // The ellipsoid's support function is sqrt(n' R diag(a^2) R' n) = sqrt(n' S n).

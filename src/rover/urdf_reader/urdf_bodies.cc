@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::rover {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kRimLeaning_rad = math::DegToRad(1.0);
 constexpr double kRimOffset = 0.02;
 
 bool LieWithin(const Vector3& a, const Vector3& b, double angle_rad) {
-  return std::abs(a.dot(b)) >= std::cos(angle_rad);
+  return std::abs(a.dot(b)) >= math::Cos(angle_rad);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "math/angles.h"
+#include "math/functions.h"
 #include "rover/urdf_reader/urdf_draft.h"
 
 namespace rockyard::rover {
@@ -138,7 +139,7 @@ void NameJoints(UrdfDraft& draft, const std::set<std::size_t>& known) {
     }
     const Vector3 axis = draft.skeleton.axis_R(draft.model, i);
     const double along = std::max(std::abs(axis.y()), std::abs(axis.z()));
-    const double lean_rad = std::acos(std::min(along, 1.0));
+    const double lean_rad = math::Acos(std::min(along, 1.0));
     if (lean_rad > kNamedLean_rad) {
       draft.findings.NotTaken(joint.place,
                               fmt::format("has an axis that leans by {:.2g} deg: rockyard's are "

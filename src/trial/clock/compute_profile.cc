@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string_view>
 #include <variant>
 
 #include "core/check.h"
+#include "math/functions.h"
 #include "trial/clock/compute_tables.h"
 
 namespace rockyard::trial {
@@ -23,13 +23,13 @@ constexpr std::array<Machine, 3> kMachines{&Table3Row::pentium_3_s, &Table3Row::
 // Returns the time of a row for cells of a size, on the grid of table 3.
 double TimeAt(const Column& times_s, Growth growth, double cell_m) {
   const std::size_t first = cell_m > kTable3Cells_m[1] ? 0 : 1;  // of the two nearest sizes
-  double share = std::log(cell_m / kTable3Cells_m[first]) /
-                 std::log(kTable3Cells_m[first + 1] / kTable3Cells_m[first]);
+  double share = math::Log(cell_m / kTable3Cells_m[first]) /
+                 math::Log(kTable3Cells_m[first + 1] / kTable3Cells_m[first]);
   if (growth == Growth::kNone) share = std::clamp(share, 0.0, 1.0);
   const double from_s = times_s[first];
   const double to_s = times_s[first + 1];
   if (from_s <= 0.0 || to_s <= 0.0) return std::max(0.0, from_s + share * (to_s - from_s));
-  return from_s * std::pow(to_s / from_s, share);
+  return from_s * math::Pow(to_s / from_s, share);
 }
 
 // Returns the time of a row of table 3 for cells of that size over the time for the cells of table
@@ -41,10 +41,10 @@ double AthenaGrowth(std::string_view table3_row, double cell_m) {
   double sum = 0.0;
   for (const Machine machine : kMachines) {
     const Column& times_s = (*row).*machine;
-    sum += std::log(TimeAt(times_s, row->growth, cell_m) /
-                    TimeAt(times_s, row->growth, kAthenaCell_m));
+    sum += math::Log(TimeAt(times_s, row->growth, cell_m) /
+                     TimeAt(times_s, row->growth, kAthenaCell_m));
   }
-  return std::exp(sum / static_cast<double>(kMachines.size()));
+  return math::Exp(sum / static_cast<double>(kMachines.size()));
 }
 
 void Add(Phase phase, double time_s, ComputeTimes& times) {
@@ -104,8 +104,8 @@ double AlongTheLogarithm(const std::array<PrintedTime, kCount>& times, double wi
   while (first + 2 < kCount && width_px >= times[first + 1].width_px) ++first;
   const PrintedTime& from = times[first];
   const PrintedTime& to = times[first + 1];
-  const double share = std::log(width_px / from.width_px) / std::log(to.width_px / from.width_px);
-  return from.middle_s() * std::pow(to.middle_s() / from.middle_s(), share);
+  const double share = math::Log(width_px / from.width_px) / math::Log(to.width_px / from.width_px);
+  return from.middle_s() * math::Pow(to.middle_s() / from.middle_s(), share);
 }
 
 ComputeTimes WithStereo(ComputeTimes times, double stereo_s) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "math/functions.h"
 #include "math/sun_position.h"
 #include "rendering/imager_params.h"
 #include "sensing/stripe_layout_params.h"
@@ -75,8 +76,8 @@ constexpr double kSecondsPerRadian = math::kSolOfMars_s / (2.0 * std::numbers::p
 SolarSupply::SolarSupply(double noon_W, double latitude_rad, double declination_rad,
                          double start_solar_time_h)
     : noon_W_(noon_W),
-      a_(std::sin(latitude_rad) * std::sin(declination_rad)),
-      b_(std::cos(latitude_rad) * std::cos(declination_rad)),
+      a_(math::Sin(latitude_rad) * math::Sin(declination_rad)),
+      b_(math::Cos(latitude_rad) * math::Cos(declination_rad)),
       start_rad_((start_solar_time_h - 12.0) * std::numbers::pi / 12.0) {
   EXPECT(noon_W >= 0.0 && b_ > 0.0 && a_ + b_ > 0.0);
 }
@@ -86,13 +87,13 @@ double SolarSupply::HourAngle(double time_s) const {
 }
 
 double SolarSupply::Power_W(double time_s) const {
-  return noon_W_ * std::max(0.0, a_ + b_ * std::cos(HourAngle(time_s))) / (a_ + b_);
+  return noon_W_ * std::max(0.0, a_ + b_ * math::Cos(HourAngle(time_s))) / (a_ + b_);
 }
 
 double SolarSupply::CarryingAngle(double power_W) const {
   if (noon_W_ <= 0.0) return 0.0;
   const double cosine = (power_W / noon_W_ * (a_ + b_) - a_) / b_;
-  return std::acos(std::clamp(cosine, -1.0, 1.0));
+  return math::Acos(std::clamp(cosine, -1.0, 1.0));
 }
 
 double SolarSupply::Carries_s(double load_W) const {
@@ -110,7 +111,7 @@ double SolarSupply::ShortSinceNoon_J(double load_W, double hour_angle_rad) const
   const auto from_noon = [&](double h) {
     if (h <= carrying) return 0.0;
     const double sun_end = std::max(carrying, std::min(h, sunset));
-    const double sun = a_ * (sun_end - carrying) + b_ * (std::sin(sun_end) - std::sin(carrying));
+    const double sun = a_ * (sun_end - carrying) + b_ * (math::Sin(sun_end) - math::Sin(carrying));
     return load_W * (h - carrying) - noon_W_ / (a_ + b_) * sun;
   };
   const double whole = sols == 0.0 ? 0.0 : 2.0 * sols * from_noon(std::numbers::pi);

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "math/angles.h"
+#include "math/functions.h"
 
 namespace rockyard::trial {
 
@@ -44,7 +45,7 @@ void DriveMonitor::Restart(const truth::RoverState& state) {
 
 double DriveMonitor::OpenChord() const {
   const auto p = last_X_WR_.translation();
-  return std::hypot(p.x() - chord_x_m_, p.y() - chord_y_m_);
+  return math::Hypot(p.x() - chord_x_m_, p.y() - chord_y_m_);
 }
 
 void DriveMonitor::Observe(const truth::RoverState& state, bool turning) {
@@ -85,13 +86,13 @@ void DriveMonitor::Report(truth::DriveRecord& record) const {
   // mirror line turn the rover and leave it where it is.
   const auto end = last_X_WR_.translation();
   const auto [start_x_m, start_y_m] = start_m_.value_or(std::pair(end.x(), end.y()));
-  record.displacement_m = std::hypot(end.x() - start_x_m, end.y() - start_y_m);
+  record.displacement_m = math::Hypot(end.x() - start_x_m, end.y() - start_y_m);
   record.turned_in_place_rad = turned_rad_;
-  record.max_tilt_deg = math::RadToDeg(std::acos(std::max(-1.0, min_tilt_cosine_)));
+  record.max_tilt_deg = math::RadToDeg(math::Acos(std::max(-1.0, min_tilt_cosine_)));
   record.max_bogie_deg = math::RadToDeg(max_bogie_rad_);
   record.max_rocker_deg = math::RadToDeg(max_rocker_rad_);
-  record.max_roll_deg = math::RadToDeg(std::asin(std::min(1.0, max_roll_sine_)));
-  record.max_pitch_deg = math::RadToDeg(std::asin(std::min(1.0, max_pitch_sine_)));
+  record.max_roll_deg = math::RadToDeg(math::Asin(std::min(1.0, max_roll_sine_)));
+  record.max_pitch_deg = math::RadToDeg(math::Asin(std::min(1.0, max_pitch_sine_)));
   record.min_clearance_m = min_clearance_m_;
   record.max_sinkage_m = max_sinkage_m_;
 }

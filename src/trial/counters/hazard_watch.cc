@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "math/functions.h"
+
 namespace rockyard::trial {
 namespace {
 
@@ -18,8 +20,8 @@ double DistanceToSegment(const Point& a, const Point& b) {
 double Cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double FarthestCorner(const Zone& zone) {
-  return std::hypot(std::max(std::abs(zone.x_low_m), std::abs(zone.x_high_m)),
-                    std::max(std::abs(zone.y_low_m), std::abs(zone.y_high_m)));
+  return math::Hypot(std::max(std::abs(zone.x_low_m), std::abs(zone.x_high_m)),
+                     std::max(std::abs(zone.y_low_m), std::abs(zone.y_high_m)));
 }
 
 }  // namespace
@@ -27,11 +29,9 @@ double FarthestCorner(const Zone& zone) {
 // In coordinates in which the rock's outline is the unit circle the zone is a parallelogram:
 // outline and zone meet where the origin is inside the parallelogram or within 1 of an edge of it.
 bool Reaches(const terrain::Rock& rock, const Zone& zone, const math::Transform& X_WR) {
-  const double c = std::cos(rock.yaw_rad);
-  const double s = std::sin(rock.yaw_rad);
+  const auto [s, c] = math::SinCos(rock.yaw_rad);
   const math::Pose2 pose = math::ToPose2(X_WR);
-  const double forward_x = std::cos(pose.heading_rad);
-  const double forward_y = std::sin(pose.heading_rad);
+  const auto [forward_y, forward_x] = math::SinCos(pose.heading_rad);
   const auto corner = [&](double x_m, double y_m) {
     const double dx = pose.x_m + forward_x * x_m - forward_y * y_m - rock.center_W.x();
     const double dy = pose.y_m + forward_y * x_m + forward_x * y_m - rock.center_W.y();

@@ -1,8 +1,9 @@
 #include "trial/course/course_params.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+
+#include "math/functions.h"
 
 namespace rockyard::trial {
 
@@ -97,7 +98,7 @@ namespace {
 constexpr double kShortestLeg_m = 0.1;
 
 bool AreApart(const messages::Goal& a, const messages::Goal& b) {
-  return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) > kShortestLeg_m;
+  return math::Hypot(b.x_m - a.x_m, b.y_m - a.y_m) > kShortestLeg_m;
 }
 
 // Returns whether every waypoint is apart from the place before it, and the goal from the last
@@ -133,14 +134,14 @@ double CourseParams::SiteMapSide_m() const {
 
 messages::Goal CourseParams::GoalAt(double time_s) const {
   const double way_m = target_speed_m_s * time_s;
-  return {goal_x_m + way_m * std::cos(target_heading_rad),
-          goal_y_m + way_m * std::sin(target_heading_rad)};
+  return {goal_x_m + way_m * math::Cos(target_heading_rad),
+          goal_y_m + way_m * math::Sin(target_heading_rad)};
 }
 
 messages::Goal CourseParams::LanderPlace() const {
   const double dx = goal_x_m - start_x_m;
   const double dy = goal_y_m - start_y_m;
-  const double straight_m = std::hypot(dx, dy);
+  const double straight_m = math::Hypot(dx, dy);
   if (straight_m <= 0.0) return {start_x_m, start_y_m};
   const double ahead = designation.lander_ahead_m / straight_m;
   const double left = designation.lander_left_m / straight_m;
@@ -150,12 +151,12 @@ messages::Goal CourseParams::LanderPlace() const {
 double CourseParams::DesignationRange_m(const messages::Goal& place) const {
   const double dx = goal_x_m - start_x_m;
   const double dy = goal_y_m - start_y_m;
-  const double straight_m = std::hypot(dx, dy);
+  const double straight_m = math::Hypot(dx, dy);
   if (straight_m <= 0.0) return 0.0;
   // Coordinates of the place along the line from start to goal, and to its left.
   const double ahead_m = ((place.x_m - start_x_m) * dx + (place.y_m - start_y_m) * dy) / straight_m;
   const double left_m = ((place.y_m - start_y_m) * dx - (place.x_m - start_x_m) * dy) / straight_m;
-  return std::hypot(ahead_m - designation.lander_ahead_m, left_m - designation.lander_left_m);
+  return math::Hypot(ahead_m - designation.lander_ahead_m, left_m - designation.lander_left_m);
 }
 
 void CourseParams::Visit(core::FieldVisitor& v) {

@@ -12,6 +12,7 @@
 
 #include "core/random.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "terrain/rock.h"
 #include "trial/course/route_planner.h"
 
@@ -40,13 +41,12 @@ std::vector<Vector3> SurfacePoints(const terrain::Rock& rock, const terrain::Gro
   const terrain::RockShape shape(rock);
   const Vector3& centre = rock.center_W;
   std::vector<Vector3> points{{centre.x(), centre.y(), shape.Top(centre.x(), centre.y())}};
-  const double c = std::cos(rock.yaw_rad);
-  const double s = std::sin(rock.yaw_rad);
+  const auto [s, c] = math::SinCos(rock.yaw_rad);
   for (const Ring& ring : kRings) {
     for (int i = 0; i < ring.points; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / ring.points;
-      const double u = ring.share * rock.semi_axes_m.x() * std::cos(angle);
-      const double v = ring.share * rock.semi_axes_m.y() * std::sin(angle);
+      const double u = ring.share * rock.semi_axes_m.x() * math::Cos(angle);
+      const double v = ring.share * rock.semi_axes_m.y() * math::Sin(angle);
       const double x_m = centre.x() + c * u - s * v;
       const double y_m = centre.y() + s * u + c * v;
       const double z_m = shape.Top(x_m, y_m);
@@ -69,10 +69,10 @@ struct Sight {
 
   void Add(const Vector3& p_MastPoint_W, double bearing_rad, double z_m) {
     ++seen;
-    const double level_m = std::hypot(p_MastPoint_W.x(), p_MastPoint_W.y());
+    const double level_m = math::Hypot(p_MastPoint_W.x(), p_MastPoint_W.y());
     const double across_rad =
-        math::WrapAngle(std::atan2(p_MastPoint_W.y(), p_MastPoint_W.x()) - bearing_rad);
-    const double up_rad = std::atan2(p_MastPoint_W.z(), level_m);
+        math::WrapAngle(math::Atan2(p_MastPoint_W.y(), p_MastPoint_W.x()) - bearing_rad);
+    const double up_rad = math::Atan2(p_MastPoint_W.z(), level_m);
     nearest_m = std::min(nearest_m, level_m);
     left_rad = std::max(left_rad, across_rad);
     right_rad = std::min(right_rad, across_rad);
@@ -87,7 +87,7 @@ Sight Look(const terrain::Terrain& terrain, int index, std::span<const int> befo
            const Vector3& mast_W) {
   const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
   const double bearing_rad =
-      std::atan2(rock.center_W.y() - mast_W.y(), rock.center_W.x() - mast_W.x());
+      math::Atan2(rock.center_W.y() - mast_W.y(), rock.center_W.x() - mast_W.x());
   const std::array itself{index};
   Sight sight;
   for (const Vector3& point_W : SurfacePoints(rock, terrain.ground())) {
@@ -110,11 +110,11 @@ struct Outline {
 Outline OutlineOf(const terrain::Rock& rock, const Vector3& mast_W) {
   const double dx = rock.center_W.x() - mast_W.x();
   const double dy = rock.center_W.y() - mast_W.y();
-  const double centre_m = std::hypot(dx, dy);
+  const double centre_m = math::Hypot(dx, dy);
   const double radius_m = rock.semi_axes_m.x();
   const bool beside = centre_m > radius_m;
-  return {centre_m - radius_m, centre_m + radius_m, std::atan2(dy, dx),
-          beside ? std::asin(radius_m / centre_m) : std::numbers::pi};
+  return {centre_m - radius_m, centre_m + radius_m, math::Atan2(dy, dx),
+          beside ? math::Asin(radius_m / centre_m) : std::numbers::pi};
 }
 
 // Standard normal numbers of one rock, by which its errors are scaled.
@@ -189,7 +189,7 @@ class Mapper {
   std::optional<terrain::Rock> Believe(const terrain::Rock& truth, const Sight& sight,
                                        const RockErrors& draws) const {
     const double ground_m = terrain_.ground().Height(truth.center_W.x(), truth.center_W.y());
-    const double range_m = std::hypot(sight.nearest_m, mast_W_.z() - ground_m);
+    const double range_m = math::Hypot(sight.nearest_m, mast_W_.z() - ground_m);
     const double edge_rad = cameras_.pixel_sd_px * cameras_.pixel_rad;
     const double left_rad = sight.left_rad + edge_rad * draws.left;
     const double right_rad = sight.right_rad + edge_rad * draws.right;
@@ -200,16 +200,15 @@ class Mapper {
         nearest_m * ((sight.top_z_m - ground_m) / sight.nearest_m +
                      edge_rad * (draws.top - draws.base) * range_m / sight.nearest_m);
     if (half_rad <= 0.0 || nearest_m <= 0.0 || height_m <= 0.0) return std::nullopt;
-    const double sine = std::sin(half_rad);
+    const double sine = math::Sin(half_rad);
     const double radius_m = nearest_m * sine / (1.0 - sine);
     const double bearing_rad =
-        std::atan2(truth.center_W.y() - mast_W_.y(), truth.center_W.x() - mast_W_.x()) +
+        math::Atan2(truth.center_W.y() - mast_W_.y(), truth.center_W.x() - mast_W_.x()) +
         0.5 * (left_rad + right_rad);
     // The pan error displaces the rock across the line of sight by pan error times range, to first
     // order, as a designated goal (Designated).
     const double centre_m = nearest_m + radius_m;
-    const double x = std::cos(bearing_rad);
-    const double y = std::sin(bearing_rad);
+    const auto [y, x] = math::SinCos(bearing_rad);
     terrain::Rock rock;
     rock.center_W = {mast_W_.x() + centre_m * (x - pan_rad_ * y),
                      mast_W_.y() + centre_m * (y + pan_rad_ * x), ground_m};
@@ -254,12 +253,12 @@ struct LineOfSight {
 LineOfSight SightOf(const messages::Goal& place, const CourseParams& course) {
   const double dx = course.goal_x_m - course.start_x_m;
   const double dy = course.goal_y_m - course.start_y_m;
-  const double straight_m = std::hypot(dx, dy);
+  const double straight_m = math::Hypot(dx, dy);
   const double ahead = course.designation.lander_ahead_m / straight_m;
   const double left = course.designation.lander_left_m / straight_m;
   const double sight_x_m = (place.x_m - course.start_x_m) - ahead * dx + left * dy;
   const double sight_y_m = (place.y_m - course.start_y_m) - ahead * dy - left * dx;
-  const double range_m = std::hypot(sight_x_m, sight_y_m);
+  const double range_m = math::Hypot(sight_x_m, sight_y_m);
   if (range_m <= 0.0) return {};
   return {range_m, sight_x_m / range_m, sight_y_m / range_m};
 }
@@ -295,7 +294,7 @@ messages::Goal Designated(const messages::Goal& truth, const CourseParams& cours
 }
 
 bool AreSpaced(const messages::Goal& a, const messages::Goal& b, double spacing_m) {
-  return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) >= spacing_m;
+  return math::Hypot(b.x_m - a.x_m, b.y_m - a.y_m) >= spacing_m;
 }
 
 // Returns the corners that are far enough from the place kept before them and from the goal, then

@@ -9,6 +9,7 @@
 #include <queue>
 #include <utility>
 
+#include "math/functions.h"
 #include "terrain/arena.h"
 
 namespace rockyard::trial {
@@ -75,8 +76,7 @@ messages::Goal FreeGrid::Centre(std::size_t index) const {
 void FreeGrid::Block(const terrain::Rock& rock, double room_m) {
   const double a_m = rock.semi_axes_m.x() + room_m;
   const double b_m = rock.semi_axes_m.y() + room_m;
-  const double c = std::cos(rock.yaw_rad);
-  const double s = std::sin(rock.yaw_rad);
+  const auto [s, c] = math::SinCos(rock.yaw_rad);
   const int last_x = std::min(Column(rock.center_W.x() + a_m), nx_ - 1);
   const int last_y = std::min(Row(rock.center_W.y() + a_m), ny_ - 1);
   for (int iy = std::max(Row(rock.center_W.y() - a_m), 0); iy <= last_y; ++iy) {
@@ -92,7 +92,7 @@ void FreeGrid::Block(const terrain::Rock& rock, double room_m) {
 }
 
 bool FreeGrid::IsClear(const messages::Goal& from, const messages::Goal& to) const {
-  const double length_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  const double length_m = math::Hypot(to.x_m - from.x_m, to.y_m - from.y_m);
   const int steps = 1 + static_cast<int>(2.0 * length_m / cell_m_);
   for (int i = 0; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
@@ -217,7 +217,7 @@ messages::Route PlanRoute(const DriveParams& drive, std::span<const terrain::Roc
   const RoutePlanParams& params = drive.course.oracle_route;
   const double belly_m = rover.belly_clearance_m;
   const double low_m = std::min(params.low_rock_m, belly_m);
-  const double turning_m = 0.5 * std::hypot(rover.length_m, rover.width_m);
+  const double turning_m = 0.5 * math::Hypot(rover.length_m, rover.width_m);
   const double passing_m = 0.5 * rover.width_m;
   const double squeezing_m = passing_m - 0.5 * rover.wheel_width_m;
   // Records depend on the demands: from the most generous to the tightest, the first with a way is

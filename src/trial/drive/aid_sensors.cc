@@ -1,9 +1,9 @@
 #include "trial/drive/aid_sensors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
+#include "math/functions.h"
 #include "trial/aids/aid_suite.h"
 #include "trial/course/goal_designation.h"
 
@@ -33,7 +33,7 @@ AidAnswer AidSensors::Answer(const AidRequest& request, const math::Transform& X
   if (request.lander) {
     std::optional<double> elevation_rad;
     if (sun_is_told_) {
-      elevation_rad = std::asin(std::clamp(almanac_.Sun_W(time_s).z(), -1.0, 1.0));
+      elevation_rad = math::Asin(std::clamp(almanac_.Sun_W(time_s).z(), -1.0, 1.0));
     }
     answer.lander = lander_fix_.Observe(X_WR, terrain_, *request.lander, elevation_rad);
   }

@@ -1,13 +1,13 @@
 #include "trial/drive/drive_observer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "rover/rover_layout_params.h"
 #include "trial/counters/drive_monitor.h"
 
@@ -129,7 +129,7 @@ void DriveObserver::OnSlip(const SlipReading& slip) {
 void DriveObserver::OnSeenMotion() {
   const messages::PoseEstimate& now = onboard_.estimate().pose;
   seen_distance_m_ =
-      seen_distance_m_.value_or(0.0) + std::hypot(now.x_m - seen_at_.x_m, now.y_m - seen_at_.y_m);
+      seen_distance_m_.value_or(0.0) + math::Hypot(now.x_m - seen_at_.x_m, now.y_m - seen_at_.y_m);
   seen_at_ = now;
 }
 

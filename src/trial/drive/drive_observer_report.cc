@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "math/angles.h"
+#include "math/functions.h"
 #include "rover/rover_layout_params.h"
 #include "sensing/tracker.h"
 #include "trial/counters/drive_monitor.h"
@@ -37,14 +38,14 @@ void DriveObserver::ReportGoals(truth::DriveRecord& record) const {
   const CourseParams& course = params_.course;
   const messages::PoseEstimate& estimate = onboard_.estimate().pose;
   record.straight_distance_m =
-      std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
+      math::Hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
   const messages::Goal& told = told_places_.back();
   record.told_goal_x_m = told.x_m;
   record.told_goal_y_m = told.y_m;
-  record.designation_error_m = std::hypot(told.x_m - course.goal_x_m, told.y_m - course.goal_y_m);
+  record.designation_error_m = math::Hypot(told.x_m - course.goal_x_m, told.y_m - course.goal_y_m);
   const messages::Goal& believed = onboard_.navigator().last_goal();
   record.believed_goal_distance_m =
-      std::hypot(believed.x_m - estimate.x_m, believed.y_m - estimate.y_m);
+      math::Hypot(believed.x_m - estimate.x_m, believed.y_m - estimate.y_m);
   const std::size_t waypoints = told_places_.size() - 1;
   record.waypoints_reached =
       static_cast<double>(std::min(onboard_.navigator().reached(), waypoints));
@@ -54,7 +55,7 @@ void DriveObserver::ReportPoses(truth::DriveRecord& record) const {
   const math::Pose2 truth = math::ToPose2(world_.state().X_WR);
   const messages::PoseEstimate& estimate = onboard_.estimate().pose;
   const messages::Goal goal = params_.course.GoalAt(ledger_.time_s());
-  record.true_goal_distance_m = std::hypot(goal.x_m - truth.x_m, goal.y_m - truth.y_m);
+  record.true_goal_distance_m = math::Hypot(goal.x_m - truth.x_m, goal.y_m - truth.y_m);
   record.final_x_m = truth.x_m;
   record.final_y_m = truth.y_m;
   record.final_heading_rad = truth.heading_rad;
@@ -76,7 +77,7 @@ void DriveObserver::ReportErrors(truth::DriveRecord& record) const {
   }
   record.heading_error_deg =
       math::RadToDeg(std::abs(math::WrapAngle(estimate.heading_rad - reference.heading_rad)));
-  record.position_error_m = std::hypot(estimate.x_m - reference.x_m, estimate.y_m - reference.y_m);
+  record.position_error_m = math::Hypot(estimate.x_m - reference.x_m, estimate.y_m - reference.y_m);
   record.heading_growth_deg2_per_m = heading_growth_.per_m();
   record.distance_growth_m2_per_m = distance_growth_.per_m();
   if (onboard_.navigator().view() != nullptr) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "math/functions.h"
+
 namespace rockyard::trial {
 namespace {
 
@@ -88,7 +90,7 @@ void DriveTracer::Vision(const VisualStep& step) {
   if (seen.motion) {
     const math::Transform& X_FS = seen.motion->X_FS;
     return Event("vision", fmt::format("{:.3f} m, {:.1f} deg", X_FS.translation().norm(),
-                                       math::RadToDeg(Eigen::AngleAxisd(X_FS.linear()).angle())));
+                                       math::RadToDeg(math::TurnOf(X_FS.linear()).angle_rad)));
   }
   if (!seen.reason) return;
   Event("vision",
@@ -111,7 +113,7 @@ void DriveTracer::Waypoint(std::size_t index) {
   const math::Pose2 rover = math::ToPose2(world_.state().X_WR);
   Event("waypoint",
         fmt::format("{} of {}, {:.2f} m from it", index + 1, waypoints,
-                    std::hypot(goals[index].x_m - rover.x_m, goals[index].y_m - rover.y_m)));
+                    math::Hypot(goals[index].x_m - rover.x_m, goals[index].y_m - rover.y_m)));
 }
 
 void DriveTracer::Votes(const messages::NavigationView& view) {

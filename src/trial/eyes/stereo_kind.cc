@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "math/functions.h"
 #include "trial/clock/compute_profile.h"
 #include "trial/counters/hazard_watch.h"
 #include "trial/drive_checks_params.h"
@@ -34,7 +35,7 @@ double GroundReach_m(const sensing::StereoParams& stereo) {
   const double range_m = std::sqrt(
       std::max(stereo.max_range_m * stereo.max_range_m - mount.height_m * mount.height_m, 0.0));
   const double upper_rad = mount.pitch_rad - 0.5 * stereo.vertical_fov_rad;
-  const double image_m = upper_rad > 0.0 ? mount.height_m / std::tan(upper_rad)
+  const double image_m = upper_rad > 0.0 ? mount.height_m / math::Tan(upper_rad)
                                          : std::numeric_limits<double>::infinity();
   return mount.ahead_m + std::min(range_m, image_m);
 }
@@ -44,7 +45,7 @@ double GroundStart_m(const sensing::StereoParams& stereo) {
   const sensing::StereoMountParams& mount = stereo.front;
   const double lower_rad =
       std::min(mount.pitch_rad + 0.5 * stereo.vertical_fov_rad, 0.5 * std::numbers::pi);
-  return mount.ahead_m + mount.height_m / std::tan(lower_rad);
+  return mount.ahead_m + mount.height_m / math::Tan(lower_rad);
 }
 
 bool HoldsCameras(const rover::RoverGeometryParams& rover, double ahead_m) {

@@ -36,7 +36,7 @@ VisualStep VisualEyes::Model(const math::Transform& X_WR) {
 bool VisualEyes::IsFar(const math::Transform& X_KR) const {
   const sensing::VisualErrorModelParams& model = params_.error_model;
   return X_KR.translation().norm() >= model.keyframe_m ||
-         Eigen::AngleAxisd(X_KR.linear()).angle() >= model.keyframe_rad;
+         math::TurnOf(X_KR.linear()).angle_rad >= model.keyframe_rad;
 }
 
 }  // namespace rockyard::trial

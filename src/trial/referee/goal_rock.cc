@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::trial {
 
@@ -34,20 +35,19 @@ double GoalRock::Distance_m(const math::Transform& X_WR) const {
   const math::Pose2 pose = math::ToPose2(X_WR);
   const double dx_m = rock().center_W.x() - pose.x_m;
   const double dy_m = rock().center_W.y() - pose.y_m;
-  const double c = std::cos(pose.heading_rad);
-  const double s = std::sin(pose.heading_rad);
+  const auto [s, c] = math::SinCos(pose.heading_rad);
   const double ahead_m = std::abs(c * dx_m + s * dy_m) - footprint_.x_high_m;
   const double aside_m = std::abs(c * dy_m - s * dx_m) - footprint_.y_high_m;
-  const double centre_m = std::hypot(std::max(ahead_m, 0.0), std::max(aside_m, 0.0));
+  const double centre_m = math::Hypot(std::max(ahead_m, 0.0), std::max(aside_m, 0.0));
   return std::max(centre_m - rock().semi_axes_m.x(), 0.0);
 }
 
 double GoalRock::FrontDistance_m(const math::Transform& X_WR) const {
   const math::Pose2 pose = math::ToPose2(X_WR);
-  const double front_x_m = pose.x_m + footprint_.x_high_m * std::cos(pose.heading_rad);
-  const double front_y_m = pose.y_m + footprint_.x_high_m * std::sin(pose.heading_rad);
+  const double front_x_m = pose.x_m + footprint_.x_high_m * math::Cos(pose.heading_rad);
+  const double front_y_m = pose.y_m + footprint_.x_high_m * math::Sin(pose.heading_rad);
   const double centre_m =
-      std::hypot(rock().center_W.x() - front_x_m, rock().center_W.y() - front_y_m);
+      math::Hypot(rock().center_W.x() - front_x_m, rock().center_W.y() - front_y_m);
   return std::max(centre_m - rock().semi_axes_m.x(), 0.0);
 }
 

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <numeric>
 
+#include "math/functions.h"
+
 namespace rockyard::trial {
 namespace {
 
 using truth::EndCause;
 
 double Between(double x0_m, double y0_m, double x1_m, double y1_m) {
-  return std::hypot(x1_m - x0_m, y1_m - y0_m);
+  return math::Hypot(x1_m - x0_m, y1_m - y0_m);
 }
 
 // Least lift share of a rock that bears the belly, within 45 deg of the vertical; a rock that the
@@ -49,7 +51,7 @@ Referee::Referee(const RefereeParams& params, const CourseParams& course,
       told_goal_(told_goal),
       bounds_(bounds),
       wheel_radius_m_(wheel_radius_m),
-      tip_over_cosine_(std::cos(params.tip_over_rad)),
+      tip_over_cosine_(math::Cos(params.tip_over_rad)),
       progress_{Between(course.start_x_m, course.start_y_m, told_goal.x_m, told_goal.y_m),
                 course.start_x_m, course.start_y_m} {}
 
@@ -111,8 +113,9 @@ void Referee::AddObeyed(const Observation& observation, Window& window) {
   const math::Vector3 before_W = window.last_X_WR.linear().col(0);
   const math::Vector3 forward_W = X_WR.linear().col(0);
   if (observation.activity == Activity::kTurning) {
-    const double turn_rad = std::atan2(before_W.x() * forward_W.y() - before_W.y() * forward_W.x(),
-                                       before_W.x() * forward_W.x() + before_W.y() * forward_W.y());
+    const double turn_rad =
+        math::Atan2(before_W.x() * forward_W.y() - before_W.y() * forward_W.x(),
+                    before_W.x() * forward_W.x() + before_W.y() * forward_W.y());
     window.obeyed_rad += observation.direction * turn_rad;
   } else {
     window.obeyed_m +=

@@ -18,10 +18,9 @@ double Factor(double percent) { return 1.0 + 0.01 * percent; }
 
 // Turns the camera about its own axes and shifts it along those of R. Records depend on the order.
 void Misplace(const perception::CameraCalibrationErrors& errors, math::Transform& X_RC) {
-  const Eigen::Matrix3d turned =
-      (Eigen::AngleAxisd(errors.yaw_rad, Vector3::UnitZ()).toRotationMatrix() *
-       Eigen::AngleAxisd(errors.pitch_rad, Vector3::UnitY()).toRotationMatrix()) *
-      Eigen::AngleAxisd(errors.roll_rad, Vector3::UnitX()).toRotationMatrix();
+  const Eigen::Matrix3d turned = (math::RotationAbout(errors.yaw_rad, Vector3::UnitZ()) *
+                                  math::RotationAbout(errors.pitch_rad, Vector3::UnitY())) *
+                                 math::RotationAbout(errors.roll_rad, Vector3::UnitX());
   X_RC.linear() = (X_RC.linear() * turned).eval();
   X_RC.translation() += Vector3(errors.x_m, errors.y_m, errors.z_m);
 }
@@ -73,7 +72,7 @@ messages::StripeCalibration OnboardStripeCalibration(
     // of its neighbour on the right.
     const std::size_t published = (stripe * (messages::kStripes - 1) + last / 2) / last;
     const Eigen::Matrix3d turned =
-        Eigen::AngleAxisd(errors.lasers.angle_rad[published], Vector3::UnitZ()).toRotationMatrix();
+        math::RotationAbout(errors.lasers.angle_rad[published], Vector3::UnitZ());
     messages::StripeLaser& laser = calibration.lasers[stripe];
     laser.normal_R = (turned * laser.normal_R).eval();
     laser.axis_R = (turned * laser.axis_R).eval();

@@ -25,9 +25,7 @@ Transform Turned(const Transform& X_AT, const Vector3& turn_rad, const Vector3& 
   Transform moved = X_AT;
   const double angle_rad = turn_rad.norm();
   if (angle_rad > 0.0) {
-    moved.linear() =
-        X_AT.linear() *
-        math::RotationAbout(angle_rad, turn_rad / angle_rad);
+    moved.linear() = X_AT.linear() * math::RotationAbout(angle_rad, turn_rad / angle_rad);
   }
   moved.translation() += shift_m;
   return moved;

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "math/functions.h"
+
 namespace rockyard::vision {
 namespace {
 
@@ -14,7 +16,7 @@ std::vector<float> GaussianWeights(double sigma_px) {
   std::vector<float> weights;
   float sum = 0.0F;
   for (int i = -half; i <= half; ++i) {
-    weights.push_back(static_cast<float>(std::exp(-0.5 * i * i / (sigma_px * sigma_px))));
+    weights.push_back(static_cast<float>(math::Exp(-0.5 * i * i / (sigma_px * sigma_px))));
     sum += weights.back();
   }
   for (float& weight : weights) weight /= sum;
@@ -62,7 +64,8 @@ bool HasFourSectors(const Image<float>& smooth, const Pixel& at) {
   std::array<double, kCirclePoints> values{};
   for (std::size_t i = 0; i < kCirclePoints; ++i) {
     const double angle_rad = 2.0 * std::numbers::pi * static_cast<double>(i) / kCirclePoints;
-    values[i] = ValueAt(smooth, at + kCircle_px * Pixel(std::cos(angle_rad), std::sin(angle_rad)));
+    values[i] =
+        ValueAt(smooth, at + kCircle_px * Pixel(math::Cos(angle_rad), math::Sin(angle_rad)));
   }
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   if (*most - *least < kLeastContrast) return false;
@@ -95,7 +98,7 @@ std::optional<Pixel> MeetOfEdges(const GrayImage& image, const Pixel& at, double
       if (squared > radius_px * radius_px) continue;
       const Pixel gradient(0.5 * (image.At(x + 1, y) - image.At(x - 1, y)),
                            0.5 * (image.At(x, y + 1) - image.At(x, y - 1)));
-      const Eigen::Matrix2d part = std::exp(-falloff * squared) * gradient * gradient.transpose();
+      const Eigen::Matrix2d part = math::Exp(-falloff * squared) * gradient * gradient.transpose();
       tensor += part;
       moment += part * apart;
     }

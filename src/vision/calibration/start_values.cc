@@ -9,6 +9,7 @@
 #include <string>
 
 #include "math/decompositions.h"
+#include "math/functions.h"
 #include "vision/cameras/camera_model.h"
 
 namespace rockyard::vision {
@@ -105,7 +106,7 @@ double LargestTilt_deg(const std::vector<Transform>& X_AT) {
   for (const Transform& a : X_AT) {
     for (const Transform& b : X_AT) {
       const double cosine = std::min(1.0, std::fabs(a.linear().col(2).dot(b.linear().col(2))));
-      largest_rad = std::max(largest_rad, std::acos(cosine));
+      largest_rad = std::max(largest_rad, math::Acos(cosine));
     }
   }
   return largest_rad * 180.0 / std::numbers::pi;

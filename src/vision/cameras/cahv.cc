@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/functions.h"
+
 namespace rockyard::vision {
 
 using math::Vector3;
@@ -189,7 +191,7 @@ std::optional<Pixel> Project(const Cahvore& camera, const Vector3& p_A, PixelJac
   // dtheta = (cos(theta) dlambda - sin(theta) dzeta) / reach. d outward is the part of dp across
   // both the axis and the outward direction, over |lambda|.
   const Vector3 theta_by_point =
-      (std::cos(sight->theta_rad) * outward - std::sin(sight->theta_rad) * o) / sight->reach_m;
+      (math::Cos(sight->theta_rad) * outward - math::Sin(sight->theta_rad) * o) / sight->reach_m;
   const Eigen::Matrix3d outward_by_point =
       (Eigen::Matrix3d::Identity() - o * o.transpose() - outward * outward.transpose()) / aside;
   const double distorted_by_theta = Growth(distortion, image.chi) * image.by_theta;
@@ -216,8 +218,7 @@ std::optional<Ray> BackProject(const Cahvore& camera, const Pixel& pixel, RayJac
 
   const bool on_axis = distorted <= kOnAxis;
   const Vector3 outward = on_axis ? Vector3::Zero() : Vector3(slope / distorted);
-  const double sine = std::sin(*theta);
-  const double cosine = std::cos(*theta);
+  const auto [sine, cosine] = math::SinCos(*theta);
   const PupilShift shift = ShiftOf(camera.E, *theta);
   std::optional<Ray> ray =
       Finite({camera.linear.C + shift.s_m * o, on_axis ? (o + slope / distortion.c[0]).normalized()
@@ -275,7 +276,7 @@ PupilPolynomial PupilAt(const math::Vector3& E, double theta) {
 // theta - sin(theta), without the cancellation at small angles.
 double ThetaMinusSine(double theta) {
   if (theta < kSmallAngle_rad) return theta * theta * theta / 6.0;
-  return theta - std::sin(theta);
+  return theta - math::Sin(theta);
 }
 
 }  // namespace
@@ -286,9 +287,9 @@ double LargestAngle(double linearity) {
 
 AngleImage ImageOfTheta(double linearity, double theta_rad) {
   const double angle = linearity * theta_rad;
-  if (linearity < 0.0) return {std::sin(angle) / linearity, std::cos(angle)};
+  if (linearity < 0.0) return {math::Sin(angle) / linearity, math::Cos(angle)};
   if (linearity > 0.0) {
-    const double tangent = std::tan(angle);
+    const double tangent = math::Tan(angle);
     return {tangent / linearity, 1.0 + tangent * tangent};
   }
   return {theta_rad, 1.0};
@@ -296,8 +297,8 @@ AngleImage ImageOfTheta(double linearity, double theta_rad) {
 
 std::optional<double> ThetaOf(double linearity, double chi) {
   double theta = chi;
-  if (linearity < 0.0) theta = std::asin(linearity * chi) / linearity;
-  if (linearity > 0.0) theta = std::atan(linearity * chi) / linearity;
+  if (linearity < 0.0) theta = math::Asin(linearity * chi) / linearity;
+  if (linearity > 0.0) theta = math::Atan(linearity * chi) / linearity;
   if (!(theta < LargestAngle(linearity))) return std::nullopt;
   return theta;
 }
@@ -309,17 +310,16 @@ PupilShift ShiftOf(const math::Vector3& E, double theta_rad) {
     const double excess = theta_rad * theta_rad / 6.0;
     return {excess * pupil.value_m, theta_rad / 3.0 * pupil.value_m + excess * pupil.by_theta_m};
   }
-  const double sine = std::sin(theta_rad);
+  const double sine = math::Sin(theta_rad);
   const double excess = theta_rad / sine - 1.0;
-  const double excess_by_theta = (sine - theta_rad * std::cos(theta_rad)) / (sine * sine);
+  const double excess_by_theta = (sine - theta_rad * math::Cos(theta_rad)) / (sine * sine);
   return {excess * pupil.value_m, excess_by_theta * pupil.value_m + excess * pupil.by_theta_m};
 }
 
 std::optional<SightAngle> SolveTheta(const math::Vector3& E, double zeta_m, double lambda_m) {
-  double theta = std::atan2(lambda_m, zeta_m);
+  double theta = math::Atan2(lambda_m, zeta_m);
   for (int step = 0; step < kMostThetaSteps; ++step) {
-    const double sine = std::sin(theta);
-    const double cosine = std::cos(theta);
+    const auto [sine, cosine] = math::SinCos(theta);
     const PupilPolynomial pupil = PupilAt(E, theta);
     const double lag = ThetaMinusSine(theta);
     const double residual_m = zeta_m * sine - lambda_m * cosine - lag * pupil.value_m;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "math/angles.h"
+#include "math/functions.h"
 #include "vision/cameras/cahv.h"
 
 namespace rockyard::vision {
@@ -65,7 +66,7 @@ struct Axes {
 };
 
 double AngleBetween(const Vector3& a, const Vector3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return math::Atan2(a.cross(b).norm(), a.dot(b));
 }
 
 core::Result<Axes> AxesOf(const Vector3& baseline, const View& left, const View& right) {
@@ -81,7 +82,7 @@ core::Result<Axes> AxesOf(const Vector3& baseline, const View& left, const View&
   }
   const Vector3 h = baseline.normalized();
   const Vector3 view = (left.direction + right.direction).normalized();
-  const double off_view_rad = std::asin(std::fmin(1.0, view.cross(h).norm()));
+  const double off_view_rad = math::Asin(std::fmin(1.0, view.cross(h).norm()));
   if (off_view_rad < kLeastBaselineToView_rad) {
     return Refuse<Axes>("baseline",
                         fmt::format("is {:.1f} deg from the direction in which the cameras look",
@@ -206,7 +207,7 @@ core::Result<RectifiedPair> Rectify(const CameraModel& left, const CameraModel& 
   const core::Result<Axes> axes = AxesOf(baseline, *left_view, *right_view);
   if (!axes.ok()) return axes.problems();
 
-  const double largest_slope = std::tan(options.largest_angle_rad);
+  const double largest_slope = math::Tan(options.largest_angle_rad);
   Box field = FieldOf(left, *axes, largest_slope);
   const Box overlap = field.intersection(FieldOf(right, *axes, largest_slope));
   if (overlap.isEmpty()) {

@@ -42,10 +42,9 @@ CameraModel DriftedRight(const CameraModel& left, const CameraModel& right, cons
   const Vector3 baseline = centre - CentreOf(left);
   EXPECT(baseline.norm() > 0.0);
   const Eigen::Matrix3d axes = AxesOf(right);
-  const Eigen::Matrix3d turn =
-      (Eigen::AngleAxisd(-drift.yaw_rad, Vector3::UnitY()).toRotationMatrix() *
-       Eigen::AngleAxisd(-drift.pitch_rad, Vector3::UnitX()).toRotationMatrix()) *
-      Eigen::AngleAxisd(drift.roll_rad, Vector3::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d turn = (math::RotationAbout(-drift.yaw_rad, Vector3::UnitY()) *
+                                math::RotationAbout(-drift.pitch_rad, Vector3::UnitX())) *
+                               math::RotationAbout(drift.roll_rad, Vector3::UnitZ());
   // `move` takes p to centre + the baseline's change + turn (p - centre).
   math::Transform move = math::Transform::Identity();
   move.linear() = axes * turn * axes.transpose();

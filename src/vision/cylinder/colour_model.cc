@@ -20,7 +20,7 @@ constexpr int kLevels = 256;
 std::array<float, kLevels> LogTable() {
   std::array<float, kLevels> table{};
   for (std::size_t level = 0; level < table.size(); ++level) {
-    table[level] = static_cast<float>(std::log(std::max(static_cast<double>(level), kHalfLevel)));
+    table[level] = static_cast<float>(math::Log(std::max(static_cast<double>(level), kHalfLevel)));
   }
   return table;
 }
@@ -101,13 +101,13 @@ class LabelTable {
                               const ColourModelParams& params) {
     const auto cost = [&](const LogRatios& surface, double sd) {
       return (ratios - light - params.saturation * surface).squaredNorm() / (sd * sd) +
-             4.0 * std::log(sd);
+             4.0 * math::Log(sd);
     };
     constexpr double kFarthest = 9.0;  // three standard deviations
     std::uint8_t label = kBackground;
     double least = std::min({cost(GroundOf(surfaces), params.ground_sd),
                              cost(LogRatios::Zero(), params.neutral_sd),
-                             kFarthest + 4.0 * std::log(params.pixel_sd)});
+                             kFarthest + 4.0 * math::Log(params.pixel_sd)});
     for (int i = 0; i < kCylinderColours; ++i) {
       const auto colour = static_cast<CylinderColour>(i);
       const double of_class = cost(SurfaceOf(colour, surfaces), params.pixel_sd);
@@ -143,7 +143,7 @@ LogRatios SurfaceOf(CylinderColour colour, const SurfaceColourParams& surfaces) 
 Eigen::Vector3d DirectionOf(CylinderColour colour, const LogRatios& light,
                             const SurfaceColourParams& surfaces, const ColourModelParams& params) {
   const LogRatios ratios = light + params.saturation * SurfaceOf(colour, surfaces);
-  return Eigen::Vector3d(std::exp(ratios[0]), 1.0, std::exp(ratios[1])).normalized();
+  return Eigen::Vector3d(math::Exp(ratios[0]), 1.0, math::Exp(ratios[1])).normalized();
 }
 
 LogRatios GroundOf(const SurfaceColourParams& surfaces) {

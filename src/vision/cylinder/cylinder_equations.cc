@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "vision/cameras/rectification.h"
 
 namespace rockyard::vision {
@@ -50,7 +51,7 @@ RowChoice ChooseRow(const ColourOrder& order) {
 
 double OrientationOf(AbsentQuadrant absent, const ColourQuantities& k) {
   EXPECT(k.k1 > 0.0 && k.k2 >= 0.0 && k.k3 >= 0.0);
-  return math::WrapAngle(OffsetOf(absent) + std::atan2(k.k1 + k.k2 - k.k3, k.k1 - k.k2 + k.k3));
+  return math::WrapAngle(OffsetOf(absent) + math::Atan2(k.k1 + k.k2 - k.k3, k.k1 - k.k2 + k.k3));
 }
 
 double DistanceBySize(double focal_px, double radius_m, double m_px) {
@@ -69,7 +70,7 @@ double CoarsestTurn(double m_px) { return std::numbers::sqrt2 * FinestTurn(m_px)
 
 double FinestTurnAt(const ViewOfCylinder& view, double d_m) {
   return 2.0 / view.image_width_px * (d_m / view.radius_m - view.radius_m / d_m) *
-         std::tan(0.5 * view.field_of_view_rad);
+         math::Tan(0.5 * view.field_of_view_rad);
 }
 
 double CoarsestTurnAt(const ViewOfCylinder& view, double d_m) {
@@ -77,11 +78,11 @@ double CoarsestTurnAt(const ViewOfCylinder& view, double d_m) {
 }
 
 double RelativeStepBySize(const ViewOfCylinder& view, double d_m) {
-  return d_m * std::tan(0.5 * view.field_of_view_rad) / (view.image_width_px * view.radius_m);
+  return d_m * math::Tan(0.5 * view.field_of_view_rad) / (view.image_width_px * view.radius_m);
 }
 
 double RelativeStepByStereo(const ViewOfCylinder& view, double d_m) {
-  return 2.0 * d_m * std::tan(0.5 * view.field_of_view_rad) /
+  return 2.0 * d_m * math::Tan(0.5 * view.field_of_view_rad) /
          (view.image_width_px * view.baseline_m);
 }
 

@@ -13,6 +13,7 @@
 
 #include "math/angles.h"
 #include "math/decompositions.h"
+#include "math/functions.h"
 #include "vision/cylinder/fit_problem.h"
 
 namespace rockyard::vision {
@@ -116,7 +117,7 @@ double SpreadOf(const std::vector<FitState>& hypotheses, double margin) {
   for (const FitState& other : hypotheses) {
     const double turn_rad = math::WrapAngle(other.unknowns[2] - best.unknowns[2]);
     if (std::abs(turn_rad) > kOtherOrientation_rad) continue;
-    const double weight = std::exp(0.5 * (best.squares - other.squares) / factor);
+    const double weight = math::Exp(0.5 * (best.squares - other.squares) / factor);
     weights += weight;
     spread += weight * turn_rad * turn_rad;
   }

@@ -2,13 +2,13 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
 
 #include "core/check.h"
 #include "math/decompositions.h"
+#include "math/functions.h"
 
 namespace rockyard::vision {
 namespace {
@@ -199,7 +199,7 @@ CylinderPlace FitProblem::PlaceOf(const FitUnknowns& unknowns) const {
 }
 
 double FitProblem::BlurOf(const FitUnknowns& unknowns) const {
-  return params_.fit.edge_blur_px * std::exp(unknowns[5]);
+  return params_.fit.edge_blur_px * math::Exp(unknowns[5]);
 }
 
 FitUnknowns FitProblem::Steps() const {

@@ -11,6 +11,7 @@
 
 #include "core/check.h"
 #include "math/angles.h"
+#include "math/functions.h"
 #include "vision/cylinder/cylinder_equations.h"
 #include "vision/cylinder/cylinder_fit.h"
 
@@ -39,7 +40,7 @@ void JudgeFit(const CylinderFit& fit, const ColourCylinder& cylinder,
     candidate.reason = std::move(reason);
   };
   const double most_blur_px =
-      params.fit.edge_blur_px * std::exp(kBlurSigmas * params.fit.edge_blur_spread);
+      params.fit.edge_blur_px * math::Exp(kBlurSigmas * params.fit.edge_blur_spread);
   const double radius_error = std::abs(fit.radius_ratio - 1.0);
   const double height_error = std::abs(fit.height_m / cylinder.height_m - 1.0);
   const double px_m = fit.place.radius_m > 0.0 ? 2.0 * fit.place.radius_m : 1.0;
@@ -80,7 +81,7 @@ void JudgeFit(const CylinderFit& fit, const ColourCylinder& cylinder,
 // worse than usual, and by what the wall is too wide or too narrow for its known radius.
 double BoundaryError(const CylinderFit& fit, double width_px, const CylinderFitParams& params) {
   const double model_px = params.model_error_px * std::max(fit.misfit / params.usual_misfit, 1.0);
-  return std::hypot(model_px, 0.5 * width_px * (fit.radius_ratio - 1.0));
+  return math::Hypot(model_px, 0.5 * width_px * (fit.radius_ratio - 1.0));
 }
 
 double Squared(double x) { return x * x; }

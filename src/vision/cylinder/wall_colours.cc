@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "math/functions.h"
 
 namespace rockyard::vision {
 namespace {
@@ -50,7 +51,7 @@ double ShareBeyond(double right_px, double blur_px) {
   const double x = right_px / blur_px;
   if (x <= -kBlurEnd) return 0.0;
   if (x >= kBlurEnd) return 1.0;
-  return 0.5 * std::erfc(-x / std::numbers::sqrt2);
+  return 0.5 * math::Erfc(-x / std::numbers::sqrt2);
 }
 
 WallTerms TermsAt(double t) {
@@ -264,13 +265,13 @@ std::optional<WallView> WallSeen(const CameraModel& camera, const EyeGeometry& e
   const math::Vector3 to_eye = AcrossAxis(CentreOf(camera) - place.p_LT_L, up);
   const double distance_m = to_eye.norm();
   if (!(distance_m > place.radius_m)) return std::nullopt;
-  const double eye_rad = std::atan2(to_eye.dot(to_side), to_eye.dot(to_middle));
-  const double half_rad = std::acos(place.radius_m / distance_m);
+  const double eye_rad = math::Atan2(to_eye.dot(to_side), to_eye.dot(to_middle));
+  const double half_rad = math::Acos(place.radius_m / distance_m);
   const math::Vector3 half_axis_m = 0.5 * height_m * (up + place.roll_rad * eyes.right_L);
   WallView view;
   const auto add_line = [&](double azimuth_rad) {
     const math::Vector3 direction =
-        std::cos(azimuth_rad) * to_middle + std::sin(azimuth_rad) * to_side;
+        math::Cos(azimuth_rad) * to_middle + math::Sin(azimuth_rad) * to_side;
     const auto line = LineAt(camera, place, direction, half_axis_m);
     if (line) view.lines.push_back(*line);
     return line.has_value();

@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "math/decompositions.h"
+#include "math/functions.h"
 #include "vision/odometry/stereo_measurement.h"
 
 namespace rockyard::vision {
@@ -231,7 +232,7 @@ std::int64_t DrawsNeeded(std::size_t members, std::size_t points, double miss, s
   const auto k = static_cast<double>(members);
   const auto n = static_cast<double>(points);
   const double share = k * (k - 1.0) * (k - 2.0) / (n * (n - 1.0) * (n - 2.0));
-  const double draws = std::ceil(std::log(miss) / std::log1p(-share));  // 0 where all are members
+  const double draws = std::ceil(math::Log(miss) / math::Log1p(-share));  // 0 where all are members
   return static_cast<std::int64_t>(std::clamp(draws, 1.0, static_cast<double>(most)));
 }
 

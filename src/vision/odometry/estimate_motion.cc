@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "math/decompositions.h"
+#include "math/functions.h"
 #include "vision/odometry/stereo_measurement.h"
 
 namespace rockyard::vision {
@@ -61,8 +62,7 @@ Transform Disturbed(const Transform& X_FS, const Vector6& change) {
   const Vector3 turn = change.tail<3>();
   const double angle_rad = turn.norm();
   if (angle_rad > 0.0) {
-    moved.linear() =
-        Eigen::AngleAxisd(angle_rad, turn / angle_rad).toRotationMatrix() * X_FS.linear();
+    moved.linear() = math::RotationAbout(angle_rad, turn / angle_rad) * X_FS.linear();
   }
   return moved;
 }
@@ -158,7 +158,7 @@ class MotionProblem {
       case RobustWeights::kHuber:
         return squared <= limit ? squared : 2.0 * std::sqrt(limit * squared) - limit;
       case RobustWeights::kCauchy:
-        return limit * std::log1p(squared / limit);
+        return limit * math::Log1p(squared / limit);
     }
     return squared;
   }

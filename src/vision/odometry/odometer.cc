@@ -26,7 +26,7 @@ bool IsFew(std::int64_t count, const OdometerParams& params) {
 bool IsNear(const Transform& a, const Transform& b, const OdometerParams& params) {
   const Transform difference = a.inverse() * b;
   return difference.translation().norm() < params.round_way_m &&
-         Eigen::AngleAxisd(difference.linear()).angle() < params.round_turn_rad;
+         math::TurnOf(difference.linear()).angle_rad < params.round_turn_rad;
 }
 
 bool IsSmallShare(const MotionCounts& counts, const OdometerParams& params) {
@@ -212,7 +212,7 @@ bool VisualOdometer::IsOver(const MotionResult& result) const {
   const double share = static_cast<double>(result.counts.consistent) /
                        static_cast<double>(result.counts.features_first);
   return X_FS.translation().norm() >= rule.max_way_m ||
-         Eigen::AngleAxisd(X_FS.linear()).angle() >= rule.max_turn_rad || share < rule.min_share;
+         math::TurnOf(X_FS.linear()).angle_rad >= rule.max_turn_rad || share < rule.min_share;
 }
 
 void VisualOdometer::MakeKeyframe(std::int64_t number, AlignedImages images,
