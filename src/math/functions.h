@@ -24,6 +24,9 @@ namespace rockyard::math {
 /// Returns 1 - erf(x) to 4 units in the last place; less where it is subnormal.
 double Erfc(double x);
 
+/// Returns E1(x), the integral of exp(-t)/t from x > 0 on, to 2e-15 of itself.
+double ExponentialIntegral(double x);
+
 /// Returns the square root of x^2 + y^2 to 1.5 units in the last place, as Eigen's norm does: it
 /// overflows above 1e154 and loses digits below 1e-146.
 inline double Hypot(double x, double y) { return std::sqrt(x * x + y * y); }

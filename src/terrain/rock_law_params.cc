@@ -8,8 +8,8 @@ namespace {
 
 // Returns E2(x) = exp(-x) - x E1(x), x > 0.
 double SecondExponentialIntegral(double x) {
-  // E1(x) = -Ei(-x). Further on the difference would lose all digits.
-  if (x < 2.0) return math::Exp(-x) + x * std::expint(-x);
+  // Further on the difference would lose all digits.
+  if (x < 2.0) return math::Exp(-x) - x * math::ExponentialIntegral(x);
   // exp(-x) / (x + 2 - 1 2 / (x + 4 - 2 3 / (x + 6 - ...))): the even part of the continued
   // fraction of Abramowitz and Stegun 1964, 5.1.22. 48 terms are good to 1e-15 at
   // x = 2, where it converges worst.

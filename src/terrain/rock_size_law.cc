@@ -93,7 +93,8 @@ double GolombekSizeLaw::MeanPower(double power) const {
   // Density c exp(-q D) / D^2, c = 4 k q / pi / (N_0 - N_1).
   const double q = decay_per_m_;
   const double c = 4.0 / std::numbers::pi * cover_ * q / (number_at_min_ - number_at_max_);
-  if (power == 1.0) return c * (std::expint(-q * max_m_) - std::expint(-q * min_m_));
+  if (power == 1.0)
+    return c * (math::ExponentialIntegral(q * min_m_) - math::ExponentialIntegral(q * max_m_));
   // J(m) = integral of D^m exp(-q D) = [-D^m exp(-q D)] / q + m / q J(m - 1), by parts.
   double integral = 0.0;
   for (double m = 0.0; m <= power - 2.0; m += 1.0) {

@@ -181,6 +181,19 @@ TEST(FunctionsTest, Powers) {
   EXPECT_EQ(Pow(10.0, -3.0), 0.001);
 }
 
+TEST(FunctionsTest, ExponentialIntegral) {
+  Arguments arguments(3);
+  double worst = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    const double x = std::abs(arguments.Sized(-30.0, 6.4));  // beyond 100 libstdc++ errs
+    const long double right = -std::expint(-static_cast<long double>(x));
+    worst = std::max(worst, static_cast<double>(std::abs(ExponentialIntegral(x) / right - 1.0L)));
+  }
+  EXPECT_LT(worst, 2e-15);
+  EXPECT_EQ(ExponentialIntegral(0.0), kInfinity);
+  EXPECT_TRUE(std::isnan(ExponentialIntegral(-1.0)));
+}
+
 TEST(FunctionsTest, ErrorFunctionAndHypotenuse) {
   ExpectClose(
       Erfc, [](long double x) { return std::erfc(x); }, 4.0, -6.0, 26.0, -60.0, 4.5);
@@ -237,9 +250,10 @@ TEST(FunctionsTest, EveryProcessorGivesTheseBits) {
     add(Atan2(y, x));
     add(Pow(std::abs(x), y));
     add(Hypot(x, y));
+    add(ExponentialIntegral(std::abs(x)));
     add(Sin(x * 1e12));
   }
-  EXPECT_EQ(hash, 0xf68f837d0bca1406u);
+  EXPECT_EQ(hash, 0xab7d1dbe96c12180u);
 }
 
 }  // namespace

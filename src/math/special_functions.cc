@@ -1,6 +1,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <numbers>
 
 #include "math/functions.h"
 
@@ -40,6 +42,28 @@ double Erfc(double x) {
   const double tail = functions::ExpOf({-square.high, -square.low}) *
                       (Polynomial(kErfc, (size - 3.0) / (size + 3.0)) / (1.0 + 2.0 * size));
   return x > 0.0 ? tail : 2.0 - tail;
+}
+
+// Abramowitz & Stegun 1964, 5.1.11: -gamma - ln x - sum of (-x)^n/(n n!); and 5.1.22, the even part
+// of the continued fraction, of which 100 terms are good to 1e-16 from 1 on.
+double ExponentialIntegral(double x) {
+  if (!(x > 0.0)) {
+    return x == 0.0 ? std::numeric_limits<double>::infinity()
+                    : std::numeric_limits<double>::quiet_NaN();
+  }
+  if (x <= 1.0) {
+    double sum = 0.0;
+    double term = 1.0;
+    for (int n = 1; n <= 20; ++n) {
+      term *= -x / n;
+      sum -= term / n;
+    }
+    return sum - (std::numbers::egamma + Log(x));
+  }
+  constexpr int kTerms = 100;
+  double below = x + 2.0 * kTerms + 1.0;
+  for (int n = kTerms; n >= 1; --n) below = x + 2.0 * n - 1.0 - n * (n / below);
+  return Exp(-x) / below;
 }
 
 }  // namespace rockyard::math
