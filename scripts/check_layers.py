@@ -4,7 +4,8 @@
 Usage: scripts/check_layers.py [ROOT]     ROOT holds src/ (default: the project of this script)
 
 The rules come from src/README.md: the table "folder | may also include", whose rows stand from the
-bottom up, and the sentence of rule 2 that says which folder each heavy library belongs to. Checked:
+bottom up, and the sentences of rules 2 and 4 that say which folders heavy libraries belong to and which may
+call the C library's elementary functions. Checked:
   * the table: no row allows a folder of a later row (an arrow up), nor one that nothing there
     includes, nor one that is not there;
   * every #include of every source file: the module is allowed, "only their *_params.h, but for NAME" is kept, the
@@ -18,6 +19,7 @@ bottom up, and the sentence of rule 2 that says which folder each heavy library 
   * src/public_headers.txt lists at most 46 headers, which are what is installed: what they include is
     listed too, on a side that theirs may see, and their comments are ///;
   * CMakeLists.txt of each folder of tests names every file of tests below it;
+  * modules that rule 4 does not name call no elementary functions of the C library, nor what of Eigen does;
   * every module has a README.md and no file is longer than 600 lines.
 Exit code 0: kept; 1: violations, one line each; 2: the rules cannot be read.
 """
@@ -42,6 +44,10 @@ POSIX = re.compile(
 LIGHT = re.compile(r"(Eigen|unsupported/Eigen|fmt|Random123)/")
 
 HAS_INCLUDE = re.compile(r"__has_include")
+# What calls the C library's elementary functions, whose last bits depend on the processor.
+ELEMENTARY = re.compile(
+    r"\bstd::(?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|expint|log(?:2|10|1p)?|pow|cbrt|hypot|erfc?|[lt]gamma)\b"
+    r"|\bEigen::(?:AngleAxis|Rotation2D)[df]?\b|\.(?:slerp|eulerAngles|angularDistance)\b")
 PRAGMA_OMP = re.compile(r"^\s*#\s*pragma\s+omp\b")
 
 
@@ -104,6 +110,9 @@ def check_file(rules, src, source):
             problem = check_heavy_use(rules, source, "OpenMP")
             if problem:
                 yield number, f"#pragma omp: {problem}"
+        call = ELEMENTARY.search(line)
+        if call and source.module not in rules.free:
+            yield number, f"{call.group()}: its bits depend on the processor, see math/functions.h"
         if HAS_INCLUDE.search(line):
             yield number, "__has_include hides an include from this check"
 

@@ -213,9 +213,7 @@ def differences(stamp, found):
         if "error" in now:
             told.append(f"{name}: cannot be driven: {now['error'].splitlines()[-1]}")
         elif now["trial_hash"] != cell["trial_hash"]:
-            levels = f"{cell['cpu_level']}, this is {now['cpu_level']}"
-            other = f" (made on {levels})" if now["cpu_level"] != cell["cpu_level"] else ""
-            told.append(f"{name}: other trials{other}")
+            told.append(f"{name}: other trials")
         elif now["fingerprint"] != cell["fingerprint"]:
             told.append(f"{name}: another scenario")
     return told

@@ -41,6 +41,7 @@ class Rules:
     allowed: dict = field(default_factory=dict)      # folder -> folders it may include, with itself
     params_only: dict = field(default_factory=dict)  # folders that may include *_params.h only: but for which
     heavy: dict = field(default_factory=dict)        # library -> folders of its .cc files
+    free: set = field(default_factory=set)           # folders that may call the C library's elementary functions
 
     def height(self, folder):
         """The number of the folder's row: what is lower stands below."""
@@ -107,7 +108,19 @@ def read_heavy(text, folders):
     return heavy
 
 
+def read_free(text, folders):
+    """Returns the folders that rule 4 names: whose numbers may differ by processor."""
+    rule = re.search(r"\*\*One hash on every processor\.\*\*.*?\bonly\s(.*?)\smay\scall", text, re.S)
+    if not rule:
+        raise RulesError('src/README.md has no rule "One hash on every processor. ... only FOLDERS may call ..."')
+    names = set(re.findall(r"\w+", rule.group(1))) - {"and"}
+    if names - set(folders):
+        raise RulesError(f"src/README.md: rule 4 names unknown {sorted(names - set(folders))}")
+    return names
+
+
 def read_rules(readme):
     text = readme.read_text(encoding="utf-8")
     named, params_only = read_table(text)
-    return Rules(named, allowed_by(named), params_only, read_heavy(text, named.keys()))
+    return Rules(named, allowed_by(named), params_only, read_heavy(text, named.keys()),
+                 read_free(text, named.keys()))

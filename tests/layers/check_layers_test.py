@@ -28,6 +28,9 @@ README = """# Map
 2. **Heavy libraries stay in the `.cc` files of one folder**: Bullet in rover, OpenMP and SQLite in
    batch, nlohmann-json in core's archive.
 3. **Parameters** live with their module.
+4. **One hash on every processor.** Of the functions of the C library
+   only web and batch
+   may call them.
 """
 
 FILES = {
@@ -287,6 +290,16 @@ class PlantedViolations(InATree):
         for name, other in (("a", "b"), ("b", "c"), ("c", "a")):
             self.tree.write(f"terrain/{name}.h", f'#pragma once\n#include "terrain/{other}.h"\n')
         self.assert_caught("terrain/a.h", "include cycle terrain/a.h -> terrain/b.h -> terrain/c.h")
+
+    def test_elementary_functions_of_the_c_library(self):
+        for line in ("double a = std::sin(1.0);", "double a = std::hypot(1.0, 2.0);", "auto a = std::expint(1.0);",
+                     "Eigen::AngleAxisd a;", "auto a = p.slerp(0.5, q);"):
+            with self.subTest(line=line):
+                self.tree.write_source("rover/plus.cc", f"\n{line}\n")
+                self.assert_caught("src/rover/plus.cc:2", "its bits depend on the processor")
+        self.tree.write_source("rover/plus.cc", "double a = std::sqrt(2.0) + math::Sin(1.0);  // no std::sin\n")
+        self.tree.write_source("web/plus.cc", "double a = std::sin(1.0);\n")
+        self.assertEqual(self.tree.violations(), [])
 
 
 class NoFalseAlarm(InATree):

@@ -88,7 +88,7 @@ def fingerprint_of(out, summary):
 
 
 def drive(rockyard, cell, root=ROOT, processes=None):
-    """Fingerprint, hash and class of processor of the first trials of a cell by this program."""
+    """Fingerprint and hash of the first trials of a cell by this program."""
     with tempfile.TemporaryDirectory(prefix="rockyard-first-") as name:
         out, file = Path(name) / "out", root / cell.get("file", "")
         if "composed" in cell:
@@ -106,8 +106,7 @@ def drive(rockyard, cell, root=ROOT, processes=None):
         if process.returncode != 0:
             raise StudyError(f"{' '.join(map(str, command))}\nexit code {process.returncode}: {errors.strip()[-400:]}")
         summary = json.loads(said)
-        return {"fingerprint": fingerprint_of(out, summary), "trial_hash": summary["trial_hash"],
-                "cpu_level": summary["provenance"].get("cpu_level", "unknown")}
+        return {"fingerprint": fingerprint_of(out, summary), "trial_hash": summary["trial_hash"]}
 
 
 def drive_all(rockyard, cells, jobs, told, root=ROOT):

@@ -27,8 +27,7 @@ text = pathlib.Path(words[1]).read_text() + " ".join(w for a, w in zip(words, wo
 made = lambda *parts: hashlib.sha256(" ".join(parts).encode()).hexdigest()[:16]
 bits = json.loads((root / "build/bits").read_text()).get(pathlib.Path(words[1]).stem, "")
 trials = words[words.index("--trials") + 1]
-print(json.dumps({"fingerprint": made(text), "trial_hash": made(text, bits, trials),
-                  "provenance": {"cpu_level": "v4"}}))
+print(json.dumps({"fingerprint": made(text), "trial_hash": made(text, bits, trials)}))
 """
 SCRIPT = f"#!{sys.executable} -IS" + """
 import os, subprocess, sys, time
