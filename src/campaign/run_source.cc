@@ -269,8 +269,8 @@ void RequireWhole(const StoredRun& run) {
 
 std::string BuildName(const std::string& program) {
   const core::Provenance p = core::CurrentProvenance();
-  return fmt::format("{}{} {}, {}, {}, {}", program.empty() ? "" : program + " with ", p.version,
-                     p.commit, p.compiler, p.flags, p.cpu_level);
+  return fmt::format("{}{} {}, {}, {}", program.empty() ? "" : program + " with ", p.version,
+                     p.commit, p.compiler, p.flags);
 }
 
 report::RunDescription Describe(const StoredRun& run, int threads) {

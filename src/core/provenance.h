@@ -16,7 +16,7 @@ struct Provenance {
   std::string build_type;  // "Release"
   std::string host;        // name of this machine
   std::string cpu_model;
-  std::string cpu_level;  // feature level that libm and others choose code by: "x86-64-v3"
+  std::string cpu_level;  // feature level of the processor, "x86-64-v3": tells why it was quick
   int cpu_threads = 1;    // that this machine runs at once
 };
 

@@ -46,6 +46,29 @@ void ExpectNear(const Pose2& found, const Pose2& known) {
 }
 
 // A quarter turn to the left takes what lies ahead to the left; headings stay within a half turn.
+// Eigen's rotations take the C library's sines, ours do not; they are the same but for rounding.
+TEST(PoseTest, RotationsAreThoseOfEigen) {
+  const Vector3 axis = Vector3(2.0, -3.0, 6.0) / 7.0;
+  for (const double angle : {0.0, 1e-9, 0.3, 1.5, 3.0, 3.141592653589793}) {
+    for (const double sign : {1.0, -1.0}) {
+      const Eigen::Matrix3d right = Eigen::AngleAxisd(sign * angle, axis).toRotationMatrix();
+      EXPECT_LT((RotationAbout(sign * angle, axis) - right).norm(), 1e-15) << angle;
+      const auto turn = TurnOf(right);
+      EXPECT_NEAR(turn.angle_rad, angle, 1e-15);
+      const Vector3 vector = turn.angle_rad > 3.1 && turn.axis.x() * sign < 0.0
+                                 ? Vector3(-turn.Vector_rad())
+                                 : turn.Vector_rad();
+      EXPECT_LT((vector - sign * angle * axis).norm(), 2e-15) << angle;
+    }
+  }
+  EXPECT_EQ(TurnOf(Eigen::Matrix3d::Identity()).axis, Vector3::UnitX());
+  const Vector3 place(1.0, -2.0, 0.5);
+  for (const double yaw : {-3.0, 0.4}) {
+    const Transform right = Pose(yaw, 0.4, -0.3);
+    EXPECT_LT((MakePose(place, yaw, 0.4, -0.3).matrix() - right.matrix()).norm(), 1e-15);
+  }
+}
+
 TEST(Pose2Test, ComposesByHand) {
   const double quarter_rad = 0.5 * std::numbers::pi;
   ExpectNear(Pose2{1.0, 2.0, quarter_rad} * Pose2{3.0, 1.0, 0.5}, {0.0, 5.0, quarter_rad + 0.5});
@@ -144,7 +167,7 @@ TEST(ToUnitVector, TurnsClockwiseFromNorth) {
 
 constexpr double kTolerance = 1e-12;
 
-Eigen::Matrix3d Turn(double x, double y, double z) {
+Eigen::Matrix3d TurnAbout(double x, double y, double z) {
   return Eigen::AngleAxisd(1.0, Eigen::Vector3d(x, y, z).normalized()).toRotationMatrix();
 }
 
@@ -175,7 +198,7 @@ TEST(Decompositions, ANegativeEigenvalueHasNoInverseOfPositive) {
 }
 
 TEST(Decompositions, TheLargestEigenvalueIsNotTheFarthestFromZero) {
-  const Eigen::Matrix3d R = Turn(1.0, 2.0, 3.0);
+  const Eigen::Matrix3d R = TurnAbout(1.0, 2.0, 3.0);
   const Eigen::Vector3d values(1.0, 3.0, -5.0);
   EXPECT_NEAR(LargestEigenvalue(R * values.asDiagonal() * R.transpose()), 3.0, kTolerance);
 }
@@ -183,7 +206,7 @@ TEST(Decompositions, TheLargestEigenvalueIsNotTheFarthestFromZero) {
 TEST(Decompositions, SingularValuesAreThoseThatWerePutIn) {
   const Eigen::Vector3d values(0.5, 4.0, 2.0);
   const Eigen::Matrix3d matrix =
-      Turn(1.0, 2.0, 3.0) * values.asDiagonal() * Turn(-2.0, 0.0, 1.0).transpose();
+      TurnAbout(1.0, 2.0, 3.0) * values.asDiagonal() * TurnAbout(-2.0, 0.0, 1.0).transpose();
   const SingularValues found = SingularValuesOf(matrix);
   EXPECT_LT((found.values - Eigen::Vector3d(4.0, 2.0, 0.5)).norm(), kTolerance);
   EXPECT_LT((found.U * found.values.asDiagonal() * found.V.transpose() - matrix).norm(),
