@@ -209,7 +209,7 @@ void StereoMatcher::Mismatch(const Draws& draws, int row, std::span<const double
       continue;
     }
     const double share =
-        0.5 * std::erfc(-number / std::numbers::sqrt2) / params_.mismatch_probability;
+        0.5 * math::Erfc(-number / std::numbers::sqrt2) / params_.mismatch_probability;
     pixel = params_.min_disparity_px + std::min(share, 1.0) * searched_px;
   }
 }

@@ -1,6 +1,7 @@
 #include "rover/multibody/multibody.h"
 
-#include <cmath>
+
+#include "math/functions.h"
 
 namespace rockyard::rover {
 
@@ -44,7 +45,7 @@ void Multibody::Reset(const math::Transform& X_WR) {
 }
 
 void Multibody::SetSteer(std::size_t wheel, double angle_rad) {
-  steer_[wheel] = {std::cos(angle_rad), std::sin(angle_rad)};
+  steer_[wheel] = {math::Cos(angle_rad), math::Sin(angle_rad)};
   moved_ = true;
 }
 
@@ -62,8 +63,7 @@ void Multibody::UpdatePoses() {
     const Vector3 z = X.linear().col(2);
     if (joint < kFirstWheel) {
       // R_WB = R_WP Ry(angle).
-      const double c = std::cos(angle_rad_[i]);
-      const double s = std::sin(angle_rad_[i]);
+      const auto [s, c] = math::SinCos(angle_rad_[i]);
       X_WB_[i].linear() << c * x - s * z, y, s * x + c * z;
     } else {
       // R_WB = R_WP Rz(steer).
@@ -135,9 +135,9 @@ void Multibody::Move(double step_s) {
   // A turn too small to be told from 2 sin(turn / 2).
   constexpr double kSmall_rad = 1e-8;
   const double half_rad = 0.5 * step_s * speed_rad_s;
-  const double share = half_rad < kSmall_rad ? 0.5 * step_s : std::sin(half_rad) / speed_rad_s;
+  const double share = half_rad < kSmall_rad ? 0.5 * step_s : math::Sin(half_rad) / speed_rad_s;
   const Vector3 turn = share * w;
-  q_WR_ = Eigen::Quaterniond(std::cos(half_rad), turn.x(), turn.y(), turn.z()) * q_WR_;
+  q_WR_ = Eigen::Quaterniond(math::Cos(half_rad), turn.x(), turn.y(), turn.z()) * q_WR_;
   q_WR_.normalize();
   for (int joint = 0; joint < kJoints; ++joint) {
     angle_rad_[static_cast<std::size_t>(joint)] += step_s * velocity_[6 + joint];
