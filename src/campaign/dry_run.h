@@ -26,7 +26,7 @@ struct DryRun {
   batch::PilotCost pilot;    // of the first cell
   int threads = 1;
   std::int64_t memory_B = 0;  // of the run, resident
-  TraceRetention traces;  // which trials are driven twice
+  TraceRetention traces;      // which trials are driven twice
 };
 
 // Returns what a run would do; writes nothing. Throws core::UserError where the request or the
@@ -36,7 +36,8 @@ DryRun Rehearse(const CampaignRequest& request, const CampaignPlan& plan);
 // Runs first trials of every cell, or, where there are more than a hundred cells, of 50 to 100 of
 // them, evenly spread; with the seed of the campaign, on this thread. `trials` of each; without it
 // three, and then more of the cells that leave most open, until twelve tell that the standard error
-// of the whole cost is below a tenth of it, or the pilots have taken 20 s of CPU time. `planned` is by cell.
+// of the whole cost is below a tenth of it, or the pilots have taken 20 s of CPU time. `planned` is
+// by cell.
 std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep,
                                         const std::vector<std::int64_t>& planned,
                                         std::optional<int> trials);
@@ -49,7 +50,7 @@ struct CampaignCost {
   // cost as much as the mean of these. Absent where each cell had one pilot, which tells of no
   // scatter.
   std::optional<double> standard_error_s = {};
-  double slowest_s = 0.0;    // pilot
+  double slowest_s = 0.0;     // pilot
   std::int64_t memory_B = 0;  // of the campaign on one thread, resident
   std::int64_t thread_B = 0;  // of each further thread
 };

@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "sensing/stereo_lanes.h"
-
 #include "math/functions.h"
+#include "sensing/stereo_lanes.h"
 
 namespace rockyard::sensing {
 

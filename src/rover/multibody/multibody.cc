@@ -1,6 +1,5 @@
 #include "rover/multibody/multibody.h"
 
-
 #include "math/functions.h"
 
 namespace rockyard::rover {

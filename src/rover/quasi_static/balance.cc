@@ -105,7 +105,8 @@ void QuasiStaticBalance::MakeRow(const Linkage& linkage, const Drive& drive,
   // is the gap at the beginning of the step.
   row.gap_m = contact.gap_m - drive.lead_s * row.speed[kNormal];
   if (contact.IsWheel()) {
-    MakeWheelRow(drive, contact, axle_W.cross(contact.p_W - linkage.wheel_W(contact.part)).norm(), row);
+    MakeWheelRow(drive, contact, axle_W.cross(contact.p_W - linkage.wheel_W(contact.part)).norm(),
+                 row);
   } else {
     SetTraction(contact, row);
   }
@@ -436,7 +437,8 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   traction_lags_ = false;
   // The last rates of a drive that goes on, or of a rover at rest, are a good start.
   near_ = drive.lead_s > 0.0 || (!rims_turn_ && drive.freedom == Freedom::kAll);
-  for (std::size_t i = 0; i < contacts.size(); ++i) SetForces(rows_[i].speed, contacts[i], rows_[i]);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    SetForces(rows_[i].speed, contacts[i], rows_[i]);
   first_ = false;
   // Newton's method: (D - dF/dw) change = F, until the change is small and no traction waits for
   // its load.

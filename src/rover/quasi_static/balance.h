@@ -206,7 +206,7 @@ class QuasiStaticBalance {
   LinkageVector gravity_;
   LinkageVector damping_;
   std::vector<Row> rows_;
-  bool first_ = false;    // in the first evaluation: contacts that bore load before count as closed
+  bool first_ = false;  // in the first evaluation: contacts that bore load before count as closed
   bool near_ = false;   // whether the last change of the rates was small
   bool traction_lags_ = false;  // whether a traction still lags behind its load
   LinkageEquations equations_;

@@ -67,7 +67,8 @@ class QuasiStaticContacts {
     messages::PerWheel<bool> known{};                  // whether wheel_normal_W is set
   };
 
-  // The parts rock_parts_[first] to [last - 1], which belong to one body, and a ball that holds them.
+  // The parts rock_parts_[first] to [last - 1], which belong to one body, and a ball that holds
+  // them.
   struct BodyParts {
     int body = kChassis;
     std::size_t first = 0;

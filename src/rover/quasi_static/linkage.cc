@@ -32,7 +32,8 @@ template <int count, typename Visitor>
 void ForEach(Visitor&& visit) {
   [&]<int... index>(std::integer_sequence<int, index...>) {
     (visit.template operator()<index>(), ...);
-  }(std::make_integer_sequence<int, count>());
+  }
+  (std::make_integer_sequence<int, count>());
 }
 
 // Rows of a column of the lower triangle of an 8 x 8 matrix, in whole pairs: the processor takes
